@@ -11,7 +11,7 @@ module atrito_console
    use atrito_version, only: PROGRAM_NAME
    implicit none (type, external)
    private
-   public :: print_messages, print_status, print_message, print_lines
+   public :: print_messages, print_status, print_message, print_line, print_lines
 
 contains
 
@@ -38,12 +38,12 @@ contains
       end if
       printed = min(n, int(MOST_ERRORS, ip))
       do i = 1, SEVERITY_NOTE
-         if (n(i) > printed(i)) call print_lines([string_t('... the first '//to_text(printed(i))//' of '//to_text(n(i))// &
-                                                           ' '//trim(WORD(i)))], error_unit)
+         if (n(i) > printed(i)) call print_line('... the first '//to_text(printed(i))//' of '//to_text(n(i))//' '//trim(WORD(i)), &
+                                                error_unit)
       end do
-      if (n(SEVERITY_ERROR) > 0) call print_lines([string_t(to_text(n(SEVERITY_ERROR))//' '// &
-                                                        trim(merge('error ', 'errors', n(SEVERITY_ERROR) == 1))//' in the deck')], &
-                                                  error_unit)
+      if (n(SEVERITY_ERROR) > 0) call print_line(to_text(n(SEVERITY_ERROR))//' '// &
+                                                 trim(merge('error ', 'errors', n(SEVERITY_ERROR) == 1))//' in the deck', &
+                                                 error_unit)
    end subroutine print_messages
 
    !> One message, as text, for a terminal with colours, or as JSON.
@@ -53,7 +53,7 @@ contains
       type(string_t), allocatable :: lines(:)
 
       if (json) then
-         call print_lines([string_t(json_of_message(message))], error_unit)
+         call print_line(json_of_message(message), error_unit)
       else
          lines = format_message(message)
          if (wants_colours()) lines(1)%s = paint_message(message, lines(1)%s)
@@ -97,6 +97,16 @@ contains
       message%text = status%text
       call print_message(message, json)
    end subroutine print_status
+
+   !> One line.
+   subroutine print_line(text, unit)
+      character(len=*), intent(in) :: text
+      integer, intent(in) :: unit
+      type(string_t) :: lines(1)                    ! a constructor of strings is not given back (gfortran 12)
+
+      lines(1)%s = text
+      call print_lines(lines, unit)
+   end subroutine print_line
 
    !> A failure to print is nobody's error.
    subroutine print_lines(lines, unit)

@@ -9,7 +9,7 @@ module atrito_driver
                                   TASK_RUN, TASK_CHECK, &
                                   TASK_COMPARE, TASK_HELP, TASK_SWEEP, TASK_STUDY, TASK_LIMIT, TASK_OPTIONS, TASK_VERSION
    use atrito_compare, only: comparison_t, begin_comparison, compare_paths
-   use atrito_console, only: print_lines, print_message, print_messages, print_status
+   use atrito_console, only: print_line, print_lines, print_message, print_messages, print_status
    use atrito_help_pages, only: compose_help
    use atrito_folder_claim, only: folder_claim_t, claim_folder, release_folder
    use atrito_keyword_table, only: keyword_table, keyword_names
@@ -169,7 +169,8 @@ contains
       type(string_t), allocatable :: lines(:)
 
       call version_lines(lines)
-      call print_lines([string_t(PROGRAM_NAME//' '//PROGRAM_VERSION), lines], output_unit)
+      call print_line(PROGRAM_NAME//' '//PROGRAM_VERSION, output_unit)
+      call print_lines(lines, output_unit)
    end subroutine print_version
 
    subroutine print_help(command, code)
@@ -198,7 +199,7 @@ contains
       logical, intent(in) :: json
 
       call print_message(error, json)
-      if (.not. json) call print_lines([string_t('    see:      '//see)], error_unit)
+      if (.not. json) call print_line('    see:      '//see, error_unit)
    end subroutine print_wrong
 
 end module atrito_driver

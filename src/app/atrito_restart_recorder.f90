@@ -5,6 +5,7 @@ module atrito_restart_recorder
    use atrito_folder_claim, only: folder_claim_t, claim_folder, release_folder
    use atrito_messages, only: message_t, add_message, SEVERITY_WARNING
    use atrito_model, only: model_t
+   use atrito_observations, only: observation_names
    use atrito_recorder, only: recorder_t
    use atrito_restart_file, only: read_restart, restart_name, write_restart
    use atrito_restart_state, only: restart_state_t
@@ -40,6 +41,8 @@ contains
       if (recorder%every == 0 .and. .not. recorder%resumes) return
       recorder%folder = output_folder(command)
       recorder%name = restart_name(model)
+      if (recorder%resumes) recorder%source = command%restart
+      if (allocated(command%observe)) recorder%observed = observation_names(command%observe)
       recorder%deck_path = model%deck_path
       ! what is solved by another form or another solver differs in the last digits
       options = '--contact '//trim(command%contact)//', --solver '//trim(command%solver)
@@ -48,7 +51,7 @@ contains
          if (size(command%observe) > 0) options = options//', --observe '//join(command%observe, ', --observe ')
       end if
       call take_fingerprint(model, options, recorder%fingerprint)
-      if (recorder%resumes) call read_restart(command%restart, model, recorder%fingerprint, recorder%found, recorder%state, status)
+      if (recorder%resumes) call read_restart(command%restart, recorder%fingerprint, recorder%found, recorder%state, status)
    end subroutine begin_recorder
 
    !> Writes the file anew. A failure is told once, and the run goes on: its tables are not lost with it.

@@ -37,7 +37,7 @@ contains
       integer(ip) :: i, k
 
       study%elements = command%elements
-      if (size(study%elements) == 0) study%elements = [string_t(DECK_ELEMENTS)]
+      if (size(study%elements) == 0) call append_string(study%elements, DECK_ELEMENTS)
       allocate (study%rows(size(study%elements)*command%levels))
       do k = 1, size(study%rows, kind=ip)
          i = (k - 1)/command%levels + 1

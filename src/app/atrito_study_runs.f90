@@ -81,7 +81,9 @@ contains
       integer(ip) :: told
       integer :: code
 
-      probe = study_probe_t(trim(PROBES(kind)), kind == 1, k)
+      probe%what = trim(PROBES(kind))
+      probe%is_penalty = kind == 1
+      probe%row = k
       allocate (probe%values(size(study%quantities)), source=ieee_value(1.0_wp, ieee_quiet_nan))
       reporter%quiet = .true.
       call make_command(command, study%rows(k), one)

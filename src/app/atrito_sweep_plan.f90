@@ -193,9 +193,11 @@ contains
       real(wp), intent(out) :: x
       type(status_t), intent(out) :: status
       type(settings_t) :: setting
+      type(string_t) :: texts(1)
 
       x = 0.0_wp
-      call read_settings([string_t(name//'='//trim(adjustl(expression)))], setting, status)
+      texts(1)%s = name//'='//trim(adjustl(expression))
+      call read_settings(texts, setting, status)
       if (is_ok(status)) then
          x = setting%values(1)
       else

@@ -21,6 +21,7 @@ contains
       integer(ip), allocatable, intent(out) :: holder(:)
       integer(ip), allocatable, intent(out), optional :: row(:)   !< where in the set the member stands
       integer(ip), allocatable :: at(:, :)           !< (n, n_parts): counts, then where the part's next set goes
+      integer(ip), allocatable :: place(:)           !< row; of no length where it is not wanted
       integer(ip) :: part, n_parts, length
 
       n_parts = 1
@@ -33,13 +34,13 @@ contains
       !$omp end parallel do
       call counts_to_starts(at, first)
       length = first(n + 1) - 1
-      allocate (holder(length))
-      if (present(row)) allocate (row(length))
-      !$omp parallel do schedule(static, 1) default(none) shared(sets, n_parts, at, holder, row)
+      allocate (holder(length), place(merge(length, 0_ip, present(row))))
+      !$omp parallel do schedule(static, 1) default(none) shared(sets, n_parts, at, holder, place)
       do part = 1, n_parts
-         call fill_lists(sets, part, n_parts, at(:, part), holder, row)
+         call fill_lists(sets, part, n_parts, at(:, part), holder, place)
       end do
       !$omp end parallel do
+      if (present(row)) call move_alloc(place, row)
    end subroutine list_holders
 
    !> The last set of a part; that of part 0 is 0.
@@ -112,16 +113,18 @@ contains
       integer(ip), intent(in) :: sets(:, :), part, n_parts
       integer(ip), intent(inout) :: at(:)
       integer(ip), intent(inout) :: holder(:)        !< changed where the sets of this part go
-      integer(ip), intent(inout), optional :: row(:)
+      integer(ip), intent(inout) :: row(:)           !< of no length: not wanted
       integer(ip) :: s, k, n, i
+      logical :: is_wanted
 
+      is_wanted = size(row) > 0
       n = size(sets, 2, kind=ip)
       do s = part_end(part - 1, n_parts, n) + 1, part_end(part, n_parts, n)
          do k = 1, size(sets, 1, kind=ip)
             i = sets(k, s)
             if (i == 0) exit
             holder(at(i)) = s
-            if (present(row)) row(at(i)) = k
+            if (is_wanted) row(at(i)) = k
             at(i) = at(i) + 1
          end do
       end do

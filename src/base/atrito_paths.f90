@@ -1,7 +1,7 @@
 !> Files and folders by their names: what is there, what can be made, what is removed.
 module atrito_paths
    use, intrinsic :: iso_c_binding, only: c_null_char
-   use atrito_status, only: status_t, set_status, STATUS_FILE
+   use atrito_status, only: status_t, set_status, is_ok, STATUS_FILE
    use atrito_strings, only: string_t, append_string
    use atrito_system, only: c_is_folder, c_may_write, c_make_folder, c_judge_folder, c_remove_file, c_remove_folder, &
                             forget_path
@@ -77,7 +77,22 @@ contains
 
    !> Whether files can be written into a folder that is there, or into one that is to be made. (They may fail all the same: a disk
    !> may be full.) status: STATUS_FILE.
-   recursive subroutine check_folder(path, status)
+   !>
+   !> One that is missing is made and removed: links that lead nowhere, names that are too long and file systems that take no
+   !> folders show in nothing else.
+   subroutine check_folder(path, status)
+      character(len=*), intent(in) :: path
+      type(status_t), intent(out) :: status
+      type(string_t), allocatable :: made(:)
+
+      call check_rights(path, status)
+      if (is_folder(path) .or. .not. is_ok(status)) return
+      call make_folder(path, status, made)
+      call remove_folders(made)
+   end subroutine check_folder
+
+   !> Whether this user may write into a folder, or make it in those above it.
+   recursive subroutine check_rights(path, status)
       character(len=*), intent(in) :: path
       type(status_t), intent(out) :: status
       integer :: obstacle
@@ -87,13 +102,13 @@ contains
       if (obstacle == IS_BELOW_A_FILE .and. file_exists(path)) then
          call set_status(status, STATUS_FILE, path//': is no folder that can be read and written into')
       else if (obstacle == IS_MISSING .or. obstacle == IS_BELOW_A_FILE) then
-         if (len(path) > 1) call check_folder(parent_of(path), status)
+         if (len(path) > 1) call check_rights(parent_of(path), status)
       else if (obstacle == NOT_READABLE) then
          call set_status(status, STATUS_FILE, path//': the folder cannot be read')
       else
          call set_status(status, STATUS_FILE, path//': the folder cannot be written into')
       end if
-   end subroutine check_folder
+   end subroutine check_rights
 
    function parent_of(path) result(parent)
       character(len=*), intent(in) :: path

@@ -2,7 +2,7 @@
 module atrito_utf8
    implicit none (type, external)
    private
-   public :: utf8_length
+   public :: utf8_length, has_controls
 
 contains
 
@@ -28,5 +28,21 @@ contains
       if ((first == 224 .and. second < 160) .or. (first == 237 .and. second >= 160) .or. &
           (first == 240 .and. second < 144) .or. (first == 244 .and. second >= 144)) n = 0
    end function utf8_length
+
+   !> Whether a text has characters that may tell a terminal something: those below the blank but tabs and ends of lines, DEL, and
+   !> those of two bytes, U+0080 to U+009F.
+   pure logical function has_controls(text)
+      character(len=*), intent(in) :: text
+      integer :: i, code, before
+
+      has_controls = .false.
+      before = 0
+      do i = 1, len(text)
+         code = ichar(text(i:i))
+         has_controls = has_controls .or. (code < 32 .and. (code < 9 .or. code > 10) .and. code /= 13) .or. code == 127 &
+                        .or. (before == 194 .and. code >= 128 .and. code < 160)
+         before = code
+      end do
+   end function has_controls
 
 end module atrito_utf8

@@ -6,8 +6,8 @@ module atrito_contact_line
    use atrito_bound_qp, only: bound_qp_t, box_bounds_t, box_state_t, FREE, FROZEN
    implicit none (type, external)
    private
-   public :: contact_line_t, number_unknowns, tangential_of, last_of_pair, pressure_of, rest_of, shear_force_of, slip_noise, &
-             slip_of_unknown, friction_bound, normal_bounds, set_friction_bounds
+   public :: contact_line_t, number_unknowns, tangential_of, pairs_of_unknowns, last_contact_pair, last_of_pair, pressure_of, &
+             rest_of, shear_force_of, slip_noise, slip_of_unknown, friction_bound, normal_bounds, set_friction_bounds
 
    !> The n points. A point whose row of the contact matrix is zero (its dofs are prescribed) has no unknown; its normal
    !> displacement less the distance, and its slip, are known numbers. The last n_bilateral are no points of contact but bilateral
@@ -64,6 +64,23 @@ contains
          line%point(m) = j
       end do
    end subroutine number_unknowns
+
+   !> The contact pair of each unknown; those of bilateral rows are groups behind the pairs.
+   pure function pairs_of_unknowns(line) result(pair)
+      type(contact_line_t), intent(in) :: line
+      integer(ip) :: pair(size(line%point))
+
+      pair = 1
+      if (allocated(line%pair)) pair = line%pair(line%point)
+   end function pairs_of_unknowns
+
+   !> The last pair that is one of contact; huge where all are.
+   pure integer(ip) function last_contact_pair(line) result(last)
+      type(contact_line_t), intent(in) :: line
+
+      last = huge(1_ip)
+      if (line%n_bilateral > 0) last = line%pair(line%n - line%n_bilateral + 1) - 1
+   end function last_contact_pair
 
    !> The tangential unknown at the point of each of the n normal ones; 0: none; -1: no point of contact.
    pure function tangential_of(line, n) result(i)

@@ -31,13 +31,16 @@ contains
    end function clipped
 
    !> t > 0 with s(t) = 0, where s(0) < 0; the largest t tried when s stays negative.
-   pure real(wp) function search_line(constant, slope, v, e, h, c, lower, upper) result(t)
-      real(wp), intent(in) :: constant, slope
+   pure real(wp) function search_line(constant, slope, v, e, h, c, lower, upper, unit) result(t)
+      real(wp), intent(in) :: constant, slope    !< over the unit
       real(wp), intent(in) :: v(:), e(:), h(:), c(:), lower(:), upper(:)
+      real(wp), intent(in), optional :: unit     !< a length that s is divided by: work may leave the range of numbers; 1
       type(bracket_t) :: bracket
-      real(wp) :: start, s
+      real(wp) :: start, s, length
       integer(ip) :: i
 
+      length = 1.0_wp
+      if (present(unit)) length = unit
       start = value_at(0.0_wp)
       bracket%s_before = start
       bracket%s_after = value_at(bracket%after)
@@ -62,7 +65,7 @@ contains
       pure real(wp) function value_at(t)
          real(wp), intent(in) :: t
 
-         value_at = constant + slope*t + sum(v*clipped(e + t*v, h, c, lower, upper))
+         value_at = constant + slope*t + sum((v/length)*clipped(e + t*v, h, c, lower, upper))
       end function value_at
 
    end function search_line

@@ -15,6 +15,7 @@ module atrito_multiplier_step
    use atrito_kinds, only: ip, wp, EPS_MACH
    use atrito_least_forces, only: find_least_forces
    use atrito_line_search, only: search_line
+   use atrito_range, only: unit_of
    use atrito_solve_history, only: solve_history_t, record_solve
    use atrito_status, only: status_t, is_ok
    implicit none (type, external)
@@ -332,16 +333,18 @@ contains
       real(wp), intent(in) :: residual(:), dx(:), de(:)
       type(multiplier_t), intent(inout) :: multipliers
       type(box_state_t), intent(inout) :: state
-      real(wp) :: adx(system%n), constant, slope, t
+      real(wp) :: adx(system%n), constant, slope, t, unit
 
       call system%multiply(dx, adx)
-      slope = dot_product(dx, adx)
+      unit = unit_of(reshape(dx, [system%n, 1_ip]))   ! work over it: forces times displacements may be no numbers
+      slope = dot_product(dx/unit, adx)
       associate (a => dx(system%n - system%k + 1:))
-         slope = slope + dot_product(a, pull_of(multipliers)*a)
+         slope = slope + dot_product(a/unit, pull_of(multipliers)*a)
       end associate
-      constant = -dot_product(dx, residual) - dot_product(de, state%q)
+      constant = -dot_product(dx/unit, residual) - dot_product(de/unit, state%q)
       associate (rho => rho_of(system, multipliers))
-         t = search_line(constant, slope, de, multipliers%e, rho*multipliers%q_old, bounds%d + rho, bounds%lower, bounds%upper)
+         t = search_line(constant, slope, de, multipliers%e, rho*multipliers%q_old, bounds%d + rho, bounds%lower, bounds%upper, &
+                         unit)
       end associate
       multipliers%x = multipliers%x + t*dx
       call set_forces(system, bounds, multipliers, state, t*de)

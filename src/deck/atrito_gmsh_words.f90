@@ -93,6 +93,7 @@ contains
       do i = first, words%last
          digit = iachar(text(i:i)) - iachar('0')
          words%ok = words%ok .and. digit >= 0 .and. digit <= 9
+         if (.not. words%ok) exit                    ! a long word of other characters would leave the integers
          sum = min(10_lp*sum + int(digit, lp), int(huge(1_ip), lp) + 1_lp)
       end do
       if (.not. words%ok) then

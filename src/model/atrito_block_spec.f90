@@ -157,14 +157,14 @@ contains
       real(wp) :: jacobian(CORNERS), a(2), b(2), longest
       integer(ip) :: i
 
-      longest = 0.0_wp
-      do i = 1, CORNERS
-         a = x(:, modulo(i, CORNERS) + 1) - x(:, i)
-         b = x(:, modulo(i - 2, CORNERS) + 1) - x(:, i)
+      longest = maxval([(norm2(x(:, modulo(i, CORNERS) + 1) - x(:, i)), i=1, CORNERS)])
+      longest = max(longest, tiny(longest))
+      do i = 1, CORNERS                                ! of sides over the longest: their product is a number, however small they are
+         a = (x(:, modulo(i, CORNERS) + 1) - x(:, i))/longest
+         b = (x(:, modulo(i - 2, CORNERS) + 1) - x(:, i))/longest
          jacobian(i) = a(1)*b(2) - a(2)*b(1)
-         longest = max(longest, norm2(a))
       end do
-      is_convex = all(jacobian > FLAT*longest**2)
+      is_convex = all(jacobian > FLAT)
       if (is_convex) return
       i = minloc(jacobian, dim=1, kind=ip)
       if (all(jacobian < 0.0_wp)) then

@@ -17,9 +17,12 @@ module atrito_check_shapes
 
    !> First degree: GOOD, CLOCKWISE or DEGENERATE. Second degree also ORDER: mid-sides and centre in another order, and FOLDED:
    !> one of them too far off.
-   integer(ip), parameter :: SHAPE_GOOD = 0, SHAPE_CLOCKWISE = 1, SHAPE_DEGENERATE = 2, SHAPE_ORDER = 3, SHAPE_FOLDED = 4
+   integer(ip), parameter :: SHAPE_GOOD = 0, SHAPE_CLOCKWISE = 1, SHAPE_DEGENERATE = 2, SHAPE_ORDER = 3, SHAPE_FOLDED = 4, &
+                             SHAPE_TINY = 5
    !> A corner whose Jacobian is smaller than this part of the longest side squared is flat.
    real(wp), parameter :: FLAT = 1.0e-12_wp
+   !> What is shorter has no area that is a number of the machine [L].
+   real(wp), parameter :: LEAST_LENGTH = 1.0e-152_wp
 
 contains
 
@@ -81,6 +84,9 @@ contains
       name = 'element '//to_text(mesh%element_id(e))
       at_node = 'node '//to_text(mesh%node_id(mesh%nodes(node, e)))
       select case (shape)
+      case (SHAPE_TINY)
+         call report_error(deck, place, 'E-SHAPE', name//' is so small that its area is no number of the machine', expected= &
+                           'a unit of length in which elements are at least '//to_text(LEAST_LENGTH)//' across', keyword='ELEMENT')
       case (SHAPE_CLOCKWISE)
          call report_error(deck, place, 'E-SHAPE', name//' runs clockwise', expected='corners counter-clockwise, for example '// &
                            nodes_text(mesh, e, turned(mesh%shape(e))), keyword='ELEMENT')
@@ -161,6 +167,10 @@ contains
          call judge_corners(x(:, :n), shape, node)
       else
          call judge_second_degree(x(:, :n), shape, node)
+      end if
+      if (shape == SHAPE_GOOD .and. all(abs(x(:, :n) - spread(x(:, 1), 2, int(n))) < LEAST_LENGTH)) then
+         shape = SHAPE_TINY
+         node = 1
       end if
    end subroutine judge_shape
 

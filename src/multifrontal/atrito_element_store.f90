@@ -6,7 +6,7 @@ module atrito_element_store
    use atrito_kinds, only: ip, lp, wp
    implicit none (type, external)
    private
-   public :: element_store_t, begin_store, add_to_store, move_store, take_own_matrices, sum_diagonals
+   public :: element_store_t, begin_store, add_to_store, move_store, take_own_matrices, sum_diagonals, sum_couplings
    public :: pack_matrix, unpack_matrix
 
    !> Matrices of elements, several of which may have one in common.
@@ -137,18 +137,15 @@ contains
       end do
    end subroutine unpack_matrix
 
-   !> The diagonal of the first elements; and what their first, third, ... equation has with the next one: two displacements of a
-   !> node.
-   pure subroutine sum_diagonals(store, n_elements, diagonal, coupling)
+   !> The diagonal of the first elements.
+   pure subroutine sum_diagonals(store, n_elements, diagonal)
       type(element_store_t), intent(in) :: store
       integer(ip), intent(in) :: n_elements
       real(wp), intent(out) :: diagonal(:)       !< (equations)
-      real(wp), intent(out), optional :: coupling(:) !< (equations) at the first of the two
       integer(ip) :: e, i, k, n
       integer(lp) :: first, at
 
       diagonal = 0.0_wp
-      if (present(coupling)) coupling = 0.0_wp
       do e = 1, n_elements
          first = store%start(e)
          n = int(store%start(e + 1) - first, ip)
@@ -156,11 +153,31 @@ contains
          do i = 1, n
             k = store%equations(first + i)
             if (k > 0) diagonal(k) = diagonal(k) + store%values(at)
-            if (present(coupling) .and. mod(i, 2_ip) == 1 .and. i < n .and. k > 0) coupling(k) = coupling(k) + store%values(at + 1)
             at = at + n - i + 1                  ! the next column is shorter by one
          end do
       end do
    end subroutine sum_diagonals
+
+   !> What the first, third, ... equation of the first elements has with the next one: two displacements of a node.
+   pure subroutine sum_couplings(store, n_elements, coupling)
+      type(element_store_t), intent(in) :: store
+      integer(ip), intent(in) :: n_elements
+      real(wp), intent(out) :: coupling(:)       !< (equations)
+      integer(ip) :: e, i, k, n
+      integer(lp) :: first, at
+
+      coupling = 0.0_wp
+      do e = 1, n_elements
+         first = store%start(e)
+         n = int(store%start(e + 1) - first, ip)
+         at = store%matrix_start(store%matrix_of(e)) + 1
+         do i = 1, n - 1, 2
+            k = store%equations(first + i)
+            if (k > 0) coupling(k) = coupling(k) + store%values(at + 1)
+            at = at + 2*(n - i) + 1              ! two columns on
+         end do
+      end do
+   end subroutine sum_couplings
 
    !> Takes over the matrices of a store of the same elements, each with its own; nothing is left in it.
    pure subroutine take_own_matrices(from, store)

@@ -10,7 +10,7 @@
 !> Use: create_variable_matrix; then set_variable_element, factor_variable_matrix and solve_variable_matrix as often as wanted; with
 !> kept unknowns kept_matrix, reduce_variable and expand_variable in place of the last.
 module atrito_variable_matrix
-   use atrito_element_store, only: element_store_t, pack_matrix, unpack_matrix, move_store, sum_diagonals
+   use atrito_element_store, only: element_store_t, pack_matrix, unpack_matrix, move_store, sum_couplings, sum_diagonals
    use atrito_elimination, only: elimination_t
    use atrito_front_classes, only: children_of
    use atrito_front_factors, only: fronts_t, front_bytes_t, plan_fronts, factor_class, count_class, held_bytes, tell_of_memory, &
@@ -295,13 +295,14 @@ contains
       end do
    end subroutine add_element_product
 
-   !> The diagonal of the elements that do not change, and the coupling of sum_diagonals.
+   !> The diagonal of the elements that do not change, and the coupling of sum_couplings.
    pure subroutine fixed_diagonal(matrix, diagonal, coupling)
       type(variable_matrix_t), intent(in) :: matrix
       real(wp), intent(out) :: diagonal(:)         !< (n)
       real(wp), intent(out), optional :: coupling(:) !< (n)
 
-      call sum_diagonals(matrix%store, matrix%n_fixed, diagonal, coupling)
+      call sum_diagonals(matrix%store, matrix%n_fixed, diagonal)
+      call sum_couplings(matrix%store, matrix%n_fixed, coupling)
    end subroutine fixed_diagonal
 
    !> What the first factorisation will add to the matrix, before it does.

@@ -3,7 +3,7 @@ module atrito_extreme_report
    use atrito_kinds, only: ip, wp
    use atrito_page, only: page_t, add_blank, add_item, add_line, left, right, number
    use atrito_results, only: results_t, extreme_t
-   use atrito_strings, only: string_t, to_text
+   use atrito_strings, only: append_string, string_t, to_text
    use atrito_summary, only: scales_t
    use atrito_table, only: table_t, begin_table, add_integers, add_reals, add_words, clear_small
    implicit none (type, external)
@@ -32,8 +32,8 @@ contains
          end associate
       end do
       call begin_table(table, 'extremes', 'a row a quantity: its largest or least value, and where', n)
-      table%remarks = [string_t('[L]: u u1_max u1_min u2_max u2_min'), &
-                       string_t('[F/L^2]: mises s1_max s3_min contact_pressure contact_shear')]
+      call append_string(table%remarks, '[L]: u u1_max u1_min u2_max u2_min')
+      call append_string(table%remarks, '[F/L^2]: mises s1_max s3_min contact_pressure contact_shear')
       call add_integers(table, 'step', [results%step])
       call add_words(table, 'quantity', '-', names, on_the_left=.true.)
       call add_reals(table, 'value', 'mixed', values, 0.0_wp)

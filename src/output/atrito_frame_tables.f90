@@ -343,6 +343,8 @@ contains
       type(scales_t), intent(in) :: scales
       type(table_t), intent(out) :: table
       character(len=8), parameter :: GROUPS(3) = ['loads   ', 'supports', 'contact ']
+      character(len=7), parameter :: COMPONENTS(3) = ['_fx    ', '_fy    ', '_moment']
+      character(len=len(GROUPS) + len(COMPONENTS)) :: columns(3)
       type(string_t) :: names(size(results%bodies))
       real(wp) :: field(size(results%bodies), 12), force
       integer(ip) :: i, n
@@ -368,8 +370,10 @@ contains
       call add_words(table, 'name', '-', names, on_the_left=.true.)
       call add_real_columns(table, ['u1      ', 'u2      ', 'rotation'], ['L', 'L', '-'], field(:, :3))
       do k = 1, size(GROUPS)
-         call add_real_columns(table, trim(GROUPS(k))//['_fx    ', '_fy    ', '_moment'], ['F  ', 'F  ', 'F*L'], &
-                               field(:, 3*k + 1:3*k + 3))
+         do i = 1, size(COMPONENTS, kind=ip)
+            columns(i) = trim(GROUPS(k))//COMPONENTS(i)
+         end do
+         call add_real_columns(table, columns, ['F  ', 'F  ', 'F*L'], field(:, 3*k + 1:3*k + 3))
       end do
       call add_integers(table, 'increment', [results%increment])
    end subroutine build_bodies

@@ -6,6 +6,7 @@ module atrito_read_table
    use atrito_numbers, only: read_real, NUMBER_OK
    use atrito_status, only: status_t, set_status, is_ok, STATUS_FILE
    use atrito_files, only: read_file, file_exists
+   use atrito_utf8, only: has_controls
    use atrito_table, only: MARK_COLUMNS, MARK_NOT_CONVERGED, TAB_ENDING, CSV_ENDING
    implicit none (type, external)
    private
@@ -27,6 +28,7 @@ module atrito_read_table
       real(wp), allocatable :: value(:, :)             !< of the numbers; NaN for words
    end type table_file_t
 
+   integer, parameter :: MOST_COLUMNS = 10000          !< a table of more is none of atrito
    character(len=1), parameter :: LINE_FEED = achar(10), CARRIAGE_RETURN = achar(13), TAB = achar(9)
    character(len=*), parameter :: BLANKS = ' '//TAB//CARRIAGE_RETURN
    character(len=1), parameter :: QUOTE = '"'
@@ -83,6 +85,10 @@ contains
       end if
       if (.not. is_ok(status)) return
       table%n_columns = size(table%columns, kind=ip)
+      call check_names(table%columns, status)
+      if (.not. is_ok(status)) return
+      ! a row that is whole has a character for each column; behind one that is not nothing is read
+      n_rows = min(n_rows, int(len(text)/table%n_columns, ip) + 2_ip)
       allocate (table%first(table%n_columns, n_rows), table%last(table%n_columns, n_rows), source=0_ip)
       allocate (table%kind(table%n_columns, n_rows), source=ITEM_WORD)
       allocate (table%value(table%n_columns, n_rows), source=0.0_wp)
@@ -90,10 +96,27 @@ contains
       do while (first <= len(text) .and. is_ok(status))
          last = end_of_line(text, first)
          line = line + 1
-         if (is_row(text(first:last), table%is_csv)) call read_row(table, first, last, line, status)
+         if (is_row(text(first:last), table%is_csv)) then
+            call read_row(table, first, last, line, status)
+            if (has_controls(text(first:last))) call set_status(status, STATUS_FILE, 'line '//to_text(line)// &
+                                                                ' has control characters')
+         end if
          first = last + 2
       end do
    end subroutine parse_table
+
+   !> status: STATUS_FILE for names that no table has.
+   subroutine check_names(names, status)
+      type(string_t), intent(in) :: names(:)
+      type(status_t), intent(inout) :: status
+      integer :: i
+
+      if (size(names) > MOST_COLUMNS) call set_status(status, STATUS_FILE, 'is no table of atrito: it has more than '// &
+                                                      to_text(MOST_COLUMNS)//' columns')
+      do i = 1, size(names)
+         if (has_controls(names(i)%s)) call set_status(status, STATUS_FILE, 'is no table of atrito: a name has control characters')
+      end do
+   end subroutine check_names
 
    !> Place of the last character of the line that begins at `first`.
    pure integer function end_of_line(text, first) result(last)
@@ -131,7 +154,7 @@ contains
          call take_csv_item(table%text(:ends), next, first, last)
          call append_string(table%columns, table%text(first:last))
          call read_real(table%text(first:last), value, outcome)
-         if (outcome == NUMBER_OK .or. first > last) exit
+         if (outcome == NUMBER_OK .or. first > last .or. size(table%columns) > MOST_COLUMNS) exit
       end do
       if (size(table%columns) == 0 .or. outcome == NUMBER_OK .or. first > last) then
          call set_status(status, STATUS_FILE, 'is no table of atrito: its first row has no names')
@@ -215,7 +238,7 @@ contains
       last = 0
       do
          call next_item(line, last, first)
-         if (first > last) exit
+         if (first > last .or. size(names) > MOST_COLUMNS) exit
          call append_string(names, line(first:last))
       end do
    end subroutine read_names

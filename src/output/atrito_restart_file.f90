@@ -10,7 +10,7 @@ module atrito_restart_file
    use atrito_kinds, only: ip, wp
    use atrito_model, only: model_t
    use atrito_restart_state, only: restart_state_t, warm_start_t
-   use atrito_results, only: results_t, history_t, history_row_t, observed_list_t
+   use atrito_results, only: history_t, history_row_t, observed_list_t
    use atrito_status, only: status_t, set_status, is_ok, STATUS_DECK, STATUS_FILE
    use atrito_strings, only: to_text
    use atrito_version, only: PROGRAM_NAME, PROGRAM_VERSION
@@ -56,10 +56,10 @@ contains
    end subroutine write_restart
 
    !> Reads a file. status: STATUS_FILE when it cannot be read or is damaged; STATUS_DECK when it belongs to another program, to
-   !> another deck or to another version of it.
-   subroutine read_restart(path, model, fingerprint, history, state, status)
+   !> another deck or to another version of it. Whether what it holds can be of the deck is asked by who uses it (check_found and
+   !> check_start in solve/).
+   subroutine read_restart(path, fingerprint, history, state, status)
       character(len=*), intent(in) :: path
-      type(model_t), intent(in) :: model
       type(fingerprint_t), intent(in) :: fingerprint    !< of the deck and the options
       type(history_t), intent(out) :: history
       type(restart_state_t), intent(out) :: state
@@ -80,7 +80,6 @@ contains
          if (len(difference) == 0 .and. is_sound(archive)) difference = find_difference(in_file, fingerprint, state%step)
          if (len(difference) > 0) call set_status(status, STATUS_DECK, path//': is no restart file of this deck: '//difference)
       end if
-      if (is_ok(status)) call check_sizes(archive, model, history, state)
       call close_archive(archive, closing)
       if (is_ok(status)) status = closing
    end subroutine read_restart
@@ -145,6 +144,7 @@ contains
       do i = 1, size(frames, kind=ip)
          call begin_part(archive, 'frame_'//to_text(i))
          call exchange_results(archive, history%frames(i))
+         call demand(archive, history%frames(i)%increment == frames(i), 'increment')
          call end_part(archive)
       end do
    end subroutine exchange_findings
@@ -267,60 +267,5 @@ contains
       call exchange_vector(archive, 'elastic_energy', list%elastic_energy)
       call exchange_vector(archive, 'mean_slip', list%mean_slip)
    end subroutine exchange_rows
-
-   !> The arrays have the sizes that the deck gives them; a file with the right marks and others was changed by hand.
-   subroutine check_sizes(archive, model, history, state)
-      type(archive_t), intent(inout) :: archive
-      type(model_t), intent(in) :: model
-      type(history_t), intent(in) :: history
-      type(restart_state_t), intent(in) :: state
-      integer(ip) :: i
-
-      call demand(archive, state%step >= 1 .and. state%increment >= 1, 'step and increment')
-      call check_frame(archive, model, state%last)
-      call demand(archive, allocated(state%last%u), 'u')
-      if (.not. allocated(history%frames)) return
-      do i = 1, size(history%frames, kind=ip)
-         call check_frame(archive, model, history%frames(i))
-      end do
-   end subroutine check_sizes
-
-   subroutine check_frame(archive, model, frame)
-      type(archive_t), intent(inout) :: archive
-      type(model_t), intent(in) :: model
-      type(results_t), intent(in) :: frame
-      integer :: i
-      logical :: ok
-
-      call demand(archive, frame%step >= 1 .and. frame%step <= size(model%steps), 'step')
-      call demand(archive, is_nodal(frame%u, model), 'u')
-      call demand(archive, is_nodal(frame%reaction, model), 'reaction')
-      ok = .not. allocated(frame%contact)
-      if (.not. ok) ok = size(frame%contact) == size(model%pairs)
-      call demand(archive, ok, 'contact')
-      if (.not. ok .or. .not. allocated(frame%contact)) return
-      do i = 1, size(frame%contact)
-         associate (contact => frame%contact(i))
-            call demand(archive, has_length(contact%s, contact%n) .and. has_length(contact%pressure, contact%n) .and. &
-                        has_length(contact%shear, contact%n) .and. has_length(contact%slip, contact%n), 'contact')
-         end associate
-      end do
-   end subroutine check_frame
-
-   pure logical function is_nodal(values, model)
-      real(wp), allocatable, intent(in) :: values(:, :)
-      type(model_t), intent(in) :: model
-
-      is_nodal = .not. allocated(values)
-      if (.not. is_nodal) is_nodal = all(shape(values) == [2, int(model%mesh%n_nodes)])
-   end function is_nodal
-
-   pure logical function has_length(values, n)
-      real(wp), allocatable, intent(in) :: values(:)
-      integer(ip), intent(in) :: n
-
-      has_length = .not. allocated(values)
-      if (.not. has_length) has_length = size(values) == n
-   end function has_length
 
 end module atrito_restart_file

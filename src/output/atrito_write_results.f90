@@ -34,6 +34,7 @@ contains
       type(string_t), intent(in), optional :: pictures(:)    !< that will be drawn after this, for the listing
       logical, intent(in), optional :: is_csv                !< tables as comma-separated values; left out: .false.
       type(file_set_t) :: set
+      type(string_t), allocatable :: stale(:)
 
       allocate (written(0))
       call begin_files(set, folder, status)
@@ -46,7 +47,8 @@ contains
       ! these two tell the time, that of writing the tables included
       if (is_ok(status)) call write_timing(model, history, digits, set, status, is_csv)
       if (is_ok(status)) call write_listing(model, history, set, status, pictures)
-      call end_files(set, status, [list_table_files(), list_field_files(model), list_deck_files(model, folder)])
+      call list_stale_files(model, folder, stale)
+      call end_files(set, status, stale)
       if (.not. is_ok(status)) return
       written = set%names
       call remove_plots(folder, PLOTS_OF_RUN)
@@ -66,20 +68,25 @@ contains
       end do
    end subroutine write_deck_as_run
 
-   !> What an earlier run may have left of its deck.
-   function list_deck_files(model, folder) result(names)
+   !> What an earlier run may have left: tables, fields, and its deck.
+   subroutine list_stale_files(model, folder, names)
       type(model_t), intent(in) :: model
       character(len=*), intent(in) :: folder
-      type(string_t), allocatable :: names(:)
+      type(string_t), allocatable, intent(out) :: names(:)
+      type(string_t), allocatable :: fields(:)
       integer(ip) :: i
 
-      allocate (names(0))
+      names = list_table_files()
+      fields = list_field_files(model)
+      do i = 1, size(fields, kind=ip)
+         call append_string(names, fields(i)%s)
+      end do
       call append_string(names, as_run_name(model%deck_name))
       i = 1
       do while (file_exists(folder//'/'//mesh_copy_name(model%deck_name, i)))
          call append_string(names, mesh_copy_name(model%deck_name, i))
          i = i + 1
       end do
-   end function list_deck_files
+   end subroutine list_stale_files
 
 end module atrito_write_results

@@ -225,8 +225,11 @@ contains
                  find_column(top%table, 'quantity')]
       if (minval(columns) == 0 .or. find_column(top%table, 'value') == 0) return
       do row = 1, top%table%n_rows
-         group = group_t(item_text(top%table, columns(1), row), item_text(top%table, columns(2), row), &
-                         item_text(top%table, columns(3), row), row, row)
+         group%step = item_text(top%table, columns(1), row)
+         group%increment = item_text(top%table, columns(2), row)
+         group%pair = item_text(top%table, columns(3), row)
+         group%first = row
+         group%last = row
          if ((group%pair == '0') .neqv. of_steps) cycle
          if (size(groups) > 0) then
             associate (last => groups(size(groups)))

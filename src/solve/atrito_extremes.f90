@@ -8,13 +8,14 @@ module atrito_extremes
    use atrito_results, only: results_t, contact_result_t, extreme_t
    implicit none (type, external)
    private
-   public :: find_extremes
+   public :: find_extremes, EXTREME_NAMES
 
    !> The quantities, in the order of extremes.tab; a least one is the largest of its negative.
-   character(len=16), parameter :: NAMES(10) = [character(len=16) :: 'u', 'u1_max', 'u1_min', 'u2_max', 'u2_min', 'mises', &
-                                                                            's1_max', 's3_min', 'contact_pressure', 'contact_shear']
-   logical, parameter :: IS_LEAST(size(NAMES)) = [.false., .false., .true., .false., .true., .false., .false., .true., .false., &
-                                                  .false.]
+   character(len=16), parameter :: EXTREME_NAMES(10) = [character(len=16) :: 'u', 'u1_max', 'u1_min', 'u2_max', 'u2_min', &
+                                                                                  'mises', 's1_max', 's3_min', 'contact_pressure', &
+                                                                                                                    'contact_shear']
+   logical, parameter :: IS_LEAST(size(EXTREME_NAMES)) = [.false., .false., .true., .false., .true., .false., .false., .true., &
+                                                          .false., .false.]
    integer, parameter :: U = 1, MISES = 6, S1 = 7, S3 = 8, PRESSURE = 9, SHEAR = 10
 
    !> A value takes the place of another one when it is larger by this part of it, and of the largest of its kind.
@@ -22,9 +23,9 @@ module atrito_extremes
 
    !> The largest so far.
    type :: largest_t
-      real(wp) :: value(size(NAMES)) = 0.0_wp
-      integer(ip) :: node(size(NAMES)) = 0             !< place; 0: none yet
-      real(wp) :: x(2, size(NAMES)) = 0.0_wp           !< [L]
+      real(wp) :: value(size(EXTREME_NAMES)) = 0.0_wp
+      integer(ip) :: node(size(EXTREME_NAMES)) = 0             !< place; 0: none yet
+      real(wp) :: x(2, size(EXTREME_NAMES)) = 0.0_wp           !< [L]
    end type largest_t
 
 contains
@@ -59,10 +60,10 @@ contains
       if (allocated(list)) deallocate (list)
       allocate (list(count(largest%node > 0)))
       n = 0
-      do i = 1, size(NAMES)
+      do i = 1, size(EXTREME_NAMES)
          if (largest%node(i) == 0) cycle
          n = n + 1
-         list(n) = extreme_t(largest%value(i), mesh%node_id(largest%node(i)), largest%x(:, i), .true., NAMES(i))
+         list(n) = extreme_t(largest%value(i), mesh%node_id(largest%node(i)), largest%x(:, i), .true., EXTREME_NAMES(i))
          if (IS_LEAST(i)) list(n)%value = -list(n)%value
       end do
    end subroutine list_extremes
@@ -119,7 +120,7 @@ contains
 
    !> Keeps the larger of a value and the largest one so far.
    pure subroutine take(quantity, value, slack, node, x, largest)
-      integer, intent(in) :: quantity                  !< place in NAMES
+      integer, intent(in) :: quantity                  !< place in EXTREME_NAMES
       real(wp), intent(in) :: value, slack
       integer(ip), intent(in) :: node
       real(wp), intent(in) :: x(2)

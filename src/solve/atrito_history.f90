@@ -5,6 +5,8 @@
 !> and nothing else.
 module atrito_history
    use atrito_body_cache, only: body_cache_t, release_bodies
+   use atrito_check_found, only: check_found
+   use atrito_check_start, only: check_place, check_start
    use atrito_contact_scales, only: had_t, widen
    use atrito_contact_solution, only: contact_solution_t
    use atrito_history_lists, only: add_frame, add_iterations, add_row, move_frame, trim_lists
@@ -30,7 +32,7 @@ module atrito_history
    use atrito_slip_memory, only: begin_memory, put_memory, put_rest, remember_slips, slip_memory_t, take_memory
    use atrito_solution_warnings, only: warn, idle_text
    use atrito_solve, only: begin_scene, note_method, solve_options_t, solve_static, CONTACT_SPARSE
-   use atrito_status, only: is_ok, reword_status, set_status, status_t, STATUS_NOT_CONVERGED, STATUS_SINGULAR
+   use atrito_status, only: is_ok, reword_status, set_status, status_t, STATUS_DECK, STATUS_NOT_CONVERGED, STATUS_SINGULAR
    use atrito_step_change, only: begin_from, changes_form
    use atrito_step_loads, only: moment_t
    use atrito_strings, only: to_text
@@ -132,17 +134,19 @@ contains
       type(model_t), intent(in), target :: model
       type(body_cache_t), intent(inout) :: store
       type(run_t), intent(inout), target :: run
-      type(history_t), intent(out) :: history
+      type(history_t), intent(inout) :: history      !< empty; stays so without success
       type(progress_t), intent(out) :: now
       type(status_t), intent(out) :: status
       type(solve_options_t) :: as_before
+      character(len=:), allocatable :: wrong
       integer(ip) :: first, i
 
-      history = run%recorder%found
-      run%n_frames = size(history%frames, kind=ip)
-      run%n_rows = size(history%rows, kind=ip)
-      run%n_iterations = size(history%iterations, kind=ip)
       associate (state => run%recorder%state)
+         call check_place(model, state, wrong)
+         if (allocated(wrong)) then
+            call refuse_record(run%recorder, wrong, status)
+            return
+         end if
          run%step = model%steps(state%step)
          if (allocated(state%from)) run%step%prescribed%from = state%from
          if (allocated(state%from_of_motions)) run%step%rigid_prescribed%from = state%from_of_motions
@@ -150,6 +154,13 @@ contains
          as_before%contact_form = int(state%contact_form)   ! its choice depends on the memory of the machine
          call begin_scene(model, as_before, store, .false., run%data, run%scene, status, run%step)
          if (.not. is_ok(status)) return
+         call check_start(run%data, run%scene, state, wrong)
+         if (.not. allocated(run%recorder%observed)) allocate (run%recorder%observed(0))
+         call check_found(run%data, run%scene, run%recorder%observed, run%recorder%found, state, wrong)
+         if (allocated(wrong)) then
+            call refuse_record(run%recorder, wrong, status)
+            return
+         end if
          run%data%reason = state%contact_reason
          run%scene%contact_reason = state%contact_reason
          if (.not. allocated(state%from)) run%data%step => model%steps(state%step)
@@ -173,7 +184,23 @@ contains
          now = progress_t(state%increment, state%step_time, state%length)
       end associate
       call take_start(run%recorder%state%start, run%data%last)
+      history = run%recorder%found
+      run%n_frames = size(history%frames, kind=ip)
+      run%n_rows = size(history%rows, kind=ip)
+      run%n_iterations = size(history%iterations, kind=ip)
    end subroutine resume
+
+   !> A record that has what its deck does not give.
+   subroutine refuse_record(recorder, wrong, status)
+      class(recorder_t), intent(in) :: recorder
+      character(len=*), intent(in) :: wrong          !< what, in words
+      type(status_t), intent(inout) :: status
+      character(len=:), allocatable :: source
+
+      source = 'the restart file'
+      if (allocated(recorder%source)) source = recorder%source
+      call set_status(status, STATUS_DECK, source//': does not fit this deck: '//wrong)
+   end subroutine refuse_record
 
    !> Hands on what was found so far, where that is asked for. The next increment starts from what is recorded and from nothing
    !> else, so that it does not matter which run solves it.

@@ -20,6 +20,7 @@ module atrito_increment
    use atrito_linear_limits, only: find_large
    use atrito_mesh, only: is_revolved
    use atrito_model, only: controls_t, METHOD_ANDERSON, METHOD_NEWTON, METHOD_PICARD
+   use atrito_number_range, only: explain_range
    use atrito_outer_loop, only: FREE_MOTION
    use atrito_recovery, only: contact_forces, add_rigid_motions, recover_contact, recover_stress, estimate_error
    use atrito_reporter, only: report_progress
@@ -94,6 +95,7 @@ contains
       if (asked_form == CONTACT_AUTO .and. is_ok(status) .and. .not. (results%converged .and. results%law_holds)) then
          call try_others(data, controls, store, results, solution)
       end if
+      if (.not. is_solved(results, status)) call explain_range(data, results, status)
    end subroutine solve_increment
 
    !> Whether the matrix of the sparse form had no factor the last time.

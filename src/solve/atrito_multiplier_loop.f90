@@ -5,7 +5,7 @@ module atrito_multiplier_loop
    use atrito_bound_qp, only: bound_qp_t, box_bounds_t, box_state_t, FREE, AT_LOWER, AT_UPPER, FROZEN
    use atrito_constraint_rows, only: constraint_rows_t, multiply_rows
    use atrito_contact_line, only: contact_line_t, pressure_of, shear_force_of, normal_bounds, set_friction_bounds, &
-                                  tangential_of
+                                  last_contact_pair, pairs_of_unknowns, tangential_of
    use atrito_contact_solution, only: contact_solution_t, asks_no_force, let_rest, FREE_MOTION, bound_of_state
    use atrito_contact_system, only: contact_system_t
    use atrito_undetermined_motions, only: settle_undetermined_motions
@@ -410,7 +410,6 @@ contains
       type(bound_qp_t), intent(out) :: shape
       type(multiplier_t), intent(out) :: multipliers
       type(contact_solution_t), intent(out) :: solution
-      integer(ip) :: pair(line%n)
 
       shape%m = size(line%point, kind=ip)
       shape%n_normal = count(line%normal > 0, kind=ip)
@@ -418,12 +417,10 @@ contains
       shape%weight = line%weight(line%point)
       solution%history%tangential_of = tangential_of(line, shape%n_normal)
       call normal_bounds(line, shape, solution%bounds, solution%state)
-      pair = 1
-      if (allocated(line%pair)) pair = line%pair(:line%n)
-      call begin_multipliers(system, pair(line%point), multipliers, &
+      call begin_multipliers(system, pairs_of_unknowns(line), multipliers, &
                              merge(solution%bounds%d, 0.0_wp, solution%bounds%lower <= -HUGE_REAL))
       if (allocated(line%pair)) multipliers%n_pairs = maxval([line%pair, 0_ip])
-      if (line%n_bilateral > 0) multipliers%n_contact_pairs = line%pair(line%n - line%n_bilateral + 1) - 1
+      multipliers%n_contact_pairs = last_contact_pair(line)
       ! where nothing can be open no body waits for what will hold it
       if (line%n_bilateral == line%n) then
          multipliers%kappa = LEAST_PULL

@@ -4,6 +4,7 @@ module atrito_recorder
    use atrito_kinds, only: ip
    use atrito_restart_state, only: restart_state_t
    use atrito_results, only: history_t
+   use atrito_strings, only: string_t
    implicit none (type, external)
    private
    public :: recorder_t
@@ -13,6 +14,8 @@ module atrito_recorder
       logical :: resumes = .false.                   !< the history goes on behind `state`; `found` is what was found before
       type(restart_state_t) :: state
       type(history_t) :: found
+      character(len=:), allocatable :: source        !< where both come from, for messages
+      type(string_t), allocatable :: observed(:)     !< names of what is observed; not allocated: nothing
    contains
       procedure(record_increment), deferred :: record
    end type recorder_t

@@ -14,7 +14,7 @@ module atrito_scene_cut
    use atrito_contact_rows, only: contact_rows_t
    use atrito_incidence, only: list_holders
    use atrito_kinds, only: ip, lp, wp
-   use atrito_multifrontal, only: element_store_t, sum_diagonals
+   use atrito_multifrontal, only: element_store_t, sum_couplings, sum_diagonals
    use atrito_scene_elimination, only: scene_numbering_t
    implicit none (type, external)
    private
@@ -262,7 +262,8 @@ contains
                                                              + numbering%before(fem%bodies%of_element(elements(e)))
          end do
       end do
-      call sum_diagonals(store, store%n, diagonal, coupling)
+      call sum_diagonals(store, store%n, diagonal)
+      call sum_couplings(store, store%n, coupling)
    end subroutine diagonals_of_rows
 
 end module atrito_scene_cut

@@ -7,6 +7,7 @@ module atrito_solve
    use atrito_increment, only: is_solved, solve_increment
    use atrito_messages, only: add_note
    use atrito_model, only: model_t, step_t, METHOD_ANDERSON
+   use atrito_number_range, only: is_out_of_range
    use atrito_reporter, only: reporter_t
    use atrito_results, only: results_t, scene_t
    use atrito_rank_check, only: check_first_rank, check_ranks, PARTS_COUNTED, PARTS_ESTIMATED, PARTS_LEAST, PARTS_THERE
@@ -129,6 +130,7 @@ contains
       if (.not. is_ok(status)) return
       ! with the fronts that the bodies have in place of those that were expected
       results%scene%memory = forecast_memory(model, data, results%scene)
+      if (is_out_of_range(results)) return                  ! and so is what could be told of its points and motions
       call report_unsettled(data%fem%mesh, data%points, data%rows, data%line, solution, results)
       call warn(data, solution, results, idle_text(data, solution))
       if (.not. is_solved(results, status)) return

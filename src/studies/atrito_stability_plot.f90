@@ -31,13 +31,16 @@ contains
       type(string_t), allocatable, intent(out) :: drawn(:)
       type(file_set_t) :: set
       type(status_t) :: status
+      type(string_t) :: plots(2)
 
       call begin_files(set, plot_folder(folder), status)
       if (is_ok(status)) call write_data(set, limit, status)
       if (is_ok(status)) call write_script(set, title, limit, status)
       if (is_ok(status)) call write_mechanism_plot(set, model, limit, title, view, status)
       call end_files(set, status)
-      call draw_written(folder, [string_t(LIMIT_PLOT), string_t(MECHANISM_PLOT)], status, drawn)
+      plots(1)%s = LIMIT_PLOT
+      plots(2)%s = MECHANISM_PLOT
+      call draw_written(folder, plots, status, drawn)
    end subroutine write_stability_plots
 
    !> Blocks: values that stand, values without a decision.

@@ -26,12 +26,14 @@ contains
       type(string_t), allocatable, intent(out) :: drawn(:)
       type(file_set_t) :: set
       type(status_t) :: status
+      type(string_t) :: plots(1)
 
       call begin_files(set, plot_folder(folder), status)
       if (is_ok(status)) call write_data(set, study, status)
       if (is_ok(status)) call write_script(set, title, study, status)
       call end_files(set, status)
-      call draw_written(folder, [string_t(STUDY_PLOT)], status, drawn)
+      plots(1)%s = STUDY_PLOT
+      call draw_written(folder, plots, status, drawn)
    end subroutine write_study_plot
 
    !> A block an element: dofs, seconds, estimate, then the error of each quantity [%].

@@ -42,6 +42,17 @@ untouched 'a folder in the place of a table'
 rmdir "$work/out/timing.tab"
 cp "$work/before/summary.tab" "$work/out/timing.tab"
 cp "$work/before/summary.tab" "$work/before/timing.tab"
+# folders that cannot be made: links that lead nowhere, a name that is too long, alone and in a folder that is new
+ln -s nowhere "$work/link"
+long=$(printf 'n%.0s' 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20 21 22 23 24 25 26 27 28 29 30)
+long=$long$long$long$long$long$long$long$long$long$long
+for folder in link link/new "$long" "new/$long" "new/newer/$long/last"; do
+   "$atrito" "$deck" -o "$work/$folder" >"$work/said" 2>&1
+   code=$?
+   expect_5 "a folder that cannot be made, ${folder%"$long"*}" "$work/${folder%%/*}"
+   grep -q '^factor' "$work/said" && fail "a folder that cannot be made, ${folder%"$long"*}: told after the work"
+   [ -e "$work/new" ] && fail 'a folder that cannot be made: those above it are left'
+done
 for folder in summary.tab summary.tab/new; do
    "$atrito" "$deck" -o "$work/before/$folder" >"$work/said" 2>&1
    code=$?

@@ -73,7 +73,7 @@ contains
 
       call write_bytes(FOLDER//'/damaged.h5', bytes)
       call take_fingerprint(model, 'auto', fingerprint)
-      call read_restart(FOLDER//'/damaged.h5', model, fingerprint, history, state, status)
+      call read_restart(FOLDER//'/damaged.h5', fingerprint, history, state, status)
       same = .false.
       if (.not. is_ok(status)) return
       call write_restart(FOLDER, 'again.h5', fingerprint, history, state, writing)

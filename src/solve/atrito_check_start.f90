@@ -1,0 +1,142 @@
+!> Whether the state of a restart file, from which the next increment begins, can be of this deck: see atrito_check_found.
+module atrito_check_start
+   use atrito_bound_qp, only: FREE, FROZEN
+   use atrito_check_found, only: is_finite, is_list, is_plain, require
+   use atrito_contact_form, only: CONTACT_DENSE, CONTACT_SPARSE
+   use atrito_contact_line, only: last_contact_pair, pairs_of_unknowns, tangential_of
+   use atrito_kinds, only: ip, wp
+   use atrito_model, only: model_t, nodal_values_t
+   use atrito_restart_state, only: restart_state_t, warm_start_t
+   use atrito_results, only: scene_t
+   use atrito_scene_data, only: scene_data_t
+   implicit none (type, external)
+   private
+   public :: check_place, check_start
+
+   real(wp), parameter :: SAME_TIME = 1.0e-12_wp      !< round-off of times, which are sums
+
+contains
+
+   !> Where the history stands, and what its scene is made from: to be asked before that. wrong: what does not fit.
+   pure subroutine check_place(model, state, wrong)
+      type(model_t), intent(in) :: model
+      type(restart_state_t), intent(in) :: state
+      character(len=:), allocatable, intent(inout) :: wrong
+      real(wp) :: began
+
+      call require(wrong, state%step >= 1 .and. state%step <= size(model%steps), 'step')
+      if (allocated(wrong)) return
+      associate (step => model%steps(state%step), way => model%steps(state%step)%increments)
+         began = sum(model%steps(:state%step - 1)%increments%period)
+         call require(wrong, state%increment >= 1 .and. state%increment <= way%most, 'increment')
+         call require(wrong, state%step_time > 0.0_wp .and. state%step_time <= way%period, 'step_time')
+         call require(wrong, state%ends_step .eqv. state%step_time >= way%period, 'ends_step')
+         call require(wrong, abs(state%began - began) <= SAME_TIME*began, 'began')
+         call require(wrong, state%length > 0.0_wp .and. is_finite([state%length]), 'length')
+         call require(wrong, state%condition >= 0.0_wp .and. state%grain >= 0.0_wp .and. &
+                      is_finite([state%condition, state%grain]), 'condition')
+         call require(wrong, state%contact_form == CONTACT_DENSE .or. state%contact_form == CONTACT_SPARSE, 'contact_form')
+         call require(wrong, is_plain(state%contact_reason) .and. allocated(state%contact_reason), 'contact_reason')
+         call require(wrong, is_begun(state%from, step%prescribed), 'from')
+         call require(wrong, is_begun(state%from_of_motions, step%rigid_prescribed), 'from_of_motions')
+      end associate
+      associate (last => state%last)
+         call require(wrong, last%step == state%step .and. last%increment == state%increment .and. &
+                      abs(last%step_time - state%step_time) <= 0.0_wp, 'last')
+      end associate
+   end subroutine check_place
+
+   !> Values at the beginning of a step of all that it prescribes; none are those of the deck.
+   pure logical function is_begun(from, prescribed)
+      real(wp), allocatable, intent(in) :: from(:)
+      type(nodal_values_t), intent(in) :: prescribed
+
+      is_begun = .not. allocated(from)
+      if (.not. is_begun) is_begun = size(from) >= prescribed%n .and. is_finite(from)
+      if (is_begun .and. allocated(from) .and. allocated(prescribed%value)) is_begun = size(from) <= size(prescribed%value)
+   end function is_begun
+
+   !> What friction remembers, and where the contact line starts from, of the scene of the step.
+   pure subroutine check_start(data, scene, state, wrong)
+      type(scene_data_t), intent(in) :: data
+      type(scene_t), intent(in) :: scene
+      type(restart_state_t), intent(in) :: state
+      character(len=:), allocatable, intent(inout) :: wrong
+
+      associate (n => sum(data%points%n), pairs => size(data%points, kind=ip), bodies => data%fem%bodies%n)
+         call require(wrong, is_list(state%rest, n) .and. is_list(state%slip, n) .and. is_list(state%shear, n) .and. &
+                      is_list(state%slides, n), 'rest slips')
+         call require(wrong, is_list(state%dissipation, pairs) .and. is_list(state%moved, pairs), 'dissipation')
+         if (allocated(state%released)) call require(wrong, is_list(state%released, 2_ip, data%fem%mesh%n_nodes) .or. &
+                                                     is_list(state%released, 2_ip, data%model%mesh%n_nodes), 'released')
+         call require(wrong, allocated(state%had_motion) .eqv. allocated(state%had_force), 'had_motion')
+         if (allocated(state%had_motion)) call require(wrong, is_list(state%had_motion, bodies) .and. &
+                                                       is_list(state%had_force, bodies), 'had_motion')
+      end associate
+      if (.not. allocated(wrong)) call check_line(data, scene, state%start, wrong)
+   end subroutine check_start
+
+   !> The unknowns of the contact line; with nothing to start from there is none of it.
+   pure subroutine check_line(data, scene, start, wrong)
+      type(scene_data_t), intent(in) :: data
+      type(scene_t), intent(in) :: scene
+      type(warm_start_t), intent(in) :: start
+      character(len=:), allocatable, intent(inout) :: wrong
+
+      call require(wrong, any(start%form == [0, CONTACT_DENSE, CONTACT_SPARSE]), 'form')
+      if (allocated(wrong) .or. start%form == 0) return
+      associate (n => data%line%n, m => size(data%line%point, kind=ip), n_normal => count(data%line%normal > 0, kind=ip))
+         call require(wrong, is_list(start%q, m) .and. is_list(start%state, m), 'unknowns')
+         if (allocated(wrong)) return
+         call require(wrong, all(start%state >= FREE .and. start%state <= FROZEN), 'states of unknowns')
+         call require(wrong, may_be(start%p, n) .and. may_be(start%tau, n) .and. may_be(start%t, n), 'stresses')
+         call require(wrong, may_be(start%r, m) .and. may_be(start%shift, m) .and. may_be(start%lower, m) .and. &
+                      may_be(start%upper, m) .and. may_be(start%d, m), 'bounds')
+         call require(wrong, may_be(start%a, scene%n_rigid), 'amplitudes')
+         if (allocated(start%is_shared)) call require(wrong, is_list(start%is_shared, m), 'is_shared')
+         if (allocated(start%tangential_of)) then
+            call require(wrong, is_list(start%tangential_of, n_normal), 'tangential_of')
+            if (.not. allocated(wrong)) call require(wrong, all(start%tangential_of == tangential_of(data%line, n_normal)), &
+                                                     'tangential_of')
+         end if
+         call require(wrong, is_finite([start%slack, start%residual, start%contraction]), 'residual')
+      end associate
+      if (start%has_multipliers .and. .not. allocated(wrong)) call check_multipliers(data, scene, start, wrong)
+   end subroutine check_line
+
+   !> Those of the sparse form; what has not begun yet has no arrays.
+   pure subroutine check_multipliers(data, scene, start, wrong)
+      type(scene_data_t), intent(in) :: data
+      type(scene_t), intent(in) :: scene
+      type(warm_start_t), intent(in) :: start
+      character(len=:), allocatable, intent(inout) :: wrong
+
+      call require(wrong, is_finite([start%step_size, start%pull_size]) .and. min(start%step_size, start%pull_size) >= 0.0_wp, &
+                   'multipliers')
+      associate (m => size(data%line%point, kind=ip), k => scene%n_rigid)
+         call require(wrong, may_be(start%e, m) .and. may_be(start%noise, m) .and. may_be(start%q_old, m) .and. &
+                      may_be(start%stiffness, m), 'multipliers')
+         call require(wrong, may_be(start%a_old, k) .and. may_be(start%hold, k) .and. may_be(start%pull, k), 'multipliers')
+         call require(wrong, may_be(start%x, scene%n_dofs + k), 'multipliers')
+         if (allocated(wrong) .or. .not. allocated(start%pair)) return
+         call require(wrong, is_list(start%pair, m), 'pair')
+         if (allocated(wrong)) return
+         call require(wrong, all(start%pair == pairs_of_unknowns(data%line)) .and. &
+                      start%n_contact_pairs == last_contact_pair(data%line), 'pair')
+         if (allocated(data%line%pair)) then
+            call require(wrong, start%n_pairs == maxval([data%line%pair, 0_ip]), 'n_pairs')
+         else
+            call require(wrong, start%n_pairs == maxval([start%pair, 0_ip]), 'n_pairs')
+         end if
+      end associate
+   end subroutine check_multipliers
+
+   pure logical function may_be(values, n)
+      real(wp), allocatable, intent(in) :: values(:)
+      integer(ip), intent(in) :: n
+
+      may_be = .not. allocated(values)
+      if (.not. may_be) may_be = is_list(values, n)
+   end function may_be
+
+end module atrito_check_start
