@@ -13,6 +13,7 @@
 #include <stdatomic.h>
 #include <stdint.h>
 #include <stdio.h>
+#include <stdio_ext.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/file.h>
@@ -103,6 +104,44 @@ int atrito_write_text(void *file, const char *text, size_t length) { return fwri
 int atrito_write_line(void *file, const char *text, size_t length) {
    return fwrite(text, 1, length, file) == length && putc('\n', file) != EOF;
 }
+
+/* A file without a name, on the disk of a folder, to be written and read: it is gone with the process, however that ends. NULL:
+ * there is none. Programs that this one starts do not inherit it. */
+void *atrito_open_nameless(const char *folder) {
+   char path[4096];
+   int file = -1;
+
+#ifdef O_TMPFILE
+   file = open(folder, O_TMPFILE | O_RDWR | O_CLOEXEC, 0600);
+#endif
+   if (file < 0 && snprintf(path, sizeof path, "%s/.atrito-XXXXXX", folder) < (int)sizeof path) {
+      file = mkostemp(path, O_CLOEXEC);             /* network disks know no files without names */
+      if (file >= 0)
+         unlink(path);
+   }
+   if (file < 0)
+      return NULL;
+   FILE *stream = fdopen(file, "w+b");
+   if (!stream)
+      close(file);
+   return stream;
+}
+
+/* The place in the file that is read or written next; -1: it is not known. */
+int64_t atrito_place_in_file(void *file) { return ftello(file); }
+
+/* Goes to a place. What was written is handed to the system. 1: done; else what could not be written is given up. */
+int atrito_go_to_place(void *file, int64_t place) {
+   if (fflush(file) == 0)
+      return fseeko(file, place, SEEK_SET) == 0;
+   __fpurge(file);
+   clearerr(file);
+   return 0;
+}
+
+int atrito_write_bytes(void *file, const void *bytes, size_t length) { return fwrite(bytes, 1, length, file) == length; }
+
+int atrito_read_bytes(void *file, void *bytes, size_t length) { return fread(bytes, 1, length, file) == length; }
 
 int atrito_close_file(void *file) { return fclose(file) == 0; }
 
