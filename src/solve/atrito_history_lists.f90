@@ -65,7 +65,7 @@ contains
       type(history_t), intent(inout) :: history
 
       if (n > 0) call put_aside(n, history)
-      if (n == size(history%frames)) call give_room(n, 2*n + 1, history%frames)
+      if (n == size(history%frames)) call give_room(n, n + n/4 + 1, history%frames) ! even without fields they are large
       n = n + 1
       history%frames(n) = frame
    end subroutine add_frame
