@@ -574,6 +574,54 @@ int64_t atrito_peak_memory(void) {
    return getrusage(RUSAGE_SELF, &use) == 0 ? (int64_t)use.ru_maxrss * 1024 : 0;
 }
 
+/* Whether so many bytes of address space can be had now, in one piece. */
+int atrito_has_address_space(int64_t bytes) {
+   void *space = mmap(NULL, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+   if (space == MAP_FAILED)
+      return 0;
+   munmap(space, bytes);
+   return 1;
+}
+
+/* What a thread takes of the address space for its stack. */
+int64_t atrito_stack_of_thread(void) {
+   pthread_attr_t attributes;
+   size_t size = 0;
+   if (pthread_attr_init(&attributes) != 0)
+      return 0;
+   pthread_attr_getstacksize(&attributes, &size);
+   pthread_attr_destroy(&attributes);
+   return (int64_t)size;
+}
+
+static void *wait_for_all(void *gate) {
+   pthread_mutex_lock(gate);
+   pthread_mutex_unlock(gate);
+   return NULL;
+}
+
+/* How many threads there can be at a time beside this one, up to so many: they are made, and end at once. */
+int atrito_count_threads(int most) {
+   pthread_mutex_t gate = PTHREAD_MUTEX_INITIALIZER;
+   pthread_t *threads = calloc(most, sizeof *threads);
+   int n = 0;
+
+   pthread_mutex_lock(&gate);
+   while (threads && n < most && pthread_create(&threads[n], NULL, wait_for_all, &gate) == 0)
+      n++;
+   pthread_mutex_unlock(&gate);
+   for (int i = 0; i < n; i++)
+      pthread_join(threads[i], NULL);
+   free(threads);
+   return n;
+}
+
+/* The stack that the program may have, in bytes; -1: there is no limit. */
+int64_t atrito_stack_limit(void) {
+   struct rlimit limit;
+   return getrlimit(RLIMIT_STACK, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY ? (int64_t)limit.rlim_cur : -1;
+}
+
 /* What `ulimit -v` allows [bytes]; -1: no limit. */
 int64_t atrito_address_space_limit(void) {
    struct rlimit limit;

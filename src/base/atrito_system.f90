@@ -14,6 +14,7 @@ module atrito_system
    public :: c_begin_worker, c_end_worker, await_workers, c_run_command, c_share_memory, find_routine
    public :: worker_end, end_with_maker, process_number, maker_number, pause_for, get_shared, set_shared, &
              swap_shared
+   public :: c_has_address_space, c_count_threads, stack_of_thread, stack_limit
    public :: processor_seconds, peak_memory, address_space_limit, keep_freed_memory, reusable_memory
    public :: c_suspend_halting, c_restore_halting
 
@@ -82,6 +83,8 @@ module atrito_system
    procedure(ask_path), bind(C, name='atrito_run_command') :: c_run_command
    procedure(ask_bytes), bind(C, name='atrito_peak_memory') :: peak_memory
    procedure(ask_bytes), bind(C, name='atrito_address_space_limit') :: address_space_limit
+   procedure(ask_bytes), bind(C, name='atrito_stack_of_thread') :: stack_of_thread
+   procedure(ask_bytes), bind(C, name='atrito_stack_limit') :: stack_limit
    procedure(act), bind(C, name='atrito_keep_freed_memory') :: keep_freed_memory
    procedure(ask_bytes), bind(C, name='atrito_reusable_memory') :: reusable_memory
 
@@ -90,6 +93,14 @@ module atrito_system
          import :: c_int
          integer(c_int), value :: file              !< 1: standard output, 2: standard error
       end function c_is_terminal
+      integer(c_int) function c_has_address_space(bytes) bind(C, name='atrito_has_address_space')
+         import :: c_int, c_int64_t
+         integer(c_int64_t), value :: bytes
+      end function c_has_address_space
+      integer(c_int) function c_count_threads(most) bind(C, name='atrito_count_threads')
+         import :: c_int
+         integer(c_int), value :: most
+      end function c_count_threads
       integer(c_int) function c_make_folder(path, is_noted) bind(C, name='atrito_make_folder')
          import :: c_char, c_int
          character(kind=c_char), intent(in) :: path(*)
