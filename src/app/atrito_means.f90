@@ -18,6 +18,8 @@ module atrito_means
 
    !> The stack that the program wants; the least with which scenes were solved is 192 KiB.
    integer(lp), parameter :: LEAST_STACK = 2_lp**19
+   !> Address space to read a deck with.
+   integer(lp), parameter :: TO_BEGIN = 2_lp**22
 
 contains
 
@@ -71,7 +73,7 @@ contains
       integer(lp) function bytes_of(n)
          integer(ip), intent(in) :: n
 
-         bytes_of = n*blas_buffer_bytes() + (n - 1)*stack_of_thread()
+         bytes_of = TO_BEGIN + n*blas_buffer_bytes() + (n - 1)*stack_of_thread()
       end function bytes_of
 
    end function has_buffers

@@ -106,8 +106,8 @@ contains
 #endif
    end subroutine set_blas_threads
 
-   !> Address space that BLAS takes for each thread that calls it, at its first call [bytes]. OpenBLAS asks for it again and again where
-   !> it is not there, for ever: whoever has a limit has to ask first. On some processors it is less; none has more.
+   !> Address space that BLAS takes for each thread that calls it, at its first call [bytes]. OpenBLAS asks for it again and again
+   !> where it is not there, for ever: whoever has a limit has to ask first. On some processors it is less; none has more.
    pure integer(lp) function blas_buffer_bytes()
       integer(lp), parameter :: OF_OPENBLAS = 2_lp**27 + 2_lp**16
 
