@@ -9,6 +9,7 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#ifdef __ELF__
 #define NAME "OPENBLAS_NUM_THREADS="
 
 enum { LEAST_STACK = 1 << 20, FEW_PROCESSES = 1024 };
@@ -67,3 +68,4 @@ static void prepare(int n_arguments, char **arguments, char **environment) {
 
 /* The linker's list of what is called before anything of a library; of a program alone, and where the C library knows it. */
 __attribute__((section(".preinit_array"), used)) static void (*const before_libraries)(int, char **, char **) = prepare;
+#endif
