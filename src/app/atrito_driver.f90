@@ -15,6 +15,7 @@ module atrito_driver
    use atrito_keyword_table, only: keyword_table, keyword_names
    use atrito_kinds, only: ip
    use atrito_libraries, only: version_lines
+   use atrito_means, only: secure_means
    use atrito_messages, only: message_t, add_warning, clear_messages
    use atrito_model, only: model_t
    use atrito_page, only: page_t, add_item, print_page
@@ -58,6 +59,10 @@ contains
       if (.not. ok) then
          call print_wrong(error, 'atrito --help', wants_json(arguments))
          return
+      end if
+      if (any(command%task == [TASK_RUN, TASK_SWEEP, TASK_STUDY, TASK_LIMIT, TASK_CHECK])) then
+         call secure_means(command, code)
+         if (code /= STATUS_OK) return
       end if
       select case (command%task)
       case (TASK_RUN)

@@ -9,7 +9,7 @@ module atrito_restart_recorder
    use atrito_recorder, only: recorder_t
    use atrito_restart_file, only: read_restart, restart_name, write_restart
    use atrito_restart_state, only: restart_state_t
-   use atrito_results, only: history_t
+   use atrito_results, only: frame_store_t, history_t
    use atrito_status, only: status_t, is_ok
    use atrito_strings, only: join
    implicit none (type, external)
@@ -29,10 +29,11 @@ module atrito_restart_recorder
 contains
 
    !> Reads the file of --restart, and gets ready to write those that the deck asks for. status: that of read_restart.
-   subroutine begin_recorder(command, model, recorder, status)
+   subroutine begin_recorder(command, model, recorder, frames, status)
       type(command_t), intent(in) :: command
       type(model_t), intent(in) :: model
       type(restart_recorder_t), intent(out) :: recorder
+      class(frame_store_t), intent(inout), target :: frames !< will keep the increments that are printed
       type(status_t), intent(out) :: status
       character(len=:), allocatable :: options
 
@@ -51,7 +52,8 @@ contains
          if (size(command%observe) > 0) options = options//', --observe '//join(command%observe, ', --observe ')
       end if
       call take_fingerprint(model, options, recorder%fingerprint)
-      if (recorder%resumes) call read_restart(command%restart, recorder%fingerprint, recorder%found, recorder%state, status)
+      if (recorder%resumes) call read_restart(command%restart, recorder%fingerprint, recorder%found, recorder%state, status, &
+                                             frames)
    end subroutine begin_recorder
 
    !> Writes the file anew. A failure is told once, and the run goes on: its tables are not lost with it.

@@ -11,6 +11,7 @@ module atrito_run
    use atrito_element_table, only: DEGREE_OF, KINDS, kind_named
    use atrito_files, only: check_folder, file_exists, true_path
    use atrito_folder_claim, only: folder_claim_t, claim_folder, release_folder
+   use atrito_frame_spool, only: begin_frames, end_frames, frame_spool_t
    use atrito_given_options, only: options_of_run
    use atrito_hdf5, only: has_hdf5
    use atrito_history, only: solve_history
@@ -57,7 +58,7 @@ contains
       integer, intent(out) :: code                  !< one of STATUS_*
       type(run_facts_t), intent(out), optional :: facts
       type(model_t) :: model
-      type(history_t) :: history
+      type(frame_spool_t) :: frames
       type(restart_recorder_t) :: recorder
       type(observations_t) :: observations
       type(reporter_t) :: reporter
@@ -70,14 +71,33 @@ contains
       if (code == STATUS_OK) call prepare_observations(command, model, observations, code)
       if (code /= STATUS_OK) return
       call check_folder(output_folder(command), status)
-      if (is_ok(status)) call begin_recorder(command, model, recorder, status)
-      if (.not. is_ok(status)) then                 ! better now than after an hour
+      call begin_frames(output_folder(command), frames)
+      if (is_ok(status)) call begin_recorder(command, model, recorder, frames, status)
+      if (is_ok(status)) then
+         call solve_and_write(command, model, recorder, observations, frames, reporter, told, store, code, facts)
+      else                                          ! better now than after an hour
          call print_status(status, model%deck_path, command%json)
          code = status%code
-         return
       end if
+      call end_frames(frames)
+   end subroutine run_deck
+
+   subroutine solve_and_write(command, model, recorder, observations, frames, reporter, told, store, code, facts)
+      type(command_t), intent(in) :: command
+      type(model_t), intent(in) :: model
+      type(restart_recorder_t), intent(inout) :: recorder
+      type(observations_t), intent(inout) :: observations
+      type(frame_spool_t), intent(inout) :: frames
+      type(reporter_t), intent(in) :: reporter
+      integer(ip), intent(in) :: told               !< messages printed so far
+      type(body_cache_t), intent(inout) :: store
+      integer, intent(out) :: code
+      type(run_facts_t), intent(out), optional :: facts
+      type(history_t) :: history
+      type(status_t) :: status
+
       call set_threads(command%threads)
-      call solve_history(model, solve_options(command), reporter, history, status, store, recorder, observations)
+      call solve_history(model, solve_options(command), reporter, history, status, store, recorder, observations, frames)
       call print_messages(command%quiet, told + 1, command%json)
       associate (n => last_frame(history))
          if (n > 0) call agree_on_outcome(status, history%frames(n), history%ending%is_early)
@@ -91,7 +111,7 @@ contains
          facts%is_written = code == status%code         ! else they could not be
          facts%is_whole = facts%is_written .and. .not. history%ending%is_early
       end associate
-   end subroutine run_deck
+   end subroutine solve_and_write
 
    !> The threads of this run, with those of ranks that wait on the same host: not where `ulimit -v` counts what each reserves.
    subroutine take_threads(command)

@@ -5,8 +5,9 @@ module atrito_stability_questions
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
    use atrito_balance_probe, only: probe_balance
    use atrito_body_cache, only: body_cache_t
-   use atrito_command_line, only: command_t
+   use atrito_command_line, only: command_t, output_folder
    use atrito_console, only: print_messages, print_status
+   use atrito_frame_spool, only: begin_frames, end_frames, frame_spool_t
    use atrito_history, only: solve_history
    use atrito_kinds, only: ip, wp
    use atrito_mesh, only: find_node
@@ -82,11 +83,14 @@ contains
       type(answer_t), intent(inout) :: answer
       type(status_t), intent(out) :: status          !< STATUS_USAGE where there is no node to watch
       type(history_t) :: history
+      type(frame_spool_t) :: frames
       type(reporter_t) :: reporter
       integer :: n
 
       reporter%quiet = .true.
-      call solve_history(model, solve_options(command), reporter, history, status, store)
+      call begin_frames(output_folder(command), frames)
+      call solve_history(model, solve_options(command), reporter, history, status, store, frames=frames)
+      call end_frames(frames)
       n = size(history%frames)
       if (n > 0) call agree_on_outcome(status, history%frames(n), history%ending%is_early)
       if (status%code == STATUS_SINGULAR .and. n > 0) call set_status(status, STATUS_NOT_CONVERGED, status%text)

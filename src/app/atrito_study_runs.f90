@@ -4,6 +4,7 @@ module atrito_study_runs
    use atrito_body_cache, only: body_cache_t
    use atrito_command_line, only: command_t, output_folder
    use atrito_element_table, only: KINDS, kind_named
+   use atrito_frame_spool, only: begin_frames, end_frames, frame_spool_t
    use atrito_history, only: solve_history
    use atrito_kinds, only: ip, wp
    use atrito_messages, only: clear_messages
@@ -75,6 +76,7 @@ contains
       type(body_cache_t) :: store
       type(model_t) :: model
       type(history_t) :: history
+      type(frame_spool_t) :: frames
       type(observations_t) :: observations
       type(reporter_t) :: reporter
       type(status_t) :: status
@@ -93,11 +95,13 @@ contains
       if (code == STATUS_OK) then
          call scale_laws(model%interactions, merge(0.5_wp, 1.0_wp, probe%is_penalty), &
                          merge(1.0_wp, 0.5_wp, probe%is_penalty))
-         call solve_history(model, solve_options(one), reporter, history, status, store, observer=observations)
+         call begin_frames(output_folder(command), frames)
+         call solve_history(model, solve_options(one), reporter, history, status, store, observer=observations, frames=frames)
          associate (n => size(history%frames))
             if (n > 0) call agree_on_outcome(status, history%frames(n), history%ending%is_early)
             if (is_ok(status)) call find_values(history%frames(n), study, probe%values)
          end associate
+         call end_frames(frames)
       end if
       call clear_messages()
    end subroutine find_probe

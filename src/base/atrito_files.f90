@@ -8,7 +8,7 @@ module atrito_files
    use atrito_paths, only: file_exists, is_folder, make_folder, remove_folders, remove_file, remove_empty_folder, check_folder
    use atrito_renaming, only: find_obstacle, replace_files, rename_over, TEMPORARY
    use atrito_status, only: status_t, set_status, is_ok, STATUS_FILE
-   use atrito_strings, only: string_t, append_string
+   use atrito_strings, only: string_t, append_string, to_text
    use atrito_system, only: c_file_length, c_true_path, c_create_file, c_write_line, c_write_text, c_close_file, c_settle_file, &
                             hold_interrupts, release_interrupts, note_path, forget_path
    implicit none (type, external)
@@ -117,7 +117,9 @@ contains
       if (ios /= 0 .or. length == first) return
       if (index(text, achar(0)) > 0) return
       deallocate (text)
-      allocate (character(len=length) :: text, stat=ios, errmsg=reason)
+      allocate (character(len=length) :: text, stat=ios)
+      ! gfortran's own word for it is of an allocated object
+      if (ios /= 0) reason = 'there is not enough memory for its '//to_text(length)//' bytes'
       if (ios == 0) read (unit, pos=1, iostat=ios, iomsg=reason) text
    end subroutine read_text
 

@@ -7,7 +7,8 @@ module atrito_paths
                             forget_path
    implicit none (type, external)
    private
-   public :: file_exists, is_folder, may_write, make_folder, remove_folders, remove_file, remove_empty_folder, check_folder
+   public :: file_exists, is_folder, may_write, make_folder, remove_folders, remove_file, remove_empty_folder, check_folder, &
+             nearest_folder
 
    !> What keeps a run from writing into a folder (judge_folder).
    integer, parameter :: NOTHING = 0, IS_MISSING = 1, IS_BELOW_A_FILE = 2, NOT_READABLE = 3
@@ -109,6 +110,15 @@ contains
          call set_status(status, STATUS_FILE, path//': the folder cannot be written into')
       end if
    end subroutine check_rights
+
+   !> A folder, or the nearest one above it that is there.
+   recursive function nearest_folder(path) result(folder)
+      character(len=*), intent(in) :: path
+      character(len=:), allocatable :: folder
+
+      folder = path
+      if (.not. is_folder(path) .and. path /= '.' .and. path /= '/') folder = nearest_folder(parent_of(path))
+   end function nearest_folder
 
    function parent_of(path) result(parent)
       character(len=*), intent(in) :: path

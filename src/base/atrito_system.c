@@ -23,7 +23,10 @@
 #include <time.h>
 #include <unistd.h>
 #ifdef __linux__
+#include <stdio_ext.h>
 #include <sys/prctl.h>
+#else
+#define __fpurge fpurge
 #endif
 #ifdef __GLIBC__
 #include <malloc.h>
@@ -103,6 +106,44 @@ int atrito_write_text(void *file, const char *text, size_t length) { return fwri
 int atrito_write_line(void *file, const char *text, size_t length) {
    return fwrite(text, 1, length, file) == length && putc('\n', file) != EOF;
 }
+
+/* A file without a name, on the disk of a folder, to be written and read: it is gone with the process, however that ends. NULL:
+ * there is none. Programs that this one starts do not inherit it. */
+void *atrito_open_nameless(const char *folder) {
+   char path[4096];
+   int file = -1;
+
+#ifdef O_TMPFILE
+   file = open(folder, O_TMPFILE | O_RDWR | O_CLOEXEC, 0600);
+#endif
+   if (file < 0 && snprintf(path, sizeof path, "%s/.atrito-XXXXXX", folder) < (int)sizeof path) {
+      file = mkostemp(path, O_CLOEXEC);             /* network disks know no files without names */
+      if (file >= 0)
+         unlink(path);
+   }
+   if (file < 0)
+      return NULL;
+   FILE *stream = fdopen(file, "w+b");
+   if (!stream)
+      close(file);
+   return stream;
+}
+
+/* The place in the file that is read or written next; -1: it is not known. */
+int64_t atrito_place_in_file(void *file) { return ftello(file); }
+
+/* Goes to a place. What was written is handed to the system. 1: done; else what could not be written is given up. */
+int atrito_go_to_place(void *file, int64_t place) {
+   if (fflush(file) == 0)
+      return fseeko(file, place, SEEK_SET) == 0;
+   __fpurge(file);
+   clearerr(file);
+   return 0;
+}
+
+int atrito_write_bytes(void *file, const void *bytes, size_t length) { return fwrite(bytes, 1, length, file) == length; }
+
+int atrito_read_bytes(void *file, void *bytes, size_t length) { return fread(bytes, 1, length, file) == length; }
 
 int atrito_close_file(void *file) { return fclose(file) == 0; }
 
@@ -533,6 +574,54 @@ double atrito_processor_seconds(void) {
 int64_t atrito_peak_memory(void) {
    struct rusage use;
    return getrusage(RUSAGE_SELF, &use) == 0 ? (int64_t)use.ru_maxrss * 1024 : 0;
+}
+
+/* Whether so many bytes of address space can be had now, in one piece. */
+int atrito_has_address_space(int64_t bytes) {
+   void *space = mmap(NULL, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+   if (space == MAP_FAILED)
+      return 0;
+   munmap(space, bytes);
+   return 1;
+}
+
+/* What a thread takes of the address space for its stack. */
+int64_t atrito_stack_of_thread(void) {
+   pthread_attr_t attributes;
+   size_t size = 0;
+   if (pthread_attr_init(&attributes) != 0)
+      return 0;
+   pthread_attr_getstacksize(&attributes, &size);
+   pthread_attr_destroy(&attributes);
+   return (int64_t)size;
+}
+
+static void *wait_for_all(void *gate) {
+   pthread_mutex_lock(gate);
+   pthread_mutex_unlock(gate);
+   return NULL;
+}
+
+/* How many threads there can be at a time beside this one, up to so many: they are made, and end at once. */
+int atrito_count_threads(int most) {
+   pthread_mutex_t gate = PTHREAD_MUTEX_INITIALIZER;
+   pthread_t *threads = calloc(most, sizeof *threads);
+   int n = 0;
+
+   pthread_mutex_lock(&gate);
+   while (threads && n < most && pthread_create(&threads[n], NULL, wait_for_all, &gate) == 0)
+      n++;
+   pthread_mutex_unlock(&gate);
+   for (int i = 0; i < n; i++)
+      pthread_join(threads[i], NULL);
+   free(threads);
+   return n;
+}
+
+/* The stack that the program may have, in bytes; -1: there is no limit. */
+int64_t atrito_stack_limit(void) {
+   struct rlimit limit;
+   return getrlimit(RLIMIT_STACK, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY ? (int64_t)limit.rlim_cur : -1;
 }
 
 /* What `ulimit -v` allows [bytes]; -1: no limit. */

@@ -7,12 +7,14 @@ module atrito_system
    private
    public :: c_is_folder, c_may_write, c_judge_folder, c_make_folder, c_remove_file, c_remove_folder, c_rename, c_true_path
    public :: c_is_terminal, c_file_length, c_create_file, c_write_line, c_write_text, c_close_file, c_settle_file, c_append_line
+   public :: c_open_nameless, c_place_in_file, c_go_to_place, c_write_bytes, c_read_bytes
    public :: c_open_folder, c_close_folder, c_is_same_folder, c_lock_folder
    public :: guard_interrupts, hold_interrupts, release_interrupts, note_path, forget_path, guard_exit, release_exit
    public :: terminate, be_rank, forgive_faults
    public :: c_begin_worker, c_end_worker, await_workers, c_run_command, c_share_memory, find_routine
    public :: worker_end, end_with_maker, process_number, maker_number, pause_for, get_shared, set_shared, &
              swap_shared
+   public :: c_has_address_space, c_count_threads, stack_of_thread, stack_limit
    public :: processor_seconds, peak_memory, address_space_limit, keep_freed_memory, reusable_memory
    public :: c_suspend_halting, c_restore_halting
 
@@ -37,6 +39,11 @@ module atrito_system
       integer(c_int64_t) function ask_bytes() bind(C)
          import :: c_int64_t
       end function ask_bytes
+      integer(c_int) function pass_bytes(file, bytes, length) bind(C)
+         import :: c_int, c_ptr, c_size_t
+         type(c_ptr), value :: file, bytes
+         integer(c_size_t), value :: length
+      end function pass_bytes
       integer(c_int) function write_to(file, text, length) bind(C)
          import :: c_char, c_int, c_ptr, c_size_t
          type(c_ptr), value :: file
@@ -52,6 +59,8 @@ module atrito_system
    procedure(act_on_path), bind(C, name='atrito_remove_folder') :: c_remove_folder
    procedure(write_to), bind(C, name='atrito_write_line') :: c_write_line
    procedure(write_to), bind(C, name='atrito_write_text') :: c_write_text
+   procedure(pass_bytes), bind(C, name='atrito_write_bytes') :: c_write_bytes
+   procedure(pass_bytes), bind(C, name='atrito_read_bytes') :: c_read_bytes
    procedure(ask_path), bind(C, name='atrito_open_folder') :: c_open_folder
    procedure(ask_path), bind(C, name='atrito_settle_file') :: c_settle_file
    procedure(take_number), bind(C, name='atrito_close_folder') :: c_close_folder
@@ -74,6 +83,8 @@ module atrito_system
    procedure(ask_path), bind(C, name='atrito_run_command') :: c_run_command
    procedure(ask_bytes), bind(C, name='atrito_peak_memory') :: peak_memory
    procedure(ask_bytes), bind(C, name='atrito_address_space_limit') :: address_space_limit
+   procedure(ask_bytes), bind(C, name='atrito_stack_of_thread') :: stack_of_thread
+   procedure(ask_bytes), bind(C, name='atrito_stack_limit') :: stack_limit
    procedure(act), bind(C, name='atrito_keep_freed_memory') :: keep_freed_memory
    procedure(ask_bytes), bind(C, name='atrito_reusable_memory') :: reusable_memory
 
@@ -82,6 +93,14 @@ module atrito_system
          import :: c_int
          integer(c_int), value :: file              !< 1: standard output, 2: standard error
       end function c_is_terminal
+      integer(c_int) function c_has_address_space(bytes) bind(C, name='atrito_has_address_space')
+         import :: c_int, c_int64_t
+         integer(c_int64_t), value :: bytes
+      end function c_has_address_space
+      integer(c_int) function c_count_threads(most) bind(C, name='atrito_count_threads')
+         import :: c_int
+         integer(c_int), value :: most
+      end function c_count_threads
       integer(c_int) function c_make_folder(path, is_noted) bind(C, name='atrito_make_folder')
          import :: c_char, c_int
          character(kind=c_char), intent(in) :: path(*)
@@ -105,6 +124,19 @@ module atrito_system
          import :: c_char, c_ptr
          character(kind=c_char), intent(in) :: path(*)
       end function c_create_file
+      type(c_ptr) function c_open_nameless(folder) bind(C, name='atrito_open_nameless')
+         import :: c_char, c_ptr
+         character(kind=c_char), intent(in) :: folder(*)
+      end function c_open_nameless
+      integer(c_int64_t) function c_place_in_file(file) bind(C, name='atrito_place_in_file')
+         import :: c_int64_t, c_ptr
+         type(c_ptr), value :: file
+      end function c_place_in_file
+      integer(c_int) function c_go_to_place(file, place) bind(C, name='atrito_go_to_place')
+         import :: c_int, c_int64_t, c_ptr
+         type(c_ptr), value :: file
+         integer(c_int64_t), value :: place
+      end function c_go_to_place
       integer(c_int) function c_close_file(file) bind(C, name='atrito_close_file')
          import :: c_int, c_ptr
          type(c_ptr), value :: file

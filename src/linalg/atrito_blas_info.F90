@@ -6,11 +6,12 @@
 module atrito_blas_info
    use, intrinsic :: iso_c_binding, only: c_char, c_int, c_null_char, c_ptr, c_associated, c_f_pointer
    use atrito_files, only: read_system_line
-   use atrito_kinds, only: ip
+   use atrito_kinds, only: ip, lp
    use atrito_lapack, only: ilaver
    use atrito_strings, only: to_text
    implicit none (type, external)
    private
+   public :: blas_buffer_bytes, claim_blas_buffers
    public :: blas_name, lapack_version, is_reference_blas, set_blas_threads, choose_blas_kernels, kernels_with
 
 #ifdef ATRITO_OPENBLAS
@@ -28,6 +29,16 @@ module atrito_blas_info
       integer(c_int) function blas_thread_shutdown() bind(C, name='blas_thread_shutdown_')
          import :: c_int
       end function blas_thread_shutdown
+#endif
+#ifdef ATRITO_BLAS_MEMORY
+      type(c_ptr) function blas_memory_alloc(place) bind(C, name='blas_memory_alloc')
+         import :: c_int, c_ptr
+         integer(c_int), value :: place
+      end function blas_memory_alloc
+      subroutine blas_memory_free(buffer) bind(C, name='blas_memory_free')
+         import :: c_ptr
+         type(c_ptr), value :: buffer
+      end subroutine blas_memory_free
 #endif
 #ifdef ATRITO_BLAS_KERNELS
       subroutine gotoblas_dynamic_init() bind(C, name='gotoblas_dynamic_init')
@@ -94,6 +105,32 @@ contains
       if (n < 1) return
 #endif
    end subroutine set_blas_threads
+
+   !> Address space that BLAS takes for each thread that calls it, at its first call [bytes]. OpenBLAS asks for it again and again
+   !> where it is not there, for ever: whoever has a limit has to ask first. On some processors it is less; none has more.
+   pure integer(lp) function blas_buffer_bytes()
+      integer(lp), parameter :: OF_OPENBLAS = 2_lp**27 + 2_lp**16
+
+      blas_buffer_bytes = merge(OF_OPENBLAS, 0_lp, HAS_OPENBLAS)
+   end function blas_buffer_bytes
+
+   !> Has BLAS take the buffers of so many threads now, when it is known that they can be had; they stay its own.
+   subroutine claim_blas_buffers(n)
+      integer(ip), intent(in) :: n
+#ifdef ATRITO_BLAS_MEMORY
+      type(c_ptr) :: buffers(n)
+      integer(ip) :: i
+
+      do i = 1, n
+         buffers(i) = blas_memory_alloc(0_c_int)
+      end do
+      do i = 1, n
+         call blas_memory_free(buffers(i))
+      end do
+#else
+      if (n < 1) return
+#endif
+   end subroutine claim_blas_buffers
 
    !> Has OpenBLAS take the kernels of an earlier processor with the same instructions, where it does not know this one and takes
    !> its oldest, which are half as fast. Who has set OPENBLAS_CORETYPE has chosen. Before BLAS is called, and by one thread.

@@ -7,7 +7,7 @@ module atrito_results
    private
    public :: results_t, contact_result_t, iteration_t, body_result_t, scene_t, pair_scene_t, balance_t, unsettled_t
    public :: body_motion_t, rigid_result_t, joint_t, cut_force_t, extreme_t, history_t, history_row_t, ending_t, last_frame
-   public :: observed_t, observed_list_t
+   public :: observed_t, observed_list_t, frame_store_t, put_aside, view_frame
    public :: POINT_OPEN, POINT_STICK, POINT_SLIP
 
    integer(ip), parameter :: POINT_OPEN = 0, POINT_STICK = 1, POINT_SLIP = 2   !< column status of contact.tab
@@ -231,9 +231,38 @@ module atrito_results
       character(len=:), allocatable :: reason       !< in words
    end type ending_t
 
+   !> Who keeps the frames of a history out of the memory: how is not known here.
+   type, abstract :: frame_store_t
+      logical :: has_failed = .false.               !< a frame did not come back
+   contains
+      procedure(put_frame), deferred :: put
+      procedure(get_frame), deferred :: get
+   end type frame_store_t
+
+   abstract interface
+      !> Takes frame i, which comes behind frame i - 1. done: else there is no room, and it has to stay where it is.
+      subroutine put_frame(self, i, frame, done)
+         import :: frame_store_t, results_t, ip
+         class(frame_store_t), intent(inout) :: self
+         integer(ip), intent(in) :: i
+         type(results_t), intent(inout) :: frame    !< is not changed
+         logical, intent(out) :: done
+      end subroutine put_frame
+
+      !> Shows frame i until it is asked again. Not associated: it did not come back.
+      subroutine get_frame(self, i, frame)
+         import :: frame_store_t, results_t, ip
+         class(frame_store_t), intent(inout), target :: self
+         integer(ip), intent(in) :: i
+         type(results_t), pointer, intent(out) :: frame
+      end subroutine get_frame
+   end interface
+
    !> What was found of a history: the increments that are printed, and a row of every increment and pair.
    type :: history_t
       type(results_t), allocatable :: frames(:)     !< in the order of time; of a run that ended well the last is its end
+      class(frame_store_t), pointer :: store => null() !< not associated: all frames are whole
+      integer(ip) :: n_stored = 0                   !< the first frames: here are their numbers, view_frame shows their fields
       type(history_row_t), allocatable :: rows(:)
       type(iteration_t), allocatable :: iterations(:) !< of all increments
       type(observed_list_t) :: observed
@@ -249,5 +278,59 @@ contains
 
       last_frame = size(history%frames, kind=ip)
    end function last_frame
+
+   !> Hands a frame to the store, where there is one, and keeps its numbers. One that is not taken stays whole, and all behind it.
+   subroutine put_aside(i, history)
+      integer(ip), intent(in) :: i
+      type(history_t), intent(inout) :: history
+      logical :: done
+
+      if (.not. associated(history%store) .or. history%n_stored /= i - 1) return
+      call history%store%put(i, history%frames(i), done)
+      if (.not. done) return
+      call drop_fields(history%frames(i))
+      history%n_stored = i
+   end subroutine put_aside
+
+   pure subroutine drop_fields(frame)
+      type(results_t), intent(inout) :: frame
+
+      frame%scene = scene_t()
+      if (allocated(frame%verdict)) deallocate (frame%verdict)
+      if (allocated(frame%u)) deallocate (frame%u)
+      if (allocated(frame%prescribed)) deallocate (frame%prescribed)
+      if (allocated(frame%reaction)) deallocate (frame%reaction)
+      if (allocated(frame%contact)) deallocate (frame%contact)
+      if (allocated(frame%row_x)) deallocate (frame%row_x)
+      if (allocated(frame%row_force)) deallocate (frame%row_force)
+      if (allocated(frame%stress_element)) deallocate (frame%stress_element)
+      if (allocated(frame%stress_point)) deallocate (frame%stress_point)
+      if (allocated(frame%stress_x)) deallocate (frame%stress_x)
+      if (allocated(frame%stress)) deallocate (frame%stress)
+      if (allocated(frame%nodal_stress)) deallocate (frame%nodal_stress)
+      if (allocated(frame%element_error)) deallocate (frame%element_error)
+      if (allocated(frame%iterations)) deallocate (frame%iterations)
+      if (allocated(frame%unsettled)) deallocate (frame%unsettled)
+      if (allocated(frame%extremes)) deallocate (frame%extremes)
+      if (allocated(frame%bodies)) deallocate (frame%bodies)
+      if (allocated(frame%rigid)) deallocate (frame%rigid)
+      if (allocated(frame%joints)) deallocate (frame%joints)
+      if (allocated(frame%observed)) deallocate (frame%observed)
+      if (allocated(frame%cuts)) deallocate (frame%cuts)
+   end subroutine drop_fields
+
+   !> Shows a whole frame, until the next one is shown. The last is always there.
+   subroutine view_frame(history, i, frame)
+      type(history_t), intent(in), target :: history
+      integer(ip), intent(in) :: i
+      type(results_t), pointer, intent(out) :: frame
+
+      frame => history%frames(i)
+      if (i > history%n_stored) return
+      call history%store%get(i, frame)
+      if (associated(frame)) return
+      history%store%has_failed = .true.             ! write_results tells it; what is shown instead has the right sizes
+      frame => history%frames(last_frame(history))
+   end subroutine view_frame
 
 end module atrito_results

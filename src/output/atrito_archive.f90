@@ -6,12 +6,17 @@
 !> no more than a few. Before each value stands a number that is made of its name and kind, and the extents of arrays, so reading
 !> that does not agree with what was written is found at the first value. Reals come back bit by bit. Arrays and strings may be
 !> unallocated. The first failure is kept until close_archive; after it reading gives unallocated arrays, zeros and blanks.
+!>
+!> What the same process reads again goes one value behind the other into a file without a name (spool_archive): nothing of it is
+!> gathered first, and a part is what lies between a place and the next.
 module atrito_archive
    use atrito_hdf5_arrays, only: hdf5_arrays_t, create_arrays, open_arrays, put_list, get_list, outcome_of, close_arrays
    use atrito_kinds, only: ip, lp, wp
+   use atrito_spool, only: spool_t, open_spool, place_of, go_to, give_up_rest, put_values, get_values, close_spool
    use atrito_status, only: status_t, set_status, is_ok, STATUS_FILE
    implicit none (type, external)
    private
+   public :: spool_archive, write_at, read_at, place_in, forgive_writing, close_spooled
    public :: archive_t, create_archive, open_archive, begin_part, end_part, exchange, exchange_vector, exchange_numbers, &
              exchange_word, exchange_length, demand, is_sound, close_archive
 
@@ -20,6 +25,8 @@ module atrito_archive
       character(len=:), allocatable :: path          !< for messages
       type(status_t) :: status                       !< first failure
       type(hdf5_arrays_t), private :: file
+      logical, private :: is_spooled = .false.
+      type(spool_t), private :: spool
       character(len=:), allocatable, private :: part
       real(wp), allocatable, private :: reals(:)     !< of the part
       integer(lp), allocatable, private :: longs(:)
@@ -60,6 +67,65 @@ contains
       call open_arrays(path, archive%file)
       call empty_part(archive)
    end subroutine open_archive
+
+   !> An archive without a name on the disk of a folder, or of the nearest one above it. Where there can be none it is not sound.
+   subroutine spool_archive(folder, archive)
+      character(len=*), intent(in) :: folder
+      type(archive_t), intent(out) :: archive
+
+      archive%is_spooled = .true.
+      archive%path = folder
+      archive%part = ''
+      call open_spool(folder, archive%spool)
+      call note_outcome(archive)
+   end subroutine spool_archive
+
+   !> From now on what is exchanged is written, from a place on [bytes].
+   subroutine write_at(archive, place)
+      type(archive_t), intent(inout) :: archive
+      integer(lp), intent(in) :: place
+
+      archive%is_reading = .false.
+      call go_to(archive%spool, place)
+      call note_outcome(archive)
+   end subroutine write_at
+
+   !> From now on what is exchanged is read.
+   subroutine read_at(archive, place)
+      type(archive_t), intent(inout) :: archive
+      integer(lp), intent(in) :: place
+
+      call write_at(archive, place)
+      archive%is_reading = .true.
+   end subroutine read_at
+
+   !> Where a spooled archive is [bytes].
+   integer(lp) function place_in(archive)
+      type(archive_t), intent(in) :: archive
+
+      place_in = place_of(archive%spool)
+   end function place_in
+
+   !> What could not be written, for want of room, is given up; what stands before it can be read.
+   subroutine forgive_writing(archive)
+      type(archive_t), intent(inout) :: archive
+
+      call give_up_rest(archive%spool)
+      archive%status = status_t()
+   end subroutine forgive_writing
+
+   subroutine close_spooled(archive)
+      type(archive_t), intent(inout) :: archive
+
+      call close_spool(archive%spool)
+   end subroutine close_spooled
+
+   subroutine note_outcome(archive)
+      type(archive_t), intent(inout) :: archive
+
+      if (archive%spool%is_sound .or. .not. is_ok(archive%status)) return
+      call set_status(archive%status, STATUS_FILE, archive%path//': what was put aside there cannot be written or read')
+   end subroutine note_outcome
 
    subroutine empty_part(archive)
       type(archive_t), intent(inout) :: archive
@@ -184,6 +250,8 @@ contains
       integer, intent(in) :: kind
       integer(lp), intent(in) :: n
 
+      has_enough = archive%is_spooled                 ! its own words are believed
+      if (has_enough) return
       select case (kind)
       case (IS_REAL)
          has_enough = n <= size(archive%reals, kind=lp) - archive%n_reals
@@ -202,6 +270,13 @@ contains
       integer(lp), allocatable :: larger(:)
       integer(lp) :: next
 
+      if (archive%is_spooled) then
+         if (archive%is_reading) call get_values(archive%spool, values)
+         if (.not. archive%is_reading) call put_values(archive%spool, values)
+         call note_outcome(archive)
+         if (.not. is_ok(archive%status)) values = 0
+         return
+      end if
       next = archive%n_longs + size(values, kind=lp)
       if (archive%is_reading) then
          call demand(archive, next <= size(archive%longs, kind=lp), name)
@@ -226,6 +301,12 @@ contains
       real(wp), allocatable :: larger(:)
       integer(lp) :: next
 
+      if (archive%is_spooled) then
+         if (archive%is_reading) call get_values(archive%spool, values)
+         if (.not. archive%is_reading) call put_values(archive%spool, values)
+         call note_outcome(archive)
+         return
+      end if
       next = archive%n_reals + size(values, kind=lp)
       if (archive%is_reading) then
          values = archive%reals(archive%n_reals + 1:next)
@@ -247,6 +328,12 @@ contains
       character(len=:), allocatable :: larger
       integer(lp) :: next
 
+      if (archive%is_spooled) then
+         if (archive%is_reading) call get_values(archive%spool, text)
+         if (.not. archive%is_reading) call put_values(archive%spool, text)
+         call note_outcome(archive)
+         return
+      end if
       next = archive%n_text + len(text, kind=lp)
       if (archive%is_reading) then
          text = archive%text(archive%n_text + 1:next)
@@ -365,7 +452,9 @@ contains
       call exchange(archive, name//' is there', is_there)
       call exchange(archive, name, n)
       call demand(archive, n >= 0, name)
-      if (archive%is_reading) call demand(archive, n <= size(archive%longs, kind=lp) - archive%n_longs, name)
+      if (archive%is_reading .and. .not. archive%is_spooled) then
+         call demand(archive, n <= size(archive%longs, kind=lp) - archive%n_longs, name)
+      end if
       if (.not. (is_there .and. is_ok(archive%status))) n = -1
    end subroutine exchange_length
 

@@ -6,7 +6,7 @@ module atrito_frame_tables
    use atrito_plane_state, only: STRESS_NAMES
    use atrito_strings, only: string_t
    use atrito_model, only: model_t, requests_t, is_due
-   use atrito_results, only: results_t, history_t, contact_result_t, body_motion_t
+   use atrito_results, only: results_t, contact_result_t, body_motion_t
    use atrito_resultant_report, only: has_resultants, build_resultants
    use atrito_rigid_report, only: build_rigid_table
    use atrito_row_tables, only: has_rows, build_row_table
@@ -15,7 +15,7 @@ module atrito_frame_tables
                            add_words, clear_small, one_word
    implicit none (type, external)
    private
-   public :: due_frames, build_frame_table, stress_rows
+   public :: has_frame_rows, build_frame_table, stress_rows
 
    !> The reals of contact.tab, as copy_fields has them. The column status stands among them.
    integer, parameter :: BEFORE_STATUS = 8
@@ -27,26 +27,17 @@ module atrito_frame_tables
 
 contains
 
-   !> Places of the frames that have rows in a table: those whose step asks for it and that are due, and the last, whatever it is.
-   pure function due_frames(model, history, name) result(list)
+   !> Whether a frame has rows in a table: its step asks for them and they are due, or it is the last, whatever that is.
+   pure logical function has_frame_rows(model, frame, name, is_last) result(has)
       type(model_t), intent(in) :: model
-      type(history_t), intent(in) :: history
+      type(results_t), intent(in) :: frame
       character(len=*), intent(in) :: name
-      integer(ip), allocatable :: list(:)
-      logical :: is_in(size(history%frames))
-      integer(ip) :: i, n
+      logical, intent(in) :: is_last
 
-      n = size(history%frames, kind=ip)
-      do i = 1, n
-         associate (frame => history%frames(i))
-            is_in(i) = has_table(model, frame, name)
-            if (is_in(i) .and. i < n .and. .not. is_of_all(name)) then
-               is_in(i) = is_due(frequency_of(model%steps(frame%step)%requests, name), frame%increment, frame%ends_step)
-            end if
-         end associate
-      end do
-      list = pack([(i, i=1, n)], is_in)
-   end function due_frames
+      has = has_table(model, frame, name)
+      if (is_last .or. is_of_all(name) .or. .not. has) return
+      has = is_due(frequency_of(model%steps(frame%step)%requests, name), frame%increment, frame%ends_step)
+   end function has_frame_rows
 
    !> Whether a table has rows of every frame.
    pure logical function is_of_all(name)

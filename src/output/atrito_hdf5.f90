@@ -4,13 +4,14 @@
 !> A dataset is begun with its size and filled row by row; rows are collected into chunks, so no second copy of a field is made.
 !> The first failure is kept in the file until close_hdf5; later calls do nothing.
 module atrito_hdf5
-   use, intrinsic :: iso_c_binding, only: c_loc, c_null_char, c_ptr
+   use, intrinsic :: iso_c_binding, only: c_int, c_int64_t, c_loc, c_null_char, c_ptr
    use atrito_kinds, only: ip, wp
    use atrito_status, only: status_t, set_status, is_ok, STATUS_FILE
    use hdf5, only: hid_t, hsize_t, h5open_f, h5close_f, h5dont_atexit_f, h5eset_auto_f, h5fcreate_f, h5fclose_f, H5F_ACC_TRUNC_F, &
                    h5pcreate_f, h5pclose_f, h5pset_create_inter_group_f, h5pset_chunk_f, h5pset_shuffle_f, h5pset_deflate_f, &
-                   h5pset_obj_track_times_f, H5P_LINK_CREATE_F, H5P_DATASET_CREATE_F, h5screate_f, h5screate_simple_f, &
-                   h5sclose_f, h5sselect_hyperslab_f, H5S_SCALAR_F, H5S_SELECT_SET_F, h5dcreate_f, h5dwrite_f, h5dclose_f, &
+                   h5pset_obj_track_times_f, H5P_LINK_CREATE_F, H5P_FILE_ACCESS_F, H5P_DATASET_CREATE_F, h5screate_f, &
+                   h5screate_simple_f, h5sclose_f, h5sselect_hyperslab_f, H5S_SCALAR_F, H5S_SELECT_SET_F, h5dcreate_f, h5dwrite_f, &
+                   h5dclose_f, &
                    h5acreate_by_name_f, h5awrite_f, h5aclose_f, h5tcopy_f, h5tclose_f, h5tset_cset_f, H5T_CSET_UTF8_F, &
                    H5T_STRING, H5T_NATIVE_DOUBLE, H5T_NATIVE_INTEGER
    implicit none (type, external)
@@ -42,6 +43,15 @@ module atrito_hdf5
       module procedure put_text_attribute, put_integer_attribute
    end interface put_attribute
 
+   interface
+      !> Of the C library; its Fortran one does not have it.
+      integer(c_int) function h5pset_evict_on_close(access, is_so) bind(C, name='H5Pset_evict_on_close')
+         import :: c_int, c_int64_t
+         integer(c_int64_t), value :: access
+         integer(c_int), value :: is_so
+      end function h5pset_evict_on_close
+   end interface
+
 contains
 
    !> This build can write HDF5 files.
@@ -54,6 +64,7 @@ contains
       character(len=*), intent(in) :: path            !< where it is written
       character(len=*), intent(in) :: final_path      !< what messages call it
       type(hdf5_file_t), intent(out) :: file
+      integer(hid_t) :: access
       integer :: error
 
       file%final_path = final_path
@@ -64,8 +75,13 @@ contains
       if (.not. is_ok(file%status)) return
       ! its own error stack is of no use to anybody who did not write the calls
       call h5eset_auto_f(0, error)
-      call h5fcreate_f(path, H5F_ACC_TRUNC_F, file%id, error)
+      call h5pcreate_f(H5P_FILE_ACCESS_F, access, error)
+      call keep(file, error)
+      ! else the library keeps up to 32 MiB of datasets that are complete
+      if (h5pset_evict_on_close(int(access, c_int64_t), 1_c_int) < 0) call keep(file, -1)
+      call h5fcreate_f(path, H5F_ACC_TRUNC_F, file%id, error, access_prp=access)
       if (error < 0) call set_status(file%status, STATUS_FILE, final_path//': cannot be written')
+      call h5pclose_f(access, error)
    end subroutine open_hdf5
 
    !> Keeps the first failure.

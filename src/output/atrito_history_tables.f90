@@ -3,94 +3,65 @@ module atrito_history_tables
    use atrito_kinds, only: ip, wp
    use atrito_increments, only: all_iterations
    use atrito_number_text, only: trimmed_real
-   use atrito_results, only: results_t, history_t, history_row_t, iteration_t, observed_list_t
+   use atrito_results, only: results_t, history_t, history_row_t, iteration_t, last_frame, observed_list_t
    use atrito_strings, only: string_t, append_string, to_text
    use atrito_summary, only: pair_summary_t, quantity_t, scales_t, summarise_pair, pair_quantities, step_quantities, pair_count
    use atrito_table, only: table_t, begin_table, add_reals, add_integers, add_words, abs_is_below, ZERO_SHARE
    implicit none (type, external)
    private
-   public :: build_summary, build_history, build_iterations
+   public :: build_summary, join_remarks, build_history, build_iterations
 
-   !> A row of summary.tab, and what it belongs to.
-   type :: summary_row_t
-      integer(ip) :: step = 1, increment = 1, pair = 0
-      type(quantity_t) :: quantity
-   end type summary_row_t
+   !> Of quantities, in the order in which summary.tab has them.
+   character(len=8), parameter :: DIMENSIONS(5) = [character(len=8) :: 'L', 'L^2', 'F', 'F/L^2', 'F L']
 
 contains
 
-   !> A row a quantity: by frame the pairs, then the step as pair 0.
-   subroutine build_summary(history, scales, own, digits, table)
-      type(history_t), intent(in) :: history
-      type(scales_t), intent(in) :: scales          !< of the history
+   !> A row a quantity of a frame: the pairs, then the step as pair 0.
+   subroutine build_summary(frame, own, digits, table)
+      type(results_t), intent(in) :: frame
       type(scales_t), intent(in) :: own(:)          !< of each pair
       integer, intent(in) :: digits
       type(table_t), intent(out) :: table
-      type(summary_row_t), allocatable :: rows(:)
+      type(quantity_t), allocatable :: list(:)
+      integer(ip), allocatable :: pair(:)
       type(string_t), allocatable :: names(:), values(:)
       integer(ip) :: i, n
 
-      call collect_rows(history, scales, own, rows)
-      n = size(rows, kind=ip)
+      call list_quantities(frame, own, list, pair)
+      n = size(list, kind=ip)
       allocate (names(n), values(n))
       do i = 1, n
-         names(i)%s = trim(rows(i)%quantity%name)
-         values(i)%s = quantity_text(rows(i)%quantity, digits)
+         names(i)%s = trim(list(i)%name)
+         values(i)%s = quantity_text(list(i), digits)
       end do
       call begin_table(table, 'summary', 'a row a quantity, by pair; pair 0 is the step', n)
-      call add_integers(table, 'step', (rows%step))
-      call add_integers(table, 'pair', (rows%pair))
+      call add_integers(table, 'step', [frame%step])
+      call add_integers(table, 'pair', pair)
       call add_words(table, 'quantity', '-', names, on_the_left=.true.)
       call add_words(table, 'value', 'mixed', values, on_the_left=.false.)
-      call add_integers(table, 'increment', (rows%increment))
-      call describe_dimensions(table, rows%quantity)
+      call add_integers(table, 'increment', [frame%increment])
+      call describe_dimensions(table, list)
    end subroutine build_summary
 
-   subroutine collect_rows(history, scales, own, rows)
-      type(history_t), intent(in) :: history
-      type(scales_t), intent(in) :: scales, own(:)
-      type(summary_row_t), allocatable, intent(out) :: rows(:)
-      integer(ip) :: i, n, n_each, room
-
-      n_each = size(pair_quantities(pair_summary_t(), scales), kind=ip)
-      room = 0
-      do i = 1, size(history%frames, kind=ip)
-         room = room + n_each*pair_count(history%frames(i)) + size(step_quantities(history%frames(i)), kind=ip)
-      end do
-      allocate (rows(room))
-      n = 0
-      do i = 1, size(history%frames, kind=ip)
-         call add_frame(history%frames(i), own, rows, n)
-      end do
-   end subroutine collect_rows
-
-   !> The rows of a frame.
-   subroutine add_frame(frame, own, rows, n)
+   subroutine list_quantities(frame, own, list, pair)
       type(results_t), intent(in) :: frame
       type(scales_t), intent(in) :: own(:)
-      type(summary_row_t), intent(inout) :: rows(:)
-      integer(ip), intent(inout) :: n               !< rows there are
-      integer(ip) :: pair
+      type(quantity_t), allocatable, intent(out) :: list(:)
+      integer(ip), allocatable, intent(out) :: pair(:)
+      integer(ip) :: i, n, n_each
 
-      do pair = 1, pair_count(frame)
-         call add(pair_quantities(summarise_pair(frame%contact(pair)), own(pair)), pair)
-      end do
-      call add(step_quantities(frame), 0_ip)
-
-   contains
-
-      subroutine add(list, of_pair)
-         type(quantity_t), intent(in) :: list(:)
-         integer(ip), intent(in) :: of_pair
-         integer(ip) :: k
-
-         do k = 1, size(list, kind=ip)
-            rows(n + k) = summary_row_t(frame%step, frame%increment, of_pair, list(k))
+      n = pair_count(frame)
+      n_each = size(pair_quantities(pair_summary_t(), scales_t()), kind=ip)
+      associate (of_step => step_quantities(frame))
+         allocate (list(n*n_each + size(of_step)))
+         allocate (pair(size(list)), source=0_ip)
+         do i = 1, n
+            list((i - 1)*n_each + 1:i*n_each) = pair_quantities(summarise_pair(frame%contact(i)), own(i))
+            pair((i - 1)*n_each + 1:i*n_each) = i
          end do
-         n = n + size(list, kind=ip)
-      end subroutine add
-
-   end subroutine add_frame
+         list(n*n_each + 1:) = of_step
+      end associate
+   end subroutine list_quantities
 
    pure function quantity_text(quantity, digits) result(text)
       type(quantity_t), intent(in) :: quantity
@@ -110,19 +81,71 @@ contains
    pure subroutine describe_dimensions(table, list)
       type(table_t), intent(inout) :: table
       type(quantity_t), intent(in) :: list(:)
-      character(len=8), parameter :: DIMENSIONS(5) = [character(len=8) :: 'L', 'L^2', 'F', 'F/L^2', 'F L']
-      character(len=:), allocatable :: names
       integer :: i, j
 
       do i = 1, size(DIMENSIONS)
-         names = ''
          do j = 1, size(list)
-            if (list(j)%dimension /= DIMENSIONS(i)) cycle
-            if (index(names//' ', ' '//trim(list(j)%name)//' ') == 0) names = names//' '//trim(list(j)%name)
+            if (list(j)%dimension == DIMENSIONS(i)) call note_name(mark_of(i), trim(list(j)%name), table%remarks)
          end do
-         if (len(names) > 0) call append_string(table%remarks, '['//trim(DIMENSIONS(i))//']:'//names)
       end do
    end subroutine describe_dimensions
+
+   pure function mark_of(i) result(mark)
+      integer, intent(in) :: i                      !< place in DIMENSIONS
+      character(len=:), allocatable :: mark
+
+      mark = '['//trim(DIMENSIONS(i))//']:'
+   end function mark_of
+
+   !> Puts a name behind its dimension, once.
+   pure subroutine note_name(mark, name, remarks)
+      character(len=*), intent(in) :: mark, name
+      type(string_t), allocatable, intent(inout) :: remarks(:)
+      integer :: k
+
+      do k = 1, size(remarks)
+         if (index(remarks(k)%s, mark//' ') /= 1) cycle
+         if (index(remarks(k)%s//' ', ' '//name//' ') == 0) remarks(k)%s = remarks(k)%s//' '//name
+         return
+      end do
+      call append_string(remarks, mark//' '//name)
+   end subroutine note_name
+
+   !> The remarks of summaries as one: of each dimension the names in the order in which they come.
+   subroutine join_remarks(remarks, more)
+      type(string_t), allocatable, intent(inout) :: remarks(:) !< not allocated: none so far
+      type(string_t), intent(in) :: more(:)
+      type(string_t), allocatable :: before(:)
+      integer :: i
+
+      allocate (before(0))
+      if (allocated(remarks)) before = remarks
+      if (allocated(remarks)) deallocate (remarks)
+      allocate (remarks(0))
+      do i = 1, size(DIMENSIONS)
+         call take(before)
+         call take(more)
+      end do
+
+   contains
+
+      subroutine take(lines)
+         type(string_t), intent(in) :: lines(:)
+         character(len=:), allocatable :: rest
+         integer :: k, blank
+
+         do k = 1, size(lines)
+            if (index(lines(k)%s, mark_of(i)//' ') /= 1) cycle
+            rest = lines(k)%s(len(mark_of(i)) + 2:)//' '
+            do while (len(rest) > 0)
+               blank = index(rest, ' ')
+               call note_name(mark_of(i), rest(:blank - 1), remarks)
+               rest = rest(blank + 1:)
+            end do
+         end do
+      end subroutine take
+
+   end subroutine join_remarks
 
    !> A row an increment and pair, and what is observed; without a pair a row an increment with what is observed.
    subroutine build_history(history, length, table)
@@ -167,7 +190,7 @@ contains
       type(table_t), intent(inout) :: table
       integer :: i
 
-      associate (named => history%frames(1)%observed)
+      associate (named => history%frames(last_frame(history))%observed)
          do i = 1, size(named)
             call add_reals(table, trim(named(i)%name), 'mixed', history%observed%values(i, place), 0.0_wp)
          end do

@@ -10,11 +10,11 @@ module atrito_listing
    use atrito_system, only: peak_memory
    use atrito_timers, only: phase_time_t, get_phases
    use atrito_extreme_report, only: describe_extremes
-   use atrito_frame_tables, only: due_frames
+   use atrito_frame_tables, only: has_frame_rows
    use atrito_increments, only: increment_t, list_increments, has_history, increment_name, ending_text, time_text
    use atrito_libraries, only: library_t, list_libraries, USED, NOT_USED
    use atrito_model, only: model_t
-   use atrito_results, only: unsettled_t, results_t, history_t, scene_t, balance_t, iteration_t, last_frame
+   use atrito_results, only: unsettled_t, results_t, history_t, scene_t, balance_t, iteration_t, last_frame, view_frame
    use atrito_page, only: page_t, begin_page, add_line, add_blank, add_rule, add_heading, add_entry, add_paragraph, left, right, &
                           number, bytes
    use atrito_model_report, only: describe_model
@@ -23,7 +23,7 @@ module atrito_listing
    use atrito_rigid_report, only: describe_rigid_bodies
    use atrito_scene_report, only: describe_needs, describe_bodies, describe_pairs
    use atrito_summary, only: quantity_t, scales_t, summarise_pair, pair_quantities, step_quantities, measure_history, &
-                             pair_scales, pair_name
+                             pair_name
    use atrito_table, only: ZERO_SHARE
    implicit none (type, external)
    private
@@ -63,6 +63,7 @@ contains
       type(page_t), intent(out) :: page
       type(string_t), intent(in), optional :: pictures(:)    !< that are drawn after the listing, names without ending
       type(scales_t) :: scales
+      type(scales_t), allocatable :: own(:)
 
       call begin_page(page, WIDTH)
       call add_title(page, model, history)
@@ -79,8 +80,8 @@ contains
          if (has_history(model, history)) call add_increments(page, history)
          call add_iterations(page, last)
          call add_heading(page, '5  CONTACT')
-         scales = measure_history(model, history)
-         call add_contact(page, model, history, scales)
+         call measure_history(model, history, scales, own)
+         call add_contact(page, model, history, own)
          call describe_rows(page, model, last)
          call add_heading(page, '6  REACTIONS AND EQUILIBRIUM')
          if (has_history(model, history)) call add_line(page, '   at the end: '//frame_name(last))
@@ -291,27 +292,26 @@ contains
    end function iteration_line
 
    !> The pairs of each increment whose contact is printed.
-   subroutine add_contact(page, model, history, scales)
+   subroutine add_contact(page, model, history, own)
       type(page_t), intent(inout) :: page
       type(model_t), intent(in) :: model
-      type(history_t), intent(in) :: history
-      type(scales_t), intent(in) :: scales           !< of the history
-      type(scales_t), allocatable :: own(:)
-      integer(ip), allocatable :: due(:)
-      integer :: i
+      type(history_t), intent(in), target :: history
+      type(scales_t), intent(in) :: own(:)           !< of each pair
+      type(results_t), pointer :: frame
+      logical :: is_told
+      integer(ip) :: i
 
-      due = due_frames(model, history, 'contact')
-      if (size(due) == 0) then
-         call add_line(page, '   no contact pair')
-         return
-      end if
-      own = pair_scales(scales, history)
-      do i = 1, size(due)
-         if (i > 1) call add_blank(page)
-         if (has_history(model, history)) call add_line(page, frame_name(history%frames(due(i))))
-         call add_pairs(page, history%frames(due(i)), own)
-         if (has_history(model, history)) call describe_rigid_bodies(page, history%frames(due(i)))
+      is_told = .false.
+      do i = 1, last_frame(history)
+         call view_frame(history, i, frame)
+         if (.not. has_frame_rows(model, frame, 'contact', i == last_frame(history))) cycle
+         if (is_told) call add_blank(page)
+         is_told = .true.
+         if (has_history(model, history)) call add_line(page, frame_name(frame))
+         call add_pairs(page, frame, own)
+         if (has_history(model, history)) call describe_rigid_bodies(page, frame)
       end do
+      if (.not. is_told) call add_line(page, '   no contact pair')
    end subroutine add_contact
 
    subroutine add_pairs(page, results, own)

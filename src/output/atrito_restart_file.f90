@@ -10,7 +10,7 @@ module atrito_restart_file
    use atrito_kinds, only: ip, wp
    use atrito_model, only: model_t
    use atrito_restart_state, only: restart_state_t, warm_start_t
-   use atrito_results, only: history_t, history_row_t, observed_list_t
+   use atrito_results, only: frame_store_t, results_t, history_t, history_row_t, observed_list_t, put_aside, view_frame
    use atrito_status, only: status_t, set_status, is_ok, STATUS_DECK, STATUS_FILE
    use atrito_strings, only: to_text
    use atrito_version, only: PROGRAM_NAME, PROGRAM_VERSION
@@ -40,13 +40,15 @@ contains
       type(file_set_t) :: set
       type(archive_t) :: archive
       character(len=:), allocatable :: path, kind, program
+      integer(ip), allocatable :: increments(:)
 
       call begin_files(set, folder, status)
       if (.not. is_ok(status)) return
       call reserve_file(set, name, path)
       call create_archive(path, folder//'/'//name, archive)
       call exchange_origin(archive, kind, program, fingerprint)
-      call exchange_findings(archive, history, state)
+      call exchange_findings(archive, history, state, increments)
+      call write_frames(archive, history)
       call close_archive(archive, status)
       if (is_ok(status)) then
          call commit_over(set, status)
@@ -58,16 +60,18 @@ contains
    !> Reads a file. status: STATUS_FILE when it cannot be read or is damaged; STATUS_DECK when it belongs to another program, to
    !> another deck or to another version of it. Whether what it holds can be of the deck is asked by who uses it (check_found and
    !> check_start in solve/).
-   subroutine read_restart(path, fingerprint, history, state, status)
+   subroutine read_restart(path, fingerprint, history, state, status, frames)
       character(len=*), intent(in) :: path
       type(fingerprint_t), intent(in) :: fingerprint    !< of the deck and the options
       type(history_t), intent(out) :: history
       type(restart_state_t), intent(out) :: state
       type(status_t), intent(out) :: status
+      class(frame_store_t), intent(inout), target, optional :: frames !< keeps all frames but the last
       type(archive_t) :: archive
       type(fingerprint_t) :: in_file
       type(status_t) :: closing
       character(len=:), allocatable :: kind, program, difference
+      integer(ip), allocatable :: increments(:)
 
       call judge_file(path, status)
       if (is_ok(status) .and. .not. file_exists(path)) call set_status(status, STATUS_FILE, path//': there is no such file')
@@ -76,10 +80,12 @@ contains
       call exchange_origin(archive, kind, program, in_file)
       if (is_sound(archive)) then
          difference = foreign_origin(kind, program)
-         if (len(difference) == 0) call exchange_findings(archive, history, state)
+         if (len(difference) == 0) call exchange_findings(archive, history, state, increments)
          if (len(difference) == 0 .and. is_sound(archive)) difference = find_difference(in_file, fingerprint, state%step)
          if (len(difference) > 0) call set_status(status, STATUS_DECK, path//': is no restart file of this deck: '//difference)
       end if
+      if (present(frames)) history%store => frames
+      if (is_ok(status) .and. is_sound(archive)) call read_frames(archive, increments, history)
       call close_archive(archive, closing)
       if (is_ok(status)) status = closing
    end subroutine read_restart
@@ -121,14 +127,13 @@ contains
       end if
    end function foreign_origin
 
-   !> The state and the rows of every increment, and each increment that is printed as a part of its own. (A list of the file costs
+   !> The state and the rows of every increment. Each increment that is printed is a part of its own. (A list of the file costs
    !> more than some thousand numbers in it.)
-   subroutine exchange_findings(archive, history, state)
+   subroutine exchange_findings(archive, history, state, increments)
       type(archive_t), intent(inout) :: archive
       type(history_t), intent(inout) :: history
       type(restart_state_t), intent(inout) :: state
-      integer(ip), allocatable :: frames(:)
-      integer(ip) :: i
+      integer(ip), allocatable, intent(out) :: increments(:) !< of the frames
 
       call begin_part(archive, 'state')
       call exchange_state(archive, state)
@@ -136,18 +141,44 @@ contains
       call exchange_row_list(archive, 'rows', history%rows)
       call exchange_iteration_list(archive, 'iterations', history%iterations)
       call exchange_observed_list(archive, history%observed)
-      if (allocated(history%frames)) frames = history%frames%increment
-      call exchange(archive, 'increments of frames', frames)
+      if (allocated(history%frames)) increments = history%frames%increment
+      call exchange(archive, 'increments of frames', increments)
       call end_part(archive)
-      if (.not. allocated(frames) .or. .not. is_sound(archive)) return
-      if (archive%is_reading) allocate (history%frames(size(frames)))
-      do i = 1, size(frames, kind=ip)
+   end subroutine exchange_findings
+
+   subroutine write_frames(archive, history)
+      type(archive_t), intent(inout) :: archive
+      type(history_t), intent(in), target :: history
+      type(results_t), pointer :: frame
+      integer(ip) :: i
+
+      if (.not. allocated(history%frames) .or. .not. is_sound(archive)) return
+      do i = 1, size(history%frames, kind=ip)
+         call view_frame(history, i, frame)
          call begin_part(archive, 'frame_'//to_text(i))
-         call exchange_results(archive, history%frames(i))
-         call demand(archive, history%frames(i)%increment == frames(i), 'increment')
+         call exchange_results(archive, frame)
          call end_part(archive)
       end do
-   end subroutine exchange_findings
+   end subroutine write_frames
+
+   !> Reads the frames; those before the last go to the store, where there is one.
+   subroutine read_frames(archive, increments, history)
+      type(archive_t), intent(inout) :: archive
+      integer(ip), allocatable, intent(in) :: increments(:) !< of the frames
+      type(history_t), intent(inout) :: history
+      integer(ip) :: i
+
+      if (.not. allocated(increments)) return
+      allocate (history%frames(size(increments)))
+      do i = 1, size(increments, kind=ip)
+         if (i > 1) call put_aside(i - 1, history)
+         call begin_part(archive, 'frame_'//to_text(i))
+         call exchange_results(archive, history%frames(i))
+         call demand(archive, history%frames(i)%increment == increments(i), 'increment')
+         call end_part(archive)
+         if (.not. is_sound(archive)) return
+      end do
+   end subroutine read_frames
 
    subroutine exchange_state(archive, state)
       type(archive_t), intent(inout) :: archive

@@ -4,13 +4,14 @@ module atrito_summary
    use atrito_kinds, only: ip, wp
    use atrito_strings, only: string_t, append_string
    use atrito_model, only: model_t
-   use atrito_results, only: results_t, history_t, scene_t, contact_result_t, observed_t, POINT_OPEN, POINT_STICK, POINT_SLIP
+   use atrito_results, only: results_t, history_t, scene_t, contact_result_t, observed_t, view_frame, &
+                             POINT_OPEN, POINT_STICK, POINT_SLIP
    use atrito_threads, only: is_shared
    implicit none (type, external)
    private
    public :: pair_summary_t, quantity_t, scales_t
    public :: summarise_pair, pair_quantities, step_quantities, quantity_names, measure_fields, scales_of_pair
-   public :: measure_history, pair_scales
+   public :: measure_history
    public :: pair_count, pair_name, body_count
 
    !> What the contact tractions of one pair come to.
@@ -239,34 +240,42 @@ contains
    end function scales_of_pair
 
    !> The scales of a history: what is rounding beside the largest value of any of its frames is rounding in all of them.
-   function measure_history(model, history) result(scales)
+   subroutine measure_history(model, history, scales, own)
       type(model_t), intent(in) :: model
-      type(history_t), intent(in) :: history
-      type(scales_t) :: scales
-      integer :: i
-
-      do i = 1, size(history%frames)
-         scales = larger(scales, measure_fields(model, history%frames(i)))
-      end do
-   end function measure_history
-
-   !> The scales of each pair's fields over all frames.
-   pure function pair_scales(scales, history) result(own)
-      type(scales_t), intent(in) :: scales           !< of the history
-      type(history_t), intent(in) :: history
-      type(scales_t), allocatable :: own(:)
-      type(scales_t) :: one
+      type(history_t), intent(in), target :: history
+      type(scales_t), intent(out) :: scales
+      type(scales_t), allocatable, intent(out) :: own(:) !< of each pair's fields
+      type(results_t), pointer :: frame
+      logical, allocatable :: is_bare(:)             !< a pair that has no points in some frame
       integer(ip) :: i, pair
 
-      allocate (own(pair_count(history%frames(1))))
-      do pair = 1, size(own, kind=ip)
-         own(pair) = scales_of_pair(scales, history%frames(1)%contact(pair))
-         do i = 2, size(history%frames, kind=ip)
-            one = scales_of_pair(scales, history%frames(i)%contact(pair))
-            own(pair) = larger(own(pair), one)
+      do i = 1, size(history%frames, kind=ip)
+         call view_frame(history, i, frame)
+         scales = larger(scales, measure_fields(model, frame))
+         if (i == 1) then
+            allocate (own(pair_count(frame)))
+            allocate (is_bare(size(own)), source=.false.)
+         end if
+         do pair = 1, size(own, kind=ip)
+            own(pair) = larger(own(pair), scales_of_pair(scales_t(), frame%contact(pair)))
+            is_bare(pair) = is_bare(pair) .or. frame%contact(pair)%n == 0
          end do
       end do
-   end function pair_scales
+      do pair = 1, size(own, kind=ip)
+         own(pair) = merge(larger(own(pair), scales), with_own(scales, own(pair)), is_bare(pair))
+      end do
+   end subroutine measure_history
+
+   !> The scales of all fields with those that a pair has of its own.
+   pure type(scales_t) function with_own(scales, own) result(both)
+      type(scales_t), intent(in) :: scales, own
+
+      both = scales
+      both%pressure = own%pressure
+      both%area = own%area
+      both%slip = own%slip
+      both%displacement = own%displacement
+   end function with_own
 
    pure type(scales_t) function larger(a, b)
       type(scales_t), intent(in) :: a, b

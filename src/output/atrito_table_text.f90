@@ -13,94 +13,112 @@ module atrito_table_text
                            CSV_ENDING, KIND_REAL, KIND_INTEGER, KIND_WORD
    implicit none (type, external)
    private
-   public :: write_table, write_table_set
+   public :: write_table, write_table_set, growing_table_t, measure_rows, open_table, put_table, close_table
 
    !> Rows that are made into text at a time: that of a wide table stays in the nearer part of the cache.
    integer(ip), parameter :: PIECE_ROWS = 256
    !> Pieces of a round for each thread: where there are many, a thread that is late matters little.
    integer(ip), parameter :: PIECES_OF_THREAD = 64
 
-   !> One table, or tables with the same columns whose rows follow each other in one file.
-   interface write_table
-      module procedure write_one_table, write_tables_as_one
-   end interface write_table
+   !> A table that is written piece by piece: tables of the same columns, the rows of which stand under one head. Each column is as
+   !> wide as the pieces that were measured before (measure_rows) need it, or else the first one that is written.
+   type :: growing_table_t
+      private
+      type(table_t) :: head                        !< without rows
+      type(text_file_t) :: file
+      logical :: is_csv = .false., has_top = .false.
+   end type growing_table_t
 
 contains
 
    !> Writes <name>.tab, or <name>.csv, into a set of files.
    !>
    !> status: STATUS_FILE when it could not be written.
-   subroutine write_one_table(set, table, origin, digits, status, is_csv)
+   subroutine write_table(set, table, origin, digits, status, is_csv)
       type(file_set_t), intent(inout) :: set
       type(table_t), intent(inout) :: table         !< its columns get their places
       type(origin_t), intent(in) :: origin
       integer, intent(in) :: digits                 !< significant digits, 6..17
       type(status_t), intent(out) :: status
       logical, intent(in), optional :: is_csv       !< left out: .false.
-      type(text_file_t) :: file
-      logical :: csv
+      type(growing_table_t) :: file
 
-      call open_table(set, table%name, file, csv, is_csv)
-      call widen_columns(table, digits)
-      call place_columns(table)
-      call write_top(file, table, origin, csv)
-      call write_rows(file, table, digits, csv)
-      call close_text(file, status)
-   end subroutine write_one_table
+      call open_table(set, table%name, file, is_csv)
+      call put_table(file, table, origin, digits)
+      call close_table(file, status)
+   end subroutine write_table
 
-   !> Writes tables of the same columns, >= 1 of them, as one: under the head of the first the rows of all.
-   !>
-   !> status: STATUS_FILE when it could not be written.
-   subroutine write_tables_as_one(set, tables, origin, digits, status, is_csv)
-      type(file_set_t), intent(inout) :: set
-      type(table_t), intent(inout) :: tables(:)     !< their columns get their places
-      type(origin_t), intent(in) :: origin
-      integer, intent(in) :: digits                 !< significant digits, 6..17
-      type(status_t), intent(out) :: status
-      logical, intent(in), optional :: is_csv       !< left out: .false.
-      type(text_file_t) :: file
-      logical :: csv
+   !> Gives the columns the room that a piece needs.
+   subroutine measure_rows(file, piece, digits)
+      type(growing_table_t), intent(inout) :: file
+      type(table_t), intent(inout) :: piece         !< its columns get their widths
+      integer, intent(in) :: digits
       integer :: i
 
-      call open_table(set, tables(1)%name, file, csv, is_csv)
-      do i = 1, size(tables)
-         call widen_columns(tables(i), digits)
+      call widen_columns(piece, digits)
+      if (.not. allocated(file%head%columns)) call take_head(piece, file%head)
+      do i = 1, size(piece%columns)
+         file%head%columns(i)%width = max(file%head%columns(i)%width, piece%columns(i)%width)
       end do
-      call even_widths(tables)
-      do i = 1, size(tables)
-         call place_columns(tables(i))
-      end do
-      call write_top(file, tables(1), origin, csv)
-      do i = 1, size(tables)
-         call write_rows(file, tables(i), digits, csv)
-      end do
-      call close_text(file, status)
-   end subroutine write_tables_as_one
+   end subroutine measure_rows
 
-   subroutine open_table(set, name, file, csv, is_csv)
+   pure subroutine take_head(table, head)
+      type(table_t), intent(in) :: table
+      type(table_t), intent(out) :: head
+      integer :: i
+
+      head%name = table%name
+      head%title = table%title
+      head%remarks = table%remarks
+      allocate (head%columns(size(table%columns)))
+      do i = 1, size(table%columns)
+         head%columns(i)%name = table%columns(i)%name
+         head%columns(i)%dimension = table%columns(i)%dimension
+         head%columns(i)%on_the_left = table%columns(i)%on_the_left
+      end do
+   end subroutine take_head
+
+   !> Opens the file of a table. What was measured for it stays.
+   subroutine open_table(set, name, file, is_csv)
       type(file_set_t), intent(inout) :: set
-      character(len=*), intent(in) :: name
-      type(text_file_t), intent(out) :: file
-      logical, intent(out) :: csv
+      character(len=*), intent(in) :: name          !< without its ending
+      type(growing_table_t), intent(inout) :: file
       logical, intent(in), optional :: is_csv       !< left out: .false.
 
-      csv = .false.
-      if (present(is_csv)) csv = is_csv
-      call open_text(set, name//merge(CSV_ENDING, TAB_ENDING, csv), file)
+      if (present(is_csv)) file%is_csv = is_csv
+      call open_text(set, name//merge(CSV_ENDING, TAB_ENDING, file%is_csv), file%file)
    end subroutine open_table
 
-   !> Each column becomes as wide in all tables as in the one where it needs most room.
-   pure subroutine even_widths(tables)
-      type(table_t), intent(inout) :: tables(:)
-      integer :: i, k, width
+   !> Writes the rows of a piece. A failure is kept in the file until close_table.
+   subroutine put_table(file, piece, origin, digits, remarks)
+      type(growing_table_t), intent(inout) :: file
+      type(table_t), intent(inout) :: piece         !< its columns get their places
+      type(origin_t), intent(in) :: origin
+      integer, intent(in) :: digits                 !< significant digits, 6..17
+      type(string_t), intent(in), optional :: remarks(:) !< of the whole table; left out: those of its first piece
+      integer :: i
 
-      do k = 1, size(tables(1)%columns)
-         width = maxval([(tables(i)%columns(k)%width, i=1, size(tables))])
-         do i = 1, size(tables)
-            tables(i)%columns(k)%width = width
-         end do
+      if (.not. file%has_top) then
+         if (.not. allocated(file%head%columns)) call measure_rows(file, piece, digits)
+         if (present(remarks)) file%head%remarks = remarks
+         call place_columns(file%head)
+         call write_top(file%file, file%head, origin, file%is_csv)
+         file%has_top = .true.
+      end if
+      do i = 1, size(piece%columns)
+         piece%columns(i)%width = file%head%columns(i)%width
       end do
-   end subroutine even_widths
+      call place_columns(piece)
+      call write_rows(file%file, piece, digits, file%is_csv)
+   end subroutine put_table
+
+   !> status: STATUS_FILE when it could not be written.
+   subroutine close_table(file, status)
+      type(growing_table_t), intent(inout) :: file
+      type(status_t), intent(out) :: status
+
+      call close_text(file%file, status)
+   end subroutine close_table
 
    !> Writes tables into a folder, all or none; those of the other form that stand there go. status: STATUS_FILE.
    subroutine write_table_set(folder, tables, origin, digits, status, is_csv)

@@ -10,13 +10,13 @@ module atrito_write_fields
    use atrito_files, only: file_set_t, text_file_t, reserve_file, open_text, put_line, close_text
    use atrito_mesh, only: mesh_t
    use atrito_model, only: model_t, is_due
-   use atrito_results, only: results_t, history_t, contact_result_t, last_frame
+   use atrito_results, only: results_t, history_t, contact_result_t, last_frame, view_frame
    use atrito_table, only: origin_t
    use atrito_frame_tables, only: stress_rows
    use atrito_increments, only: ending_text, time_text
    use atrito_write_tables, only: origin_of
    use atrito_hdf5, only: hdf5_file_t, open_hdf5, begin_dataset, put_row, put_attribute, close_hdf5
-   use atrito_xdmf, only: xdmf_grid_t, xdmf_frame_t, begin_grid, add_field, compose_xdmf, CENTRE_NODE, CENTRE_CELL
+   use atrito_xdmf, only: xdmf_grid_t, xdmf_frame_t, begin_grid, add_field, begin_xdmf, add_time, end_xdmf, CENTRE_NODE, CENTRE_CELL
    implicit none (type, external)
    private
    public :: write_fields, list_field_files
@@ -37,13 +37,17 @@ contains
    !> status: STATUS_FILE when one could not be written.
    subroutine write_fields(model, history, set, status)
       type(model_t), intent(in) :: model
-      type(history_t), intent(in) :: history
+      type(history_t), intent(in), target :: history
       type(file_set_t), intent(inout) :: set
       type(status_t), intent(out) :: status
       type(xdmf_grid_t), allocatable :: mesh_grids(:)
-      type(xdmf_frame_t), allocatable :: frames(:)
+      type(xdmf_frame_t) :: frame
+      type(results_t), pointer :: results
       type(hdf5_file_t) :: file
+      type(text_file_t) :: text
       type(string_t) :: names(2)
+      type(string_t), allocatable :: lines(:)
+      type(status_t) :: of_text
       character(len=:), allocatable :: path
       integer(ip), allocatable :: due(:)
       integer :: i
@@ -53,17 +57,37 @@ contains
       names = list_field_files(model)
       call reserve_file(set, names(1)%s, path)
       call open_hdf5(path, set%folder//'/'//names(1)%s, file)
+      call open_text(set, names(2)%s, text)
+      call begin_xdmf(PROGRAM_NAME//' '//PROGRAM_VERSION, warning_of(history), lines)
       call put_origin(file, model, history)
       call put_mesh(file, model%mesh, mesh_grids)
       call put_increments(file, history, due)
-      allocate (frames(size(due)))
       do i = 1, size(due)
-         frames(i)%grids = mesh_grids
-         call put_frame(file, model, history%frames(due(i)), frames(i))
+         call view_frame(history, due(i), results)
+         frame%grids = mesh_grids
+         call put_frame(file, model, results, frame)
+         call add_time(names(1)%s, frame, lines)
+         call flush_lines(lines, text)
       end do
+      call end_xdmf(lines)
+      call flush_lines(lines, text)
       call close_hdf5(file, status)
-      if (is_ok(status)) call write_xdmf(names, warning_of(history), frames, set, status)
+      call close_text(text, of_text)
+      if (is_ok(status)) status = of_text
    end subroutine write_fields
+
+   !> Writes lines, after which there are none.
+   subroutine flush_lines(lines, text)
+      type(string_t), allocatable, intent(inout) :: lines(:)
+      type(text_file_t), intent(inout) :: text
+      integer :: i
+
+      do i = 1, size(lines)
+         call put_line(text, lines(i)%s)
+      end do
+      deallocate (lines)
+      allocate (lines(0))
+   end subroutine flush_lines
 
    !> Places of the frames that are in the file: those whose step asks for fields and that are due, and the last, whatever it is.
    pure function due_frames(model, history) result(list)
@@ -468,23 +492,5 @@ contains
       end do
       if (present(grid)) call add_field(grid, path, 1_ip, .false., CENTRE_NODE)
    end subroutine put_integers
-
-   subroutine write_xdmf(names, warning, frames, set, status)
-      type(string_t), intent(in) :: names(:)           !< list_field_files
-      character(len=*), intent(in) :: warning
-      type(xdmf_frame_t), intent(in) :: frames(:)
-      type(file_set_t), intent(inout) :: set
-      type(status_t), intent(out) :: status
-      type(string_t), allocatable :: lines(:)
-      type(text_file_t) :: file
-      integer :: i
-
-      call compose_xdmf(PROGRAM_NAME//' '//PROGRAM_VERSION, warning, names(1)%s, frames, lines)
-      call open_text(set, names(2)%s, file)
-      do i = 1, size(lines)
-         call put_line(file, lines(i)%s)
-      end do
-      call close_text(file, status)
-   end subroutine write_xdmf
 
 end module atrito_write_fields

@@ -3,7 +3,7 @@ module atrito_write_results
    use atrito_as_run_names, only: as_run_name, mesh_copy_name
    use atrito_patched_text, only: write_patched
    use atrito_strings, only: string_t, append_string
-   use atrito_status, only: status_t, is_ok
+   use atrito_status, only: status_t, is_ok, set_status, STATUS_FILE
    use atrito_files, only: file_set_t, begin_files, end_files, file_exists
    use atrito_kinds, only: ip
    use atrito_timers, only: start_phase, stop_phase
@@ -47,6 +47,10 @@ contains
       ! these two tell the time, that of writing the tables included
       if (is_ok(status)) call write_timing(model, history, digits, set, status, is_csv)
       if (is_ok(status)) call write_listing(model, history, set, status, pictures)
+      if (associated(history%store) .and. is_ok(status)) then
+         if (history%store%has_failed) call set_status(status, STATUS_FILE, folder//': what was put aside there while it was '// &
+                                                       'solved cannot be read again')
+      end if
       call list_stale_files(model, folder, stale)
       call end_files(set, status, stale)
       if (.not. is_ok(status)) return

@@ -7,13 +7,13 @@ module atrito_write_tables
    use atrito_system, only: peak_memory
    use atrito_timers, only: phase_time_t, get_phases
    use atrito_model, only: model_t
-   use atrito_results, only: results_t, history_t, last_frame
-   use atrito_frame_tables, only: due_frames, build_frame_table
-   use atrito_history_tables, only: build_summary, build_history, build_iterations
+   use atrito_results, only: results_t, history_t, last_frame, view_frame
+   use atrito_frame_tables, only: has_frame_rows, build_frame_table
+   use atrito_history_tables, only: build_summary, join_remarks, build_history, build_iterations
    use atrito_increments, only: has_history, ending_text
-   use atrito_summary, only: scales_t, measure_history, pair_scales
+   use atrito_summary, only: scales_t, measure_history
    use atrito_table, only: table_t, origin_t, begin_table, add_reals, add_words, one_word, TAB_ENDING, CSV_ENDING
-   use atrito_table_text, only: write_table
+   use atrito_table_text, only: write_table, growing_table_t, measure_rows, open_table, put_table, close_table
    implicit none (type, external)
    private
    public :: write_tables, write_timing, list_table_files, origin_of, TABLE_NAMES
@@ -23,6 +23,13 @@ module atrito_write_tables
                                                               'history', 'nodes', 'reactions', 'stress', 'nodal_stress', 'bodies', &
                                                                     'rigid', 'joints', 'sections', 'ties', 'equations', 'springs', &
                                                                                                              'iterations', 'timing']
+
+   !> A table that gets its rows frame by frame.
+   type :: series_t
+      logical, allocatable :: is_due(:)             !< (frames) that have rows in it
+      type(string_t), allocatable :: remarks(:)     !< that all frames have a part in; not allocated: there are none
+      type(growing_table_t) :: file
+   end type series_t
 
    !> The comment lines at the top: of one result, or of a history.
    interface origin_of
@@ -67,11 +74,12 @@ contains
    end function origin_of_history
 
    !> Writes all tables of a run but timing.tab, which comes last: contact whenever there is a pair, history when there is one,
-   !> summary and iterations always, the rest when the deck asks.
+   !> summary and iterations always, the rest when the deck asks. The frames are shown one after the other: to be measured, to find
+   !> how wide the columns are, and to be written, each into all tables.
    !>
-   !> status: STATUS_FILE when one could not be written; the rest is not tried then.
+   !> status: STATUS_FILE when one could not be written.
    subroutine write_tables(model, history, digits, set, status, is_csv)
-      type(model_t), intent(in), target :: model
+      type(model_t), intent(in) :: model
       type(history_t), intent(in), target :: history
       integer, intent(in) :: digits                 !< significant digits, 6..17
       type(file_set_t), intent(inout) :: set
@@ -79,52 +87,122 @@ contains
       logical, intent(in), optional :: is_csv       !< left out: .false.
       type(scales_t) :: scales
       type(scales_t), allocatable :: own(:)
-      type(table_t), allocatable :: tables(:)
+      type(series_t) :: series(size(TABLE_NAMES))
+      type(results_t), pointer :: frame
+      type(status_t) :: of_file
       type(origin_t) :: origin
-      integer :: i
+      integer(ip) :: i
+      integer :: k
 
       origin = origin_of(model, history)
-      scales = measure_history(model, history)
-      own = pair_scales(scales, history)
-      do i = 1, size(TABLE_NAMES)
-         call build_tables(model, history, scales, own, trim(TABLE_NAMES(i)), digits, tables)
-         if (size(tables) == 0) cycle
-         call write_table(set, tables, origin, digits, status, is_csv)
-         if (.not. is_ok(status)) return
+      call measure_history(model, history, scales, own)
+      do i = 1, last_frame(history)
+         call view_frame(history, i, frame)
+         do k = 1, size(series)
+            call measure_series(model, frame, scales, own, trim(TABLE_NAMES(k)), digits, i, last_frame(history), series(k))
+         end do
+      end do
+      do k = 1, size(series)
+         if (is_ok(status)) call begin_series(model, history, scales, origin, trim(TABLE_NAMES(k)), digits, set, series(k), &
+                                              status, is_csv)
+      end do
+      do i = 1, merge(last_frame(history), 0_ip, is_ok(status))
+         call view_frame(history, i, frame)
+         do k = 1, size(series)
+            if (series(k)%is_due(i)) call put_frame(model, frame, scales, own, origin, trim(TABLE_NAMES(k)), digits, series(k))
+         end do
+      end do
+      do k = 1, size(series)
+         call close_table(series(k)%file, of_file)
+         if (is_ok(status)) status = of_file
       end do
    end subroutine write_tables
 
-   !> What a file holds: one table of all increments, or a table a frame that is due. None: it is not written, or not here.
-   subroutine build_tables(model, history, scales, own, name, digits, tables)
+   !> Notes whether a table has rows of a frame, and the room that they need.
+   subroutine measure_series(model, frame, scales, own, name, digits, i, n, series)
       type(model_t), intent(in), target :: model
-      type(history_t), intent(in), target :: history
+      type(results_t), intent(in), target :: frame
       type(scales_t), intent(in) :: scales, own(:)  !< of the history, of each pair
       character(len=*), intent(in) :: name
       integer, intent(in) :: digits
-      type(table_t), allocatable, intent(out) :: tables(:)
-      integer(ip), allocatable :: due(:)
-      integer :: i
+      integer(ip), intent(in) :: i, n               !< which frame of how many
+      type(series_t), intent(inout) :: series
+      type(table_t) :: piece
+
+      if (i == 1) allocate (series%is_due(n))
+      series%is_due(i) = .not. is_of_history(name)
+      if (series%is_due(i) .and. name /= 'summary') series%is_due(i) = has_frame_rows(model, frame, name, i == n)
+      if (n == 1 .or. .not. series%is_due(i)) return
+      call build_piece(model, frame, scales, own, name, digits, piece)
+      call measure_rows(series%file, piece, digits)
+      if (name == 'summary') call join_remarks(series%remarks, piece%remarks)
+   end subroutine measure_series
+
+   !> Opens a table that has rows of frames; one of the whole history is written.
+   subroutine begin_series(model, history, scales, origin, name, digits, set, series, status, is_csv)
+      type(model_t), intent(in) :: model
+      type(history_t), intent(in) :: history
+      type(scales_t), intent(in) :: scales
+      type(origin_t), intent(in) :: origin
+      character(len=*), intent(in) :: name
+      integer, intent(in) :: digits
+      type(file_set_t), intent(inout) :: set
+      type(series_t), intent(inout) :: series
+      type(status_t), intent(inout) :: status
+      logical, intent(in), optional :: is_csv
+      type(table_t) :: table
 
       select case (name)
       case ('timing')
-         allocate (tables(0))
+         return
       case ('history')
-         allocate (tables(merge(1, 0, has_rows(model, history))))
-         if (size(tables) > 0) call build_history(history, scales%length, tables(1))
-      case ('summary')
-         allocate (tables(1))
-         call build_summary(history, scales, own, digits, tables(1))
+         if (.not. has_rows(model, history)) return
+         call build_history(history, scales%length, table)
+         call write_table(set, table, origin, digits, status, is_csv)
       case ('iterations')
-         allocate (tables(1))
-         call build_iterations(history, tables(1))
+         call build_iterations(history, table)
+         call write_table(set, table, origin, digits, status, is_csv)
       case default
-         due = due_frames(model, history, name)
-         allocate (tables(size(due)))
-         do i = 1, size(due)
-            call build_frame_table(model, history%frames(due(i)), scales, own, name, tables(i))
-         end do
+         if (any(series%is_due)) call open_table(set, name, series%file, is_csv)
       end select
-   end subroutine build_tables
+   end subroutine begin_series
+
+   subroutine put_frame(model, frame, scales, own, origin, name, digits, series)
+      type(model_t), intent(in), target :: model
+      type(results_t), intent(in), target :: frame
+      type(scales_t), intent(in) :: scales, own(:)
+      type(origin_t), intent(in) :: origin
+      character(len=*), intent(in) :: name
+      integer, intent(in) :: digits
+      type(series_t), intent(inout) :: series
+      type(table_t) :: piece
+
+      call build_piece(model, frame, scales, own, name, digits, piece)
+      call put_table(series%file, piece, origin, digits, series%remarks)
+   end subroutine put_frame
+
+   !> The rows of a frame; they may point at the fields of model and frame.
+   subroutine build_piece(model, frame, scales, own, name, digits, piece)
+      type(model_t), intent(in), target :: model
+      type(results_t), intent(in), target :: frame
+      type(scales_t), intent(in) :: scales, own(:)
+      character(len=*), intent(in) :: name
+      integer, intent(in) :: digits
+      type(table_t), intent(out) :: piece
+
+      if (name == 'summary') then
+         call build_summary(frame, own, digits, piece)
+      else
+         call build_frame_table(model, frame, scales, own, name, piece)
+      end if
+   end subroutine build_piece
+
+   !> Tables of the whole history, and that of the times, which comes last.
+   pure logical function is_of_history(name)
+      character(len=*), intent(in) :: name
+
+      is_of_history = any(name == [character(len=10) :: 'history', 'iterations', 'timing'])
+   end function is_of_history
 
    !> Whether there is a history to be told of.
    pure logical function has_rows(model, history)

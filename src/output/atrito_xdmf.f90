@@ -4,7 +4,8 @@ module atrito_xdmf
    use atrito_strings, only: string_t, append_string, to_text
    implicit none (type, external)
    private
-   public :: xdmf_grid_t, xdmf_field_t, xdmf_frame_t, begin_grid, add_field, compose_xdmf, CENTRE_NODE, CENTRE_CELL
+   public :: xdmf_grid_t, xdmf_field_t, xdmf_frame_t, begin_grid, add_field, begin_xdmf, add_time, end_xdmf, &
+             CENTRE_NODE, CENTRE_CELL
 
    character(len=*), parameter :: CENTRE_NODE = 'Node', CENTRE_CELL = 'Cell'
 
@@ -73,14 +74,11 @@ contains
       call move_alloc(longer, grid%fields)
    end subroutine add_field
 
-   !> Composes the file: a collection over time, each time with its grids.
-   subroutine compose_xdmf(program, warning, data_file, frames, lines)
+   !> Begins the file: a collection over time, each time with its grids.
+   subroutine begin_xdmf(program, warning, lines)
       character(len=*), intent(in) :: program          !< name and version
       character(len=*), intent(in) :: warning          !< why the run did not converge; '' when it did
-      character(len=*), intent(in) :: data_file        !< the HDF5 file, without folder
-      type(xdmf_frame_t), intent(in) :: frames(:)
       type(string_t), allocatable, intent(out) :: lines(:)
-      integer :: i
 
       allocate (lines(0))
       call append_string(lines, '<?xml version="1.0" encoding="UTF-8"?>')
@@ -89,16 +87,11 @@ contains
       call append_string(lines, information('program', program))
       if (len(warning) > 0) call append_string(lines, information('NOT CONVERGED', warning))
       call append_string(lines, '<Grid Name="steps" GridType="Collection" CollectionType="Temporal">')
-      do i = 1, size(frames)
-         call add_frame(data_file, frames(i), lines)
-      end do
-      call append_string(lines, '</Grid>')
-      call append_string(lines, '</Domain>')
-      call append_string(lines, '</Xdmf>')
-   end subroutine compose_xdmf
+   end subroutine begin_xdmf
 
-   subroutine add_frame(data_file, frame, lines)
-      character(len=*), intent(in) :: data_file
+   !> Adds a time.
+   subroutine add_time(data_file, frame, lines)
+      character(len=*), intent(in) :: data_file        !< the HDF5 file, without folder
       type(xdmf_frame_t), intent(in) :: frame
       type(string_t), allocatable, intent(inout) :: lines(:)
       integer :: i
@@ -109,7 +102,15 @@ contains
          call add_grid(data_file, frame%grids(i), lines)
       end do
       call append_string(lines, '</Grid>')
-   end subroutine add_frame
+   end subroutine add_time
+
+   subroutine end_xdmf(lines)
+      type(string_t), allocatable, intent(inout) :: lines(:)
+
+      call append_string(lines, '</Grid>')
+      call append_string(lines, '</Domain>')
+      call append_string(lines, '</Xdmf>')
+   end subroutine end_xdmf
 
    pure function information(name, value) result(line)
       character(len=*), intent(in) :: name, value

@@ -10,7 +10,7 @@ module atrito_contact_plot
    use atrito_status, only: status_t
    use atrito_files, only: file_set_t, text_file_t, put_line
    use atrito_model, only: model_t, interaction_t, FRICTION_NONE, FRICTION_LOCAL, FRICTION_NONLOCAL
-   use atrito_results, only: results_t, contact_result_t, history_t, last_frame, POINT_OPEN, POINT_SLIP
+   use atrito_results, only: results_t, contact_result_t, history_t, last_frame, view_frame, POINT_OPEN, POINT_SLIP
    use atrito_write_tables, only: origin_of
    use atrito_plot_files, only: CONTACT_PLOT
    use atrito_plot_text, only: range_t, cover, padded, quoted, cleaned, picture_title, put_table, begin_script, end_script, &
@@ -248,17 +248,19 @@ contains
    end subroutine put_pressure
 
    !> A range widened by a field of the ends of steps before the last one.
-   pure type(range_t) function with_early(range, history, pair, field) result(wide)
+   type(range_t) function with_early(range, history, pair, field) result(wide)
       type(range_t), intent(in) :: range
-      type(history_t), intent(in) :: history
+      type(history_t), intent(in), target :: history
       integer(ip), intent(in) :: pair, field        !< OF_*
+      type(results_t), pointer :: frame
       integer(ip), allocatable :: shown(:)
       integer(ip) :: i
 
       wide = range
       shown = shown_frames(history)
       do i = 1, size(shown, kind=ip) - 1
-         associate (contact => history%frames(shown(i))%contact(pair))
+         call view_frame(history, shown(i), frame)
+         associate (contact => frame%contact(pair))
             select case (field)
             case (OF_PRESSURE)
                call cover(wide, contact%pressure(:contact%n))

@@ -169,7 +169,7 @@ contains
       integer(ip) :: n
 
       n = pairs_in(history%rows)
-      text = pair_title(history%frames(1), 1_ip)
+      text = pair_title(history%frames(last_frame(history)), 1_ip)
       if (n > 1) text = to_text(n)//' pairs'
       if (n > MOST_PAIRS) text = 'the '//to_text(int(MOST_PAIRS, ip))//' of '//text//' '//which
       call put_line(file, 'heading = '//quoted(picture_title(origin_of(model, history))))

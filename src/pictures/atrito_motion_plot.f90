@@ -15,7 +15,7 @@ module atrito_motion_plot
    use atrito_plot_files, only: MOTION_PLOT
    use atrito_plot_text, only: quoted, picture_title, begin_script, end_script, put_plot, COLOUR, TIMES
    use atrito_plot_view, only: plot_view_t, asked_scale
-   use atrito_results, only: history_t, results_t, contact_result_t
+   use atrito_results, only: history_t, results_t, contact_result_t, view_frame
    use atrito_status, only: status_t, is_ok
    use atrito_strings, only: string_t, append_string, to_text
    use atrito_summary, only: pair_count
@@ -81,21 +81,24 @@ contains
    !> Lines, window and scale of all images.
    subroutine draw_images(model, history, images, view, drawing)
       type(model_t), intent(in) :: model
-      type(history_t), intent(in) :: history
+      type(history_t), intent(in), target :: history
       integer(ip), intent(in) :: images(:)
       type(plot_view_t), intent(in) :: view
       type(drawing_t), intent(out) :: drawing
+      type(results_t), pointer :: frame
       real(wp) :: largest
       integer(ip) :: i
 
       call begin_drawing(model,.not. most_lines(model%mesh%n_nodes, size(images, kind=ip)), drawing)
       largest = 0.0_wp
       do i = 1, size(images, kind=ip)
-         largest = max(largest, largest_displacement(history%frames(images(i))))
+         call view_frame(history, images(i), frame)
+         largest = max(largest, largest_displacement(frame))
       end do
       drawing%view = view
       do i = 1, size(images, kind=ip)
-         call displace(drawing, model%mesh, history%frames(images(i))%u, largest, &
+         call view_frame(history, images(i), frame)
+         call displace(drawing, model%mesh, frame%u, largest, &
                        asked_scale(view, displacement_scale(largest, drawing%size)))
       end do
    end subroutine draw_images
@@ -114,10 +117,11 @@ contains
    subroutine write_data(set, model, history, images, drawing, status)
       type(file_set_t), intent(inout) :: set
       type(model_t), intent(in) :: model
-      type(history_t), intent(in) :: history
+      type(history_t), intent(in), target :: history
       integer(ip), intent(in) :: images(:)
       type(drawing_t), intent(in) :: drawing
       type(status_t), intent(out) :: status
+      type(results_t), pointer :: frame
       type(text_file_t) :: file
       integer(ip) :: i, pair
 
@@ -125,18 +129,17 @@ contains
       call put_line(file, '# columns: x [L]  y [L]  u1 [L]  u2 [L]; of contact points: pressure [F/L^2] along the inward '// &
                     'normal, in two columns; state')
       do i = 1, size(images, kind=ip)
-         associate (frame => history%frames(images(i)))
-            call put_line(file, '# '//increment_name(frame%step, frame%increment, frame%time))
-            call put_rigid_lines(file, model, frame%rigid)
-            call put_lines(file, [character(len=40) :: ', edges inside', ', outline and lines between sections'], model, frame%u, &
-                           drawing)
-            if (.not. has_points(frame)) cycle
-            do pair = 1, pair_count(frame)
-               call put_points(file, frame%contact(pair))
-            end do
-            call put_line(file, '')
-            call put_line(file, '')
-         end associate
+         call view_frame(history, images(i), frame)
+         call put_line(file, '# '//increment_name(frame%step, frame%increment, frame%time))
+         call put_rigid_lines(file, model, frame%rigid)
+         call put_lines(file, [character(len=40) :: ', edges inside', ', outline and lines between sections'], model, frame%u, &
+                        drawing)
+         if (.not. has_points(frame)) cycle
+         do pair = 1, pair_count(frame)
+            call put_points(file, frame%contact(pair))
+         end do
+         call put_line(file, '')
+         call put_line(file, '')
       end do
       call close_text(file, status)
    end subroutine write_data
@@ -218,20 +221,20 @@ contains
       delay = min(LONGEST, max(SHORTEST, WHOLE/n_images))
    end function delay
 
-   pure real(wp) function largest_pressure(history, images) result(largest)
-      type(history_t), intent(in) :: history
+   real(wp) function largest_pressure(history, images) result(largest)
+      type(history_t), intent(in), target :: history
       integer(ip), intent(in) :: images(:)
+      type(results_t), pointer :: frame
       integer(ip) :: i, pair
 
       largest = 0.0_wp
       do i = 1, size(images, kind=ip)
-         associate (frame => history%frames(images(i)))
-            do pair = 1, pair_count(frame)
-               associate (contact => frame%contact(pair))
-                  if (contact%n > 0) largest = max(largest, maxval(contact%pressure(:contact%n)))
-               end associate
-            end do
-         end associate
+         call view_frame(history, images(i), frame)
+         do pair = 1, pair_count(frame)
+            associate (contact => frame%contact(pair))
+               if (contact%n > 0) largest = max(largest, maxval(contact%pressure(:contact%n)))
+            end associate
+         end do
       end do
    end function largest_pressure
 
@@ -266,7 +269,7 @@ contains
       n_rigid = count([(is_drawn_rigid(model, i), i=1, size(model%surfaces, kind=ip))], kind=ip)
       n_lines = drawing%lines%n_runs
       n_inner = count(drawing%lines%kind(:n_lines) == LINE_INNER, kind=ip)
-      n_blocks = n_lines + merge(1_ip, 0_ip, has_points(history%frames(1)))
+      n_blocks = n_lines + merge(1_ip, 0_ip, has_points(history%frames(size(history%frames))))
       block = '"'//MOTION_PLOT//'.dat" index first'
       moved = ' using ($1 + scale*$3):($2 + scale*$4)'
       call put_line(file, 'first = '//to_text(n_rigid)//' + '//to_text(n_rigid + n_blocks)//'*(k - 1)')
@@ -306,20 +309,20 @@ contains
    end subroutine add_contact
 
    !> Whether a point has the state in any image.
-   pure logical function has_state(history, images, state) result(has)
-      type(history_t), intent(in) :: history
+   logical function has_state(history, images, state) result(has)
+      type(history_t), intent(in), target :: history
       integer(ip), intent(in) :: images(:), state
+      type(results_t), pointer :: frame
       integer(ip) :: i, pair
 
       has = .false.
       do i = 1, size(images, kind=ip)
-         associate (frame => history%frames(images(i)))
-            do pair = 1, pair_count(frame)
-               associate (contact => frame%contact(pair))
-                  has = has .or. any(state_of(contact%status(:contact%n), contact%has_friction) == state)
-               end associate
-            end do
-         end associate
+         call view_frame(history, images(i), frame)
+         do pair = 1, pair_count(frame)
+            associate (contact => frame%contact(pair))
+               has = has .or. any(state_of(contact%status(:contact%n), contact%has_friction) == state)
+            end associate
+         end do
       end do
    end function has_state
 

@@ -10,7 +10,7 @@ module atrito_check_found
    use atrito_model, only: rigid_body_name, step_t
    use atrito_restart_state, only: restart_state_t
    use atrito_results, only: body_motion_t, contact_result_t, extreme_t, history_t, joint_t, observed_list_t, observed_t, &
-                             results_t, rigid_result_t, scene_t, POINT_OPEN, POINT_SLIP
+                             results_t, rigid_result_t, scene_t, view_frame, POINT_OPEN, POINT_SLIP
    use atrito_scene_data, only: scene_data_t
    use atrito_solve_history, only: iteration_t
    use atrito_strings, only: string_t, to_text
@@ -31,24 +31,24 @@ module atrito_check_found
 contains
 
    !> wrong: what does not fit, in words; not allocated: all does.
-   pure subroutine check_found(data, scene, observed, history, state, wrong)
+   subroutine check_found(data, scene, observed, history, state, wrong)
       type(scene_data_t), intent(in) :: data         !< of the step in which the history stands
       type(scene_t), intent(in) :: scene             !< as the deck has it in this step
       type(string_t), intent(in) :: observed(:)      !< names of what is observed
-      type(history_t), intent(in) :: history
+      type(history_t), intent(in), target :: history
       type(restart_state_t), intent(in) :: state
       character(len=:), allocatable, intent(inout) :: wrong
+      type(results_t), pointer :: frame
       integer(ip) :: i
 
       call require(wrong, allocated(history%frames) .and. allocated(history%rows) .and. allocated(history%iterations), 'lists')
       if (allocated(wrong)) return
       do i = 1, size(history%frames, kind=ip)
-         associate (frame => history%frames(i))
-            call require(wrong, is_before([frame%step, frame%increment], [state%step, state%increment]), 'frames behind the end')
-            if (i > 1) call require(wrong,.not. is_before([frame%step, frame%increment], [history%frames(i - 1)%step, &
-                                                                           history%frames(i - 1)%increment]), 'frames out of order')
-            call check_frame(data, scene, observed, frame, frame%step == state%step, wrong)
-         end associate
+         call view_frame(history, i, frame)
+         call require(wrong, is_before([frame%step, frame%increment], [state%step, state%increment]), 'frames behind the end')
+         if (i > 1) call require(wrong,.not. is_before([frame%step, frame%increment], [history%frames(i - 1)%step, &
+                                                                        history%frames(i - 1)%increment]), 'frames out of order')
+         call check_frame(data, scene, observed, frame, frame%step == state%step, wrong)
          if (allocated(wrong)) return
       end do
       call check_frame(data, scene, observed, state%last, .true., wrong)

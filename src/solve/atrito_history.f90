@@ -22,7 +22,7 @@ module atrito_history
    use atrito_recorder, only: recorder_t
    use atrito_reporter, only: reporter_t, report_progress
    use atrito_restart_state, only: restart_state_t
-   use atrito_results, only: ending_t, extreme_t, history_t, results_t, scene_t
+   use atrito_results, only: ending_t, extreme_t, frame_store_t, history_t, results_t, scene_t
    use atrito_rigid_bodies, only: hold_the_same
    use atrito_rigid_results, only: leave_mesh_alone
    use atrito_rigid_steps, only: begin_motions_from, released_forces
@@ -65,7 +65,7 @@ contains
 
    !> Solves all steps. status: of a run of one increment that of solve_static; of others OK, or why the history ended early, with
    !> STATUS_NOT_CONVERGED, STATUS_SINGULAR, or a status of begin_scene. What converged before is in the history.
-   subroutine solve_history(model, options, reporter, history, status, store, recorder, observer)
+   subroutine solve_history(model, options, reporter, history, status, store, recorder, observer, frames)
       type(model_t), intent(in), target :: model
       type(solve_options_t), intent(in) :: options
       type(reporter_t), intent(in) :: reporter
@@ -74,6 +74,7 @@ contains
       type(body_cache_t), intent(inout) :: store     !< bodies of an earlier run, or none; on return those of this one
       class(recorder_t), intent(inout), target, optional :: recorder
       class(observer_t), intent(inout), target, optional :: observer
+      class(frame_store_t), intent(inout), target, optional :: frames !< keeps all but the last; has those of recorder%found
       type(run_t), target :: run
       type(progress_t) :: now
       integer(ip) :: k, first
@@ -89,6 +90,7 @@ contains
          return
       end if
       allocate (history%frames(0))
+      if (present(frames)) history%store => frames
       run%options = options
       run%reporter = reporter
       first = 1
@@ -264,7 +266,7 @@ contains
          allocate (history%frames(0))
          return
       end if
-      call warn_of_pressures(model, history%frames)
+      call warn_of_pressures(model, history)
       associate (frame => history%frames(1))
          frame%time = model%steps(1)%increments%period
          frame%step_time = frame%time
@@ -434,7 +436,7 @@ contains
       if (run%data%is_printed) then
          results%scene%memory = forecast_memory(model, run%data, results%scene)
          call note_idle(results, idle_text(run%data, solution), run)
-         call add_frame(results, run%n_frames, history%frames)
+         call add_frame(results, run%n_frames, history)
       end if
       call move_frame(results, run%last)
       run%has_last = .true.
@@ -497,7 +499,7 @@ contains
       call complete_results(run%data, run%last, fields)
       call leave_mesh_alone(run%data, run%last)
       run%last%ends_step = .true.
-      call add_frame(run%last, run%n_frames, history%frames)
+      call add_frame(run%last, run%n_frames, history)
    end subroutine end_early
 
    !> Where a history ended.
@@ -527,7 +529,7 @@ contains
          run%last%contraction_estimate = max(run%last%contraction_estimate, history%frames(i)%contraction_estimate)
       end do
       call warn(run%data, run%data%last, run%last, idle_increments(run))
-      call warn_of_pressures(run%data%model, history%frames)
+      call warn_of_pressures(run%data%model, history)
       call tell_forces(run%last%scene%pairs, run%last%contact, run%sense)
    end subroutine finish
 

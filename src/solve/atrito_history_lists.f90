@@ -2,7 +2,7 @@
 module atrito_history_lists
    use atrito_growth, only: make_room, resize
    use atrito_kinds, only: ip
-   use atrito_results, only: history_row_t, history_t, iteration_t, observed_list_t, results_t
+   use atrito_results, only: history_row_t, history_t, iteration_t, observed_list_t, put_aside, results_t
    implicit none (type, external)
    private
    public :: add_row, add_iterations, add_observed, add_frame, move_frame, trim_lists
@@ -58,14 +58,16 @@ contains
       list%values(:, n) = results%observed%value
    end subroutine add_observed
 
-   subroutine add_frame(frame, n, frames)
+   !> The frame before it goes to the store, where there is one.
+   subroutine add_frame(frame, n, history)
       type(results_t), intent(in) :: frame
       integer(ip), intent(inout) :: n
-      type(results_t), allocatable, intent(inout) :: frames(:)
+      type(history_t), intent(inout) :: history
 
-      if (n == size(frames)) call give_room(n, 2*n + 1, frames)
+      if (n > 0) call put_aside(n, history)
+      if (n == size(history%frames)) call give_room(n, n + n/4 + 1, history%frames) ! even without fields they are large
       n = n + 1
-      frames(n) = frame
+      history%frames(n) = frame
    end subroutine add_frame
 
    !> Room for so many frames; the first n stay.

@@ -8,7 +8,7 @@ module atrito_pressure_warnings
    use atrito_messages, only: add_note, add_warning
    use atrito_model, only: model_t
    use atrito_points, only: contact_points_t
-   use atrito_results, only: contact_result_t, pair_scene_t, results_t, POINT_OPEN
+   use atrito_results, only: contact_result_t, history_t, pair_scene_t, results_t, view_frame, POINT_OPEN
    use atrito_strings, only: to_text
    implicit none (type, external)
    private
@@ -43,64 +43,78 @@ module atrito_pressure_warnings
 contains
 
    !> All pairs of a run that was solved, each in the frame where it carries most.
-   subroutine warn_of_pressures(model, frames)
+   subroutine warn_of_pressures(model, history)
       type(model_t), intent(in) :: model
-      type(results_t), intent(in) :: frames(:)               !< that are printed
+      type(history_t), intent(in) :: history
       type(few_points_t) :: few, fewest
       type(alternation_t) :: found, worst
-      integer(ip) :: i, k, pair_of_few, pair_of_worst, n_few, n_alternating
+      type(contact_result_t), allocatable :: most(:)
+      logical, allocatable :: is_open(:)
+      integer(ip) :: i, pair_of_few, pair_of_worst, n_few, n_alternating
+      logical :: moves
 
-      if (size(frames) == 0 .or. .not. allocated(model%points)) return
-      if (.not. all(frames%converged .and. frames%law_holds)) return
+      if (size(history%frames) == 0 .or. .not. allocated(model%points)) return
+      if (.not. all(history%frames%converged .and. history%frames%law_holds)) return
+      call go_through(history, most, is_open, moves)
       n_few = 0
       n_alternating = 0
       pair_of_few = 0
       pair_of_worst = 0
       do i = 1, size(model%points, kind=ip)
-         k = most_loaded(frames, i)
-         associate (contact => frames(k)%contact(i))
-            call find_few_points(model%points(i), contact, ENOUGH(degree_of_slave(model, i)), few)
-            if (few%n > 0) then
-               n_few = n_few + 1
-               if (pair_of_few == 0 .or. few%n < fewest%n) then
-                  fewest = few
-                  pair_of_few = i
-               end if
+         call find_few_points(model%points(i), most(i), ENOUGH(degree_of_slave(model, i)), few)
+         if (few%n > 0) then
+            n_few = n_few + 1
+            if (pair_of_few == 0 .or. few%n < fewest%n) then
+               fewest = few
+               pair_of_few = i
             end if
-            call find_alternation(contact, found)
-            if (found%swings > 0) then
-               n_alternating = n_alternating + 1
-               if (found%swings > worst%swings) then
-                  worst = found
-                  pair_of_worst = i
-               end if
+         end if
+         call find_alternation(most(i), found)
+         if (found%swings > 0) then
+            n_alternating = n_alternating + 1
+            if (found%swings > worst%swings) then
+               worst = found
+               pair_of_worst = i
             end if
-         end associate
+         end if
       end do
-      associate (pairs => frames(size(frames))%scene%pairs)
+      associate (pairs => history%frames(size(history%frames))%scene%pairs)
          if (n_few > 0) call tell_few_points(model, pairs(pair_of_few), pair_of_few, fewest, n_few)
          if (n_alternating > 0) call tell_alternation(pairs(pair_of_worst), model%points(pair_of_worst), &
                                                       worst, n_alternating)
-         call note_open_pairs(pairs, frames)
+         if (moves) call note_open_pairs(pairs, is_open)
       end associate
    end subroutine warn_of_pressures
 
-   !> The frame in which a pair carries most; the last one of those that are equal.
-   pure integer(ip) function most_loaded(frames, i) result(best)
-      type(results_t), intent(in) :: frames(:)
-      integer(ip), intent(in) :: i                           !< the pair
-      real(wp) :: force, largest
-      integer(ip) :: k
+   !> Each pair where it carries most (in the last of such frames), which are open in all frames, and whether anything moves.
+   subroutine go_through(history, most, is_open, moves)
+      type(history_t), intent(in), target :: history         !< with frames
+      type(contact_result_t), allocatable, intent(out) :: most(:)
+      logical, allocatable, intent(out) :: is_open(:)
+      logical, intent(out) :: moves
+      type(results_t), pointer :: frame
+      real(wp), allocatable :: largest(:)
+      real(wp) :: force
+      integer(ip) :: i, k
 
-      best = 1
-      largest = -1.0_wp
-      do k = 1, size(frames, kind=ip)
-         force = sum(frames(k)%contact(i)%weight*frames(k)%contact(i)%pressure)
-         if (force < largest) cycle
-         largest = force
-         best = k
+      moves = .false.
+      do k = 1, size(history%frames, kind=ip)
+         call view_frame(history, k, frame)
+         if (k == 1) then
+            allocate (most(size(frame%contact)))
+            allocate (largest(size(most)), source=-1.0_wp)
+            allocate (is_open(size(most)), source=.true.)
+         end if
+         moves = moves .or. any(abs(frame%u) > 0.0_wp)
+         do i = 1, size(most, kind=ip)
+            is_open(i) = is_open(i) .and. all(frame%contact(i)%status == POINT_OPEN)
+            force = sum(frame%contact(i)%weight*frame%contact(i)%pressure)
+            if (force < largest(i)) cycle
+            largest(i) = force
+            most(i) = frame%contact(i)
+         end do
       end do
-   end function most_loaded
+   end subroutine go_through
 
    pure integer(ip) function degree_of_slave(model, i) result(degree)
       type(model_t), intent(in) :: model
@@ -155,23 +169,14 @@ contains
       call add_warning('W-ALTERNATES', text)
    end subroutine tell_alternation
 
-   !> Pairs without a closed point in any frame; none in a scene where nothing moves.
-   subroutine note_open_pairs(pairs, frames)
+   !> Pairs without a closed point in any frame of a scene in which something moves.
+   subroutine note_open_pairs(pairs, is_open)
       type(pair_scene_t), intent(in) :: pairs(:)
-      type(results_t), intent(in) :: frames(:)
-      logical :: is_open(size(pairs)), moves
+      logical, intent(in) :: is_open(:)
       character(len=:), allocatable :: text
-      integer(ip) :: i, k, told
+      integer(ip) :: i, told
 
-      is_open = .true.
-      moves = .false.
-      do k = 1, size(frames, kind=ip)
-         moves = moves .or. any(abs(frames(k)%u) > 0.0_wp)
-         do i = 1, size(pairs, kind=ip)
-            is_open(i) = is_open(i) .and. all(frames(k)%contact(i)%status == POINT_OPEN)
-         end do
-      end do
-      if (.not. moves .or. .not. any(is_open)) return
+      if (.not. any(is_open)) return
       text = ''
       told = 0
       do i = 1, size(pairs, kind=ip)

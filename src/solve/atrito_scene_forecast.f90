@@ -7,8 +7,9 @@
 module atrito_scene_forecast
    use atrito_contact_form, only: CONTACT_SPARSE
    use atrito_element_table, only: BEST_OF, POINT_COUNT
+   use atrito_history_forecast, only: field_growth, history_bytes, is_solved_by_increments
    use atrito_kinds, only: ip, lp, wp
-   use atrito_model, only: model_t
+   use atrito_model, only: model_t, step_t
    use atrito_results, only: scene_t
    use atrito_scene_data, only: scene_data_t
    use atrito_shares, only: is_over_ranks
@@ -21,8 +22,8 @@ module atrito_scene_forecast
    integer(lp), parameter :: REAL_BYTES = 8_lp
    !> Code and places for work that are first touched later; of BLAS with large matrices.
    integer(lp), parameter :: LATER_BYTES = 3100000_lp, MOST_OF_BLAS = 3000000_lp
-   !> The library of field files, which is loaded when it is wanted.
-   integer(lp), parameter :: FIELD_LIBRARY = 4500000_lp
+   !> The library of field files, which is loaded when it is wanted; with what it works with, when it writes restart files.
+   integer(lp), parameter :: FIELD_LIBRARY = 4500000_lp, RESTART_LIBRARY = 5500000_lp
    !> Measured shares: holes between the factors of fronts; what the bodies leave of themselves in the process, when they have been
    !> given back; and what the C library rounds up.
    real(wp), parameter :: HOLES = 0.12_wp, LEFT_BEHIND = 0.13_wp, ROUNDING_UP = 0.065_wp
@@ -41,7 +42,10 @@ contains
          return
       end if
       recovering = recovery_bytes(model, int(model%mesh%n_nodes, lp), int(model%mesh%n_elements, lp)) + request_bytes(model, data)
-      if (data%contact_form == CONTACT_SPARSE) then
+      if (is_solved_by_increments(model)) then
+         solving = solving_bytes(data, scene) + load_bytes(model) + recovering + &
+                   history_bytes(model, data%line%n, stress_rows(model)) + field_growth(model)
+      else if (data%contact_form == CONTACT_SPARSE) then
          solving = max(scene%solving + load_bytes(model), recovering)
       else
          solving = dense_solving_bytes(scene) + load_bytes(model)
@@ -50,13 +54,22 @@ contains
       bytes = max(scene%peak_before, scene%memory_before + LATER_BYTES + solving + field_library_bytes(data))
    end function forecast_memory
 
+   !> Factors, and what else is there while it is solved.
+   pure integer(lp) function solving_bytes(data, scene) result(bytes)
+      type(scene_data_t), intent(in) :: data
+      type(scene_t), intent(in) :: scene
+
+      bytes = scene%solving
+      if (data%contact_form /= CONTACT_SPARSE) bytes = dense_solving_bytes(scene)
+   end function solving_bytes
+
+   !> Of fields and of restart files: one library.
    pure integer(lp) function field_library_bytes(data) result(bytes)
       type(scene_data_t), intent(in) :: data
 
       bytes = 0
-      associate (fields => data%step%requests%fields)
-         if (fields%nodes .or. fields%reactions .or. fields%stress .or. fields%contact) bytes = FIELD_LIBRARY
-      end associate
+      if (field_growth(data%model) > 0) bytes = FIELD_LIBRARY
+      if (data%model%restart_every > 0) bytes = RESTART_LIBRARY
    end function field_library_bytes
 
    !> Bodies one after the other, then the flexibility, its factor and a copy, and as many motions of each row.
@@ -140,14 +153,22 @@ contains
       bytes = ROW_BYTES*stress_rows(model) + POINT_BYTES*data%line%n
    end function request_bytes
 
-   !> Gauss points at which stresses are asked for.
+   !> Gauss points at which stresses are asked for, in the first step or in the last: requests hold on.
    pure integer(lp) function stress_rows(model) result(rows)
       type(model_t), intent(in) :: model
+
+      rows = rows_of_step(model, model%steps(1))
+      if (size(model%steps) > 1) rows = max(rows, rows_of_step(model, model%steps(size(model%steps))))
+   end function stress_rows
+
+   pure integer(lp) function rows_of_step(model, step) result(rows)
+      type(model_t), intent(in) :: model
+      type(step_t), intent(in) :: step
       integer(ip) :: e
       logical :: wanted
 
       rows = 0
-      associate (requests => model%steps(1)%requests)
+      associate (requests => step%requests)
          if (.not. (requests%stress .or. requests%fields%stress)) return
          do e = 1, model%mesh%n_elements
             wanted = .false.
@@ -156,6 +177,6 @@ contains
             if (wanted) rows = rows + POINT_COUNT(model%mesh%shape(e), model%mesh%state(e))
          end do
       end associate
-   end function stress_rows
+   end function rows_of_step
 
 end module atrito_scene_forecast

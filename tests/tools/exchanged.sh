@@ -24,7 +24,7 @@ scene_t            output/atrito_exchange_scene.f90 exchange_scene scene
 body_result_t      output/atrito_exchange_scene.f90 exchange_body body
 pair_scene_t       output/atrito_exchange_scene.f90 exchange_pair pair
 string_t           output/atrito_exchange_scene.f90 exchange_strings list
-history_t          output/atrito_restart_file.f90 exchange_findings history ending,factorisations
+history_t          output/atrito_restart_file.f90 exchange_findings history ending,factorisations,store,n_stored
 history_row_t      output/atrito_restart_file.f90 exchange_rows list
 restart_state_t    output/atrito_restart_file.f90 exchange_state,exchange_findings state
 warm_start_t       output/atrito_restart_file.f90 exchange_start start

@@ -1,0 +1,134 @@
+!> A file without a name for what does not fit into the memory for long: values are written one behind the other and read again
+!> from a place that was noted. It lies on the disk of a folder and is gone with the process, whatever ends it.
+!>
+!> The first failure is kept in `is_sound`, after which nothing more is written.
+module atrito_spool
+   use, intrinsic :: iso_c_binding, only: c_associated, c_loc, c_null_char, c_null_ptr, c_ptr, c_size_t
+   use atrito_kinds, only: lp, wp
+   use atrito_paths, only: nearest_folder
+   use atrito_system, only: c_close_file, c_go_to_place, c_open_nameless, c_place_in_file, c_read_bytes, c_write_bytes
+   implicit none (type, external)
+   private
+   public :: spool_t, open_spool, place_of, go_to, give_up_rest, put_values, get_values, close_spool
+
+   type :: spool_t
+      logical :: is_sound = .false.                  !< there is a file, and all that was asked of it so far was done
+      type(c_ptr), private :: stream = c_null_ptr
+   end type spool_t
+
+   !> Writes values at the place where the file is.
+   interface put_values
+      module procedure put_reals, put_longs, put_text
+   end interface put_values
+
+   !> Reads as many from there.
+   interface get_values
+      module procedure get_reals, get_longs, get_text
+   end interface get_values
+
+   integer(lp), parameter :: NUMBER_BYTES = 8_lp     !< of a real and of a long
+
+contains
+
+   !> Opens a file in a folder, or in the nearest one above it that is there. Where that fails, it is not sound.
+   subroutine open_spool(folder, spool)
+      character(len=*), intent(in) :: folder
+      type(spool_t), intent(out) :: spool
+
+      spool%stream = c_open_nameless(nearest_folder(folder)//c_null_char)
+      spool%is_sound = c_associated(spool%stream)
+   end subroutine open_spool
+
+   !> Where the file is [bytes].
+   integer(lp) function place_of(spool)
+      type(spool_t), intent(in) :: spool
+
+      place_of = -1
+      if (c_associated(spool%stream)) place_of = c_place_in_file(spool%stream)
+   end function place_of
+
+   !> Goes to a place, before it is read or written there. What was written is with the system then, or the spool not sound.
+   subroutine go_to(spool, place)
+      type(spool_t), intent(inout) :: spool
+      integer(lp), intent(in) :: place
+
+      if (spool%is_sound) spool%is_sound = c_go_to_place(spool%stream, place) == 1
+   end subroutine go_to
+
+   !> After a failure to write: what was there before it can be read.
+   subroutine give_up_rest(spool)
+      type(spool_t), intent(inout) :: spool
+      integer :: done
+
+      if (.not. c_associated(spool%stream)) return
+      done = c_go_to_place(spool%stream, 0_lp)
+      spool%is_sound = .true.
+   end subroutine give_up_rest
+
+   subroutine put_reals(spool, values)
+      type(spool_t), intent(inout) :: spool
+      real(wp), intent(in), contiguous, target :: values(:)
+
+      if (size(values) > 0) call put_bytes(spool, c_loc(values), NUMBER_BYTES*size(values, kind=lp))
+   end subroutine put_reals
+
+   subroutine put_longs(spool, values)
+      type(spool_t), intent(inout) :: spool
+      integer(lp), intent(in), contiguous, target :: values(:)
+
+      if (size(values) > 0) call put_bytes(spool, c_loc(values), NUMBER_BYTES*size(values, kind=lp))
+   end subroutine put_longs
+
+   subroutine put_text(spool, text)
+      type(spool_t), intent(inout) :: spool
+      character(len=*), intent(in), target :: text
+
+      if (len(text) > 0) call put_bytes(spool, c_loc(text), len(text, kind=lp))
+   end subroutine put_text
+
+   subroutine put_bytes(spool, bytes, length)
+      type(spool_t), intent(inout) :: spool
+      type(c_ptr), intent(in) :: bytes
+      integer(lp), intent(in) :: length
+
+      if (spool%is_sound) spool%is_sound = c_write_bytes(spool%stream, bytes, int(length, c_size_t)) == 1
+   end subroutine put_bytes
+
+   subroutine get_reals(spool, values)
+      type(spool_t), intent(inout) :: spool
+      real(wp), intent(inout), contiguous, target :: values(:)
+
+      if (size(values) > 0) call get_bytes(spool, c_loc(values), NUMBER_BYTES*size(values, kind=lp))
+   end subroutine get_reals
+
+   subroutine get_longs(spool, values)
+      type(spool_t), intent(inout) :: spool
+      integer(lp), intent(inout), contiguous, target :: values(:)
+
+      if (size(values) > 0) call get_bytes(spool, c_loc(values), NUMBER_BYTES*size(values, kind=lp))
+   end subroutine get_longs
+
+   subroutine get_text(spool, text)
+      type(spool_t), intent(inout) :: spool
+      character(len=*), intent(inout), target :: text
+
+      if (len(text) > 0) call get_bytes(spool, c_loc(text), len(text, kind=lp))
+   end subroutine get_text
+
+   subroutine get_bytes(spool, bytes, length)
+      type(spool_t), intent(inout) :: spool
+      type(c_ptr), intent(in) :: bytes
+      integer(lp), intent(in) :: length
+
+      if (spool%is_sound) spool%is_sound = c_read_bytes(spool%stream, bytes, int(length, c_size_t)) == 1
+   end subroutine get_bytes
+
+   subroutine close_spool(spool)
+      type(spool_t), intent(inout) :: spool
+      integer :: done
+
+      if (c_associated(spool%stream)) done = c_close_file(spool%stream)
+      spool = spool_t()
+   end subroutine close_spool
+
+end module atrito_spool
