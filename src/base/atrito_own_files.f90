@@ -69,7 +69,7 @@ contains
       if (.not. is_ok(status)) return
       if (kind /= PLAIN) then
          call set_status(status, STATUS_FILE, path//': is a link or no plain file, and would be replaced or removed; '//WAYS_OUT)
-      else if (is_of_a_kind(path) .and. .not. is_own(path)) then
+      else if (.not. may_go(path)) then
          call set_status(status, STATUS_FILE, path//': was not written by atrito, and would be replaced or removed; '//WAYS_OUT)
       end if
    end subroutine check_own
@@ -96,17 +96,25 @@ contains
       if (is_own(path)) call c_remove_file(path//c_null_char)
    end subroutine remove_own_file
 
-   !> Clears the way for a file that is to be written under its temporary name. Of some kinds what a run left that was killed says
-   !> nothing yet.
+   !> Clears the way for a file that is to be written under its temporary name.
    subroutine clear_temporary(path)
       character(len=*), intent(in) :: path
 
       if (c_kind_of(path//c_null_char) /= PLAIN) return
       if (c_is_input(path//c_null_char) == 1) return
-      if (.not. is_of_a_kind(path) .or. index(BINARY, ' '//kind_of(path)//' ') > 0 .or. is_own(path)) then
-         call c_remove_file(path//c_null_char)
-      end if
+      if (may_go(path)) call c_remove_file(path//c_null_char)
    end subroutine clear_temporary
+
+   !> A file in the place of one that atrito writes is atrito's, or nobody can know: of some kinds a part that a killed run left says
+   !> nothing yet.
+   logical function may_go(path)
+      character(len=*), intent(in) :: path
+
+      may_go = .not. is_of_a_kind(path)
+      if (.not. may_go) may_go = index(BINARY, ' '//kind_of(path)//' ') > 0 .and. ends_with(path, TEMPORARY) .and. &
+                                 .not. ends_with(path, FORMER)
+      if (.not. may_go) may_go = is_own(path)
+   end function may_go
 
    !> The name without what it has while it is written.
    pure function final_name(path) result(name)
@@ -158,7 +166,7 @@ contains
          n = c_peek(path//c_null_char, buffer, TAIL, 1)
          is_own = index(buffer(:n), MESH_MARK) > 0
       else if (index(PICTURES, ' '//kind//' ') > 0) then
-         if (is_picture(buffer(:n), kind)) is_own = is_own_script(name//'.gp')
+         is_own = is_own_script(name//'.gp')
       else
          is_own = says_so(buffer(:n), kind, name(index(name, '/', back=.true.) + 1:))
       end if
@@ -216,22 +224,6 @@ contains
          if (name == 'runs') has_columns = has_columns .and. index(text(:last), ',exit,factorisations') > 0
       end do
    end function has_columns
-
-   !> The first bytes of a picture are those of its kind.
-   pure logical function is_picture(text, ending)
-      character(len=*), intent(in) :: text, ending
-
-      select case (ending)
-      case ('.png')
-         is_picture = index(text, char(137)//'PNG') == 1
-      case ('.gif')
-         is_picture = index(text, 'GIF8') == 1
-      case ('.svg')
-         is_picture = index(text, 'Produced by GNUPLOT') > 0
-      case default
-         is_picture = .true.
-      end select
-   end function is_picture
 
    pure logical function ends_with(text, ending)
       character(len=*), intent(in) :: text, ending

@@ -114,15 +114,23 @@ contains
 
    !> Whether files can be written into a folder that is there, or into one that is to be made. (They may fail all the same: a disk
    !> may be full.) status: STATUS_FILE.
-   recursive subroutine check_folder(path, status)
+   subroutine check_folder(path, status)
+      character(len=*), intent(in) :: path
+      type(status_t), intent(out) :: status
+
+      if (c_may_hold(target_path(path)//c_null_char) == 0) then
+         call set_status(status, STATUS_FILE, path//OUT_OF_BOUNDS)
+      else
+         call check_place(path, status)
+      end if
+   end subroutine check_folder
+
+   !> The same of a folder, or of the nearest one above it that is there.
+   recursive subroutine check_place(path, status)
       character(len=*), intent(in) :: path
       type(status_t), intent(out) :: status
       integer :: obstacle
 
-      if (c_may_hold(target_path(path)//c_null_char) == 0) then
-         call set_status(status, STATUS_FILE, path//OUT_OF_BOUNDS)
-         return
-      end if
       obstacle = c_judge_folder(path//'/.'//c_null_char)
       if (obstacle == NOTHING) return
       if (c_kind_of(path//c_null_char) == IS_LINK .and. .not. file_exists(path)) then
@@ -132,13 +140,13 @@ contains
       if (obstacle == IS_BELOW_A_FILE .and. file_exists(path)) then
          call set_status(status, STATUS_FILE, path//': is no folder that can be read and written into')
       else if (obstacle == IS_MISSING .or. obstacle == IS_BELOW_A_FILE) then
-         if (len(path) > 1) call check_folder(parent_of(path), status)
+         if (len(path) > 1) call check_place(parent_of(path), status)
       else if (obstacle == NOT_READABLE) then
          call set_status(status, STATUS_FILE, path//': the folder cannot be read')
       else
          call set_status(status, STATUS_FILE, path//': the folder cannot be written into')
       end if
-   end subroutine check_folder
+   end subroutine check_place
 
    function parent_of(path) result(parent)
       character(len=*), intent(in) :: path

@@ -6,7 +6,7 @@
 module atrito_hdf5
    use, intrinsic :: iso_c_binding, only: c_loc, c_null_char, c_ptr
    use atrito_kinds, only: ip, wp
-   use atrito_own_files, only: clear_temporary
+   use atrito_paths, only: remove_file
    use atrito_status, only: status_t, set_status, is_ok, STATUS_FILE
    use hdf5, only: hid_t, hsize_t, h5open_f, h5close_f, h5dont_atexit_f, h5eset_auto_f, h5fcreate_f, h5fclose_f, H5F_ACC_EXCL_F, &
                    h5pcreate_f, h5pclose_f, h5pset_create_inter_group_f, h5pset_chunk_f, h5pset_shuffle_f, h5pset_deflate_f, &
@@ -66,7 +66,7 @@ contains
       if (.not. is_ok(file%status)) return
       ! its own error stack is of no use to anybody who did not write the calls
       call h5eset_auto_f(0, error)
-      call clear_temporary(path)
+      call remove_file(path)
       call h5fcreate_f(path//c_null_char, H5F_ACC_EXCL_F, file%id, error)
       if (error < 0) call set_status(file%status, STATUS_FILE, final_path//': cannot be written')
    end subroutine open_hdf5

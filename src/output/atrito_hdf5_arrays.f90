@@ -6,7 +6,7 @@
 module atrito_hdf5_arrays
    use, intrinsic :: iso_c_binding, only: c_loc, c_null_char, c_ptr
    use atrito_kinds, only: ip, lp, wp
-   use atrito_own_files, only: clear_temporary
+   use atrito_paths, only: remove_file
    use atrito_status, only: status_t, set_status, is_ok, STATUS_FILE
    use hdf5, only: hid_t, hsize_t, h5open_f, h5close_f, h5dont_atexit_f, h5eset_auto_f, h5fcreate_f, h5fopen_f, h5fclose_f, &
                    h5fis_hdf5_f, H5F_ACC_EXCL_F, H5F_ACC_RDONLY_F, H5F_LIBVER_LATEST_F, h5pcreate_f, h5pclose_f, &
@@ -54,7 +54,7 @@ contains
       if (.not. is_ok(file%status)) return
       call h5pcreate_f(H5P_FILE_ACCESS_F, access, error(1))
       call h5pset_libver_bounds_f(access, H5F_LIBVER_LATEST_F, H5F_LIBVER_LATEST_F, error(2))
-      call clear_temporary(path)
+      call remove_file(path)
       call h5fcreate_f(path//c_null_char, H5F_ACC_EXCL_F, file%id, error(3), access_prp=access)
       call h5pclose_f(access, error(4))
       file%is_open = error(3) >= 0
