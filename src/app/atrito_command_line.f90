@@ -4,8 +4,9 @@ module atrito_command_line
    use atrito_kinds, only: ip, wp
    use atrito_mumps_library, only: has_mumps, mumps_trouble
    use atrito_strings, only: string_t, append_string, nearest_names, to_text, deck_name, lower_case, upper_case
+   use atrito_status, only: status_t
    use atrito_numbers, only: read_integer, read_real, NUMBER_OK
-   use atrito_files, only: file_exists
+   use atrito_files, only: confine_files, file_exists, target_path, true_path
    use atrito_messages, only: message_t, SEVERITY_ERROR
    use atrito_number_text, only: LEAST_DIGITS, MOST_DIGITS, DEFAULT_DIGITS
    use atrito_option_table, only: OPTIONS, MOST_THREADS, MOST_LEVELS, find_option, has_value, option_names, option_words, &
@@ -16,7 +17,7 @@ module atrito_command_line
    use atrito_compare, only: DEFAULT_RTOL, DEFAULT_ATOL
    implicit none (type, external)
    private
-   public :: command_t, parse_command, wrong, wants_json, fetch_arguments, output_folder
+   public :: command_t, parse_command, wrong, wants_json, fetch_arguments, output_folder, confine_command
    public :: TASK_USAGE, TASK_RUN, TASK_CHECK, TASK_COMPARE, TASK_HELP, TASK_SWEEP, TASK_STUDY, TASK_LIMIT, TASK_OPTIONS, &
              TASK_VERSION
 
@@ -29,6 +30,7 @@ module atrito_command_line
       type(string_t), allocatable :: names(:)       !< deck; the two paths to compare; the words behind `help`
       character(len=:), allocatable :: folder       !< -o; not allocated: the default
       character(len=:), allocatable :: restart      !< file of --restart; not allocated: from the beginning
+      character(len=:), allocatable :: confine      !< folder of --confine; not allocated: reads what the deck names
       type(string_t), allocatable :: settings(:)    !< NAME=VALUE of --set, in their order
       character(len=7) :: solver = 'auto'           !< one of the words of --solver
       character(len=6) :: contact = 'auto'          !< one of the words of --contact
@@ -282,6 +284,9 @@ contains
       case ('--restart')
          command%restart = given%value
          ok = len_trim(given%value) > 0
+      case ('--confine')
+         command%confine = without_slash(given%value)
+         ok = len(command%confine) > 0
       case ('--set')
          call append_string(command%settings, given%value)
          ok = index(given%value, '=') > 1
@@ -458,6 +463,20 @@ contains
          if (command%task == TASK_CHECK) folder = folder//'-check'
       end if
    end function output_folder
+
+   !> What --confine asks for. Where -o is not given the output has its place below the present folder, wherever links may lead.
+   !> status: STATUS_FILE where there is no such folder.
+   subroutine confine_command(command, status)
+      type(command_t), intent(in) :: command
+      type(status_t), intent(out) :: status
+      character(len=:), allocatable :: output
+
+      if (.not. allocated(command%confine)) return
+      output = true_path('.')//'/'
+      if (size(command%names) > 0) output = output//output_folder(command)
+      if (allocated(command%folder)) output = target_path(command%folder)
+      call confine_files(command%confine, output, status)
+   end subroutine confine_command
 
    !> A folder without the slash at its end.
    pure function without_slash(path) result(folder)

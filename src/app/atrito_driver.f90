@@ -5,7 +5,8 @@ module atrito_driver
    use atrito_body_cache, only: body_cache_t
    use atrito_screen, only: compose_check
    use atrito_check_plots, only: write_check_plots
-   use atrito_command_line, only: command_t, output_folder, parse_command, wrong, wants_json, fetch_arguments, TASK_USAGE, &
+   use atrito_command_line, only: command_t, confine_command, output_folder, parse_command, wrong, wants_json, &
+                                  fetch_arguments, TASK_USAGE, &
                                   TASK_RUN, TASK_CHECK, &
                                   TASK_COMPARE, TASK_HELP, TASK_SWEEP, TASK_STUDY, TASK_LIMIT, TASK_OPTIONS, TASK_VERSION
    use atrito_compare, only: comparison_t, begin_comparison, compare_paths
@@ -50,6 +51,7 @@ contains
       type(message_t) :: error
       type(page_t) :: page
       type(body_cache_t) :: store
+      type(status_t) :: status
       logical :: ok
 
       call fetch_arguments(arguments)
@@ -58,6 +60,12 @@ contains
       code = STATUS_USAGE
       if (.not. ok) then
          call print_wrong(error, 'atrito --help', wants_json(arguments))
+         return
+      end if
+      call confine_command(command, status)
+      code = status%code
+      if (.not. is_ok(status)) then
+         call print_status(status, PROGRAM_NAME, command%json)
          return
       end if
       if (any(command%task == [TASK_RUN, TASK_SWEEP, TASK_STUDY, TASK_LIMIT, TASK_CHECK])) then

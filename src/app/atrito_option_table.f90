@@ -71,6 +71,9 @@ module atrito_option_table
                                 option_t('--restart', VALUE_FILE, [Y, N, N, N, N, N, N], &
                                          'go on behind the increment in a file of *RESTART, WRITE', &
                                          expected='a restart file of this deck, NAME.restart.h5'), &
+                                option_t('--confine', VALUE_FOLDER, [Y, Y, N, N, Y, Y, Y], &
+                                         'for decks that are not trusted: reads nothing outside DIR, writes nothing outside -o', &
+                                         expected='a folder, which holds the deck and all that it includes'), &
                                 option_t('--quiet', '', [Y, Y, Y, N, Y, Y, Y], &
                                          'no progress, no notes, no summary; warnings and errors'), &
                                 option_t('--vary', 'NAME=VALUES', [N, N, N, N, Y, N, Y], &

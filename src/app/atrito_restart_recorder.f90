@@ -1,8 +1,10 @@
 !> Between the solver, which knows of increments, and the restart file, which knows of files.
 module atrito_restart_recorder
    use atrito_command_line, only: command_t, output_folder
+   use atrito_files, only: file_exists, judge_file, protect_input
    use atrito_fingerprint, only: fingerprint_t, take_fingerprint
    use atrito_folder_claim, only: folder_claim_t, claim_folder, release_folder
+   use atrito_kinds, only: lp
    use atrito_messages, only: message_t, add_message, SEVERITY_WARNING
    use atrito_model, only: model_t
    use atrito_observations, only: observation_names
@@ -36,6 +38,7 @@ contains
       class(frame_store_t), intent(inout), target :: frames !< will keep the increments that are printed
       type(status_t), intent(out) :: status
       character(len=:), allocatable :: options
+      integer(lp) :: identity(2)
 
       recorder%resumes = allocated(command%restart)
       recorder%every = model%restart_every
@@ -52,6 +55,9 @@ contains
          if (size(command%observe) > 0) options = options//', --observe '//join(command%observe, ', --observe ')
       end if
       call take_fingerprint(model, options, recorder%fingerprint)
+      if (recorder%resumes) call judge_file(command%restart, status, identity)
+      if (recorder%resumes .and. is_ok(status)) call protect_input(identity, status)
+      if (recorder%resumes .and. file_exists(command%restart) .and. .not. is_ok(status)) return
       if (recorder%resumes) call read_restart(command%restart, recorder%fingerprint, recorder%found, recorder%state, status, &
                                              frames)
    end subroutine begin_recorder

@@ -9,7 +9,7 @@ module atrito_run
    use atrito_deck, only: deck_t
    use atrito_deck_as_run, only: take_deck_as_run
    use atrito_element_table, only: DEGREE_OF, KINDS, kind_named
-   use atrito_files, only: check_folder, file_exists, true_path
+   use atrito_files, only: check_folder, check_all_own, check_own, forget_inputs, protect_input
    use atrito_folder_claim, only: folder_claim_t, claim_folder, release_folder
    use atrito_frame_spool, only: begin_frames, end_frames, frame_spool_t
    use atrito_given_options, only: options_of_run
@@ -25,10 +25,11 @@ module atrito_run
    use atrito_parameter_text, only: list_parameters
    use atrito_patched_text, only: digest_of_texts
    use atrito_plane_state, only: FULL_STATE
-   use atrito_plot_files, only: plot_folder
+   use atrito_plot_files, only: plot_folder, list_plots, PLOTS_OF_RUN
    use atrito_reader, only: read_deck
    use atrito_report_maker, only: make_run_report
    use atrito_reporter, only: reporter_t, report_progress
+   use atrito_restart_file, only: restart_name
    use atrito_restart_recorder, only: restart_recorder_t, begin_recorder
    use atrito_results, only: history_t, results_t, last_frame
    use atrito_screen, only: compose_summary
@@ -44,15 +45,26 @@ module atrito_run
    use atrito_threads, only: lent_threads, set_threads
    use atrito_timers, only: start_phase, stop_phase
    use atrito_write_plots, only: write_plots, plot_names
-   use atrito_write_results, only: write_results
+   use atrito_write_results, only: write_results, list_files_of_run
    implicit none (type, external)
    private
    public :: run_deck, load_model, read_model, prepare_observations, solve_options, agree_on_outcome
 
 contains
 
-   !> Solves a deck and writes its tables.
+   !> Solves a deck and writes its tables. What it reads is protected for so long.
    subroutine run_deck(command, store, code, facts)
+      type(command_t), intent(in) :: command
+      type(body_cache_t), intent(inout) :: store    !< bodies of an earlier run; those of this one
+      integer, intent(out) :: code                  !< one of STATUS_*
+      type(run_facts_t), intent(out), optional :: facts
+
+      call forget_inputs()
+      call run_model(command, store, code, facts)
+      call forget_inputs()
+   end subroutine run_deck
+
+   subroutine run_model(command, store, code, facts)
       type(command_t), intent(in) :: command
       type(body_cache_t), intent(inout) :: store    !< bodies of an earlier run; those of this one
       integer, intent(out) :: code                  !< one of STATUS_*
@@ -73,6 +85,7 @@ contains
       call check_folder(output_folder(command), status)
       call begin_frames(output_folder(command), frames)
       if (is_ok(status)) call begin_recorder(command, model, recorder, frames, status)
+      if (is_ok(status)) call check_files(command, model, status)
       if (is_ok(status)) then
          call solve_and_write(command, model, recorder, observations, frames, reporter, told, store, code, facts)
       else                                          ! better now than after an hour
@@ -80,7 +93,7 @@ contains
          code = status%code
       end if
       call end_frames(frames)
-   end subroutine run_deck
+   end subroutine run_model
 
    subroutine solve_and_write(command, model, recorder, observations, frames, reporter, told, store, code, facts)
       type(command_t), intent(in) :: command
@@ -200,6 +213,7 @@ contains
       ! not allocated: an optional argument that is not there
       if (command%plot) pictures = plot_names(model, history)
       call claim_folder(folder, claim, status, silent=command%json)
+      if (is_ok(status)) call check_files(command, model, status)    ! an hour may have passed
       if (is_ok(status)) call write_results(model, history, int(command%digits), folder, written, status, pictures, &
                                             command%is_csv)
       if (.not. is_ok(status)) then
@@ -257,7 +271,7 @@ contains
       end if
       call list_parameters(deck, [string_t ::], model%provenance%parameters)
       call options_of_run(command, model%provenance%options)
-      if (present(keeps_deck) .and. is_ok(status)) call keep_deck(command, deck, model, status)
+      if (present(keeps_deck) .and. is_ok(status)) call keep_deck(deck, model, status)
       code = status%code
       if (.not. is_ok(status)) call print_status(status, command%names(1)%s, command%json)
    end subroutine load_model
@@ -293,26 +307,32 @@ contains
       if (.not. ok) call print_message(error, command%json)
    end subroutine prepare_observations
 
-   !> The deck as it is run, and its digest. status: STATUS_FILE where it would replace a file of the deck.
-   subroutine keep_deck(command, deck, model, status)
+   !> Whether what the run is going to replace or remove is atrito's, and nothing that it has read. status: STATUS_FILE.
+   subroutine check_files(command, model, status)
       type(command_t), intent(in) :: command
+      type(model_t), intent(in) :: model
+      type(status_t), intent(out) :: status
+      character(len=:), allocatable :: folder
+
+      folder = output_folder(command)
+      call check_all_own(folder, list_files_of_run(model, folder), status)
+      if (is_ok(status)) call check_all_own(plot_folder(folder), list_plots(folder, PLOTS_OF_RUN), status)
+      if (is_ok(status)) call check_own(folder//'/'//restart_name(model), status, may_be_read=.true.)
+   end subroutine check_files
+
+   !> The deck as it is run, and its digest; its files are protected.
+   subroutine keep_deck(deck, model, status)
       type(deck_t), intent(inout) :: deck
       type(model_t), intent(inout) :: model
       type(status_t), intent(inout) :: status
-      character(len=:), allocatable :: path
-      integer :: i, k
+      integer(ip) :: i
+
+      do i = 1, deck%n_sources
+         if (is_ok(status)) call protect_input(deck%sources(i)%identity, status)
+      end do
 
       call take_deck_as_run(deck, model%as_run)
       model%provenance%digest = digest_of_texts(model%as_run)
-      do i = 1, size(model%as_run)
-         path = output_folder(command)//'/'//model%as_run(i)%name
-         if (.not. file_exists(path)) cycle
-         do k = 1, deck%n_sources
-            if (true_path(path) /= true_path(deck%sources(k)%name)) cycle
-            call set_status(status, STATUS_FILE, path//': is a file of the deck, which a file of the run would replace; -o names ' &
-                            //'another folder')
-         end do
-      end do
    end subroutine keep_deck
 
    !> Whether all elements of the deck have the plane state of a kind; nothing asked is always there.

@@ -5,7 +5,7 @@ module atrito_series
    use atrito_console, only: print_messages, print_status
    use atrito_deck, only: deck_t
    use atrito_deck_as_run, only: take_deck_as_run
-   use atrito_files, only: check_folder
+   use atrito_files, only: check_folder, check_all_own
    use atrito_folder_claim, only: folder_claim_t, claim_folder
    use atrito_given_options, only: options_of_series
    use atrito_kinds, only: ip, lp, wp
@@ -13,13 +13,14 @@ module atrito_series
    use atrito_page, only: page_t, print_page, add_above_rule
    use atrito_patched_text, only: named_text_t, digest_of_texts
    use atrito_parameter_text, only: list_parameters
-   use atrito_plot_files, only: remove_plots, PLOTS_OF_SWEEP, PLOTS_OF_STUDY, PLOTS_OF_LIMIT
+   use atrito_plot_files, only: plot_folder, list_plots, remove_plots, PLOTS_OF_SWEEP, PLOTS_OF_STUDY, PLOTS_OF_LIMIT
    use atrito_provenance, only: provenance_t
    use atrito_reader, only: read_deck
    use atrito_report_file, only: REPORT_NAME, remove_report
    use atrito_status, only: status_t, is_ok
    use atrito_strings, only: string_t, append_string
-   use atrito_table, only: origin_t
+   use atrito_sweep_journal, only: JOURNAL_NAME
+   use atrito_table, only: origin_t, TAB_ENDING, CSV_ENDING
    use atrito_system, only: processor_seconds
    implicit none (type, external)
    private
@@ -28,15 +29,37 @@ module atrito_series
 contains
 
    !> Claims the folder of the command; two at once would leave runs of both. A failure, also an earlier one, is told.
-   subroutine claim_output(command, claim, status)
+   subroutine claim_output(command, tables, whose, claim, status)
       type(command_t), intent(in) :: command
+      character(len=*), intent(in) :: tables(:)     !< that it writes besides those of its runs; their names
+      integer, intent(in) :: whose                  !< PLOTS_OF_*
       type(folder_claim_t), intent(out) :: claim
       type(status_t), intent(inout) :: status       !< of what came before; STATUS_FILE
 
       if (is_ok(status)) call check_folder(output_folder(command), status)
+      if (is_ok(status)) call check_files(output_folder(command), tables, whose, status)
       if (is_ok(status)) call claim_folder(output_folder(command), claim, status, silent=command%json)
       if (.not. is_ok(status)) call print_status(status, command%names(1)%s, command%json)
    end subroutine claim_output
+
+   !> Whether what is going to be replaced or removed is atrito's.
+   subroutine check_files(folder, tables, whose, status)
+      character(len=*), intent(in) :: folder, tables(:)
+      integer, intent(in) :: whose
+      type(status_t), intent(out) :: status
+      type(string_t), allocatable :: names(:)
+      integer :: i
+
+      allocate (names(0))
+      call append_string(names, REPORT_NAME)
+      if (whose == PLOTS_OF_SWEEP) call append_string(names, JOURNAL_NAME)
+      do i = 1, size(tables)
+         call append_string(names, trim(tables(i))//TAB_ENDING)
+         call append_string(names, trim(tables(i))//CSV_ENDING)
+      end do
+      call check_all_own(folder, names, status)
+      if (is_ok(status)) call check_all_own(plot_folder(folder), list_plots(folder, whose), status)
+   end subroutine check_files
 
    !> What the heads of the tables tell of the deck, with its own values where a parameter varies. What is wrong with the deck its
    !> runs will tell.

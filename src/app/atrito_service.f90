@@ -1,6 +1,6 @@
 !> What ranks other than the first do: they wait for what the first wants of them, and do it.
 module atrito_service
-   use atrito_command_line, only: command_t, TASK_LIMIT, TASK_STUDY, TASK_SWEEP
+   use atrito_command_line, only: command_t, confine_command, TASK_LIMIT, TASK_STUDY, TASK_SWEEP
    use atrito_kinds, only: ip
    use atrito_mpi, only: receive_parcel
    use atrito_parcel, only: parcel_t, take
@@ -15,6 +15,7 @@ module atrito_service
    use atrito_shared_fields, only: serve_fields
    use atrito_run_request, only: take_request
    use atrito_stability_rounds, only: serve_round
+   use atrito_status, only: status_t
    use atrito_study, only: serve_study
    use atrito_sweep, only: serve_sweep
    implicit none (type, external)
@@ -62,8 +63,10 @@ contains
    subroutine serve_runs(request)
       type(parcel_t), intent(inout) :: request
       type(command_t) :: command
+      type(status_t) :: status
 
       call take_request(request, command)
+      call confine_command(command, status)         ! rank 0 has told what is wrong
       select case (command%task)
       case (TASK_SWEEP)
          call serve_sweep(command)

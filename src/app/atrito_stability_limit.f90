@@ -29,6 +29,7 @@ module atrito_stability_limit
                                       falling_value, balanced_value, STEP_BALANCE, STEP_SOLVE, STEP_DONE, STANDS, FALLS, &
                                       UNDECIDED, FOUND_LIMIT, FOUND_INTERVAL, BOTH_STAND, BOTH_FALL
    use atrito_stability_tables, only: write_stability, compose_stability
+   use atrito_plot_files, only: PLOTS_OF_LIMIT
    use atrito_status, only: status_t, set_status, is_ok, STATUS_OK, STATUS_USAGE, STATUS_NOT_CONVERGED, STATUS_SINGULAR
    use atrito_strings, only: string_t, to_text
    use atrito_table, only: origin_t
@@ -53,7 +54,7 @@ contains
       if (is_ok(status) .and. .not. has_clp()) then
          call set_status(status, STATUS_USAGE, 'limit needs Clp, to prove that a scene falls: '//clp_trouble())
       end if
-      call claim_output(command, claim, status)
+      call claim_output(command, [character(len=9) :: 'limit', 'mechanism'], PLOTS_OF_LIMIT, claim, status)
       code = status%code
       if (.not. is_ok(status)) return
       call find_limit(command, limit, code)

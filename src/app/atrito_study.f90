@@ -16,6 +16,7 @@ module atrito_study
    use atrito_run_request, only: request_runs, has_own_process, print_lost
    use atrito_series_reports, only: begin_series, take_heading, report_of_study
    use atrito_series, only: claim_output, find_provenance, series_origin, begin_pictures, tell_series
+   use atrito_plot_files, only: PLOTS_OF_STUDY
    use atrito_status, only: status_t, set_status, is_ok, STATUS_OK, STATUS_USAGE, STATUS_NOT_CONVERGED, STATUS_INTERNAL
    use atrito_strings, only: string_t, join, to_text
    use atrito_study_errors, only: study_t, study_row_t, study_probe_t
@@ -57,7 +58,7 @@ contains
       type(folder_claim_t) :: claim
 
       call plan_study(asked, runs%command, runs%study, status)
-      call claim_output(runs%command, claim, status)
+      call claim_output(runs%command, ['study'], PLOTS_OF_STUDY, claim, status)
       code = status%code
       if (.not. is_ok(status)) return
       call make_runs(runs, code)

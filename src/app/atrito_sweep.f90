@@ -16,7 +16,7 @@ module atrito_sweep
    use atrito_mpi, only: rank_count
    use atrito_page, only: page_t, add_above_rule, number, plural
    use atrito_parcel, only: parcel_t, put, take
-   use atrito_plot_files, only: plot_folder
+   use atrito_plot_files, only: plot_folder, PLOTS_OF_SWEEP
    use atrito_processes, only: begin_worker, end_worker, share_integers
    use atrito_provenance, only: provenance_t
    use atrito_rank_tasks, only: rank_tasks_t, rank_times_t, hand_out, work_for_first
@@ -75,7 +75,7 @@ contains
          call share_integers(OUTCOMES*sweep%plan%n_runs, sweep%shared)
          if (.not. associated(sweep%shared)) call set_status(status, STATUS_INTERNAL, 'no memory for the outcome of the runs')
       end if
-      call claim_output(command, claim, status)
+      call claim_output(command, ['sweep', 'runs '], PLOTS_OF_SWEEP, claim, status)
       code = status%code
       if (.not. is_ok(status)) return
       call make_and_collect(sweep, code)

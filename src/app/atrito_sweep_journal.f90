@@ -11,6 +11,7 @@ module atrito_sweep_journal
    use atrito_given_options, only: options_of_run
    use atrito_kinds, only: ip
    use atrito_numbers, only: read_integer, NUMBER_OK
+   use atrito_own_files, only: OWN_MARK
    use atrito_provenance, only: provenance_t
    use atrito_read_table, only: table_path
    use atrito_status, only: status_t, is_ok, STATUS_OK, STATUS_NOT_CONVERGED, STATUS_SINGULAR
@@ -20,7 +21,7 @@ module atrito_sweep_journal
    use atrito_version, only: PROGRAM_VERSION
    implicit none (type, external)
    private
-   public :: sweep_journal_t, begin_journal, note_begin, note_end, find_done, remove_journal, OUTCOMES
+   public :: sweep_journal_t, begin_journal, note_begin, note_end, find_done, remove_journal, OUTCOMES, JOURNAL_NAME
 
    integer, parameter :: OUTCOMES = 3                !< exit code, factorisations, what was written: nothing, some, all (0, 1, 2)
 
@@ -30,7 +31,8 @@ module atrito_sweep_journal
       logical :: has_earlier = .false.               !< lines of earlier sweeps
    end type sweep_journal_t
 
-   character(len=*), parameter :: NAME = 'sweep.journal', BEGUN = 'begun', DONE = 'done', NO_TABLE = '-'
+   character(len=*), parameter :: JOURNAL_NAME = 'sweep.journal', BEGUN = 'begun', DONE = 'done', NO_TABLE = '-'
+   character(len=*), parameter :: FIRST_LINE = OWN_MARK//PROGRAM_VERSION//': the runs of a sweep that are done'
    character(len=1), parameter :: NEW_LINE_CHARACTER = achar(10)
 
 contains
@@ -42,7 +44,7 @@ contains
       type(sweep_journal_t), intent(out) :: journal
 
       journal%folder = output_folder(command)
-      journal%path = journal%folder//'/'//NAME
+      journal%path = journal%folder//'/'//JOURNAL_NAME
       journal%key = key_of(command, provenance)
       journal%has_earlier = command%resume
       if (.not. command%resume) call remove_journal(journal)
@@ -99,6 +101,7 @@ contains
       character(len=*), intent(in) :: text
       integer :: ignored
 
+      if (.not. file_exists(journal%path)) ignored = c_append_line(journal%path//c_null_char, FIRST_LINE//c_null_char)
       ignored = c_append_line(journal%path//c_null_char, journal%key//' '//text//c_null_char)
    end subroutine add_line
 

@@ -1,23 +1,30 @@
-!> Text files, in and out. The only `open` and `close` of the Fortran sources.
+!> Text files, in and out. The only `open` and `close` of the Fortran sources, for files of the system: they trim names, and what
+!> was opened cannot be asked of them.
 !>
 !> Output is written in whole sets: every file of a set first goes to a temporary name beside its final one; when all of them
 !> are complete they are renamed together (commit_files), otherwise none is (discard_files).
 module atrito_files
-   use, intrinsic :: iso_c_binding, only: c_associated, c_null_char, c_null_ptr, c_ptr, c_size_t
+   use, intrinsic :: iso_c_binding, only: c_associated, c_int, c_int64_t, c_null_char, c_null_ptr, c_ptr, c_size_t
    use atrito_kinds, only: lp
-   use atrito_paths, only: file_exists, is_folder, make_folder, remove_folders, remove_file, remove_empty_folder, check_folder
-   use atrito_renaming, only: find_obstacle, replace_files, rename_over, TEMPORARY
+   use atrito_own_files, only: check_own, check_all_own, clear_temporary, remove_own_file, TEMPORARY
+   use atrito_paths, only: file_exists, is_folder, make_folder, remove_folders, remove_file, remove_empty_folder, check_folder, &
+                           true_path, target_path
+   use atrito_renaming, only: find_obstacle, replace_files, rename_over, recover_files
    use atrito_status, only: status_t, set_status, is_ok, STATUS_FILE
    use atrito_strings, only: string_t, append_string, to_text
-   use atrito_system, only: c_file_length, c_true_path, c_create_file, c_write_line, c_write_text, c_close_file, c_settle_file, &
+   use atrito_system, only: c_open_input, c_identify, c_note_input, forget_inputs, &
+                            c_read_input, c_close_input, c_confine, c_create_file, &
+                            c_write_line, c_write_text, c_close_file, c_settle_file, &
                             hold_interrupts, release_interrupts, note_path, forget_path
    implicit none (type, external)
    private
-   public :: read_file, read_bytes, read_system_line, read_system_lines, true_path
-   public :: file_exists, is_folder, make_folder, remove_folders, remove_file, remove_empty_folder, check_folder
+   public :: read_file, read_bytes, judge_file, protect_input, forget_inputs, confine_files, read_system_line, read_system_lines, &
+             true_path, target_path
+   public :: file_exists, is_folder, make_folder, remove_folders, remove_file, remove_own_file, remove_empty_folder, check_folder, &
+             check_own, check_all_own
    public :: file_set_t, text_file_t, begin_files, reserve_file, open_text, put_line, put_lines, put_text, close_text, &
              NEW_LINE_CHARACTER
-   public :: end_files, commit_files, commit_over, discard_files, judge_file
+   public :: end_files, commit_files, commit_over, discard_files
 
    !> A set of files that appear together or not at all.
    type :: file_set_t
@@ -37,21 +44,25 @@ module atrito_files
    character(len=1), parameter :: NEW_LINE_CHARACTER = achar(10)
    !> The places in a text are default integers: one of 2 GB is larger than any deck or table.
    integer(lp), parameter :: LARGEST_FILE = 2000000000_lp
-   integer(lp), parameter :: NO_LENGTH = -2_lp               !< of a pipe or a terminal
    !> A text has no zero byte; of a file with one in its first bytes no more than these is read.
    integer, parameter :: FIRST_BYTES = 65536
+   !> Answers of c_open_input.
+   integer(c_int), parameter :: NOT_THERE = -1, NOT_ALLOWED = -2, IS_FOLDER_CODE = -3, IS_PIPE = -4, IS_DEVICE = -5, &
+                                OF_SYSTEM = -6, OUTSIDE = -7, NOT_OPENED = -8
    integer, parameter :: LONGEST_SYSTEM_LINE = 4096          !< a path of a control group, at most
 
 contains
 
    !> Reads a whole file into one string; of a file that is no text, its first bytes: they show that it is none.
    !> status: STATUS_FILE when it cannot be read.
-   subroutine read_file(path, text, status)
+   subroutine read_file(path, text, status, is_plain, identity)
       character(len=*), intent(in) :: path
       character(len=:), allocatable, intent(out) :: text
       type(status_t), intent(out) :: status
+      logical, intent(out), optional :: is_plain     !< .false.: there is something else, or what may not be read
+      integer(lp), intent(out), optional :: identity(2)  !< for protect_input
 
-      call read_plain(path, FIRST_BYTES, text, status)
+      call read_plain(path, FIRST_BYTES, text, status, is_plain, identity)
    end subroutine read_file
 
    !> Reads a whole file, whatever its bytes are, one a character. status: STATUS_FILE when it cannot be read.
@@ -63,64 +74,120 @@ contains
       call read_plain(path, int(LARGEST_FILE), bytes, status)
    end subroutine read_bytes
 
+   !> Whether a file can be read that is going to be read by other means, and what it is. status: STATUS_FILE where not.
+   subroutine judge_file(path, status, identity)
+      character(len=*), intent(in) :: path
+      type(status_t), intent(out) :: status
+      integer(lp), intent(out), optional :: identity(2)
+      integer(c_int) :: file
+      integer(c_int64_t) :: length
+
+      if (present(identity)) identity = -1_lp
+      file = c_open_input(path//c_null_char, length)
+      if (file < 0) then
+         call tell_unread(path, file, status)
+         return
+      end if
+      if (present(identity)) call c_identify(file, identity)
+      call c_close_input(file)
+   end subroutine judge_file
+
+   !> A file of the user that was read is not replaced or removed from now on, until forget_inputs.
+   subroutine protect_input(identity, status)
+      integer(lp), intent(in) :: identity(2)
+      type(status_t), intent(out) :: status
+
+      if (c_note_input(identity) == 0) call set_status(status, STATUS_FILE, 'no memory for the files that are read')
+   end subroutine protect_input
+
+   !> From now on files below the first folder alone are read, and those of the output, which is written into the second.
+   subroutine confine_files(input, output, status)
+      character(len=*), intent(in) :: input
+      character(len=*), intent(in) :: output        !< a true path
+      type(status_t), intent(out) :: status
+
+      if (.not. is_folder(input)) call set_status(status, STATUS_FILE, input//': is no folder')
+      call c_confine(true_path(input)//c_null_char, output//c_null_char)
+   end subroutine confine_files
+
    !> Reads a file: its first bytes, and where there is no zero among them the others, too.
-   subroutine read_plain(path, peek, text, status)
+   subroutine read_plain(path, peek, text, status, is_plain, identity)
       character(len=*), intent(in) :: path
       integer, intent(in) :: peek
       character(len=:), allocatable, intent(out) :: text
       type(status_t), intent(out) :: status
-      character(len=256) :: reason
-      integer :: unit, ios
-      integer(lp) :: length
+      logical, intent(out), optional :: is_plain
+      integer(lp), intent(out), optional :: identity(2)
+      integer(c_int) :: file
+      integer(c_int64_t) :: length
 
-      call judge_file(path, status)
-      if (is_ok(status) .and. c_file_length(path//c_null_char) > LARGEST_FILE) then
-         call set_status(status, STATUS_FILE, path//': is larger than 2 GB')
-      end if
-      if (.not. is_ok(status)) return
-      open (newunit=unit, file=path, access='stream', form='unformatted', status='old', action='read', iostat=ios, iomsg=reason)
-      if (ios /= 0) then
-         call set_status(status, STATUS_FILE, path//': cannot be read: '//trim(reason))
+      file = c_open_input(path//c_null_char, length)
+      if (present(is_plain)) is_plain = file >= 0 .or. any(file == [NOT_THERE, NOT_ALLOWED, IS_FOLDER_CODE, NOT_OPENED])
+      if (present(identity)) identity = -1_lp
+      if (file < 0) then
+         call tell_unread(path, file, status)
          return
       end if
-      inquire (unit=unit, size=length)
-      call read_text(unit, int(max(0_lp, min(length, LARGEST_FILE))), peek, text, ios, reason)
-      close (unit)
-      if (ios /= 0) call set_status(status, STATUS_FILE, path//': cannot be read: '//trim(reason))
+      if (present(identity)) call c_identify(file, identity)
+      if (length > LARGEST_FILE) then
+         call set_status(status, STATUS_FILE, path//': is larger than 2 GB')
+      else
+         call read_text(file, int(length), peek, text, status)
+         if (.not. is_ok(status)) call set_status(status, STATUS_FILE, path//': '//status%text)
+      end if
+      call c_close_input(file)
    end subroutine read_plain
 
    !> What is read must be a plain file: a folder has no text, and a pipe that nobody writes into would never end.
-   subroutine judge_file(path, status)
+   pure subroutine tell_unread(path, code, status)
       character(len=*), intent(in) :: path
+      integer(c_int), intent(in) :: code            !< of c_open_input
       type(status_t), intent(out) :: status
+      character(len=*), parameter :: PLAIN = '; a plain file is expected'
 
-      if (is_folder(path)) then
+      select case (code)
+      case (NOT_THERE)
+         call set_status(status, STATUS_FILE, path//': cannot be read: no such file')
+      case (NOT_ALLOWED)
+         call set_status(status, STATUS_FILE, path//': cannot be read: permission denied')
+      case (IS_FOLDER_CODE)
          call set_status(status, STATUS_FILE, path//': is a folder')
-      else if (c_file_length(path//c_null_char) == NO_LENGTH) then
-         call set_status(status, STATUS_FILE, path//': is a pipe or a terminal; a plain file is expected')
-      end if
-   end subroutine judge_file
+      case (IS_PIPE)
+         call set_status(status, STATUS_FILE, path//': is a pipe or a terminal'//PLAIN)
+      case (IS_DEVICE)
+         call set_status(status, STATUS_FILE, path//': is a device'//PLAIN)
+      case (OF_SYSTEM)
+         call set_status(status, STATUS_FILE, path//': is a file of the system'//PLAIN)
+      case (OUTSIDE)
+         call set_status(status, STATUS_FILE, path//': is outside of the folder of --confine')
+      case default
+         call set_status(status, STATUS_FILE, path//': cannot be read')
+      end select
+   end subroutine tell_unread
 
-   subroutine read_text(unit, length, peek, text, ios, reason)
-      integer, intent(in) :: unit, length
+   !> status%text says why, without the name of the file.
+   subroutine read_text(file, length, peek, text, status)
+      integer(c_int), intent(in) :: file
+      integer, intent(in) :: length
       integer, intent(in) :: peek            !< of a file that turns out to be no text no more are read
       character(len=:), allocatable, intent(out) :: text
-      integer, intent(out) :: ios
-      character(len=*), intent(inout) :: reason
-      integer :: first
+      type(status_t), intent(inout) :: status
+      integer :: first, state
+      logical :: is_read
 
       first = min(length, peek)
       allocate (character(len=first) :: text)
-      ios = 0
-      if (length == 0) return
-      read (unit, iostat=ios, iomsg=reason) text
-      if (ios /= 0 .or. length == first) return
-      if (index(text, achar(0)) > 0) return
-      deallocate (text)
-      allocate (character(len=length) :: text, stat=ios)
-      ! gfortran's own word for it is of an allocated object
-      if (ios /= 0) reason = 'there is not enough memory for its '//to_text(length)//' bytes'
-      if (ios == 0) read (unit, pos=1, iostat=ios, iomsg=reason) text
+      is_read = .true.
+      if (length > 0) is_read = c_read_input(file, text, int(first, c_size_t), 0_c_int64_t) == 1
+      if (is_read .and. length > first .and. index(text, achar(0)) == 0) then
+         deallocate (text)
+         allocate (character(len=length) :: text, stat=state)
+         is_read = state == 0
+         if (.not. is_read) call set_status(status, STATUS_FILE, 'cannot be read: there is not enough memory for its '// &
+                                         to_text(length)//' bytes')
+         if (is_read) is_read = c_read_input(file, text, int(length, c_size_t), 0_c_int64_t) == 1
+      end if
+      if (is_ok(status) .and. .not. is_read) call set_status(status, STATUS_FILE, 'cannot be read')
    end subroutine read_text
 
    !> The first line of a file of the system (which has no length) that begins with a label.
@@ -157,20 +224,7 @@ contains
       close (unit)
    end subroutine read_system_lines
 
-   !> The path of a file without links, `.` and `..`, which is the same for each of its names; `path` itself where there is no
-   !> such file.
-   function true_path(path) result(true)
-      character(len=*), intent(in) :: path
-      character(len=:), allocatable :: true
-      character(len=4096) :: buffer
-      integer :: length
-
-      true = path
-      length = c_true_path(path//c_null_char, buffer, len(buffer))
-      if (length > 0) true = buffer(:length)
-   end function true_path
-
-   !> Begins a set of files in a folder, which is made where it is missing.
+   !> Begins a set of files in a folder, which is made where it is missing. What a run left there that was killed is cleared away.
    subroutine begin_files(set, folder, status)
       type(file_set_t), intent(out) :: set
       character(len=*), intent(in) :: folder
@@ -179,6 +233,7 @@ contains
       set%folder = folder
       allocate (set%names(0))
       call make_folder(folder, status, set%made)
+      if (is_ok(status)) call recover_files(folder)
    end subroutine begin_files
 
    !> Takes a file into the set that is written by other means, under the temporary path that is given back.
@@ -189,7 +244,7 @@ contains
 
       call append_string(set%names, name)
       path = set%folder//'/'//name//TEMPORARY
-      call remove_file(path)
+      call clear_temporary(path)
       call note_path(path)
    end subroutine reserve_file
 
@@ -295,7 +350,8 @@ contains
    end subroutine commit_files
 
    !> Gives each file of the set its final name in one step of the file system: at any moment there is the former file or the
-   !> new one under it, also when the process is killed or the power goes. Meant for sets of one file.
+   !> new one under it, also when the process is killed or the power goes. Meant for sets of one file, which holds all that the
+   !> former one held, so that this may have been read.
    !>
    !> status: STATUS_FILE, and then the former files are there but for those that were replaced before.
    subroutine commit_over(set, status)
@@ -303,7 +359,7 @@ contains
       type(status_t), intent(out) :: status
       type(string_t) :: none(0)
 
-      call find_obstacle(set%folder, set%names, none, status)
+      call find_obstacle(set%folder, set%names, none, status, may_be_read=.true.)
       if (is_ok(status)) call settle_files(set, status)
       if (is_ok(status)) then
          call hold_interrupts()

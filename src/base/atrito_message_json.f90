@@ -3,7 +3,7 @@ module atrito_message_json
    use atrito_kinds, only: ip
    use atrito_messages, only: message_t
    use atrito_strings, only: string_t, to_text
-   use atrito_utf8, only: utf8_length
+   use atrito_utf8, only: disturbs, utf8_length
    implicit none (type, external)
    private
    public :: json_of_message, json_text
@@ -80,7 +80,9 @@ contains
       i = 1
       do while (i <= len(text))
          n = utf8_length(text(i:))
-         if (n > 1) then
+         if (n > 1 .and. disturbs(text(i:i + max(n, 1) - 1))) then
+            quoted = quoted//escaped_code(text(i:i + n - 1))
+         else if (n > 1) then
             quoted = quoted//text(i:i + n - 1)
          else
             quoted = quoted//escaped(text(i:i))
@@ -89,6 +91,19 @@ contains
       end do
       quoted = quoted//'"'
    end function json_text
+
+   !> The code of a character of two or three bytes.
+   pure function escaped_code(symbol) result(text)
+      character(len=*), intent(in) :: symbol
+      character(len=6) :: text
+      integer :: code, i
+
+      code = iand(ichar(symbol(1:1)), merge(31, 15, len(symbol) == 2))
+      do i = 2, len(symbol)
+         code = 64*code + iand(ichar(symbol(i:i)), 63)
+      end do
+      write (text, '(a, z4.4)') '\u', code
+   end function escaped_code
 
    !> One byte that is a character by itself.
    pure function escaped(symbol) result(text)

@@ -5,6 +5,7 @@
 module atrito_messages
    use atrito_kinds, only: ip
    use atrito_strings, only: string_t, append_string, join, to_text
+   use atrito_utf8, only: visible
    implicit none (type, external)
    private
    public :: message_t, add_message, add_warning, add_note, has_room, count_messages, get_message, clear_messages, sort_messages
@@ -252,7 +253,7 @@ contains
    subroutine append_source(lines, message)
       type(string_t), allocatable, intent(inout) :: lines(:)
       type(message_t), intent(in) :: message
-      character(len=:), allocatable :: before, after
+      character(len=:), allocatable :: before, after, shown
       integer :: first, last, length, column
 
       column = message%column - message%skipped
@@ -265,25 +266,10 @@ contains
       before = repeat('.', merge(3, 0, first > 1))
       after = repeat('.', merge(3, 0, last < len(message%source)))
       length = max(1, min(message%length, last - column + 1))
-      call append_string(lines, '    '//before//message%source(first:last)//after)
-      call append_string(lines, '    '//before//marker(message%source(first:last), column - first + 1, length))
+      shown = visible(message%source(first:last))    ! blanks for tabs, so that the marker stands below its place
+      call append_string(lines, '    '//before//shown//after)
+      call append_string(lines, '    '//before//marker(shown, column - first + 1, length))
    end subroutine append_source
-
-   !> Blanks for tabs, so that the marker stands below its place; no other character may disturb the terminal.
-   pure function visible(source) result(text)
-      character(len=*), intent(in) :: source
-      character(len=len(source)) :: text
-      integer :: i
-
-      text = source
-      do i = 1, len(source)
-         if (source(i:i) == achar(9)) then
-            text(i:i) = ' '
-         else if (iachar(source(i:i)) < 32 .or. iachar(source(i:i)) == 127) then
-            text(i:i) = '?'
-         end if
-      end do
-   end function visible
 
    !> The marker under characters of a line: `^~~`.
    pure function marker(source, column, length) result(text)

@@ -64,15 +64,17 @@ contains
    end subroutine append_words
 
    !> Writes it as a file of a set. status: STATUS_FILE when it could not be written.
-   subroutine write_patched(set, name, patched, status)
+   subroutine write_patched(set, name, patched, status, before, behind)
       type(file_set_t), intent(inout) :: set
       character(len=*), intent(in) :: name           !< final name, without folder
       type(patched_text_t), intent(in) :: patched
       type(status_t), intent(out) :: status
+      character(len=*), intent(in), optional :: before, behind   !< text that is not part of it
       type(text_file_t) :: file
       integer(ip) :: i
 
       call open_text(set, name, file)
+      if (present(before)) call put_text(file, before)
       do i = 1, patched%n
          associate (k => patched%text(i), first => patched%first(i), last => patched%last(i))
             if (k < 1) then
@@ -82,6 +84,7 @@ contains
             end if
          end associate
       end do
+      if (present(behind)) call put_text(file, behind)
       call close_text(file, status)
    end subroutine write_patched
 

@@ -3,23 +3,26 @@ module atrito_paths
    use, intrinsic :: iso_c_binding, only: c_null_char
    use atrito_status, only: status_t, set_status, is_ok, STATUS_FILE
    use atrito_strings, only: string_t, append_string
-   use atrito_system, only: c_is_folder, c_may_write, c_make_folder, c_judge_folder, c_remove_file, c_remove_folder, &
-                            forget_path
+   use atrito_system, only: c_is_folder, c_exists, c_may_hold, c_kind_of, c_true_path, c_may_write, c_make_folder, &
+                            c_judge_folder, c_remove_file, c_remove_folder, forget_path
    implicit none (type, external)
    private
    public :: file_exists, is_folder, may_write, make_folder, remove_folders, remove_file, remove_empty_folder, check_folder, &
-             nearest_folder
+             true_path, target_path, nearest_folder
 
    !> What keeps a run from writing into a folder (judge_folder).
    integer, parameter :: NOTHING = 0, IS_MISSING = 1, IS_BELOW_A_FILE = 2, NOT_READABLE = 3
    integer, parameter :: MOST_TRIES = 5
+   integer, parameter :: LONGEST_PATH = 4096
+   integer, parameter :: IS_LINK = 3                 !< answer of c_kind_of
+   character(len=*), parameter :: OUT_OF_BOUNDS = ': is outside of the folder of output, and --confine was given'
 
 contains
 
    logical function file_exists(path)
       character(len=*), intent(in) :: path
 
-      inquire (file=path, exist=file_exists)
+      file_exists = c_exists(path//c_null_char) == 1
    end function file_exists
 
    logical function is_folder(path)
@@ -35,6 +38,35 @@ contains
       may_write = c_may_write(path//c_null_char) == 1
    end function may_write
 
+   !> The path of a file without links, `.` and `..`, which is the same for each of its names; `path` itself where there is no
+   !> such file.
+   function true_path(path) result(true)
+      character(len=*), intent(in) :: path
+      character(len=:), allocatable :: true
+      character(len=LONGEST_PATH) :: buffer
+      integer :: length
+
+      true = path
+      length = c_true_path(path//c_null_char, buffer, len(buffer))
+      if (length > 0) true = buffer(:length)
+   end function true_path
+
+   !> The true path of a folder that may have to be made; what is missing of it is taken as it is written.
+   recursive function target_path(path) result(target)
+      character(len=*), intent(in) :: path
+      character(len=:), allocatable :: target
+      integer :: slash
+
+      target = true_path(path)
+      if (index(target, '/') == 1 .and. (file_exists(path) .or. len(path) == 1)) return
+      slash = index(path, '/', back=.true.)
+      if (slash == 0) then
+         target = true_path('.')//'/'//path
+      else
+         target = target_path(path(:max(slash - 1, 1)))//'/'//path(slash + 1:)
+      end if
+   end function target_path
+
    !> Makes a folder and those above it where they are missing. Those that were made are appended to `made`, and noted: an
    !> interrupted program removes them where they are empty, until remove_folders or forget_path.
    !>
@@ -45,6 +77,10 @@ contains
       type(string_t), allocatable, intent(inout), optional :: made(:)
       integer :: attempt, i
 
+      if (c_may_hold(target_path(path)//c_null_char) == 0) then
+         call set_status(status, STATUS_FILE, path//OUT_OF_BOUNDS)
+         return
+      end if
       do attempt = 1, MOST_TRIES
          do i = 2, len(path)
             if (path(i:i) == '/') call make_one_folder(path(:i - 1), made)
@@ -86,30 +122,38 @@ contains
       type(status_t), intent(out) :: status
       type(string_t), allocatable :: made(:)
 
-      call check_rights(path, status)
+      if (c_may_hold(target_path(path)//c_null_char) == 0) then
+         call set_status(status, STATUS_FILE, path//OUT_OF_BOUNDS)
+         return
+      end if
+      call check_place(path, status)
       if (is_folder(path) .or. .not. is_ok(status)) return
       call make_folder(path, status, made)
       call remove_folders(made)
    end subroutine check_folder
 
-   !> Whether this user may write into a folder, or make it in those above it.
-   recursive subroutine check_rights(path, status)
+   !> The same of a folder, or of the nearest one above it that is there.
+   recursive subroutine check_place(path, status)
       character(len=*), intent(in) :: path
       type(status_t), intent(out) :: status
       integer :: obstacle
 
       obstacle = c_judge_folder(path//'/.'//c_null_char)
       if (obstacle == NOTHING) return
+      if (c_kind_of(path//c_null_char) == IS_LINK .and. .not. file_exists(path)) then
+         call set_status(status, STATUS_FILE, path//': is a link to nothing; the folder cannot be made')
+         return
+      end if
       if (obstacle == IS_BELOW_A_FILE .and. file_exists(path)) then
          call set_status(status, STATUS_FILE, path//': is no folder that can be read and written into')
       else if (obstacle == IS_MISSING .or. obstacle == IS_BELOW_A_FILE) then
-         if (len(path) > 1) call check_rights(parent_of(path), status)
+         if (len(path) > 1) call check_place(parent_of(path), status)
       else if (obstacle == NOT_READABLE) then
          call set_status(status, STATUS_FILE, path//': the folder cannot be read')
       else
          call set_status(status, STATUS_FILE, path//': the folder cannot be written into')
       end if
-   end subroutine check_rights
+   end subroutine check_place
 
    !> A folder, or the nearest one above it that is there.
    recursive function nearest_folder(path) result(folder)

@@ -3,11 +3,13 @@
 module atrito_processes
    use, intrinsic :: iso_c_binding, only: c_associated, c_f_pointer, c_int, c_null_char, c_ptr, c_size_t
    use, intrinsic :: iso_fortran_env, only: output_unit, error_unit
-   use atrito_kinds, only: ip
+   use atrito_kinds, only: ip, wp
    use atrito_system, only: c_begin_worker, c_end_worker, await_workers, c_run_command, c_share_memory
    implicit none (type, external)
    private
-   public :: begin_worker, end_worker, await_workers, share_integers, run_command
+   public :: begin_worker, end_worker, await_workers, share_integers, run_command, TOO_LATE
+
+   integer, parameter :: TOO_LATE = 124               !< the time was over, and the command was ended
 
 contains
 
@@ -38,13 +40,14 @@ contains
       flush (error_unit, iostat=ios)
    end subroutine flush_output
 
-   !> Has the shell run a command and waits for its end.
-   subroutine run_command(command, code)
+   !> Has the shell run a command and waits for its end, no longer than so many seconds.
+   subroutine run_command(command, seconds, code)
       character(len=*), intent(in) :: command
-      integer, intent(out) :: code                     !< exit code; 128 and the number of the signal that ended it
+      real(wp), intent(in) :: seconds
+      integer, intent(out) :: code                     !< exit code; 128 and the number of the signal that ended it; TOO_LATE
 
       call flush_output()
-      code = c_run_command(command//c_null_char)
+      code = c_run_command(command//c_null_char, seconds)
    end subroutine run_command
 
    !> Integers that all workers to come see and change. Not associated: the system has none.

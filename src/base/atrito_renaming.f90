@@ -5,24 +5,27 @@
 !> whole, under its own name or its temporary one, and no new file beside a former one.
 module atrito_renaming
    use, intrinsic :: iso_c_binding, only: c_null_char
+   use atrito_own_files, only: check_own, check_unread, is_own, remove_own_file, TEMPORARY, FORMER
    use atrito_paths, only: file_exists, is_folder, may_write, remove_file
    use atrito_status, only: status_t, set_status, is_ok, STATUS_FILE
    use atrito_strings, only: string_t, append_string
-   use atrito_system, only: c_rename
+   use atrito_system, only: c_find_name, c_rename
    implicit none (type, external)
    private
-   public :: find_obstacle, replace_files, rename_over, TEMPORARY
+   public :: find_obstacle, replace_files, rename_over, recover_files
 
-   character(len=*), parameter :: TEMPORARY = '.part', FORMER = '.old'//TEMPORARY
+   integer, parameter :: LONGEST_NAME = 255
 
 contains
 
-   !> What can be seen before anything is replaced: a folder in the place of a file, or a file that its owner has protected.
-   subroutine find_obstacle(folder, names, stale, status)
+   !> What can be seen before anything is replaced: a folder in the place of a file, a file that this run has read, or one that its
+   !> owner has protected.
+   subroutine find_obstacle(folder, names, stale, status, may_be_read)
       character(len=*), intent(in) :: folder
       type(string_t), intent(in) :: names(:)        !< that will be written, without folder
       type(string_t), intent(in) :: stale(:)        !< that will be removed, without folder
       type(status_t), intent(out) :: status
+      logical, intent(in), optional :: may_be_read  !< what is written holds all that the file held
       integer :: i
 
       do i = 1, size(names)
@@ -30,11 +33,13 @@ contains
             call set_status(status, STATUS_FILE, folder//'/'//names(i)%s//': cannot be written, it is a folder')
             return
          end if
-         call find_protection(folder//'/'//names(i)%s, status)
+         call check_unread(folder//'/'//names(i)%s, status, may_be_read)
+         if (is_ok(status)) call find_protection(folder//'/'//names(i)%s, status)
          if (.not. is_ok(status)) return
       end do
       do i = 1, size(stale)
-         call find_protection(folder//'/'//stale(i)%s, status)
+         call check_unread(folder//'/'//stale(i)%s, status)
+         if (is_ok(status)) call find_protection(folder//'/'//stale(i)%s, status)
          if (.not. is_ok(status)) return
       end do
    end subroutine find_obstacle
@@ -70,13 +75,71 @@ contains
       call name_new_files(paths(:size(names)), done, status)
       if (is_ok(status)) then
          do i = 1, size(paths)
-            call remove_file(paths(i)%s//FORMER)
-            call remove_file(paths(i)%s//TEMPORARY)          ! of a run that was killed
+            if (is_aside(i)) call remove_file(paths(i)%s//FORMER)
          end do
       else
          call take_back(paths, is_aside, done, status)
       end if
    end subroutine replace_files
+
+   !> What a run left that was killed among its renamings: former files come back, whatever deck they are of; where all new ones
+   !> have their names already, those go that stepped aside. Then files go that were not complete.
+   subroutine recover_files(folder)
+      character(len=*), intent(in) :: folder
+      type(string_t), allocatable :: names(:)
+      logical :: is_whole
+      integer :: i
+
+      names = names_with(folder, TEMPORARY)
+      if (size(names) == 0) return
+      is_whole = .true.
+      do i = 1, size(names)
+         if (.not. is_former(names(i)%s)) is_whole = is_whole .and. .not. is_own(folder//'/'//names(i)%s)
+      end do
+      do i = 1, size(names)
+         if (is_former(names(i)%s) .and. .not. is_whole) call bring_back(folder//'/'//names(i)%s)
+      end do
+      do i = 1, size(names)
+         call remove_own_file(folder//'/'//names(i)%s)
+      end do
+   end subroutine recover_files
+
+   pure logical function is_former(name)
+      character(len=*), intent(in) :: name
+
+      is_former = .false.
+      if (len(name) > len(FORMER)) is_former = name(len(name) - len(FORMER) + 1:) == FORMER
+   end function is_former
+
+   !> A former file gets its first name again, also from a new one.
+   subroutine bring_back(path)
+      character(len=*), intent(in) :: path          !< its second name
+      character(len=:), allocatable :: first
+      type(status_t) :: status
+      logical :: ignored
+
+      first = path(:len(path) - len(FORMER))
+      call check_own(path, status)
+      if (is_ok(status)) call check_own(first, status)
+      if (is_ok(status) .and. .not. is_folder(first)) ignored = renamed(path, first)
+   end subroutine bring_back
+
+   !> Names of a folder that end so.
+   function names_with(folder, ending) result(names)
+      character(len=*), intent(in) :: folder, ending
+      type(string_t), allocatable :: names(:)
+      character(len=LONGEST_NAME) :: buffer
+      integer :: i, length
+
+      allocate (names(0))
+      i = 0
+      do
+         i = i + 1
+         length = c_find_name(folder//c_null_char, ending//c_null_char, i, buffer, LONGEST_NAME)
+         if (length == 0) return
+         call append_string(names, buffer(:length))
+      end do
+   end function names_with
 
    !> Gives new files their names, over the former ones.
    subroutine rename_over(folder, names, status)

@@ -1,6 +1,7 @@
 !> Progress of a run, told on standard error unless --quiet.
 module atrito_reporter
    use, intrinsic :: iso_fortran_env, only: error_unit
+   use atrito_utf8, only: visible
    implicit none (type, external)
    private
    public :: reporter_t, report_progress
@@ -18,7 +19,7 @@ contains
       integer :: ignored
 
       if (reporter%quiet) return
-      write (error_unit, '(a)', iostat=ignored) text
+      write (error_unit, '(a)', iostat=ignored) visible(text)
       flush (error_unit, iostat=ignored)             ! a file is watched, too
    end subroutine report_progress
 

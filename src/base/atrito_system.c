@@ -3,6 +3,7 @@
  * The numbers and structures of the system stand in its headers, and here alone the compiler sees them. atrito_system.f90 has
  * the Fortran interfaces. Texts come as C strings. */
 #define _GNU_SOURCE
+#include <dirent.h>
 #include <dlfcn.h>
 #include <errno.h>
 #include <fcntl.h>
@@ -25,6 +26,7 @@
 #ifdef __linux__
 #include <stdio_ext.h>
 #include <sys/prctl.h>
+#include <sys/vfs.h>
 #else
 #define __fpurge fpurge
 #endif
@@ -58,6 +60,16 @@ void atrito_remove_file(const char *path) { unlink(path); }
 
 void atrito_remove_folder(const char *path) { rmdir(path); }
 
+/* What has a name, links not followed: 0 nothing, 1 a plain file, 2 a folder, 3 a link, 4 something else. */
+int atrito_kind_of(const char *path) {
+   struct stat is;
+   if (lstat(path, &is) != 0)
+      return 0;
+   return S_ISREG(is.st_mode) ? 1 : S_ISDIR(is.st_mode) ? 2 : S_ISLNK(is.st_mode) ? 3 : 4;
+}
+
+int atrito_exists(const char *path) { return access(path, F_OK) == 0; }
+
 /* What was written into a file is on the disk, not in the memory of the system, which a loss of power takes. 1: done. */
 int atrito_settle_file(const char *path) {
    int file = open(path, O_RDONLY);
@@ -83,22 +95,268 @@ int atrito_true_path(const char *path, char *out, int room) {
    return (int)n;
 }
 
-/* ---- files ---- */
+/* ---- files that are read ----
+ *
+ * What is judged is the file that was opened, not its name, which may be a link or may be changed meanwhile. */
 
-/* The length of a file; -1: it cannot be opened, -2: it has none, being a pipe or a terminal. A pipe that nobody writes into
- * does not keep the program waiting. */
-int64_t atrito_file_length(const char *path) {
-   int file = open(path, O_RDONLY | O_NONBLOCK);
+enum { NOT_THERE = -1, NOT_ALLOWED = -2, IS_FOLDER = -3, IS_PIPE = -4, IS_DEVICE = -5, OF_SYSTEM = -6, OUTSIDE = -7, NOT_OPENED = -8 };
+enum { LONGEST_PATH = 4096, MOST_LINKS = 40 };
+
+static struct { dev_t device; ino_t number; } *inputs;      /* files of the user that this run has read */
+static int n_inputs;
+static char *roots[2];                              /* --confine: folders, true paths, outside of which nothing is read */
+
+/* The second folder is that of the output. */
+void atrito_confine(const char *input, const char *output) {
+   roots[0] = strdup(input);
+   roots[1] = strdup(output);
+   if (!roots[0] || !roots[1])
+      abort();                                      /* better than to read without bounds */
+}
+
+static int is_below(const char *path, const char *folder) {
+   size_t n = strlen(folder);
+   while (n > 1 && folder[n - 1] == '/')
+      n--;
+   return n == 1 || (strncmp(path, folder, n) == 0 && (path[n] == '/' || path[n] == '\0'));
+}
+
+static int is_within_roots(const char *true_path) {
+   return !roots[0] || is_below(true_path, roots[0]) || is_below(true_path, roots[1]);
+}
+
+/* A folder, by its true path, in which may be written. */
+int atrito_may_hold(const char *folder) { return !roots[1] || is_below(folder, roots[1]); }
+
+/* A name in /proc or /dev, also behind links: what is there is no file of a user. /dev/shm holds plain ones. */
+static int names_system(const char *path) {
+   char name[LONGEST_PATH], target[LONGEST_PATH], folder[LONGEST_PATH];
+
+   if (strlen(path) >= sizeof name)
+      return 0;
+   strcpy(name, path);
+   for (int i = 0; i < MOST_LINKS; i++) {
+      char *slash = strrchr(name, '/');
+      snprintf(folder, sizeof folder, "%.*s", slash ? (int)(slash - name) + 1 : 1, slash ? name : ".");
+      char *resolved = realpath(folder, NULL);
+      if (!resolved)
+         return 0;
+      int is_so = (is_below(resolved, "/proc") || is_below(resolved, "/dev") || is_below(resolved, "/sys")) &&
+                  !is_below(resolved, "/dev/shm");
+      free(resolved);
+      if (is_so)
+         return 1;
+      ssize_t n = readlink(name, target, sizeof target - 1);
+      if (n < 0)
+         return 0;
+      target[n] = '\0';
+      if (target[0] == '/' || !slash)
+         strcpy(name, target);
+      else if ((size_t)(slash - name) + 1 + (size_t)n < sizeof name)
+         strcpy(slash + 1, target);
+      else
+         return 0;
+   }
+   return 0;
+}
+
+/* Of a name that cannot be opened: whether it leads out of the roots. It must not be told then whether there is such a file. */
+static int leads_outside(const char *path) {
+   char name[LONGEST_PATH];
+   struct stat is;
+
+   if (!roots[0])
+      return 0;
+   if (strlen(path) >= sizeof name)
+      return 1;
+   strcpy(name, path);
+   for (;;) {
+      char *resolved = realpath(name, NULL);
+      if (resolved) {
+         int is_out = !is_within_roots(resolved);
+         free(resolved);
+         return is_out;
+      }
+      if (lstat(name, &is) == 0)
+         return 1;                                  /* a link to nothing, or to what may not be seen */
+      char *slash = strrchr(name, '/');
+      if (!slash)
+         strcpy(name, strcmp(name, ".") == 0 ? "/" : ".");
+      else
+         slash[slash == name ? 1 : 0] = '\0';
+   }
+}
+
+/* The path of an opened file, without links; 0: the system does not tell. */
+static int path_of_opened(int file, const char *path, char *out, size_t room) {
+#ifdef __linux__
+   char name[64];
+   snprintf(name, sizeof name, "/proc/self/fd/%d", file);
+   ssize_t n = readlink(name, out, room - 1);
+   (void)path;
+   if (n <= 0)
+      return 0;
+   out[n] = '\0';
+   return 1;
+#else
+   struct stat opened, is;
+   char *resolved = realpath(path, NULL);
+   int is_it = resolved && strlen(resolved) < room && fstat(file, &opened) == 0 && stat(resolved, &is) == 0 &&
+               opened.st_ino == is.st_ino && opened.st_dev == is.st_dev;
+   if (is_it)
+      strcpy(out, resolved);
+   free(resolved);
+   return is_it;
+#endif
+}
+
+/* What keeps an opened file from being read, a negative number; 0: nothing. */
+static int judge_opened(int file, const char *path, const struct stat *is) {
+   char opened[LONGEST_PATH];
+
+   if (roots[0] && (!path_of_opened(file, path, opened, sizeof opened) || !is_within_roots(opened)))
+      return OUTSIDE;
+   if (S_ISDIR(is->st_mode))
+      return IS_FOLDER;
+   if (S_ISCHR(is->st_mode) && isatty(file))
+      return IS_PIPE;
+   if (S_ISCHR(is->st_mode) || S_ISBLK(is->st_mode))
+      return IS_DEVICE;
+   if (!S_ISREG(is->st_mode))
+      return IS_PIPE;
+   if (names_system(path))
+      return OF_SYSTEM;
+#ifdef __linux__
+   struct statfs system;
+   if (fstatfs(file, &system) == 0 && (system.f_type == 0x9fa0 || system.f_type == 0x62656572)) /* proc, sysfs: bound elsewhere */
+      return OF_SYSTEM;
+#endif
+   return 0;
+}
+
+/* Opens a file to be read: its descriptor and its length [bytes], or why it is not, a negative number. First without reading: to
+ * open a device may do something, and to open a pipe may wait. */
+int atrito_open_input(const char *path, int64_t *length) {
+   struct stat seen, is;
+   int file;
+#ifdef O_PATH
+   file = open(path, O_PATH | O_CLOEXEC);
+   if (file >= 0) {
+      int code = fstat(file, &seen) == 0 ? judge_opened(file, path, &seen) : NOT_OPENED;
+      close(file);
+      if (code < 0)
+         return code;
+   }
+#endif
+   file = open(path, O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
+   if (file < 0) {
+      int code = errno == ENOENT || errno == ENOTDIR ? NOT_THERE : errno == EACCES || errno == EPERM ? NOT_ALLOWED : NOT_OPENED;
+      return leads_outside(path) ? OUTSIDE : code;
+   }
+   int code = fstat(file, &is) == 0 ? judge_opened(file, path, &is) : NOT_OPENED;
+   if (code < 0) {
+      close(file);
+      return code;
+   }
+   *length = is.st_size;
+   return file;
+}
+
+/* What a file is, whatever its name: its device and its number there. */
+void atrito_identify(int file, int64_t *identity) {
+   struct stat is;
+   int is_known = fstat(file, &is) == 0;
+   identity[0] = is_known ? (int64_t)is.st_dev : -1;
+   identity[1] = is_known ? (int64_t)is.st_ino : -1;
+}
+
+/* The file is one of the user's: it will not be replaced or removed until atrito_forget_inputs. 1: noted. */
+int atrito_note_input(const int64_t *identity) {
+   void *longer = realloc(inputs, sizeof *inputs * (size_t)(n_inputs + 1));
+
+   if (!longer)
+      return 0;
+   inputs = longer;
+   inputs[n_inputs].device = (dev_t)identity[0];
+   inputs[n_inputs++].number = (ino_t)identity[1];
+   return 1;
+}
+
+void atrito_forget_inputs(void) { n_inputs = 0; }
+
+/* Whether a file, or what a link leads to, is one of those. */
+int atrito_is_input(const char *path) {
+   struct stat is;
+
+   if (stat(path, &is) != 0)
+      return 0;
+   for (int i = 0; i < n_inputs; i++)
+      if (inputs[i].device == is.st_dev && inputs[i].number == is.st_ino)
+         return 1;
+   return 0;
+}
+
+/* So many bytes at a place. 1: all of them were read. */
+int atrito_read_input(int file, char *text, size_t length, int64_t place) {
+   while (length > 0) {
+      ssize_t n = pread(file, text, length, (off_t)place);
+      if (n < 0 && errno == EINTR)
+         continue;
+      if (n <= 0)
+         return 0;
+      text += n;
+      length -= (size_t)n;
+      place += n;
+   }
+   return 1;
+}
+
+void atrito_close_input(int file) { close(file); }
+
+/* The first or the last bytes of a plain file that is no link: how many there are; -1: it is none. */
+int atrito_peek(const char *path, char *text, int room, int from_end) {
+   struct stat is;
+   int file = open(path, O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
+   int n = -1;
+
    if (file < 0)
       return -1;
-   off_t length = lseek(file, 0, SEEK_END);
+   if (fstat(file, &is) == 0 && S_ISREG(is.st_mode))
+      n = (int)pread(file, text, (size_t)room, from_end && is.st_size > room ? is.st_size - room : 0);
    close(file);
-   return length < 0 ? -2 : length;
+   return n;
 }
+
+/* The n-th name in a folder that ends so, from 1 on: its length; 0: there is none. */
+int atrito_find_name(const char *folder, const char *ending, int n, char *name, int room) {
+   DIR *list = opendir(folder);
+   int length = 0;
+
+   for (struct dirent *entry; list && n > 0 && (entry = readdir(list));) {
+      size_t all = strlen(entry->d_name), end = strlen(ending);
+      if (all <= end || all > (size_t)room || strcmp(entry->d_name + all - end, ending) != 0 || --n > 0)
+         continue;
+      memcpy(name, entry->d_name, all);
+      length = (int)all;
+   }
+   if (list)
+      closedir(list);
+   return length;
+}
+
+/* ---- files that are written ---- */
 
 int atrito_is_terminal(int file) { return isatty(file); }
 
-void *atrito_create_file(const char *path) { return fopen(path, "wb"); }
+/* A file that is not there yet: neither one that somebody has put there meanwhile nor what a link leads to is written into. */
+void *atrito_create_file(const char *path) {
+   int file = open(path, O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
+   FILE *stream = file < 0 ? NULL : fdopen(file, "wb");
+
+   if (file >= 0 && !stream)
+      close(file);
+   return stream;
+}
 
 /* 1: all of it is written, as far as is known by now. */
 int atrito_write_text(void *file, const char *text, size_t length) { return fwrite(text, 1, length, file) == length; }
@@ -147,14 +405,19 @@ int atrito_read_bytes(void *file, void *bytes, size_t length) { return fread(byt
 
 int atrito_close_file(void *file) { return fclose(file) == 0; }
 
-/* Adds a line at the end of a file, which is made where it is missing. The system takes it as one piece: what several processes
+/* Adds a line at the end of a plain file, which is made where it is missing; not of what a link leads to. The system takes it as one piece: what several processes
  * add does not mix. 1: done. */
 int atrito_append_line(const char *path, const char *line) {
    size_t length = strlen(line);
    char *text = malloc(length + 1);
-   int file = text ? open(path, O_WRONLY | O_APPEND | O_CREAT, 0666) : -1;
+   int file = text ? open(path, O_WRONLY | O_APPEND | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0666) : -1;
    int is_done = 0;
+   struct stat is;
 
+   if (file >= 0 && (fstat(file, &is) != 0 || !S_ISREG(is.st_mode))) {
+      close(file);
+      file = -1;
+   }
    if (file >= 0) {
       memcpy(text, line, length);
       text[length] = '\n';
@@ -167,24 +430,44 @@ int atrito_append_line(const char *path, const char *line) {
 
 /* ---- locks on folders ---- */
 
-/* A descriptor, for atrito_lock_folder; -1: the folder cannot be opened. Programs that this one starts inherit it: the lock
- * lasts until they have ended, too. */
-int atrito_open_folder(const char *path) { return open(path, O_RDONLY | O_DIRECTORY); }
+/* The lock is one on a file that nobody may read: who may look into the folder, but not write into it, cannot hold it. Those who
+ * wait have opened the same file; when it is removed they look for the next one. */
+static int lock_path(const char *folder, char *path, size_t room) {
+   return (size_t)snprintf(path, room, "%s/.atrito.lock", folder) < room;
+}
 
-void atrito_close_folder(int folder) { close(folder); }
+/* A descriptor, for atrito_lock_folder; -1: no lock can be made. Programs that this one starts do not inherit it. */
+int atrito_open_lock(const char *folder) {
+   char path[LONGEST_PATH];
+   struct stat is;
+   int file = -1;
 
-/* Whether the folder that was opened still has this path: the run that had it may have removed it. */
-int atrito_is_same_folder(int folder, const char *path) {
+   if (lock_path(folder, path, sizeof path))
+      file = open(path, O_WRONLY | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, S_IWUSR | S_IWGRP | S_IWOTH);
+   if (file >= 0 && (fstat(file, &is) != 0 || !S_ISREG(is.st_mode))) {
+      close(file);
+      file = -1;
+   }
+   return file;
+}
+
+void atrito_close_lock(int file) { close(file); }
+
+/* Whether the file that was opened is the one that others find: the run that had it may have removed it. */
+int atrito_is_lock_of(int file, const char *folder) {
+   char path[LONGEST_PATH];
    struct stat opened, is;
-   return fstat(folder, &opened) == 0 && stat(path, &is) == 0 && opened.st_ino == is.st_ino && opened.st_dev == is.st_dev;
+
+   return lock_path(folder, path, sizeof path) && fstat(file, &opened) == 0 && lstat(path, &is) == 0 &&
+          opened.st_ino == is.st_ino && opened.st_dev == is.st_dev;
 }
 
 /* Locks a folder, waiting for others no longer than so many seconds. 0: they have it still; 1: it is locked, or cannot be
  * because the file system has no locks. */
-int atrito_lock_folder(int folder, double seconds) {
+int atrito_lock_folder(int file, double seconds) {
    enum { TICK = 20 };                              /* ms */
 
-   for (double waited = 0; flock(folder, LOCK_EX | LOCK_NB) != 0; waited += TICK / 1000.0) {
+   for (double waited = 0; flock(file, LOCK_EX | LOCK_NB) != 0; waited += TICK / 1000.0) {
       if (errno != EWOULDBLOCK)
          return 1;
       if (waited >= seconds)
@@ -196,15 +479,26 @@ int atrito_lock_folder(int folder, double seconds) {
 
 /* ---- what happens when the program is ended ----
  *
- * From outside (SIGINT, SIGTERM, SIGHUP) or by a fault of its own (SIGSEGV and the like): files that are not complete are
- * removed, and folders that were made for them and are empty, and workers end first.
+ * From outside (by any signal that ends a program and can be caught) or by a fault of its own (SIGSEGV and the like): files that
+ * are not complete are removed, and folders that were made for them and are empty, and workers end first.
  *
  * A factorisation may take minutes, so a handler does all this at once rather than set a flag for the next phase. It calls
  * nothing but what POSIX calls async-signal-safe; what is to be removed stands ready. atrito_hold_interrupts puts off the end
  * where half of the work would be worse than all or none of it. */
 
-static const int endings[] = {SIGHUP, SIGINT, SIGTERM};
-static const int faults[] = {SIGILL, SIGBUS, SIGFPE, SIGSEGV};
+static const int endings[] = {SIGHUP, SIGINT, SIGTERM, SIGQUIT, SIGALRM, SIGUSR1, SIGUSR2, SIGXCPU, SIGVTALRM, SIGPROF,
+#ifdef SIGPWR
+                              SIGPWR,
+#endif
+#ifdef SIGSTKFLT
+                              SIGSTKFLT,
+#endif
+#ifdef SIGPOLL
+                              SIGPOLL,
+#endif
+};
+/* The program's own, or sent from outside, which is another ending. */
+static const int faults[] = {SIGILL, SIGBUS, SIGFPE, SIGSEGV, SIGABRT, SIGTRAP, SIGSYS};
 enum { ENDINGS = sizeof endings / sizeof *endings, FAULTS = sizeof faults / sizeof *faults };
 
 static char **paths;                                /* to be removed; folders stand before what is in them */
@@ -275,7 +569,8 @@ static void end_by(int number) {
    remove_unfinished();
    if (!is_follower) {
       say("atrito: error [E-INTERRUPTED] ");
-      say(number == SIGINT ? "interrupted" : number == SIGTERM ? "terminated" : "the terminal hung up");
+      say(number == SIGINT ? "interrupted" : number == SIGTERM ? "terminated" : number == SIGHUP ? "the terminal hung up"
+          : number == SIGXCPU ? "the limit of processor time is reached" : "ended by a signal");
       say(is_rank ? ", all ranks; files that were not complete are removed\n" : "; files that were not complete are removed\n");
    }
    if (is_rank)
@@ -293,7 +588,12 @@ static void obey(int number) {
       end_by(number);
 }
 
-static void fail(int number) {
+static void fail(int number, siginfo_t *info, void *context) {
+   (void)context;
+   if (info->si_code <= 0 && info->si_pid != getpid()) { /* kill: nothing is wrong with the program */
+      obey(number);
+      return;
+   }
    end_children();
    remove_unfinished();
    for (int i = 0; i < FAULTS; i++) {
@@ -310,7 +610,7 @@ static void fail(int number) {
 /* The handler of the run-time library, which tells where the fault was, is called too. One of another kind, which a sanitizer
  * sets, is left alone. */
 static void guard_fault(int i) {
-   struct sigaction action = {.sa_handler = fail, .sa_flags = SA_ONSTACK}, former;
+   struct sigaction action = {.sa_sigaction = fail, .sa_flags = SA_ONSTACK | SA_SIGINFO}, former;
 
    sigaction(faults[i], NULL, &former);
    if (former.sa_flags & SA_SIGINFO)
@@ -334,6 +634,11 @@ void atrito_guard_interrupts(int code) {
    for (int i = 0; i < ENDINGS; i++)
       if (sigaction(endings[i], NULL, &present) == 0 && present.sa_handler != SIG_IGN)
          sigaction(endings[i], &action, NULL);
+#ifdef SIGRTMIN
+   for (int i = SIGRTMIN; i <= SIGRTMAX; i++)
+      if (sigaction(i, NULL, &present) == 0 && present.sa_handler == SIG_DFL)
+         sigaction(i, &action, NULL);
+#endif
    sigaltstack(&stack, NULL);                       /* of this thread alone: where another one's stack overflows, the system ends the
                                                        program (139), and what is unfinished stays, as docs/user/running.md says */
    for (int i = 0; i < FAULTS; i++)
@@ -450,12 +755,22 @@ void atrito_terminate(void) { raise(SIGTERM); }
 
 /* ---- processes ---- */
 
-/* A copy of this process: 0 in the copy; its number, or -1 where none can be made, in this one. Files and children are those of
+/* This process gets a signal when the one that made it is gone, however it went, where the system knows of such a thing. */
+static void end_with(int number, pid_t maker) {
+#ifdef __linux__
+   prctl(PR_SET_PDEATHSIG, number);
+#endif
+   if (getppid() != maker)
+      _exit(128 + number);
+}
+
+/* A copy of this process, which ends with it: 0 in the copy; its number, or -1 where none can be made, in this one. Files and children are those of
  * the process that made it. */
 int atrito_begin_worker(void) {
    atrito_hold_interrupts();
-   pid_t id = fork();
+   pid_t maker = getpid(), id = fork();
    if (id == 0) {
+      end_with(SIGTERM, maker);
       n_paths = n_children = 0;
       waiting = 0;
       is_silent = 1;
@@ -489,14 +804,6 @@ int atrito_worker_end(int id) {
    return WIFSIGNALED(state) ? 128 + WTERMSIG(state) : WEXITSTATUS(state);
 }
 
-/* This process, a worker, is ended when the one that made it is gone, however it went: by a signal where the system knows of such
- * a thing, else where it asks. */
-void atrito_end_with_maker(void) {
-#ifdef __linux__
-   prctl(PR_SET_PDEATHSIG, SIGTERM);
-#endif
-}
-
 int atrito_process_number(void) { return getpid(); }
 
 int atrito_maker_number(void) { return getppid(); }
@@ -514,20 +821,46 @@ int atrito_swap_shared(int *number, int value) { return atomic_exchange((_Atomic
 
 void atrito_set_shared(int *number, int value) { atomic_store_explicit((_Atomic int *)number, value, memory_order_release); }
 
-/* Has the shell run a command and waits for its end: the exit code, 128 and the number of the signal that ended it, or 127 where
- * there is no shell. The command is a group of processes of its own: a signal from the terminal comes to this process alone,
- * which ends it. */
-int atrito_run_command(const char *command) {
-   enum { NO_PROGRAM = 127 };                       /* the shell's code for a program that is not there */
-   int state, code = NO_PROGRAM;
+/* Ends a whole group of processes, this one, its first, among them. */
+static void end_group(int number) {
+   (void)number;
+   kill(0, SIGKILL);
+}
 
-   atrito_hold_interrupts();
+/* The first process of a group of its own: a signal from the terminal comes to the maker alone, which ends the group; and when the
+ * maker is gone, this one ends it, whatever the programs in it have started. */
+static void guard_command(const char *command, pid_t maker) {
+   enum { NO_PROGRAM = 127 };                       /* the shell's code for a program that is not there */
+   struct sigaction ends = {.sa_handler = end_group}, plain = {.sa_handler = SIG_DFL};
+   int state;
+
+   setpgid(0, 0);
+   for (int i = 0; i < ENDINGS; i++)
+      sigaction(endings[i], &ends, NULL);
+   for (int i = 0; i < FAULTS; i++)
+      sigaction(faults[i], &plain, NULL);
+   end_with(SIGTERM, maker);
    pid_t id = fork();
    if (id == 0) {
-      setpgid(0, 0);
       execl("/bin/sh", "sh", "-c", command, (char *)NULL);
       _exit(NO_PROGRAM);
    }
+   if (id < 0 || waitpid(id, &state, 0) != id)
+      _exit(NO_PROGRAM);
+   _exit(WIFSIGNALED(state) ? 128 + WTERMSIG(state) : WEXITSTATUS(state));
+}
+
+/* Has the shell run a command and waits for its end: the exit code, 128 and the number of the signal that ended it, 127 where
+ * there is no shell, or 124 where it has not ended after so many seconds and was ended. */
+int atrito_run_command(const char *command, double seconds) {
+   enum { NO_PROGRAM = 127, TOO_LATE = 124, TICK = 10 /* ms */ };
+   int state, code = NO_PROGRAM;
+   pid_t ended;
+
+   atrito_hold_interrupts();
+   pid_t maker = getpid(), id = fork();
+   if (id == 0)
+      guard_command(command, maker);
    if (id > 0) {
       setpgid(id, id);                              /* here, too: nobody knows who comes first */
       note_child(-id);
@@ -535,8 +868,15 @@ int atrito_run_command(const char *command) {
    atrito_release_interrupts();
    if (id < 0)
       return code;
-   if (waitpid(id, &state, 0) == id)
+   for (double waited = 0; (ended = waitpid(id, &state, WNOHANG)) == 0 && waited < seconds; waited += TICK / 1000.0)
+      poll(NULL, 0, TICK);
+   if (ended == id)
       code = WIFSIGNALED(state) ? 128 + WTERMSIG(state) : WEXITSTATUS(state);
+   if (ended == 0) {
+      code = TOO_LATE;
+      kill(-id, SIGKILL);
+      await_group(id);
+   }
    forget_child(-id);
    return code;
 }

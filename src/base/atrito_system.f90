@@ -5,14 +5,17 @@ module atrito_system
    use, intrinsic :: iso_c_binding, only: c_char, c_double, c_funptr, c_int, c_int64_t, c_null_char, c_ptr, c_size_t
    implicit none (type, external)
    private
-   public :: c_is_folder, c_may_write, c_judge_folder, c_make_folder, c_remove_file, c_remove_folder, c_rename, c_true_path
-   public :: c_is_terminal, c_file_length, c_create_file, c_write_line, c_write_text, c_close_file, c_settle_file, c_append_line
+   public :: c_is_folder, c_exists, c_may_hold, c_kind_of, c_may_write, c_judge_folder, c_make_folder, &
+             c_remove_file, c_remove_folder, c_rename, c_true_path
+   public :: c_open_input, c_identify, c_note_input, forget_inputs, c_is_input, &
+             c_read_input, c_close_input, c_peek, c_find_name, c_confine
+   public :: c_is_terminal, c_create_file, c_write_line, c_write_text, c_close_file, c_settle_file, c_append_line
+   public :: c_open_lock, c_close_lock, c_is_lock_of, c_lock_folder
    public :: c_open_nameless, c_place_in_file, c_go_to_place, c_write_bytes, c_read_bytes
-   public :: c_open_folder, c_close_folder, c_is_same_folder, c_lock_folder
    public :: guard_interrupts, hold_interrupts, release_interrupts, note_path, forget_path, guard_exit, release_exit
    public :: terminate, be_rank, forgive_faults
    public :: c_begin_worker, c_end_worker, await_workers, c_run_command, c_share_memory, find_routine
-   public :: worker_end, end_with_maker, process_number, maker_number, pause_for, get_shared, set_shared, &
+   public :: worker_end, process_number, maker_number, pause_for, get_shared, set_shared, &
              swap_shared
    public :: c_has_address_space, c_count_threads, stack_of_thread, stack_limit
    public :: processor_seconds, peak_memory, address_space_limit, keep_freed_memory, reusable_memory
@@ -61,12 +64,18 @@ module atrito_system
    procedure(write_to), bind(C, name='atrito_write_text') :: c_write_text
    procedure(pass_bytes), bind(C, name='atrito_write_bytes') :: c_write_bytes
    procedure(pass_bytes), bind(C, name='atrito_read_bytes') :: c_read_bytes
-   procedure(ask_path), bind(C, name='atrito_open_folder') :: c_open_folder
+   procedure(ask_path), bind(C, name='atrito_exists') :: c_exists
+   procedure(ask_path), bind(C, name='atrito_kind_of') :: c_kind_of
+   procedure(ask_path), bind(C, name='atrito_may_hold') :: c_may_hold
+   procedure(ask_path), bind(C, name='atrito_is_input') :: c_is_input
+   procedure(take_number), bind(C, name='atrito_close_input') :: c_close_input
+   procedure(ask_path), bind(C, name='atrito_open_lock') :: c_open_lock
    procedure(ask_path), bind(C, name='atrito_settle_file') :: c_settle_file
-   procedure(take_number), bind(C, name='atrito_close_folder') :: c_close_folder
+   procedure(take_number), bind(C, name='atrito_close_lock') :: c_close_lock
    procedure(take_number), bind(C, name='atrito_guard_interrupts') :: guard_interrupts
    procedure(take_number), bind(C, name='atrito_be_rank') :: be_rank
    procedure(take_number), bind(C, name='atrito_forgive_faults') :: forgive_faults
+   procedure(act), bind(C, name='atrito_forget_inputs') :: forget_inputs
    procedure(act), bind(C, name='atrito_hold_interrupts') :: hold_interrupts
    procedure(act), bind(C, name='atrito_release_interrupts') :: release_interrupts
    procedure(act_on_path), bind(C, name='atrito_note_path') :: c_note_path
@@ -77,10 +86,8 @@ module atrito_system
    procedure(ask), bind(C, name='atrito_begin_worker') :: c_begin_worker
    procedure(act), bind(C, name='atrito_end_worker') :: c_end_worker
    procedure(act), bind(C, name='atrito_await_workers') :: await_workers
-   procedure(act), bind(C, name='atrito_end_with_maker') :: end_with_maker
    procedure(ask), bind(C, name='atrito_process_number') :: process_number
    procedure(ask), bind(C, name='atrito_maker_number') :: maker_number
-   procedure(ask_path), bind(C, name='atrito_run_command') :: c_run_command
    procedure(ask_bytes), bind(C, name='atrito_peak_memory') :: peak_memory
    procedure(ask_bytes), bind(C, name='atrito_address_space_limit') :: address_space_limit
    procedure(ask_bytes), bind(C, name='atrito_stack_of_thread') :: stack_of_thread
@@ -116,10 +123,48 @@ module atrito_system
          character(kind=c_char), intent(inout) :: resolved(*)
          integer(c_int), value :: room
       end function c_true_path
-      integer(c_int64_t) function c_file_length(path) bind(C, name='atrito_file_length')
-         import :: c_char, c_int64_t
+      integer(c_int) function c_open_input(path, length) bind(C, name='atrito_open_input')
+         import :: c_char, c_int, c_int64_t
          character(kind=c_char), intent(in) :: path(*)
-      end function c_file_length
+         integer(c_int64_t), intent(inout) :: length
+      end function c_open_input
+      subroutine c_identify(file, identity) bind(C, name='atrito_identify')
+         import :: c_int, c_int64_t
+         integer(c_int), value :: file
+         integer(c_int64_t), intent(inout) :: identity(2)
+      end subroutine c_identify
+      integer(c_int) function c_note_input(identity) bind(C, name='atrito_note_input')
+         import :: c_int, c_int64_t
+         integer(c_int64_t), intent(in) :: identity(2)
+      end function c_note_input
+      integer(c_int) function c_read_input(file, text, length, place) bind(C, name='atrito_read_input')
+         import :: c_char, c_int, c_int64_t, c_size_t
+         integer(c_int), value :: file
+         character(kind=c_char), intent(inout) :: text(*)
+         integer(c_size_t), value :: length
+         integer(c_int64_t), value :: place
+      end function c_read_input
+      integer(c_int) function c_peek(path, text, room, from_end) bind(C, name='atrito_peek')
+         import :: c_char, c_int
+         character(kind=c_char), intent(in) :: path(*)
+         character(kind=c_char), intent(inout) :: text(*)
+         integer(c_int), value :: room, from_end
+      end function c_peek
+      integer(c_int) function c_find_name(folder, ending, n, name, room) bind(C, name='atrito_find_name')
+         import :: c_char, c_int
+         character(kind=c_char), intent(in) :: folder(*), ending(*)
+         integer(c_int), value :: n, room
+         character(kind=c_char), intent(inout) :: name(*)
+      end function c_find_name
+      subroutine c_confine(input, output) bind(C, name='atrito_confine')
+         import :: c_char
+         character(kind=c_char), intent(in) :: input(*), output(*)
+      end subroutine c_confine
+      integer(c_int) function c_run_command(command, seconds) bind(C, name='atrito_run_command')
+         import :: c_char, c_double, c_int
+         character(kind=c_char), intent(in) :: command(*)
+         real(c_double), value :: seconds
+      end function c_run_command
       type(c_ptr) function c_create_file(path) bind(C, name='atrito_create_file')
          import :: c_char, c_ptr
          character(kind=c_char), intent(in) :: path(*)
@@ -141,14 +186,14 @@ module atrito_system
          import :: c_int, c_ptr
          type(c_ptr), value :: file
       end function c_close_file
-      integer(c_int) function c_is_same_folder(folder, path) bind(C, name='atrito_is_same_folder')
+      integer(c_int) function c_is_lock_of(file, folder) bind(C, name='atrito_is_lock_of')
          import :: c_char, c_int
-         integer(c_int), value :: folder
-         character(kind=c_char), intent(in) :: path(*)
-      end function c_is_same_folder
-      integer(c_int) function c_lock_folder(folder, seconds) bind(C, name='atrito_lock_folder')
+         integer(c_int), value :: file              !< of c_open_lock
+         character(kind=c_char), intent(in) :: folder(*)
+      end function c_is_lock_of
+      integer(c_int) function c_lock_folder(file, seconds) bind(C, name='atrito_lock_folder')
          import :: c_double, c_int
-         integer(c_int), value :: folder
+         integer(c_int), value :: file              !< of c_open_lock
          real(c_double), value :: seconds
       end function c_lock_folder
       integer(c_int) function c_append_line(path, line) bind(C, name='atrito_append_line')

@@ -11,7 +11,7 @@ module atrito_task_process
    use atrito_parcel, only: parcel_t, make_parcel, parcel_bytes, parcel_length
    use atrito_processes, only: begin_worker, end_worker, share_integers
    use atrito_status, only: STATUS_INTERNAL
-   use atrito_system, only: end_with_maker, get_shared, maker_number, pause_for, process_number, set_shared, swap_shared, worker_end
+   use atrito_system, only: get_shared, maker_number, pause_for, process_number, set_shared, swap_shared, worker_end
    implicit none (type, external)
    private
    public :: task_process_t, begin_task_process, give_task, take_task_back, ask_answer, end_task_process, await_task, give_answer
@@ -49,7 +49,6 @@ contains
       process%maker = process_number()
       call begin_worker(is_copy, process%runs, process%number)
       if (.not. is_copy) return
-      call end_with_maker()
       if (maker_number() /= process%maker) call end_worker()
    end subroutine begin_task_process
 

@@ -2,7 +2,7 @@
 module atrito_utf8
    implicit none (type, external)
    private
-   public :: utf8_length, has_controls
+   public :: utf8_length, has_controls, visible, disturbs
 
 contains
 
@@ -44,5 +44,49 @@ contains
          before = code
       end do
    end function has_controls
+
+   !> Blanks for tabs, and ? for each byte of what disturbs a terminal or lies about the order of letters: control characters, those
+   !> of one byte and of two (C1), and marks that turn the direction. The names of files and what a deck says are the user's.
+   pure function visible(source) result(text)
+      character(len=*), intent(in) :: source
+      character(len=len(source)) :: text
+      integer :: i, n
+
+      text = source
+      i = 1
+      do while (i <= len(source))
+         n = utf8_length(source(i:min(i + 3, len(source))))
+         if (source(i:i) == achar(9)) then
+            text(i:i) = ' '
+         else if (n == 0) then
+            if (ichar(source(i:i)) < 160) text(i:i) = '?'   ! a letter of Latin-1 stays
+         else if (disturbs(source(i:i + n - 1))) then
+            text(i:i + n - 1) = repeat('?', n)
+         end if
+         i = i + max(n, 1)
+      end do
+   end function visible
+
+   !> Whether a character is one of those.
+   pure logical function disturbs(symbol)
+      character(len=*), intent(in) :: symbol           !< a character of UTF-8
+      integer :: code(len(symbol)), i
+
+      code = [(ichar(symbol(i:i)), i=1, len(symbol))]
+      disturbs = .false.
+      select case (len(symbol))
+      case (1)
+         disturbs = code(1) < 32 .or. code(1) == 127
+      case (2)
+         disturbs = code(1) == 194 .and. code(2) < 160                          ! U+0080 to U+009F
+         disturbs = disturbs .or. (code(1) == 216 .and. code(2) == 156)         ! U+061C
+      case (3)
+         if (code(1) == 226 .and. code(2) == 128) then                          ! U+200E, U+200F, U+2028 to U+202E
+            disturbs = code(3) == 142 .or. code(3) == 143 .or. (code(3) >= 168 .and. code(3) <= 174)
+         else if (code(1) == 226 .and. code(2) == 129) then                     ! U+2066 to U+2069
+            disturbs = code(3) >= 166 .and. code(3) <= 169
+         end if
+      end select
+   end function disturbs
 
 end module atrito_utf8

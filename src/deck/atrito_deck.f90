@@ -5,7 +5,7 @@
 module atrito_deck
    use atrito_edits, only: edits_t
    use atrito_gmsh_mesh, only: gmsh_mesh_t, move_mesh
-   use atrito_kinds, only: ip, wp
+   use atrito_kinds, only: ip, lp, wp
    use atrito_keyword, only: keyword_t, LEVEL_MODEL, LEVEL_STEP
    implicit none (type, external)
    private
@@ -28,6 +28,7 @@ module atrito_deck
       logical :: is_mesh = .false.                 !< of another program: *INCLUDE, TYPE=GMSH
       integer(ip) :: n_lines = 0                   !< with those of the files that it includes
       integer(ip) :: order = 0                     !< lines read before its first
+      integer(lp) :: identity(2) = -1_lp           !< of the file, whatever its name
    end type source_t
 
    !> The place of an item. An empty item has last < first; `first` is where it should stand.
@@ -315,10 +316,11 @@ contains
       call move_alloc(longer, deck%lines)
    end subroutine make_room
 
-   subroutine append_source(deck, name, text)
+   subroutine append_source(deck, name, text, identity)
       type(deck_t), intent(inout) :: deck
       character(len=*), intent(in) :: name
       character(len=:), allocatable, intent(inout) :: text   !< moved into the deck
+      integer(lp), intent(in), optional :: identity(2)       !< of the file
       type(source_t), allocatable :: longer(:)
       integer(ip) :: i
 
@@ -332,6 +334,7 @@ contains
       deck%n_sources = deck%n_sources + 1
       deck%sources(deck%n_sources)%name = name
       call move_alloc(text, deck%sources(deck%n_sources)%text)
+      if (present(identity)) deck%sources(deck%n_sources)%identity = identity
    end subroutine append_source
 
    !> Moves the text instead of copying it.
@@ -347,6 +350,7 @@ contains
       to%is_mesh = from%is_mesh
       to%n_lines = from%n_lines
       to%order = from%order
+      to%identity = from%identity
    end subroutine move_source
 
    subroutine append_token(deck, token)

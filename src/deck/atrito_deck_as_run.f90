@@ -3,6 +3,7 @@ module atrito_deck_as_run
    use atrito_as_run_names, only: as_run_name, mesh_copy_name
    use atrito_deck, only: deck_t, after_byte_order_mark
    use atrito_kinds, only: ip
+   use atrito_own_files, only: DECK_MARK, MESH_MARK
    use atrito_patched_text, only: patched_text_t, named_text_t, append_place, append_words, OWN_WORDS, UNCOUNTED
    use atrito_strings, only: deck_name
    implicit none (type, external)
@@ -34,13 +35,30 @@ contains
             n = n + 1
             files(n)%name = mesh_copy_name(deck_name(deck%path), n - 1)
             allocate (files(n)%text%texts(1))
-            call append_place(files(n)%text, 1_ip, 1_ip, len(deck%sources(i)%text, kind=ip))
+            call append_place(files(n)%text, 1_ip, 1_ip, before_mark(deck%sources(i)%text))
             call move_alloc(deck%sources(i)%text, files(n)%text%texts(1)%s)
          else
             call move_alloc(deck%sources(i)%text, files(1)%text%texts(i)%s)
          end if
       end do
    end subroutine take_deck_as_run
+
+   !> The last character before the words by which the copy of a mesh says that atrito wrote it; the writer adds them anew.
+   pure integer(ip) function before_mark(text) result(last)
+      character(len=*), intent(in) :: text
+
+      last = index(text, MESH_MARK, back=.true., kind=ip) - 1
+      if (last < 0) last = len(text, kind=ip)
+   end function before_mark
+
+   !> The first character behind the line by which a deck says so.
+   pure integer(ip) function after_mark(text) result(position)
+      character(len=*), intent(in) :: text
+
+      position = after_byte_order_mark(text)
+      if (index(text(position:), DECK_MARK) /= 1) return
+      position = position + index(text(position:)//LINE_FEED, LINE_FEED, kind=ip)
+   end function after_mark
 
    !> A file of the deck, with what it includes.
    recursive subroutine put_source(deck, source, edit, patched)
@@ -51,7 +69,7 @@ contains
       integer(ip) :: position, child, last
 
       last = len(deck%sources(source)%text, kind=ip)
-      position = after_byte_order_mark(deck%sources(source)%text)
+      position = after_mark(deck%sources(source)%text)
       child = next_child(deck, source, source)
       do while (child > 0)
          associate (included => deck%sources(child))

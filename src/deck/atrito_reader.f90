@@ -21,7 +21,7 @@ module atrito_reader
    use atrito_note_edits, only: note_edits
    use atrito_plain_lines, only: take_plain_lines
    use atrito_parameters, only: settings_t, read_settings, define_parameter, check_settings
-   use atrito_status, only: status_t, is_ok
+   use atrito_status, only: status_t, set_status, is_ok, STATUS_FILE
    use atrito_strings, only: string_t, to_text, count_symbol
    implicit none (type, external)
    private
@@ -47,6 +47,7 @@ module atrito_reader
       type(order_t) :: order
       integer :: mode = MODE_NO_KEYWORD
       integer :: depth = 0                         !< of includes
+      type(status_t) :: refusal                    !< of the first include that is no plain file, or may not be read
       logical :: may_be_plain = .false.            !< the next lines may be a run of plain ones
       type(items_t) :: items                       !< work space
    end type reading_t
@@ -70,20 +71,22 @@ contains
       type(status_t), intent(out) :: status
       type(reading_t) :: reading
       character(len=:), allocatable :: text
+      integer(lp) :: identity(2)
 
       deck%path = path
       deck%keywords = keyword_table()
       call allocate_deck(deck)
       call read_settings(settings, reading%settings, status)
-      if (is_ok(status)) call read_file(path, text, status)
+      if (is_ok(status)) call read_file(path, text, status, identity=identity)
       if (is_ok(status)) then
-         call append_source(deck, path, text)
+         call append_source(deck, path, text, identity)
          call read_source(deck, reading, 1_ip)
          call finish_card(deck)
          call check_end(deck, reading%order)
          call note_edits(deck)
          call expand_instances(deck, reading%order%parts%n_blocks)
          call check_settings(deck, reading%settings, status)
+         if (.not. is_ok(reading%refusal)) status = reading%refusal
       end if
       call cut_to_size(deck)
    end subroutine read_deck
@@ -389,7 +392,8 @@ contains
       type(token_t) :: place
       type(status_t) :: status
       integer(ip) :: source
-      logical :: found
+      integer(lp) :: identity(2)
+      logical :: found, is_plain
 
       call option_text(deck, card, 'INPUT', name, found, place)
       found = found .and. len(name) > 0 .and. (card%ok .or. .not. has_option(deck, card, 'TYPE'))
@@ -398,8 +402,9 @@ contains
          found = may_include(deck, reading%depth, cursor%source, name, place)
       end if
       if (found) then
-         call read_file(name, text, status)
+         call read_file(name, text, status, is_plain, identity)
          found = is_ok(status)
+         if (.not. is_plain .and. is_ok(reading%refusal)) call refuse_include(deck, place, status, reading%refusal)
          if (.not. found) call report_error(deck, place, 'E-INCLUDE', status%text, expected='a file, relative to the folder of '// &
                                             deck%sources(cursor%source)%name, keyword='INCLUDE')
       end if
@@ -408,7 +413,7 @@ contains
          call keep_failed_include(deck, reading, card)
          return
       end if
-      call append_source(deck, name, text)
+      call append_source(deck, name, text, identity)
       source = deck%n_sources
       deck%sources(source)%order = reading_order(deck, cursor%source, card%place%line)
       deck%sources(source)%parent = cursor%source
@@ -423,6 +428,16 @@ contains
       call read_source(deck, reading, source)
       reading%depth = reading%depth - 1
    end subroutine read_include
+
+   !> What is no plain file is no error of the deck: the run ends with it, and tells where it is named.
+   subroutine refuse_include(deck, place, status, refusal)
+      type(deck_t), intent(in) :: deck
+      type(token_t), intent(in) :: place
+      type(status_t), intent(in) :: status
+      type(status_t), intent(out) :: refusal
+
+      call set_status(refusal, STATUS_FILE, deck%sources(place%source)%name//', line '//to_text(place%line)//': '//status%text)
+   end subroutine refuse_include
 
    !> What the file would have defined is not known: the card says so.
    subroutine keep_failed_include(deck, reading, card)

@@ -1,13 +1,16 @@
 !> Rows of a table as comma-separated values, RFC 4180: names in the first row, lines that end with CR LF, quotes where a value
-!> holds a comma or a quote. No comments: many programs that read such files know none.
+!> holds a comma or a quote. No comments: many programs that read such files know none. A word that a spreadsheet would take for a
+!> formula has an apostrophe before it.
 module atrito_csv_text
    use atrito_files, only: text_file_t, put_line
+   use atrito_numbers, only: read_real, NUMBER_OK
+   use atrito_kinds, only: wp
    use atrito_table, only: table_t
    implicit none (type, external)
    private
-   public :: put_csv_names, put_csv_rows
+   public :: put_csv_names, put_csv_rows, is_formula, NO_FORMULA
 
-   character(len=1), parameter :: CARRIAGE_RETURN = achar(13), QUOTE = '"'
+   character(len=1), parameter :: CARRIAGE_RETURN = achar(13), QUOTE = '"', NO_FORMULA = ''''
 
 contains
 
@@ -21,7 +24,8 @@ contains
       line = ''
       do i = 1, size(table%columns)
          if (i > 1) line = line//','
-         line = line//csv_item(table%columns(i)%name)
+         if (is_formula(table%columns(i)%name)) line = line//csv_item(NO_FORMULA//table%columns(i)%name)
+         if (.not. is_formula(table%columns(i)%name)) line = line//csv_item(table%columns(i)%name)
       end do
       call put_line(file, line//CARRIAGE_RETURN)
    end subroutine put_csv_names
@@ -34,7 +38,7 @@ contains
       character(len=:), allocatable :: line
       integer :: i, row, last, first
 
-      allocate (character(len=2*len(rows) + 2*size(table%columns) + 1) :: line)
+      allocate (character(len=2*len(rows) + 3*size(table%columns) + 1) :: line)
       do row = 1, size(rows)
          last = 0
          do i = 1, size(table%columns)
@@ -56,7 +60,11 @@ contains
       character(len=:), allocatable :: quoted
       integer :: n
 
-      if (scan(item, ','//QUOTE) > 0) then
+      if (is_formula(item)) then
+         quoted = csv_item(NO_FORMULA//item)
+         n = len(quoted)
+         line(last + 1:last + n) = quoted
+      else if (scan(item, ','//QUOTE) > 0) then
          quoted = csv_item(item)                    ! no associate: gfortran 12 would free it twice
          n = len(quoted)
          line(last + 1:last + n) = quoted
@@ -68,6 +76,23 @@ contains
       line(last + n + 1:last + n + 1) = ','
       last = last + n + 1
    end subroutine append_item
+
+   !> A spreadsheet computes what begins so, unless it is a number; some take the wide forms of the signs, too (three bytes).
+   pure logical function is_formula(item)
+      character(len=*), intent(in) :: item
+      character(len=*), parameter :: SIGNS = '=+-@'//achar(9)//achar(13)
+      real(wp) :: value
+      integer :: outcome
+
+      is_formula = .false.
+      if (len(item) == 0) return
+      if (index(SIGNS, item(1:1)) > 0) then
+         call read_real(item, value, outcome)
+         is_formula = outcome /= NUMBER_OK
+      else if (len(item) >= 3) then
+         if (item(1:2) == char(239)//char(188)) is_formula = any(ichar(item(3:3)) == [139, 141, 157, 160])
+      end if
+   end function is_formula
 
    !> An item, in quotes where it needs them; quotes within are doubled.
    pure function csv_item(text) result(item)

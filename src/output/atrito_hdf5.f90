@@ -6,8 +6,9 @@
 module atrito_hdf5
    use, intrinsic :: iso_c_binding, only: c_int, c_int64_t, c_loc, c_null_char, c_ptr
    use atrito_kinds, only: ip, wp
+   use atrito_paths, only: remove_file
    use atrito_status, only: status_t, set_status, is_ok, STATUS_FILE
-   use hdf5, only: hid_t, hsize_t, h5open_f, h5close_f, h5dont_atexit_f, h5eset_auto_f, h5fcreate_f, h5fclose_f, H5F_ACC_TRUNC_F, &
+   use hdf5, only: hid_t, hsize_t, h5open_f, h5close_f, h5dont_atexit_f, h5eset_auto_f, h5fcreate_f, h5fclose_f, H5F_ACC_EXCL_F, &
                    h5pcreate_f, h5pclose_f, h5pset_create_inter_group_f, h5pset_chunk_f, h5pset_shuffle_f, h5pset_deflate_f, &
                    h5pset_obj_track_times_f, H5P_LINK_CREATE_F, H5P_FILE_ACCESS_F, H5P_DATASET_CREATE_F, h5screate_f, &
                    h5screate_simple_f, h5sclose_f, h5sselect_hyperslab_f, H5S_SCALAR_F, H5S_SELECT_SET_F, h5dcreate_f, h5dwrite_f, &
@@ -59,7 +60,8 @@ contains
       has_hdf5 = .true.
    end function has_hdf5
 
-   !> Creates a file. The library is started here, not with the program.
+   !> Creates a file, not what a link leads to. The library is started here, not with the program; it trims names: a zero ends
+   !> them before a blank does.
    subroutine open_hdf5(path, final_path, file)
       character(len=*), intent(in) :: path            !< where it is written
       character(len=*), intent(in) :: final_path      !< what messages call it
@@ -79,7 +81,8 @@ contains
       call keep(file, error)
       ! else the library keeps up to 32 MiB of datasets that are complete
       if (h5pset_evict_on_close(int(access, c_int64_t), 1_c_int) < 0) call keep(file, -1)
-      call h5fcreate_f(path, H5F_ACC_TRUNC_F, file%id, error, access_prp=access)
+      call remove_file(path)
+      call h5fcreate_f(path//c_null_char, H5F_ACC_EXCL_F, file%id, error, access_prp=access)
       if (error < 0) call set_status(file%status, STATUS_FILE, final_path//': cannot be written')
       call h5pclose_f(access, error)
    end subroutine open_hdf5

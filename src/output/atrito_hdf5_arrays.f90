@@ -4,11 +4,12 @@
 !> Every list has a checksum (Fletcher's), and so has whatever the library keeps of its own (format of version 1.10), so that a
 !> byte that was changed is found when it is read. The first failure is kept in the file; later calls do nothing.
 module atrito_hdf5_arrays
-   use, intrinsic :: iso_c_binding, only: c_loc, c_ptr
+   use, intrinsic :: iso_c_binding, only: c_loc, c_null_char, c_ptr
    use atrito_kinds, only: ip, lp, wp
+   use atrito_paths, only: remove_file
    use atrito_status, only: status_t, set_status, is_ok, STATUS_FILE
    use hdf5, only: hid_t, hsize_t, h5open_f, h5close_f, h5dont_atexit_f, h5eset_auto_f, h5fcreate_f, h5fopen_f, h5fclose_f, &
-                   h5fis_hdf5_f, H5F_ACC_TRUNC_F, H5F_ACC_RDONLY_F, H5F_LIBVER_LATEST_F, h5pcreate_f, h5pclose_f, &
+                   h5fis_hdf5_f, H5F_ACC_EXCL_F, H5F_ACC_RDONLY_F, H5F_LIBVER_LATEST_F, h5pcreate_f, h5pclose_f, &
                    h5pset_libver_bounds_f, h5pset_create_inter_group_f, h5pset_chunk_f, h5pset_fletcher32_f, &
                    h5pset_fill_time_f, H5D_FILL_TIME_NEVER_F, &
                    h5pset_obj_track_times_f, H5P_FILE_ACCESS_F, H5P_LINK_CREATE_F, H5P_DATASET_CREATE_F, h5screate_simple_f, &
@@ -41,7 +42,7 @@ module atrito_hdf5_arrays
 
 contains
 
-   !> Creates a file.
+   !> Creates a file, not what a link leads to. The library trims names: a zero ends them before a blank does.
    subroutine create_arrays(path, final_path, file)
       character(len=*), intent(in) :: path            !< where it is written
       character(len=*), intent(in) :: final_path      !< what messages call it
@@ -53,7 +54,8 @@ contains
       if (.not. is_ok(file%status)) return
       call h5pcreate_f(H5P_FILE_ACCESS_F, access, error(1))
       call h5pset_libver_bounds_f(access, H5F_LIBVER_LATEST_F, H5F_LIBVER_LATEST_F, error(2))
-      call h5fcreate_f(path, H5F_ACC_TRUNC_F, file%id, error(3), access_prp=access)
+      call remove_file(path)
+      call h5fcreate_f(path//c_null_char, H5F_ACC_EXCL_F, file%id, error(3), access_prp=access)
       call h5pclose_f(access, error(4))
       file%is_open = error(3) >= 0
       if (minval(error) < 0) call set_status(file%status, STATUS_FILE, final_path//': cannot be written')
@@ -68,12 +70,12 @@ contains
 
       call start_library(path, file)
       if (.not. is_ok(file%status)) return
-      call h5fis_hdf5_f(path, is_hdf5, error)
+      call h5fis_hdf5_f(path//c_null_char, is_hdf5, error)
       if (error < 0 .or. .not. is_hdf5) then
          call set_status(file%status, STATUS_FILE, path//': is no HDF5 file, or its beginning is damaged')
          return
       end if
-      call h5fopen_f(path, H5F_ACC_RDONLY_F, file%id, error)
+      call h5fopen_f(path//c_null_char, H5F_ACC_RDONLY_F, file%id, error)
       file%is_open = error >= 0
       if (error < 0) call set_status(file%status, STATUS_FILE, path//': is damaged: it is cut off, or its beginning was changed')
    end subroutine open_arrays

@@ -25,6 +25,7 @@ module atrito_listing
    use atrito_summary, only: quantity_t, scales_t, summarise_pair, pair_quantities, step_quantities, measure_history, &
                              pair_name
    use atrito_table, only: ZERO_SHARE
+   use atrito_utf8, only: visible
    implicit none (type, external)
    private
    public :: write_listing, compose_listing, list_used_libraries, date_text
@@ -51,7 +52,7 @@ contains
       call compose_listing(model, history, page, pictures)
       call open_text(set, model%deck_name//'.lst', file)
       do i = 1, page%n
-         call put_line(file, page%lines(i)%s)
+         call put_line(file, visible(page%lines(i)%s))
       end do
       call close_text(file, status)
    end subroutine write_listing

@@ -4,6 +4,7 @@ module atrito_page
    use atrito_number_text, only: short_real
    use atrito_strings, only: string_t, join, to_text
    use atrito_version, only: PROGRAM_NAME, PROGRAM_VERSION
+   use atrito_utf8, only: visible
    implicit none (type, external)
    private
    public :: page_t, begin_page, begin_report, add_item, add_above_rule, add_files, add_line, add_rule, add_heading, &
@@ -170,7 +171,7 @@ contains
       integer :: i, ios
 
       do i = 1, page%n
-         write (unit, '(a)', iostat=ios) page%lines(i)%s
+         write (unit, '(a)', iostat=ios) visible(page%lines(i)%s)
          if (ios /= 0) return
       end do
       flush (unit, iostat=ios)

@@ -4,12 +4,17 @@
 !> new ones; so do a sweep, a study and a limit with theirs. Files under other names are another command's or the user's and stay.
 module atrito_plot_files
    use atrito_kinds, only: ip
-   use atrito_strings, only: string_t, to_text
-   use atrito_files, only: file_exists, is_folder, remove_file, remove_empty_folder
+   use atrito_strings, only: string_t, append_string, to_text
+   use atrito_version, only: PROGRAM_VERSION
+   use atrito_files, only: file_exists, is_folder, remove_file, remove_empty_folder, &
+                           file_set_t, text_file_t, open_text, put_line
    use atrito_messages, only: add_warning
+   use atrito_own_files, only: check_own, OWN_MARK
+   use atrito_status, only: status_t, is_ok
    implicit none (type, external)
    private
    public :: plot_folder, remove_plots, told_pictures, PLOTS_OF_RUN, PLOTS_OF_SWEEP, PLOTS_OF_STUDY, PLOTS_OF_LIMIT, PLOTS_OF_CHECK
+   public :: list_plots, check_scripts, open_data
    public :: picture_endings, LOG_NAME, MESH_PLOT, OVERLAY_PLOT, OVERLAY_SUMMARY, CONTACT_PLOT, STUDY_PLOT, LIMIT_PLOT, &
              MECHANISM_PLOT, JOINT_PLOT, HISTORY_PLOT, LOOP_PLOT, MOTION_PLOT, TRACTION_PLOT, CONTOUR_PLOTS, SYMBOLS_OF, &
              SCENE_PLOT, SET_PLOT, GAP_PLOT
@@ -55,6 +60,37 @@ contains
       if (name == MOTION_PLOT) list = ['.gif']
    end function picture_endings
 
+   !> Opens the data of a picture in a set of files; the first line says whose they are.
+   subroutine open_data(set, name, file)
+      type(file_set_t), intent(inout) :: set
+      character(len=*), intent(in) :: name          !< without .dat
+      type(text_file_t), intent(out) :: file
+
+      call open_text(set, name//'.dat', file)
+      call put_line(file, OWN_MARK//PROGRAM_VERSION//': data of a picture')
+   end subroutine open_data
+
+   !> Whether what a set of scripts is going to replace, and the pictures that gnuplot writes beside them, is atrito's.
+   !> status: STATUS_FILE.
+   subroutine check_scripts(set, status)
+      type(file_set_t), intent(in) :: set
+      type(status_t), intent(inout) :: status       !< nothing is asked where it is not STATUS_OK
+      character(len=4), allocatable :: endings(:)
+      integer :: i, k, n
+
+      if (is_ok(status)) call check_own(set%folder//'/'//LOG_NAME, status)
+      if (.not. allocated(set%names)) return
+      do i = 1, size(set%names)
+         if (is_ok(status)) call check_own(set%folder//'/'//set%names(i)%s, status)
+         n = len(set%names(i)%s) - len('.gp')
+         if (index(set%names(i)%s, '.gp', back=.true.) /= n + 1) cycle
+         endings = picture_endings(set%names(i)%s(:n))
+         do k = 1, size(endings)
+            if (is_ok(status)) call check_own(set%folder//'/'//set%names(i)%s(:n)//endings(k), status)
+         end do
+      end do
+   end subroutine check_scripts
+
    !> Names of pictures with blanks between them; the contours are told together.
    pure function told_pictures(names) result(text)
       type(string_t), intent(in) :: names(:)        !< without ending
@@ -74,6 +110,41 @@ contains
       end do
       text = text(2:)
    end function told_pictures
+
+   !> The files that are there and that remove_plots removes, as far as they are atrito's.
+   function list_plots(folder, whose) result(names)
+      character(len=*), intent(in) :: folder        !< of the tables
+      integer, intent(in) :: whose                  !< PLOTS_OF_*
+      type(string_t), allocatable :: names(:)       !< without folder
+      character(len=:), allocatable :: path, numbered
+      integer :: i
+      integer(ip) :: n
+
+      allocate (names(0))
+      path = plot_folder(folder)
+      if (.not. is_folder(path)) return
+      call append_string(names, LOG_NAME)
+      do i = 1, size(PICTURES)
+         if (OWNER(i) == whose) call append_picture(trim(PICTURES(i)), names)
+      end do
+      if (whose /= PLOTS_OF_RUN .and. whose /= PLOTS_OF_SWEEP) return
+      numbered = merge(CONTACT_PLOT, OVERLAY_PLOT, whose == PLOTS_OF_RUN)
+      n = 1
+      do while (has_picture(path//'/'//numbered//to_text(n)))
+         call append_picture(numbered//to_text(n), names)
+         n = n + 1
+      end do
+   end function list_plots
+
+   pure subroutine append_picture(name, names)
+      character(len=*), intent(in) :: name          !< without ending
+      type(string_t), allocatable, intent(inout) :: names(:)
+      integer :: i
+
+      do i = 1, size(ENDINGS)
+         call append_string(names, name//'.'//trim(ENDINGS(i)))
+      end do
+   end subroutine append_picture
 
    !> Removes the pictures of one command from the folder of plots, and the folder when nothing else is in it. A
    !> picture that stays is a warning.

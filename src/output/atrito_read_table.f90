@@ -5,6 +5,7 @@ module atrito_read_table
    use atrito_strings, only: string_t, append_string, lower_case, to_text
    use atrito_numbers, only: read_real, NUMBER_OK
    use atrito_status, only: status_t, set_status, is_ok, STATUS_FILE
+   use atrito_csv_text, only: is_formula, NO_FORMULA
    use atrito_files, only: read_file, file_exists
    use atrito_utf8, only: has_controls
    use atrito_table, only: MARK_COLUMNS, MARK_NOT_CONVERGED, TAB_ENDING, CSV_ENDING
@@ -193,6 +194,7 @@ contains
       next = merge(first + next, last + 2, next > 0)
       if (text(first:min(first, last)) /= QUOTE) then
          last = next - 2
+         if (is_guarded(text(first:last))) first = first + 1
          return
       end if
       first = first + 1
@@ -209,7 +211,16 @@ contains
       end do
       last = next - 1
       next = i + 2
+      if (is_guarded(text(first:last))) first = first + 1
    end subroutine take_csv_item
+
+   !> An apostrophe keeps spreadsheets from computing the word behind it.
+   pure logical function is_guarded(item)
+      character(len=*), intent(in) :: item
+
+      is_guarded = .false.
+      if (len(item) > 1) is_guarded = item(1:1) == NO_FORMULA .and. is_formula(item(2:))
+   end function is_guarded
 
    !> The column names, the mark of a run that did not converge, and how many rows there are.
    subroutine read_comments(table, n_rows)

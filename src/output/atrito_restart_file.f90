@@ -73,8 +73,8 @@ contains
       character(len=:), allocatable :: kind, program, difference
       integer(ip), allocatable :: increments(:)
 
-      call judge_file(path, status)
-      if (is_ok(status) .and. .not. file_exists(path)) call set_status(status, STATUS_FILE, path//': there is no such file')
+      if (.not. file_exists(path)) call set_status(status, STATUS_FILE, path//': there is no such file')
+      if (is_ok(status)) call judge_file(path, status)
       if (.not. is_ok(status)) return
       call open_archive(path, archive)
       call exchange_origin(archive, kind, program, in_file)

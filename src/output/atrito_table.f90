@@ -3,6 +3,7 @@ module atrito_table
    use atrito_kinds, only: ip, wp, is_nan
    use atrito_provenance, only: provenance_t
    use atrito_strings, only: string_t
+   use atrito_utf8, only: visible
    implicit none (type, external)
    private
    public :: table_t, column_t, origin_t, begin_table, add_reals, add_field, add_integers, add_integer_field, add_words, &
@@ -138,10 +139,14 @@ contains
       type(string_t), intent(in) :: values(:)       !< (n_rows)
       logical, intent(in) :: on_the_left            !< names; numbers stand on the right
       type(column_t) :: column
+      integer :: i
 
       column%kind = KIND_WORD
       column%on_the_left = on_the_left
-      column%words = values
+      allocate (column%words(size(values)))
+      do i = 1, size(values)
+         column%words(i)%s = visible(values(i)%s)
+      end do
       call add_column(table, name, dimension, column)
    end subroutine add_words
 

@@ -11,6 +11,7 @@ module atrito_table_text
    use atrito_number_text, only: put_reals, put_integers, real_width, integer_width
    use atrito_table, only: table_t, column_t, origin_t, MARK_NOT_CONVERGED, MARK_COLUMNS, MARK_DIMENSIONS, TAB_ENDING, &
                            CSV_ENDING, KIND_REAL, KIND_INTEGER, KIND_WORD
+   use atrito_utf8, only: visible
    implicit none (type, external)
    private
    public :: write_table, write_table_set, growing_table_t, measure_rows, open_table, put_table, close_table
@@ -219,21 +220,21 @@ contains
          return
       end if
       if (allocated(origin%ending)) then
-         call put_line(file, MARK_NOT_CONVERGED//': '//origin%ending)
+         call put_line(file, visible(MARK_NOT_CONVERGED//': '//origin%ending))
       else if (origin%not_converged) then
-         call put_line(file, MARK_NOT_CONVERGED)
+         call put_line(file, visible(MARK_NOT_CONVERGED))
       end if
-      call put_line(file, '# program: '//PROGRAM_NAME//' '//PROGRAM_VERSION)
-      call put_line(file, '# deck: '//origin%deck)
+      call put_line(file, visible('# program: '//PROGRAM_NAME//' '//PROGRAM_VERSION))
+      call put_line(file, visible('# deck: '//origin%deck))
       do i = 1, size(origin%heading)
-         call put_line(file, '# heading: '//origin%heading(i)%s)
+         call put_line(file, visible('# heading: '//origin%heading(i)%s))
       end do
-      if (allocated(origin%parameters)) call put_line(file, '# parameters: '//origin%parameters)
-      if (allocated(origin%options)) call put_line(file, '# options: '//origin%options)
-      if (allocated(origin%digest)) call put_line(file, '# digest: '//origin%digest)
-      call put_line(file, '# table: '//table%name//', '//table%title)
+      if (allocated(origin%parameters)) call put_line(file, visible('# parameters: '//origin%parameters))
+      if (allocated(origin%options)) call put_line(file, visible('# options: '//origin%options))
+      if (allocated(origin%digest)) call put_line(file, visible('# digest: '//origin%digest))
+      call put_line(file, visible('# table: '//table%name//', '//table%title))
       do i = 1, size(table%remarks)
-         call put_line(file, '# '//table%remarks(i)%s)
+         call put_line(file, visible('# '//table%remarks(i)%s))
       end do
       call put_titles(file, table, MARK_COLUMNS)
       call put_titles(file, table, MARK_DIMENSIONS)
@@ -257,7 +258,7 @@ contains
             end if
          end associate
       end do
-      call put_line(file, line)
+      call put_line(file, visible(line))
    end subroutine put_titles
 
    !> Writes the rows by rounds: while the text of one is made, in pieces that threads share out, that of the one before is written.

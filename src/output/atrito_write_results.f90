@@ -1,24 +1,37 @@
 !> Writes a run: all tables, the field file and the listing, which appear together or not at all.
 module atrito_write_results
    use atrito_as_run_names, only: as_run_name, mesh_copy_name
-   use atrito_patched_text, only: write_patched
+   use atrito_own_files, only: DECK_MARK, MESH_MARK
+   use atrito_patched_text, only: patched_text_t, write_patched
    use atrito_strings, only: string_t, append_string
    use atrito_status, only: status_t, is_ok, set_status, STATUS_FILE
-   use atrito_files, only: file_set_t, begin_files, end_files, file_exists
+   use atrito_files, only: file_set_t, begin_files, end_files, file_exists, NEW_LINE_CHARACTER
    use atrito_kinds, only: ip
    use atrito_timers, only: start_phase, stop_phase
    use atrito_model, only: model_t
+   use atrito_version, only: PROGRAM_VERSION
    use atrito_results, only: history_t
    use atrito_write_tables, only: write_tables, write_timing, list_table_files
    use atrito_write_fields, only: write_fields, list_field_files
    use atrito_listing, only: write_listing
    use atrito_plot_files, only: remove_plots, PLOTS_OF_RUN
-   use atrito_report_file, only: remove_report
+   use atrito_report_file, only: REPORT_NAME, remove_report
    implicit none (type, external)
    private
-   public :: write_results
+   public :: write_results, list_files_of_run
 
 contains
+
+   !> The files that a run of this model may write into a folder, or remove from it, without folder.
+   function list_files_of_run(model, folder) result(names)
+      type(model_t), intent(in) :: model
+      character(len=*), intent(in) :: folder
+      type(string_t), allocatable :: names(:)
+
+      call list_stale_files(model, folder, names)
+      call append_string(names, model%deck_name//'.lst')
+      call append_string(names, REPORT_NAME)
+   end function list_files_of_run
 
    !> Writes everything into a folder, which is made where it is missing, and removes the files of an earlier run that this one
    !> does not write, its pictures and its report too.
@@ -59,7 +72,7 @@ contains
       call remove_report(folder)
    end subroutine write_results
 
-   !> Writes the deck as it was run, and the meshes of other programs beside it.
+   !> Writes the deck as it was run, and the meshes of other programs beside it, with the words by which a later run knows them.
    subroutine write_deck_as_run(model, set, status)
       type(model_t), intent(in) :: model
       type(file_set_t), intent(inout) :: set
@@ -68,9 +81,29 @@ contains
 
       if (.not. allocated(model%as_run)) return
       do i = 1, size(model%as_run)
-         if (is_ok(status)) call write_patched(set, model%as_run(i)%name, model%as_run(i)%text, status)
+         if (.not. is_ok(status)) return
+         associate (file => model%as_run(i))
+            if (i == 1) then
+               call write_patched(set, file%name, file%text, status, &
+                                  before=DECK_MARK//PROGRAM_VERSION//' ran this'//NEW_LINE_CHARACTER)
+            else
+               call write_patched(set, file%name, file%text, status, behind=mesh_end(file%text))
+            end if
+         end associate
       end do
    end subroutine write_deck_as_run
+
+   !> What stands behind the copy of a mesh, on lines of its own.
+   pure function mesh_end(text) result(words)
+      type(patched_text_t), intent(in) :: text
+      character(len=:), allocatable :: words
+      integer :: last
+
+      words = MESH_MARK//PROGRAM_VERSION//NEW_LINE_CHARACTER//'$EndComments'//NEW_LINE_CHARACTER
+      if (text%n == 0) return
+      last = text%last(text%n)
+      if (text%texts(1)%s(last:last) /= NEW_LINE_CHARACTER) words = NEW_LINE_CHARACTER//words
+   end function mesh_end
 
    !> What an earlier run may have left: tables, fields, and its deck.
    subroutine list_stale_files(model, folder, names)
@@ -87,6 +120,10 @@ contains
       end do
       call append_string(names, as_run_name(model%deck_name))
       i = 1
+      if (allocated(model%as_run)) i = size(model%as_run, kind=ip)
+      do i = 1, i - 1
+         call append_string(names, mesh_copy_name(model%deck_name, i))
+      end do
       do while (file_exists(folder//'/'//mesh_copy_name(model%deck_name, i)))
          call append_string(names, mesh_copy_name(model%deck_name, i))
          i = i + 1

@@ -6,7 +6,7 @@ module atrito_check_plots
    use atrito_gap_plot, only: write_gap_plot, has_gap_plot
    use atrito_gnuplot, only: draw_written
    use atrito_model, only: model_t
-   use atrito_plot_files, only: plot_folder, remove_plots, PLOTS_OF_CHECK, SCENE_PLOT, SET_PLOT, GAP_PLOT
+   use atrito_plot_files, only: check_scripts, plot_folder, remove_plots, PLOTS_OF_CHECK, SCENE_PLOT, SET_PLOT, GAP_PLOT
    use atrito_plot_view, only: plot_view_t
    use atrito_scene_plot, only: write_scene_plot
    use atrito_set_plot, only: write_set_plot, has_set_plot
@@ -55,6 +55,7 @@ contains
       call write_scene_plot(set, model, view, status)
       if (is_ok(status) .and. has_set_plot(model)) call write_set_plot(set, model, view, status)
       if (is_ok(status) .and. has_gap_plot(model)) call write_gap_plot(set, model, status)
+      call check_scripts(set, status)
       call end_files(set, status)
    end subroutine write_check_scripts
 

@@ -1,11 +1,11 @@
 !> The picture of the contact pairs before anything is solved: the initial gap along the slave, a panel a pair. Of many pairs those
 !> with the least gaps are shown.
 module atrito_gap_plot
-   use atrito_files, only: file_set_t, text_file_t, open_text, put_line, close_text
+   use atrito_files, only: file_set_t, text_file_t, put_line, close_text
    use atrito_kinds, only: ip, wp
    use atrito_model, only: model_t
    use atrito_number_text, only: trimmed_real
-   use atrito_plot_files, only: GAP_PLOT
+   use atrito_plot_files, only: open_data, GAP_PLOT
    use atrito_plot_text, only: range_t, cover, padded, quoted, cleaned, scene_title, begin_script, end_script, put_terminal, &
                                put_frame, put_panel, COLOUR
    use atrito_status, only: status_t, is_ok
@@ -66,7 +66,7 @@ contains
       type(text_file_t) :: file
       integer(ip) :: i, j
 
-      call open_text(set, GAP_PLOT//'.dat', file)
+      call open_data(set, GAP_PLOT, file)
       call put_line(file, '# initial gaps of the pairs that are drawn; columns: s [L]  gap [L]')
       associate (shown => shown_pairs(model))
          do i = 1, size(shown, kind=ip)

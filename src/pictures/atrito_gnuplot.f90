@@ -4,11 +4,13 @@
 module atrito_gnuplot
    use atrito_strings, only: string_t, append_string
    use atrito_status, only: status_t, is_ok
-   use atrito_files, only: file_exists, read_file, remove_file
+   use atrito_files, only: file_exists, read_file, remove_own_file
    use atrito_messages, only: add_warning
    use atrito_plot_files, only: plot_folder, picture_endings, LOG_NAME
    use atrito_plot_text, only: quoted
-   use atrito_processes, only: run_command
+   use atrito_kinds, only: wp
+   use atrito_own_files, only: OWN_MARK
+   use atrito_processes, only: run_command, TOO_LATE
    use atrito_system, only: note_path, forget_path
    implicit none (type, external)
    private
@@ -16,6 +18,9 @@ module atrito_gnuplot
 
    integer, parameter :: NOT_FOUND = 127            !< the shell's code for a program that is not there
    integer, parameter :: LONGEST_COMPLAINT = 200
+   real(wp), parameter :: SECONDS_OF_PICTURE = 120.0_wp
+   !> The first line of the log.
+   character(len=*), parameter :: LOG_MARK = OWN_MARK//'had gnuplot draw, which said:'
 
 contains
 
@@ -44,11 +49,12 @@ contains
 
       allocate (drawn(0))
       if (size(names) == 0) return
+      call remove_own_file(folder//'/'//LOG_NAME)
       call note_path(folder//'/'//LOG_NAME)
       do i = 1, size(names)
          call expect_pictures(folder, names(i)%s)
       end do
-      call run_command(plot_command(folder, names), exit_code)
+      call run_command(plot_command(folder, names), SECONDS_OF_PICTURE*real(size(names), wp), exit_code)
       do i = 1, size(names)
          if (has_pictures(folder, names(i)%s)) call append_string(drawn, names(i)%s)
       end do
@@ -64,7 +70,7 @@ contains
 
       endings = picture_endings(name)
       do k = 1, size(endings)
-         call remove_file(folder//'/'//name//endings(k))
+         call remove_own_file(folder//'/'//name//endings(k))
          call note_path(folder//'/'//name//endings(k))
       end do
    end subroutine expect_pictures
@@ -91,11 +97,12 @@ contains
       character(len=:), allocatable :: command
       integer :: i
 
-      command = 'cd -- '//shell_quoted(anchored(folder))//' && { code=0; for name in'
+      command = 'cd -- '//shell_quoted(anchored(folder))//' && { echo '//shell_quoted(LOG_MARK)//'; code=0; for name in'
       do i = 1, size(names)
          command = command//' '//shell_quoted(names(i)%s)
       end do
-      command = '{ '//command//'; do gnuplot -d "$name.gp" || code=$?; done; exit $code; } </dev/null >'//LOG_NAME// &
+      ! set -C: the log is a new file, not what a link leads to
+      command = 'set -C; { '//command//'; do gnuplot -d "$name.gp" || code=$?; done; exit $code; } </dev/null >'//LOG_NAME// &
                 ' 2>&1; } 2>/dev/null'
    end function plot_command
 
@@ -126,10 +133,12 @@ contains
 
       call read_file(folder//'/'//LOG_NAME, text, status)
       if (.not. is_ok(status)) text = ''
-      text = without_counts(text)
-      if (len(text) == 0 .or. exit_code == NOT_FOUND) call remove_file(folder//'/'//LOG_NAME)
+      text = without_counts(text(min(index(text//achar(10), achar(10)), len(text)) + 1:))
+      if (len(text) == 0 .or. exit_code == NOT_FOUND) call remove_own_file(folder//'/'//LOG_NAME)
       if (exit_code == NOT_FOUND) then
          call add_warning('W-PLOT', 'gnuplot was not found (Debian: gnuplot-nox), no pictures'//SCRIPTS//folder)
+      else if (exit_code == TOO_LATE) then
+         call add_warning('W-PLOT', 'gnuplot was ended, it took too long'//SCRIPTS//folder)
       else if (exit_code /= 0 .or. .not. complete) then
          call add_warning('W-PLOT', 'gnuplot failed: '//first_complaint(text)//SCRIPTS//folder)
       end if

@@ -2,12 +2,12 @@
 !>
 !> The first script reads history.tab in the folder above; the second one has loop.dat, for the mean slip is in no table.
 module atrito_history_plot
-   use atrito_files, only: file_set_t, text_file_t, open_text, put_line, close_text
+   use atrito_files, only: file_set_t, text_file_t, put_line, close_text
    use atrito_increments, only: has_history
    use atrito_kinds, only: ip, wp
    use atrito_model, only: model_t, FRICTION_LOCAL, FRICTION_NONE
    use atrito_number_text, only: trimmed_real
-   use atrito_plot_files, only: HISTORY_PLOT, LOOP_PLOT
+   use atrito_plot_files, only: open_data, HISTORY_PLOT, LOOP_PLOT
    use atrito_plot_text, only: range_t, cover, padded, span, quoted, picture_title, put_table, begin_script, end_script, &
                                put_terminal, put_frame, put_panel, engineering_exponent, COLOUR, N_COLOURS, GREEK_NU, PLUS_MINUS
    use atrito_results, only: history_t, history_row_t, last_frame
@@ -329,7 +329,7 @@ contains
       integer(ip) :: i, j
 
       pairs = shown_pairs(rows, by_slip=.true.)
-      call open_text(set, LOOP_PLOT//'.dat', file)
+      call open_data(set, LOOP_PLOT, file)
       call put_line(file, '# a block a pair; columns: mean slip of all points [L]  shear resultant [F]  step  increment  time')
       do i = 1, size(pairs, kind=ip)
          call put_line(file, '# pair '//to_text(pairs(i)))

@@ -7,14 +7,14 @@ module atrito_joint_plot
    use atrito_strings, only: string_t, append_string, to_text
    use atrito_status, only: status_t
    use atrito_contact_plot, only: state_of, N_STATES, STATE_WORD
-   use atrito_files, only: file_set_t, text_file_t, open_text, put_line, close_text
+   use atrito_files, only: file_set_t, text_file_t, put_line, close_text
    use atrito_mesh_lines, only: drawing_t, put_place, put_frame, is_drawn_rigid, LINE_INNER
    use atrito_mesh_plot, only: put_heading
    use atrito_model, only: model_t
    use atrito_number_text, only: trimmed_real
    use atrito_results, only: results_t, joint_t, contact_result_t
    use atrito_write_tables, only: origin_of
-   use atrito_plot_files, only: JOINT_PLOT, MESH_PLOT
+   use atrito_plot_files, only: open_data, JOINT_PLOT, MESH_PLOT
    use atrito_plot_text, only: quoted, picture_title, begin_script, end_script, put_plot, COLOUR
    implicit none (type, external)
    private
@@ -49,7 +49,7 @@ contains
       type(text_file_t) :: file
       type(string_t), allocatable :: curves(:)      !< of joints.dat, one a block
 
-      call open_text(set, JOINT_PLOT//'.dat', file)
+      call open_data(set, JOINT_PLOT, file)
       call put_line(file, '# joints by state, the line of thrust by width, places of the resultants; columns: '// &
                     'x [L]  y [L]  u1 [L]  u2 [L], and n over the largest n of the places')
       allocate (curves(0))

@@ -6,13 +6,13 @@ module atrito_mesh_lines
    use atrito_element_table, only: MOST_SIDES
    use atrito_bodies, only: bodies_t, find_bodies
    use atrito_faces, only: node_elements_t, list_node_elements
-   use atrito_files, only: file_set_t, text_file_t, open_text, put_line, close_text
+   use atrito_files, only: file_set_t, text_file_t, put_line, close_text
    use atrito_kinds, only: ip, wp
    use atrito_mesh, only: mesh_t, face_end, has_side, side_count, middle_node
    use atrito_model, only: model_t, surface_t, SURFACE_SEGMENTS
    use atrito_number_text, only: trimmed_real
    use atrito_plot_text, only: range_t, cover, range_text, span, quoted, cleaned, put_terminal, put_plot, N_COLOURS
-   use atrito_plot_files, only: JOINT_PLOT
+   use atrito_plot_files, only: open_data, JOINT_PLOT
    use atrito_plot_view, only: plot_view_t, shown_window
    use atrito_results, only: rigid_result_t
    use atrito_status, only: status_t
@@ -189,7 +189,7 @@ contains
       type(status_t), intent(out) :: status
       type(text_file_t) :: file
 
-      call open_text(set, name//'.dat', file)
+      call open_data(set, name, file)
       call put_line(file, heading)
       call put_lines(file, of_kind, model, u, drawing)
       call put_rigid_lines(file, model, drawing%rigid)

@@ -5,14 +5,14 @@
 module atrito_motion_plot
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use atrito_contact_plot, only: state_of, N_STATES, STATE_WORD
-   use atrito_files, only: file_set_t, text_file_t, open_text, put_line, close_text
+   use atrito_files, only: file_set_t, text_file_t, put_line, close_text
    use atrito_increments, only: increment_name
    use atrito_kinds, only: ip, wp
    use atrito_mesh_lines, only: drawing_t, begin_drawing, displace, displacement_scale, put_lines, put_rigid_lines, put_place, &
                                 put_window, put_axes, is_drawn_rigid, LINE_INNER
    use atrito_model, only: model_t
    use atrito_number_text, only: trimmed_real
-   use atrito_plot_files, only: MOTION_PLOT
+   use atrito_plot_files, only: open_data, MOTION_PLOT
    use atrito_plot_text, only: quoted, picture_title, begin_script, end_script, put_plot, COLOUR, TIMES
    use atrito_plot_view, only: plot_view_t, asked_scale
    use atrito_results, only: history_t, results_t, contact_result_t, view_frame
@@ -125,7 +125,7 @@ contains
       type(text_file_t) :: file
       integer(ip) :: i, pair
 
-      call open_text(set, MOTION_PLOT//'.dat', file)
+      call open_data(set, MOTION_PLOT, file)
       call put_line(file, '# columns: x [L]  y [L]  u1 [L]  u2 [L]; of contact points: pressure [F/L^2] along the inward '// &
                     'normal, in two columns; state')
       do i = 1, size(images, kind=ip)

@@ -9,7 +9,7 @@ module atrito_overlay_plots
    use atrito_files, only: file_set_t, text_file_t, begin_files, put_line, end_files
    use atrito_number_text, only: trimmed_real
    use atrito_gnuplot, only: draw_written
-   use atrito_plot_files, only: plot_folder, OVERLAY_PLOT, OVERLAY_SUMMARY
+   use atrito_plot_files, only: check_scripts, plot_folder, OVERLAY_PLOT, OVERLAY_SUMMARY
    use atrito_plot_text, only: range_t, cover, padded, range_text, span, quoted, cleaned, begin_script, end_script, put_terminal, &
                                put_frame, put_panel, CSV_SEPARATOR, COLOUR, N_COLOURS
    use atrito_table, only: TAB_ENDING, CSV_ENDING
@@ -78,6 +78,7 @@ contains
          call write_summary_plot(set, overlay, status)
          call append_string(names, OVERLAY_SUMMARY)
       end if
+      call check_scripts(set, status)
       call end_files(set, status)
    end subroutine write_overlay_scripts
 

@@ -3,9 +3,9 @@ module atrito_overlay_summary
    use atrito_kinds, only: ip, wp
    use atrito_strings, only: to_text
    use atrito_status, only: status_t, is_ok
-   use atrito_files, only: file_set_t, text_file_t, open_text, put_line, close_text
+   use atrito_files, only: file_set_t, text_file_t, put_line, close_text
    use atrito_number_text, only: trimmed_real
-   use atrito_plot_files, only: OVERLAY_SUMMARY
+   use atrito_plot_files, only: open_data, OVERLAY_SUMMARY
    use atrito_plot_text, only: range_t, cover, padded, span, quoted, begin_script, end_script, put_terminal, put_frame, put_panel, &
                                COLOUR, N_COLOURS
    use atrito_overlay_data, only: overlay_t, overlay_run_t, is_logarithmic, N_QUANTITIES
@@ -57,7 +57,7 @@ contains
       integer(ip) :: pair
       integer :: i, j
 
-      call open_text(set, OVERLAY_SUMMARY//'.dat', file)
+      call open_data(set, OVERLAY_SUMMARY, file)
       call put_line(file, '# a block a pair; columns: '//overlay%parameter// &
                     '  normal_resultant [F]  effective_area_percent  max_pressure [F/L^2]  max_abs_shear [F/L^2]  '// &
                     '1 if not converged')

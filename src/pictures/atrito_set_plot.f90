@@ -1,11 +1,11 @@
 !> The picture of the sets of a scene before anything is solved: a small picture each, node sets as points, element sets filled.
 module atrito_set_plot
-   use atrito_files, only: file_set_t, text_file_t, open_text, put_line, close_text
+   use atrito_files, only: file_set_t, text_file_t, put_line, close_text
    use atrito_kinds, only: ip, wp
    use atrito_mesh, only: mesh_t, side_count
    use atrito_mesh_lines, only: drawing_t, begin_drawing, put_lines, put_place
    use atrito_model, only: model_t
-   use atrito_plot_files, only: SET_PLOT
+   use atrito_plot_files, only: open_data, SET_PLOT
    use atrito_plot_text, only: range_t, range_text, span, quoted, cleaned, scene_title, begin_script, end_script, &
                                put_terminal, COLOUR
    use atrito_plot_view, only: plot_view_t, shown_window
@@ -72,7 +72,7 @@ contains
       drawing%view = view
       if (allocated(view%box)) drawing%window = shown_window(view, drawing%window)
       shown = shown_sets(model)
-      call open_text(set, SET_PLOT//'.dat', file)
+      call open_data(set, SET_PLOT, file)
       call put_line(file, '# outlines of the bodies, then the members of each set; columns: x [L]  y [L]')
       call put_lines(file, [character(len=40) :: '', ''], model, u, drawing)
       do i = 1, size(shown, kind=ip)

@@ -3,7 +3,7 @@
 !> Places go with their displacements, as those of the bodies do, so that a script that draws bodies displaced has the symbols where
 !> the bodies are. Lengths are told in pixels of a picture that is 1000 wide.
 module atrito_symbols
-   use atrito_files, only: file_set_t, text_file_t, open_text, put_line, close_text
+   use atrito_files, only: file_set_t, text_file_t, put_line, close_text
    use atrito_id_map, only: id_map_t, add_id, find_id
    use atrito_kinds, only: ip, wp
    use atrito_load_lists, only: amplitude_of
@@ -12,7 +12,7 @@ module atrito_symbols
    use atrito_mesh_lines, only: drawing_t, put_place
    use atrito_model, only: model_t, nodal_values_t
    use atrito_number_text, only: trimmed_real
-   use atrito_plot_files, only: SYMBOLS_OF
+   use atrito_plot_files, only: open_data, SYMBOLS_OF
    use atrito_plot_text, only: range_t, cover, span
    use atrito_sorting, only: sorted_places, order_key
    use atrito_status, only: status_t
@@ -61,7 +61,7 @@ contains
       symbols%scale = drawing%scale
       allocate (symbols%curves(0))
       symbols%data = '"'//picture//SYMBOLS_OF//'.dat"'
-      call open_text(set, picture//SYMBOLS_OF//'.dat', symbols%file)
+      call open_data(set, picture//SYMBOLS_OF, symbols%file)
       call put_line(symbols%file, '# symbols of supports, loads and surfaces; columns: x [L]  y [L]  u1 [L]  u2 [L], '// &
                     'and of an arrow its components [L], of a marker its size')
    end subroutine begin_symbols

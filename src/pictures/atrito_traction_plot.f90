@@ -2,13 +2,13 @@
 module atrito_traction_plot
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use atrito_contact_plot, only: state_of, N_STATES, STATE_WORD
-   use atrito_files, only: file_set_t, text_file_t, open_text, put_line, close_text
+   use atrito_files, only: file_set_t, text_file_t, put_line, close_text
    use atrito_kinds, only: ip, wp
    use atrito_mesh_lines, only: drawing_t, put_place, put_frame, add_lines, add_rigid_lines, LINE_INNER
    use atrito_mesh_plot, only: displacement_text
    use atrito_model, only: model_t
    use atrito_number_text, only: trimmed_real
-   use atrito_plot_files, only: TRACTION_PLOT, MESH_PLOT
+   use atrito_plot_files, only: open_data, TRACTION_PLOT, MESH_PLOT
    use atrito_plot_text, only: range_t, cover, quoted, picture_title, begin_script, end_script, put_plot, COLOUR
    use atrito_results, only: results_t, contact_result_t
    use atrito_status, only: status_t, is_ok
@@ -104,7 +104,7 @@ contains
       real(wp) :: t(2), tip(2)
       integer(ip) :: pair, j, i, state, n
 
-      call open_text(set, TRACTION_PLOT//'.dat', file)
+      call open_data(set, TRACTION_PLOT, file)
       call put_line(file, '# columns: x [L]  y [L]  u1 [L]  u2 [L]  traction upon the slave along x and y [F/L^2]  state')
       has_state = .false.
       n = 0

@@ -10,7 +10,8 @@ module atrito_write_plots
    use atrito_model, only: model_t
    use atrito_results, only: results_t, history_t, last_frame
    use atrito_summary, only: pair_count
-   use atrito_plot_files, only: plot_folder, CONTACT_PLOT, MESH_PLOT, JOINT_PLOT, HISTORY_PLOT, LOOP_PLOT, MOTION_PLOT, &
+   use atrito_plot_files, only: check_scripts, plot_folder, CONTACT_PLOT, MESH_PLOT, JOINT_PLOT, HISTORY_PLOT, LOOP_PLOT, &
+                                    MOTION_PLOT, &
                                 TRACTION_PLOT
    use atrito_contour_fields, only: contour_t, contours_of
    use atrito_contour_plot, only: write_contour_plots
@@ -99,6 +100,7 @@ contains
       if (is_ok(status) .and. has_history_plot(model, history)) call write_history_plot(set, model, history, status)
       if (is_ok(status) .and. has_loop_plot(model, history)) call write_loop_plot(set, model, history, status)
       if (is_ok(status) .and. has_motion_plot(history)) call write_motion_plot(set, model, history, view, status)
+      call check_scripts(set, status)
       call end_files(set, status)
    end subroutine write_plot_scripts
 

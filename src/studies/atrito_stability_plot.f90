@@ -1,11 +1,11 @@
 !> The pictures of `atrito limit`: what is watched against the parameter, up to the limit; and the mechanism.
 module atrito_stability_plot
-   use atrito_files, only: file_set_t, text_file_t, begin_files, open_text, put_line, close_text, end_files
+   use atrito_files, only: file_set_t, text_file_t, begin_files, put_line, close_text, end_files
    use atrito_gnuplot, only: draw_written
    use atrito_mechanism_plot, only: write_mechanism_plot
    use atrito_model, only: model_t
    use atrito_number_text, only: trimmed_real
-   use atrito_plot_files, only: plot_folder, LIMIT_PLOT, MECHANISM_PLOT
+   use atrito_plot_files, only: open_data, check_scripts, plot_folder, LIMIT_PLOT, MECHANISM_PLOT
    use atrito_plot_text, only: range_t, cover, padded, range_text, quoted, cleaned, begin_script, end_script, put_terminal, COLOUR
    use atrito_plot_view, only: plot_view_t
    use atrito_stability_result, only: stability_t
@@ -37,6 +37,7 @@ contains
       if (is_ok(status)) call write_data(set, limit, status)
       if (is_ok(status)) call write_script(set, title, limit, status)
       if (is_ok(status)) call write_mechanism_plot(set, model, limit, title, view, status)
+      call check_scripts(set, status)
       call end_files(set, status)
       plots(1)%s = LIMIT_PLOT
       plots(2)%s = MECHANISM_PLOT
@@ -50,7 +51,7 @@ contains
       type(status_t), intent(out) :: status
       type(text_file_t) :: file
 
-      call open_text(set, LIMIT_PLOT//'.dat', file)
+      call open_data(set, LIMIT_PLOT, file)
       call put_line(file, '# blocks: solved and checked, not converged; columns: '//limit%parameter//', displacement [L]')
       call put_values(file, limit, STATUS_OK)
       call put_values(file, limit, STATUS_NOT_CONVERGED)

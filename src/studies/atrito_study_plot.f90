@@ -1,11 +1,11 @@
 !> The picture of a study: error against processor time, and processor time against the number of displacements, both on
 !> logarithmic axes, a curve an element type, its last slope in the legend.
 module atrito_study_plot
-   use atrito_files, only: file_set_t, text_file_t, begin_files, open_text, put_line, close_text, end_files
+   use atrito_files, only: file_set_t, text_file_t, begin_files, put_line, close_text, end_files
    use atrito_gnuplot, only: draw_written
    use atrito_kinds, only: ip, wp, is_nan
    use atrito_number_text, only: trimmed_real
-   use atrito_plot_files, only: plot_folder, STUDY_PLOT
+   use atrito_plot_files, only: open_data, check_scripts, plot_folder, STUDY_PLOT
    use atrito_plot_text, only: quoted, cleaned, begin_script, end_script, put_terminal, COLOUR, N_COLOURS
    use atrito_status, only: status_t, is_ok
    use atrito_strings, only: string_t, to_text
@@ -31,6 +31,7 @@ contains
       call begin_files(set, plot_folder(folder), status)
       if (is_ok(status)) call write_data(set, study, status)
       if (is_ok(status)) call write_script(set, title, study, status)
+      call check_scripts(set, status)
       call end_files(set, status)
       plots(1)%s = STUDY_PLOT
       call draw_written(folder, plots, status, drawn)
@@ -45,7 +46,7 @@ contains
       character(len=:), allocatable :: line
       integer :: i, j, k
 
-      call open_text(set, STUDY_PLOT//'.dat', file)
+      call open_data(set, STUDY_PLOT, file)
       call put_line(file, '# a block an element; columns: dofs, processor seconds, estimated error [%], errors of the '// &
                     'quantities [%]')
       do i = 1, size(study%elements)

@@ -108,6 +108,23 @@ same_files first kept 'SIGTERM in the factorisation'
 factor HUP 129 some/where/new
 [ ! -e some ] || fail 'SIGHUP in the factorisation: a folder was made'
 
+
+# every signal that ends a program and can be caught: no file is left, and the code is that of the signal
+for signal in QUIT ALRM USR1 USR2 ABRT XCPU VTALRM PROF PWR IO STKFLT TRAP SYS SEGV BUS FPE ILL RTMIN RTMAX; do
+   number=$(kill -l $signal 2>/dev/null) || continue
+   : >err
+   rm -rf drawn
+   "$atrito" "$deck" --refine 6 -o drawn/new 2>err >out &
+   run=$!
+   await $run told err '^factor '
+   kill -$signal $run 2>/dev/null
+   wait $run 2>/dev/null
+   code=$?
+   [ $code -eq $((128 + number)) ] || fail "SIG$signal: exit $code"
+   told err 'E-INTERRUPTED' || { fail "SIG$signal: not told"; cat err; }
+   [ ! -e drawn ] || fail "SIG$signal: something is left"
+done
+
 # --- while the tables are written -------------------------------------------------------------------------------------------------
 writing() { # writing FOLDER WATCHED
    for n in 20000 80000 320000; do
@@ -254,5 +271,34 @@ expect_code 143 'while drawing'
 if command -v flock >/dev/null; then
    flock -n drawn true || fail 'while drawing: gnuplot goes on'
 fi
+
+# SIGKILL while drawing: gnuplot and what it has started go, too, and nothing keeps the next run
+PATH=$work/bin:$PATH "$atrito" strip.inp -o drawn --plot 2>err >out &
+run=$!
+await $run [ -s drawn/plots/mesh.png ]
+kill -KILL $run
+wait $run 2>/dev/null
+i=0
+while [ $i -lt 250 ] && ps -e -o args= 2>/dev/null | grep -q '^sleep 100000$'; do
+   i=$((i + 1))
+   pause
+done
+[ $i -lt 250 ] || fail 'SIGKILL while drawing: gnuplot draws on'
+timeout 60 "$atrito" strip.inp -o drawn --quiet || fail "SIGKILL while drawing: the next run ends with $?"
+[ ! -e drawn/.atrito.lock ] || fail 'SIGKILL while drawing: the lock is left'
+
+# SIGKILL of a sweep: its workers go, too
+strip 80000
+"$atrito" sweep strip.inp -o workers --threads 3 --quiet --vary q=1,2,3,4,5,6,7 2>err >out &
+run=$!
+await $run parts workers/q_3
+kill -KILL $run
+wait $run 2>/dev/null
+i=0
+while [ $i -lt 250 ] && ps -e -o args= 2>/dev/null | grep -q '^[^ ]*atrito sweep strip.inp -o workers'; do
+   i=$((i + 1))
+   pause
+done
+[ $i -lt 250 ] || fail 'SIGKILL of a sweep: a worker goes on'
 
 finish

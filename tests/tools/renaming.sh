@@ -57,6 +57,21 @@ no_mixture() { # no_mixture: no new file beside a former one
    [ $formers -eq 0 ] || [ $news -eq 0 ]
 }
 
+comes_back() { # comes_back: a run of another deck has cleared up what a killed one left, and holds nothing of it but its listing
+   "$atrito" other.inp --quiet -o out || return 1
+   for file in out/*; do
+      case $file in
+         out/plots | out/stress.tab.old) ;;
+         out/other.*) ;;
+         *.lst | *.run.inp) ;;                          # of the former run, or of the new one: they have names of their own
+         *) grep -q '^# deck: other.inp' "$file" || return 1 ;;
+      esac
+   done
+   for file in old/*.lst old/*.run.inp; do
+      [ -f "out/${file##*/}" ] || return 1
+   done
+}
+
 all_formers() { # all_formers: each former file is whole, under its name or its second one
    for file in old/*; do
       there=out/${file##*/}
@@ -64,6 +79,7 @@ all_formers() { # all_formers: each former file is whole, under its name or its 
    done
 }
 
+cp "$deck" other.inp
 traced error=EIO:when=60000
 [ $code -eq 0 ] && is_new || fail "undisturbed: exit $code"
 n=$(grep -c 'rename' calls)
@@ -84,8 +100,13 @@ while [ $i -lt "$n" ]; do
    [ $code -eq 137 ] || fail "killed at renaming $i: exit $code"
    no_mixture || fail "killed at renaming $i: a mixture of old and new tables"
    all_formers || fail "killed at renaming $i: a former file is lost"
+   cp -r out killed
    "$atrito" "$deck" --quiet --set nu=0.4 -o out && is_new || fail "killed at renaming $i: the next run fails"
    find out -name '*.part' | grep . && fail "killed at renaming $i: the next run leaves temporary files"
+   rm -rf out
+   mv killed out
+   comes_back || { fail "killed at renaming $i: not cleared up by another deck"; ls out; }
+   find out -name '*.part' | grep . && fail "killed at renaming $i: another deck leaves temporary files"
 done
 [ $failed -ge 10 ] || fail "only $failed of $n renamings mattered"
 row "one of $n renamings fails, or the process is killed there" 'all files or none' "$([ "$failures" -eq 0 ] && echo 'all files or none' || echo failed)"

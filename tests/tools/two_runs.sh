@@ -41,9 +41,9 @@ for i in 1 2 3 4 5; do
    same both two || fail "failing race $i: not the tables of the other"
 done
 
-# the claim itself: held by another program, the run waits for it and says so
+# the claim itself, a lock on .atrito.lock: held by another program, the run waits for it and says so
 if command -v flock >/dev/null; then
-   flock both sh -c 'echo held >is-held; until [ -e go ]; do sleep 0.02 2>/dev/null || sleep 1; done' &
+   flock both/.atrito.lock sh -c 'echo held >is-held; until [ -e go ]; do sleep 0.02 2>/dev/null || sleep 1; done' &
    holder=$!
    until [ -s is-held ]; do pause; done
    "$atrito" "$deck" --refine 2 -o both --quiet --set nu=0.1 2>err >out &
@@ -58,7 +58,7 @@ if command -v flock >/dev/null; then
 
    # a signal ends the wait
    rm is-held go
-   flock both sh -c 'echo held >is-held; until [ -e go ]; do sleep 0.02 2>/dev/null || sleep 1; done' &
+   flock both/.atrito.lock sh -c 'echo held >is-held; until [ -e go ]; do sleep 0.02 2>/dev/null || sleep 1; done' &
    holder=$!
    until [ -s is-held ]; do pause; done
    "$atrito" "$deck" --refine 2 -o both --quiet --set nu=0.4 2>err >out &
@@ -77,8 +77,24 @@ if command -v flock >/dev/null; then
    run=$!
    kill -KILL $run
    wait $run 2>/dev/null
-   flock -n both true || fail 'a killed run: the folder is still claimed'
+   timeout 120 "$atrito" "$deck" --refine 2 -o both --quiet --set nu=0.4 2>err >out || fail 'a killed run: the folder is still claimed'
+
+   # who may only read the folder cannot hold it: neither the folder itself, nor the file of the lock
+   rm -f is-held go
+   flock both sh -c 'echo held >is-held; until [ -e go ]; do sleep 0.02 2>/dev/null || sleep 1; done' &
+   holder=$!
+   until [ -s is-held ]; do pause; done
+   timeout 120 "$atrito" "$deck" --refine 2 -o both --quiet --set nu=0.4 2>err >out || fail 'the folder is locked by a reader: the run waits'
+   grep -q '^wait' err && fail 'the folder is locked by a reader: the run waits for it'
+   echo go >go
+   wait $holder
 fi
+[ ! -e both/.atrito.lock ] || fail 'the file of the lock is left'
+"$atrito" "$deck" --refine 6 -o both --quiet 2>err >out &
+run=$!
+until [ -e both/.atrito.lock ] || ! kill -0 $run 2>/dev/null; do pause; done
+case $(ls -l both/.atrito.lock 2>/dev/null | cut -c 1-10) in *r*) fail 'the file of the lock can be read' ;; esac
+wait $run
 
 # two sweeps: the runs of one of them
 "$atrito" sweep "$deck" -o sweep-1 --quiet --vary nu=0.1,0.2,0.3 --set q=1 || fail 'the sweep itself fails'

@@ -1,0 +1,235 @@
+!> Which files may be replaced or removed: those that atrito wrote, as their first lines say, and that this run has not read.
+!>
+!> What a kind of file says stands with the module that writes it; here it is looked for. A link is nobody's table: what it leads to
+!> is somebody else's.
+module atrito_own_files
+   use, intrinsic :: iso_c_binding, only: c_null_char
+   use atrito_status, only: status_t, set_status, is_ok, STATUS_FILE
+   use atrito_strings, only: string_t
+   use atrito_system, only: c_is_input, c_kind_of, c_peek, c_remove_file
+   implicit none (type, external)
+   private
+   public :: check_own, check_all_own, check_unread, is_own, remove_own_file, clear_temporary
+   public :: TEMPORARY, FORMER, OWN_MARK, DECK_MARK, MESH_MARK
+
+   !> Endings of a file that is being written, and of one that steps aside for it.
+   character(len=*), parameter :: TEMPORARY = '.part', FORMER = '.old'//TEMPORARY
+   character(len=*), parameter :: PROGRAM = 'atrito '
+   !> With what scripts, data, logs and journals begin: # for most readers the beginning of a comment.
+   character(len=*), parameter :: OWN_MARK = '# '//PROGRAM, DECK_MARK = '** '//PROGRAM
+   !> What ends the copy of a mesh: a section of Gmsh that nobody reads.
+   character(len=*), parameter :: MESH_MARK = '$Comments'//achar(10)//PROGRAM
+   character(len=*), parameter :: HDF5_MARK = char(137)//'HDF'//achar(13)//achar(10)//achar(26)//achar(10)
+   character(len=*), parameter :: TEXTS = ' .tab .csv .gp .dat .log .journal .lst .inp .xdmf .html ', BINARY = ' .h5 .msh .bin '
+   character(len=*), parameter :: PICTURES = ' .bin .png .svg .gif '   !< they belong to the script of their name
+   integer, parameter :: NONE = 0, PLAIN = 1, FOLDER = 2               !< answers of c_kind_of
+   integer, parameter :: HEAD = 8192, TAIL = 256
+   character(len=*), parameter :: WAYS_OUT = 'move it away, or take another folder (-o)'
+
+   !> The first columns of each table, by which a file of comma-separated values is known: it has no comments.
+   character(len=40), parameter :: COLUMNS(*) = [ &
+                                   character(len=40) :: 'contact:step,pair,point,', 'summary:step,pair,quantity,', &
+                                   'extremes:step,quantity,value,', 'resultants:step,set,keyword,', &
+                                   'history:step,increment,time,', 'nodes:step,node,x,y,', 'reactions:step,node,r1,r2,', &
+                                   'stress:step,element,point,', 'nodal_stress:step,node,x,y,', 'bodies:step,body,name,', &
+                                   'rigid:step,body,node,', 'joints:step,pair,body_1,', 'sections:step,cut,x,y,', &
+                                   'ties:step,tie,', 'equations:step,equation,node,', 'springs:step,spring,node_1,', &
+                                   'iterations:step,outer,inner,', 'timing:phase,wall,cpu', 'runs:run,', &
+                                   'study:level,element,h,dofs,', 'limit:value,code,', 'mechanism:body,name,x,y,', 'sweep:']
+
+contains
+
+   !> All of some files of a folder. status: STATUS_FILE, of the first that is another's.
+   subroutine check_all_own(folder, names, status)
+      character(len=*), intent(in) :: folder
+      type(string_t), intent(in) :: names(:)
+      type(status_t), intent(out) :: status
+      integer :: i
+
+      do i = 1, size(names)
+         call check_own(folder//'/'//names(i)%s, status)
+         if (is_ok(status)) call check_own(folder//'/'//names(i)%s//TEMPORARY, status)
+         if (is_ok(status)) call check_own(folder//'/'//names(i)%s//FORMER, status)
+         if (.not. is_ok(status)) return
+      end do
+   end subroutine check_all_own
+
+   !> Whether a file, if there is one, may be replaced or removed. A folder is told where a file is to be written.
+   !>
+   !> status: STATUS_FILE, with what to do.
+   subroutine check_own(path, status, may_be_read)
+      character(len=*), intent(in) :: path
+      type(status_t), intent(out) :: status
+      logical, intent(in), optional :: may_be_read
+      integer :: kind
+
+      kind = c_kind_of(path//c_null_char)
+      if (kind == NONE .or. kind == FOLDER) return
+      call check_unread(path, status, may_be_read)
+      if (.not. is_ok(status)) return
+      if (kind /= PLAIN) then
+         call set_status(status, STATUS_FILE, path//': is a link or no plain file, and would be replaced or removed; '//WAYS_OUT)
+      else if (.not. may_go(path)) then
+         call set_status(status, STATUS_FILE, path//': was not written by atrito, and would be replaced or removed; '//WAYS_OUT)
+      end if
+   end subroutine check_own
+
+   !> Whether a file is none that this run has read. status: STATUS_FILE.
+   subroutine check_unread(path, status, may_be_read)
+      character(len=*), intent(in) :: path
+      type(status_t), intent(out) :: status
+      logical, intent(in), optional :: may_be_read  !< what takes its place holds all that it held
+
+      if (present(may_be_read)) then
+         if (may_be_read) return
+      end if
+      if (c_is_input(path//c_null_char) == 0) return
+      call set_status(status, STATUS_FILE, path//': this run reads it, and would replace or remove it; -o names another folder')
+   end subroutine check_unread
+
+   !> Removes a file that atrito wrote; another one stays.
+   subroutine remove_own_file(path)
+      character(len=*), intent(in) :: path
+
+      if (c_kind_of(path//c_null_char) /= PLAIN) return
+      if (c_is_input(path//c_null_char) == 1) return
+      if (is_own(path)) call c_remove_file(path//c_null_char)
+   end subroutine remove_own_file
+
+   !> Clears the way for a file that is to be written under its temporary name.
+   subroutine clear_temporary(path)
+      character(len=*), intent(in) :: path
+
+      if (c_kind_of(path//c_null_char) /= PLAIN) return
+      if (c_is_input(path//c_null_char) == 1) return
+      if (may_go(path)) call c_remove_file(path//c_null_char)
+   end subroutine clear_temporary
+
+   !> A file in the place of one that atrito writes is atrito's, or nobody can know: of some kinds a part that a killed run left says
+   !> nothing yet.
+   logical function may_go(path)
+      character(len=*), intent(in) :: path
+
+      may_go = .not. is_of_a_kind(path)
+      if (.not. may_go) may_go = index(BINARY, ' '//kind_of(path)//' ') > 0 .and. ends_with(path, TEMPORARY) .and. &
+                                 .not. ends_with(path, FORMER)
+      if (.not. may_go) may_go = is_own(path)
+   end function may_go
+
+   !> The name without what it has while it is written.
+   pure function final_name(path) result(name)
+      character(len=*), intent(in) :: path
+      character(len=:), allocatable :: name
+
+      name = path
+      if (ends_with(name, TEMPORARY)) name = name(:len(name) - len(TEMPORARY))
+      if (ends_with(path, FORMER)) name = path(:len(path) - len(FORMER))
+   end function final_name
+
+   !> The ending of its final name, with the dot.
+   pure function kind_of(path) result(ending)
+      character(len=*), intent(in) :: path
+      character(len=:), allocatable :: ending, name
+      integer :: dot
+
+      name = final_name(path)
+      name = name(index(name, '/', back=.true.) + 1:)
+      dot = index(name, '.', back=.true.)
+      ending = '.'
+      if (dot > 0) ending = name(dot:)
+   end function kind_of
+
+   !> One of the kinds of files that atrito writes.
+   pure logical function is_of_a_kind(path)
+      character(len=*), intent(in) :: path
+
+      is_of_a_kind = index(TEXTS//BINARY//PICTURES, ' '//kind_of(path)//' ') > 0
+   end function is_of_a_kind
+
+   !> Whether a plain file says that atrito wrote it.
+   recursive logical function is_own(path)
+      character(len=*), intent(in) :: path
+      character(len=HEAD) :: buffer
+      character(len=:), allocatable :: name, kind
+      integer :: n
+
+      is_own = .false.
+      if (.not. is_of_a_kind(path)) return
+      n = c_peek(path//c_null_char, buffer, HEAD, 0)
+      if (n < 0) return
+      name = final_name(path)
+      kind = kind_of(path)
+      name = name(:len(name) - len(kind))
+      if (n == 0) then
+         is_own = ends_with(path, TEMPORARY)        ! of a run that was killed before it wrote a line
+      else if (kind == '.msh') then
+         n = c_peek(path//c_null_char, buffer, TAIL, 1)
+         is_own = index(buffer(:n), MESH_MARK) > 0
+      else if (index(PICTURES, ' '//kind//' ') > 0) then
+         is_own = is_own_script(name//'.gp')
+      else
+         is_own = says_so(buffer(:n), kind, name(index(name, '/', back=.true.) + 1:))
+      end if
+   end function is_own
+
+   logical function is_own_script(path)
+      character(len=*), intent(in) :: path
+
+      is_own_script = c_kind_of(path//c_null_char) == PLAIN
+      if (is_own_script) is_own_script = is_own(path)
+   end function is_own_script
+
+   !> The first bytes of a file of this kind say that atrito wrote it.
+   pure logical function says_so(text, ending, name)
+      character(len=*), intent(in) :: text, ending
+      character(len=*), intent(in) :: name          !< of a table
+      character(len=*), parameter :: LINE_FEED = achar(10)
+
+      select case (ending)
+      case ('.tab')
+         says_so = index(text, '# program: '//PROGRAM) == 1
+         if (index(text, '# NOT CONVERGED') == 1) says_so = index(text, LINE_FEED//'# program: '//PROGRAM) > 0
+      case ('.csv')
+         says_so = has_columns(text, name)
+      case ('.gp', '.dat', '.log', '.journal')
+         says_so = index(text, OWN_MARK) == 1
+      case ('.lst')
+         says_so = index(text, repeat('=', 20)) == 1 .and. index(text, '='//LINE_FEED//PROGRAM) > 0
+      case ('.inp')
+         says_so = index(text, DECK_MARK) == 1
+      case ('.h5')
+         says_so = index(text, HDF5_MARK) == 1 .and. index(text, PROGRAM) > 0
+      case ('.xdmf')
+         says_so = index(text, '<?xml') == 1 .and. index(text, '"program" Value="'//PROGRAM) > 0
+      case ('.html')
+         says_so = index(text, '<!DOCTYPE html>') == 1 .and. index(text, 'name="generator" content="'//PROGRAM) > 0
+      case default
+         says_so = .false.
+      end select
+   end function says_so
+
+   !> The first row is one of atrito's: its first names, and an end as atrito writes it.
+   pure logical function has_columns(text, name)
+      character(len=*), intent(in) :: text, name
+      integer :: i, last
+
+      has_columns = .false.
+      last = index(text, achar(13)//achar(10)) - 1
+      if (last < 1) return
+      do i = 1, size(COLUMNS)
+         if (index(COLUMNS(i), name//':') /= 1) cycle
+         has_columns = index(text(:last), trim(COLUMNS(i)(len(name) + 2:))) == 1 .and. index(text(:last), achar(10)) == 0
+         ! the parameters that vary stand among them
+         if (name == 'sweep') has_columns = index(text(:last), ',step,pair,quantity,') > 0
+         if (name == 'runs') has_columns = has_columns .and. index(text(:last), ',exit,factorisations') > 0
+      end do
+   end function has_columns
+
+   pure logical function ends_with(text, ending)
+      character(len=*), intent(in) :: text, ending
+
+      ends_with = .false.
+      if (len(text) > len(ending)) ends_with = text(len(text) - len(ending) + 1:) == ending
+   end function ends_with
+
+end module atrito_own_files
