@@ -50,7 +50,7 @@ contains
       end if
       call take_fingerprint(model, options, recorder%fingerprint)
       if (recorder%resumes) call read_restart(command%restart, model, recorder%fingerprint, recorder%found, recorder%state, &
-                                             status, frames)
+                                              status, frames)
    end subroutine begin_recorder
 
    !> Writes the file anew. A failure is told once, and the run goes on: its tables are not lost with it.
