@@ -60,8 +60,9 @@ contains
       bytes = 0
       do k = 1, size(model%steps)
          associate (fields => model%steps(k)%requests%fields, every => model%steps(k)%requests%every%fields)
-            if (fields%nodes .or. fields%reactions .or. fields%stress .or. fields%contact) &
+            if (fields%nodes .or. fields%reactions .or. fields%stress .or. fields%contact) then
                bytes = bytes + FIELD_GROUPS*due_of(model%steps(k), every)
+            end if
          end associate
       end do
       bytes = min(bytes, MOST_OF_FIELDS)
