@@ -3,6 +3,7 @@
 !> element is one of the deck's, states are of their enumeration, times lie in their step, reals are finite (what is not defined
 !> may be NaN), and text has no control characters. That is asked before anything is used.
 module atrito_check_found
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_is_nan
    use atrito_element_table, only: POINT_COUNT
    use atrito_extremes, only: EXTREME_NAMES
    use atrito_kinds, only: ip, wp
@@ -122,7 +123,8 @@ contains
       real(wp) :: began
 
       call require(wrong, frame%step >= 1 .and. frame%step <= size(steps), 'the number')
-      if (allocated(wrong)) return
+      call require(wrong, is_finite([frame%time, frame%step_time]), 'the time')
+      if (allocated(wrong)) return                   ! what is no number may not be compared
       associate (way => steps(frame%step)%increments)
          began = sum(steps(:frame%step - 1)%increments%period)
          call require(wrong, frame%increment >= 1 .and. frame%increment <= way%most, 'the number')
@@ -465,6 +467,8 @@ contains
             call require(wrong,.not. is_any_infinite([row%normal, row%shear, row%moment, row%length, row%centre, &
                                                       row%max_pressure, row%dissipation, row%elastic_energy, row%mean_slip]), &
                          'rows')
+            call require(wrong, is_finite([row%time]), 'time of rows')
+            if (allocated(wrong)) return
             call require(wrong, row%time > 0.0_wp .and. row%time <= state%last%time, 'time of rows')
          end associate
       end do
@@ -488,14 +492,14 @@ contains
    pure logical function is_finite(values)
       real(wp), intent(in) :: values(:)
 
-      is_finite = all(abs(values) <= huge(values))
+      is_finite = all(ieee_is_finite(values))
    end function is_finite
 
    !> NaN is none.
    pure logical function is_any_infinite(values)
       real(wp), intent(in) :: values(:)
 
-      is_any_infinite = any(abs(values) > huge(values))
+      is_any_infinite = any(.not. (ieee_is_finite(values) .or. ieee_is_nan(values)))
    end function is_any_infinite
 
    pure logical function is_list_of_reals(values, n) result(is_list)

@@ -25,16 +25,17 @@ contains
       real(wp) :: began
 
       call require(wrong, state%step >= 1 .and. state%step <= size(model%steps), 'step')
-      if (allocated(wrong)) return
+      call require(wrong, is_finite([state%step_time, state%length, state%began, state%condition, state%grain, &
+                                     state%last%step_time]), 'times')
+      if (allocated(wrong)) return                   ! what is no number may not be compared
       associate (step => model%steps(state%step), way => model%steps(state%step)%increments)
          began = sum(model%steps(:state%step - 1)%increments%period)
          call require(wrong, state%increment >= 1 .and. state%increment <= way%most, 'increment')
          call require(wrong, state%step_time > 0.0_wp .and. state%step_time <= way%period, 'step_time')
          call require(wrong, state%ends_step .eqv. state%step_time >= way%period, 'ends_step')
          call require(wrong, abs(state%began - began) <= SAME_TIME*began, 'began')
-         call require(wrong, state%length > 0.0_wp .and. is_finite([state%length]), 'length')
-         call require(wrong, state%condition >= 0.0_wp .and. state%grain >= 0.0_wp .and. &
-                      is_finite([state%condition, state%grain]), 'condition')
+         call require(wrong, state%length > 0.0_wp, 'length')
+         call require(wrong, state%condition >= 0.0_wp .and. state%grain >= 0.0_wp, 'condition')
          call require(wrong, state%contact_form == CONTACT_DENSE .or. state%contact_form == CONTACT_SPARSE, 'contact_form')
          call require(wrong, is_plain(state%contact_reason) .and. allocated(state%contact_reason), 'contact_reason')
          call require(wrong, is_begun(state%from, step%prescribed), 'from')
@@ -111,8 +112,9 @@ contains
       type(warm_start_t), intent(in) :: start
       character(len=:), allocatable, intent(inout) :: wrong
 
-      call require(wrong, is_finite([start%step_size, start%pull_size]) .and. min(start%step_size, start%pull_size) >= 0.0_wp, &
-                   'multipliers')
+      call require(wrong, is_finite([start%step_size, start%pull_size]), 'multipliers')
+      if (allocated(wrong)) return
+      call require(wrong, min(start%step_size, start%pull_size) >= 0.0_wp, 'multipliers')
       associate (m => size(data%line%point, kind=ip), k => scene%n_rigid)
          call require(wrong, may_be(start%e, m) .and. may_be(start%noise, m) .and. may_be(start%q_old, m) .and. &
                       may_be(start%stiffness, m), 'multipliers')

@@ -1,6 +1,7 @@
 !> Why there is no solution where numbers are too large or too small for the machine: what the deck asks for is then not what was
 !> solved, and whatever was found of free motions or contact is found of infinities and zeros.
 module atrito_number_range
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use atrito_element_table, only: SHAPES
    use atrito_kinds, only: ip, wp
    use atrito_model, only: material_t, model_t
@@ -121,8 +122,11 @@ contains
 
       largest = 0.0_wp
       do i = 1, size(values, 2, kind=ip)
-         if (.not. all(abs(values(:, i)) <= largest)) largest = maxval(abs(values(:, i)))
-         if (any(abs(values(:, i)) > huge(largest)) .or. any(values(:, i) /= values(:, i))) largest = huge(largest)
+         if (all(ieee_is_finite(values(:, i)))) then
+            largest = max(largest, maxval(abs(values(:, i))))
+         else
+            largest = huge(largest)
+         end if
       end do
    end function largest_of
 
