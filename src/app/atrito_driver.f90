@@ -11,6 +11,7 @@ module atrito_driver
                                   TASK_COMPARE, TASK_HELP, TASK_SWEEP, TASK_STUDY, TASK_LIMIT, TASK_OPTIONS, TASK_VERSION
    use atrito_compare, only: comparison_t, begin_comparison, compare_paths
    use atrito_console, only: print_line, print_lines, print_message, print_messages, print_status
+   use atrito_files, only: check_all_own
    use atrito_help_pages, only: compose_help
    use atrito_folder_claim, only: folder_claim_t, claim_folder, release_folder
    use atrito_keyword_table, only: keyword_table, keyword_names
@@ -20,7 +21,7 @@ module atrito_driver
    use atrito_messages, only: message_t, add_warning, clear_messages
    use atrito_model, only: model_t
    use atrito_page, only: page_t, add_item, print_page
-   use atrito_plot_files, only: plot_folder
+   use atrito_plot_files, only: plot_folder, list_plots, PLOTS_OF_CHECK
    use atrito_reporter, only: reporter_t
    use atrito_results, only: scene_t
    use atrito_observations, only: observations_t
@@ -153,6 +154,8 @@ contains
       type(status_t) :: status
 
       call claim_folder(output_folder(command), claim, status, silent=command%json)
+      if (is_ok(status)) call check_all_own(plot_folder(output_folder(command)), &
+                                            list_plots(output_folder(command), PLOTS_OF_CHECK), status)
       if (is_ok(status)) then
          call write_check_plots(model, command%view, output_folder(command), pictures)
       else

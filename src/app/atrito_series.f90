@@ -1,7 +1,7 @@
 !> What sweeps, studies and limits have in common: they claim their folder for all of their runs, write tables, draw, and tell it.
 module atrito_series
    use, intrinsic :: iso_fortran_env, only: output_unit
-   use atrito_command_line, only: command_t, output_folder, TASK_SWEEP, TASK_STUDY, TASK_LIMIT
+   use atrito_command_line, only: command_t, output_folder, TASK_SWEEP, TASK_STUDY
    use atrito_console, only: print_messages, print_status
    use atrito_deck, only: deck_t
    use atrito_deck_as_run, only: take_deck_as_run
@@ -9,7 +9,7 @@ module atrito_series
    use atrito_folder_claim, only: folder_claim_t, claim_folder
    use atrito_given_options, only: options_of_series
    use atrito_kinds, only: ip, lp, wp
-   use atrito_messages, only: clear_messages, count_messages, SEVERITY_ERROR
+   use atrito_messages, only: add_warning, clear_messages, count_messages, SEVERITY_ERROR
    use atrito_page, only: page_t, print_page, add_above_rule
    use atrito_patched_text, only: named_text_t, digest_of_texts
    use atrito_parameter_text, only: list_parameters
@@ -105,17 +105,22 @@ contains
    !> The command's pictures and report of an earlier time go, made anew or not, for its tables are new.
    subroutine begin_pictures(command)
       type(command_t), intent(in) :: command
+      character(len=:), allocatable :: folder
+      type(status_t) :: status
+      integer :: whose
 
+      folder = output_folder(command)
       call clear_messages()
-      select case (command%task)
-      case (TASK_SWEEP)
-         call remove_plots(output_folder(command), PLOTS_OF_SWEEP)
-      case (TASK_STUDY)
-         call remove_plots(output_folder(command), PLOTS_OF_STUDY)
-      case (TASK_LIMIT)
-         call remove_plots(output_folder(command), PLOTS_OF_LIMIT)
-      end select
-      call remove_report(output_folder(command))
+      whose = PLOTS_OF_LIMIT
+      if (command%task == TASK_SWEEP) whose = PLOTS_OF_SWEEP
+      if (command%task == TASK_STUDY) whose = PLOTS_OF_STUDY
+      call check_files(folder, [character(len=1) ::], whose, status)     ! an hour may have passed
+      if (is_ok(status)) then
+         call remove_plots(folder, whose)
+         call remove_report(folder)
+      else
+         call add_warning('W-PLOT', status%text)
+      end if
    end subroutine begin_pictures
 
    !> Prints the closing lines.

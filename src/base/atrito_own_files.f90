@@ -5,11 +5,11 @@
 module atrito_own_files
    use, intrinsic :: iso_c_binding, only: c_null_char
    use atrito_status, only: status_t, set_status, is_ok, STATUS_FILE
-   use atrito_strings, only: string_t
-   use atrito_system, only: c_is_input, c_kind_of, c_peek, c_remove_file
+   use atrito_strings, only: string_t, append_string
+   use atrito_system, only: c_find_name, c_is_input, c_kind_in, c_kind_of, c_peek, c_remove_file
    implicit none (type, external)
    private
-   public :: check_own, check_all_own, check_unread, is_own, remove_own_file, clear_temporary
+   public :: check_own, check_all_own, check_unread, is_own, remove_own_file, clear_temporary, names_with
    public :: TEMPORARY, FORMER, OWN_MARK, DECK_MARK, MESH_MARK
 
    !> Endings of a file that is being written, and of one that steps aside for it.
@@ -20,10 +20,12 @@ module atrito_own_files
    !> What ends the copy of a mesh: a section of Gmsh that nobody reads.
    character(len=*), parameter :: MESH_MARK = '$Comments'//achar(10)//PROGRAM
    character(len=*), parameter :: HDF5_MARK = char(137)//'HDF'//achar(13)//achar(10)//achar(26)//achar(10)
-   character(len=*), parameter :: TEXTS = ' .tab .csv .gp .dat .log .journal .lst .inp .xdmf .html ', BINARY = ' .h5 .msh .bin '
-   character(len=*), parameter :: PICTURES = ' .bin .png .svg .gif '   !< they belong to the script of their name
+   !> Kinds of files: texts, which say it at their beginning; what says it elsewhere; what belongs to the script of its name. Of the
+   !> last two a part that a killed run left may say nothing yet.
+   integer, parameter :: IS_OTHER = 0, IS_TEXT = 1, IS_BINARY = 2, IS_PICTURE = 3
    integer, parameter :: NONE = 0, PLAIN = 1, FOLDER = 2               !< answers of c_kind_of
    integer, parameter :: HEAD = 8192, TAIL = 256
+   integer, parameter :: LONGEST_NAME = 255
    character(len=*), parameter :: WAYS_OUT = 'move it away, or take another folder (-o)'
 
    !> The first columns of each table, by which a file of comma-separated values is known: it has no comments.
@@ -39,20 +41,47 @@ module atrito_own_files
 
 contains
 
-   !> All of some files of a folder. status: STATUS_FILE, of the first that is another's.
+   !> All of some files of a folder, and those with their temporary names. status: STATUS_FILE, of the first that is another's.
    subroutine check_all_own(folder, names, status)
       character(len=*), intent(in) :: folder
       type(string_t), intent(in) :: names(:)
       type(status_t), intent(out) :: status
-      integer :: i
+      type(string_t), allocatable :: parts(:)
+      character(len=:), allocatable :: c_folder
+      integer :: i, k
 
+      c_folder = folder//c_null_char
+      if (c_kind_of(c_folder) == NONE) return
       do i = 1, size(names)
+         if (c_kind_in(c_folder, names(i)%s//c_null_char) == NONE) cycle
          call check_own(folder//'/'//names(i)%s, status)
-         if (is_ok(status)) call check_own(folder//'/'//names(i)%s//TEMPORARY, status)
-         if (is_ok(status)) call check_own(folder//'/'//names(i)%s//FORMER, status)
          if (.not. is_ok(status)) return
       end do
+      parts = names_with(folder, TEMPORARY)
+      do k = 1, size(parts)
+         do i = 1, size(names)
+            if (final_name(parts(k)%s) == names(i)%s) call check_own(folder//'/'//parts(k)%s, status)
+            if (.not. is_ok(status)) return
+         end do
+      end do
    end subroutine check_all_own
+
+   !> Names of a folder that end so.
+   function names_with(folder, ending) result(names)
+      character(len=*), intent(in) :: folder, ending
+      type(string_t), allocatable :: names(:)
+      character(len=LONGEST_NAME) :: buffer
+      integer :: i, length
+
+      allocate (names(0))
+      i = 0
+      do
+         i = i + 1
+         length = c_find_name(folder//c_null_char, ending//c_null_char, i, buffer, LONGEST_NAME)
+         if (length == 0) return
+         call append_string(names, buffer(:length))
+      end do
+   end function names_with
 
    !> Whether a file, if there is one, may be replaced or removed. A folder is told where a file is to be written.
    !>
@@ -105,16 +134,32 @@ contains
       if (may_go(path)) call c_remove_file(path//c_null_char)
    end subroutine clear_temporary
 
-   !> A file in the place of one that atrito writes is atrito's, or nobody can know: of some kinds a part that a killed run left says
-   !> nothing yet.
+   !> A file in the place of one that atrito writes is atrito's, or nobody can know.
    logical function may_go(path)
       character(len=*), intent(in) :: path
+      integer :: class
 
-      may_go = .not. is_of_a_kind(path)
-      if (.not. may_go) may_go = index(BINARY, ' '//kind_of(path)//' ') > 0 .and. ends_with(path, TEMPORARY) .and. &
-                                 .not. ends_with(path, FORMER)
+      class = class_of(kind_of(path))
+      may_go = class == IS_OTHER
+      if (class == IS_BINARY .or. class == IS_PICTURE) may_go = ends_with(path, TEMPORARY) .and. .not. ends_with(path, FORMER)
       if (.not. may_go) may_go = is_own(path)
    end function may_go
+
+   !> Which kind of file an ending has.
+   pure integer function class_of(ending) result(class)
+      character(len=*), intent(in) :: ending
+
+      select case (ending)
+      case ('.tab', '.csv', '.gp', '.dat', '.log', '.journal', '.lst', '.inp', '.xdmf', '.html')
+         class = IS_TEXT
+      case ('.h5', '.msh')
+         class = IS_BINARY
+      case ('.bin', '.png', '.svg', '.gif')
+         class = IS_PICTURE
+      case default
+         class = IS_OTHER
+      end select
+   end function class_of
 
    !> The name without what it has while it is written.
    pure function final_name(path) result(name)
@@ -139,33 +184,27 @@ contains
       if (dot > 0) ending = name(dot:)
    end function kind_of
 
-   !> One of the kinds of files that atrito writes.
-   pure logical function is_of_a_kind(path)
-      character(len=*), intent(in) :: path
-
-      is_of_a_kind = index(TEXTS//BINARY//PICTURES, ' '//kind_of(path)//' ') > 0
-   end function is_of_a_kind
-
    !> Whether a plain file says that atrito wrote it.
    recursive logical function is_own(path)
       character(len=*), intent(in) :: path
       character(len=HEAD) :: buffer
       character(len=:), allocatable :: name, kind
-      integer :: n
+      integer :: n, class
 
       is_own = .false.
-      if (.not. is_of_a_kind(path)) return
+      kind = kind_of(path)
+      class = class_of(kind)
+      if (class == IS_OTHER) return
       n = c_peek(path//c_null_char, buffer, HEAD, 0)
       if (n < 0) return
       name = final_name(path)
-      kind = kind_of(path)
       name = name(:len(name) - len(kind))
       if (n == 0) then
          is_own = ends_with(path, TEMPORARY)        ! of a run that was killed before it wrote a line
       else if (kind == '.msh') then
          n = c_peek(path//c_null_char, buffer, TAIL, 1)
          is_own = index(buffer(:n), MESH_MARK) > 0
-      else if (index(PICTURES, ' '//kind//' ') > 0) then
+      else if (class == IS_PICTURE) then
          is_own = is_own_script(name//'.gp')
       else
          is_own = says_so(buffer(:n), kind, name(index(name, '/', back=.true.) + 1:))
@@ -187,22 +226,22 @@ contains
 
       select case (ending)
       case ('.tab')
-         says_so = index(text, '# program: '//PROGRAM) == 1
-         if (index(text, '# NOT CONVERGED') == 1) says_so = index(text, LINE_FEED//'# program: '//PROGRAM) > 0
+         says_so = begins_with(text, '# program: '//PROGRAM)
+         if (begins_with(text, '# NOT CONVERGED')) says_so = index(text, LINE_FEED//'# program: '//PROGRAM) > 0
       case ('.csv')
          says_so = has_columns(text, name)
       case ('.gp', '.dat', '.log', '.journal')
-         says_so = index(text, OWN_MARK) == 1
+         says_so = begins_with(text, OWN_MARK)
       case ('.lst')
-         says_so = index(text, repeat('=', 20)) == 1 .and. index(text, '='//LINE_FEED//PROGRAM) > 0
+         says_so = begins_with(text, repeat('=', 20)) .and. index(text, '='//LINE_FEED//PROGRAM) > 0
       case ('.inp')
-         says_so = index(text, DECK_MARK) == 1
+         says_so = begins_with(text, DECK_MARK)
       case ('.h5')
-         says_so = index(text, HDF5_MARK) == 1 .and. index(text, PROGRAM) > 0
+         says_so = begins_with(text, HDF5_MARK) .and. index(text, PROGRAM) > 0
       case ('.xdmf')
-         says_so = index(text, '<?xml') == 1 .and. index(text, '"program" Value="'//PROGRAM) > 0
+         says_so = begins_with(text, '<?xml') .and. index(text, '"program" Value="'//PROGRAM) > 0
       case ('.html')
-         says_so = index(text, '<!DOCTYPE html>') == 1 .and. index(text, 'name="generator" content="'//PROGRAM) > 0
+         says_so = begins_with(text, '<!DOCTYPE html>') .and. index(text, 'name="generator" content="'//PROGRAM) > 0
       case default
          says_so = .false.
       end select
@@ -224,6 +263,13 @@ contains
          if (name == 'runs') has_columns = has_columns .and. index(text(:last), ',exit,factorisations') > 0
       end do
    end function has_columns
+
+   pure logical function begins_with(text, beginning)
+      character(len=*), intent(in) :: text, beginning
+
+      begins_with = .false.
+      if (len(text) >= len(beginning)) begins_with = text(:len(beginning)) == beginning
+   end function begins_with
 
    pure logical function ends_with(text, ending)
       character(len=*), intent(in) :: text, ending

@@ -5,16 +5,14 @@
 !> whole, under its own name or its temporary one, and no new file beside a former one.
 module atrito_renaming
    use, intrinsic :: iso_c_binding, only: c_null_char
-   use atrito_own_files, only: check_own, check_unread, is_own, remove_own_file, TEMPORARY, FORMER
+   use atrito_own_files, only: check_own, check_unread, is_own, names_with, remove_own_file, TEMPORARY, FORMER
    use atrito_paths, only: file_exists, is_folder, may_write, remove_file
    use atrito_status, only: status_t, set_status, is_ok, STATUS_FILE
    use atrito_strings, only: string_t, append_string
-   use atrito_system, only: c_find_name, c_rename
+   use atrito_system, only: c_rename
    implicit none (type, external)
    private
    public :: find_obstacle, replace_files, rename_over, recover_files
-
-   integer, parameter :: LONGEST_NAME = 255
 
 contains
 
@@ -123,23 +121,6 @@ contains
       if (is_ok(status)) call check_own(first, status)
       if (is_ok(status) .and. .not. is_folder(first)) ignored = renamed(path, first)
    end subroutine bring_back
-
-   !> Names of a folder that end so.
-   function names_with(folder, ending) result(names)
-      character(len=*), intent(in) :: folder, ending
-      type(string_t), allocatable :: names(:)
-      character(len=LONGEST_NAME) :: buffer
-      integer :: i, length
-
-      allocate (names(0))
-      i = 0
-      do
-         i = i + 1
-         length = c_find_name(folder//c_null_char, ending//c_null_char, i, buffer, LONGEST_NAME)
-         if (length == 0) return
-         call append_string(names, buffer(:length))
-      end do
-   end function names_with
 
    !> Gives new files their names, over the former ones.
    subroutine rename_over(folder, names, status)

@@ -68,6 +68,34 @@ int atrito_kind_of(const char *path) {
    return S_ISREG(is.st_mode) ? 1 : S_ISDIR(is.st_mode) ? 2 : S_ISLNK(is.st_mode) ? 3 : 4;
 }
 
+/* The same of a name in a folder. */
+int atrito_kind_in(const char *folder, const char *name) {
+   size_t n = strlen(folder), m = strlen(name);
+   char path[4096];
+   if (n + m + 2 > sizeof path)
+      return 0;
+   memcpy(path, folder, n);
+   path[n] = '/';
+   memcpy(path + n + 1, name, m + 1);
+   return atrito_kind_of(path);
+}
+
+/* Whether a text has nothing but printable characters of ASCII, eight of them at a time. */
+int atrito_is_plain(const char *text, size_t length) {
+   const uint64_t ones = 0x0101010101010101u;
+   uint64_t found = 0, some;
+   size_t i = 0;
+
+   for (; i + sizeof some <= length; i += sizeof some) {
+      memcpy(&some, text + i, sizeof some);
+      found |= some | (some - 32 * ones) | (some + ones); /* 128 and more, less than 32, 127: the uppermost bit */
+   }
+   for (; i < length; i++)
+      if (text[i] < 32 || text[i] > 126)
+         return 0;
+   return (found & (128 * ones)) == 0;
+}
+
 int atrito_exists(const char *path) { return access(path, F_OK) == 0; }
 
 /* What was written into a file is on the disk, not in the memory of the system, which a loss of power takes. 1: done. */

@@ -5,7 +5,7 @@ module atrito_system
    use, intrinsic :: iso_c_binding, only: c_char, c_double, c_funptr, c_int, c_int64_t, c_null_char, c_ptr, c_size_t
    implicit none (type, external)
    private
-   public :: c_is_folder, c_exists, c_may_hold, c_kind_of, c_may_write, c_judge_folder, c_make_folder, &
+   public :: c_is_folder, c_exists, c_may_hold, c_kind_of, c_kind_in, c_is_plain, c_may_write, c_judge_folder, c_make_folder, &
              c_remove_file, c_remove_folder, c_rename, c_true_path
    public :: c_open_input, c_identify, c_note_input, forget_inputs, c_is_input, &
              c_read_input, c_close_input, c_peek, c_find_name, c_confine
@@ -128,6 +128,15 @@ module atrito_system
          character(kind=c_char), intent(in) :: path(*)
          integer(c_int64_t), intent(inout) :: length
       end function c_open_input
+      integer(c_int) function c_kind_in(folder, name) bind(C, name='atrito_kind_in')
+         import :: c_char, c_int
+         character(kind=c_char), intent(in) :: folder(*), name(*)
+      end function c_kind_in
+      pure integer(c_int) function c_is_plain(text, length) bind(C, name='atrito_is_plain')
+         import :: c_char, c_int, c_size_t
+         character(kind=c_char), intent(in) :: text(*)
+         integer(c_size_t), intent(in), value :: length
+      end function c_is_plain
       subroutine c_identify(file, identity) bind(C, name='atrito_identify')
          import :: c_int, c_int64_t
          integer(c_int), value :: file

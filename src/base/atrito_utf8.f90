@@ -1,5 +1,7 @@
 !> Letters of several bytes (RFC 3629): the text of a deck may be anything, what is written for others is UTF-8.
 module atrito_utf8
+   use, intrinsic :: iso_c_binding, only: c_size_t
+   use atrito_system, only: c_is_plain
    implicit none (type, external)
    private
    public :: utf8_length, has_controls, visible, disturbs
@@ -53,8 +55,11 @@ contains
       integer :: i, n
 
       text = source
-      i = 1
-      do while (i <= len(source))
+      if (c_is_plain(source, len(source, kind=c_size_t)) == 1) return
+      i = 0
+      do while (i < len(source))
+         i = i + 1
+         if (ichar(source(i:i)) >= 32 .and. ichar(source(i:i)) < 127) cycle
          n = utf8_length(source(i:min(i + 3, len(source))))
          if (source(i:i) == achar(9)) then
             text(i:i) = ' '
@@ -63,28 +68,30 @@ contains
          else if (disturbs(source(i:i + n - 1))) then
             text(i:i + n - 1) = repeat('?', n)
          end if
-         i = i + max(n, 1)
+         i = i + max(n, 1) - 1
       end do
    end function visible
 
    !> Whether a character is one of those.
    pure logical function disturbs(symbol)
       character(len=*), intent(in) :: symbol           !< a character of UTF-8
-      integer :: code(len(symbol)), i
+      integer :: first, second, third
 
-      code = [(ichar(symbol(i:i)), i=1, len(symbol))]
+      first = ichar(symbol(1:1))
+      second = ichar(symbol(min(2, len(symbol)):min(2, len(symbol))))
+      third = ichar(symbol(len(symbol):))
       disturbs = .false.
       select case (len(symbol))
       case (1)
-         disturbs = code(1) < 32 .or. code(1) == 127
+         disturbs = first < 32 .or. first == 127
       case (2)
-         disturbs = code(1) == 194 .and. code(2) < 160                          ! U+0080 to U+009F
-         disturbs = disturbs .or. (code(1) == 216 .and. code(2) == 156)         ! U+061C
+         disturbs = first == 194 .and. second < 160                             ! U+0080 to U+009F
+         disturbs = disturbs .or. (first == 216 .and. second == 156)            ! U+061C
       case (3)
-         if (code(1) == 226 .and. code(2) == 128) then                          ! U+200E, U+200F, U+2028 to U+202E
-            disturbs = code(3) == 142 .or. code(3) == 143 .or. (code(3) >= 168 .and. code(3) <= 174)
-         else if (code(1) == 226 .and. code(2) == 129) then                     ! U+2066 to U+2069
-            disturbs = code(3) >= 166 .and. code(3) <= 169
+         if (first == 226 .and. second == 128) then                             ! U+200E, U+200F, U+2028 to U+202E
+            disturbs = third == 142 .or. third == 143 .or. (third >= 168 .and. third <= 174)
+         else if (first == 226 .and. second == 129) then                        ! U+2066 to U+2069
+            disturbs = third >= 166 .and. third <= 169
          end if
       end select
    end function disturbs

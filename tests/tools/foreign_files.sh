@@ -86,6 +86,14 @@ for name in mesh.gp mesh.dat mesh.png contour-s11.bin motion.gif contact-1.png g
    echo mine >out/plots/$name
    refused "a plots/$name of the user" out/plots/$name "$atrito" a.inp -o out --plot
 done
+# pictures are an extra: a warning where the run does not know beforehand that it would draw them
+rm -rf out
+mkdir -p out/plots
+echo mine | tee out/plots/scene.png >out/plots/sets.dat
+"$atrito" check a.inp --plot -o out >said 2>&1 || fail "check --plot: exit $?"
+grep -q 'W-PLOT.*was not written by atrito' said || { fail 'check --plot: not told'; cat said; }
+[ "$(cat out/plots/scene.png out/plots/sets.dat)" = 'mine
+mine' ] || fail 'check --plot: pictures of the user are gone'
 for target in elsewhere nowhere; do
    rm -rf out
    mkdir out
