@@ -159,7 +159,7 @@ contains
 
       longest = maxval([(norm2(x(:, modulo(i, CORNERS) + 1) - x(:, i)), i=1, CORNERS)])
       longest = max(longest, tiny(longest))
-      do i = 1, CORNERS                                ! of sides over the longest: their product is a number, however small they are
+      do i = 1, CORNERS                                ! over the longest: products of sides are numbers, however small
          a = (x(:, modulo(i, CORNERS) + 1) - x(:, i))/longest
          b = (x(:, modulo(i - 2, CORNERS) + 1) - x(:, i))/longest
          jacobian(i) = a(1)*b(2) - a(2)*b(1)
