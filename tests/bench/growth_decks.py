@@ -731,6 +731,54 @@ def harmless_keywords(n):
     return deck(scene(in_step=lines(n, '*CONTROLS, PARAMETERS=FIELD\n1., 2.')))
 
 
+@kind(100000)
+def loads_replaced(n):
+    load = '*DLOAD\n' + lines(n, 'A%i, BY, -1e-6')
+    return deck(scene(mesh=lines(n, '*ELSET, ELSET=A%i\n5, 6'), in_step=load, steps='*STEP\n*STATIC\n' + load + '*END STEP\n'))
+
+
+@kind(100000)
+def forces_replaced(n):
+    load = '*CLOAD\n' + lines(n, 'A%i, 2, -1e-6')
+    return deck(scene(mesh=lines(n, '*NSET, NSET=A%i\n12, 13'), in_step=load, steps='*STEP\n*STATIC\n' + load + '*END STEP\n'))
+
+
+@kind(100000)
+def supports_replaced(n):
+    return deck(scene(mesh=lines(n, '*NSET, NSET=A%i\n1, 2'), in_step='*BOUNDARY\n' + lines(n, 'A%i, 1'),
+                      steps='*STEP\n*STATIC\n*BOUNDARY\n' + lines(n, 'A%i, 1') + '*END STEP\n'))
+
+
+@kind(3000)
+def steps_and_amplitudes(n):
+    return deck(scene(model=lines(n, '*AMPLITUDE, NAME=A%i\n0., 0., 1., 1.'),
+                      steps=''.join([f'*STEP\n*STATIC\n*CLOAD, AMPLITUDE=A{i}\n13, 2, -1e-6\n*END STEP\n' for i in range(1, n + 1)])))
+
+
+@kind(100000)
+def line_elements(n):
+    nodes = '*NODE\n' + ''.join([f'{1000 + i}, {0.001 * i}, 5.\n' for i in range(n + 1)])
+    return deck(scene(mesh=nodes + ''.join([f'*ELEMENT, TYPE=T3D2, ELSET=L{i}\n{10**6 + i}, {1000 + i}, {1001 + i}\n' for i in range(n)])))
+
+
+@kind(1000000)
+def line_elements_lines(n):
+    nodes = '*NODE\n' + ''.join([f'{1000 + i}, {0.001 * i}, 5.\n' for i in range(n + 1)])
+    return deck(scene(mesh=nodes + '*ELEMENT, TYPE=T3D2, ELSET=L\n' + ''.join([f'{10**7 + i}, {1000 + i}, {1001 + i}\n' for i in range(n)])))
+
+
+@kind(100000)
+def clearances_of_nodes(n):
+    return deck(scene(model='*CLEARANCE, SLAVE=UP-BOTTOM, MASTER=LOW-TOP, TABULAR\n'
+                      + ''.join([f'{(n + 1) * 2 + i}, 0.\n' for i in range(1, n + 2)]), nx=n, ny=1))
+
+
+@kind(10000)
+def friction_of_pairs(n):
+    return towers(n, ''.join([f'*SURFACE INTERACTION, NAME=J{i}\n*FRICTION\n0.3\n*CONTACT PAIR, INTERACTION=J{i}\nB{i}-BOTTOM, A{i}-TOP\n'
+                              for i in range(n)]))
+
+
 # ---- Gmsh ------------------------------------------------------------------------------------------------------------
 
 def gmsh(physical='', entities='', nodes='', elements=''):
