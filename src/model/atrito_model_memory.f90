@@ -15,7 +15,7 @@ module atrito_model_memory
    !> What a node and an element take at the peak between reading and solving, measured with blocks of a million nodes: Q1 340
    !> bytes a node, refined 440, Q2 440; of 626,000 nodes and 1,203,000 triangles 441 MB, of address space 468 MB.
    integer(lp), parameter :: NODE_BYTES = 500_lp, ELEMENT_BYTES = 140_lp
-   !> Sets, surfaces and the body of a *BLOCK, or of one of its copies: of 100,000 copies of one element 770 MB.
+   !> Sets, surfaces and the body of a *BLOCK, or of one of its copies, from the second on: of 100,000 copies of an element 770 MB.
    integer(lp), parameter :: BLOCK_BYTES = 7000_lp
    !> Nodes of a mesh in one process: more are a slip of the pen. Over ranks: a thousand million displacements have their numbers.
    integer(lp), parameter :: MOST_IN_A_PROCESS = 50000000_lp, MOST_OVER_RANKS = 500000000_lp
@@ -53,7 +53,7 @@ contains
       n_corners = n_corners + count_corners(context, int(huge(1_ip), lp) - n_corners)
       n_blocks = context%n_blocks
       if (present(new_blocks)) n_blocks = n_blocks + new_blocks
-      bytes = mesh_bytes(n_nodes, n_elements) + BLOCK_BYTES*n_blocks
+      bytes = mesh_bytes(n_nodes, n_elements) + BLOCK_BYTES*max(n_blocks - 1, 0_lp)
       what = 'a mesh of '//to_text(n_nodes)//' nodes and '//to_text(n_elements)//' elements '
       if (n_blocks > 1) what = what//'in '//to_text(n_blocks)//' blocks '
       fits = bytes <= context%memory

@@ -11,7 +11,8 @@
 --slow E     tells only kinds whose exponent is above E
 --write DIR  makes the decks in DIR (n = --to), and runs nothing
 
-Time is the processor time of the process, memory its largest resident size. The exponent is that of the time between two sizes, the time
+Time is the processor time of the process, memory its largest resident size. The exponent is that of the time between two sizes,
+the time
 of the smallest deck taken off; it is told where the time is above a tenth of a second. Asserts nothing."""
 import argparse
 import math

@@ -90,7 +90,8 @@ def includes_of_sets(n):
 
 @kind(100000)
 def include_with_includes(n):
-    return deck(scene(mesh='*INCLUDE, INPUT=list.inc\n'), **{'list.inc': lines(n, '*INCLUDE, INPUT=one.inc'), 'one.inc': '** nothing\n'})
+    return deck(scene(mesh='*INCLUDE, INPUT=list.inc\n'), **{'list.inc': lines(n, '*INCLUDE, INPUT=one.inc'),
+                'one.inc': '** nothing\n'})
 
 
 # ---- Parameters ------------------------------------------------------------------------------------------------------
@@ -203,12 +204,14 @@ def nfill_cards(n):
 
 @kind(100000)
 def ncopy_cards(n):
-    return deck(scene(mesh='*NODE, NSET=P\n1000, 0., 5.\n' + lines(n, '*NCOPY, OLD SET=P, SHIFT, CHANGE NUMBER=7%i, NEW SET=Q\n1., 0.')))
+    return deck(scene(mesh='*NODE, NSET=P\n1000, 0., 5.\n' + lines(n,
+                '*NCOPY, OLD SET=P, SHIFT, CHANGE NUMBER=7%i, NEW SET=Q\n1., 0.')))
 
 
 @kind(100000)
 def ncopy_cards_sets(n):
-    return deck(scene(mesh='*NODE, NSET=P\n1000, 0., 5.\n' + lines(n, '*NCOPY, OLD SET=P, SHIFT, CHANGE NUMBER=7%i, NEW SET=Q%i\n1., 0.')))
+    return deck(scene(mesh='*NODE, NSET=P\n1000, 0., 5.\n' + lines(n,
+                '*NCOPY, OLD SET=P, SHIFT, CHANGE NUMBER=7%i, NEW SET=Q%i\n1., 0.')))
 
 
 @kind()
@@ -250,7 +253,8 @@ def element_cards_own_sets(n):
 def elcopy_cards(n):
     nodes = '*NODE\n' + ''.join([f'{1000 + 2 * i}, {i}., 5.\n{1001 + 2 * i}, {i}., 6.\n' for i in range(n + 2)])
     return deck(scene(mesh=nodes + '*ELEMENT, TYPE=CPE4, ELSET=G\n1000, 1000, 1002, 1003, 1001\n*ELSET, ELSET=F\n1000\n'
-                      + ''.join([f'*ELCOPY, OLD SET=F, ELEMENT SHIFT={i}, SHIFT NODES={2 * i}, NEW SET=G\n' for i in range(1, n + 1)]),
+                      + ''.join([f'*ELCOPY, OLD SET=F, ELEMENT SHIFT={i}, SHIFT NODES={2 * i}, NEW SET=G\n' for i in range(1, n
+                          + 1)]),
                       model=HOLD))
 
 
@@ -259,14 +263,16 @@ def elgen_lines(n):
     nodes = '*NODE\n' + ''.join([f'{1000 + 2 * i}, {i}., 5.\n{1001 + 2 * i}, {i}., 6.\n' for i in range(2 * n + 2)])
     elements = '*ELEMENT, TYPE=CPE4, ELSET=G\n' + ''.join(
         [f'{1000 + 2 * i}, {1000 + 4 * i}, {1002 + 4 * i}, {1003 + 4 * i}, {1001 + 4 * i}\n' for i in range(n)])
-    return deck(scene(mesh=nodes + elements + ''.join([f'*ELGEN, ELSET=G\n{1000 + 2 * i}, 2, 2, 1\n' for i in range(n)]), model=HOLD))
+    return deck(scene(mesh=nodes + elements + ''.join([f'*ELGEN, ELSET=G\n{1000 + 2 * i}, 2, 2, 1\n' for i in range(n)]),
+                model=HOLD))
 
 
 @kind(10000)
 def blocks(n):
     body = ''.join([block(f'B{i}', 1, 1, 5 + 2 * i, 0) for i in range(n)])
     return deck(scene(mesh=body + lines(n, '*ELSET, ELSET=G\nB%i').replace('B%d\n' % n, 'B0\n'),
-                      model='*SOLID SECTION, ELSET=G, MATERIAL=M\n' + '*BOUNDARY\n' + ''.join([f'B{i}-BOTTOM, 1, 2\n' for i in range(n)])))
+                      model='*SOLID SECTION, ELSET=G, MATERIAL=M\n' + '*BOUNDARY\n' + ''.join([f'B{i}-BOTTOM, 1, 2\n'
+                          for i in range(n)])))
 
 
 @kind(10000)
@@ -385,7 +391,8 @@ def surfaces_of_a_block(n):
 
 @kind(10000)
 def surfaces_of_a_side(n):
-    return deck(scene(mesh=lines(n, '*SURFACE, NAME=S%i\nLOW, S1'.replace('LOW', 'E')).replace('*SURFACE', '*ELSET, ELSET=E, GENERATE\n1, 100\n*SURFACE', 1), nx=100, ny=100))
+    return deck(scene(mesh=lines(n, '*SURFACE, NAME=S%i\nLOW, S1'.replace('LOW', 'E')).replace('*SURFACE',
+                '*ELSET, ELSET=E, GENERATE\n1, 100\n*SURFACE', 1), nx=100, ny=100))
 
 
 @kind(100000)
@@ -428,7 +435,8 @@ def materials(n):
 @kind(10000)
 def materials_used(n):
     return deck(scene(mesh=grid(n, '*ELEMENT, TYPE=CPE4, ELSET=G%i', True),
-                      model=''.join([f'*MATERIAL, NAME=M{i}\n*ELASTIC\n1000., 0.3\n*SOLID SECTION, ELSET=G{i}, MATERIAL=M{i}\n' for i in range(n)])
+                      model=''.join([f'*MATERIAL, NAME=M{i}\n*ELASTIC\n1000., 0.3\n*SOLID SECTION, ELSET=G{i}, MATERIAL=M{i}\n'
+                          for i in range(n)])
                       + '*BOUNDARY\n1000, 1, 2\n1001, 1\n'))
 
 
@@ -487,7 +495,8 @@ def contact_found(n):
 
 @kind(10000)
 def contact_rules(n):
-    rules = ('*CONTACT\n*CONTACT INCLUSIONS\n' + lines(n, 'UP-BOTTOM, LOW-TOP') + '*CONTACT EXCLUSIONS\n' + lines(n, 'UP-TOP, LOW-BOTTOM')
+    rules = ('*CONTACT\n*CONTACT INCLUSIONS\n' + lines(n, 'UP-BOTTOM, LOW-TOP') + '*CONTACT EXCLUSIONS\n' + lines(n,
+             'UP-TOP, LOW-BOTTOM')
              + '*CONTACT PROPERTY ASSIGNMENT\n' + lines(n, ', , I'))
     return deck(scene(model=rules).replace('*CONTACT PAIR, INTERACTION=I\nUP-BOTTOM, LOW-TOP\n', ''))
 
@@ -510,7 +519,9 @@ def ties(n):
 
 @kind(10000)
 def equations(n):
-    return towers(n, '*EQUATION\n' + ''.join([f'2\nB{i}-BOTTOM, 1, 1., A{i}-TOP, 1, -1.\n2\nB{i}-BOTTOM, 2, 1., A{i}-TOP, 2, -1.\n' for i in range(n)]))
+    return towers(n, '*EQUATION\n'
+                  + ''.join([f'2\nB{i}-BOTTOM, 1, 1., A{i}-TOP, 1, -1.\n2\nB{i}-BOTTOM, 2, 1., A{i}-TOP, 2, -1.\n'
+                      for i in range(n)]))
 
 
 @kind(10000)
@@ -528,12 +539,14 @@ def equation_of_terms(n):
 
 @kind(10000)
 def transforms(n):
-    return towers(n, ''.join([f'*TRANSFORM, NSET=B{i}-LEFT\n1., 0., 0., 0., 1., 0.\n*TIE, NAME=T{i}\nB{i}-BOTTOM, A{i}-TOP\n' for i in range(n)]))
+    return towers(n, ''.join([f'*TRANSFORM, NSET=B{i}-LEFT\n1., 0., 0., 0., 1., 0.\n*TIE, NAME=T{i}\nB{i}-BOTTOM, A{i}-TOP\n'
+                  for i in range(n)]))
 
 
 @kind(10000)
 def springs(n):
-    return towers(n, ''.join([f'*ELEMENT, TYPE=SPRING1, ELSET=S{i}\n{10**6 + i}, B{i}\n'.replace(f', B{i}\n', f', {18 + 8 * i + 5}\n')
+    return towers(n, ''.join([f'*ELEMENT, TYPE=SPRING1, ELSET=S{i}\n{10**6 + i}, B{i}\n'.replace(f', B{i}\n',
+                  f', {18 + 8 * i + 5}\n')
                               + f'*SPRING, ELSET=S{i}\n2\n1.\n*TIE, NAME=T{i}\nB{i}-BOTTOM, A{i}-TOP\n' for i in range(n)]))
 
 
@@ -554,13 +567,15 @@ def rigid_bodies(n):
     body = ''.join([block(f'B{i}', 1, 1, 5 + 2 * i, 0) for i in range(n)])
     return deck(scene(mesh=body + nodes + '*ELSET, ELSET=G\n' + ''.join([f'B{i}\n' for i in range(n)]),
                       model='*SOLID SECTION, ELSET=G, MATERIAL=M\n' + ''.join(
-                          [f'*RIGID BODY, REF NODE={10**6 + i}, NSET=B{i}-TOP\n*BOUNDARY\nB{i}-BOTTOM, 1, 2\n' for i in range(n)])))
+                          [f'*RIGID BODY, REF NODE={10**6 + i}, NSET=B{i}-TOP\n*BOUNDARY\nB{i}-BOTTOM, 1, 2\n'
+                              for i in range(n)])))
 
 
 # ---- Parts -----------------------------------------------------------------------------------------------------------
 
 def assembly(parts, instances):
-    return ('*HEADING\nparts\n' + parts + '*ASSEMBLY, NAME=ALL\n' + instances + '*END ASSEMBLY\n*MATERIAL, NAME=M\n*ELASTIC\n1000., 0.3\n')
+    return ('*HEADING\nparts\n' + parts + '*ASSEMBLY, NAME=ALL\n' + instances
+            + '*END ASSEMBLY\n*MATERIAL, NAME=M\n*ELASTIC\n1000., 0.3\n')
 
 
 def part(name):
@@ -578,7 +593,8 @@ def instances(n):
 @kind(30000)
 def parts(n):
     inst = ''.join([f'*INSTANCE, NAME=I{i}, PART=P{i}\n{2 * i}., 0.\n*END INSTANCE\n' for i in range(n)])
-    return deck(assembly(''.join([part(f'P{i}') for i in range(n)]), inst) + '*BOUNDARY\n' + ''.join([f'I{i}.N, 1, 2\n' for i in range(n)])
+    return deck(assembly(''.join([part(f'P{i}') for i in range(n)]), inst) + '*BOUNDARY\n' + ''.join([f'I{i}.N, 1, 2\n'
+                for i in range(n)])
                 + '*STEP\n*STATIC\n*CLOAD\nI1.3, 1, 1.\n*END STEP\n')
 
 
@@ -601,7 +617,8 @@ def boundary_sets(n):
 
 @kind(300000)
 def boundary_nodes(n):
-    return deck(scene(mesh=block('B', n, 1, 5, 0, width=float(n)), model='*SOLID SECTION, ELSET=B, MATERIAL=M\n*BOUNDARY\n' + lines(n, '%i, 1, 2')
+    return deck(scene(mesh=block('B', n, 1, 5, 0, width=float(n)), model='*SOLID SECTION, ELSET=B, MATERIAL=M\n*BOUNDARY\n'
+                + lines(n, '%i, 1, 2')
                       .replace('\n', '\n')).replace('\n%d, 1, 2\n', '\n'))
 
 
@@ -667,7 +684,8 @@ def amplitude_points(n):
 
 @kind(10000)
 def amplitudes_used(n):
-    return deck(scene(model=lines(n, '*AMPLITUDE, NAME=A%i\n0., 0., 1., 1.'), in_step=lines(n, '*CLOAD, AMPLITUDE=A%i\n13, 2, -1e-6')))
+    return deck(scene(model=lines(n, '*AMPLITUDE, NAME=A%i\n0., 0., 1., 1.'), in_step=lines(n,
+                '*CLOAD, AMPLITUDE=A%i\n13, 2, -1e-6')))
 
 
 @kind(10000)
@@ -687,7 +705,8 @@ def steps_with_supports(n):
 
 @kind(3000)
 def steps_with_prints(n):
-    return deck(scene(steps=lines(n, '*STEP\n*STATIC\n*NODE PRINT\nU, RF\n*EL PRINT\nS\n*CONTACT PRINT\n*BODY PRINT\n*JOINT PRINT\n*END STEP')))
+    return deck(scene(steps=lines(n,
+                '*STEP\n*STATIC\n*NODE PRINT\nU, RF\n*EL PRINT\nS\n*CONTACT PRINT\n*BODY PRINT\n*JOINT PRINT\n*END STEP')))
 
 
 @kind(3000)
@@ -752,19 +771,22 @@ def supports_replaced(n):
 @kind(3000)
 def steps_and_amplitudes(n):
     return deck(scene(model=lines(n, '*AMPLITUDE, NAME=A%i\n0., 0., 1., 1.'),
-                      steps=''.join([f'*STEP\n*STATIC\n*CLOAD, AMPLITUDE=A{i}\n13, 2, -1e-6\n*END STEP\n' for i in range(1, n + 1)])))
+                      steps=''.join([f'*STEP\n*STATIC\n*CLOAD, AMPLITUDE=A{i}\n13, 2, -1e-6\n*END STEP\n' for i in range(1, n
+                          + 1)])))
 
 
 @kind(100000)
 def line_elements(n):
     nodes = '*NODE\n' + ''.join([f'{1000 + i}, {0.001 * i}, 5.\n' for i in range(n + 1)])
-    return deck(scene(mesh=nodes + ''.join([f'*ELEMENT, TYPE=T3D2, ELSET=L{i}\n{10**6 + i}, {1000 + i}, {1001 + i}\n' for i in range(n)])))
+    return deck(scene(mesh=nodes + ''.join([f'*ELEMENT, TYPE=T3D2, ELSET=L{i}\n{10**6 + i}, {1000 + i}, {1001 + i}\n'
+                for i in range(n)])))
 
 
 @kind(1000000)
 def line_elements_lines(n):
     nodes = '*NODE\n' + ''.join([f'{1000 + i}, {0.001 * i}, 5.\n' for i in range(n + 1)])
-    return deck(scene(mesh=nodes + '*ELEMENT, TYPE=T3D2, ELSET=L\n' + ''.join([f'{10**7 + i}, {1000 + i}, {1001 + i}\n' for i in range(n)])))
+    return deck(scene(mesh=nodes + '*ELEMENT, TYPE=T3D2, ELSET=L\n' + ''.join([f'{10**7 + i}, {1000 + i}, {1001 + i}\n'
+                for i in range(n)])))
 
 
 @kind(100000)
@@ -798,7 +820,8 @@ def with_mesh(text, model='*SOLID SECTION, ELSET=G1, MATERIAL=M\n*BOUNDARY\nG1, 
 @kind(1000000)
 def gmsh_groups_of_one_entity(n):
     names = '$PhysicalNames\n1\n2 1 "G1"\n$EndPhysicalNames\n'
-    return with_mesh(gmsh(names, SURFACE_ENTITY % (f'{n} ' + ' '.join([str(i) for i in range(1, n + 1)])), SQUARE_NODES, SQUARE_ELEMENTS))
+    return with_mesh(gmsh(names, SURFACE_ENTITY % (f'{n} ' + ' '.join([str(i) for i in range(1, n + 1)])), SQUARE_NODES,
+                     SQUARE_ELEMENTS))
 
 
 @kind(300000)
@@ -810,7 +833,8 @@ def gmsh_names(n):
 @kind(100000)
 def gmsh_named_groups(n):
     names = '$PhysicalNames\n%d\n' % n + lines(n, '2 %i "G%i"') + '$EndPhysicalNames\n'
-    return with_mesh(gmsh(names, SURFACE_ENTITY % (f'{n} ' + ' '.join([str(i) for i in range(1, n + 1)])), SQUARE_NODES, SQUARE_ELEMENTS))
+    return with_mesh(gmsh(names, SURFACE_ENTITY % (f'{n} ' + ' '.join([str(i) for i in range(1, n + 1)])), SQUARE_NODES,
+                     SQUARE_ELEMENTS))
 
 
 @kind(100000)
@@ -840,7 +864,8 @@ def gmsh_entity_groups(n):
 @kind(1000)
 def gmsh_meshes(n):
     mesh = gmsh('$PhysicalNames\n1\n2 1 "G1"\n$EndPhysicalNames\n', SURFACE_ENTITY % '1 1', SQUARE_NODES, SQUARE_ELEMENTS)
-    return deck(scene(mesh=READ_MESH * n, model='*SOLID SECTION, ELSET=G1, MATERIAL=M\n*BOUNDARY\nG1, 1, 2\n'), **{'mesh.msh': mesh})
+    return deck(scene(mesh=READ_MESH * n, model='*SOLID SECTION, ELSET=G1, MATERIAL=M\n*BOUNDARY\nG1, 1, 2\n'),
+                **{'mesh.msh': mesh})
 
 
 # ---- What is wrong in every line -------------------------------------------------------------------------------------
@@ -877,7 +902,8 @@ def bad_surfaces(n):
 
 @kind(100000)
 def bad_materials(n):
-    return deck(scene(model=lines(n, '*MATERIAL, NAME=A%i\n*ELASTIC\n1000., 0.3') + lines(n, '*SOLID SECTION, ELSET=LOW, MATERIAL=B%i')))
+    return deck(scene(model=lines(n, '*MATERIAL, NAME=A%i\n*ELASTIC\n1000., 0.3') + lines(n,
+                '*SOLID SECTION, ELSET=LOW, MATERIAL=B%i')))
 
 
 @kind(100000)
@@ -922,7 +948,8 @@ def bad_data_lines(n):
 
 @kind(100000)
 def bad_elements(n):
-    return deck(scene(mesh='*ELEMENT, TYPE=CPE4, ELSET=G\n' + lines(n, '7%i, 1, 2, 3, 4'), model='*SOLID SECTION, ELSET=G, MATERIAL=M\n'))
+    return deck(scene(mesh='*ELEMENT, TYPE=CPE4, ELSET=G\n' + lines(n, '7%i, 1, 2, 3, 4'),
+                model='*SOLID SECTION, ELSET=G, MATERIAL=M\n'))
 
 
 @kind(100000)
