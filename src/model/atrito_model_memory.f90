@@ -15,8 +15,8 @@ module atrito_model_memory
    !> What a node and an element take at the peak between reading and solving, measured with blocks of a million nodes: Q1 340
    !> bytes a node, refined 440, Q2 440; of 626,000 nodes and 1,203,000 triangles 441 MB, of address space 468 MB.
    integer(lp), parameter :: NODE_BYTES = 500_lp, ELEMENT_BYTES = 140_lp
-   !> Sets, surfaces and the body of a *BLOCK, or of one of its copies, from the second on: of 100,000 copies of an element 770 MB.
-   integer(lp), parameter :: BLOCK_BYTES = 7000_lp
+   !> Sets, surfaces and the body of a *BLOCK, or of one of its copies, from the second on: of 100,000 copies of an element 1 GB.
+   integer(lp), parameter :: BLOCK_BYTES = 9000_lp
    !> Nodes of a mesh in one process: more are a slip of the pen. Over ranks: a thousand million displacements have their numbers.
    integer(lp), parameter :: MOST_IN_A_PROCESS = 50000000_lp, MOST_OVER_RANKS = 500000000_lp
 
