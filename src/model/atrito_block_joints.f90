@@ -259,9 +259,9 @@ contains
       if (n == 0) return
       if (is_joint(context%deck, own, other%name)) return
       call report_warning(context%deck, place, 'W-BLOCK', to_text(n)//' nodes of this block lie on nodes of '// &
-                                     other%name//', a part of the same body, but are not shared: a crack', &
-                                     expected='the data line MERGE, '//token_text(context%deck, place)//', '//other%name// &
-                                     ' to close it', keyword='BLOCK')
+                          other%name//', a part of the same body, but are not shared: a crack', &
+                          expected='the data line MERGE, '//token_text(context%deck, place)//', '//other%name// &
+                          ' to close it', keyword='BLOCK')
    end subroutine warn_of_crack
 
    !> Whether the deck ties sides of two blocks, or pairs them: then what lies between them is meant.
