@@ -10,7 +10,7 @@ module atrito_observed_places
    use atrito_model, only: model_t, nodal_values_t, SURFACE_ELEMENTS
    use atrito_name_list, only: names_of
    use atrito_numbers, only: read_integer, NUMBER_OK
-   use atrito_sets, only: find_set
+   use atrito_sets, only: find_set, members_of
    use atrito_strings, only: string_t, append_string, same_name, to_text
    implicit none (type, external)
    private
@@ -47,7 +47,7 @@ contains
          if (surface > 0) then
             call weigh_faces(model, surface, of_node, is_there, fault)
          else if (elements > 0) then
-            call weigh_elements(model, model%element_sets%sets(elements)%members, of_node, is_there)
+            call weigh_elements(model, members_of(model%element_sets%sets(elements)), of_node, is_there)
          else
             call weigh_nodes(model, argument%text, of_node, is_there, fault)
          end if
@@ -168,7 +168,7 @@ contains
          fault%known = place_names(model)
          return
       end if
-      is_there(model%node_sets%sets(i)%members) = .true.
+      is_there(members_of(model%node_sets%sets(i))) = .true.
       where (is_there) of_node = 1.0_wp
    end subroutine weigh_nodes
 

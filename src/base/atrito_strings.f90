@@ -3,13 +3,19 @@ module atrito_strings
    use atrito_kinds, only: ip, lp, wp
    implicit none (type, external)
    private
-   public :: string_t, lower_case, upper_case, to_text, join, nearest_names, edit_distance, same_name, append_string, &
-             deck_name, count_symbol
+   public :: string_t, string_list_t, add_string, take_strings
+   public :: lower_case, upper_case, to_text, join, nearest_names, edit_distance, same_name, append_string, deck_name, count_symbol
 
    !> A string of its own length, for lists of strings.
    type :: string_t
       character(len=:), allocatable :: s
    end type string_t
+
+   !> Strings that come one after the other, for lists that may become long.
+   type :: string_list_t
+      integer(ip) :: n = 0
+      type(string_t), allocatable, private :: strings(:)   !< those up to n are in use
+   end type string_list_t
 
    !> Nothing is near a longer name: it is no name.
    integer, parameter :: LONGEST_NAME = 200
@@ -173,12 +179,19 @@ contains
       type(string_t), intent(in) :: list(:)
       character(len=*), intent(in) :: separator
       character(len=:), allocatable :: text
-      integer :: i
+      integer :: i, n
 
-      text = ''
+      n = len(separator)*max(0, size(list) - 1)
       do i = 1, size(list)
-         if (i > 1) text = text//separator
-         text = text//list(i)%s
+         n = n + len(list(i)%s)
+      end do
+      allocate (character(len=n) :: text)
+      n = 0
+      do i = 1, size(list)
+         if (i > 1) text(n + 1:n + len(separator)) = separator
+         if (i > 1) n = n + len(separator)
+         text(n + 1:n + len(list(i)%s)) = list(i)%s
+         n = n + len(list(i)%s)
       end do
    end function join
 
@@ -197,6 +210,40 @@ contains
       longer(n + 1)%s = text
       call move_alloc(longer, list)
    end subroutine append_string
+
+   !> Appends a string; where there is no room, it doubles, and the strings are handed on without a copy.
+   pure subroutine add_string(list, text)
+      type(string_list_t), intent(inout) :: list
+      character(len=*), intent(in) :: text
+
+      if (.not. allocated(list%strings)) allocate (list%strings(16))
+      if (list%n == size(list%strings)) call move_strings(list, 2*list%n)
+      list%n = list%n + 1
+      list%strings(list%n)%s = text
+   end subroutine add_string
+
+   !> Gives the strings away; what is left is an empty list.
+   pure subroutine take_strings(list, strings)
+      type(string_list_t), intent(inout) :: list
+      type(string_t), allocatable, intent(out) :: strings(:)
+
+      call move_strings(list, list%n)
+      call move_alloc(list%strings, strings)
+      list%n = 0
+   end subroutine take_strings
+
+   pure subroutine move_strings(list, length)
+      type(string_list_t), intent(inout) :: list
+      integer(ip), intent(in) :: length
+      type(string_t), allocatable :: moved(:)
+      integer(ip) :: i
+
+      allocate (moved(length))
+      do i = 1, list%n
+         call move_alloc(list%strings(i)%s, moved(i)%s)
+      end do
+      call move_alloc(moved, list%strings)
+   end subroutine move_strings
 
    !> Least number of single-character changes (insert, delete, replace, swap of neighbours) from a to b, without case.
    pure integer function edit_distance(a, b) result(distance)
@@ -245,7 +292,7 @@ contains
       distance = huge(1)
       if (len(name) > LONGEST_NAME) return
       do i = 1, size(known)
-         if (abs(len(name) - len(known(i)%s)) <= allowed) distance(i) = edit_distance(name, known(i)%s)
+         if (differing_letters(name, known(i)%s) <= allowed) distance(i) = edit_distance(name, known(i)%s)
          if (is_prefix(name, known(i)%s) .or. is_prefix(known(i)%s, name)) distance(i) = min(distance(i), 1)
          if (distance(i) > allowed) distance(i) = huge(1)
       end do
@@ -256,6 +303,23 @@ contains
          distance(best) = huge(1)
       end do
    end function nearest_names
+
+   !> A lower bound of the edit distance, soon found: letters that the longer of two names has and the other one has not.
+   pure integer function differing_letters(a, b) result(n)
+      character(len=*), intent(in) :: a, b
+      integer :: excess(0:31), i               ! of letters, whose last bits are the same in both cases
+
+      n = abs(len(a) - len(b))
+      if (n > len(a)/3 + 1) return
+      excess = 0
+      do i = 1, len(a)
+         excess(iand(iachar(a(i:i)), 31)) = excess(iand(iachar(a(i:i)), 31)) + 1
+      end do
+      do i = 1, len(b)
+         excess(iand(iachar(b(i:i)), 31)) = excess(iand(iachar(b(i:i)), 31)) - 1
+      end do
+      n = max(sum(max(excess, 0)), sum(max(-excess, 0)))
+   end function differing_letters
 
    pure logical function is_prefix(a, b)
       character(len=*), intent(in) :: a, b

@@ -5,6 +5,7 @@
 !> q_j of any sign, which takes vector(:, k) q_j from the loads of node(k).
 module atrito_bilateral_rows
    use atrito_growth, only: make_room, resize
+   use atrito_id_map, only: id_map_t, add_id, find_id
    use atrito_kinds, only: ip, wp
    implicit none (type, external)
    private
@@ -48,16 +49,19 @@ contains
       real(wp), intent(in) :: value, compliance, weight
       integer(ip), intent(in) :: identity(3)         !< kind, group, part
       type(bilateral_rows_t), intent(inout) :: rows
+      type(id_map_t) :: entry_of                     ! of each node, counted from the row's first
       integer(ip) :: k, at, last
+      logical :: known
 
       call make_room_for_row(size(nodes, kind=ip), rows)
       rows%n = rows%n + 1
       last = rows%first(rows%n) - 1
       do k = 1, size(nodes, kind=ip)
          if (all(vectors(:, k) == 0.0_wp)) cycle
-         at = findloc(rows%node(rows%first(rows%n):last), nodes(k), dim=1, kind=ip) + rows%first(rows%n) - 1
+         at = find_id(entry_of, nodes(k)) + rows%first(rows%n) - 1
          if (at < rows%first(rows%n)) then
             last = last + 1
+            call add_id(entry_of, nodes(k), last - rows%first(rows%n) + 1, known)
             at = last
             rows%node(at) = nodes(k)
             rows%vector(:, at) = 0.0_wp

@@ -3,13 +3,12 @@ module atrito_card_order
    use atrito_deck, only: deck_t, card_t, token_t, token_text, KEYWORD_UNKNOWN, LEVEL_MODEL, LEVEL_STEP
    use atrito_diagnostics, only: report_error, report_deck_error
    use atrito_keyword, only: LEVEL_BOTH
-   use atrito_keyword_table, only: keyword_names
    use atrito_kinds, only: ip
    use atrito_part_order, only: parts_t, check_parts, check_open_parts
-   use atrito_strings, only: string_t, nearest_names, upper_case
+   use atrito_strings, only: upper_case
    implicit none (type, external)
    private
-   public :: order_t, check_order, check_end, meant_keyword
+   public :: order_t, check_order, check_end
 
    !> In the place of a parent: one that is misspelt, which is told.
    character(len=*), parameter :: LOST = '?'
@@ -75,7 +74,7 @@ contains
       character(len=:), allocatable :: name
       integer :: i
 
-      name = meant_keyword(deck, card)
+      name = trim(card%meant)
       if (len(name) == 0) return
       if (name == 'STEP') order%lost_step = .true.
       if (name == 'END STEP') order%in_step = .false.
@@ -83,19 +82,6 @@ contains
          if (deck%keywords(i)%parent == name) order%parent = LOST
       end do
    end subroutine follow_meaning
-
-   !> The keyword that a misspelt one was meant to be; '' when none is near, or when other programs have it.
-   function meant_keyword(deck, card) result(name)
-      type(deck_t), intent(in) :: deck
-      type(card_t), intent(in) :: card
-      character(len=:), allocatable :: name
-      type(string_t), allocatable :: near(:)
-
-      name = ''
-      if (.not. card%is_misspelt) return
-      near = nearest_names(token_text(deck, card%place), keyword_names(deck%keywords), 1)
-      if (size(near) > 0) name = near(1)%s
-   end function meant_keyword
 
    subroutine begin_step(deck, order, card)
       type(deck_t), intent(in) :: deck

@@ -54,6 +54,7 @@ contains
       type(deck_t), intent(in) :: deck
       type(card_t), intent(inout) :: card
       character(len=:), allocatable :: name
+      type(string_t), allocatable :: near(:)
       integer :: verdict, subject
 
       name = upper_case(token_text(deck, card%place))
@@ -69,6 +70,8 @@ contains
          call report_outside(deck, card%place, '*'//name, subject)
       case (NOT_FOREIGN)
          card%is_misspelt = .true.
+         near = nearest_names(token_text(deck, card%place), keyword_names(deck%keywords), 1)
+         if (size(near) > 0) card%meant = near(1)%s
          call report_error(deck, card%place, 'E-KEYWORD', 'unknown keyword *'//token_text(deck, card%place), &
                            expected='a keyword; atrito help lists them', known=keyword_names(deck%keywords))
       end select

@@ -6,7 +6,9 @@ module atrito_deck
    use atrito_edits, only: edits_t
    use atrito_gmsh_mesh, only: gmsh_mesh_t, move_mesh
    use atrito_kinds, only: ip, lp, wp
+   use atrito_growth, only: make_room_in => make_room
    use atrito_keyword, only: keyword_t, LEVEL_MODEL, LEVEL_STEP
+   use atrito_name_list, only: name_list_t, add_name
    implicit none (type, external)
    private
    public :: source_t, token_t, option_t, card_t, data_line_t, scope_t, parameter_t, deck_t
@@ -14,7 +16,8 @@ module atrito_deck
    public :: token_text, is_empty_token, is_quoted, is_id_token, same_token, written_length, keyword_name, line_item, last_item, &
              reading_order, take_source_line, scope_shift, scope_text, model_number
    public :: after_byte_order_mark
-   public :: allocate_deck, make_room, append_source, append_token, append_line, append_card, append_parameter, append_mesh
+   public :: allocate_deck, make_room, append_source, note_include, append_token, append_line, append_card, &
+             append_parameter, append_mesh
 
    !> A card whose keyword is not in the table, is not built or has no effect here; already reported.
    integer, parameter :: KEYWORD_UNKNOWN = 0
@@ -29,6 +32,8 @@ module atrito_deck
       integer(ip) :: n_lines = 0                   !< with those of the files that it includes
       integer(ip) :: order = 0                     !< lines read before its first
       integer(lp) :: identity(2) = -1_lp           !< of the file, whatever its name
+      integer(ip) :: n_children = 0
+      integer(ip), allocatable :: children(:)      !< sources that it includes, in their order; the first n_children are in use
    end type source_t
 
    !> The place of an item. An empty item has last < first; `first` is where it should stand.
@@ -60,6 +65,7 @@ module atrito_deck
       integer(ip) :: scope = 0                     !< whose it is, index in deck%scopes
       logical :: ok = .true.                       !< nothing wrong with its keyword line
       logical :: is_misspelt = .false.             !< nobody knows its keyword, which is told
+      character(len=32) :: meant = ''              !< then the keyword that is nearest, if any
       logical :: is_ignored = .false.              !< of other programs, without effect
       logical :: is_refused = .false.              !< refused by name: passed over with its data lines
       logical :: changes_model = .false.           !< a keyword that changes the model in a step, which is refused
@@ -101,6 +107,7 @@ module atrito_deck
       type(data_line_t), allocatable :: lines(:)
       type(token_t), allocatable :: tokens(:)
       type(parameter_t), allocatable :: parameters(:)
+      type(name_list_t) :: parameter_names         !< in their order
       type(keyword_t), allocatable :: keywords(:)  !< the keyword table
       logical :: has_lost_parameters = .false.     !< definitions that could not be read: an unknown one may be among them
       logical :: is_outside = .false.              !< a scene that atrito does not solve: what only follows is not told
@@ -248,14 +255,42 @@ contains
    pure integer(ip) function reading_order(deck, source, line) result(order)
       type(deck_t), intent(in) :: deck
       integer(ip), intent(in) :: source, line
-      integer(ip) :: i
+      integer(ip) :: before, behind, middle
 
       order = deck%sources(source)%order + line
-      do i = source + 1, deck%n_sources
-         if (deck%sources(i)%parent /= source) cycle
-         if (deck%sources(i)%include_line < line) order = order + deck%sources(i)%n_lines
-      end do
+      before = 0                                   ! the last file that is included above the line: by halves
+      behind = deck%sources(source)%n_children + 1
+      associate (children => deck%sources(source)%children)
+         do while (behind - before > 1)
+            middle = (before + behind)/2
+            if (deck%sources(children(middle))%include_line < line) then
+               before = middle
+            else
+               behind = middle
+            end if
+         end do
+         if (before == 0) return
+         associate (file => deck%sources(children(before)))
+            order = file%order + file%n_lines + line - file%include_line
+         end associate
+      end associate
    end function reading_order
+
+   !> Makes a source one that another one includes, behind those that it includes already.
+   pure subroutine note_include(deck, source, parent, line)
+      type(deck_t), intent(inout) :: deck
+      integer(ip), intent(in) :: source, parent
+      integer(ip), intent(in) :: line              !< of the parent, in which it is included
+
+      deck%sources(source)%order = reading_order(deck, parent, line)
+      deck%sources(source)%parent = parent
+      deck%sources(source)%include_line = line
+      associate (above => deck%sources(parent))
+         call make_room_in(above%children, above%n_children, above%n_children + 1)
+         above%n_children = above%n_children + 1
+         above%children(above%n_children) = source
+      end associate
+   end subroutine note_include
 
    !> The line of the deck in which an item stands; of a long line the part that reaches so many characters to both sides of the
    !> item's beginning (a line may have as many characters as the deck, and a thousand messages keep theirs).
@@ -351,6 +386,8 @@ contains
       to%n_lines = from%n_lines
       to%order = from%order
       to%identity = from%identity
+      to%n_children = from%n_children
+      call move_alloc(from%children, to%children)
    end subroutine move_source
 
    subroutine append_token(deck, token)
@@ -404,6 +441,7 @@ contains
       if (deck%n_parameters == size(deck%parameters)) deck%parameters = [deck%parameters, deck%parameters]
       deck%n_parameters = deck%n_parameters + 1
       deck%parameters(deck%n_parameters) = parameter
+      call add_name(deck%parameter_names, parameter%name)
    end subroutine append_parameter
 
 end module atrito_deck

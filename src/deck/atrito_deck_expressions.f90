@@ -3,12 +3,15 @@ module atrito_deck_expressions
    use atrito_kinds, only: ip, wp
    use atrito_deck, only: deck_t, token_t, token_text, reading_order
    use atrito_diagnostics, only: report_error
-   use atrito_expressions, only: expression_fault_t, evaluate_expression, reserved_names
-   use atrito_strings, only: string_t, join, lower_case, same_name, to_text
+   use atrito_expressions, only: expression_fault_t, evaluate_expression, next_name, reserved_names
+   use atrito_growth, only: make_room
+   use atrito_name_list, only: find_name, names_of
+   use atrito_sorting, only: each_once
+   use atrito_strings, only: string_t, join, to_text
    implicit none (type, external)
    private
    public :: evaluate_at, try_expression, has_own_degree, report_fault, report_later, collect_known, put_before, &
-             index_of_parameter, parameter_names
+             index_of_parameter, is_known_at, parameter_names
 
 contains
 
@@ -46,7 +49,7 @@ contains
       type(string_t), allocatable :: names(:)
       real(wp), allocatable :: values(:)
 
-      call collect_known(deck, expression, .true., names, values)
+      call collect_known(deck, expression, names, values)
       call evaluate_expression(token_text(deck, expression), names, values, value, fault, has_own_degree(deck))
    end subroutine evaluate_quietly
 
@@ -83,9 +86,8 @@ contains
       else if (i == 0) then
          if (deck%has_lost_parameters) return
          names = reserved_names()
-         call put_before(parameter_names(deck), names)
          call put_before(also, names)
-         call report_error(deck, place, 'E-EXPRESSION', fault%text, keyword=keyword, known=names, &
+         call report_error(deck, place, 'E-EXPRESSION', fault%text, keyword=keyword, known=names, among=deck%parameter_names, &
                            expected=others//'an earlier parameter, a function or pi')
       else if (deck%parameters(i)%known) then
          call report_later(deck, place, i, others//'an earlier parameter, a function or pi')
@@ -109,33 +111,48 @@ contains
       call move_alloc(both, names)
    end subroutine put_before
 
-   !> The parameters that have values and are defined before the place of an expression.
-   subroutine collect_known(deck, place, named, names, values)
+   !> The parameters that an expression names, have values and are defined before its place: a deck can have thousands of others.
+   subroutine collect_known(deck, place, names, values)
       type(deck_t), intent(in) :: deck
       type(token_t), intent(in) :: place
-      logical, intent(in) :: named                     !< only those that the expression may name: a deck can have thousands
       type(string_t), allocatable, intent(out) :: names(:)
       real(wp), allocatable, intent(out) :: values(:)
       character(len=:), allocatable :: text
       integer(ip), allocatable :: used(:)
-      integer(ip) :: i, n, here
+      integer(ip) :: i, n
+      integer :: first, last
 
-      text = lower_case(token_text(deck, place))
-      here = reading_order(deck, place%source, place%line)
-      allocate (used(deck%n_parameters))
+      text = token_text(deck, place)
       n = 0
-      do i = 1, deck%n_parameters
-         if (.not. deck%parameters(i)%known .or. deck%parameters(i)%order >= here) cycle
-         if (named .and. index(text, lower_case(deck%parameters(i)%name)) == 0) cycle
+      last = 0
+      do
+         call next_name(text, last, first)
+         if (first > len(text)) exit
+         i = index_of_parameter(deck, text(first:last))
+         if (.not. is_known_at(deck, i, place)) cycle
+         call make_room(used, n, n + 1)
          n = n + 1
          used(n) = i
       end do
+      if (n > 0) used = each_once(used(:n))
+      if (n > 0) n = size(used, kind=ip)
       allocate (names(n), values(n))
       do i = 1, n
          names(i)%s = deck%parameters(used(i))%name
          values(i) = deck%parameters(used(i))%value
       end do
    end subroutine collect_known
+
+   !> A parameter has a value, and is defined before a place.
+   pure logical function is_known_at(deck, i, place)
+      type(deck_t), intent(in) :: deck
+      integer(ip), intent(in) :: i                     !< the parameter; 0: there is none
+      type(token_t), intent(in) :: place
+
+      is_known_at = i > 0
+      if (is_known_at) is_known_at = deck%parameters(i)%known .and. &
+                                     deck%parameters(i)%order < reading_order(deck, place%source, place%line)
+   end function is_known_at
 
    !> A parameter is used before its definition.
    subroutine report_later(deck, place, i, what)
@@ -156,22 +173,15 @@ contains
       type(deck_t), intent(in) :: deck
       character(len=*), intent(in) :: name
 
-      do i = deck%n_parameters, 1, -1
-         if (same_name(deck%parameters(i)%name, name)) return
-      end do
-      i = 0
+      i = find_name(deck%parameter_names, name)
    end function index_of_parameter
 
    !> Names of the deck's parameters in the order of their definition.
    function parameter_names(deck) result(names)
       type(deck_t), intent(in) :: deck
       type(string_t), allocatable :: names(:)
-      integer(ip) :: i
 
-      allocate (names(deck%n_parameters))
-      do i = 1, deck%n_parameters
-         names(i)%s = deck%parameters(i)%name
-      end do
+      names = names_of(deck%parameter_names)
    end function parameter_names
 
 end module atrito_deck_expressions

@@ -3,8 +3,9 @@ module atrito_diagnostics
    use atrito_kinds, only: ip
    use atrito_deck, only: deck_t, token_t, token_text, reading_order, take_source_line
    use atrito_foreign_keywords, only: SUBJECTS
-   use atrito_messages, only: message_t, add_message, has_room, ID_OUTSIDE, WIDEST_SOURCE, SEVERITY_ERROR, &
-                              SEVERITY_WARNING, SEVERITY_NOTE
+   use atrito_messages, only: message_t, add_message, has_room, count_messages, ID_OUTSIDE, MOST_ERRORS, WIDEST_SOURCE, &
+                              SEVERITY_ERROR, SEVERITY_WARNING, SEVERITY_NOTE
+   use atrito_name_list, only: name_list_t, names_of
    use atrito_strings, only: string_t, nearest_names
    implicit none (type, external)
    private
@@ -16,11 +17,12 @@ module atrito_diagnostics
    integer, parameter :: MOST_NEAREST = 3
    integer, parameter :: LONGEST_TEXT = 240
    integer, parameter :: SHORT_LIST = 8        !< a list of valid names that is told whole when none of them is near
+   integer(ip), parameter :: LONG_LIST = 1000  !< a list that is gone through for as many errors as are printed
 
 contains
 
    !> Reports an error at an item of the deck; it is counted, and reading goes on.
-   subroutine report_error(deck, token, id, text, expected, known, keyword)
+   subroutine report_error(deck, token, id, text, expected, known, keyword, among)
       type(deck_t), intent(in) :: deck
       type(token_t), intent(in) :: token                    !< where; the marker stands under it
       character(len=*), intent(in) :: id                    !< short stable name, docs/user/messages.md
@@ -28,11 +30,12 @@ contains
       character(len=*), intent(in), optional :: expected    !< what should be there, with its dimension
       type(string_t), intent(in), optional :: known(:)      !< valid names: the nearest to the item are told
       character(len=*), intent(in), optional :: keyword     !< for `atrito help KEYWORD`
+      type(name_list_t), intent(in), optional :: among      !< further valid names, which may be many
 
       if (deck%is_outside) then
          if (any(FOLLOWING == id)) return
       end if
-      call report(deck, token, SEVERITY_ERROR, id, text, expected, known, keyword)
+      call report(deck, token, SEVERITY_ERROR, id, text, expected, known, keyword, among)
    end subroutine report_error
 
    !> Refuses by name what atrito does not solve, and says what to do instead.
@@ -86,13 +89,14 @@ contains
       call add_message(message)
    end subroutine report_deck_error
 
-   subroutine report(deck, token, severity, id, text, expected, known, keyword)
+   subroutine report(deck, token, severity, id, text, expected, known, keyword, among)
       type(deck_t), intent(in) :: deck
       type(token_t), intent(in) :: token
       integer, intent(in) :: severity
       character(len=*), intent(in) :: id, text
       character(len=*), intent(in), optional :: expected, keyword
       type(string_t), intent(in), optional :: known(:)
+      type(name_list_t), intent(in), optional :: among
       type(message_t) :: message
 
       message%severity = severity
@@ -105,10 +109,7 @@ contains
       end if
       if (present(expected)) message%expected = expected
       if (present(keyword)) message%keyword = keyword
-      if (present(known)) then                              ! the nearest names; all of a short list, since it is soon read
-         message%nearest = nearest_names(token_text(deck, token), known, MOST_NEAREST)
-         if (size(message%nearest) == 0 .and. size(known) <= SHORT_LIST) message%known = known
-      end if
+      if (present(known) .or. present(among)) call tell_names(token_text(deck, token), known, among, message)
       if (token%source > 0) then
          message%file = deck%sources(token%source)%name
          message%line = token%line
@@ -121,6 +122,33 @@ contains
       end if
       call add_message(message)
    end subroutine report
+
+   !> Tells the valid names that are nearest; all of a short list, since it is soon read. Where they are many, the errors that are
+   !> printed have them, and no others.
+   subroutine tell_names(name, known, among, message)
+      character(len=*), intent(in) :: name                  !< what the deck has
+      type(string_t), intent(in), optional :: known(:)
+      type(name_list_t), intent(in), optional :: among
+      type(message_t), intent(inout) :: message
+      type(string_t), allocatable :: all_names(:), more(:)
+      integer :: i, n
+
+      n = 0
+      if (present(known)) n = size(known)
+      if (present(among)) then
+         if (among%n <= LONG_LIST .or. count_messages(SEVERITY_ERROR) < MOST_ERRORS) more = names_of(among)
+      end if
+      if (.not. allocated(more)) allocate (more(0))
+      allocate (all_names(n + size(more)))
+      do i = 1, n
+         all_names(i)%s = known(i)%s
+      end do
+      do i = 1, size(more)
+         call move_alloc(more(i)%s, all_names(n + i)%s)
+      end do
+      message%nearest = nearest_names(name, all_names, MOST_NEAREST)
+      if (size(message%nearest) == 0 .and. size(all_names) <= SHORT_LIST) call move_alloc(all_names, message%known)
+   end subroutine tell_names
 
    !> A text that quotes a very long item, without its middle.
    pure function shortened(text) result(short)

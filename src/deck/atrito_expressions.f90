@@ -13,6 +13,7 @@ module atrito_expressions
                                 ARITHMETIC_OVERFLOW, ARITHMETIC_ZERO_DIVISION
    use atrito_expression_calls, only: call_t, read_call, has_argument_of, append_call
    use atrito_expression_names, only: is_name, is_function, is_reserved_name, reserved_names, DIGITS, LETTERS
+   use atrito_name_list, only: name_list_t, add_name, find_name
    use atrito_numbers, only: read_real, NUMBER_OK, NUMBER_TOO_LARGE
    use atrito_strings, only: string_t, same_name, lower_case
    implicit none (type, external)
@@ -32,7 +33,7 @@ module atrito_expressions
       character(len=:), allocatable :: text
       integer :: position = 1
       integer :: depth = 0
-      type(string_t), allocatable :: names(:)
+      type(name_list_t) :: names
       real(wp), allocatable :: values(:)
       logical :: has_degree = .true.                 !< deg is pi/180
       logical :: is_listing = .false.                !< only the text counts: calls are listed, and have no values
@@ -60,7 +61,7 @@ contains
       type(parser_t) :: parser
 
       parser%text = text
-      parser%names = names
+      call take_names(parser, names)
       parser%values = values
       if (present(own_degree)) parser%has_degree = .not. own_degree
       ! not allocated: an optional argument that is not there
@@ -83,7 +84,7 @@ contains
       real(wp) :: value
 
       parser%text = text
-      parser%names = names
+      call take_names(parser, names)
       allocate (parser%values(size(names)), source=1.0_wp)
       parser%has_degree = .not. own_degree
       parser%is_listing = .true.
@@ -93,6 +94,16 @@ contains
       fault = parser%fault
       call move_alloc(parser%calls, calls)
    end subroutine list_calls
+
+   pure subroutine take_names(parser, names)
+      type(parser_t), intent(inout) :: parser
+      type(string_t), intent(in) :: names(:)
+      integer :: i
+
+      do i = 1, size(names)
+         call add_name(parser%names, names(i)%s)
+      end do
+   end subroutine take_names
 
    !> The whole text.
    pure subroutine take_all(parser, value)
@@ -234,7 +245,11 @@ contains
       character(len=*), intent(in) :: text
       integer, intent(in) :: first
 
-      last = verify(text(first:)//' ', LETTERS//DIGITS//'_') + first - 2
+      last = first                                    ! letter by letter: a text may have a million names
+      do while (last < len(text))
+         if (scan(text(last + 1:last + 1), LETTERS//DIGITS//'_') == 0) return
+         last = last + 1
+      end do
    end function end_of_name
 
    !> The next name of a sound expression behind `last`; first > len(text) when there is none. The e of 1e5 is no name.
@@ -306,10 +321,7 @@ contains
 
       i = 0
       if (allocated(parser%calls) .and. next(parser) == '(') return
-      do i = 1, size(parser%names)
-         if (same_name(parser%names(i)%s, name)) return
-      end do
-      i = 0
+      i = int(find_name(parser%names, name))
    end function index_of_variable
 
    !> Whether the name that ends at a place is a call: no function, or a least or largest value of a field.

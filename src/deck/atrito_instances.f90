@@ -7,7 +7,7 @@ module atrito_instances
    use atrito_items, only: option_text, option_word
    use atrito_kinds, only: ip, lp
    use atrito_memory, only: available_memory, memory_text
-   use atrito_name_list, only: name_list_t, add_name, find_name, names_of
+   use atrito_name_list, only: name_list_t, add_name, find_name
    use atrito_scope_numbers, only: number_scopes
    use atrito_strings, only: same_name, to_text
    implicit none (type, external)
@@ -157,7 +157,7 @@ contains
       part = find_name(parts%names, name)
       if (part > 0 .or. parts%is_undetermined .or. .not. is_told) return
       call report_error(deck, place, 'E-PART', 'unknown part '//name, expected='name of a part of this deck', &
-                        known=names_of(parts%names), keyword='INSTANCE')
+                        among=parts%names, keyword='INSTANCE')
    end function part_of
 
    !> False, and an error, when the copies need more memory than there is.
@@ -365,7 +365,7 @@ contains
       scope = find_name(parts%instances, name)
       if (scope == 0 .and. .not. parts%is_nameless) then
          call report_error(deck, place, 'E-PART', 'unknown instance '//name, expected='name of an *INSTANCE', &
-                           known=names_of(parts%instances), keyword=trim(card%name))
+                           among=parts%instances, keyword=trim(card%name))
       end if
       card%ok = card%ok .and. scope > 0
       do i = card%first_line, card%first_line + card%n_lines - 1

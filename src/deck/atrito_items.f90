@@ -4,7 +4,7 @@ module atrito_items
    use atrito_kinds, only: ip, wp
    use atrito_deck, only: deck_t, card_t, option_t, token_t, token_text, is_empty_token, written_length, keyword_name, reading_order
    use atrito_diagnostics, only: report_error
-   use atrito_deck_expressions, only: evaluate_at, has_own_degree, report_later, index_of_parameter, parameter_names
+   use atrito_deck_expressions, only: evaluate_at, has_own_degree, report_later, index_of_parameter
    use atrito_expressions, only: is_name, is_reserved_name
    use atrito_lexer, only: trim_place
    use atrito_numbers, only: read_real, read_integer, NUMBER_OK, NUMBER_TOO_LARGE, NUMBER_NOT_INTEGER
@@ -194,7 +194,7 @@ contains
       if (i == 0) then
          if (deck%has_lost_parameters) return
          call report_error(deck, place, 'E-PARAMETER', 'unknown parameter '//name, expected=what, &
-                           known=parameter_names(deck), keyword='PARAMETER')
+                           among=deck%parameter_names, keyword='PARAMETER')
          return
       end if
       associate (parameter => deck%parameters(i))

@@ -99,9 +99,9 @@ contains
       type(string_t), allocatable :: names(:)
       integer :: i
 
-      allocate (names(0))
+      allocate (names(size(table)))
       do i = 1, size(table)
-         call append_string(names, table(i)%name)
+         names(i)%s = table(i)%name
       end do
    end function keyword_names
 

@@ -1,9 +1,9 @@
 !> Lines and items of a text: only places, no copies.
 module atrito_lexer
-   use atrito_kinds, only: ip
+   use atrito_kinds, only: ip, lp
    implicit none (type, external)
    private
-   public :: line_t, items_t, take_line, split_items, trim_place, find_equals
+   public :: line_t, items_t, take_line, split_items, trim_place, find_equals, count_data_lines
    public :: LINE_BLANK, LINE_COMMENT, LINE_KEYWORD, LINE_DATA
 
    integer, parameter :: LINE_BLANK = 0, LINE_COMMENT = 1, LINE_KEYWORD = 2, LINE_DATA = 3
@@ -55,6 +55,25 @@ contains
       call trim_place(text, line%first, line%last)
       line%kind = kind_of_line(text, line%first, line%last)
    end subroutine take_line
+
+   !> How many lines of a text are neither blank nor begin with a star.
+   pure integer(lp) function count_data_lines(text) result(n)
+      character(len=*), intent(in) :: text
+      integer :: i, code
+      logical :: is_begun                          ! the line has something, or begins with a star
+
+      n = 0_lp
+      is_begun = .false.
+      do i = 1, len(text)
+         code = ichar(text(i:i))
+         if (code == LINE_FEED) then
+            is_begun = .false.
+         else if (.not. is_begun .and. code > 32) then
+            is_begun = .true.
+            if (text(i:i) /= '*') n = n + 1_lp
+         end if
+      end do
+   end function count_data_lines
 
    pure integer function kind_of_line(text, first, last) result(kind)
       character(len=*), intent(in) :: text

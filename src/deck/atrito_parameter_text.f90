@@ -1,7 +1,9 @@
 !> The parameters of a deck in words: names and values, and those that runs of a series give other values.
 module atrito_parameter_text
    use atrito_deck, only: deck_t, token_text
+   use atrito_deck_expressions, only: index_of_parameter
    use atrito_expressions, only: next_name
+   use atrito_growing_text, only: growing_text_t, append_text, take_text
    use atrito_kinds, only: ip
    use atrito_numbers, only: exact_text
    use atrito_strings, only: string_t, same_name
@@ -16,24 +18,25 @@ contains
       type(deck_t), intent(in) :: deck
       type(string_t), intent(in) :: varied(:)          !< names of those that take several values
       character(len=:), allocatable, intent(out) :: text
+      type(growing_text_t) :: words
       logical, allocatable :: varies(:)
       integer(ip) :: i
 
       if (deck%n_parameters == 0) return
       call find_varying(deck, varied, varies)
-      text = ''
       do i = 1, deck%n_parameters
          associate (parameter => deck%parameters(i))
-            if (i > 1) text = text//', '
-            text = text//parameter%name
+            if (i > 1) call append_text(words, ', ')
+            call append_text(words, parameter%name)
             if (varies(i)) then
-               text = text//' varies'
+               call append_text(words, ' varies')
             else
-               text = text//' = '//exact_text(parameter%value)
-               if (parameter%overridden) text = text//' (--set)'
+               call append_text(words, ' = '//exact_text(parameter%value))
+               if (parameter%overridden) call append_text(words, ' (--set)')
             end if
          end associate
       end do
+      call take_text(words, text)
    end subroutine list_parameters
 
    !> The varied parameters and those that depend on them.
@@ -48,27 +51,28 @@ contains
          do k = 1, size(varied, kind=ip)
             varies(i) = varies(i) .or. same_name(deck%parameters(i)%name, varied(k)%s)
          end do
-         if (deck%parameters(i)%overridden) cycle
-         do k = 1, i - 1
-            if (varies(i)) exit
-            if (varies(k)) varies(i) = has_name(token_text(deck, deck%parameters(i)%expression), deck%parameters(k)%name)
-         end do
+         if (.not. (varies(i) .or. deck%parameters(i)%overridden)) varies(i) = names_one(deck, i, varies)
       end do
    end subroutine find_varying
 
-   !> A name stands in an expression.
-   pure logical function has_name(expression, name)
-      character(len=*), intent(in) :: expression, name
+   !> The expression of the i-th parameter names one before it that varies.
+   pure logical function names_one(deck, i, varies)
+      type(deck_t), intent(in) :: deck
+      integer(ip), intent(in) :: i
+      logical, intent(in) :: varies(:)
+      character(len=:), allocatable :: expression
       integer :: first, last
+      integer(ip) :: k
 
-      has_name = .false.
+      names_one = .false.
+      expression = token_text(deck, deck%parameters(i)%expression)
       last = 0
-      do
+      do while (.not. names_one)
          call next_name(expression, last, first)
          if (first > len(expression)) return
-         has_name = same_name(expression(first:last), name)
-         if (has_name) return
+         k = index_of_parameter(deck, expression(first:last))
+         if (k > 0 .and. k < i) names_one = varies(k)
       end do
-   end function has_name
+   end function names_one
 
 end module atrito_parameter_text

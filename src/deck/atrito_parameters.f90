@@ -5,19 +5,20 @@ module atrito_parameters
    use atrito_diagnostics, only: report_error
    use atrito_expressions, only: expression_fault_t, evaluate_expression, is_name, is_reserved_name
    use atrito_deck_expressions, only: evaluate_at, has_own_degree, report_fault, collect_known, put_before, index_of_parameter, &
-                                      parameter_names
+                                      is_known_at, parameter_names
    use atrito_items, only: LONGEST_NAME
    use atrito_lexer, only: find_equals, trim_place
+   use atrito_name_list, only: name_list_t, add_name, find_name, has_name, names_of
    use atrito_status, only: status_t, set_status, is_ok, STATUS_USAGE
-   use atrito_strings, only: string_t, append_string, same_name, nearest_names, join, to_text
+   use atrito_strings, only: string_t, nearest_names, join, to_text
    implicit none (type, external)
    private
    public :: settings_t, read_settings, define_parameter, check_settings, evaluate_function
 
    !> Values that override parameters.
    type :: settings_t
-      type(string_t), allocatable :: names(:)
-      real(wp), allocatable :: values(:)
+      type(name_list_t) :: names
+      real(wp), allocatable :: values(:)           !< as many are in use
    end type settings_t
 
    integer, parameter :: MOST_NEAREST = 3
@@ -35,7 +36,7 @@ contains
       character(len=:), allocatable :: name
       integer :: i, equals
 
-      allocate (settings%names(0), settings%values(size(list)))
+      allocate (settings%values(size(list)))
       do i = 1, size(list)
          equals = index(list(i)%s, '=')
          name = trim(adjustl(list(i)%s(:max(equals - 1, 0))))
@@ -43,8 +44,9 @@ contains
             call set_status(status, STATUS_USAGE, 'setting '//list(i)%s//': NAME=VALUE is expected')
             return
          end if
-         call append_string(settings%names, name)
-         call evaluate_expression(list(i)%s(equals + 1:), none, [real(wp) ::], settings%values(i), fault)
+         if (.not. has_name(settings%names, name)) call add_name(settings%names, name)
+         call evaluate_expression(list(i)%s(equals + 1:), none, [real(wp) ::], &
+                                  settings%values(find_name(settings%names, name)), fault)
          if (allocated(fault%text)) then
             call set_status(status, STATUS_USAGE, 'setting '//list(i)%s//': '//fault%text)
             return
@@ -83,18 +85,17 @@ contains
       call append_parameter(deck, parameter)
    end subroutine define_parameter
 
-   !> The last setting of a name counts.
+   !> Takes the value of a setting, if there is one.
    pure subroutine apply_settings(settings, parameter)
       type(settings_t), intent(in) :: settings
       type(parameter_t), intent(inout) :: parameter
-      integer :: i
+      integer(ip) :: i
 
-      do i = 1, size(settings%names)
-         if (.not. same_name(settings%names(i)%s, parameter%name)) cycle
-         parameter%known = .true.
-         parameter%value = settings%values(i)
-         parameter%overridden = .true.
-      end do
+      i = find_name(settings%names, parameter%name)
+      if (i == 0) return
+      parameter%known = .true.
+      parameter%value = settings%values(i)
+      parameter%overridden = .true.
    end subroutine apply_settings
 
    !> The item at some characters of another one, without the blanks round them.
@@ -148,19 +149,20 @@ contains
       type(string_t), allocatable :: names(:)
       real(wp), allocatable :: known(:)
       type(string_t) :: coordinates(2)
-      integer(ip) :: i
+      integer(ip) :: i, k
 
       coordinates(1)%s = 'x'
       coordinates(2)%s = 'y'
-      call collect_known(deck, expression, .false., names, known)
       values = 0.0_wp
-      do i = 1, size(names, kind=ip)
-         ok = .not. (same_name(names(i)%s, 'x') .or. same_name(names(i)%s, 'y'))
+      do k = 1, 2
+         i = index_of_parameter(deck, coordinates(k)%s)
+         ok = .not. is_known_at(deck, i, expression)
          if (ok) cycle
-         call report_error(deck, expression, 'E-EXPRESSION', 'parameter '//names(i)%s//' has the name of a coordinate', &
-                           expected='another name of the parameter', keyword=keyword)
+         call report_error(deck, expression, 'E-EXPRESSION', 'parameter '//deck%parameters(i)%name// &
+                           ' has the name of a coordinate', expected='another name of the parameter', keyword=keyword)
          return
       end do
+      call collect_known(deck, expression, names, known)
       call put_before(coordinates, names)
       ok = .true.
       if (size(values) == 0) call check_text(deck, expression, names, known, ok, keyword)
@@ -196,17 +198,20 @@ contains
       type(deck_t), intent(in) :: deck
       type(settings_t), intent(in) :: settings
       type(status_t), intent(inout) :: status
-      type(string_t), allocatable :: near(:)
+      type(string_t), allocatable :: near(:), names(:)
       character(len=:), allocatable :: text
       integer :: i
 
-      do i = 1, size(settings%names)
-         if (index_of_parameter(deck, settings%names(i)%s) > 0) cycle
-         text = 'setting '//settings%names(i)%s//': '//deck%path//' has no such parameter'
-         near = nearest_names(settings%names(i)%s, parameter_names(deck), MOST_NEAREST)
+      if (.not. is_ok(status)) return
+      names = names_of(settings%names)
+      do i = 1, size(names)
+         if (index_of_parameter(deck, names(i)%s) > 0) cycle
+         text = 'setting '//names(i)%s//': '//deck%path//' has no such parameter'
+         near = nearest_names(names(i)%s, parameter_names(deck), MOST_NEAREST)
          if (size(near) > 0) text = text//'; nearest: '//join(near, ', ')
          if (deck%n_parameters > 0) text = text//'; it has: '//join(parameter_names(deck), ', ')
-         if (is_ok(status)) call set_status(status, STATUS_USAGE, text)
+         call set_status(status, STATUS_USAGE, text)
+         return
       end do
    end subroutine check_settings
 

@@ -7,6 +7,7 @@
 module atrito_plain_lines
    use atrito_deck, only: deck_t, data_line_t, token_t, make_room
    use atrito_kinds, only: ip
+   use atrito_lexer, only: count_data_lines
    use atrito_strings, only: count_symbol
    use atrito_threads, only: n_threads
    implicit none (type, external)
@@ -24,6 +25,7 @@ module atrito_plain_lines
 
    !> Characters of a piece, and of a run that is worth it.
    integer(ip), parameter :: PIECE = 65536_ip, LEAST = 2*PIECE
+   integer(ip), parameter :: GLANCE = 200_ip
 
    integer, parameter :: WORD = 0, BLANK = 1, COMMA = 2, LINE_END = 3, CARRIAGE = 4, ODD = 5
    !> Characters with a meaning of their own; all other control characters are odd.
@@ -81,6 +83,8 @@ contains
       integer(ip), intent(in) :: position
       integer(ip) :: first
 
+      last = position - 1
+      if (index(text(position:min(len(text, kind=ip), position + GLANCE)), '*') > 0) return  ! no run that is worth it
       last = len(text, kind=ip)
       do first = position, len(text, kind=ip), PIECE
          associate (piece => text(first:min(len(text, kind=ip), first + PIECE - 1)))
@@ -115,7 +119,7 @@ contains
       pieces = pieces(:n)
       !$omp parallel do schedule(static) if (n_threads() > 1)
       do i = 1, n
-         pieces(i)%n_lines = int(count_symbol(text(pieces(i)%first:pieces(i)%last), achar(10)), ip)
+         pieces(i)%n_lines = int(count_data_lines(text(pieces(i)%first:pieces(i)%last)), ip)  ! blank lines end a run
          pieces(i)%n_tokens = pieces(i)%n_lines + int(count_symbol(text(pieces(i)%first:pieces(i)%last), ','), ip)
       end do
       do i = 2, n

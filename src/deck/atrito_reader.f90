@@ -2,10 +2,10 @@
 module atrito_reader
    use atrito_kinds, only: ip, lp
    use atrito_card_data, only: check_data
-   use atrito_card_order, only: order_t, check_order, check_end, meant_keyword
+   use atrito_card_order, only: order_t, check_order, check_end
    use atrito_cards, only: make_card, check_options, has_options
    use atrito_deck, only: deck_t, card_t, token_t, KEYWORD_UNKNOWN, allocate_deck, make_room, append_source, &
-                          after_byte_order_mark, append_token, append_line, append_card, append_mesh, reading_order
+                          after_byte_order_mark, append_token, append_line, append_card, append_mesh, note_include
    use atrito_diagnostics, only: report_error, report_deck_error
    use atrito_files, only: read_file
    use atrito_gmsh_file, only: read_gmsh_text
@@ -16,7 +16,7 @@ module atrito_reader
    use atrito_items, only: has_option, option_text, option_word
    use atrito_keyword, only: keyword_t, KIND_TEXT
    use atrito_keyword_table, only: keyword_table
-   use atrito_lexer, only: line_t, items_t, take_line, split_items, LINE_COMMENT, LINE_KEYWORD, LINE_DATA
+   use atrito_lexer, only: line_t, items_t, take_line, split_items, count_data_lines, LINE_COMMENT, LINE_KEYWORD, LINE_DATA
    use atrito_memory, only: available_memory, memory_text
    use atrito_note_edits, only: note_edits
    use atrito_plain_lines, only: take_plain_lines
@@ -132,9 +132,8 @@ contains
          reading%may_be_plain = reading%mode == MODE_ITEMS .and. (line%kind == LINE_KEYWORD .or. line%kind == LINE_COMMENT)
       end do
       deck%sources(source)%n_lines = cursor%line
-      do i = source + 1, deck%n_sources
-         if (deck%sources(i)%parent /= source) cycle
-         deck%sources(source)%n_lines = deck%sources(source)%n_lines + deck%sources(i)%n_lines
+      do i = 1, deck%sources(source)%n_children
+         deck%sources(source)%n_lines = deck%sources(source)%n_lines + deck%sources(deck%sources(source)%children(i))%n_lines
       end do
    end subroutine read_source
 
@@ -302,9 +301,9 @@ contains
       if (card%keyword /= KEYWORD_UNKNOWN) then
          call check_options(deck, card)
          reading%mode = mode_of(deck%keywords(card%keyword))
-      else if (meant_keyword(deck, card) == 'NODE' .or. meant_keyword(deck, card) == 'ELEMENT') then
+      else if (card%meant == 'NODE' .or. card%meant == 'ELEMENT') then
          reading%mode = MODE_ITEMS                     ! the numbers of its lines are not unknown, they are lost
-      else if (meant_keyword(deck, card) == 'PARAMETER') then
+      else if (card%meant == 'PARAMETER') then
          deck%has_lost_parameters = .true.
       end if
       if (card%is_refused) then
@@ -415,9 +414,7 @@ contains
       end if
       call append_source(deck, name, text, identity)
       source = deck%n_sources
-      deck%sources(source)%order = reading_order(deck, cursor%source, card%place%line)
-      deck%sources(source)%parent = cursor%source
-      deck%sources(source)%include_line = card%place%line
+      call note_include(deck, source, cursor%source, card%place%line)
       deck%sources(source)%include_first = card%place%first - card%place%column + 1
       deck%sources(source)%include_last = min(cursor%position - 1, len(deck%sources(cursor%source)%text, kind=ip))
       if (option_word(deck, card, 'TYPE') == 'GMSH') then
@@ -490,7 +487,7 @@ contains
 
       fits = len(deck%sources(source)%text) <= SMALL_FILE
       if (fits) return
-      lines = count_symbol(deck%sources(source)%text, achar(10)) + 1
+      lines = count_data_lines(deck%sources(source)%text)
       items = count_symbol(deck%sources(source)%text, ',') + lines
       memory = available_memory()
       fits = ITEM_BYTES*items <= memory

@@ -7,7 +7,7 @@ module atrito_id_map
    use atrito_kinds, only: ip, lp
    implicit none (type, external)
    private
-   public :: id_map_t, add_id, add_sequence, find_id
+   public :: id_map_t, add_id, add_sequence, find_id, is_whole_sequence
 
    type :: id_map_t
       integer(ip) :: n = 0
@@ -87,6 +87,15 @@ contains
          place = map%first_place + (id - map%first_id)
       end if
    end function find_id
+
+   !> All numbers of a range are there, and their places are one after the other; soon known, and false where it would not be.
+   pure logical function is_whole_sequence(map, first, last)
+      type(id_map_t), intent(in) :: map
+      integer(ip), intent(in) :: first, last
+
+      is_whole_sequence = first > 0 .and. first <= last .and. .not. allocated(map%place)
+      if (is_whole_sequence) is_whole_sequence = is_in_sequence(map, first) .and. is_in_sequence(map, last)
+   end function is_whole_sequence
 
    pure logical function is_in_sequence(map, id)
       type(id_map_t), intent(in) :: map

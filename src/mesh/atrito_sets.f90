@@ -1,21 +1,28 @@
 !> Named lists of nodes or elements. A set named again grows; members are kept once, in the order in which they came.
 module atrito_sets
-   use atrito_id_map, only: id_map_t, add_id, find_id
    use atrito_kinds, only: ip
    use atrito_name_list, only: name_list_t, add_name, find_name
+   use atrito_ranges, only: ranges_t, add_numbers, add_ranges, move_ranges, numbers_in, count_numbers, &
+                            first_number
    implicit none (type, external)
    private
-   public :: set_t, set_list_t, set_count, find_set, grow_set
+   public :: set_t, set_list_t, set_count, find_set, grow_set, members_of, member_count, first_member, &
+             replace_members
 
    type :: set_t
       character(len=:), allocatable :: name
-      integer(ip), allocatable :: members(:)   !< places, not ids
+      type(ranges_t) :: members                !< places, not ids
    end type set_t
 
    type :: set_list_t
       type(set_t), allocatable :: sets(:)      !< the first set_count are in use
       type(name_list_t) :: names               !< of them, in their order
    end type set_list_t
+
+   !> Adds members to a set, which is made when it is new: call grow_set(list, name, places), or those of a ranges_t.
+   interface grow_set
+      module procedure grow_by_numbers, grow_by_ranges
+   end interface grow_set
 
    integer(ip), parameter :: FIRST_LENGTH = 8
 
@@ -35,20 +42,65 @@ contains
       i = find_name(list%names, name)
    end function find_set
 
-   !> Adds members to a set, which is made when it is new.
-   pure subroutine grow_set(list, name, members)
+   !> The members of a set, one by one.
+   pure function members_of(set) result(members)
+      type(set_t), intent(in) :: set
+      integer(ip), allocatable :: members(:)
+
+      members = numbers_in(set%members)
+   end function members_of
+
+   pure integer(ip) function member_count(set) result(n)
+      type(set_t), intent(in) :: set
+
+      n = count_numbers(set%members)
+   end function member_count
+
+   !> Of no set without members.
+   pure integer(ip) function first_member(set) result(member)
+      type(set_t), intent(in) :: set
+
+      member = first_number(set%members)
+   end function first_member
+
+   pure subroutine replace_members(set, members)
+      type(set_t), intent(inout) :: set
+      integer(ip), intent(in) :: members(:)
+
+      set%members = ranges_t()
+      call add_numbers(set%members, members)
+   end subroutine replace_members
+
+   pure subroutine grow_by_numbers(list, name, members)
       type(set_list_t), intent(inout) :: list
       character(len=*), intent(in) :: name
       integer(ip), intent(in) :: members(:)
       integer(ip) :: i
 
+      call find_or_append(list, name, i)
+      call add_numbers(list%sets(i)%members, members)
+   end subroutine grow_by_numbers
+
+   pure subroutine grow_by_ranges(list, name, members)
+      type(set_list_t), intent(inout) :: list
+      character(len=*), intent(in) :: name
+      type(ranges_t), intent(in) :: members
+      integer(ip) :: i
+
+      call find_or_append(list, name, i)
+      call add_ranges(list%sets(i)%members, members)
+   end subroutine grow_by_ranges
+
+   pure subroutine find_or_append(list, name, i)
+      type(set_list_t), intent(inout) :: list
+      character(len=*), intent(in) :: name
+      integer(ip), intent(out) :: i
+
       i = find_set(list, name)
-      if (i == 0) then
-         call append_set(list, name)
-         i = set_count(list)
-      end if
-      call add_members(list%sets(i), members)
-   end subroutine grow_set
+      if (i > 0) return
+      call append_set(list, name)
+      i = set_count(list)
+   end subroutine find_or_append
 
    !> A new set without members. Where there is no room the list doubles, the sets handed on without a copy.
    pure subroutine append_set(list, name)
@@ -63,38 +115,12 @@ contains
          allocate (longer(2*n))
          do i = 1, n
             call move_alloc(list%sets(i)%name, longer(i)%name)
-            call move_alloc(list%sets(i)%members, longer(i)%members)
+            call move_ranges(list%sets(i)%members, longer(i)%members)
          end do
          call move_alloc(longer, list%sets)
       end if
       list%sets(n + 1)%name = name
-      allocate (list%sets(n + 1)%members(0))
       call add_name(list%names, name)
    end subroutine append_set
-
-   pure subroutine add_members(set, members)
-      type(set_t), intent(inout) :: set
-      integer(ip), intent(in) :: members(:)
-      type(id_map_t) :: first                  ! where each of the members stands first
-      logical, allocatable :: fresh(:)
-      logical :: known
-      integer(ip) :: i, k
-
-      if (size(members) == 0) return
-      if (size(set%members) == 0 .and. all(members(2:) > members(:size(members) - 1))) then
-         set%members = members                 ! rising: none stands there twice
-         return
-      end if
-      allocate (fresh(size(members)))
-      do i = 1, size(members, kind=ip)
-         call add_id(first, members(i), i, known)
-         fresh(i) = .not. known
-      end do
-      do i = 1, size(set%members, kind=ip)
-         k = find_id(first, set%members(i))
-         if (k > 0) fresh(k) = .false.
-      end do
-      set%members = [set%members, pack(members, fresh)]
-   end subroutine add_members
 
 end module atrito_sets

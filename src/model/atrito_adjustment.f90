@@ -14,7 +14,7 @@ module atrito_adjustment
    use atrito_pieces, only: place_at
    use atrito_points, only: contact_points_t
    use atrito_references, only: report_unknown
-   use atrito_sets, only: find_set
+   use atrito_sets, only: find_set, members_of
    use atrito_slave_faces, only: nodal_rule_t, nodal_rule, turn_at
    use atrito_strings, only: to_text
    implicit none (type, external)
@@ -92,7 +92,7 @@ contains
 
       associate (model => context%model, pair => context%model%pairs(i))
          allocate (adjusted%node(model%mesh%n_nodes), is_member(model%mesh%n_nodes), source=.false.)
-         if (pair%adjust_set > 0) is_member(model%node_sets%sets(pair%adjust_set)%members) = .true.
+         if (pair%adjust_set > 0) is_member(members_of(model%node_sets%sets(pair%adjust_set))) = .true.
          call make_master(model, pair%master, master)
          call list_nodes(model%mesh, model%surfaces(pair%slave)%faces, slave)
          foot = model%mesh%x(:, :model%mesh%n_nodes)

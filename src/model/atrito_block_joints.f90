@@ -10,7 +10,7 @@ module atrito_block_joints
    use atrito_items, only: option_text
    use atrito_kinds, only: ip, wp
    use atrito_references, only: report_unknown
-   use atrito_sets, only: find_set
+   use atrito_sets, only: find_set, members_of
    use atrito_strings, only: same_name, to_text
    implicit none (type, external)
    private
@@ -33,11 +33,15 @@ contains
       type(token_t), allocatable :: names(:)
       character(len=:), allocatable :: own
       logical :: named(context%n_blocks), good
+      real(wp) :: reach
       integer(ip) :: i, b
 
       ok = .true.
       named = .false.
       block%body = context%n_blocks + 1
+      block%low = minval(x, dim=2)
+      block%high = maxval(x, dim=2)
+      reach = MERGE_TOLERANCE*norm2(block%high - block%low)
       names = merge_names(context%deck, context%deck%cards(i_card))
       do i = 1, size(names, kind=ip)
          call share_with(names(i), x, context, block, named, good)
@@ -50,8 +54,8 @@ contains
       call option_text(context%deck, context%deck%cards(i_card), 'ELSET', own, good)
       do b = 1, context%n_blocks
          if (named(b) .or. context%blocks(b)%body /= block%body) cycle
-         if (is_joint(context%deck, own, context%blocks(b)%name)) cycle
-         call warn_of_crack(names(1), x, context, context%blocks(b), block%nodes)
+         if (any(context%blocks(b)%low > block%high + reach) .or. any(context%blocks(b)%high < block%low - reach)) cycle
+         call warn_of_crack(names(1), own, x, context, context%blocks(b), block%nodes)
       end do
    end subroutine share_nodes
 
@@ -84,7 +88,7 @@ contains
       logical, intent(inout) :: named(:)               !< of the blocks so far
       logical, intent(out) :: ok
       character(len=:), allocatable :: other
-      integer(ip), allocatable :: outline(:), match(:), shared(:, :)
+      integer(ip), allocatable :: outline(:), match(:), members(:), shared(:, :)
       integer(ip) :: i_set, k, b, n, width
 
       other = token_text(context%deck, place)
@@ -97,12 +101,11 @@ contains
       width = size(block%nodes, 1, kind=ip)
       outline = outline_of(width, size(block%nodes, 2, kind=ip))
       allocate (shared, source=0*block%nodes)
-      associate (members => context%model%node_sets%sets(i_set)%members)
-         match = match_points(x(:, outline), context%model%mesh%x(:, members), MERGE_TOLERANCE*shortest_edge(x, width))
-         do k = 1, size(outline, kind=ip)
-            if (match(k) > 0) shared(1 + modulo(outline(k) - 1, width), 1 + (outline(k) - 1)/width) = members(match(k))
-         end do
-      end associate
+      members = members_of(context%model%node_sets%sets(i_set))
+      match = match_points(x(:, outline), context%model%mesh%x(:, members), MERGE_TOLERANCE*shortest_edge(x, width))
+      do k = 1, size(outline, kind=ip)
+         if (match(k) > 0) shared(1 + modulo(outline(k) - 1, width), 1 + (outline(k) - 1)/width) = members(match(k))
+      end do
       n = count(shared > 0 .and. block%nodes > 0 .and. block%nodes /= shared, kind=ip)
       if (n > 0) call report_warning(context%deck, place, 'W-BLOCK', to_text(n)//' nodes of this block lie on nodes of '//other// &
                                      ' and of an earlier name that are not shared by these', &
@@ -236,8 +239,9 @@ contains
    end subroutine join_bodies
 
    !> Nodes that lie on those of a block of the same body that is not named are apart from them.
-   subroutine warn_of_crack(place, x, context, other, nodes)
+   subroutine warn_of_crack(place, own, x, context, other, nodes)
       type(token_t), intent(in) :: place
+      character(len=*), intent(in) :: own              !< name of the block
       real(wp), intent(in) :: x(:, :)
       type(build_context_t), intent(in) :: context
       type(block_t), intent(in) :: other
@@ -252,10 +256,12 @@ contains
       theirs = [(side_nodes(other, i), i=1, size(BLOCK_SIDES, kind=ip))]
       match = match_points(x(:, outline), context%model%mesh%x(:, theirs), MERGE_TOLERANCE*shortest_edge(x, width))
       n = count(match > 0, kind=ip)
-      if (n > 0) call report_warning(context%deck, place, 'W-BLOCK', to_text(n)//' nodes of this block lie on nodes of '// &
-                                     other%name//', a part of the same body, but are not shared: a crack', &
-                                     expected='the data line MERGE, '//token_text(context%deck, place)//', '//other%name// &
-                                     ' to close it', keyword='BLOCK')
+      if (n == 0) return
+      if (is_joint(context%deck, own, other%name)) return
+      call report_warning(context%deck, place, 'W-BLOCK', to_text(n)//' nodes of this block lie on nodes of '// &
+                          other%name//', a part of the same body, but are not shared: a crack', &
+                          expected='the data line MERGE, '//token_text(context%deck, place)//', '//other%name// &
+                          ' to close it', keyword='BLOCK')
    end subroutine warn_of_crack
 
    !> Whether the deck ties sides of two blocks, or pairs them: then what lies between them is meant.

@@ -3,7 +3,8 @@ module atrito_body_names
    use atrito_bodies, only: bodies_t
    use atrito_kinds, only: ip
    use atrito_model, only: model_t
-   use atrito_sets, only: set_count
+   use atrito_name_list, only: name_list_t, add_name, find_name
+   use atrito_sets, only: set_count, members_of, member_count, first_member
    use atrito_strings, only: to_text
    implicit none (type, external)
    private
@@ -43,19 +44,26 @@ contains
    pure subroutine name_after_instances(model, bodies)
       type(model_t), intent(in) :: model
       type(bodies_t), intent(inout) :: bodies
-      character(len=:), allocatable :: name
-      integer(ip) :: i, k, n, last
+      type(name_list_t) :: names
+      integer(ip), allocatable :: n(:), last(:)       ! of each instance: its bodies, and the last of them
+      integer(ip) :: i, k
+      integer :: dot
 
       do i = 1, size(model%instances, kind=ip)
-         n = 0
-         last = 0
-         name = model%instances(i)%name
-         do k = 1, bodies%n
-            if (index(bodies%list(k)%name, name//'.') /= 1) cycle
-            n = n + 1
-            last = k
+         call add_name(names, model%instances(i)%name)
+      end do
+      allocate (n(names%n), last(names%n), source=0_ip)
+      do k = 1, bodies%n
+         do dot = 1, len(bodies%list(k)%name)
+            if (bodies%list(k)%name(dot:dot) /= '.') cycle
+            i = find_name(names, bodies%list(k)%name(:dot - 1))
+            if (i == 0) cycle
+            n(i) = n(i) + 1
+            last(i) = k
          end do
-         if (n == 1) bodies%list(last)%name = name
+      end do
+      do i = 1, names%n
+         if (n(i) == 1) bodies%list(last(i))%name = model%instances(i)%name
       end do
    end subroutine name_after_instances
 
@@ -67,11 +75,11 @@ contains
 
       set = 0
       do s = 1, set_count(model%element_sets)
-         associate (members => model%element_sets%sets(s)%members)
-            if (size(members) == 0) cycle
-            b = bodies%of_element(members(1))
-            if (set(b) > 0 .or. size(members) /= size(bodies%list(b)%elements)) cycle
-            if (all(bodies%of_element(members) == b)) set(b) = s
+         associate (it => model%element_sets%sets(s))
+            if (member_count(it) == 0) cycle
+            b = bodies%of_element(first_member(it))
+            if (set(b) > 0 .or. member_count(it) /= size(bodies%list(b)%elements)) cycle
+            if (all(bodies%of_element(members_of(it)) == b)) set(b) = s
          end associate
       end do
    end function sets_of_bodies

@@ -34,7 +34,8 @@ contains
       call read_block_spec(context%deck, context%deck%cards(i_card), spec, ok)
       ok = ok .and. named
       if (ok) ok = fits_memory(context%deck%cards(i_card)%place, context, count_nodes(spec), product(int(spec%n, lp))* &
-                               product(int(spec%copies%n, lp))*elements_of_square(spec%shape), 'BLOCK', spec%shape)
+                               product(int(spec%copies%n, lp))*elements_of_square(spec%shape), 'BLOCK', spec%shape, &
+                               product(int(spec%copies%n, lp)))
       if (ok) call place_copies(i_card, spec, name, context, ok)
       if (.not. ok) call invalidate_block(context, name)
    end subroutine read_block_card

@@ -4,8 +4,8 @@
 !> One mistake, one message: whoever refers to a thing whose definition was faulty is passed over in silence. Silence is allowed
 !> only once an error has been told, so a deck is never accepted with something left out.
 module atrito_build_context
-   use atrito_build_parts, only: open_step_t, references_t, carried_t, numbered_t, block_t, section_cut_t, BLOCK_SIDES, &
-                                 LOOSE_HELD, LOOSE_RELEASED, LOOSE_MOVES
+   use atrito_build_parts, only: open_step_t, references_t, carried_t, replaced_t, numbered_t, block_t, section_cut_t, &
+                                 BLOCK_SIDES, LOOSE_HELD, LOOSE_RELEASED, LOOSE_MOVES
    use atrito_curves, only: curve_list_t, line_list_t
    use atrito_deck, only: deck_t, card_t, token_t, data_line_t, token_text, is_empty_token, keyword_name, scope_shift, &
                           scope_text, model_number
@@ -25,12 +25,12 @@ module atrito_build_context
    implicit none (type, external)
    private
    public :: LOOSE_HELD, LOOSE_RELEASED, LOOSE_MOVES
-   public :: build_context_t, open_step_t, references_t, carried_t, numbered_t, block_t, section_cut_t
+   public :: build_context_t, open_step_t, references_t, carried_t, replaced_t, numbered_t, block_t, section_cut_t
    public :: BLOCK_SIDES
    public :: prepare_context, add_context_block, note_undetermined_mesh
    public :: invalidate_block, invalidate_name, spoil_number, is_invalid, is_undetermined, &
              has_errors, has_lost_elements
-   public :: place_token, place_text, note_number, note_place, note_places, keep_token, define_name, count_cards, ids_text
+   public :: place_token, place_text, note_number, note_place, note_places, keep_token, define_name, count_cards, ids_text, MOST_IDS
 
    type :: build_context_t
       type(deck_t), pointer :: deck => null()
@@ -59,10 +59,17 @@ module atrito_build_context
       type(node_elements_t) :: around                  !< elements round each node
       type(section_cut_t), allocatable :: cuts(:)
       type(token_t), allocatable :: cut_lines(:)       !< of each of the model's cuts its first item
+      integer(ip) :: n_cuts = 0                        !< of the model so far
       type(face_list_t) :: cut_faces                   !< of both sides of all cuts
       type(refinement_t) :: refinement                 !< how the mesh came from that of the deck, if it is another one
       real(wp), allocatable :: node_thickness(:)       !< *NODAL THICKNESS, 0 where there is none [L]; unallocated: no card
       logical :: thickness_undetermined = .false.      !< one of these was not understood
+      type(id_map_t) :: rigid_bodies                   !< by their reference nodes
+      integer(ip), allocatable :: pending_elsets(:)    !< cards of *ELSET that wait for their elements, so far
+      integer(ip) :: n_pending = 0, last_elset = 0     !< how many; the cards up to this one were looked at
+      type(name_list_t) :: section_surfaces            !< of *PRE-TENSION SECTION
+      integer(ip), allocatable :: outer_elements(:)    !< those with a face on the outline, rising; not listed before it is wanted
+      integer(ip) :: least_sides = 0                   !< that an element has; known when these are listed
       type(id_map_t) :: deck_elements                  !< refined: places of the deck's elements in its own mesh
       type(token_t), allocatable :: ties(:)            !< of each the slave
       type(token_t), allocatable :: surfaces(:), materials(:), poisson(:), sections(:), interactions(:), slaves(:), masters(:)
@@ -454,19 +461,22 @@ contains
    end function count_cards
 
    !> '3, 4, 5 and 12 more'
-   pure function ids_text(ids) result(text)
+   pure function ids_text(ids, n_all) result(text)
       integer(ip), intent(in) :: ids(:)
+      integer(ip), intent(in), optional :: n_all       !< how many there are, where only the first MOST_IDS are given
       character(len=:), allocatable :: text
-      integer(ip) :: i, n
+      integer(ip) :: i, n, n_ids
 
-      n = size(ids, kind=ip)
+      n_ids = size(ids, kind=ip)
+      if (present(n_all)) n_ids = n_all
+      n = n_ids
       if (n > MOST_IDS) n = MOST_IDS - 1
       text = ''
       do i = 1, n
          if (i > 1) text = text//', '
          text = text//to_text(ids(i))
       end do
-      if (n < size(ids)) text = text//' and '//to_text(size(ids, kind=ip) - n)//' more'
+      if (n < n_ids) text = text//' and '//to_text(n_ids - n)//' more'
    end function ids_text
 
 end module atrito_build_context

@@ -6,12 +6,13 @@ module atrito_build_copies
    use atrito_deck, only: deck_t, card_t, token_t, option_t, keyword_name
    use atrito_diagnostics, only: report_error
    use atrito_build_context, only: build_context_t, invalidate_block
+   use atrito_growth, only: make_room
    use atrito_items, only: find_option, option_integer, option_text
    use atrito_kinds, only: ip, lp, wp
    use atrito_model_memory, only: fits_memory
    use atrito_motion, only: motion_t, read_shift, read_rotation, moved
    use atrito_references, only: report_unknown
-   use atrito_sets, only: find_set, grow_set
+   use atrito_sets, only: find_set, grow_set, members_of
    use atrito_strings, only: to_text
    implicit none (type, external)
    private
@@ -112,11 +113,11 @@ contains
       if (.not. ok) return
       if (noun == 'node set') then
          i = find_set(context%model%node_sets, name)
-         if (i > 0) members = context%model%node_sets%sets(i)%members
+         if (i > 0) members = members_of(context%model%node_sets%sets(i))
          if (i == 0) call report_unknown(context, place, 'earlier node set', 'E-SET', context%model%node_sets%names, 'NCOPY')
       else
          i = find_set(context%model%element_sets, name)
-         if (i > 0) members = context%model%element_sets%sets(i)%members
+         if (i > 0) members = members_of(context%model%element_sets%sets(i))
          if (i == 0) call report_unknown(context, place, 'earlier element set', 'E-SET', context%model%element_sets%names, 'ELCOPY')
       end if
       ok = i > 0
@@ -163,9 +164,7 @@ contains
       logical :: ok(4), found
 
       ! sets of elements are read after all elements, those that are wanted here before
-      do i = 1, i_card - 1
-         if (keyword_name(context%deck%cards(i)) == 'ELSET' .and. .not. context%card_done(i)) call try_set_card(i, context)
-      end do
+      call try_pending_sets(i_card, context)
       associate (card => context%deck%cards(i_card))
          call read_number(context%deck, card, 'ELEMENT SHIFT', shift, ok(1))
          call read_number(context%deck, card, 'SHIFT NODES', node_shift, ok(2))
@@ -187,5 +186,30 @@ contains
          if (found) call grow_set(context%model%element_sets, name, [(i, i=first, context%model%mesh%n_elements)])
       end associate
    end subroutine read_elcopy_card
+
+   !> Reads the sets of elements above a card that can be read by now.
+   subroutine try_pending_sets(i_card, context)
+      integer(ip), intent(in) :: i_card
+      type(build_context_t), intent(inout) :: context
+      integer(ip) :: i, n
+
+      do i = context%last_elset + 1, i_card - 1
+         if (keyword_name(context%deck%cards(i)) /= 'ELSET') cycle
+         call make_room(context%pending_elsets, context%n_pending, context%n_pending + 1)
+         context%n_pending = context%n_pending + 1
+         context%pending_elsets(context%n_pending) = i
+      end do
+      context%last_elset = max(context%last_elset, i_card - 1)
+      n = 0
+      do i = 1, context%n_pending
+         associate (card => context%pending_elsets(i))
+            if (.not. context%card_done(card)) call try_set_card(card, context)
+            if (context%card_done(card)) cycle
+            n = n + 1
+            context%pending_elsets(n) = card
+         end associate
+      end do
+      context%n_pending = n
+   end subroutine try_pending_sets
 
 end module atrito_build_copies

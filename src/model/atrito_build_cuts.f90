@@ -2,21 +2,23 @@
 module atrito_build_cuts
    use atrito_bodies, only: bodies_t, find_bodies
    use atrito_body_names, only: name_bodies
-   use atrito_build_context, only: build_context_t, place_text
+   use atrito_build_context, only: build_context_t, keep_token, place_text
    use atrito_cross_section, only: find_cross_section
    use atrito_crossings, only: crossing_t, point_at, INSIDE
    use atrito_deck, only: card_t, data_line_t, token_t, line_item
    use atrito_diagnostics, only: report_error, report_note, report_warning
    use atrito_faces, only: list_node_elements
+   use atrito_growth, only: make_room
    use atrito_items, only: get_real, has_option, option_text
    use atrito_kinds, only: ip, wp
    use atrito_model, only: cut_t, requests_t
+   use atrito_name_list, only: add_name, find_name
    use atrito_references, only: report_unknown
-   use atrito_sets, only: find_set
-   use atrito_strings, only: same_name, to_text
+   use atrito_sets, only: find_set, members_of
+   use atrito_strings, only: to_text
    implicit none (type, external)
    private
-   public :: read_cut_card, place_cuts
+   public :: read_cut_card, cut_requests_to_size, place_cuts
 
    character(len=*), parameter :: KEYWORD = 'SECTION PRINT'
    character(len=2), parameter :: ITEMS(4) = ['x1', 'y1', 'x2', 'y2']
@@ -62,18 +64,12 @@ contains
       logical, intent(out) :: ok
       integer(ip) :: i
 
-      ok = .true.
-      if (.not. allocated(requests%cuts)) return
-      do i = 1, size(requests%cuts, kind=ip)
-         associate (other => requests%cuts(i))
-            if (.not. same_name(context%model%cuts(other)%name, name)) cycle
-            ok = .false.
-            call report_error(context%deck, place, 'E-TWICE', 'cut '//name//' is defined already in this step, in '// &
-                              place_text(context%deck, context%cut_lines(other), place), &
-                              expected='another NAME=, or all lines in one card', keyword=KEYWORD)
-            return
-         end associate
-      end do
+      i = find_name(context%open%cut_names, name)
+      ok = i == 0
+      if (ok) return
+      call report_error(context%deck, place, 'E-TWICE', 'cut '//name//' is defined already in this step, in '// &
+                        place_text(context%deck, context%cut_lines(requests%cuts(i)), place), &
+                        expected='another NAME=, or all lines in one card', keyword=KEYWORD)
    end subroutine check_name
 
    !> The set that chooses crossings; 0: none is given.
@@ -125,16 +121,28 @@ contains
       type(cut_t), allocatable :: longer(:)
       integer(ip) :: n
 
+      n = context%n_cuts
       if (.not. allocated(context%model%cuts)) allocate (context%model%cuts(0), context%cut_lines(0))
-      if (.not. allocated(requests%cuts)) allocate (requests%cuts(0))
-      n = size(context%model%cuts, kind=ip)
-      allocate (longer(n + 1))
-      longer(:n) = context%model%cuts
-      longer(n + 1) = cut
-      call move_alloc(longer, context%model%cuts)
-      context%cut_lines = [context%cut_lines, place]
-      requests%cuts = [requests%cuts, n + 1]
+      if (n == size(context%model%cuts)) then
+         allocate (longer(max(1_ip, 2*n)))
+         longer(:n) = context%model%cuts
+         call move_alloc(longer, context%model%cuts)
+      end if
+      context%model%cuts(n + 1) = cut
+      context%n_cuts = n + 1
+      call keep_token(context%cut_lines, n + 1, place)
+      call make_room(requests%cuts, context%open%cut_names%n, context%open%cut_names%n + 1)
+      call add_name(context%open%cut_names, cut%name)
+      requests%cuts(context%open%cut_names%n) = n + 1
    end subroutine add_cut
+
+   !> Takes back the room that the cuts of a step have to grow; those that are carried on have none.
+   pure subroutine cut_requests_to_size(context, requests)
+      type(build_context_t), intent(in) :: context
+      type(requests_t), intent(inout) :: requests
+
+      if (context%open%cut_names%n > 0) requests%cuts = requests%cuts(:context%open%cut_names%n)
+   end subroutine cut_requests_to_size
 
    !> Finds where the cuts go through the bodies. The mesh is complete.
    subroutine place_cuts(context)
@@ -143,6 +151,7 @@ contains
       integer(ip) :: i
 
       if (.not. allocated(context%model%cuts)) return
+      context%model%cuts = context%model%cuts(:context%n_cuts)
       call find_bodies(context%model%mesh, bodies)
       call name_bodies(context%model, bodies)
       context%around = list_node_elements(context%model%mesh)   ! bolts may have cut the mesh since it was listed
@@ -160,7 +169,7 @@ contains
 
       associate (model => context%model, cut => context%model%cuts(i))
          allocate (wanted(model%mesh%n_elements), source=cut%elset == 0)
-         if (cut%elset > 0) wanted(model%element_sets%sets(cut%elset)%members) = .true.
+         if (cut%elset > 0) wanted(members_of(model%element_sets%sets(cut%elset))) = .true.
          call find_cross_section(model%mesh, context%around, bodies%of_element, cut%ends, wanted, cut%section, crossings)
          if (.not. any(crossings%is_taken)) then
             call report_miss(context, bodies, i, crossings)

@@ -38,8 +38,10 @@ contains
       type(term_t), allocatable :: terms(:)
       type(token_t) :: place
       integer(ip) :: i, k, last, group
+      real(wp) :: weight
       logical :: ok
 
+      weight = row_weight(context%model)
       do i = 1, context%deck%n_cards
          associate (card => context%deck%cards(i))
             if (keyword_name(card) /= KEYWORD .or. .not. card%ok) cycle
@@ -53,7 +55,7 @@ contains
                terms = terms_in_plane(terms)
                if (size(terms) == 0) cycle
                call order_sets(context, place, terms, ok)
-               if (ok) call add_equations(context, place, terms, group)
+               if (ok) call add_equations(context, place, terms, group, weight)
             end do
          end associate
       end do
@@ -232,11 +234,12 @@ contains
    end subroutine order_sets
 
    !> The equations of terms: one for each node of the first.
-   subroutine add_equations(context, place, terms, group)
+   subroutine add_equations(context, place, terms, group, weight)
       type(build_context_t), intent(inout) :: context
       type(token_t), intent(in) :: place
       type(term_t), intent(in) :: terms(:)
       integer(ip), intent(in) :: group
+      real(wp), intent(in) :: weight                   !< of the rows [L^2]
       integer(ip) :: i, k, node, nodes(TERMS_A_DOF, size(terms))
       real(wp) :: vectors(2, TERMS_A_DOF, size(terms)), scale
 
@@ -261,7 +264,7 @@ contains
             if (any(terms%dof == ROTATION_DOF)) scale = 1/maxval(abs(vectors))
             call add_nodal_value(context%model%equations, terms(1)%nodes(k), terms(1)%dof, scale*terms(1)%coefficient)
             call add_row([nodes], reshape(scale*vectors, [2_ip, size(nodes, kind=ip)]), 0.0_wp, 0.0_wp, &
-                         row_weight(context%model), [ROW_EQUATION, group, context%model%equations%n], context%model%bilateral)
+                         weight, [ROW_EQUATION, group, context%model%equations%n], context%model%bilateral)
          end do
       end associate
    end subroutine add_equations

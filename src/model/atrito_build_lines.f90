@@ -14,7 +14,7 @@ module atrito_build_lines
    use atrito_number_list, only: number_list_t, add_number, add_numbers, numbers_of
    use atrito_numbers, only: read_integer, NUMBER_OK
    use atrito_references, only: get_id, find_one_node
-   use atrito_sets, only: find_set, grow_set
+   use atrito_sets, only: find_set, grow_set, members_of
    use atrito_strings, only: to_text
    use atrito_turned_elements, only: turned_nodes
    implicit none (type, external)
@@ -167,7 +167,7 @@ contains
          if (i > 0) lines = [i]
       else
          i = find_set(context%lines%sets, text)
-         if (i > 0) lines = context%lines%sets%sets(i)%members
+         if (i > 0) lines = members_of(context%lines%sets%sets(i))
       end if
    end function lines_of_item
 

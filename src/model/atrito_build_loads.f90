@@ -3,7 +3,7 @@ module atrito_build_loads
    use atrito_deck, only: is_empty_token, data_line_t, token_t, token_text, line_item, keyword_name
    use atrito_diagnostics, only: report_error, report_warning, report_note
    use atrito_build_amplitudes, only: take_amplitude
-   use atrito_build_context, only: build_context_t, carried_t, ids_text, is_invalid, has_errors, has_lost_elements
+   use atrito_build_context, only: build_context_t, carried_t, replaced_t, ids_text, is_invalid, has_errors, has_lost_elements
    use atrito_build_rigid_bodies, only: is_reference, ROTATION_DOF
    use atrito_carry_on, only: is_of_step, removes_all, carry_values, carry_loads, list_carried, take_force_place, &
                               take_load_place, remove_load
@@ -49,9 +49,9 @@ contains
       type(build_context_t), intent(inout) :: context
       integer(ip) :: i, k
 
-      context%open%replaced = reshape([integer(ip) ::], [2, 0])
+      context%open%replaced = replaced_t()
       if (context%open%number > 1) call carry_on(context)
-      do i = 1, context%deck%n_cards
+      do i = context%open%first_card, context%open%last_card
          if (.not. is_of_step(context, i)) cycle
          associate (card => context%deck%cards(i))
             if (any(keyword_name(card) == LOAD_KEYWORDS)) call take_amplitude(context, card)

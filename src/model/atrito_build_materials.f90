@@ -13,7 +13,7 @@ module atrito_build_materials
    use atrito_number_list, only: number_list_t, add_number, numbers_of
    use atrito_read_elastic, only: read_elastic_card, check_constant
    use atrito_references, only: report_unknown
-   use atrito_sets, only: find_set
+   use atrito_sets, only: find_set, members_of
    use atrito_strings, only: to_text
    implicit none (type, external)
    private
@@ -167,7 +167,7 @@ contains
          call keep_token(context%sections, n_sections, card%place)
          number = n_sections
       end if
-      if (i_set > 0) call assign_section(card, context, context%model%element_sets%sets(i_set)%members, number)
+      if (i_set > 0) call assign_section(card, context, members_of(context%model%element_sets%sets(i_set)), number)
    end subroutine read_section_card
 
    !> The axes of the material, where it has any.

@@ -9,9 +9,11 @@ module atrito_build_nodes
    use atrito_mesh, only: add_node, find_node
    use atrito_model_memory, only: fits_memory, most_nodes
    use atrito_motion, only: moved
+   use atrito_number_list, only: number_list_t, add_number, add_numbers, numbers_of
    use atrito_numbers, only: read_real, NUMBER_OK
    use atrito_plain_numbers, only: read_plain_nodes, SLICE
    use atrito_references, only: get_id, find_nodes, find_one_node
+   use atrito_ranges, only: ranges_t, add_to_ranges => add_numbers
    use atrito_sets, only: grow_set, set_count
    use atrito_strings, only: to_text
    implicit none (type, external)
@@ -20,6 +22,11 @@ module atrito_build_nodes
 
    !> A z up to this part of the scene is what preprocessors leave of a rotation.
    real(wp), parameter :: FLAT = 1.0e-10_wp
+
+   !> Puts nodes into a node set and keeps which card made it: call put_node_set(context, i_card, name, places), or a ranges_t.
+   interface put_node_set
+      module procedure put_node_numbers, put_node_ranges
+   end interface put_node_set
 
 contains
 
@@ -159,18 +166,28 @@ contains
       call note_number(context%deck, context%nodes, 'node', id, i, place, known, keyword)
    end subroutine place_node
 
-   !> Puts nodes into a node set and keeps which card made it.
-   subroutine put_node_set(context, i_card, name, members)
+   subroutine put_node_numbers(context, i_card, name, members)
       type(build_context_t), intent(inout) :: context
       integer(ip), intent(in) :: i_card
       character(len=*), intent(in) :: name
       integer(ip), intent(in) :: members(:)            !< places
+      type(ranges_t) :: ranges
+
+      call add_to_ranges(ranges, members)
+      call put_node_ranges(context, i_card, name, ranges)
+   end subroutine put_node_numbers
+
+   subroutine put_node_ranges(context, i_card, name, members)
+      type(build_context_t), intent(inout) :: context
+      integer(ip), intent(in) :: i_card
+      character(len=*), intent(in) :: name
+      type(ranges_t), intent(in) :: members            !< places
       integer(ip) :: n
 
       n = set_count(context%model%node_sets)
       call grow_set(context%model%node_sets, name, members)
       if (set_count(context%model%node_sets) > n) call note_place(context%set_card, n + 1, i_card)
-   end subroutine put_node_set
+   end subroutine put_node_ranges
 
    !> The set that NSET= of a card names.
    subroutine put_named_set(i_card, context, members)
@@ -188,21 +205,22 @@ contains
    subroutine read_ngen_card(i_card, context)
       integer(ip), intent(in) :: i_card
       type(build_context_t), intent(inout) :: context
-      integer(ip), allocatable :: members(:)
+      type(number_list_t) :: members
       integer(ip) :: i, ends(2), step, first_new, k
       logical :: ok
 
-      allocate (members(0))
       associate (card => context%deck%cards(i_card))
          do i = card%first_line, card%first_line + card%n_lines - 1
             call read_ngen_line(context%deck%lines(i), context, ends, step, ok)
             if (.not. ok) cycle
             first_new = context%model%mesh%n_nodes + 1
             call fill_line(context, ends, step, context%deck%lines(i)%first_token, 'NGEN')
-            members = [members, ends(1), (k, k=first_new, context%model%mesh%n_nodes), ends(2)]
+            call add_number(members, ends(1))
+            call add_numbers(members, [(k, k=first_new, context%model%mesh%n_nodes)])
+            call add_number(members, ends(2))
          end do
       end associate
-      call put_named_set(i_card, context, members)
+      call put_named_set(i_card, context, numbers_of(members))
    end subroutine read_ngen_card
 
    subroutine read_ngen_line(line, context, ends, step, ok)
@@ -270,21 +288,23 @@ contains
    subroutine read_nfill_card(i_card, context)
       integer(ip), intent(in) :: i_card
       type(build_context_t), intent(inout) :: context
-      integer(ip), allocatable :: from(:), to(:), members(:)
+      type(number_list_t) :: members
+      integer(ip), allocatable :: from(:), to(:)
       integer(ip) :: i, k, n, step, first_new
       logical :: ok
 
-      allocate (members(0))
       associate (card => context%deck%cards(i_card))
          do i = card%first_line, card%first_line + card%n_lines - 1
             call read_nfill_line(context%deck%lines(i), context, from, to, n, step, ok)
             if (.not. ok) cycle
             first_new = context%model%mesh%n_nodes + 1
             call fill_lines(context, from, to, n, step, context%deck%lines(i)%first_token)
-            members = [members, from, (k, k=first_new, context%model%mesh%n_nodes), to]
+            call add_numbers(members, from)
+            call add_numbers(members, [(k, k=first_new, context%model%mesh%n_nodes)])
+            call add_numbers(members, to)
          end do
       end associate
-      call put_named_set(i_card, context, members)
+      call put_named_set(i_card, context, numbers_of(members))
    end subroutine read_nfill_card
 
    subroutine read_nfill_line(line, context, from, to, n, step, ok)

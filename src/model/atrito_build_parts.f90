@@ -4,9 +4,10 @@ module atrito_build_parts
    use atrito_id_map, only: id_map_t
    use atrito_kinds, only: ip, wp
    use atrito_model, only: nodal_values_t
+   use atrito_name_list, only: name_list_t
    implicit none (type, external)
    private
-   public :: open_step_t, references_t, carried_t, numbered_t, block_t, section_cut_t, BLOCK_SIDES
+   public :: open_step_t, references_t, carried_t, replaced_t, numbered_t, block_t, section_cut_t, BLOCK_SIDES
    public :: LOOSE_HELD, LOOSE_RELEASED, LOOSE_MOVES
 
    !> Ends of the names that a *BLOCK gives to its sides, in the order of the faces S1..S4.
@@ -23,6 +24,7 @@ module atrito_build_parts
       integer(ip) :: first_element = 0                 !< place; row by row from BOTTOM
       integer(ip) :: n_elements = 0
       integer(ip) :: body = 0                          !< the same for blocks that MERGE joins
+      real(wp) :: low(2) = 0.0_wp, high(2) = 0.0_wp    !< the box round its nodes [L]
       character(len=:), allocatable :: array           !< name of the copies of which it is one; not allocated: it is none
       logical :: at_side(4) = .false.                  !< it stands at this side of all copies, as in BLOCK_SIDES
       type(block_map_t) :: map                         !< of its unit square
@@ -60,9 +62,19 @@ module atrito_build_parts
       type(carried_t) :: old_loads
    end type references_t
 
+   !> Lines of earlier steps whose loads end, and the lines that take their place.
+   type :: replaced_t
+      integer(ip) :: n = 0
+      integer(ip), allocatable :: lines(:, :)          !< (2, n) both lines; those up to n are in use
+      integer(ip) :: by = 0                            !< the line that took the last place
+      type(id_map_t) :: before                         !< the lines whose loads it has ended so far
+   end type replaced_t
+
    !> The step that is being built.
    type :: open_step_t
       integer(ip) :: number = 1
+      integer(ip) :: first_card = 1, last_card = 0     !< of the deck: its cards are among these (is_of_step)
+      type(name_list_t) :: cut_names                   !< of its *SECTION PRINT so far
       integer(ip) :: first_token = 0                   !< of its lines: what stands before it has been carried on
       integer(ip) :: line = 0                          !< of the deck, that is being read
       integer(ip) :: label = 0                         !< of its load, place in the labels of the deck
@@ -70,7 +82,7 @@ module atrito_build_parts
       integer(ip) :: source = 0                        !< of the line being read, place in the model's sources
       type(nodal_values_t) :: supports, forces         !< along the dofs of the deck, which may be local axes
       type(carried_t) :: old_forces, old_loads
-      integer(ip), allocatable :: replaced(:, :)       !< (2, n) lines of earlier steps whose loads end, and what takes their place
+      type(replaced_t) :: replaced
       type(references_t) :: references
    end type open_step_t
 

@@ -10,7 +10,7 @@
 module atrito_build_pretension
    use atrito_bilateral_rows, only: add_row, ROW_SECTION
    use atrito_build_context, only: build_context_t, note_place, section_cut_t
-   use atrito_build_rigid_bodies, only: carriers_of, is_reference
+   use atrito_build_rigid_bodies, only: carriers_of, is_reference, append_rigid_body, cut_rigid_bodies
    use atrito_build_temperatures, only: double_temperatures
    use atrito_deck, only: card_t, token_t, line_item, keyword_name
    use atrito_diagnostics, only: report_error, report_warning
@@ -41,6 +41,7 @@ contains
       do i = 1, context%deck%n_cards
          if (keyword_name(context%deck%cards(i)) == KEYWORD) call read_card(context%deck%cards(i), context)
       end do
+      call cut_rigid_bodies(context)
    end subroutine build_pretension
 
    subroutine read_card(card, context)
@@ -71,8 +72,8 @@ contains
          call read_normal(card, context, outward, cut%normal, ok)
          if (ok) call cut_along(context, place, faces, cut, ok)
          if (.not. ok) return
-         cut%body = size(context%model%rigid_bodies, kind=ip) + 1
-         context%model%rigid_bodies = [context%model%rigid_bodies, rigid_body_t(surface, node, cut%size, is_section=.true.)]
+         cut%body = context%rigid_bodies%n + 1
+         call append_rigid_body(context, rigid_body_t(surface, node, cut%size, is_section=.true.))
          context%cuts = [context%cuts, cut]
       end associate
    end subroutine read_card

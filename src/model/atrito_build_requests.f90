@@ -3,14 +3,14 @@ module atrito_build_requests
    use atrito_deck, only: deck_t, card_t, token_t, token_text, option_t, line_item, keyword_name
    use atrito_diagnostics, only: report_error
    use atrito_build_context, only: build_context_t
-   use atrito_build_cuts, only: read_cut_card
+   use atrito_build_cuts, only: read_cut_card, cut_requests_to_size
    use atrito_carry_on, only: is_of_step
    use atrito_foreign_words, only: variable_of_component
    use atrito_items, only: find_option, has_option, option_integer, option_real, option_text, option_word
    use atrito_kinds, only: ip, wp
    use atrito_model, only: controls_t, requested_t, requests_t, step_t, METHOD_ANDERSON, METHOD_PICARD, METHOD_NEWTON, METHOD_NAME
    use atrito_references, only: report_unknown
-   use atrito_sets, only: set_list_t, find_set
+   use atrito_sets, only: set_list_t, find_set, members_of
    use atrito_strings, only: to_text, upper_case
    implicit none (type, external)
    private
@@ -36,9 +36,10 @@ contains
             steps(k)%requests = steps(k - 1)%requests
             call forget_replaced(context, steps(k)%requests)
          end if
-         do i = 1, context%deck%n_cards
+         do i = context%open%first_card, context%open%last_card
             if (is_of_step(context, i)) call read_card(context, context%deck%cards(i), steps(k))
          end do
+         call cut_requests_to_size(context, steps(k)%requests)
          call check_relaxation(context, steps(k)%controls)
       end associate
    end subroutine build_requests
@@ -130,7 +131,7 @@ contains
       type(requests_t), intent(inout) :: requests
       integer(ip) :: i
 
-      do i = 1, context%deck%n_cards
+      do i = context%open%first_card, context%open%last_card
          if (.not. is_of_step(context, i)) cycle
          select case (keyword_name(context%deck%cards(i)))
          case ('NODE PRINT')
@@ -241,7 +242,7 @@ contains
       logical :: found
 
       if (controls%method == METHOD_PICARD) return
-      do i = 1, context%deck%n_cards
+      do i = context%open%first_card, context%open%last_card
          if (.not. is_of_step(context, i)) cycle
          if (keyword_name(context%deck%cards(i)) /= 'CONTROLS' .or. .not. context%deck%cards(i)%ok) cycle
          call find_option(context%deck, context%deck%cards(i), 'RELAXATION', option, found)
@@ -341,7 +342,7 @@ contains
       i = find_set(sets, name)
       ok = i > 0
       if (ok) then
-         chosen(sets%sets(i)%members) = .true.
+         chosen(members_of(sets%sets(i))) = .true.
       else
          call report_unknown(context, place, noun, 'E-SET', sets%names, keyword_name(card))
       end if

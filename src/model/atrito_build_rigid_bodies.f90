@@ -3,15 +3,19 @@ module atrito_build_rigid_bodies
    use atrito_build_context, only: build_context_t
    use atrito_deck, only: card_t, token_t, keyword_name
    use atrito_diagnostics, only: report_error
+   use atrito_id_map, only: add_id, find_id
    use atrito_items, only: has_option, option_text
    use atrito_kinds, only: ip, wp
    use atrito_model, only: model_t, rigid_body_name, rigid_body_t, SURFACE_SEGMENTS
    use atrito_name_list, only: find_name
+   use atrito_number_list, only: number_list_t, add_numbers, numbers_of
    use atrito_references, only: find_elements, find_nodes, report_unknown
+   use atrito_sorting, only: each_once
    use atrito_strings, only: to_text
    implicit none (type, external)
    private
-   public :: build_rigid_bodies, read_tied_nodes, is_reference, make_solver_mesh, carriers_of, ROTATION_DOF, CARRIERS
+   public :: build_rigid_bodies, read_tied_nodes, is_reference, rigid_body_of, append_rigid_body, cut_rigid_bodies, &
+             make_solver_mesh, carriers_of, ROTATION_DOF, CARRIERS
 
    integer(ip), parameter :: ROTATION_DOF = 6_ip
    !> Nodes whose displacements give those of any place of a rigid body: itself, and one along each axis.
@@ -30,6 +34,7 @@ contains
       do i = 1, context%deck%n_cards
          if (keyword_name(context%deck%cards(i)) == 'RIGID BODY') call read_card(context%deck%cards(i), context)
       end do
+      call cut_rigid_bodies(context)
    end subroutine build_rigid_bodies
 
    !> A drawn surface, nodes, or both.
@@ -102,7 +107,7 @@ contains
       body%surface = surface
       body%node = nodes(1)
       body%size = reach_of(context, surface, tied, context%model%mesh%x(:, nodes(1)))
-      context%model%rigid_bodies = [context%model%rigid_bodies, body]
+      call append_rigid_body(context, body)
    end subroutine read_reference
 
    !> The nodes of elements that a card names, each once. The name is that of the first option; not allocated: there is none.
@@ -114,15 +119,14 @@ contains
       logical, intent(out) :: ok
       character(len=:), allocatable :: set
       integer(ip), allocatable :: members(:)
+      type(number_list_t) :: found_nodes
       type(token_t) :: place
-      logical, allocatable :: is_one(:)
       logical :: found
       integer(ip) :: i, e
 
       ok = .true.
       allocate (nodes(0))
       if (.not. any([(has_option(context%deck, card, trim(NODE_OPTIONS(i))), i=1, size(NODE_OPTIONS, kind=ip))])) return
-      allocate (is_one(context%model%mesh%n_nodes), source=.false.)
       do i = 1, size(NODE_OPTIONS, kind=ip)
          call option_text(context%deck, card, trim(NODE_OPTIONS(i)), set, found, place)
          if (.not. found .or. .not. ok) cycle
@@ -130,14 +134,16 @@ contains
          if (NODE_OPTIONS(i) == 'ELSET') then
             call find_elements(context, place, members, ok, 'RIGID BODY')
             do e = 1, size(members, kind=ip)
-               is_one(pack(context%model%mesh%nodes(:, members(e)), context%model%mesh%nodes(:, members(e)) > 0)) = .true.
+               associate (corners => context%model%mesh%nodes(:, members(e)))
+                  call add_numbers(found_nodes, pack(corners, corners > 0))
+               end associate
             end do
          else
             call find_nodes(context, place, members, ok, 'RIGID BODY')
-            is_one(members) = .true.
+            call add_numbers(found_nodes, members)
          end if
       end do
-      nodes = pack([(i, i=1, size(is_one, kind=ip))], is_one)
+      nodes = each_once(numbers_of(found_nodes))
       nodes = pack(nodes, context%around%first(nodes + 1) > context%around%first(nodes))
       if (.not. ok .or. .not. allocated(name) .or. size(nodes) > 0) return
       ok = .false.
@@ -152,13 +158,14 @@ contains
       character(len=:), allocatable :: wrong
 
       wrong = ''
-      associate (id => 'node '//to_text(context%model%mesh%node_id(node)), others => context%model%rigid_bodies)
+      associate (id => 'node '//to_text(context%model%mesh%node_id(node)), &
+                 others => context%model%rigid_bodies(:context%rigid_bodies%n))
          if (context%around%first(node + 1) > context%around%first(node)) then
             wrong = id//' belongs to an element'
-         else if (any(others%node == node)) then
+         else if (rigid_body_of(context, node) > 0) then
             wrong = id//' is the reference node of '//trim(merge('surface', 'set    ', &
-                                                                 others(findloc(others%node, node, dim=1))%surface > 0))//' ' &
-                    //rigid_body_name(context%model, findloc(others%node, node, dim=1, kind=ip))
+                                                                 others(rigid_body_of(context, node))%surface > 0))//' ' &
+                    //rigid_body_name(context%model, rigid_body_of(context, node))
          else if (surface > 0 .and. any(others%surface == surface)) then
             wrong = 'surface '//context%model%surfaces(surface)%name//' has the reference node ' &
                     //to_text(context%model%mesh%node_id(others(findloc(others%surface, surface, dim=1))%node))
@@ -191,8 +198,40 @@ contains
       integer(ip), intent(in) :: node
 
       is_reference = .false.
-      if (allocated(context%model%rigid_bodies)) is_reference = any(context%model%rigid_bodies%node == node)
+      if (context%rigid_bodies%n > 0) is_reference = find_id(context%rigid_bodies, node) > 0
    end function is_reference
+
+   !> The rigid body of a reference node; 0: it is none.
+   pure integer(ip) function rigid_body_of(context, node) result(body)
+      type(build_context_t), intent(in) :: context
+      integer(ip), intent(in) :: node
+
+      body = find_id(context%rigid_bodies, node)
+   end function rigid_body_of
+
+   !> Appends a rigid body; where there is no room the list doubles, and is cut to size in the end.
+   pure subroutine append_rigid_body(context, body)
+      type(build_context_t), intent(inout) :: context
+      type(rigid_body_t), intent(in) :: body
+      type(rigid_body_t), allocatable :: longer(:)
+      logical :: known
+      integer(ip) :: n
+
+      n = context%rigid_bodies%n
+      if (n == size(context%model%rigid_bodies)) then
+         allocate (longer(max(1_ip, 2*n)))
+         longer(:n) = context%model%rigid_bodies
+         call move_alloc(longer, context%model%rigid_bodies)
+      end if
+      context%model%rigid_bodies(n + 1) = body
+      call add_id(context%rigid_bodies, body%node, n + 1, known)
+   end subroutine append_rigid_body
+
+   pure subroutine cut_rigid_bodies(context)
+      type(build_context_t), intent(inout) :: context
+
+      context%model%rigid_bodies = context%model%rigid_bodies(:context%rigid_bodies%n)
+   end subroutine cut_rigid_bodies
 
    !> The nodes that carry the motion of a rigid body: at its reference node, and at its size from that along 1 and along 2.
    pure function carriers_of(model, i) result(nodes)

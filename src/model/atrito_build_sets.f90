@@ -6,11 +6,12 @@ module atrito_build_sets
                           scope_shift, scope_text, model_number
    use atrito_diagnostics, only: report_error, report_note
    use atrito_build_context, only: build_context_t, place_text, ids_text, has_errors
-   use atrito_id_map, only: id_map_t, find_id
+   use atrito_id_map, only: id_map_t, find_id, is_whole_sequence
    use atrito_items, only: get_integer, has_option, option_text
    use atrito_kinds, only: ip
-   use atrito_number_list, only: number_list_t, add_number, add_numbers, numbers_of
+   use atrito_number_list, only: number_list_t, add_number, numbers_of
    use atrito_numbers, only: read_integer, NUMBER_OK
+   use atrito_ranges, only: ranges_t, add_range, add_numbers, add_ranges, count_numbers
    use atrito_references, only: get_id, find_nodes, find_elements
    use atrito_sets, only: set_list_t, find_set, grow_set
    use atrito_strings, only: to_text
@@ -96,6 +97,7 @@ contains
          do k = 1, 2
             range(k) = model_number(deck, deck%tokens(deck%lines(i)%first_token), range(k))
          end do
+         if (is_whole_sequence(map, range(1), range(2))) cycle
          do k = range(1), range(2), towards(range(1), range(2), range(3))
             known = find_id(map, k) > 0
             if (.not. known) return
@@ -107,7 +109,7 @@ contains
    subroutine read_set_card(i_card, context)
       integer(ip), intent(in) :: i_card                !< place in the deck's cards
       type(build_context_t), intent(inout) :: context
-      type(number_list_t) :: members
+      type(ranges_t) :: members
       type(id_map_t) :: none
       character(len=:), allocatable :: name, keyword
       integer(ip) :: i
@@ -131,9 +133,9 @@ contains
          end do
       end associate
       if (keyword == 'NSET') then
-         call put_node_set(context, i_card, name, numbers_of(members))
-      else if (members%n > 0 .or. find_set(context%lines%sets, name) == 0) then
-         call grow_set(context%model%element_sets, name, numbers_of(members))
+         call put_node_set(context, i_card, name, members)
+      else if (count_numbers(members) > 0 .or. find_set(context%lines%sets, name) == 0) then
+         call grow_set(context%model%element_sets, name, members)
       end if
    end subroutine read_set_card
 
@@ -141,26 +143,45 @@ contains
       type(data_line_t), intent(in) :: line
       integer(ip), intent(in) :: i_card
       type(build_context_t), intent(inout) :: context
-      type(number_list_t), intent(inout) :: members
+      type(ranges_t), intent(inout) :: members
       type(token_t) :: token
       integer(ip), allocatable :: found(:)
-      integer(ip) :: i
+      integer(ip) :: i, i_set
       logical :: ok
 
       do i = 1, line%n_tokens
          token = line_item(context%deck, line, i)
          if (keyword_name(context%deck%cards(i_card)) == 'NSET') then
+            i_set = set_of_item(context, token, context%model%node_sets)
+            if (i_set > 0) then
+               if (is_earlier(token, i_card, context)) call add_ranges(members, context%model%node_sets%sets(i_set)%members)
+               cycle
+            end if
             call find_nodes(context, token, found, ok, 'NSET')
-            if (ok) ok = is_earlier(token, i_card, context)
          else if (is_line_item(context, token)) then
             cycle                                      ! read_lines has it
          else
+            i_set = set_of_item(context, token, context%model%element_sets)
+            if (i_set > 0) then
+               call add_ranges(members, context%model%element_sets%sets(i_set)%members)
+               cycle
+            end if
             call find_elements(context, token, found, ok, 'ELSET')
             if (.not. ok) context%sections_undetermined = .true.
          end if
          if (ok) call add_numbers(members, found)
       end do
    end subroutine read_items
+
+   !> The set that an item names, whose members are taken over as they are; 0: there is none, or it is a number.
+   pure integer(ip) function set_of_item(context, token, sets) result(i)
+      type(build_context_t), intent(in) :: context
+      type(token_t), intent(in) :: token
+      type(set_list_t), intent(in) :: sets
+
+      i = 0
+      if (.not. is_id_token(context%deck, token)) i = find_set(sets, token_text(context%deck, token))
+   end function set_of_item
 
    !> A set in a list must be an earlier one: it could not be complete otherwise.
    logical function is_earlier(token, i_card, context)
@@ -187,7 +208,7 @@ contains
       type(id_map_t), intent(in) :: map, invalid       !< known numbers, and those that an error invalid
       type(id_map_t), intent(in) :: others             !< numbers that are passed over
       character(len=*), intent(in) :: noun             !< 'node' or 'element'
-      type(number_list_t), intent(inout) :: members
+      type(ranges_t), intent(inout) :: members
       character(len=:), allocatable :: keyword
       type(number_list_t) :: missing
       type(token_t) :: token
@@ -206,9 +227,13 @@ contains
                            'there are only '//to_text(map%n)//' '//noun//'s', expected='numbers that all exist', keyword=keyword)
          return
       end if
+      if (step == 1 .and. is_whole_sequence(map, first, last)) then
+         call add_range(members, find_id(map, first), find_id(map, last))
+         return
+      end if
       do k = first, last, step
          if (find_id(map, k) > 0) then
-            call add_number(members, find_id(map, k))
+            call add_range(members, find_id(map, k), find_id(map, k))
          else if (find_id(others, k) > 0) then
             cycle                                      ! a line, which read_lines has
          else if (find_id(invalid, k) == 0 .or. .not. has_errors()) then

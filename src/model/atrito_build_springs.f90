@@ -8,7 +8,7 @@ module atrito_build_springs
    use atrito_diagnostics, only: report_error
    use atrito_id_map, only: id_map_t, add_id, find_id
    use atrito_items, only: get_integer, get_real, option_text, option_word
-   use atrito_kinds, only: ip, wp
+   use atrito_kinds, only: ip, lp, wp
    use atrito_local_axes, only: dof_direction, has_local_axes
    use atrito_mesh, only: find_element
    use atrito_model, only: spring_t
@@ -16,6 +16,7 @@ module atrito_build_springs
    use atrito_references, only: get_id, find_one_node, report_unknown
    use atrito_refinement, only: is_refined
    use atrito_row_dofs, only: arm_of, check_row_dof, check_row_nodes, has_no_unknowns, row_node, row_terms, TERMS_A_DOF, WHAT_DOF
+   use atrito_sorting, only: first_at_least, sorted_places
    use atrito_strings, only: string_t, to_text
    implicit none (type, external)
    private
@@ -30,6 +31,8 @@ module atrito_build_springs
       logical, allocatable :: given(:)                 !< (sets) *SPRING has come
       logical, allocatable :: is_axial(:)              !< of each spring: SPRINGA
       type(token_t), allocatable :: place(:)           !< of each spring
+      integer(ip), allocatable :: sorted(:), first(:)  !< springs of set k: sorted(first(k):first(k + 1) - 1)
+      real(wp) :: weight = 1.0_wp                      !< of their rows [L^2]
    end type reading_t
 
 contains
@@ -61,6 +64,8 @@ contains
          call read_elements(context%deck%cards(i), context, reading)
       end do
       context%model%springs = context%model%springs(:reading%n)
+      call sort_by_sets(reading)
+      reading%weight = row_weight(context%model)
       names = names_of(reading%sets)
       allocate (reading%given(reading%sets%n), source=.false.)
       do i = 1, context%deck%n_cards
@@ -72,11 +77,24 @@ contains
       end associate
       do k = 1, reading%sets%n
          if (reading%given(k)) cycle
-         i = findloc(reading%set, k, dim=1, kind=ip)
-         if (i > 0) call report_error(context%deck, reading%place(i), 'E-SPRING', 'the springs of '//names(k)%s// &
-                                      ' have no *SPRING', expected='*SPRING, ELSET='//names(k)%s, keyword='SPRING')
+         i = reading%first(k)
+         if (reading%first(k + 1) > i) call report_error(context%deck, reading%place(reading%sorted(i)), 'E-SPRING', &
+                                                         'the springs of '//names(k)%s//' have no *SPRING', &
+                                                         expected='*SPRING, ELSET='//names(k)%s, keyword='SPRING')
       end do
    end subroutine build_springs
+
+   !> Lists the springs of each set.
+   pure subroutine sort_by_sets(reading)
+      type(reading_t), intent(inout) :: reading
+      integer(lp), allocatable :: sets(:)
+      integer(ip) :: k
+
+      sets = int(reading%set(:reading%n), lp)
+      reading%sorted = sorted_places(sets)
+      sets = sets(reading%sorted)
+      reading%first = [(first_at_least(sets, int(k, lp)), k=1, reading%sets%n + 1)]
+   end subroutine sort_by_sets
 
    !> *ELEMENT, TYPE=SPRING1 or SPRING2: number, one node or two.
    subroutine read_elements(card, context, reading)
@@ -162,6 +180,7 @@ contains
       type(reading_t), intent(inout) :: reading
       character(len=:), allocatable :: name
       type(token_t) :: place
+      integer(ip), allocatable :: places(:)            ! of the springs of the set
       integer(ip) :: set, dof(2)
       real(wp) :: stiffness
       logical :: found, ok
@@ -180,18 +199,19 @@ contains
       ok = .not. reading%given(set)
       reading%given(set) = .true.
       if (.not. ok) return
-      if (any(reading%is_axial .and. reading%set == set)) then
+      places = reading%sorted(reading%first(set):reading%first(set + 1) - 1)
+      if (any(reading%is_axial(places))) then
          call read_axial(card, context, stiffness, ok)
          dof = 0
-         if (any(.not. reading%is_axial .and. reading%set == set)) then
+         if (.not. all(reading%is_axial(places))) then
             ok = .false.
             call report_error(context%deck, place, 'E-SPRING', 'the springs of '//name//' are SPRINGA and others', &
                               expected='a set for each type', keyword='SPRING')
          end if
       else
-         call read_constants(card, context, pack_places(reading%set == set), dof, stiffness, ok)
+         call read_constants(card, context, places, dof, stiffness, ok)
       end if
-      if (ok) call add_springs(context, pack_places(reading%set == set), reading%place, dof, stiffness)
+      if (ok) call add_springs(context, places, reading%place, dof, stiffness, reading%weight)
    end subroutine read_spring_card
 
    subroutine read_constants(card, context, places, dof, stiffness, ok)
@@ -279,11 +299,12 @@ contains
 
    !> Rows of the springs at some places. The first end gets the direction, the second one the opposite; along SPRINGA both point
    !> outwards, so that the force is a tension. An end that is the ground has no part in the row.
-   subroutine add_springs(context, places, tokens, dof, stiffness)
+   subroutine add_springs(context, places, tokens, dof, stiffness, weight)
       type(build_context_t), intent(inout) :: context
       integer(ip), intent(in) :: places(:), dof(2)
       type(token_t), intent(in) :: tokens(:)           !< of all springs
       real(wp), intent(in) :: stiffness
+      real(wp), intent(in) :: weight                   !< of the rows [L^2]
       integer(ip) :: i, group
       real(wp) :: vectors(2, 2)
       logical :: ok
@@ -295,17 +316,18 @@ contains
             spring%stiffness = stiffness
             call find_directions(context, spring, tokens(places(i)), vectors, ok)
             if (ok) call ground_ends(context, tokens(places(i)), spring, vectors, ok)
-            if (ok) call add_spring(context, spring, vectors, [ROW_SPRING, group, places(i)])
+            if (ok) call add_spring(context, spring, vectors, [ROW_SPRING, group, places(i)], weight)
          end associate
       end do
    end subroutine add_springs
 
    !> The row of a spring. One of rotations takes them times an arm: its force is a moment over that.
-   subroutine add_spring(context, spring, vectors, identity)
+   subroutine add_spring(context, spring, vectors, identity, weight)
       type(build_context_t), intent(inout) :: context
       type(spring_t), intent(inout) :: spring
       real(wp), intent(in) :: vectors(2, 2)            !< of its ends, where they move along them
       integer(ip), intent(in) :: identity(3)
+      real(wp), intent(in) :: weight                   !< of the row [L^2]
       integer(ip) :: i, n, nodes(TERMS_A_DOF, 2)
       real(wp) :: terms(2, TERMS_A_DOF, 2)
 
@@ -322,7 +344,7 @@ contains
          end if
       end do
       call add_row([nodes(:, :n)], reshape(terms(:, :, :n), [2_ip, TERMS_A_DOF*n]), 0.0_wp, spring%arm**2/spring%stiffness, &
-                   row_weight(context%model), identity, context%model%bilateral)
+                   weight, identity, context%model%bilateral)
    end subroutine add_spring
 
    subroutine find_directions(context, spring, place, vectors, ok)
@@ -386,13 +408,5 @@ contains
       spring%node = [spring%node(i), 0_ip]
       spring%dof = [spring%dof(i), 0_ip]
    end subroutine ground_ends
-
-   pure function pack_places(mask) result(places)
-      logical, intent(in) :: mask(:)
-      integer(ip), allocatable :: places(:)
-      integer(ip) :: i
-
-      places = pack([(i, i=1, size(mask, kind=ip))], mask)
-   end function pack_places
 
 end module atrito_build_springs

@@ -8,6 +8,7 @@ module atrito_build_steps
    use atrito_items, only: find_option, get_real, has_option, option_integer, option_word
    use atrito_kinds, only: ip, wp
    use atrito_model, only: model_t, step_t, increments_t
+   use atrito_name_list, only: name_list_t
    use atrito_strings, only: to_text
    implicit none (type, external)
    private
@@ -28,8 +29,10 @@ contains
    !> The steps, with nothing in them yet; one at least.
    subroutine build_steps(context)
       type(build_context_t), intent(inout) :: context
+      integer(ip), allocatable :: static_card(:)       ! of each step; 0: outside of steps
       integer(ip) :: i
 
+      allocate (static_card(0:max(1_ip, maxval(context%deck%cards(:context%deck%n_cards)%step))), source=0_ip)
       allocate (context%model%steps(max(1_ip, maxval(context%deck%cards(:context%deck%n_cards)%step))))
       do i = 1, size(context%model%steps, kind=ip)
          context%model%steps(i)%title = ''
@@ -42,7 +45,7 @@ contains
                call read_nlgeom(context%deck, card, context%model)
                call check_perturbation(context%deck, card, size(context%model%steps, kind=ip))
             case ('STATIC')
-               call read_static_card(context%deck, i, step%increments)
+               call read_static_card(context%deck, i, static_card(card%step), step%increments)
             case ('RESTART')
                call read_restart_card(context%deck, card, context%model)
             end select
@@ -123,20 +126,20 @@ contains
    end function line_text
 
    !> Without a data line the step is one increment, which is not cut.
-   subroutine read_static_card(deck, i, increments)
+   subroutine read_static_card(deck, i, first, increments)
       type(deck_t), intent(in) :: deck
       integer(ip), intent(in) :: i                     !< the card
+      integer(ip), intent(inout) :: first              !< the first of its step; 0: none so far
       type(increments_t), intent(inout) :: increments
-      integer(ip) :: k
 
       associate (card => deck%cards(i))
-         do k = 1, i - 1
-            if (keyword_name(deck%cards(k)) /= 'STATIC' .or. deck%cards(k)%step /= card%step .or. .not. card%ok) cycle
+         if (first > 0 .and. card%ok) then
             call report_error(deck, card%place, 'E-TWICE', 'the step has two *STATIC, the first in '// &
-                              place_text(deck, deck%cards(k)%place, card%place), expected='one *STATIC in a step', &
+                              place_text(deck, deck%cards(first)%place, card%place), expected='one *STATIC in a step', &
                               keyword='STATIC')
             return
-         end do
+         end if
+         if (first == 0) first = i
          if (card%n_lines == 0) return
          if (.not. deck%lines(card%first_line)%ok) return
          call read_times(deck, deck%lines(card%first_line), has_option(deck, card, 'DIRECT'), increments)
@@ -265,12 +268,39 @@ contains
 
       context%open%number = number
       context%open%amplitude = 0
+      context%open%cut_names = name_list_t()
       context%open%first_token = huge(1_ip)
-      do i = 1, context%deck%n_cards
+      call find_cards(context)
+      do i = context%open%first_card, context%open%last_card
          if (context%deck%cards(i)%step /= number .or. context%deck%cards(i)%n_lines == 0) cycle
          context%open%first_token = context%deck%lines(context%deck%cards(i)%first_line)%first_token
          return
       end do
    end subroutine open_step
+
+   !> Where the cards of the open step are: steps are opened one after the other, and their cards stand together. What stands
+   !> outside of all steps is read with the first.
+   pure subroutine find_cards(context)
+      type(build_context_t), intent(inout) :: context
+
+      associate (open => context%open, cards => context%deck%cards, n => context%deck%n_cards)
+         if (open%number == 1) then
+            open%first_card = 1
+            open%last_card = n
+            return
+         end if
+         if (open%number == 2) open%last_card = 0
+         open%first_card = open%last_card + 1
+         do while (open%first_card < n)
+            if (cards(open%first_card)%step == open%number) exit
+            open%first_card = open%first_card + 1
+         end do
+         open%last_card = open%first_card
+         do while (open%last_card < n)
+            if (cards(open%last_card + 1)%step /= open%number) exit
+            open%last_card = open%last_card + 1
+         end do
+      end associate
+   end subroutine find_cards
 
 end module atrito_build_steps

@@ -142,7 +142,7 @@ contains
       type(by_number_t), intent(inout) :: numbered
       integer(ip) :: i, k
 
-      do i = 1, context%deck%n_cards
+      do i = merge(1_ip, context%open%first_card, step == 0), merge(context%deck%n_cards, context%open%last_card, step == 0)
          associate (card => context%deck%cards(i))
             if (keyword_name(card) /= 'BOUNDARY' .or. card%step /= step) cycle
             if (card%level == LEVEL_MODEL) call refuse_step_options(context%deck, card)

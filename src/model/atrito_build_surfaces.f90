@@ -6,21 +6,25 @@ module atrito_build_surfaces
    use atrito_deck, only: deck_t, card_t, data_line_t, token_t, token_text, line_item, is_id_token, keyword_name
    use atrito_diagnostics, only: report_error
    use atrito_build_context, only: build_context_t, block_t, BLOCK_SIDES, invalidate_name, place_text, keep_token, count_cards, &
-                                   ids_text
+                                   ids_text, MOST_IDS
    use atrito_element_table, only: MOST_SIDES
    use atrito_faces, only: is_outer_face, outer_faces, add_face, face_list_t
    use atrito_id_map, only: id_map_t, add_id
    use atrito_items, only: option_text, option_word
    use atrito_kinds, only: ip, wp
-   use atrito_mesh, only: elements_of_square
+   use atrito_mesh, only: elements_of_square, side_count
+   use atrito_messages, only: has_room, SEVERITY_ERROR
    use atrito_model, only: surface_t, SURFACE_SEGMENTS
    use atrito_motion, only: motion_t, moved
-   use atrito_name_list, only: add_name, find_name
+   use atrito_name_list, only: add_name, find_name, has_name
    use atrito_number_list, only: number_list_t, add_number, numbers_of
    use atrito_numbers, only: read_integer
+   use atrito_ranges, only: numbers_among
    use atrito_references, only: find_elements, check_faces
    use atrito_refined_members, only: fine_elements, is_on_side
-   use atrito_sets, only: find_set
+   use atrito_refinement, only: is_refined
+   use atrito_sets, only: find_set, member_count, members_of
+   use atrito_sorting, only: each_once
    use atrito_strings, only: same_name, to_text
    implicit none (type, external)
    private
@@ -40,13 +44,37 @@ contains
          call put_block_surfaces(context%blocks(i), context)
       end do
       call put_curve_surfaces(context)
+      call list_sections(context)
       do i = 1, context%deck%n_cards
          if (keyword_name(context%deck%cards(i)) == 'SURFACE') call read_surface_card(context%deck%cards(i), context)
       end do
-      if (context%surface_names%n < size(context%model%surfaces)) then
-         context%model%surfaces = context%model%surfaces(:context%surface_names%n)
-      end if
+      call cut_to_size(context%surface_names%n, context%model%surfaces)
    end subroutine build_surfaces
+
+   !> The first n surfaces, handed on without a copy: they may be many.
+   pure subroutine cut_to_size(n, surfaces)
+      integer(ip), intent(in) :: n
+      type(surface_t), allocatable, intent(inout) :: surfaces(:)
+      type(surface_t), allocatable :: cut(:)
+      integer(ip) :: i
+
+      if (n == size(surfaces)) return
+      allocate (cut(n))
+      do i = 1, n
+         associate (from => surfaces(i), to => cut(i))
+            call move_alloc(from%name, to%name)
+            to%kind = from%kind
+            to%is_rigid_body = from%is_rigid_body
+            to%faces%n = from%faces%n
+            call move_alloc(from%faces%element, to%faces%element)
+            call move_alloc(from%faces%face, to%faces%face)
+            call move_alloc(from%points, to%points)
+            call move_alloc(from%is_arc, to%is_arc)
+            call move_alloc(from%centre, to%centre)
+         end associate
+      end do
+      call move_alloc(cut, surfaces)
+   end subroutine cut_to_size
 
    !> The four sides of a block, and its part of the sides of all copies; faces that another block has joined are left out.
    subroutine put_block_surfaces(block, context)
@@ -123,7 +151,7 @@ contains
       if (.not. ok) then
          ! the reader has not checked the words of its lines
       else if (option_word(context%deck, card, 'TYPE') == 'ELEMENT') then
-         call read_faces(card, context, surface%faces, ok)
+         call read_faces(card, context, has_name(context%section_surfaces, surface%name), surface%faces, ok)
       else if (option_word(context%deck, card, 'TYPE') == 'NODE') then
          call take_node_surface(surface%name, context, surface%faces, ok)
       else
@@ -135,44 +163,150 @@ contains
       call add_surface(context, surface, place)
    end subroutine read_surface_card
 
-   subroutine read_faces(card, context, faces, ok)
+   subroutine read_faces(card, context, is_cut, faces, ok)
       type(card_t), intent(in) :: card
-      type(build_context_t), intent(in) :: context
+      type(build_context_t), intent(inout) :: context
+      logical, intent(in) :: is_cut                    !< a section of a bolt: faces may lie inside the mesh
       type(face_list_t), intent(inout) :: faces
       logical, intent(out) :: ok
       integer(ip), allocatable :: elements(:)
       integer(ip) :: i
-      logical :: good, is_cut
+      logical :: good, is_outline
 
       ok = .true.
-      is_cut = is_section(context, card)
       do i = card%first_line, card%first_line + card%n_lines - 1
          good = context%deck%lines(i)%ok
          if (good) good = is_no_node_set(context, line_item(context%deck, context%deck%lines(i), 1_ip))
-         if (good) call find_elements(context, line_item(context%deck, context%deck%lines(i), 1_ip), elements, good, 'SURFACE')
-         if (good) call take_faces(context%deck%lines(i), context, elements, is_cut, faces, good)
+         is_outline = good .and. .not. is_cut
+         if (is_outline) is_outline = is_outline_of_set(context, context%deck%lines(i))
+         if (is_outline) then
+            call take_outline(context%deck%lines(i), context, faces, good)
+         else
+            if (good) call find_elements(context, line_item(context%deck, context%deck%lines(i), 1_ip), elements, good, 'SURFACE')
+            if (good) call take_faces(context%deck%lines(i), context, elements, is_cut, faces, good)
+         end if
          ok = ok .and. good
       end do
       call keep_once(faces)
    end subroutine read_faces
 
-   !> Whether a *PRE-TENSION SECTION cuts along a surface: its faces lie inside the mesh.
-   logical function is_section(context, card)
-      type(build_context_t), intent(in) :: context
-      type(card_t), intent(in) :: card               !< of the surface
-      character(len=:), allocatable :: name, surface
+   !> Lists the surfaces along which a *PRE-TENSION SECTION cuts: their faces lie inside the mesh.
+   subroutine list_sections(context)
+      type(build_context_t), intent(inout) :: context
+      character(len=:), allocatable :: surface
       integer(ip) :: i
       logical :: found
 
-      is_section = .false.
-      call option_text(context%deck, card, 'NAME', name, found)
       do i = 1, context%deck%n_cards
-         if (is_section) return
          if (keyword_name(context%deck%cards(i)) /= 'PRE-TENSION SECTION') cycle
          call option_text(context%deck, context%deck%cards(i), 'SURFACE', surface, found)
-         is_section = found .and. same_name(name, surface)
+         if (found) call add_name(context%section_surfaces, surface)
       end do
-   end function is_section
+   end subroutine list_sections
+
+   !> The faces that a line asks for are those of a set on the outline: found without a look at each element, of which a large set
+   !> has most inside.
+   logical function is_outline_of_set(context, line)
+      type(build_context_t), intent(inout) :: context
+      type(data_line_t), intent(in) :: line
+
+      is_outline_of_set = .not. is_id_token(context%deck, line_item(context%deck, line, 1_ip))
+      if (is_outline_of_set) is_outline_of_set = set_of(context, line) > 0
+      if (.not. is_outline_of_set) return
+      call list_outline(context)
+      is_outline_of_set = face_of(context, line) == 0 .or. &
+                          (.not. is_refined(context%refinement) .and. face_of(context, line) <= context%least_sides)
+   end function is_outline_of_set
+
+   subroutine list_outline(context)
+      type(build_context_t), intent(inout) :: context
+      type(face_list_t) :: outer
+      integer(ip) :: i
+
+      if (allocated(context%outer_elements)) return
+      associate (mesh => context%model%mesh)
+         outer = outer_faces(mesh, context%around, [(i, i=1, mesh%n_elements)])
+         context%outer_elements = each_once(outer%element(:outer%n))
+         context%least_sides = MOST_SIDES
+         do i = 1, mesh%n_elements
+            context%least_sides = min(context%least_sides, side_count(mesh, i))
+         end do
+      end associate
+   end subroutine list_outline
+
+   pure integer(ip) function set_of(context, line)
+      type(build_context_t), intent(in) :: context
+      type(data_line_t), intent(in) :: line
+
+      set_of = find_set(context%model%element_sets, token_text(context%deck, line_item(context%deck, line, 1_ip)))
+   end function set_of
+
+   !> The face that a line names, S1..S4, which the reader has checked; 0: none.
+   pure integer(ip) function face_of(context, line) result(face)
+      type(build_context_t), intent(in) :: context
+      type(data_line_t), intent(in) :: line
+      character(len=:), allocatable :: word
+      integer :: outcome
+
+      face = 0
+      word = token_text(context%deck, line_item(context%deck, line, 2_ip))
+      if (len(word) > 0) call read_integer(word(2:), face, outcome)
+   end function face_of
+
+   !> Takes the faces of a set's elements that lie on the outline; one that is asked for and does not is an error.
+   subroutine take_outline(line, context, faces, ok)
+      type(data_line_t), intent(in) :: line
+      type(build_context_t), intent(in) :: context
+      type(face_list_t), intent(inout) :: faces
+      logical, intent(out) :: ok
+      type(face_list_t) :: outer
+      integer(ip) :: i, n, face
+
+      face = face_of(context, line)
+      n = faces%n
+      associate (set => context%model%element_sets%sets(set_of(context, line)))
+         outer = outer_faces(context%model%mesh, context%around, numbers_among(set%members, context%outer_elements))
+         do i = 1, outer%n
+            if (face == 0 .or. outer%face(i) == face) call add_face(faces, outer%element(i), outer%face(i))
+         end do
+         n = member_count(set) - (faces%n - n)
+         ok = face == 0 .or. n == 0
+         if (.not. ok .and. has_room(SEVERITY_ERROR)) then
+            call report_inside(context, line, first_inside(context, members_of(set), face), n)
+         else if (.not. ok) then
+            call report_inside(context, line, [integer(ip) ::], n)
+         end if
+      end associate
+   end subroutine take_outline
+
+   !> Numbers of the first elements whose face lies inside the mesh: as many as a message tells.
+   function first_inside(context, elements, face) result(ids)
+      type(build_context_t), intent(in) :: context
+      integer(ip), intent(in) :: elements(:), face
+      integer(ip), allocatable :: ids(:)
+      type(number_list_t) :: inside
+      integer(ip) :: i
+
+      do i = 1, size(elements, kind=ip)
+         if (is_outer_face(context%model%mesh, context%around, elements(i), face)) cycle
+         call add_number(inside, context%model%mesh%element_id(elements(i)))
+         if (inside%n == MOST_IDS) exit
+      end do
+      ids = numbers_of(inside)
+   end function first_inside
+
+   subroutine report_inside(context, line, ids, n)
+      type(build_context_t), intent(in) :: context
+      type(data_line_t), intent(in) :: line
+      integer(ip), intent(in) :: ids(:)                !< of elements, the first MOST_IDS at least
+      integer(ip), intent(in) :: n                     !< how many there are
+      type(token_t) :: place
+
+      place = line_item(context%deck, line, 2_ip)
+      call report_error(context%deck, place, 'E-FACE', 'face '//token_text(context%deck, place)// &
+                        ' lies inside the mesh, of element '//ids_text(ids, merge(n, 0_ip, size(ids) > 0)), &
+                        expected='faces on the outline of the body; without a face, all of them', keyword='SURFACE')
+   end subroutine report_inside
 
    !> A node set makes a surface of another type.
    logical function is_no_node_set(context, token)
@@ -227,9 +361,7 @@ contains
       end do
       ok = inside%n == 0
       if (ok) return
-      call report_error(context%deck, line_item(context%deck, line, 2_ip), 'E-FACE', 'face '//word// &
-                        ' lies inside the mesh, of element '//ids_text(numbers_of(inside)), &
-                        expected='faces on the outline of the body; without a face, all of them', keyword='SURFACE')
+      call report_inside(context, line, numbers_of(inside), inside%n)
    end subroutine take_faces
 
    !> START, LINE and CIRCL.

@@ -96,7 +96,7 @@ contains
       type(temperatures_t), intent(inout) :: temperatures
       integer(ip) :: i, k
 
-      do i = 1, context%deck%n_cards
+      do i = merge(1_ip, context%open%first_card, step == 0), merge(context%deck%n_cards, context%open%last_card, step == 0)
          associate (card => context%deck%cards(i))
             if (keyword_name(card) /= temperatures%keyword .or. card%step /= step) cycle
             do k = card%first_line, card%first_line + card%n_lines - 1

@@ -2,9 +2,11 @@
 !> take their place.
 module atrito_carry_on
    use atrito_amplitudes, only: factor_at, time_before
-   use atrito_build_context, only: build_context_t, carried_t
+   use atrito_build_context, only: build_context_t, carried_t, replaced_t
    use atrito_deck, only: token_t, keyword_name
    use atrito_diagnostics, only: report_error
+   use atrito_growth, only: resize
+   use atrito_id_map, only: id_map_t, add_id
    use atrito_items, only: has_option, option_text, option_word
    use atrito_kinds, only: ip, wp
    use atrito_load_lists, only: replace_nodal_value, replace_element_load
@@ -35,7 +37,7 @@ contains
 
       removes_all = .false.
       is_first = .true.
-      do i = 1, context%deck%n_cards
+      do i = context%open%first_card, context%open%last_card
          if (context%deck%cards(i)%step /= context%open%number) cycle
          if (keyword_name(context%deck%cards(i)) /= keyword .or. .not. context%deck%cards(i)%ok) cycle
          is_new = option_word(context%deck, context%deck%cards(i), 'OP') == 'NEW'
@@ -74,8 +76,8 @@ contains
       integer(ip) :: amplitude, i, n
       real(wp) :: value
 
-      factors = last_factors(context)
       if (.not. allocated(list%value)) return
+      factors = last_factors(context)
       if (.not. allocated(list%from)) allocate (list%from(size(list%value)))
       if (.not. allocated(list%amplitude)) allocate (list%amplitude(size(list%value)), source=0_ip)
       n = 0
@@ -180,10 +182,11 @@ contains
       type(carried_t), intent(inout) :: carried
       type(nodal_values_t), intent(inout) :: list
       integer(ip), intent(out) :: place
-      integer(ip) :: i
+      integer(ip) :: i, before
 
       place = 0
       if (carried%n == 0) return
+      before = 0
       i = carried%head(dof_place)
       do while (i > 0)
          if (.not. carried%is_given(i)) then
@@ -192,7 +195,7 @@ contains
             if (amplitude > 0) list%from(i) = 0.0_wp
             if (place == 0) place = i
          end if
-         i = carried%next(i)
+         call step_on(dof_place, carried, before, i)
       end do
    end subroutine take_force_place
 
@@ -209,26 +212,57 @@ contains
       integer(ip), intent(in) :: element, face, label, amplitude, line
       type(carried_t), intent(inout) :: carried
       type(element_load_t), intent(inout) :: list
-      integer(ip), allocatable, intent(inout) :: replaced(:, :)
+      type(replaced_t), intent(inout) :: replaced
       integer(ip), intent(out) :: place
-      integer(ip) :: i
+      integer(ip) :: i, before
 
       place = 0
       if (carried%n == 0) return
+      before = 0
       i = carried%head(element)
       do while (i > 0)
          if (list%face(i) == face .and. carried%label(i) == label .and. .not. carried%is_given(i)) then
             carried%is_given(i) = .true.
-            if (.not. (is_nothing(list%value(:, i), list%kind(i)) .or. & ! OP=NEW
-                       any(replaced(1, :) == list%line(i) .and. replaced(2, :) == line))) then
-               replaced = reshape([replaced, list%line(i), line], [2, size(replaced, 2) + 1])
-            end if
+            if (.not. is_nothing(list%value(:, i), list%kind(i))) call note_replaced(list%line(i), line, replaced) ! else OP=NEW
             call remove_load(list, i)
             if (amplitude > 0) list%from(:, i) = list%value(:, i)
             if (place == 0) place = i
          end if
-         i = carried%next(i)
+         call step_on(element, carried, before, i)
       end do
    end subroutine take_load_place
+
+   !> Goes on to the next of what is carried on at a place; who has been given leaves the list, or every line would pass by it.
+   pure subroutine step_on(place, carried, before, i)
+      integer(ip), intent(in) :: place
+      type(carried_t), intent(inout) :: carried
+      integer(ip), intent(inout) :: before             !< the last that stays in the list; 0: none so far
+      integer(ip), intent(inout) :: i
+
+      if (.not. carried%is_given(i)) then
+         before = i
+      else if (before > 0) then
+         carried%next(before) = carried%next(i)
+      else
+         carried%head(place) = carried%next(i)
+      end if
+      i = carried%next(i)
+   end subroutine step_on
+
+   !> Each line that ends is told once of each line that takes its place.
+   pure subroutine note_replaced(old, new, replaced)
+      integer(ip), intent(in) :: old, new              !< lines of the deck
+      type(replaced_t), intent(inout) :: replaced
+      logical :: known
+
+      if (new /= replaced%by) replaced%before = id_map_t()
+      replaced%by = new
+      call add_id(replaced%before, old, 1_ip, known)
+      if (known) return
+      if (.not. allocated(replaced%lines)) allocate (replaced%lines(2, 16))
+      if (replaced%n == size(replaced%lines, 2)) call resize(replaced%lines, replaced%n, 2*replaced%n)
+      replaced%n = replaced%n + 1
+      replaced%lines(:, replaced%n) = [old, new]
+   end subroutine note_replaced
 
 end module atrito_carry_on

@@ -5,6 +5,7 @@ module atrito_check_mesh
    use atrito_diagnostics, only: report_error, report_warning, report_note, report_deck_error
    use atrito_build_context, only: build_context_t, place_token, ids_text, has_errors
    use atrito_element_table, only: SHAPES, DEGREE_OF, can_average
+   use atrito_id_map, only: find_id
    use atrito_kinds, only: ip, wp
    use atrito_mesh, only: mesh_t, side_count, face_end, has_side, middle_node
    use atrito_model, only: model_t, FORMULATION_STANDARD, FORMULATION_BBAR
@@ -165,7 +166,7 @@ contains
       first = 0
       do i = 1, model%mesh%n_nodes
          if (context%around%first(i + 1) > context%around%first(i)) cycle
-         if (any(model%rigid_bodies%node == i)) cycle
+         if (find_id(context%rigid_bodies, i) > 0) cycle
          if (first == 0) first = i
          call add_number(loose, model%mesh%node_id(i))
       end do

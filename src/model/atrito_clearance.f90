@@ -1,13 +1,15 @@
 !> *CLEARANCE: initial gaps that are given, whatever the coordinates say; negative ones are a press fit.
 module atrito_clearance
-   use atrito_build_context, only: build_context_t, place_text
+   use atrito_build_context, only: build_context_t, count_cards, place_text
    use atrito_deck, only: card_t, data_line_t, token_t, line_item, keyword_name
    use atrito_diagnostics, only: report_error
-   use atrito_faces, only: face_list_t
+   use atrito_growth, only: make_room
+   use atrito_id_map, only: id_map_t, add_id, find_id
    use atrito_items, only: get_real, has_option, option_real, option_text
    use atrito_kinds, only: ip, wp
-   use atrito_mesh, only: mesh_t, face_nodes
-   use atrito_pair_names, only: find_pair
+   use atrito_mesh, only: face_nodes
+   use atrito_number_list, only: number_list_t, add_numbers, numbers_of
+   use atrito_pair_names, only: pair_index_t, index_pairs, find_pair
    use atrito_points, only: contact_points_t
    use atrito_references, only: find_nodes
    use atrito_refined_members, only: edge_value
@@ -35,36 +37,53 @@ contains
    subroutine read_clearances(context, list)
       type(build_context_t), intent(inout) :: context
       type(clearance_t), allocatable, intent(out) :: list(:)
+      type(clearance_t), allocatable :: longest(:)
       type(clearance_t) :: one
-      integer(ip) :: i, k
+      type(pair_index_t) :: pairs
+      integer(ip), allocatable :: of_pair(:)           ! place in the list; 0: none so far
+      integer(ip) :: i, k, n
       logical :: ok
 
-      allocate (list(0))
+      n = count_cards(context%deck, 'CLEARANCE')
+      allocate (list(n))
+      if (n == 0) return
+      call index_pairs(context, pairs)
+      allocate (of_pair(size(context%model%pairs)), source=0_ip)
+      n = 0
       do i = 1, context%deck%n_cards
          if (keyword_name(context%deck%cards(i)) /= 'CLEARANCE') cycle
-         call read_card(context%deck%cards(i), context, one, ok)
+         call read_card(context%deck%cards(i), context, pairs, one, ok)
          if (.not. ok) cycle
-         k = findloc(list%pair, one%pair, dim=1, kind=ip)
+         k = of_pair(one%pair)
          if (k > 0) then
             call report_error(context%deck, one%place, 'E-TWICE', 'this pair has its clearance already, in '// &
                               place_text(context%deck, list(k)%place, one%place), expected='one *CLEARANCE a pair', &
                               keyword='CLEARANCE')
             cycle
          end if
-         list = [list, one]
+         n = n + 1
+         list(n) = one
+         of_pair(one%pair) = n
          context%model%pairs(one%pair)%gap_is_given = .true.
       end do
+      if (n == size(list)) return
+      longest = list(:n)
+      call move_alloc(longest, list)
    end subroutine read_clearances
 
-   subroutine read_card(card, context, one, ok)
+   subroutine read_card(card, context, pairs, one, ok)
       type(card_t), intent(in) :: card
       type(build_context_t), intent(in) :: context
+      type(pair_index_t), intent(in) :: pairs
       type(clearance_t), intent(out) :: one
       logical, intent(out) :: ok
+      type(number_list_t) :: nodes
+      type(id_map_t) :: of_slave
+      real(wp), allocatable :: values(:)
       integer(ip) :: i
       logical :: has_table
 
-      call find_pair_of_card(card, context, one)
+      call find_pair_of_card(card, context, pairs, one)
       has_table = has_option(context%deck, card, 'TABULAR')
       call option_real(context%deck, card, 'VALUE', WHAT, one%value, one%is_uniform)
       ok = card%ok
@@ -80,15 +99,23 @@ contains
       end if
       allocate (one%node(0), one%values(0))
       if (one%is_uniform) return
+      associate (faces => context%model%surfaces(context%model%pairs(one%pair)%slave)%faces)
+         do i = 1, faces%n
+            call list_nodes(face_nodes(context%model%mesh, faces%element(i), faces%face(i)), of_slave)
+         end do
+      end associate
       do i = card%first_line, card%first_line + card%n_lines - 1
-         call read_line(context%deck%lines(i), context, one, ok)
+         call read_line(context%deck%lines(i), context, of_slave, nodes, values, ok)
       end do
+      one%node = numbers_of(nodes)
+      if (nodes%n > 0) one%values = values(:nodes%n)
    end subroutine read_card
 
    !> The pair of the surfaces MASTER and SLAVE.
-   subroutine find_pair_of_card(card, context, one)
+   subroutine find_pair_of_card(card, context, pairs, one)
       type(card_t), intent(in) :: card
       type(build_context_t), intent(in) :: context
+      type(pair_index_t), intent(in) :: pairs
       type(clearance_t), intent(inout) :: one
       type(string_t) :: names(2)
       type(token_t) :: places(2)
@@ -98,14 +125,16 @@ contains
       call option_text(context%deck, card, 'MASTER', names(2)%s, found(2), places(2))
       if (.not. all(found)) return
       one%place = places(1)
-      call find_pair(context, names, places, 'SLAVE='//names(2)%s//', MASTER='//names(1)%s, 'CLEARANCE', one%pair)
+      call find_pair(context, pairs, names, places, 'SLAVE='//names(2)%s//', MASTER='//names(1)%s, 'CLEARANCE', one%pair)
    end subroutine find_pair_of_card
 
    !> node or set, gap.
-   subroutine read_line(line, context, one, ok)
+   subroutine read_line(line, context, of_slave, all_nodes, values, ok)
       type(data_line_t), intent(in) :: line
       type(build_context_t), intent(in) :: context
-      type(clearance_t), intent(inout) :: one
+      type(id_map_t), intent(in) :: of_slave           !< its nodes
+      type(number_list_t), intent(inout) :: all_nodes  !< of the lines so far
+      real(wp), allocatable, intent(inout) :: values(:) !< their gaps [L]; as many are in use
       logical, intent(inout) :: ok
       integer(ip), allocatable :: nodes(:)
       real(wp) :: gap
@@ -118,32 +147,27 @@ contains
       call get_real(context%deck, line_item(context%deck, line, 2_ip), WHAT, gap, good(2), keyword='CLEARANCE')
       ok = ok .and. all(good)
       if (.not. all(good)) return
-      associate (slave => context%model%surfaces(context%model%pairs(one%pair)%slave)%faces)
-         nodes = pack(nodes, is_of_faces(context%model%mesh, slave, nodes))
-      end associate
+      nodes = pack(nodes, [(find_id(of_slave, nodes(i)) > 0, i=1, size(nodes, kind=ip))])
       if (size(nodes) == 0) then
          ok = .false.
          call report_error(context%deck, line_item(context%deck, line, 1_ip), 'E-NODE', 'no node of the slave is meant', &
                            expected='a node of the slave, or a set with nodes of it', keyword='CLEARANCE')
       end if
-      one%node = [one%node, nodes]
-      one%values = [one%values, [(gap, i=1, size(nodes))]]
+      call make_room(values, all_nodes%n, all_nodes%n + size(nodes, kind=ip))
+      values(all_nodes%n + 1:all_nodes%n + size(nodes)) = gap
+      call add_numbers(all_nodes, nodes)
    end subroutine read_line
 
-   !> Which nodes belong to some faces.
-   pure function is_of_faces(mesh, faces, nodes) result(is_there)
-      type(mesh_t), intent(in) :: mesh
-      type(face_list_t), intent(in) :: faces
+   pure subroutine list_nodes(nodes, map)
       integer(ip), intent(in) :: nodes(:)
-      logical :: is_there(size(nodes)), mark(mesh%n_nodes)
+      type(id_map_t), intent(inout) :: map             !< it holds them in the end
+      logical :: known
       integer(ip) :: i
 
-      mark = .false.
-      do i = 1, faces%n
-         mark(face_nodes(mesh, faces%element(i), faces%face(i))) = .true.
+      do i = 1, size(nodes, kind=ip)
+         call add_id(map, nodes(i), 1_ip, known)
       end do
-      is_there = mark(nodes)
-   end function is_of_faces
+   end subroutine list_nodes
 
    !> Gives the points of the pairs their gaps.
    subroutine set_clearances(list, n_nodes, refinement, points)

@@ -7,7 +7,7 @@ module atrito_interference
    use atrito_diagnostics, only: report_error, report_note
    use atrito_items, only: find_option, get_name, has_option
    use atrito_kinds, only: ip, wp
-   use atrito_pair_names, only: find_pair
+   use atrito_pair_names, only: pair_index_t, index_pairs, find_pair
    use atrito_strings, only: string_t, to_text
    implicit none (type, external)
    private
@@ -29,38 +29,47 @@ contains
       type(build_context_t), intent(inout) :: context
       type(interference_t), allocatable, intent(out) :: list(:)
       type(interference_t) :: one
-      integer(ip) :: i, k
+      type(pair_index_t) :: pairs
+      integer(ip), allocatable :: of_pair(:)           ! place in the list; 0: none so far
+      integer(ip) :: i, k, n
 
-      allocate (list(0))
+      allocate (list(size(context%model%pairs)))       ! a pair is resolved once
+      allocate (of_pair(size(list)), source=0_ip)
+      call index_pairs(context, pairs)
+      n = 0
       do i = 1, context%deck%n_cards
          associate (card => context%deck%cards(i))
             if (keyword_name(card) /= KEYWORD .or. .not. card%ok) cycle
             if (.not. has_shrink(context, card)) cycle
             do k = card%first_line, card%first_line + card%n_lines - 1
                if (.not. context%deck%lines(k)%ok) cycle
-               call read_line(context, context%deck%lines(k), one)
+               call read_line(context, pairs, context%deck%lines(k), one)
                one%step = card%step
-               if (one%pair > 0) call add_line(context, one, list)
+               if (one%pair > 0) call add_line(context, one, list, of_pair, n)
             end do
          end associate
       end do
+      list = list(:n)
    end subroutine read_interferences
 
    !> A pair is resolved once.
-   subroutine add_line(context, one, list)
+   subroutine add_line(context, one, list, of_pair, n)
       type(build_context_t), intent(inout) :: context
       type(interference_t), intent(in) :: one
-      type(interference_t), allocatable, intent(inout) :: list(:)
+      type(interference_t), intent(inout) :: list(:)   !< the first n are in use
+      integer(ip), intent(inout) :: of_pair(:), n
       integer(ip) :: twin
 
-      twin = findloc(list%pair, one%pair, dim=1, kind=ip)
+      twin = of_pair(one%pair)
       if (twin > 0) then
          call report_error(context%deck, one%place, 'E-TWICE', 'the overlap of this pair is resolved already, in '// &
                            place_text(context%deck, list(twin)%place, one%place), expected='each pair in one step', &
                            keyword=KEYWORD)
          return
       end if
-      list = [list, one]
+      n = n + 1
+      list(n) = one
+      of_pair(one%pair) = n
       context%model%pairs(one%pair)%is_resolved = .true.
    end subroutine add_line
 
@@ -86,8 +95,9 @@ contains
    end function has_shrink
 
    !> slave, master.
-   subroutine read_line(context, line, one)
+   subroutine read_line(context, pairs, line, one)
       type(build_context_t), intent(in) :: context
+      type(pair_index_t), intent(in) :: pairs
       type(data_line_t), intent(in) :: line
       type(interference_t), intent(out) :: one
       type(string_t) :: names(2)
@@ -100,7 +110,7 @@ contains
          call get_name(context%deck, places(i), 'name of a surface', names(i)%s, ok(i), KEYWORD)
       end do
       one%place = places(1)
-      if (all(ok)) call find_pair(context, names, places, names(2)%s//', '//names(1)%s, KEYWORD, one%pair)
+      if (all(ok)) call find_pair(context, pairs, names, places, names(2)%s//', '//names(1)%s, KEYWORD, one%pair)
    end subroutine read_line
 
    !> Gives the steps what they allow; the points of the pairs are known.

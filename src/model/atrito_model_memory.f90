@@ -15,6 +15,8 @@ module atrito_model_memory
    !> What a node and an element take at the peak between reading and solving, measured with blocks of a million nodes: Q1 340
    !> bytes a node, refined 440, Q2 440; of 626,000 nodes and 1,203,000 triangles 441 MB, of address space 468 MB.
    integer(lp), parameter :: NODE_BYTES = 500_lp, ELEMENT_BYTES = 140_lp
+   !> Sets, surfaces and the body of a *BLOCK, or of one of its copies, from the second on: of 100,000 copies of an element 1 GB.
+   integer(lp), parameter :: BLOCK_BYTES = 9000_lp
    !> Nodes of a mesh in one process: more are a slip of the pen. Over ranks: a thousand million displacements have their numbers.
    integer(lp), parameter :: MOST_IN_A_PROCESS = 50000000_lp, MOST_OVER_RANKS = 500000000_lp
 
@@ -34,25 +36,30 @@ contains
 
    !> False, and an error, when the mesh with some more nodes and elements needs more memory than there is, or has more nodes than
    !> there are numbers for: displacements, and the nodes of all elements one behind the other, are counted in 32 bits.
-   logical function fits_memory(place, context, new_nodes, new_elements, keyword, element_nodes) result(fits)
+   logical function fits_memory(place, context, new_nodes, new_elements, keyword, element_nodes, new_blocks) result(fits)
       type(token_t), intent(in) :: place               !< of the item or keyword that asks for them; source 0: none
       type(build_context_t), intent(inout) :: context
       integer(lp), intent(in) :: new_nodes, new_elements
       character(len=*), intent(in), optional :: keyword
       integer(ip), intent(in), optional :: element_nodes   !< of each new element; without it they may have as many as there are
+      integer(lp), intent(in), optional :: new_blocks
       character(len=:), allocatable :: what
-      integer(lp) :: n_nodes, n_elements, n_corners
+      integer(lp) :: n_nodes, n_elements, n_corners, n_blocks, bytes
 
       n_nodes = new_nodes + int(context%model%mesh%n_nodes, lp)
       n_elements = new_elements + int(context%model%mesh%n_elements, lp)
       n_corners = MOST_NODES_OF_ELEMENT*new_elements
       if (present(element_nodes)) n_corners = element_nodes*new_elements
       n_corners = n_corners + count_corners(context, int(huge(1_ip), lp) - n_corners)
+      n_blocks = context%n_blocks
+      if (present(new_blocks)) n_blocks = n_blocks + new_blocks
+      bytes = mesh_bytes(n_nodes, n_elements) + BLOCK_BYTES*max(n_blocks - 1, 0_lp)
       what = 'a mesh of '//to_text(n_nodes)//' nodes and '//to_text(n_elements)//' elements '
-      fits = mesh_bytes(n_nodes, n_elements) <= context%memory
+      if (n_blocks > 1) what = what//'in '//to_text(n_blocks)//' blocks '
+      fits = bytes <= context%memory
       if (.not. fits) then
          context%has_room = .false.
-         call report_error(context%deck, place, 'E-MEMORY', what//'needs about '//memory_text(mesh_bytes(n_nodes, n_elements))// &
+         call report_error(context%deck, place, 'E-MEMORY', what//'needs about '//memory_text(bytes)// &
                            ' of memory, there are '//memory_text(context%memory), expected='a coarser mesh, or a larger machine', &
                            keyword=keyword)
          return

@@ -3,19 +3,62 @@ module atrito_pair_names
    use atrito_build_context, only: build_context_t
    use atrito_deck, only: keyword_name, token_t
    use atrito_diagnostics, only: report_error
-   use atrito_kinds, only: ip
+   use atrito_kinds, only: ip, lp
    use atrito_name_list, only: find_name
    use atrito_references, only: report_unknown
+   use atrito_sorting, only: first_at_least, sorted_places
    use atrito_strings, only: string_t
    implicit none (type, external)
    private
-   public :: find_pair
+   public :: pair_index_t, index_pairs, find_pair
+
+   !> The pairs of the model, sorted by their surfaces: a deck may name each of thousands.
+   type :: pair_index_t
+      private
+      integer(lp), allocatable :: key(:)               !< rising
+      integer(ip), allocatable :: pair(:)              !< in the order of their keys
+      logical :: is_complete = .false.                 !< each line of *CONTACT PAIR has made one
+   end type pair_index_t
 
 contains
 
-   !> The pair of a slave and a master. What is wrong is told of the place of the name.
-   subroutine find_pair(context, names, places, turned, keyword, pair)
+   subroutine index_pairs(context, pairs)
       type(build_context_t), intent(in) :: context
+      type(pair_index_t), intent(out) :: pairs
+      integer(ip) :: i
+
+      associate (all_pairs => context%model%pairs)
+         pairs%key = [(key_of(context, [all_pairs(i)%slave, all_pairs(i)%master]), i=1, size(all_pairs, kind=ip))]
+      end associate
+      pairs%pair = sorted_places(pairs%key)
+      pairs%key = pairs%key(pairs%pair)
+      pairs%is_complete = has_all_pairs(context)
+   end subroutine index_pairs
+
+   pure integer(lp) function key_of(context, surfaces) result(key)
+      type(build_context_t), intent(in) :: context
+      integer(ip), intent(in) :: surfaces(2)           !< slave and master
+
+      key = int(surfaces(1), lp)*(size(context%model%surfaces, kind=lp) + 1) + surfaces(2)
+   end function key_of
+
+   !> The pair of two surfaces, of several the last; 0: there is none.
+   pure integer(ip) function pair_of(context, pairs, surfaces) result(pair)
+      type(build_context_t), intent(in) :: context
+      type(pair_index_t), intent(in) :: pairs
+      integer(ip), intent(in) :: surfaces(2)           !< slave and master
+      integer(ip) :: i
+
+      pair = 0
+      i = first_at_least(pairs%key, key_of(context, surfaces) + 1) - 1
+      if (i == 0) return
+      if (pairs%key(i) == key_of(context, surfaces)) pair = pairs%pair(i)
+   end function pair_of
+
+   !> The pair of a slave and a master. What is wrong is told of the place of the name.
+   subroutine find_pair(context, pairs, names, places, turned, keyword, pair)
+      type(build_context_t), intent(in) :: context
+      type(pair_index_t), intent(in) :: pairs
       type(string_t), intent(in) :: names(2)           !< slave and master, as the deck has them
       type(token_t), intent(in) :: places(2)
       character(len=*), intent(in) :: turned           !< how it should read if the surfaces are the other way round
@@ -29,19 +72,15 @@ contains
          if (surface(i) == 0) call report_unknown(context, places(i), 'surface', 'E-SURFACE', context%surface_names, keyword)
       end do
       if (any(surface == 0)) return
-      associate (pairs => context%model%pairs)
-         do i = 1, size(pairs, kind=ip)
-            if (pairs(i)%slave == surface(1) .and. pairs(i)%master == surface(2)) pair = i
-         end do
-         if (pair > 0 .or. .not. has_all_pairs(context)) return
-         if (any(pairs%slave == surface(2) .and. pairs%master == surface(1))) then
-            call report_error(context%deck, places(1), 'E-PAIR', names(1)%s//' is the master of this pair, '//names(2)%s// &
-                              ' the slave', expected=turned, keyword=keyword)
-         else
-            call report_error(context%deck, places(1), 'E-PAIR', 'no *CONTACT PAIR has the slave '//names(1)%s// &
-                              ' and the master '//names(2)%s, expected='the surfaces of one *CONTACT PAIR', keyword=keyword)
-         end if
-      end associate
+      pair = pair_of(context, pairs, surface)
+      if (pair > 0 .or. .not. pairs%is_complete) return
+      if (pair_of(context, pairs, surface(2:1:-1)) > 0) then
+         call report_error(context%deck, places(1), 'E-PAIR', names(1)%s//' is the master of this pair, '//names(2)%s// &
+                           ' the slave', expected=turned, keyword=keyword)
+      else
+         call report_error(context%deck, places(1), 'E-PAIR', 'no *CONTACT PAIR has the slave '//names(1)%s// &
+                           ' and the master '//names(2)%s, expected='the surfaces of one *CONTACT PAIR', keyword=keyword)
+      end if
    end subroutine find_pair
 
    !> Each line of *CONTACT PAIR has made a pair; where one has not, an error has been told.

@@ -8,12 +8,11 @@ module atrito_references
    use atrito_items, only: get_integer, get_name
    use atrito_kinds, only: ip
    use atrito_mesh, only: find_node, find_element, side_count
-   use atrito_messages, only: has_room, SEVERITY_ERROR
-   use atrito_name_list, only: name_list_t, names_of
+   use atrito_name_list, only: name_list_t
    use atrito_number_list, only: number_list_t, add_number, numbers_of
    use atrito_refined_members, only: fine_elements
    use atrito_refinement, only: is_refined
-   use atrito_sets, only: set_list_t, find_set
+   use atrito_sets, only: set_list_t, find_set, members_of
    use atrito_strings, only: to_text, upper_case
    implicit none (type, external)
    private
@@ -192,7 +191,7 @@ contains
       i = find_set(list, name)
       ok = i > 0
       if (ok) then
-         members = list%sets(i)%members
+         members = members_of(list%sets(i))
       else
          call report_unknown(context, token, noun//' set', 'E-SET', list%names, keyword)
       end if
@@ -217,13 +216,8 @@ contains
                        '*SURFACE, TYPE=NODE makes a surface of it, inside the mesh there are no faces'
          end if
       end if
-      if (has_room(SEVERITY_ERROR)) then
-         call report_error(context%deck, token, id, 'unknown '//noun//' '//token_text(context%deck, token), expected=expected, &
-                           known=names_of(known), keyword=keyword)
-      else
-         ! it is only counted: no need to list the names that there are
-         call report_error(context%deck, token, id, 'unknown '//noun//' '//token_text(context%deck, token))
-      end if
+      call report_error(context%deck, token, id, 'unknown '//noun//' '//token_text(context%deck, token), expected=expected, &
+                        among=known, keyword=keyword)
    end subroutine report_unknown
 
    !> Elements have a face of this number: triangles have no fourth. Of a refined mesh that has been asked of the deck's.

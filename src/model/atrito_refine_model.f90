@@ -14,7 +14,7 @@ module atrito_refine_model
    use atrito_refine_arcs, only: place_on_arcs
    use atrito_refined_members, only: fine_nodes, fine_elements
    use atrito_refinement, only: refine_mesh, count_fine_nodes
-   use atrito_sets, only: set_count
+   use atrito_sets, only: set_count, members_of, replace_members
    use atrito_strings, only: to_text
    implicit none (type, external)
    private
@@ -55,12 +55,12 @@ contains
       context%model%levels = levels
       do i = 1, set_count(context%model%node_sets)
          associate (set => context%model%node_sets%sets(i))
-            set%members = fine_nodes(coarse, context%refinement, set%members)
+            call replace_members(set, fine_nodes(coarse, context%refinement, members_of(set)))
          end associate
       end do
       do i = 1, set_count(context%model%element_sets)
          associate (set => context%model%element_sets%sets(i))
-            set%members = fine_elements(context%refinement, set%members)
+            call replace_members(set, fine_elements(context%refinement, members_of(set)))
          end associate
       end do
       context%deck_elements = coarse%element_map

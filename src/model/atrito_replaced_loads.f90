@@ -22,9 +22,9 @@ contains
       character(len=:), allocatable :: label
       integer(ip) :: i, old, new
 
-      do i = 1, size(context%open%replaced, 2, kind=ip)
-         old = context%open%replaced(1, i)
-         new = context%open%replaced(2, i)
+      do i = 1, context%open%replaced%n
+         old = context%open%replaced%lines(1, i)
+         new = context%open%replaced%lines(2, i)
          label = label_of(context, new)
          if (all(label(:1) /= ['G', 'T', 'C'])) cycle  ! GRAV, TRVEC, CENTRIF
          if (is_given_again(context, old)) cycle
@@ -46,7 +46,7 @@ contains
       integer(ip) :: i, k
 
       is_given = .true.
-      do i = 1, context%deck%n_cards
+      do i = context%open%first_card, context%open%last_card
          associate (card => context%deck%cards(i))
             if (.not. is_of_step(context, i) .or. all(keyword_name(card) /= ['DLOAD ', 'DSLOAD'])) cycle
             do k = card%first_line, card%first_line + card%n_lines - 1

@@ -1,7 +1,7 @@
 !> What a step prescribes and applies at the reference nodes of rigid surfaces, and what it has from the step before.
 module atrito_rigid_motions
    use atrito_build_context, only: build_context_t, place_text, references_t
-   use atrito_build_rigid_bodies, only: ROTATION_DOF
+   use atrito_build_rigid_bodies, only: rigid_body_of, ROTATION_DOF
    use atrito_carry_on, only: carry_values, list_carried, take_force_place
    use atrito_deck, only: token_t
    use atrito_diagnostics, only: report_error
@@ -29,14 +29,14 @@ contains
       real(wp), intent(in) :: value
       character(len=*), intent(in) :: keyword
 
-      associate (body => context%model%rigid_bodies(findloc(context%model%rigid_bodies%node, node, dim=1)))
+      associate (body => context%model%rigid_bodies(rigid_body_of(context, node)))
          can = .not. (has_local_axes(context, node) .and. (is_revolved(context%model%mesh) .or. body%is_section))
       end associate
       if (.not. can) then
          call report_error(context%deck, place, 'E-NODE', 'reference node '//to_text(context%model%mesh%node_id(node)) &
                            //' moves along one axis alone, and has local axes', expected='a node without *TRANSFORM', &
                            keyword=keyword)
-      else if (context%model%rigid_bodies(findloc(context%model%rigid_bodies%node, node, dim=1))%is_section) then
+      else if (context%model%rigid_bodies(rigid_body_of(context, node))%is_section) then
          can = dof == 1 .or. abs(value) <= 0.0_wp
          if (.not. can) call report_error(context%deck, place, 'E-DOF', 'the node of a pre-tension section has no dof ' &
                                           //to_text(dof), expected='dof 1: what the sides approach by, or the force', &
@@ -139,7 +139,7 @@ contains
       type(build_context_t), intent(in) :: context
       integer(ip), intent(in) :: node, dof
 
-      dof_place = ROTATION_DOF*(findloc(context%model%rigid_bodies%node, node, dim=1, kind=ip) - 1) + dof
+      dof_place = ROTATION_DOF*(rigid_body_of(context, node) - 1) + dof
    end function dof_place
 
    !> The loads of the step before.

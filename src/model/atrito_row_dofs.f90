@@ -3,7 +3,7 @@
 module atrito_row_dofs
    use atrito_build_context, only: build_context_t, has_lost_elements, ids_text
    use atrito_build_loads, only: in_no_element
-   use atrito_build_rigid_bodies, only: carriers_of, is_reference, ROTATION_DOF
+   use atrito_build_rigid_bodies, only: carriers_of, is_reference, rigid_body_of, ROTATION_DOF
    use atrito_deck, only: token_t
    use atrito_diagnostics, only: report_error
    use atrito_kinds, only: ip, wp
@@ -65,7 +65,7 @@ contains
       what = ''
       do i = 1, size(nodes, kind=ip)
          if (.not. is_reference(context, nodes(i)) .or. len(what) > 0) cycle
-         associate (body => context%model%rigid_bodies(findloc(context%model%rigid_bodies%node, nodes(i), dim=1)))
+         associate (body => context%model%rigid_bodies(rigid_body_of(context, nodes(i))))
             if (body%is_section) then
                if (dof /= 1) what = 'the node of a pre-tension section has dof 1 alone, not '
             else if (is_revolved(context%model%mesh) .and. dof /= 2) then
@@ -86,7 +86,7 @@ contains
 
       moves = node
       if (.not. is_reference(context, node)) return
-      carriers = carriers_of(context%model, findloc(context%model%rigid_bodies%node, node, dim=1, kind=ip))
+      carriers = carriers_of(context%model, rigid_body_of(context, node))
       moves = carriers(1)
    end function row_node
 
@@ -106,7 +106,7 @@ contains
          vectors(:, 1) = dof_direction(context, node, dof)
          return
       end if
-      carriers = carriers_of(context%model, findloc(context%model%rigid_bodies%node, node, dim=1, kind=ip))
+      carriers = carriers_of(context%model, rigid_body_of(context, node))
       nodes = carriers(:TERMS_A_DOF)
       vectors(2, :) = [-arm, arm]/arm_of(context, node)
    end subroutine row_terms
@@ -116,7 +116,7 @@ contains
       type(build_context_t), intent(in) :: context
       integer(ip), intent(in) :: node
 
-      arm = context%model%rigid_bodies(findloc(context%model%rigid_bodies%node, node, dim=1))%size
+      arm = context%model%rigid_bodies(rigid_body_of(context, node))%size
    end function arm_of
 
 end module atrito_row_dofs

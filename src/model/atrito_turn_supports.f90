@@ -138,18 +138,20 @@ contains
    subroutine keep_inclined(context, inclined)
       type(build_context_t), intent(inout) :: context
       type(nodal_values_t), intent(in) :: inclined     !< of this step
+      real(wp) :: weight
       integer(ip) :: i
 
       if (context%open%number > 1) then
          call check_inclined(context, inclined)
          return
       end if
+      weight = row_weight(context%model)
       do i = 1, inclined%n
          if (amplitude_of(inclined, i) > 0) call refuse_inclined(context, inclined, i, &
                                                                  'an amplitude of a displacement along an inclined axis')
          call add_row([row_node(context, inclined%node(i))], &
                       reshape(dof_direction(context, inclined%node(i), inclined%dof(i)), [2, 1]), inclined%value(i), 0.0_wp, &
-                      row_weight(context%model), [ROW_SUPPORT, 1_ip, inclined%dof(i)], context%model%bilateral)
+                      weight, [ROW_SUPPORT, 1_ip, inclined%dof(i)], context%model%bilateral)
       end do
       context%model%inclined = inclined
    end subroutine keep_inclined
@@ -184,7 +186,7 @@ contains
 
       place = context%deck%tokens(max(1_ip, token_of(context, list%node(i), list%dof(i))))
       if (token_of(context, list%node(i), list%dof(i)) < context%open%first_token) then
-         do c = 1, context%deck%n_cards
+         do c = context%open%first_card, context%open%last_card
             if (context%deck%cards(c)%step /= context%open%number) cycle
             if (keyword_name(context%deck%cards(c)) == 'STEP') place = context%deck%cards(c)%place
          end do

@@ -15,6 +15,7 @@ module atrito_hdf5_arrays
                    h5pset_obj_track_times_f, H5P_FILE_ACCESS_F, H5P_LINK_CREATE_F, H5P_DATASET_CREATE_F, h5screate_simple_f, &
                    h5sclose_f, h5sget_simple_extent_ndims_f, h5sget_simple_extent_dims_f, h5dcreate_f, h5dopen_f, h5dwrite_f, &
                    h5dread_f, h5dclose_f, h5dget_space_f, h5dget_type_f, h5tequal_f, h5tclose_f, h5kind_to_type, &
+                   h5fget_filesize_f, h5tget_size_f, size_t, &
                    H5_INTEGER_KIND, H5T_NATIVE_DOUBLE, H5T_NATIVE_CHARACTER
    implicit none (type, external)
    private
@@ -249,12 +250,28 @@ contains
       call h5sget_simple_extent_ndims_f(space, rank, error)
       if (same .and. rank == 1) call h5sget_simple_extent_dims_f(space, dims, most, error)
       if (same .and. rank == 1 .and. error >= 0) then
-         n = dims(1)
+         if (fits_file(file, kind, dims(1))) n = dims(1)
+         if (n < dims(1)) call find_damaged(file, path)
       else
          call find_damaged(file, path)
       end if
       call h5sclose_f(space, error)
    end subroutine open_list
+
+   !> No list holds more than the file: nothing is compressed. So memory is only asked for what is there.
+   logical function fits_file(file, kind, n)
+      type(hdf5_arrays_t), intent(in) :: file
+      integer(hid_t), intent(in) :: kind
+      integer(hsize_t), intent(in) :: n
+      integer(hsize_t) :: in_file
+      integer(size_t) :: bytes
+      integer :: error(2)
+
+      call h5fget_filesize_f(file%id, in_file, error(1))
+      call h5tget_size_f(kind, bytes, error(2))
+      fits_file = minval(error) >= 0
+      if (fits_file) fits_file = n <= in_file/max(bytes, 1_size_t)
+   end function fits_file
 
    subroutine read_list(file, path, dataset, kind, address, is_any)
       type(hdf5_arrays_t), intent(inout) :: file

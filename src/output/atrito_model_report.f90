@@ -237,13 +237,17 @@ contains
    end subroutine describe_amplitudes
 
    !> What acts in each step; of a single one that is a single increment without more words.
-   subroutine describe_steps(page, model)
+   subroutine describe_steps(page, model, most)
       type(page_t), intent(inout) :: page
       type(model_t), intent(in) :: model
+      integer(ip), intent(in), optional :: most      !< so many of the first; left out: all
       integer(ip) :: k, n
 
       n = size(model%steps, kind=ip)
       do k = 1, n
+         if (present(most)) then
+            if (k > most) exit
+         end if
          if (n > 1) then
             call add_blank(page)
             call add_line(page, '   step '//to_text(k)//step_title(model%steps(k)))
@@ -253,6 +257,9 @@ contains
          call describe_supports(page, model, k)
          call describe_loads(page, model, k)
       end do
+      if (k > n) return
+      call add_blank(page)
+      call add_line(page, '   and '//to_text(n - k + 1)//' more steps')
    end subroutine describe_steps
 
    !> Several steps, or several increments of one.

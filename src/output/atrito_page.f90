@@ -182,27 +182,19 @@ contains
       character(len=*), intent(in) :: text
       integer, intent(in) :: width
       character(len=:), allocatable :: field
-      integer :: last
+      integer :: last, letters
 
       field = trim(text)
       if (text_width(field) > width) then
-         last = len(field)
-         do while (text_width(field(:last)) > max(width - 2, 0) .or. is_cut(field, last))
-            last = last - 1
+         letters = 0
+         do last = 1, len(field)                    ! the place behind those that fit
+            if (.not. is_continuation(field(last:last))) letters = letters + 1
+            if (letters > max(width - 2, 0)) exit
          end do
-         field = field(:last)//'..'
+         field = field(:last - 1)//'..'
       end if
       field = field//repeat(' ', max(0, width - text_width(field)))
    end function left
-
-   !> A letter of several bytes goes on behind this place.
-   pure logical function is_cut(text, last)
-      character(len=*), intent(in) :: text
-      integer, intent(in) :: last
-
-      is_cut = .false.
-      if (last > 0 .and. last < len(text)) is_cut = is_continuation(text(last + 1:last + 1))
-   end function is_cut
 
    !> A text at the right of a field.
    pure function right(text, width) result(field)

@@ -28,6 +28,7 @@ module atrito_screen
    integer, parameter :: CLOSING_LINES = 5          !< of the end, without pictures and field files
    integer, parameter :: ANSWER_LINES = 3           !< the largest displacement and stress, and supports
    integer, parameter :: LEAST_OF_PAIRS = 2         !< that there are pairs
+   integer(ip), parameter :: MOST_STEPS = 200       !< that `check` describes
    integer, parameter :: MOST_OUTER = 4             !< outer iterations shown of a run that did not converge
    integer, parameter :: UNSETTLED_LINES = 2
    integer, parameter :: DIGITS = 5
@@ -402,7 +403,7 @@ contains
       call describe_instances(page, model)
       if (is_history(model)) then
          call add_heading(page, 'history')
-         call describe_steps(page, model)
+         call describe_steps(page, model, MOST_STEPS)
       end if
       if (allocated(scene%pairs)) then
          if (size(scene%pairs) > 0) call add_heading(page, 'contact')

@@ -9,7 +9,7 @@ module atrito_set_plot
    use atrito_plot_text, only: range_t, range_text, span, quoted, cleaned, scene_title, begin_script, end_script, &
                                put_terminal, COLOUR
    use atrito_plot_view, only: plot_view_t, shown_window
-   use atrito_sets, only: set_count
+   use atrito_sets, only: set_count, members_of, member_count
    use atrito_status, only: status_t, is_ok
    use atrito_strings, only: to_text
    use atrito_symbols, only: pixel_of, thinned
@@ -100,11 +100,11 @@ contains
 
       if (shown%of_nodes) then
          associate (it => model%node_sets%sets(shown%place))
-            title = cleaned(it%name, LONGEST_NAME)//' ('//counted(size(it%members, kind=ip), 'node')//')'
+            title = cleaned(it%name, LONGEST_NAME)//' ('//counted(member_count(it), 'node')//')'
          end associate
       else
          associate (it => model%element_sets%sets(shown%place))
-            title = cleaned(it%name, LONGEST_NAME)//' ('//counted(size(it%members, kind=ip), 'element')//')'
+            title = cleaned(it%name, LONGEST_NAME)//' ('//counted(member_count(it), 'element')//')'
          end associate
       end if
    end function set_title
@@ -124,22 +124,22 @@ contains
       type(model_t), intent(in) :: model
       type(shown_set_t), intent(in) :: shown
       real(wp), intent(in) :: pixel                 !< of a small picture [L]
+      integer(ip), allocatable :: members(:)
       integer(ip) :: i
 
       if (shown%of_nodes) then
-         call put_thinned(file, model%mesh%x(:, model%node_sets%sets(shown%place)%members), pixel)
+         call put_thinned(file, model%mesh%x(:, members_of(model%node_sets%sets(shown%place))), pixel)
          return
       end if
-      associate (members => model%element_sets%sets(shown%place)%members)
-         if (size(members) > MOST_FILLED) then
-            call put_thinned(file, middles_of(model%mesh, members), pixel)
-         else
-            do i = 1, size(members, kind=ip)
-               call put_polygon(file, model%mesh, members(i))
-            end do
-         end if
-         if (size(members) == 0) call put_line(file, 'NaN NaN')
-      end associate
+      members = members_of(model%element_sets%sets(shown%place))
+      if (size(members) > MOST_FILLED) then
+         call put_thinned(file, middles_of(model%mesh, members), pixel)
+      else
+         do i = 1, size(members, kind=ip)
+            call put_polygon(file, model%mesh, members(i))
+         end do
+      end if
+      if (size(members) == 0) call put_line(file, 'NaN NaN')
    end subroutine put_members
 
    pure function middles_of(mesh, elements) result(places)
@@ -249,7 +249,7 @@ contains
       drawn = 'with points pt 7 ps 0.6*dot lc rgb "'//COLOUR(2)//'"'
       if (.not. shown%of_nodes) then
          drawn = 'with points pt 5 ps 0.45*dot lc rgb "#80'//COLOUR(1) (2:)//'"'
-         if (size(model%element_sets%sets(shown%place)%members) <= MOST_FILLED) then
+         if (member_count(model%element_sets%sets(shown%place)) <= MOST_FILLED) then
             drawn = 'with filledcurves closed lc rgb "#80'//COLOUR(1) (2:)//'"'
          end if
       end if

@@ -11,7 +11,7 @@ module atrito_series_reports
    use atrito_stability_result, only: stability_t
    use atrito_stability_tables, only: limit_text, values_text, undecided_texts
    use atrito_status, only: status_t, is_ok, STATUS_OK
-   use atrito_strings, only: string_t, append_string, to_text
+   use atrito_strings, only: string_t, string_list_t, add_string, append_string, take_strings, to_text
    use atrito_study_errors, only: study_t, total_seconds, PROCESSOR
    use atrito_summary, only: quantity_names
    use atrito_sweep_tables, only: sweep_run_t, row_of_quantity, last_increment
@@ -61,6 +61,7 @@ contains
       type(report_t), intent(inout) :: report
       character(len=*), parameter :: MARK = 'heading: '
       type(table_top_t) :: top
+      type(string_list_t) :: lines
       type(status_t) :: status
       integer :: i
 
@@ -68,8 +69,9 @@ contains
       call read_top(folder//'/summary.tab', 1_ip, top, status)
       if (.not. is_ok(status)) return
       do i = 1, size(top%origin)
-         if (index(top%origin(i)%s, MARK) == 1) call append_string(report%heading, top%origin(i)%s(len(MARK) + 1:))
+         if (index(top%origin(i)%s, MARK) == 1) call add_string(lines, top%origin(i)%s(len(MARK) + 1:))
       end do
+      call take_strings(lines, report%heading)
    end subroutine take_heading
 
    !> Runs that were solved of all that there are.

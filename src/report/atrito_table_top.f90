@@ -5,7 +5,7 @@ module atrito_table_top
    use atrito_page, only: number
    use atrito_read_table, only: table_file_t, parse_table, item_text, ITEM_REAL
    use atrito_status, only: status_t, is_ok
-   use atrito_strings, only: string_t, append_string
+   use atrito_strings, only: string_t, string_list_t, add_string, append_string, take_strings
    use atrito_table, only: MARK_COLUMNS, MARK_DIMENSIONS, MARK_NOT_CONVERGED
    implicit none (type, external)
    private
@@ -83,9 +83,10 @@ contains
       character(len=*), intent(in) :: text
       type(table_top_t), intent(inout) :: top
       character(len=*), parameter :: TITLE = '# table: '
+      type(string_list_t) :: origin, remarks
       integer :: first, last, comma
 
-      allocate (top%dimensions(0), top%origin(0), top%remarks(0))
+      allocate (top%dimensions(0))
       top%title = ''
       first = 1
       do while (first <= len(text))
@@ -101,13 +102,15 @@ contains
             else if (index(line, MARK_COLUMNS) == 1 .or. index(line, MARK_NOT_CONVERGED) == 1) then
                continue
             else if (len(top%title) > 0) then
-               call append_string(top%remarks, line(3:))
+               call add_string(remarks, line(3:))
             else
-               call append_string(top%origin, line(3:))
+               call add_string(origin, line(3:))
             end if
          end associate
          first = last + 2
       end do
+      call take_strings(origin, top%origin)
+      call take_strings(remarks, top%remarks)
    end subroutine read_comments
 
    !> The words of a line.

@@ -33,15 +33,27 @@ contains
    pure subroutine attach_points(model, points)
       type(model_t), intent(in) :: model
       type(contact_points_t), intent(inout) :: points(:)   !< one a pair
-      integer(ip) :: i, body
+      integer(ip) :: of_surface(size(model%surfaces)), i, body
 
+      of_surface = bodies_of_surfaces(model)
       do i = 1, size(points, kind=ip)
          if (.not. points(i)%rigid) cycle
-         body = findloc(model%rigid_bodies%surface, model%pairs(i)%master, dim=1, kind=ip)
+         body = of_surface(model%pairs(i)%master)
          if (body > 0) call attach_to(model%rigid_bodies(body), model%mesh%x(:, model%rigid_bodies(body)%node), &
                                       carriers_of(model, body), points(i))
       end do
    end subroutine attach_points
+
+   !> The rigid body of each surface, 0 where there is none.
+   pure function bodies_of_surfaces(model) result(body)
+      type(model_t), intent(in) :: model
+      integer(ip) :: body(size(model%surfaces)), i
+
+      body = 0
+      do i = size(model%rigid_bodies, kind=ip), 1, -1
+         if (model%rigid_bodies(i)%surface > 0) body(model%rigid_bodies(i)%surface) = i
+      end do
+   end function bodies_of_surfaces
 
    pure subroutine attach_to(body, reference, nodes, points)
       type(rigid_body_t), intent(in) :: body
@@ -134,8 +146,15 @@ contains
       type(contact_points_t), intent(in) :: points(:)
       type(bodies_t), intent(inout) :: bodies
       type(body_t), allocatable :: list(:)
+      logical :: has_points(0:size(model%surfaces)), has_row(model%mesh%n_nodes + CARRIERS*size(model%rigid_bodies))
       integer(ip) :: i, k, nodes(CARRIERS)
 
+      has_points = .false.
+      do k = 1, size(points, kind=ip)
+         if (points(k)%n > 0) has_points(model%pairs(k)%master) = .true.
+      end do
+      has_row = .false.
+      if (model%bilateral%n > 0) has_row(model%bilateral%node) = .true.
       bodies%n_rigid = size(model%rigid_bodies, kind=ip)
       allocate (list(bodies%n + bodies%n_rigid))
       list(:bodies%n) = bodies%list
@@ -149,14 +168,7 @@ contains
             allocate (body%elements(0), body%modes(MOTIONS, 0))
             body%centre = model%mesh%x(:, model%rigid_bodies(i)%node)
             body%size = model%rigid_bodies(i)%size
-            do k = 1, size(points, kind=ip)
-               if (model%pairs(k)%master == model%rigid_bodies(i)%surface .and. points(k)%n > 0) body%is_touched = .true.
-            end do
-            if (model%bilateral%n > 0) then
-               do k = 1, CARRIERS
-                  if (any(model%bilateral%node == nodes(k))) body%is_touched = .true.
-               end do
-            end if
+            body%is_touched = body%is_touched .or. has_points(model%rigid_bodies(i)%surface) .or. any(has_row(nodes))
          end associate
          bodies%of_node(nodes) = bodies%n + i
       end do

@@ -16,7 +16,7 @@ import threading
 
 from catalogue import CASES, Case
 
-FILES = ["text", "growth", "sizes", "files", "numbers"]
+FILES = ["text", "growth", "sizes", "files", "many", "numbers"]
 ROOM = 2048                    # MiB of addresses beyond the limit of a case: libraries map more than they touch
 NEVER = re.compile(r"untime error|Backtrace|internal error|forrtl|AddressSanitizer|already allocated|allocated object")
 

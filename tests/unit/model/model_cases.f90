@@ -7,7 +7,7 @@ module model_cases
    use atrito_messages, only: message_t, clear_messages, count_messages, get_message, sort_messages
    use atrito_model, only: model_t
    use atrito_reader, only: read_deck
-   use atrito_sets, only: find_set
+   use atrito_sets, only: find_set, members_of
    use atrito_status, only: status_t
    use atrito_strings, only: string_t, same_name, to_text
    implicit none (type, external)
@@ -149,7 +149,7 @@ contains
 
       i = find_set(model%node_sets, name)
       ids = [-1_ip]
-      if (i > 0) ids = model%mesh%node_id(model%node_sets%sets(i)%members)
+      if (i > 0) ids = model%mesh%node_id(members_of(model%node_sets%sets(i)))
    end function node_ids
 
    !> As node_ids for an element set.
@@ -161,7 +161,7 @@ contains
 
       i = find_set(model%element_sets, name)
       ids = [-1_ip]
-      if (i > 0) ids = model%mesh%element_id(model%element_sets%sets(i)%members)
+      if (i > 0) ids = model%mesh%element_id(members_of(model%element_sets%sets(i)))
    end function element_ids
 
    !> Faces of a surface as `element:face`, with a blank before each.

@@ -1,0 +1,226 @@
+!> A list of numbers, each once, in the order in which they came, kept as runs of neighbours: a thousand sets that name a block of a
+!> million elements are a thousand runs.
+!>
+!> What is added is put behind the others as it is, and looked through for what stands there twice when the list has doubled: so a
+!> list that grows number by number takes n log n operations.
+module atrito_ranges
+   use atrito_growth, only: resize
+   use atrito_kinds, only: ip
+   use atrito_sorting, only: each_once
+   implicit none (type, external)
+   private
+   public :: ranges_t, add_range, add_numbers, add_ranges, move_ranges, numbers_in, numbers_among, count_numbers, first_number
+
+   type :: ranges_t
+      private
+      integer(ip) :: n = 0                               !< runs
+      integer(ip) :: n_clean = 0                         !< the first so many hold no number twice, and none goes on with the next
+      integer(ip), allocatable :: first(:), last(:)      !< those up to n are in use
+   end type ranges_t
+
+   integer(ip), parameter :: FEW = 32
+
+contains
+
+   !> Appends first, first + 1, ..., last; those that are there already are passed over.
+   pure subroutine add_range(ranges, first, last)
+      type(ranges_t), intent(inout) :: ranges
+      integer(ip), intent(in) :: first, last             !< >= first
+
+      if (ranges%n > 0) then
+         if (first == ranges%last(ranges%n) + 1) then
+            ranges%last(ranges%n) = last
+            ranges%n_clean = min(ranges%n_clean, ranges%n - 1)
+            return
+         end if
+      end if
+      if (.not. allocated(ranges%first)) allocate (ranges%first(1), ranges%last(1))  ! most sets are one run
+      if (ranges%n == size(ranges%first)) then
+         call resize(ranges%first, ranges%n, 2*ranges%n)
+         call resize(ranges%last, ranges%n, 2*ranges%n)
+      end if
+      ranges%n = ranges%n + 1
+      ranges%first(ranges%n) = first
+      ranges%last(ranges%n) = last
+      if (ranges%n > 2*ranges%n_clean + FEW) call clean(ranges)
+   end subroutine add_range
+
+   !> Appends numbers.
+   pure subroutine add_numbers(ranges, numbers)
+      type(ranges_t), intent(inout) :: ranges
+      integer(ip), intent(in) :: numbers(:)
+      integer(ip) :: i
+
+      do i = 1, size(numbers, kind=ip)
+         call add_range(ranges, numbers(i), numbers(i))
+      end do
+   end subroutine add_numbers
+
+   !> Appends the numbers of another list.
+   pure subroutine add_ranges(ranges, others)
+      type(ranges_t), intent(inout) :: ranges
+      type(ranges_t), intent(in) :: others
+      integer(ip) :: i
+
+      do i = 1, others%n
+         call add_range(ranges, others%first(i), others%last(i))
+      end do
+   end subroutine add_ranges
+
+   pure subroutine move_ranges(from, to)
+      type(ranges_t), intent(inout) :: from, to          !< to: an empty one
+
+      to%n = from%n
+      to%n_clean = from%n_clean
+      call move_alloc(from%first, to%first)
+      call move_alloc(from%last, to%last)
+   end subroutine move_ranges
+
+   !> All numbers, one by one.
+   pure function numbers_in(ranges) result(numbers)
+      type(ranges_t), intent(in) :: ranges
+      integer(ip), allocatable :: numbers(:)
+      type(ranges_t) :: cleaned
+
+      if (ranges%n_clean < ranges%n) then
+         cleaned = ranges
+         call clean(cleaned)
+         numbers = numbers_of_runs(cleaned)
+      else
+         numbers = numbers_of_runs(ranges)
+      end if
+   end function numbers_in
+
+   !> Those numbers that stand in a rising list, too: of a few of them nobody goes through all.
+   pure function numbers_among(ranges, some) result(numbers)
+      type(ranges_t), intent(in) :: ranges
+      integer(ip), intent(in) :: some(:)                 !< rising
+      integer(ip), allocatable :: numbers(:)
+      type(ranges_t) :: cleaned, found
+      integer(ip) :: i, k
+
+      cleaned = ranges
+      if (cleaned%n_clean < cleaned%n) call clean(cleaned)
+      do i = 1, cleaned%n
+         do k = place_of(some, cleaned%first(i)), size(some, kind=ip)
+            if (some(k) > cleaned%last(i)) exit
+            call add_range(found, some(k), some(k))
+         end do
+      end do
+      numbers = numbers_in(found)
+   end function numbers_among
+
+   pure function numbers_of_runs(ranges) result(numbers)
+      type(ranges_t), intent(in) :: ranges               !< clean
+      integer(ip), allocatable :: numbers(:)
+      integer(ip) :: i, k, n
+
+      allocate (numbers(count_of_runs(ranges)))
+      n = 0
+      do i = 1, ranges%n
+         do k = ranges%first(i), ranges%last(i)
+            n = n + 1
+            numbers(n) = k
+         end do
+      end do
+   end function numbers_of_runs
+
+   !> How many numbers there are.
+   pure integer(ip) function count_numbers(ranges) result(n)
+      type(ranges_t), intent(in) :: ranges
+      type(ranges_t) :: cleaned
+
+      if (ranges%n_clean < ranges%n) then
+         cleaned = ranges
+         call clean(cleaned)
+         n = count_of_runs(cleaned)
+      else
+         n = count_of_runs(ranges)
+      end if
+   end function count_numbers
+
+   pure integer(ip) function count_of_runs(ranges) result(n)
+      type(ranges_t), intent(in) :: ranges               !< clean
+
+      n = 0
+      if (ranges%n > 0) n = sum(ranges%last(:ranges%n) - ranges%first(:ranges%n) + 1)
+   end function count_of_runs
+
+   !> The number that came first; 0 of an empty list.
+   pure integer(ip) function first_number(ranges) result(number)
+      type(ranges_t), intent(in) :: ranges
+
+      number = 0
+      if (ranges%n > 0) number = ranges%first(1)
+   end function first_number
+
+   !> Leaves of each run what no earlier one has, and joins runs that go on with each other.
+   pure subroutine clean(ranges)
+      type(ranges_t), intent(inout) :: ranges
+      type(ranges_t) :: all_once
+      integer(ip), allocatable :: bounds(:), next(:)
+      integer(ip) :: i, piece, last_piece
+
+      associate (n => ranges%n)
+         if (any(ranges%first(2:n) <= ranges%last(:n - 1))) then
+            ! the ends of all runs cut the numbers into pieces; next leads from a piece to the next one that no run has taken yet
+            bounds = each_once([ranges%first(:n), ranges%last(:n) + 1])
+            next = [(i, i=1, size(bounds, kind=ip))]
+            do i = 1, n
+               piece = place_of(bounds, ranges%first(i))
+               last_piece = place_of(bounds, ranges%last(i) + 1)
+               call find_free(next, piece)
+               do while (piece < last_piece)
+                  call append_run(all_once, bounds(piece), bounds(piece + 1) - 1)
+                  next(piece) = piece + 1
+                  call find_free(next, piece)
+               end do
+            end do
+         else
+            do i = 1, n
+               call append_run(all_once, ranges%first(i), ranges%last(i))
+            end do
+         end if
+      end associate
+      all_once%n_clean = all_once%n
+      call move_ranges(all_once, ranges)
+   end subroutine clean
+
+   !> Place of the first that is not below a number; one more than there are when all are.
+   pure integer(ip) function place_of(bounds, number) result(place)
+      integer(ip), intent(in) :: bounds(:)               !< rising
+      integer(ip), intent(in) :: number
+      integer(ip) :: high, middle
+
+      place = 1
+      high = size(bounds, kind=ip) + 1
+      do while (place < high)
+         middle = place + (high - place)/2
+         if (bounds(middle) < number) then
+            place = middle + 1
+         else
+            high = middle
+         end if
+      end do
+   end function place_of
+
+   !> Goes from a piece on to the first that is free; the way is shorter the next time.
+   pure subroutine find_free(next, piece)
+      integer(ip), intent(inout) :: next(:)
+      integer(ip), intent(inout) :: piece
+
+      do while (next(piece) /= piece)
+         next(piece) = next(next(piece))
+         piece = next(piece)
+      end do
+   end subroutine find_free
+
+   pure subroutine append_run(ranges, first, last)
+      type(ranges_t), intent(inout) :: ranges
+      integer(ip), intent(in) :: first, last
+
+      ranges%n_clean = ranges%n                          ! add_range need not look through it
+      call add_range(ranges, first, last)
+   end subroutine append_run
+
+end module atrito_ranges
