@@ -230,7 +230,11 @@ contains
          if (begins_with(text, '# NOT CONVERGED')) says_so = index(text, LINE_FEED//'# program: '//PROGRAM) > 0
       case ('.csv')
          says_so = has_columns(text, name)
-      case ('.gp', '.dat', '.log', '.journal')
+      case ('.journal')                             ! the key of a sweep, and what became of a run
+         says_so = .false.
+         if (len(text) > 23) says_so = verify(text(:16), '0123456789abcdef') == 0 .and. &
+                                       (text(17:22) == ' done ' .or. text(17:23) == ' begun ')
+      case ('.gp', '.dat', '.log')
          says_so = begins_with(text, OWN_MARK)
       case ('.lst')
          says_so = begins_with(text, repeat('=', 20)) .and. index(text, '='//LINE_FEED//PROGRAM) > 0
