@@ -11,7 +11,6 @@ module atrito_sweep_journal
    use atrito_given_options, only: options_of_run
    use atrito_kinds, only: ip
    use atrito_numbers, only: read_integer, NUMBER_OK
-   use atrito_own_files, only: OWN_MARK
    use atrito_provenance, only: provenance_t
    use atrito_read_table, only: table_path
    use atrito_status, only: status_t, is_ok, STATUS_OK, STATUS_NOT_CONVERGED, STATUS_SINGULAR
@@ -32,7 +31,6 @@ module atrito_sweep_journal
    end type sweep_journal_t
 
    character(len=*), parameter :: JOURNAL_NAME = 'sweep.journal', BEGUN = 'begun', DONE = 'done', NO_TABLE = '-'
-   character(len=*), parameter :: FIRST_LINE = OWN_MARK//PROGRAM_VERSION//': the runs of a sweep that are done'
    character(len=1), parameter :: NEW_LINE_CHARACTER = achar(10)
 
 contains
@@ -101,7 +99,6 @@ contains
       character(len=*), intent(in) :: text
       integer :: ignored
 
-      if (.not. file_exists(journal%path)) ignored = c_append_line(journal%path//c_null_char, FIRST_LINE//c_null_char)
       ignored = c_append_line(journal%path//c_null_char, journal%key//' '//text//c_null_char)
    end subroutine add_line
 

@@ -31,13 +31,13 @@ module atrito_own_files
    !> The first columns of each table, by which a file of comma-separated values is known: it has no comments.
    character(len=40), parameter :: COLUMNS(*) = [ &
                                    character(len=40) :: 'contact:step,pair,point,', 'summary:step,pair,quantity,', &
-                                   'extremes:step,quantity,value,', 'resultants:step,set,keyword,', &
-                                   'history:step,increment,time,', 'nodes:step,node,x,y,', 'reactions:step,node,r1,r2,', &
-                                   'stress:step,element,point,', 'nodal_stress:step,node,x,y,', 'bodies:step,body,name,', &
-                                   'rigid:step,body,node,', 'joints:step,pair,body_1,', 'sections:step,cut,x,y,', &
-                                   'ties:step,tie,', 'equations:step,equation,node,', 'springs:step,spring,node_1,', &
-                                   'iterations:step,outer,inner,', 'timing:phase,wall,cpu', 'runs:run,', &
-                                   'study:level,element,h,dofs,', 'limit:value,code,', 'mechanism:body,name,x,y,', 'sweep:']
+                                                        'extremes:step,quantity,value,', 'resultants:step,set,keyword,', &
+                                             'history:step,increment,time,', 'nodes:step,node,x,y,', 'reactions:step,node,r1,r2,', &
+                                            'stress:step,element,point,', 'nodal_stress:step,node,x,y,', 'bodies:step,body,name,', &
+                                                    'rigid:step,body,node,', 'joints:step,pair,body_1,', 'sections:step,cut,x,y,', &
+                                                 'ties:step,tie,', 'equations:step,equation,node,', 'springs:step,spring,node_1,', &
+                                                        'iterations:step,outer,inner,', 'timing:phase,wall,cpu', 'runs:run,', &
+                                           'study:level,element,h,dofs,', 'limit:value,code,', 'mechanism:body,name,x,y,', 'sweep:']
 
 contains
 
@@ -230,7 +230,11 @@ contains
          if (begins_with(text, '# NOT CONVERGED')) says_so = index(text, LINE_FEED//'# program: '//PROGRAM) > 0
       case ('.csv')
          says_so = has_columns(text, name)
-      case ('.gp', '.dat', '.log', '.journal')
+      case ('.journal')                             ! the key of a sweep, and what became of a run
+         says_so = .false.
+         if (len(text) > 23) says_so = verify(text(:16), '0123456789abcdef') == 0 .and. &
+                                       (text(17:22) == ' done ' .or. text(17:23) == ' begun ')
+      case ('.gp', '.dat', '.log')
          says_so = begins_with(text, OWN_MARK)
       case ('.lst')
          says_so = begins_with(text, repeat('=', 20)) .and. index(text, '='//LINE_FEED//PROGRAM) > 0
@@ -257,7 +261,7 @@ contains
       if (last < 1) return
       do i = 1, size(COLUMNS)
          if (index(COLUMNS(i), name//':') /= 1) cycle
-         has_columns = index(text(:last), trim(COLUMNS(i)(len(name) + 2:))) == 1 .and. index(text(:last), achar(10)) == 0
+         has_columns = index(text(:last), trim(COLUMNS(i) (len(name) + 2:))) == 1 .and. index(text(:last), achar(10)) == 0
          ! the parameters that vary stand among them
          if (name == 'sweep') has_columns = index(text(:last), ',step,pair,quantity,') > 0
          if (name == 'runs') has_columns = has_columns .and. index(text(:last), ',exit,factorisations') > 0
