@@ -9,6 +9,7 @@ module fuzz_checks
                               SEVERITY_NOTE
    use atrito_mesh, only: signed_area
    use atrito_model, only: model_t
+   use atrito_ranges, only: numbers_in
    use atrito_results, only: results_t
    use atrito_sets, only: set_list_t, set_count
    use atrito_status, only: status_t, is_ok, STATUS_DECK, STATUS_NOT_CONVERGED, STATUS_SINGULAR
@@ -215,8 +216,9 @@ contains
       integer(ip) :: i
 
       do i = 1, set_count(list)
-         if (any(list%sets(i)%members < 1) .or. any(list%sets(i)%members > n)) fault = 'set '//list%sets(i)%name// &
-                                                                                       ' with a member that does not exist'
+         associate (members => numbers_in(list%sets(i)%members))
+            if (any(members < 1 .or. members > n)) fault = 'set '//list%sets(i)%name//' with a member that does not exist'
+         end associate
       end do
    end subroutine check_sets
 
