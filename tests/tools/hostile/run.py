@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Runs the catalogue of hostile decks: each has limits of time and memory, and what it has to end with (README.md).
 
-run.py ATRITO [--only PATTERN] [--wanted] [--list] [--must-fail] [--patience N] [--without KIND]
+run.py ATRITO [--only PATTERN] [--list] [--must-fail] [--patience N] [--without KIND]
 """
 import argparse
 import importlib
@@ -16,7 +16,7 @@ import threading
 
 from catalogue import CASES, Case
 
-FILES = ["text", "growth", "sizes", "files", "many", "numbers"]
+FILES = ["text", "growth", "sizes", "files", "many", "reported", "numbers"]
 ROOM = 2048                    # MiB of addresses beyond the limit of a case: libraries map more than they touch
 NEVER = re.compile(r"untime error|Backtrace|internal error|forrtl|AddressSanitizer|already allocated|allocated object")
 
@@ -96,14 +96,13 @@ def main():
     options = argparse.ArgumentParser()
     options.add_argument("atrito")
     options.add_argument("--only", default="", help="cases whose name matches")
-    options.add_argument("--wanted", action="store_true", help="those of wanted.py, which do not hold yet")
     options.add_argument("--list", action="store_true")
     options.add_argument("--must-fail", action="store_true")
     options.add_argument("--patience", type=int, default=1, help="limits of time are so many times as long: for builds with checks")
     options.add_argument("--without", default="", help="a kind that is left out")
     given = options.parse_args()
     atrito = os.path.abspath(given.atrito)
-    for name in ["wanted"] if given.wanted else [name for name in FILES if name != given.without]:
+    for name in [name for name in FILES if name != given.without]:
         importlib.import_module(name)
     for case in CASES:
         case.seconds *= given.patience
