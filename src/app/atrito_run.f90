@@ -9,7 +9,7 @@ module atrito_run
    use atrito_deck, only: deck_t
    use atrito_deck_as_run, only: take_deck_as_run
    use atrito_element_table, only: DEGREE_OF, KINDS, kind_named
-   use atrito_files, only: check_folder, check_all_own, check_own, forget_inputs, protect_input
+   use atrito_files, only: check_folder, check_all_own, check_own, forget_inputs, is_folder, protect_input
    use atrito_folder_claim, only: folder_claim_t, claim_folder, release_folder
    use atrito_frame_spool, only: begin_frames, end_frames, frame_spool_t
    use atrito_given_options, only: options_of_run
@@ -315,6 +315,7 @@ contains
       character(len=:), allocatable :: folder
 
       folder = output_folder(command)
+      if (.not. is_folder(folder)) return
       call check_all_own(folder, list_files_of_run(model, folder), status)
       if (is_ok(status)) call check_all_own(plot_folder(folder), list_plots(folder, PLOTS_OF_RUN), status)
       if (is_ok(status)) call check_own(folder//'/'//restart_name(model), status, may_be_read=.true.)

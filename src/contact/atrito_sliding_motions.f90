@@ -157,21 +157,30 @@ contains
       grain = EPS_MACH*most
       if (.not. most > 0.0_wp) return
       decade = 10.0_wp**floor(log10(most))
-      digits = [digits_of(pack(x, abs(x) >= decade), 10*decade), &
-                digits_of(pack(x, abs(x) < decade .and. abs(x) >= 0.1_wp*decade), 10*decade)]
+      digits = [digits_of(x, decade, most, 10*decade), digits_of(x, 0.1_wp*decade, decade*(1 - EPS_MACH), 10*decade)]
       if (digits(1) < digits(2) - 1) digits(1) = digits(2)
       if (digits(1) > ROUND .and. digits(1) <= MOST_DIGITS) grain = max(grain, 5*decade*10.0_wp**(-digits(1)))
    end function printed_grain
 
-   !> The digits of some numbers, counted from a decade on; one more than are looked for where there are more.
-   pure integer function digits_of(x, decade) result(digits)
-      real(wp), intent(in) :: x(:), decade
+   !> The digits of those of some numbers that lie in a range, counted from a decade on; one more than are looked for where there
+   !> are more.
+   pure integer function digits_of(x, least, most, decade) result(digits)
+      real(wp), intent(in) :: x(:, :), least, most, decade
       real(wp), parameter :: SPARE = 1.0e-3_wp
-      real(wp) :: unit
+      real(wp) :: per_unit
+      integer :: i, k
 
-      do digits = 1, MOST_DIGITS
-         unit = decade*10.0_wp**(-digits)
-         if (all(abs(x/unit - anint(x/unit)) <= SPARE)) return
+      digits = 1
+      per_unit = 10.0_wp/decade
+      do i = 1, size(x, 2)
+         do k = 1, 2
+            if (abs(x(k, i)) < least .or. abs(x(k, i)) > most) cycle
+            do while (abs(x(k, i)*per_unit - anint(x(k, i)*per_unit)) > SPARE)
+               digits = digits + 1
+               if (digits > MOST_DIGITS) return
+               per_unit = 10.0_wp**digits/decade
+            end do
+         end do
       end do
    end function digits_of
 

@@ -168,10 +168,12 @@ contains
       else
          call judge_second_degree(x(:, :n), shape, node)
       end if
-      if (shape == SHAPE_GOOD .and. all(abs(x(:, :n) - spread(x(:, 1), 2, int(n))) < LEAST_LENGTH)) then
-         shape = SHAPE_TINY
-         node = 1
-      end if
+      if (shape /= SHAPE_GOOD) return
+      do k = 2, n
+         if (any(abs(x(:, k) - x(:, 1)) >= LEAST_LENGTH)) return
+      end do
+      shape = SHAPE_TINY
+      node = 1
    end subroutine judge_shape
 
    pure subroutine judge_corners(x, shape, corner)
