@@ -302,7 +302,7 @@ contains
       real(wp), intent(out), optional :: coupling(:) !< (n)
 
       call sum_diagonals(matrix%store, matrix%n_fixed, diagonal)
-      call sum_couplings(matrix%store, matrix%n_fixed, coupling)
+      if (present(coupling)) call sum_couplings(matrix%store, matrix%n_fixed, coupling)
    end subroutine fixed_diagonal
 
    !> What the first factorisation will add to the matrix, before it does.

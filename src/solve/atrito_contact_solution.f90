@@ -70,7 +70,7 @@ contains
       call normal_bounds(line, problem, bounds, state)
       associate (n => problem%n_normal)
          asks_no_force = all(g0(:n) >= 0.0_wp .or. bounds%lower(:n) > -HUGE_REAL) .and. &
-                         all(pressure_of(line, state%q) <= 0.0_wp)
+                         all(pressure_of(line, state%q) == 0.0_wp)
       end associate
    end function asks_no_force
 

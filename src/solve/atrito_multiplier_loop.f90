@@ -448,8 +448,9 @@ contains
          loop%best_outer = outer
       end if
       if (multipliers%settled .and. outer - loop%best_outer >= STALE .and. whole <= STALE_DISTANCE) solution%converged = .true.
-      loop%steady = merge(loop%steady + 1_ip, 0_ip, loop%distance%drive > NO_LOAD .and. &
-                          loop%distance%drive > STEADY_PULL*loop%drive)
+      ! a weak pull counts where the forces have come to rest
+      loop%steady = merge(loop%steady + 1_ip, 0_ip, loop%distance%drive > STEADY_PULL*loop%drive .and. loop%distance%drive > &
+                          merge(NO_LOAD, MOVES, loop%distance%forces <= LITTLE_LEFT))
       ! a weak pull may still change what is in contact
       loop%moving = merge(loop%moving + 1_ip, 0_ip, loop%steady > 0 .and. loop%distance%drive > &
                           merge(SMALL_PULL, MOVES, multipliers%changed))
