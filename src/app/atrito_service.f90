@@ -4,12 +4,9 @@ module atrito_service
    use atrito_kinds, only: ip
    use atrito_mpi, only: receive_parcel
    use atrito_parcel, only: parcel_t, take
-   use atrito_part_service, only: serve_parts
-   use atrito_part_store, only: part_store_t
-   use atrito_part_tops, only: serve_tops, top_store_t
    use atrito_rank_memory, only: serve_memory
-   use atrito_rank_services, only: await_message, SERVICE_END, SERVICE_FIELDS, SERVICE_MEMORY, SERVICE_PARTS, SERVICE_RUNS, &
-                                   SERVICE_SCENE_PARTS, SERVICE_SCENE_TOP, SERVICE_TOPS
+   use atrito_rank_services, only: await_message, SERVICE_END, SERVICE_FIELDS, SERVICE_MEMORY, SERVICE_RUNS, &
+                                   SERVICE_SCENE_PARTS, SERVICE_SCENE_TOP
    use atrito_scene_service, only: scene_store_t, serve_scene_parts
    use atrito_scene_top, only: serve_scene_top
    use atrito_shared_fields, only: serve_fields
@@ -27,8 +24,6 @@ contains
    !> Comes back when nothing more is wanted.
    subroutine serve()
       type(parcel_t) :: request
-      type(part_store_t) :: parts
-      type(top_store_t) :: tops
       type(scene_store_t) :: scene
       integer(ip) :: service
 
@@ -39,10 +34,6 @@ contains
          select case (service)
          case (SERVICE_END)
             return
-         case (SERVICE_PARTS)
-            call serve_parts(parts, request)
-         case (SERVICE_TOPS)
-            call serve_tops(parts, tops, request)
          case (SERVICE_SCENE_PARTS)
             call serve_scene_parts(scene, request)
          case (SERVICE_SCENE_TOP)

@@ -1,8 +1,8 @@
-!> `atrito limit` over ranks: questions are asked ahead of their time, by whoever is free.
+!> `atrito limit` over ranks: the questions of the curve, which do not depend on each other, are answered by whoever is free.
 !>
-!> Each question of the search depends on the answers before it. Rank 0 foresees which are likely to come (foresee of
-!> atrito_stability_search) and hands them out together, a round. The search goes on as by one process: it finds answers in what
-!> the rounds left, and what it does not ask for is left there. What it learns, and so the table, is that of one process.
+!> All other questions of the search depend on the answers before and are rank 0's. When the first one of the curve comes, rank 0
+!> hands out all of them together, a round. The search goes on as by one process: it finds answers in what the rounds left. What it
+!> learns, and so the table, is that of one process.
 module atrito_stability_rounds
    use atrito_body_cache, only: body_cache_t
    use atrito_command_line, only: command_t
@@ -14,7 +14,7 @@ module atrito_stability_rounds
    use atrito_reporter, only: reporter_t, report_progress
    use atrito_run_request, only: begin_request, has_own_process, text_of_end
    use atrito_stability_questions, only: question_t, answer_t, ask, TELL_NOTHING
-   use atrito_stability_search, only: search_t, foresee
+   use atrito_stability_search, only: search_t, list_curve
    use atrito_status, only: STATUS_OK, STATUS_INTERNAL
    use atrito_strings, only: to_text
    use atrito_threads, only: set_threads
@@ -88,7 +88,8 @@ contains
       end do
    end function place_of
 
-   !> Hands out what is foreseen and has not been asked. A single question is left to rank 0, which keeps its factored bodies.
+   !> Hands out what belongs to the curve and has not been asked. A single question is left to rank 0, which keeps its factored
+   !> bodies.
    subroutine make_round(rounds, search, next)
       type(rounds_t), intent(inout) :: rounds
       type(search_t), intent(in) :: search
@@ -121,7 +122,7 @@ contains
       logical, allocatable :: is_new(:)
       integer :: i
 
-      call foresee(search, next%x, next%step, int(rank_count()), x, step)
+      call list_curve(search, next%x, next%step, x, step)
       allocate (is_new(size(x)))
       do i = 1, size(x)
          is_new(i) = place_of(question_t(x(i), step(i)), rounds) == 0

@@ -11,7 +11,7 @@ module atrito_rank_memory
    use atrito_system, only: reusable_memory
    implicit none (type, external)
    private
-   public :: rank_memory_t, ask_for_memory, own_memory, serve_memory
+   public :: rank_memory_t, ask_for_memory, serve_memory
 
    type :: rank_memory_t
       character(len=:), allocatable :: host      !< its name

@@ -8,14 +8,11 @@ module atrito_rank_services
    implicit none (type, external)
    private
    public :: dismiss_ranks, send_to_others, await_message
-   public :: SERVICE_END, SERVICE_PARTS, SERVICE_TOPS, SERVICE_FIELDS, SERVICE_SCENE_PARTS, SERVICE_SCENE_TOP, &
-             SERVICE_MEMORY, SERVICE_RUNS
+   public :: SERVICE_END, SERVICE_FIELDS, SERVICE_SCENE_PARTS, SERVICE_SCENE_TOP, SERVICE_MEMORY, SERVICE_RUNS
 
    integer(ip), parameter :: SERVICE_END = 0_ip    !< nothing more
-   integer(ip), parameter :: SERVICE_PARTS = 1_ip  !< of the parts of a scene (atrito_part_service)
-   integer(ip), parameter :: SERVICE_TOPS = 2_ip   !< of what their bodies have in common (atrito_part_tops)
    integer(ip), parameter :: SERVICE_FIELDS = 3_ip !< stresses and their error (atrito_shared_fields)
-   integer(ip), parameter :: SERVICE_SCENE_PARTS = 4_ip !< of the parts of a scene in one matrix (atrito_scene_service)
+   integer(ip), parameter :: SERVICE_SCENE_PARTS = 4_ip !< of the parts of a scene (atrito_scene_service)
    integer(ip), parameter :: SERVICE_SCENE_TOP = 5_ip !< of what these parts share (atrito_scene_top)
    integer(ip), parameter :: SERVICE_MEMORY = 6_ip !< how much there is for the rank (atrito_rank_memory)
    integer(ip), parameter :: SERVICE_RUNS = 10_ip  !< runs of a sweep, a study or a limit: the arguments of the program follow

@@ -33,8 +33,6 @@ module atrito_linear_solver
       integer(ip) :: n = 0                  !< equations
       integer(ip) :: n_retained = 0             !< the last n_retained are kept
       type(factor_report_t) :: report        !< of the last call of factor
-      !> (n_retained) of the matrix before anything was eliminated, behind factor; only sparse_t tells
-      real(wp), allocatable :: retained_diagonal(:)
    contains
       procedure(create_solver), deferred :: create
       procedure(add_matrix), deferred :: add

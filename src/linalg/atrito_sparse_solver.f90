@@ -90,7 +90,6 @@ contains
          call sum_diagonals(self%store, self%store%n, by_equation)
          diagonal(self%elimination%position) = by_equation
          deallocate (by_equation)
-         self%retained_diagonal = diagonal(self%n - self%n_retained + 1:)
       end if
       if (enough) call factor_fronts(self%fronts, self%store, diagonal, enough)
       self%store = element_store_t()

@@ -7,14 +7,10 @@ module atrito_body_cache
    use atrito_bilateral_rows, only: bilateral_rows_t
    use atrito_bodies, only: bodies_t
    use atrito_condensed_body, only: condensed_body_t, condense_body, check_held, set_load
-   use atrito_errand, only: errand_t
    use atrito_kinds, only: ip, wp
    use atrito_mesh, only: mesh_t
    use atrito_plane_state, only: elastic_t
    use atrito_points, only: contact_points_t
-   use atrito_shared_body, only: first_rank_t, shared_body_t, take_trouble
-   use atrito_shares, only: shares_t
-   use atrito_sharing, only: condense_shared_body, forget_shared, give_up, share_bodies
    use atrito_reporter, only: reporter_t, report_progress
    use atrito_results, only: body_result_t
    use atrito_status, only: status_t, is_ok
@@ -22,17 +18,13 @@ module atrito_body_cache
    use atrito_timers, only: start_phase, stop_phase
    implicit none (type, external)
    private
-   public :: body_cache_t, provide_bodies, reload_bodies, take_numbering, release_bodies, forget_bodies, forget_loads, &
-             take_trouble_of_bodies
+   public :: body_cache_t, provide_bodies, reload_bodies, take_numbering, release_bodies, forget_bodies, forget_loads
 
    type :: body_cache_t
       type(reporter_t) :: reporter                     !< of factorisations
       logical :: keeps = .false.                       !< for a next run; costs a copy of the mesh
       integer(ip) :: factorisations = 0                !< of the last call of provide_bodies; behind a history of all
       type(condensed_body_t), allocatable :: bodies(:) !< as the last call of provide_bodies left them
-      type(shares_t), allocatable :: shares            !< how bodies go over the ranks; not allocated: they stay
-      class(errand_t), allocatable :: errand           !< what this rank does while others factor; it has been done or not
-      type(first_rank_t), pointer, private :: first => null() !< what this rank has of them
       logical, private :: holds = .false.              !< the rest is there: what they were made of
       type(mesh_t), private :: mesh
       type(bodies_t), private :: numbering             !< of the bodies
@@ -63,7 +55,6 @@ contains
       type(status_t), intent(out) :: status
       type(bilateral_rows_t), intent(in), optional :: bilateral !< without it there are none
       type(condensed_body_t), allocatable :: bodies(:)
-      type(shared_body_t), allocatable :: shared(:)
       logical :: same_bodies, same_load
       integer(ip) :: b
 
@@ -73,14 +64,10 @@ contains
                                      .and. has_same_numbering(store, held, points, fem, bilateral)
       store%holds = .false.
       allocate (bodies(fem%bodies%n))
-      if (allocated(store%shares)) call begin_sharing(store, fem, same_bodies, shared)
       do b = 1, fem%bodies%n
          if (fem%bodies%list(b)%is_rigid) then             ! nothing to factor
             call check_held(fem, b, status)
-            if (.not. is_ok(status)) then
-               if (allocated(shared)) call give_up(shared)
-               return
-            end if
+            if (.not. is_ok(status)) return
             cycle
          end if
          same_load = .false.
@@ -90,16 +77,8 @@ contains
          else
             same_load = .false.
             call report_progress(store%reporter, 'factor '//fem%bodies%list(b)%name)
-            if (allocated(shared)) then
-               allocate (bodies(b)%solver, source=shared(b))
-               call condense_shared_body(fem, b, bodies(b), results(b), status)
-            else
-               call condense_body(fem, b, asked, bodies(b), results(b), status)
-            end if
-            if (.not. is_ok(status)) then
-               if (allocated(shared)) call give_up(shared)
-               return
-            end if
+            call condense_body(fem, b, asked, bodies(b), results(b), status)
+            if (.not. is_ok(status)) return
             store%factorisations = store%factorisations + 1
          end if
          if (.not. same_load) then
@@ -110,29 +89,11 @@ contains
          call report_progress(store%reporter, 'body '//results(b)%name//'  dofs '//to_text(fem%bodies%list(b)%n) &
                               //'  contact dofs '//to_text(fem%bodies%list(b)%n_retained)//'  '//results(b)%solver)
       end do
-      if (allocated(store%bodies)) call forget_shared(store%bodies)    ! those that do not serve again
       call move_alloc(bodies, store%bodies)
       if (.not. store%keeps) return
       call remember(store, fem, held, points, load, asked, results, same_bodies)
       if (present(bilateral)) store%bilateral = bilateral
    end subroutine provide_bodies
-
-   !> Has the ranks factor the bodies that do not serve again.
-   subroutine begin_sharing(store, fem, same_bodies, shared)
-      type(body_cache_t), intent(inout) :: store
-      type(fem_t), intent(in) :: fem
-      logical, intent(in) :: same_bodies
-      type(shared_body_t), allocatable, intent(out) :: shared(:)
-      logical :: wanted(fem%bodies%n)
-      integer(ip) :: b
-
-      do b = 1, fem%bodies%n
-         wanted(b) = .not. (fem%bodies%list(b)%is_rigid .or. serves_again(store, fem, b, same_bodies))
-      end do
-      allocate (shared(fem%bodies%n))
-      if (.not. associated(store%first)) allocate (store%first)
-      call share_bodies(fem, store%shares, wanted, store%first, shared, store%errand)
-   end subroutine begin_sharing
 
    !> The bodies as the last call of provide_bodies left them, with another load.
    subroutine reload_bodies(store, fem, load)
@@ -177,7 +138,7 @@ contains
    subroutine release_bodies(store)
       type(body_cache_t), intent(inout) :: store
 
-      if (.not. store%keeps) call drop_bodies(store)
+      if (.not. store%keeps .and. allocated(store%bodies)) deallocate (store%bodies)
    end subroutine release_bodies
 
    !> Gives them back in any case.
@@ -185,25 +146,8 @@ contains
       type(body_cache_t), intent(inout) :: store
 
       store%holds = .false.
-      call drop_bodies(store)
+      if (allocated(store%bodies)) deallocate (store%bodies)
    end subroutine forget_bodies
-
-   subroutine drop_bodies(store)
-      type(body_cache_t), intent(inout) :: store
-
-      if (.not. allocated(store%bodies)) return
-      call forget_shared(store%bodies)
-      deallocate (store%bodies)
-   end subroutine drop_bodies
-
-   !> Whether the ranks have failed to solve for a body since this was asked last. status: STATUS_INTERNAL then, in place of what it
-   !> was; else it stays.
-   subroutine take_trouble_of_bodies(store, status)
-      type(body_cache_t), intent(inout) :: store
-      type(status_t), intent(inout) :: status
-
-      if (associated(store%first)) call take_trouble(store%first, status)
-   end subroutine take_trouble_of_bodies
 
    !> The bodies have other loads than those that they were asked for with.
    pure subroutine forget_loads(store)

@@ -23,7 +23,7 @@ module atrito_condensed_body
    implicit none (type, external)
    private
    public :: check_held, hourglass_text, loose_text
-   public :: condensed_body_t, condense_body, factor_body, choose_solver, set_load, contact_response, &
+   public :: condensed_body_t, condense_body, choose_solver, set_load, contact_response, &
              add_flexibilities, &
              expand_body, motion_text, body_text, how_it_moves, is_turn, sparse_cost
 

@@ -15,7 +15,7 @@ module atrito_dense_form
    use atrito_recovery, only: contact_forces, elastic_displacements
    use atrito_reporter, only: report_progress
    use atrito_results, only: results_t
-   use atrito_scene_data, only: scene_data_t, free_load, share_scene_out
+   use atrito_scene_data, only: scene_data_t, free_load
    use atrito_solve_history, only: restart_history
    use atrito_shared_points, only: has_dependent_points, solve_shared_points
    use atrito_status, only: status_t, set_status, is_ok, STATUS_SINGULAR
@@ -120,7 +120,6 @@ contains
       else
          if (allocated(problem)) deallocate (problem)
          call forget_reduced(data%bases)
-         call share_bodies_out(data, store)
          call provide_bodies(store, data%fem, data%held, data%points, free_load(data), data%solver_kind, results%scene%bodies, &
                              status, data%model%bilateral)
          results%factorisations = store%factorisations
@@ -133,18 +132,6 @@ contains
       end if
       if (is_ok(status)) results%scene%near_elements = any(store%bodies%is_near)
    end subroutine provide_loaded_bodies
-
-   !> Over the ranks, where there are others and it is worth it.
-   subroutine share_bodies_out(data, store)
-      type(scene_data_t), intent(inout) :: data
-      type(body_cache_t), intent(inout) :: store
-
-      if (allocated(store%shares)) deallocate (store%shares)
-      call start_phase('order')
-      call share_scene_out(data)
-      call stop_phase('order')
-      if (allocated(data%shares)) store%shares = data%shares
-   end subroutine share_bodies_out
 
    !> Solves the contact line: from the increment before, where that leads to a solution, else from the usual start.
    subroutine solve_line(data, controls, problem, solution, status)

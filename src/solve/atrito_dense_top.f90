@@ -6,7 +6,7 @@ module atrito_dense_top
    use atrito_status, only: status_t, set_status, STATUS_INTERNAL, STATUS_SINGULAR
    implicit none (type, external)
    private
-   public :: dense_top_t, begin_top, add_to_top, add_packed_to_top, factor_top, solve_top, top_bytes, expected_top_bytes
+   public :: dense_top_t, begin_top, add_packed_to_top, factor_top, solve_top, top_bytes, expected_top_bytes
 
    type :: dense_top_t
       integer(ip) :: n = 0
@@ -31,22 +31,7 @@ contains
       if (no_memory /= 0) call set_status(status, STATUS_INTERNAL, 'not enough memory for what the parts share')
    end subroutine begin_top
 
-   !> Adds what is left of a part.
-   pure subroutine add_to_top(unknown, s, top)
-      integer(ip), intent(in) :: unknown(:)      !< number of each of its kept unknowns
-      real(wp), intent(in) :: s(:, :)            !< symmetric
-      type(dense_top_t), intent(inout) :: top
-      integer(ip) :: i, j
-
-      do j = 1, size(unknown, kind=ip)
-         do i = 1, size(unknown, kind=ip)
-            if (unknown(i) < unknown(j)) cycle
-            top%matrix(unknown(i), unknown(j)) = top%matrix(unknown(i), unknown(j)) + s(i, j)
-         end do
-      end do
-   end subroutine add_to_top
-
-   !> The same of a lower triangle by columns (atrito_packed_matrices).
+   !> Adds what is left of a part: the lower triangle by columns (atrito_packed_matrices).
    pure subroutine add_packed_to_top(unknown, values, top)
       integer(ip), intent(in) :: unknown(:)      !< number of each of its kept unknowns
       real(wp), intent(in) :: values(:)

@@ -1,7 +1,7 @@
 !> One increment: from what acts to displacements, contact and its checks. The form of the contact system, and what is tried where
 !> it finds no solution.
 module atrito_increment
-   use atrito_body_cache, only: body_cache_t, take_trouble_of_bodies
+   use atrito_body_cache, only: body_cache_t
    use atrito_body_sums, only: sum_bodies
    use atrito_condensed_body, only: body_text, how_it_moves
    use atrito_contact_form, only: can_be_dense, contact_form_name, CONTACT_AUTO, CONTACT_DENSE, CONTACT_SPARSE
@@ -11,7 +11,6 @@ module atrito_increment
    use atrito_contact_solution, only: contact_solution_t
    use atrito_dense_form, only: solve_dense_form
    use atrito_extremes, only: find_extremes
-   use atrito_errand, only: errand_t
    use atrito_final_check, only: check_equilibrium, check_balance, check_law, equilibrium_t
    use atrito_force_sums, only: sum_forces
    use atrito_joint_sums, only: sum_joints
@@ -148,14 +147,12 @@ contains
       real(wp), allocatable :: u(:, :)                      ! without rigid motions, (2, n_nodes) [L]
       type(shared_fields_t) :: fields
 
-      call plan_fields(data, store%errand)
       if (form == CONTACT_SPARSE) then
          call solve_sparse_form(data, controls, results, solution, u, status)
       else
          call solve_dense_form(data, controls, store, results, solution, u, status)
       end if
-      call take_trouble_of_bodies(store, status)            ! whatever came of a solve that failed
-      call take_trouble_of_top(status)
+      call take_trouble_of_top(status)                      ! whatever came of a solve that failed
       solution%form = form
       call start_phase('iterate')
       call judge_outcome(data, results, solution, status)
@@ -163,7 +160,7 @@ contains
       if (.not. is_ok(status)) return
       call start_phase('recover')
       if (solution%converged) call settle_idle_motions(data, u, data%before, solution)
-      if (data%is_printed) call begin_early(data, solution, u, store%errand, fields)
+      if (data%is_printed) call begin_early(data, solution, u, fields)
       if (allocated(data%had%motion)) call clear_what_is_left(data, solution, u)
       call recover(data, solution, u, results)
       call stop_phase('recover')
@@ -354,8 +351,7 @@ contains
 
       call start_phase('recover')
       if (allocated(data%rank_of) .and. .not. fields%has_begun) then
-         fields%besides = work_of_stresses(data)
-         call begin_fields(data%fem, data%rank_of, results%u, data%wants_element_errors, fields)
+         call begin_fields(data%fem, data%rank_of, results%u, data%wants_element_errors, work_of_stresses(data), fields)
       end if
       call sum_joints(data%fem%bodies%of_node, data%points, results%contact, results%joints)
       call recover_stress(data%step%requests, data%fem, results)
@@ -371,38 +367,18 @@ contains
       call stop_phase('estimate')
    end subroutine complete_results
 
-   !> Where bodies go over the ranks, the first one finds out which elements are whose while the others factor.
-   subroutine plan_fields(data, errand)
-      type(scene_data_t), intent(in) :: data
-      class(errand_t), allocatable, intent(inout) :: errand
-      type(shared_fields_t), allocatable :: fields
-
-      if (allocated(errand)) deallocate (errand)
-      if (.not. data%is_printed) return
-      allocate (fields)
-      fields%besides = EQUILIBRIUM_WORK + work_of_stresses(data)
-      call move_alloc(fields, errand)
-   end subroutine plan_fields
-
    !> Where there are several ranks the others begin with the fields, while the first one checks the equilibrium.
-   subroutine begin_early(data, solution, u, errand, fields)
+   subroutine begin_early(data, solution, u, fields)
       type(scene_data_t), intent(in) :: data
       type(contact_solution_t), intent(in) :: solution
       real(wp), intent(in) :: u(:, :)                       !< without rigid motions, (2, n_nodes) [L]
-      class(errand_t), allocatable, intent(inout) :: errand !< of plan_fields; none on return
       type(shared_fields_t), intent(inout) :: fields
       real(wp), allocatable :: total(:, :)
 
       if (.not. allocated(data%rank_of)) return
-      select type (errand)
-      type is (shared_fields_t)
-         fields%besides = errand%besides
-         if (allocated(errand%regions)) call move_alloc(errand%regions, fields%regions)
-      end select
-      deallocate (errand)
       total = u
       call add_rigid_motions(data%fem, solution%state%a, total)
-      call begin_fields(data%fem, data%rank_of, total, data%wants_element_errors, fields)
+      call begin_fields(data%fem, data%rank_of, total, data%wants_element_errors, EQUILIBRIUM_WORK + work_of_stresses(data), fields)
    end subroutine begin_early
 
    !> What the stresses that are asked for take, over the fields of all elements.

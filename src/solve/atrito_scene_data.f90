@@ -22,11 +22,11 @@ module atrito_scene_data
    use atrito_reporter, only: reporter_t
    use atrito_rigid_bodies, only: add_rigid_loads, has_moving_surfaces, set_rigid_motions
    use atrito_scene_builder, only: build_scene, build_bodies, list_held
+   use atrito_scene_shares, only: is_worth_sharing, SHARE_NONE
    use atrito_scene_sharing, only: share_over_ranks
    use atrito_scene_system, only: scene_system_t, set_scene_gaps, set_scene_load
    use atrito_scene_memory, only: check_average_memory, most_average_entries
    use atrito_shared_scene, only: shared_scene_t
-   use atrito_shares, only: shares_t, is_over_ranks, is_worth_sharing, share_out, SHARE_NONE
    use atrito_sliding_bodies, only: let_slide, balance_loads
    use atrito_solver_choice, only: SOLVER_SPARSE
    use atrito_status, only: status_t, is_ok, STATUS_DECK, set_status
@@ -35,8 +35,8 @@ module atrito_scene_data
    use atrito_thermal_loads, only: add_thermal_loads
    implicit none (type, external)
    private
-   public :: scene_data_t, asked_t, prepare, may_share_out, share_scene_out, set_time, assemble, drop_assembled, free_load, &
-             check_known_points, forces_at_end
+   public :: scene_data_t, asked_t, prepare, set_time, assemble, drop_assembled, free_load, check_known_points, &
+             forces_at_end
 
    type :: scene_data_t
       type(model_t), pointer :: model => null()
@@ -54,12 +54,11 @@ module atrito_scene_data
       integer :: contact_form = CONTACT_DENSE
       character(len=:), allocatable :: reason               !< why this form
       integer :: solver_kind = 0                           !< that the bodies are numbered for
-      integer :: share = SHARE_NONE                        !< whether the scene goes over the ranks, SHARE_*
+      logical :: is_shared = .false.                        !< over the ranks, in the sparse form
       class(scene_system_t), allocatable :: assembled       !< the sparse form, in one matrix or over the ranks
       logical :: is_assembled = .false.
       logical :: wants_element_errors = .false.             !< of what is printed
       logical :: is_printed = .true.                        !< what is solved for is printed: it is worth stresses and estimates
-      type(shares_t), allocatable :: shares                 !< of the ranks; not allocated: the first one has all
       integer(ip), allocatable :: rank_of(:)                !< (n_elements) not allocated: the first rank has all
       ! Of a history:
       logical :: keeps = .false.                            !< what one increment leaves serves the next
@@ -102,7 +101,6 @@ contains
       data%rigid_prescribed = data%step%rigid_prescribed
       call choose_form(asked, data)
       data%solver_kind = asked%solver_kind
-      data%share = asked%share
       data%wants_element_errors = asked%element_errors
       ! all bodies in one matrix: none is numbered for a profile of its own
       if (data%contact_form == CONTACT_SPARSE) data%solver_kind = SOLVER_SPARSE
@@ -212,11 +210,13 @@ contains
    end subroutine move_skew_supports
 
    !> The form of the contact system, by the numbers of points and nodes: in the dense form the nodes that the points see are kept,
-   !> too, of which a master that is finer has more than there are points.
+   !> too, of which a master that is finer has more than there are points. A scene that is worth sharing takes the sparse form, the
+   !> only one that goes over the ranks, where nobody asks for the other one or for a method of it.
    subroutine choose_form(asked, data)
       type(asked_t), intent(in) :: asked
       type(scene_data_t), intent(inout) :: data
       logical :: seen(data%fem%mesh%n_nodes)
+      logical :: is_worth_it
       integer(ip) :: i, n, n_points
 
       n = data%model%bilateral%n
@@ -230,27 +230,16 @@ contains
       n = max(n, count(seen, kind=ip) - n_points)
       call choose_contact_form(n, 2*data%model%mesh%n_nodes, asked%contact_form, data%step%controls%method /= METHOD_ANDERSON, &
                                min(asked%memory, available_memory()), data%contact_form, data%reason)
+      is_worth_it = any(asked%solver_kind == [0, SOLVER_SPARSE])
+      if (is_worth_it) is_worth_it = is_worth_sharing(2*data%model%mesh%n_nodes, n, rank_count(), asked%share)
+      if (is_worth_it .and. asked%contact_form == CONTACT_AUTO .and. data%step%controls%method == METHOD_ANDERSON) then
+         data%contact_form = CONTACT_SPARSE
+         data%reason = 'the one that goes over ranks'
+      end if
+      data%is_shared = is_worth_it .and. data%contact_form == CONTACT_SPARSE
    end subroutine choose_form
 
-   !> Whether there are other ranks, and it is worth it.
-   logical function may_share_out(data)
-      type(scene_data_t), intent(in) :: data
-
-      may_share_out = any(data%solver_kind == [0, SOLVER_SPARSE])
-      if (may_share_out) may_share_out = is_worth_sharing(data%fem, rank_count(), data%share)
-   end function may_share_out
-
-   !> The shares of the ranks, where there are others and it is worth it; once. One matrix has others when it is assembled
-   !> (atrito_scene_sharing): as large, and of fewer shared unknowns.
-   subroutine share_scene_out(data)
-      type(scene_data_t), intent(inout) :: data
-
-      if (allocated(data%shares)) return
-      if (allocated(data%rank_of)) deallocate (data%rank_of)
-      if (may_share_out(data)) call share_out(data%fem, data%rows, rank_count(), data%share, data%shares, data%rank_of)
-   end subroutine share_scene_out
-
-   !> All bodies in one matrix, or its parts on the ranks where that is worth it, and their fronts; nothing is factored. status:
+   !> All bodies in one matrix, or its parts on the ranks, and their fronts; nothing is factored. status:
    !> STATUS_INTERNAL when the memory does not suffice.
    subroutine assemble(data, status)
       type(scene_data_t), intent(inout) :: data
@@ -258,8 +247,7 @@ contains
 
       if (data%is_assembled) return
       call drop_assembled(data)
-      call share_scene_out(data)
-      if (is_over_ranks(data%shares)) then
+      if (data%is_shared) then
          call assemble_on_ranks(data, status)
       else
          call assemble_here(data, status)

@@ -3,7 +3,7 @@
 !> What is there by then is not counted but asked of the system: libraries, mesh, model, points, averages. To that comes the
 !> largest of what the phases hold that follow: bodies and contact line, or factors of the sparse form; displacements, stresses
 !> and what their recovery works with. Left out are the certificate, a second form where the first finds no solution, and bodies
-!> kept for a next run. Of a scene that is shared out it is asked elsewhere (atrito_rank_forecast): the first rank's was then told.
+!> kept for a next run. Of a scene that is shared out it is asked elsewhere (atrito_rank_check): the first rank's was then told.
 module atrito_scene_forecast
    use atrito_contact_form, only: CONTACT_SPARSE
    use atrito_element_table, only: BEST_OF, POINT_COUNT
@@ -12,11 +12,10 @@ module atrito_scene_forecast
    use atrito_model, only: model_t, step_t
    use atrito_results, only: scene_t
    use atrito_scene_data, only: scene_data_t
-   use atrito_shares, only: is_over_ranks
    use atrito_solver_choice, only: SOLVER_SPARSE
    implicit none (type, external)
    private
-   public :: forecast_memory, contact_bytes, field_library_bytes, load_bytes, recovery_bytes, request_bytes, with_holes, &
+   public :: forecast_memory, field_library_bytes, load_bytes, recovery_bytes, request_bytes, with_holes, &
              LATER_BYTES
 
    integer(lp), parameter :: REAL_BYTES = 8_lp
@@ -37,7 +36,7 @@ contains
       type(scene_t), intent(in) :: scene             !< with its bodies, and what was held so far
       integer(lp) :: solving, recovering
 
-      if (is_over_ranks(data%shares)) then
+      if (data%is_shared) then
          bytes = scene%memory
          return
       end if

@@ -1,4 +1,4 @@
-!> The parts of a scene as whoever solves sees them, wherever they are: in one process (atrito_local_parts) or on several ranks.
+!> The parts of a scene as whoever solves sees them, wherever they are: on several ranks (atrito_ranked_parts).
 !>
 !> Vectors over the parts are those of part 1, then those of part 2, and so on: a shared unknown stands in them once for each part
 !> that has it. The system that holds the parts together, the top, is the sum of what is left of each part (part_matrix).

@@ -6,29 +6,27 @@
 !> process but for the order of sums.
 module atrito_shared_fields
    use atrito_assembly, only: fem_t
-   use atrito_errand, only: errand_t
    use atrito_error_estimate, only: energies_t, integrate_error, relative_error, share_errors
    use atrito_fem_piece, only: take_piece
    use atrito_kinds, only: ip, wp
    use atrito_mesh, only: mesh_t
    use atrito_mesh_parcel, only: put_mesh, put_sections, take_mesh, take_sections
-   use atrito_multifrontal, only: sort_by_squares
    use atrito_mpi, only: rank_count, receive_parcel, send_parcel
    use atrito_parcel, only: parcel_t, put, take
    use atrito_plane_state, only: STRESS_NAMES
    use atrito_range, only: unit_of
    use atrito_rank_services, only: SERVICE_FIELDS
    use atrito_results, only: results_t
-   use atrito_shares, only: shares_t, rank_of_elements
    use atrito_stress_recovery, only: stress_field_t, nodal_stresses, recover_stress_field
    use atrito_thermal_loads, only: largest_thermal_strain
-   use atrito_timers, only: start_phase, stop_phase
    implicit none (type, external)
    private
    public :: shared_fields_t, begin_fields, end_fields, serve_fields, hand_over, kept_share
    public :: EQUILIBRIUM_WORK, STRESS_WORK
 
    integer(ip), parameter :: RINGS = 4
+   !> Elements of a square, nearly: what is near in the plane is to be near in memory.
+   real(wp), parameter :: OF_A_SQUARE = 64.0_wp
    !> What the equilibrium and the stresses of all elements take, over recovered stresses and their error.
    real(wp), parameter :: EQUILIBRIUM_WORK = 0.3_wp, STRESS_WORK = 0.25_wp
 
@@ -40,15 +38,12 @@ module atrito_shared_fields
       integer(ip), allocatable :: node(:)
    end type region_t
 
-   !> Fields that will be asked for, or have begun. Their regions are found while other ranks factor, or when they begin.
-   type, extends(errand_t) :: shared_fields_t
-      real(wp) :: besides = 0.0_wp                   !< what the first rank does meanwhile, over the fields of all elements
+   !> Fields that have begun, or may.
+   type :: shared_fields_t
       type(region_t), allocatable :: regions(:)      !< from 0
       logical :: has_begun = .false.
       real(wp) :: unit = 0.0_wp
       logical :: by_element = .false.
-   contains
-      procedure :: run => find_regions_of_shares
    end type shared_fields_t
 
    !> What is found in a region.
@@ -61,16 +56,17 @@ module atrito_shared_fields
 contains
 
    !> Gives the other ranks their elements; they begin. end_fields has to follow, with nothing else for the ranks between.
-   subroutine begin_fields(fem, rank_of, u, by_element, fields)
+   subroutine begin_fields(fem, rank_of, u, by_element, besides, fields)
       type(fem_t), intent(in) :: fem
       integer(ip), intent(in) :: rank_of(:)          !< (n_elements)
       real(wp), intent(in) :: u(:, :)                !< (2, n_nodes) [L]
       logical, intent(in) :: by_element              !< the error of each is wanted
-      type(shared_fields_t), intent(inout) :: fields !< with what the first rank does besides; its regions may be there
+      real(wp), intent(in) :: besides                !< what the first rank does meanwhile, over the fields of all elements
+      type(shared_fields_t), intent(inout) :: fields
       integer(ip) :: rank
       type(fem_t) :: piece
 
-      if (.not. allocated(fields%regions)) call find_regions(fem%mesh, rank_of, fields%besides, rank_count(), fields%regions)
+      call find_regions(fem%mesh, rank_of, besides, rank_count(), fields%regions)
       fields%has_begun = .true.
       fields%unit = unit_of(u)
       fields%by_element = by_element
@@ -82,17 +78,6 @@ contains
          end associate
       end do
    end subroutine begin_fields
-
-   !> The regions of ranks that have their shares.
-   subroutine find_regions_of_shares(self, fem, shares)
-      class(shared_fields_t), intent(inout) :: self
-      type(fem_t), intent(in) :: fem
-      type(shares_t), intent(in) :: shares
-
-      call start_phase('recover')
-      call find_regions(fem%mesh, rank_of_elements(fem, shares), self%besides, shares%n_ranks, self%regions)
-      call stop_phase('recover')
-   end subroutine find_regions_of_shares
 
    !> The elements of the first rank that the others take over, slice by slice: it has other things to do.
    pure subroutine hand_over(order, besides, n_ranks, owner)
@@ -391,5 +376,41 @@ contains
          end associate
       end do
    end subroutine add_nodes_of
+
+   !> The places in a list of nodes, square by square: what is near in the plane is near in the list.
+   pure subroutine sort_by_squares(x, nodes, order)
+      real(wp), intent(in) :: x(:, :)            !< (2, all nodes) [L]
+      integer(ip), intent(in) :: nodes(:)
+      integer(ip), allocatable, intent(out) :: order(:)
+      integer(ip), allocatable :: first(:), square(:)
+      real(wp) :: low(2), high(2), side
+      integer(ip) :: n(2), at(2), i, s
+
+      allocate (square(size(nodes)), order(size(nodes)))
+      if (size(nodes) == 0) return
+      low = x(:, nodes(1))
+      high = low
+      do i = 2, size(nodes, kind=ip)
+         low = min(low, x(:, nodes(i)))
+         high = max(high, x(:, nodes(i)))
+      end do
+      associate (extent => high - low, n_nodes => real(size(nodes), wp))
+         side = sqrt(max(product(extent), maxval(extent)**2/n_nodes)*OF_A_SQUARE/n_nodes)
+         n = int(extent/max(side, tiny(side)), ip) + 1_ip
+      end associate
+      allocate (first(0:n(1)*n(2)), source=0_ip)
+      do i = 1, size(nodes, kind=ip)
+         at = min(int((x(:, nodes(i)) - low)/max(side, tiny(side)), ip), n - 1_ip)
+         square(i) = at(1) + n(1)*at(2)          ! from 0
+         first(square(i) + 1) = first(square(i) + 1) + 1
+      end do
+      do s = 1, n(1)*n(2)
+         first(s) = first(s) + first(s - 1)
+      end do
+      do i = 1, size(nodes, kind=ip)
+         first(square(i)) = first(square(i)) + 1
+         order(first(square(i))) = i
+      end do
+   end subroutine sort_by_squares
 
 end module atrito_shared_fields

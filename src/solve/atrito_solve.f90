@@ -10,11 +10,10 @@ module atrito_solve
    use atrito_number_range, only: is_out_of_range
    use atrito_reporter, only: reporter_t
    use atrito_results, only: results_t, scene_t
-   use atrito_rank_check, only: check_first_rank, check_ranks, PARTS_COUNTED, PARTS_ESTIMATED, PARTS_LEAST, PARTS_THERE
-   use atrito_scene_data, only: scene_data_t, asked_t, prepare, may_share_out, share_scene_out, assemble, drop_assembled, &
-                                check_known_points
+   use atrito_rank_check, only: check_ranks
+   use atrito_scene_data, only: scene_data_t, asked_t, prepare, assemble, drop_assembled, check_known_points
    use atrito_scene_forecast, only: forecast_memory
-   use atrito_shares, only: is_over_ranks, SHARE_AUTO, SHARE_ALL, SHARE_NONE
+   use atrito_scene_shares, only: SHARE_AUTO, SHARE_ALL, SHARE_NONE
    use atrito_scene_survey, only: describe_scene, describe_order, count_fronts, check_scene
    use atrito_solution_warnings, only: warn, idle_text
    use atrito_solver_choice, only: SOLVER_SKYLINE, SOLVER_BANDED, SOLVER_SPARSE, SOLVER_MUMPS
@@ -60,9 +59,8 @@ contains
 
       call start_phase('order')
       call prepare(model, store, options%asked_t, data, status, step)
-      if (is_ok(status)) call share_where_it_fits(options, data, scene, status)
-      if (is_over_ranks(data%shares)) then
-         call begin_shared_scene(options, exact, data, scene, status)
+      if (data%is_shared) then
+         if (is_ok(status)) call begin_shared_scene(options, data, scene, status)
          call stop_phase('order')
       else
          if (is_ok(status) .and. data%contact_form == CONTACT_SPARSE) call assemble(data, status)
@@ -74,37 +72,20 @@ contains
       if (is_ok(status)) call check_known_points(data, status)
    end subroutine begin_scene
 
-   !> The shares of the ranks, where there are any: METIS, which cuts bodies, ends the program when it has too little memory.
-   subroutine share_where_it_fits(options, data, scene, status)
+   !> The memory of all ranks is asked for before their parts are made, for METIS, which cuts the scene, ends the program when it
+   !> has too little; and again before the parts are factored.
+   subroutine begin_shared_scene(options, data, scene, status)
       type(solve_options_t), intent(in) :: options
       type(scene_data_t), intent(inout) :: data
       type(scene_t), intent(inout) :: scene
       type(status_t), intent(inout) :: status
 
-      if (.not. may_share_out(data)) return
       call describe_scene(data, scene)
-      call check_first_rank(data, options%memory, scene, status)
-      if (is_ok(status)) call share_scene_out(data)
-   end subroutine share_where_it_fits
-
-   !> The memory of all ranks is asked for before their parts are made, that of the sparse form again before these are factored.
-   subroutine begin_shared_scene(options, exact, data, scene, status)
-      type(solve_options_t), intent(in) :: options
-      logical, intent(in) :: exact
-      type(scene_data_t), intent(inout) :: data
-      type(scene_t), intent(inout) :: scene
-      type(status_t), intent(inout) :: status
-
-      call describe_scene(data, scene)
-      if (data%contact_form /= CONTACT_SPARSE) then
-         call check_ranks(data, options%memory, merge(PARTS_COUNTED, PARTS_ESTIMATED, exact), scene, status)
-         return
-      end if
-      call check_ranks(data, options%memory, PARTS_LEAST, scene, status)
+      call check_ranks(data, options%memory, scene, status)
       if (is_ok(status)) call assemble(data, status)
       if (.not. is_ok(status)) return
       call describe_order(data, scene)
-      call check_ranks(data, options%memory, PARTS_THERE, scene, status)
+      call check_ranks(data, options%memory, scene, status)
    end subroutine begin_shared_scene
 
    !> Solves. status: STATUS_SINGULAR (free motion, singular body, dependent points), STATUS_DECK (contradiction of prescribed

@@ -8,8 +8,8 @@ module atrito_stability_search
    use atrito_kinds, only: wp
    implicit none (type, external)
    private
-   public :: search_t, tried_t, begin_search, next_step, foresee, record_balance, record_solution, standing_value, falling_value, &
-             balanced_value, allowed_width
+   public :: search_t, tried_t, begin_search, next_step, list_curve, record_balance, record_solution, standing_value, &
+             falling_value, balanced_value, allowed_width
    public :: STEP_BALANCE, STEP_SOLVE, STEP_DONE
    public :: UNKNOWN, STANDS, FALLS, UNDECIDED
    public :: FOUND_LIMIT, FOUND_INTERVAL, BOTH_STAND, BOTH_FALL, NO_END_STANDS
@@ -34,7 +34,7 @@ module atrito_stability_search
       integer :: found = 0                          !< once done: FOUND_LIMIT, ...
       type(tried_t), allocatable :: tried(:)        !< in the order in which they were looked at
       real(wp), private :: widths(2) = huge(1.0_wp) !< of the interval before the last two questions of balance
-      logical, private :: is_on_curve = .false.     !< the last question is about a value of the curve
+      logical :: is_on_curve = .false.              !< the last question is about a value of the curve
    end type search_t
 
    !> Values of the curve, as shares of the way from the end that stands to the limit.
@@ -87,59 +87,31 @@ contains
       if (abs(falling_value(search) - standing_value(search)) <= allowed_width(search)) search%found = FOUND_LIMIT
    end subroutine next_step
 
-   !> The question of next_step and those that are likely to follow, when each is answered as supposed.
-   !> A run of a scene that falls takes longer than all others: away from the curve it is not foreseen unless its balance is known.
-   pure subroutine foresee(search, first, first_step, at_most, x, step)
+   !> The question of next_step and, where it is of the curve, those that follow there: no value of the curve depends on another.
+   pure subroutine list_curve(search, first, first_step, x, step)
       type(search_t), intent(in) :: search          !< as next_step left it
       real(wp), intent(in) :: first                 !< the question, with first_step
       integer, intent(in) :: first_step             !< STEP_BALANCE or STEP_SOLVE
-      integer, intent(in) :: at_most                !< > 0, of them; all of the curve, of which no value depends on another
       real(wp), allocatable, intent(out) :: x(:)
       integer, allocatable, intent(out) :: step(:)
       type(search_t) :: later
-      type(tried_t) :: known
       real(wp) :: next
       integer :: what
-      logical :: all_on_curve
 
       later = search
-      all_on_curve = search%is_on_curve
       x = [first]
       step = [first_step]
       next = first
       what = first_step
-      do
-         if (what == STEP_BALANCE) call suppose_balance(later, next)
+      do while (later%is_on_curve)
+         if (what == STEP_BALANCE) call record_balance(later, next, STANDS, 0.0_wp)
          if (what == STEP_SOLVE) call record_solution(later, next, STANDS)
          call next_step(later, next, what)
-         all_on_curve = all_on_curve .and. later%is_on_curve
-         if (what == STEP_DONE .or. (size(x) >= at_most .and. .not. all_on_curve)) exit
-         known = known_of(search, next)
-         if (what == STEP_SOLVE .and. known%balance /= STANDS .and. .not. all_on_curve) exit
+         if (.not. later%is_on_curve) exit
          x = [x, next]
          step = [step, what]
       end do
-   end subroutine foresee
-
-   !> It falls beyond the root that the excess predicts, by an excess on the line.
-   pure subroutine suppose_balance(search, x)
-      type(search_t), intent(inout) :: search
-      real(wp), intent(in) :: x
-      type(tried_t) :: nearest
-      real(wp) :: start, fall, root, at
-      logical :: found
-
-      start = start_of(search)
-      fall = distance_of_fall(search, start)
-      call predict_root(search, start, fall, root, found)
-      at = abs(x - start)
-      if (found .and. at > root) then
-         nearest = known_of(search, falling_value(search))
-         call record_balance(search, x, FALLS, nearest%excess*(at - root)/(fall - root))
-      else
-         call record_balance(search, x, STANDS, 0.0_wp)
-      end if
-   end subroutine suppose_balance
+   end subroutine list_curve
 
    !> The ends come first. Two that can be balanced are both solved, to tell what they are.
    pure subroutine look_at_ends(search, x, step, standing)

@@ -41,10 +41,29 @@ done
 grep -q "^ *MPI [ .]*.*, $many ranks\$" "by-$many/block.lst" || fail 'the listing does not tell the ranks'
 grep -q '^ *MPI ' by-1/block.lst && fail 'the listing of one rank tells of MPI'
 
+# who goes over the ranks: a scene that is large, or all of them, in the sparse form; by the dense form the first rank alone
+form_of() { # form_of FORM WHAT OPTIONS: two ranks
+   form=$1
+   what=$2
+   shift 2
+   top/run --ranks 2 "$@" -o form --quiet >out 2>err || { fail "$what: exit $?"; cat err; }
+   grep -q "$form" form/*.lst || { fail "$what: not the form that was expected"; grep 'contact system' form/*.lst; }
+   rm -rf form
+}
+plates=$sources/input/ex2-two-plates.inp
+form_of 'sparse, the one that goes over ranks' 'a scene that is shared' "$plates" --share all
+form_of 'sparse, the one that goes over ranks' 'a scene without contact that is shared' "$deck" --share all
+form_of 'dense, predicted' 'a small scene' "$plates"
+form_of 'dense, predicted' 'a scene that is not to be shared' "$plates" --share none
+form_of 'dense, asked for' 'the dense form' "$plates" --share all --contact dense
+form_of 'dense, predicted' 'another solver' "$plates" --share all --solver skyline
+sed "s/^\*STATIC.*/&\n*CONTROLS, METHOD=PICARD/" "$plates" >picard.inp
+form_of 'dense, the method that is asked for' 'a method of the dense form' picard.inp --share all
+
 # ended from outside
-sh -c 'echo $$ >id; exec "$@"' sh top/run --ranks 2 "$sources/input/ex1-plate-on-rigid-support.inp" --refine 7 -o ended >out 2>err &
+sh -c 'echo $$ >id; exec "$@"' sh top/run --ranks 2 "$sources/input/ex1-plate-on-rigid-support.inp" --refine 6 --share all -o ended >out 2>err &
 run=$!
-await told err '^factor '
+await told err '^step '
 kill -TERM "$(cat id)"
 end
 expect_code 143 'SIGTERM of ./run --ranks'

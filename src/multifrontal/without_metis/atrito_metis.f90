@@ -1,9 +1,9 @@
 !> The twin of src/multifrontal/atrito_metis.F90 in a build without METIS.
 module atrito_metis
-   use atrito_kinds, only: ip, wp
+   use atrito_kinds, only: ip
    implicit none (type, external)
    private
-   public :: halve_graph, share_graph, cut_mesh, has_metis, metis_version, metis_trouble
+   public :: halve_graph, has_metis, metis_version, metis_trouble
 
 contains
 
@@ -18,27 +18,6 @@ contains
       part = 0
       done = .false.
    end subroutine halve_graph
-
-   !> done: .false.
-   subroutine share_graph(first, neighbour, vertex_weight, edge_weight, n_parts, part, done)
-      integer(ip), intent(in) :: first(:), neighbour(:), edge_weight(:), vertex_weight(:), n_parts
-      integer(ip), intent(out) :: part(:)
-      logical, intent(out) :: done
-
-      part = 1
-      done = .false.
-   end subroutine share_graph
-
-   !> done: .false.
-   subroutine cut_mesh(first, node, n_nodes, weight, target, part, done)
-      integer(ip), intent(in) :: first(:), node(:), n_nodes, weight(:)
-      real(wp), intent(in) :: target(:)
-      integer(ip), intent(out) :: part(:)
-      logical, intent(out) :: done
-
-      part = 1
-      done = .false.
-   end subroutine cut_mesh
 
    pure logical function has_metis()
       has_metis = .false.

@@ -1,8 +1,7 @@
-!> Rows of blocks for the tests of shares and parts.
+!> Rows of blocks for the tests of shared fields.
 module part_cases
    use atrito_assembly, only: fem_t
    use atrito_bodies, only: find_bodies, find_rigid_modes, number_equations
-   use atrito_contact_rows, only: contact_rows_t
    use atrito_element_table, only: SHAPES
    use atrito_kinds, only: ip, lp, wp
    use atrito_mesh, only: mesh_t, add_block, add_nodes, is_hollow, trim_mesh
@@ -10,7 +9,7 @@ module part_cases
    use body_cases, only: random_numbers
    implicit none (type, external)
    private
-   public :: make_blocks, chain_rows
+   public :: make_blocks
 
 contains
 
@@ -80,21 +79,5 @@ contains
       call add_nodes(mesh, mesh%n_nodes + 1, x(:, :k))
       call add_block(mesh, mesh%n_elements + 1, state, shape, place)
    end subroutine add_one
-
-   !> Three contact points between each block and the next.
-   subroutine chain_rows(fem, rows)
-      type(fem_t), intent(in) :: fem
-      type(contact_rows_t), intent(out) :: rows
-      integer(ip) :: b, k
-
-      rows%n = 3*(fem%bodies%n - 1)
-      rows%first = [(2*k - 1, k=1, rows%n + 1)]
-      allocate (rows%node(0))
-      do b = 1, fem%bodies%n - 1
-         do k = 1, 3
-            rows%node = [rows%node, fem%bodies%list(b)%nodes(k), fem%bodies%list(b + 1)%nodes(k)]
-         end do
-      end do
-   end subroutine chain_rows
 
 end module part_cases

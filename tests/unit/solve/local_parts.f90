@@ -1,11 +1,10 @@
-!> The parts of a scene in one process, one after the other, with a full matrix for what they share: what parts on several ranks are
-!> measured by.
-module atrito_local_parts
-   use atrito_dense_top, only: dense_top_t, begin_top, add_to_top, factor_top, solve_top, top_bytes, &
-                               expected_top_bytes
+!> The parts of a scene in one process, one after the other, for the tests of how a scene is cut and put together.
+module local_parts
+   use atrito_dense_top, only: dense_top_t, begin_top, add_packed_to_top, factor_top, solve_top, top_bytes, expected_top_bytes
    use atrito_kinds, only: ip, lp, wp
-   use atrito_scene_part, only: scene_part_t, assemble_scene_part, part_matrix, reduce_part, expand_part
+   use atrito_scene_part, only: scene_part_t, assemble_scene_part, reduce_part, expand_part
    use atrito_scene_parts, only: scene_parts_t, part_lists_t
+   use atrito_scene_service, only: part_outcome_t, factor_scene_part
    use atrito_status, only: status_t, is_ok
    implicit none (type, external)
    private
@@ -14,6 +13,7 @@ module atrito_local_parts
    type, extends(scene_parts_t) :: local_parts_t
       type(part_lists_t), private :: lists
       type(scene_part_t), allocatable :: parts(:)
+      type(part_outcome_t), allocatable, private :: outcome(:)
       type(dense_top_t), private :: top
    contains
       procedure :: begin => begin_local
@@ -33,8 +33,8 @@ contains
       class(local_parts_t), intent(inout) :: self
       integer(ip), intent(in) :: n_parts
 
-      if (allocated(self%parts)) deallocate (self%parts)
-      allocate (self%parts(n_parts))
+      if (allocated(self%parts)) deallocate (self%parts, self%outcome)
+      allocate (self%parts(n_parts), self%outcome(n_parts))
    end subroutine begin_local
 
    subroutine take_local(self, p, part)
@@ -83,44 +83,29 @@ contains
       real(wp), intent(in) :: stiffness(:), pull(:)
       integer(ip), intent(out) :: failed, failed_top
       type(status_t), intent(out) :: status
+      type(part_outcome_t) :: outcome
       integer(ip) :: p
-      logical :: changed
 
       failed = 0
       failed_top = 0
-      changed = self%top%failed > 0
       do p = 1, self%lists%n_parts
-         associate (part => self%parts(p)%scene, lists => self%lists)
-            call part%factor(stiffness(lists%first_row(p):lists%first_row(p + 1) - 1), &
-                             pull(lists%first_pull(p):lists%first_pull(p + 1) - 1), status)
-            changed = changed .or. part%matrix%n_refactored > 0
-            if (part%failed > 0) failed = lists%first_unknown(p) + part%failed - 1
+         associate (lists => self%lists)
+            call factor_scene_part(self%parts(p), stiffness(lists%first_row(p):lists%first_row(p + 1) - 1), &
+                                   pull(lists%first_pull(p):lists%first_pull(p + 1) - 1), outcome)
+            if (outcome%failed > 0) failed = lists%first_unknown(p) + outcome%failed - 1
          end associate
-         if (.not. is_ok(status)) return         ! it will be factored again, and the top with it
+         status = outcome%status
+         if (.not. is_ok(status)) return
+         if (outcome%is_changed) self%outcome(p) = outcome
       end do
-      if (changed) call factor_sum(self, failed_top, status)
-   end subroutine factor_local
-
-   !> The sum of what is left of the parts, in their order.
-   subroutine factor_sum(self, failed_top, status)
-      class(local_parts_t), intent(inout) :: self
-      integer(ip), intent(out) :: failed_top
-      type(status_t), intent(out) :: status
-      real(wp), allocatable :: s(:, :)
-      integer(ip) :: p
-
-      failed_top = 0
       call begin_top(self%lists%n_top, self%top, status)
-      if (.not. is_ok(status)) return
       do p = 1, self%lists%n_parts
-         allocate (s(self%lists%n_kept(p), self%lists%n_kept(p)))
-         call part_matrix(self%parts(p), s)
-         call add_to_top(self%lists%top(self%lists%first_top(p):self%lists%first_top(p + 1) - 1), s, self%top)
-         deallocate (s)
+         call add_packed_to_top(self%lists%top(self%lists%first_top(p):self%lists%first_top(p + 1) - 1), self%outcome(p)%left, &
+                                self%top)
       end do
       call factor_top(self%top, status)
       failed_top = self%top%failed
-   end subroutine factor_sum
+   end subroutine factor_local
 
    subroutine solve_local(self, x, top)
       class(local_parts_t), intent(in) :: self
@@ -170,4 +155,4 @@ contains
       if (allocated(self%parts)) deallocate (self%parts)
    end subroutine release_local
 
-end module atrito_local_parts
+end module local_parts
