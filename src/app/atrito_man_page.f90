@@ -57,7 +57,7 @@ contains
       do i = 1, size(TASKS)
          call add_entry(lines, called(i), trim(TASKS(i)%phrase))
       end do
- call add_entry(lines, 'atrito help man | bash', 'this page; what completes commands, options and keywords in bash')
+      call add_entry(lines, 'atrito help man | bash', 'this page; what completes commands, options and keywords in bash')
    end subroutine add_tasks
 
    subroutine add_options(lines)

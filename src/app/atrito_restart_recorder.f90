@@ -59,7 +59,7 @@ contains
       if (recorder%resumes .and. is_ok(status)) call protect_input(identity, status)
       if (recorder%resumes .and. file_exists(command%restart) .and. .not. is_ok(status)) return
       if (recorder%resumes) call read_restart(command%restart, recorder%fingerprint, recorder%found, recorder%state, status, &
-                                             frames)
+                                              frames)
    end subroutine begin_recorder
 
    !> Writes the file anew. A failure is told once, and the run goes on: its tables are not lost with it.

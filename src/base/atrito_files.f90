@@ -184,7 +184,7 @@ contains
          allocate (character(len=length) :: text, stat=state)
          is_read = state == 0
          if (.not. is_read) call set_status(status, STATUS_FILE, 'cannot be read: there is not enough memory for its '// &
-                                         to_text(length)//' bytes')
+                                            to_text(length)//' bytes')
          if (is_read) is_read = c_read_input(file, text, int(length, c_size_t), 0_c_int64_t) == 1
       end if
       if (is_ok(status) .and. .not. is_read) call set_status(status, STATUS_FILE, 'cannot be read')

@@ -137,27 +137,27 @@ contains
    !> A file in the place of one that atrito writes is atrito's, or nobody can know.
    logical function may_go(path)
       character(len=*), intent(in) :: path
-      integer :: class
+      integer :: family
 
-      class = class_of(kind_of(path))
-      may_go = class == IS_OTHER
-      if (class == IS_BINARY .or. class == IS_PICTURE) may_go = ends_with(path, TEMPORARY) .and. .not. ends_with(path, FORMER)
+      family = class_of(kind_of(path))
+      may_go = family == IS_OTHER
+      if (family == IS_BINARY .or. family == IS_PICTURE) may_go = ends_with(path, TEMPORARY) .and. .not. ends_with(path, FORMER)
       if (.not. may_go) may_go = is_own(path)
    end function may_go
 
    !> Which kind of file an ending has.
-   pure integer function class_of(ending) result(class)
+   pure integer function class_of(ending) result(family)
       character(len=*), intent(in) :: ending
 
       select case (ending)
       case ('.tab', '.csv', '.gp', '.dat', '.log', '.journal', '.lst', '.inp', '.xdmf', '.html')
-         class = IS_TEXT
+         family = IS_TEXT
       case ('.h5', '.msh')
-         class = IS_BINARY
+         family = IS_BINARY
       case ('.bin', '.png', '.svg', '.gif')
-         class = IS_PICTURE
+         family = IS_PICTURE
       case default
-         class = IS_OTHER
+         family = IS_OTHER
       end select
    end function class_of
 
@@ -189,12 +189,12 @@ contains
       character(len=*), intent(in) :: path
       character(len=HEAD) :: buffer
       character(len=:), allocatable :: name, kind
-      integer :: n, class
+      integer :: n, family
 
       is_own = .false.
       kind = kind_of(path)
-      class = class_of(kind)
-      if (class == IS_OTHER) return
+      family = class_of(kind)
+      if (family == IS_OTHER) return
       n = c_peek(path//c_null_char, buffer, HEAD, 0)
       if (n < 0) return
       name = final_name(path)
@@ -204,7 +204,7 @@ contains
       else if (kind == '.msh') then
          n = c_peek(path//c_null_char, buffer, TAIL, 1)
          is_own = index(buffer(:n), MESH_MARK) > 0
-      else if (class == IS_PICTURE) then
+      else if (family == IS_PICTURE) then
          is_own = is_own_script(name//'.gp')
       else
          is_own = says_so(buffer(:n), kind, name(index(name, '/', back=.true.) + 1:))

@@ -68,7 +68,7 @@ contains
    end subroutine add_ranges
 
    pure subroutine move_ranges(from, to)
-      type(ranges_t), intent(inout) :: from, to          !< to: an empty one
+      type(ranges_t), intent(inout) :: from, to          !< the second one is empty
 
       to%n = from%n
       to%n_clean = from%n_clean

@@ -48,7 +48,7 @@ contains
          call view_frame(history, i, frame)
          call require(wrong, is_before([frame%step, frame%increment], [state%step, state%increment]), 'frames behind the end')
          if (i > 1) call require(wrong,.not. is_before([frame%step, frame%increment], [history%frames(i - 1)%step, &
-                                                                        history%frames(i - 1)%increment]), 'frames out of order')
+                                                                           history%frames(i - 1)%increment]), 'frames out of order')
          call check_frame(data, scene, observed, frame, frame%step == state%step, wrong)
          if (allocated(wrong)) return
       end do

@@ -11,7 +11,7 @@ module atrito_history_forecast
    private
    public :: is_solved_by_increments, history_bytes, field_growth
 
-   !> Measured: what a printed increment leaves of itself, while the list of them grows, and what of HDF5; rows of history.tab, and
+   !> What, as measured, a printed increment leaves of itself, while the list of them grows, and of HDF5; rows of history.tab, and
    !> what the iterations of an increment, four or five of them, take as rows and as a table.
    integer(lp), parameter :: FRAME_NUMBERS = 6000_lp, PAIR_ROW = 380_lp, ITERATION_ROWS = 1000_lp, FIELD_GROUPS = 25000_lp
    !> What HDF5 keeps at most.
@@ -101,7 +101,7 @@ contains
 
    pure integer(lp) function due_of(step, every)
       type(step_t), intent(in) :: step
-      integer(ip), intent(in) :: every                 !< 0: at the end alone
+      integer(ip), intent(in) :: every                 !< increments; none (0): at the end alone
 
       due_of = 1
       if (every > 0) due_of = max(1_lp, increments_of(step)/every)

@@ -62,8 +62,8 @@ contains
       call judge_condition(solution)
    end subroutine solve_contact_line
 
-   !> Solves again, from the solution of a problem that differs by little, such as the increment before: its states, factor and bound
-   !> are where the loop begins. status: as of solve_contact_line.
+   !> Solves again, from the solution of a problem that differs by little, such as the increment before: its states, factor and
+   !> bound are where the loop begins. status: as of solve_contact_line.
    subroutine continue_contact_line(problem, line, controls, reporter, solution, status)
       type(bound_qp_t), intent(in), target :: problem
       type(contact_line_t), intent(in), target :: line
