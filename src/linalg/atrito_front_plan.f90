@@ -2,8 +2,8 @@
 !>
 !> Ranks are joined two by two, those first that have most unknowns in common. What only the two have is eliminated where they are
 !> joined, by one of their ranks; what others have, too, goes on to the next joint. So the fronts are a binary tree, in which all
-!> fronts that are as far from the root may be worked on at the same time (nested dissection with the ranks for leaves). The
-!> last unknowns may be kept: they are left at the root, which is the first rank's.
+!> fronts that are as far from the root may be worked on at the same time (nested dissection with the ranks for leaves).
+!> The root is the first rank's.
 module atrito_front_plan
    use atrito_kinds, only: ip, lp, wp
    use atrito_parcel, only: parcel_t, put, take
@@ -21,8 +21,8 @@ module atrito_front_plan
    end type shared_front_t
 
    type :: front_plan_t
-      integer(ip) :: n = 0, n_kept = 0           !< unknowns; the last of them that are kept
-      integer(ip), allocatable :: unknown(:)     !< (n) at each position; the kept ones are the last, in their order
+      integer(ip) :: n = 0                       !< unknowns
+      integer(ip), allocatable :: unknown(:)     !< (n) at each position
       integer(ip), allocatable :: position(:)    !< (n) of each unknown
       type(shared_front_t), allocatable :: front(:) !< children first; that of rank r is number r + 1, the root the last
    end type front_plan_t
@@ -35,8 +35,8 @@ module atrito_front_plan
 
 contains
 
-   pure subroutine make_front_plan(n, n_kept, first, unknown, plan)
-      integer(ip), intent(in) :: n, n_kept
+   pure subroutine make_front_plan(n, first, unknown, plan)
+      integer(ip), intent(in) :: n
       integer(ip), intent(in) :: first(:)        !< (ranks + 1)
       integer(ip), intent(in) :: unknown(:)      !< of rank r: unknown(first(r + 1):first(r + 2) - 1), 1..n
       type(front_plan_t), intent(out) :: plan
@@ -45,10 +45,8 @@ contains
 
       n_ranks = size(first, kind=ip) - 1
       plan%n = n
-      plan%n_kept = n_kept
       allocate (plan%position(n), plan%front(2*n_ranks - 1), cluster(n_ranks))
-      plan%position(:n - n_kept) = 0
-      plan%position(n - n_kept + 1:) = [(i, i=n - n_kept + 1, n)]
+      plan%position = 0
       held_by = 0
       do r = 1, n_ranks
          cluster(r)%front = r
@@ -58,13 +56,13 @@ contains
       end do
       next = 0
       do r = 1, n_ranks
-         call eliminate_own(n - n_kept, held_by, cluster(r), plan, next)
+         call eliminate_own(held_by, cluster(r), plan, next)
       end do
       i = n_ranks
       do while (size(cluster) > 1)
          call join_clusters(held_by, cluster, plan, i, next)
       end do
-      do i = 1, n - n_kept                       ! what nobody has
+      do i = 1, n                                ! what nobody has
          if (plan%position(i) > 0) cycle
          next = next + 1
          plan%position(i) = next
@@ -77,15 +75,15 @@ contains
 
    !> The pivots of a front are what its ranks alone have; the rest stays in the cluster. The front has unknowns until they all have
    !> positions.
-   pure subroutine eliminate_own(n_interior, held_by, cluster, plan, next)
-      integer(ip), intent(in) :: n_interior, held_by(:)
+   pure subroutine eliminate_own(held_by, cluster, plan, next)
+      integer(ip), intent(in) :: held_by(:)
       type(cluster_t), intent(inout) :: cluster
       type(front_plan_t), intent(inout) :: plan
       integer(ip), intent(inout) :: next
       logical :: is_pivot(size(cluster%member))
       integer(ip) :: i
 
-      is_pivot = held_by(cluster%member) == 1 .and. cluster%member <= n_interior
+      is_pivot = held_by(cluster%member) == 1
       associate (front => plan%front(cluster%front))
          front%position = cluster%member
          front%n_pivots = count(is_pivot, kind=ip)
@@ -124,7 +122,7 @@ contains
          where (both == 2) held_by = held_by - 1
          joined(n)%front = n_fronts
          joined(n)%member = each_once([cluster(i)%member, cluster(partner(i))%member])
-         call eliminate_own(plan%n - plan%n_kept, held_by, joined(n), plan, next)
+         call eliminate_own(held_by, joined(n), plan, next)
       end do
       call move_alloc(joined, cluster)
    end subroutine join_clusters
@@ -207,7 +205,7 @@ contains
       type(front_plan_t), intent(in) :: plan
       integer(ip) :: f
 
-      call put(parcel, [plan%n, plan%n_kept, size(plan%front, kind=ip)])
+      call put(parcel, [plan%n, size(plan%front, kind=ip)])
       call put(parcel, plan%unknown)
       call put(parcel, plan%position)
       do f = 1, size(plan%front, kind=ip)
@@ -226,8 +224,7 @@ contains
 
       call take(parcel, numbers)
       plan%n = numbers(1)
-      plan%n_kept = numbers(2)
-      allocate (plan%front(numbers(3)))
+      allocate (plan%front(numbers(2)))
       call take(parcel, plan%unknown)
       call take(parcel, plan%position)
       do f = 1, size(plan%front, kind=ip)

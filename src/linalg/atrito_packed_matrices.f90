@@ -6,7 +6,7 @@ module atrito_packed_matrices
    implicit none (type, external)
    private
    public :: packed_matrices_t, packed_length, put_packed, packed_diagonals, list_coordinates, add_diagonals, scale_packed, &
-             raise_diagonals, add_packed_column
+             raise_diagonals
 
    type :: packed_matrices_t
       integer(ip), allocatable :: start(:)       !< (matrices + 1) matrix m is over unknown(start(m):start(m + 1) - 1)
@@ -142,27 +142,5 @@ contains
          end do
       end do
    end subroutine raise_diagonals
-
-   !> Adds what all matrices have in the column of an unknown, above the diagonal as well.
-   pure subroutine add_packed_column(matrices, values, j, column)
-      type(packed_matrices_t), intent(in) :: matrices
-      real(wp), intent(in) :: values(:)
-      integer(ip), intent(in) :: j
-      real(wp), intent(inout) :: column(:)       !< (unknowns of the system)
-      integer(lp) :: before
-      integer(ip) :: m, a, b, least
-
-      do m = 1, size(matrices%start, kind=ip) - 1
-         associate (own => matrices%unknown(matrices%start(m):matrices%start(m + 1) - 1))
-            b = findloc(own, j, dim=1, kind=ip)
-            if (b == 0) cycle
-            do a = 1, size(own, kind=ip)
-               least = min(a, b)
-               before = values_before(matrices, m) + int(least - 1, lp)*(2*size(own, kind=lp) - least + 2)/2
-               column(own(a)) = column(own(a)) + values(before + max(a, b) - least + 1)
-            end do
-         end associate
-      end do
-   end subroutine add_packed_column
 
 end module atrito_packed_matrices

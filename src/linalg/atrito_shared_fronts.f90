@@ -19,7 +19,7 @@ module atrito_shared_fronts
    use atrito_strings, only: to_text
    implicit none (type, external)
    private
-   public :: shared_fronts_t, plan_shared_fronts, factor_shared_fronts, get_kept_matrix, fronts_bytes
+   public :: shared_fronts_t, plan_shared_fronts, factor_shared_fronts, fronts_bytes
 
    !> What this rank has of a front.
    type :: held_front_t
@@ -40,8 +40,8 @@ module atrito_shared_fronts
 contains
 
    !> All ranks get the plan; order: of the largest front.
-   subroutine plan_shared_fronts(n, n_kept, own, fronts, order)
-      integer(ip), intent(in) :: n, n_kept
+   subroutine plan_shared_fronts(n, own, fronts, order)
+      integer(ip), intent(in) :: n
       type(packed_matrices_t), intent(in) :: own     !< unknowns of this rank
       type(shared_fronts_t), intent(out) :: fronts
       integer(ip), intent(out) :: order
@@ -58,7 +58,7 @@ contains
             unknown = [unknown, of_rank]
             first = [first, size(unknown, kind=ip) + 1_ip]
          end do
-         call make_front_plan(n, n_kept, first, unknown, fronts%plan)
+         call make_front_plan(n, first, unknown, fronts%plan)
          call put_plan(plan, fronts%plan)
          call send_to_others(plan)
       else
@@ -71,7 +71,7 @@ contains
       order = largest_order(fronts%plan)
    end subroutine plan_shared_fronts
 
-   !> Factors the interior; what is left of the kept unknowns stays on rank 0.
+   !> Factors the sum of the matrices.
    !>
    !> status: STATUS_SINGULAR when a pivot is not positive, report%worst_equation is its unknown; STATUS_INTERNAL when the memory is
    !> too small. The same on all ranks.
@@ -357,31 +357,6 @@ contains
       report%digits_lost = max(own%digits_lost, other%digits_lost)
       if (is_first) report%worst_equation = other%worst_equation
    end subroutine add_outcome
-
-   !> What the last factorisation left of the kept unknowns, both triangles; rank 0 alone calls it, once: it is given back.
-   subroutine get_kept_matrix(fronts, matrix)
-      type(shared_fronts_t), intent(inout) :: fronts
-      real(wp), intent(inout) :: matrix(:, :)    !< (n_kept, n_kept); as it is where no rank has anything
-      integer(ip) :: i, j
-      integer(lp) :: k
-
-      associate (root => fronts%plan%front(size(fronts%held)), held => fronts%held(size(fronts%held)))
-         if (.not. allocated(held%update)) return
-         associate (kept => held%position - (fronts%plan%n - fronts%plan%n_kept))
-            if (size(kept) /= size(root%position) - root%n_pivots) return
-            matrix = 0.0_wp
-            k = 0
-            do j = 1, size(kept, kind=ip)
-               do i = j, size(kept, kind=ip)
-                  k = k + 1
-                  matrix(kept(i), kept(j)) = held%update(k)
-                  matrix(kept(j), kept(i)) = held%update(k)
-               end do
-            end do
-         end associate
-         deallocate (held%update)
-      end associate
-   end subroutine get_kept_matrix
 
    !> What this rank holds [bytes].
    pure integer(lp) function fronts_bytes(fronts) result(bytes)

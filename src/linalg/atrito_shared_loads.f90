@@ -11,39 +11,18 @@ module atrito_shared_loads
    use atrito_shared_fronts, only: shared_fronts_t
    implicit none (type, external)
    private
-   public :: condense_load, solve_load
+   public :: solve_load
 
 contains
 
-   !> f_c <- f_c - K_ci K_ii^-1 f_i on rank 0; f_i stays.
-   subroutine condense_load(fronts, loads, f)
-      type(shared_fronts_t), intent(inout) :: fronts
-      integer(ip), intent(in) :: loads           !< the same on all ranks
-      real(wp), intent(inout) :: f(:, :)         !< (n, loads) on rank 0; other ranks: of any size
-
-      call hand_out(fronts, loads, f)
-      call go_up(fronts)
-      associate (root => fronts%plan%front(size(fronts%held)), x => fronts%held(size(fronts%held))%x)
-         if (own_rank() == 0) then
-            associate (kept => fronts%plan%unknown(root%position(root%n_pivots + 1:)))
-               f(kept, :) = f(kept, :) + x(root%n_pivots + 1:, :)
-            end associate
-         end if
-      end associate
-      call drop_loads(fronts)
-   end subroutine condense_load
-
-   !> Solves K_ii x_i = f_i - K_ic x_c.
+   !> Solves K x = f.
    subroutine solve_load(fronts, loads, x)
       type(shared_fronts_t), intent(inout) :: fronts
       integer(ip), intent(in) :: loads           !< the same on all ranks
-      real(wp), intent(inout) :: x(:, :)         !< (n, loads) on rank 0: f_i and x_c; on return x. Other ranks: of any size
+      real(wp), intent(inout) :: x(:, :)         !< (n, loads) on rank 0: f; on return x. Other ranks: of any size
 
       call hand_out(fronts, loads, x)
       call go_up(fronts)
-      associate (root => fronts%plan%front(size(fronts%held)), at_root => fronts%held(size(fronts%held))%x)
-         if (own_rank() == 0) at_root(root%n_pivots + 1:, :) = x(fronts%plan%unknown(root%position(root%n_pivots + 1:)), :)
-      end associate
       call go_down(fronts)
       call collect(fronts, x)
       call drop_loads(fronts)

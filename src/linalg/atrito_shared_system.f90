@@ -4,37 +4,28 @@
 !>
 !>     K = sum over ranks, sum over their matrices of  B_m' S_m B_m,   B_m picks the unknowns of matrix m
 !>
-!> The last n_kept unknowns (index c) are kept, the others (interior, index i) eliminated. Rank 0 gets what is left of the kept
-!> ones, and has all right-hand sides and solutions.
+!> Rank 0 has all right-hand sides and solutions. A tree of dense fronts over the ranks solves it (atrito_shared_fronts) as long as
+!> each of them fits well into one rank; larger systems go to MUMPS over all ranks (atrito_ranks_mumps), which shares out its fronts,
+!> too, and takes two to four times as long where both can (docs/developer/solvers.md).
 !>
-!>     S = K_cc - K_ci K_ii^-1 K_ic
-!>
-!> A tree of dense fronts over the ranks solves it (atrito_shared_fronts) as long as each of them fits well into one rank; larger
-!> systems go to MUMPS over all ranks (atrito_ranks_mumps), which shares out its fronts, too, and takes two to four times as
-!> long where both can (docs/developer/solvers.md).
-!>
-!> All ranks call every procedure in the same order (but memory_of_shared, schur_of_shared). With one rank it works as well.
+!> All ranks call every procedure in the same order (but memory_of_shared). With one rank it works as well.
 module atrito_shared_system
    use atrito_kinds, only: ip, lp, wp
    use atrito_linear_solver, only: factor_report_t
    use atrito_mpi, only: spread_from_first
    use atrito_mumps_library, only: has_mumps
-   use atrito_packed_matrices, only: packed_matrices_t
-   use atrito_ranks_mumps, only: ranks_mumps_t, begin_by_mumps, end_by_mumps, factor_by_mumps, schur_by_mumps, solve_by_mumps, &
-                                 reduce_by_mumps, expand_by_mumps, memory_by_mumps
-   use atrito_shared_fronts, only: shared_fronts_t, plan_shared_fronts, factor_shared_fronts, get_kept_matrix, fronts_bytes
-   use atrito_shared_loads, only: condense_load, solve_load
+   use atrito_packed_matrices, only: packed_diagonals, packed_matrices_t
+   use atrito_ranks_mumps, only: ranks_mumps_t, begin_by_mumps, end_by_mumps, factor_by_mumps, solve_by_mumps, memory_by_mumps
+   use atrito_shared_fronts, only: shared_fronts_t, plan_shared_fronts, factor_shared_fronts, fronts_bytes
+   use atrito_shared_loads, only: solve_load
    use atrito_status, only: status_t, set_status, is_ok, STATUS_INTERNAL
    implicit none (type, external)
    private
-   public :: shared_system_t, begin_shared, end_shared, factor_shared, schur_of_shared
-   public :: solve_shared, reduce_shared, expand_shared
-   public :: memory_of_shared, MOST_ORDER
+   public :: shared_system_t, begin_shared, end_shared, factor_shared, solve_shared, memory_of_shared, MOST_ORDER
 
    !> Ended by end_shared, which all ranks call: none can do so by itself, hence it is not ended when it goes out of scope.
    type :: shared_system_t
       integer(ip) :: n = 0                       !< unknowns
-      integer(ip) :: n_kept = 0                  !< the last n_kept are kept
       type(factor_report_t) :: report            !< of the last factorisation, the same on all ranks
       type(packed_matrices_t) :: own             !< unknowns of the matrices of this rank
       logical, private :: has_fronts = .true.    !< else MUMPS has it
@@ -49,10 +40,9 @@ module atrito_shared_system
 contains
 
    !> Says what the system consists of. status: STATUS_INTERNAL: too little memory, or MUMPS failed; on all ranks if on one.
-   subroutine begin_shared(system, n, n_kept, start, unknown, status, most_order)
+   subroutine begin_shared(system, n, start, unknown, status, most_order)
       type(shared_system_t), intent(inout) :: system
       integer(ip), intent(in) :: n               !< unknowns, the same on all ranks
-      integer(ip), intent(in) :: n_kept          !< the last ones are kept, the same on all ranks
       integer(ip), intent(in) :: start(:)        !< (matrices + 1) matrix m is over unknown(start(m):start(m + 1) - 1)
       integer(ip), intent(in) :: unknown(:)      !< 1 .. n, none twice in a matrix
       type(status_t), intent(out) :: status
@@ -61,29 +51,25 @@ contains
 
       call end_shared(system)
       system%n = n
-      system%n_kept = n_kept
       system%own = packed_matrices_t(start, unknown)
-      call plan_shared_fronts(n, n_kept, system%own, system%fronts, order)
+      call plan_shared_fronts(n, system%own, system%fronts, order)
       system%has_fronts = order <= most_order .or. .not. has_mumps()
-      if (.not. system%has_fronts) call begin_by_mumps(system%mumps, n, n_kept, start, unknown, status)
+      if (.not. system%has_fronts) call begin_by_mumps(system%mumps, n, start, unknown, status)
    end subroutine begin_shared
 
-   !> Factors K_ii and forms S.
+   !> Factors K.
    !>
-   !> status: STATUS_SINGULAR when K_ii is singular or indefinite; `report` then names the unknown that has no pivot, or moves most
+   !> status: STATUS_SINGULAR when K is singular or indefinite; `report` then names the unknown that has no pivot, or moves most
    !> in the softest motion. STATUS_INTERNAL when the memory is too small. The same on all ranks.
-   subroutine factor_shared(system, values, original, n_before, status)
+   subroutine factor_shared(system, values, status)
       type(shared_system_t), intent(inout) :: system
       !> (packed_length(system%own)) values of the matrices of this rank, as put_packed puts them; scaled on return
       real(wp), intent(inout), contiguous, target :: values(:)
-      !> (size(system%own%unknown)) diagonals of the matrices, or what they were before anything was eliminated from them: fronts
-      !> judge pivots by their sum, MUMPS by the diagonal of what it gets
-      real(wp), intent(in) :: original(:)
-      integer(ip), intent(in) :: n_before        !< equations of which the system is what is left: their round-off is in it; >= n
       type(status_t), intent(out) :: status
 
       if (system%has_fronts) then
-         call factor_shared_fronts(system%fronts, system%own, values, original, n_before, system%report, status)
+         call factor_shared_fronts(system%fronts, system%own, values, packed_diagonals(system%own, values), system%n, &
+                                   system%report, status)
       else
          call factor_by_mumps(system%mumps, values, status)
          system%report = system%mumps%report
@@ -91,61 +77,19 @@ contains
       system%is_factored = is_ok(status)
    end subroutine factor_shared
 
-   !> S of the last factorisation, both triangles; rank 0 alone calls it, once: the room is given back.
-   subroutine schur_of_shared(system, schur)
-      type(shared_system_t), intent(inout) :: system
-      real(wp), intent(inout) :: schur(:, :)     !< (n_kept, n_kept)
-
-      if (system%has_fronts) then
-         call get_kept_matrix(system%fronts, schur)
-      else
-         call schur_by_mumps(system%mumps, schur)
-      end if
-   end subroutine schur_of_shared
-
-   !> Solves K_ii x_i = f_i, the kept unknowns being zero.
+   !> Solves K x = f.
    subroutine solve_shared(system, x, status)
       type(shared_system_t), intent(inout) :: system
-      real(wp), intent(inout) :: x(:, :)         !< (n, loads) on rank 0: f_i; on return x. Other ranks: of any size
+      real(wp), intent(inout) :: x(:, :)         !< (n, loads) on rank 0: f; on return x. Other ranks: of any size
       type(status_t), intent(out) :: status
 
       if (lacks_factor(system, status)) return
       if (system%has_fronts) then
-         if (size(x, 1) == system%n) x(system%n - system%n_kept + 1:, :) = 0.0_wp
          call solve_load(system%fronts, loads_of_first(x), x)
       else
          call solve_by_mumps(system%mumps, x, status)
       end if
    end subroutine solve_shared
-
-   !> f_c <- f_c - K_ci K_ii^-1 f_i on rank 0; f_i stays.
-   subroutine reduce_shared(system, f, status)
-      type(shared_system_t), intent(inout) :: system
-      real(wp), intent(inout) :: f(:, :)         !< (n, loads) on rank 0; other ranks: of any size
-      type(status_t), intent(out) :: status
-
-      if (system%n_kept == 0) return
-      if (lacks_factor(system, status)) return
-      if (system%has_fronts) then
-         call condense_load(system%fronts, loads_of_first(f), f)
-      else
-         call reduce_by_mumps(system%mumps, f, status)
-      end if
-   end subroutine reduce_shared
-
-   !> Solves K_ii x_i = f_i - K_ic x_c.
-   subroutine expand_shared(system, x, status)
-      type(shared_system_t), intent(inout) :: system
-      real(wp), intent(inout) :: x(:, :)         !< (n, loads) on rank 0: f_i and x_c; on return x. Other ranks: of any size
-      type(status_t), intent(out) :: status
-
-      if (lacks_factor(system, status)) return
-      if (system%has_fronts) then
-         call solve_load(system%fronts, loads_of_first(x), x)
-      else
-         call expand_by_mumps(system%mumps, x, status)
-      end if
-   end subroutine expand_shared
 
    !> Fronts that have no factor solve nothing; MUMPS says so itself. status: STATUS_INTERNAL then, on all ranks.
    logical function lacks_factor(system, status)

@@ -7,7 +7,6 @@
 module atrito_scene_top
    use atrito_kinds, only: ip, lp, wp
    use atrito_mpi, only: rank_count, send_parcel
-   use atrito_packed_matrices, only: packed_diagonals
    use atrito_parcel, only: parcel_t, put, take
    use atrito_rank_services, only: send_to_others, SERVICE_SCENE_TOP
    use atrito_shared_system, only: shared_system_t, begin_shared, end_shared, factor_shared, memory_of_shared, solve_shared, &
@@ -54,7 +53,7 @@ contains
       integer(ip), intent(in) :: n, unknown(:)
       type(status_t), intent(out) :: status
 
-      call begin_shared(system, n, 0_ip, [1_ip, size(unknown, kind=ip) + 1_ip], unknown, status, MOST_ORDER)
+      call begin_shared(system, n, [1_ip, size(unknown, kind=ip) + 1_ip], unknown, status, MOST_ORDER)
    end subroutine begin_own
 
    !> The system scales what it gets.
@@ -68,7 +67,7 @@ contains
       else
          allocate (values(0))
       end if
-      call factor_shared(system, values, packed_diagonals(system%own, values), system%n, status)
+      call factor_shared(system, values, status)
    end subroutine factor_own
 
    !> Says which unknowns each part has. status: STATUS_INTERNAL: there is no MUMPS, or too little memory.

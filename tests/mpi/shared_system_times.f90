@@ -1,6 +1,6 @@
 !> How long fronts and MUMPS take for dense blocks that ranks share [s of the clock]; asserts nothing (docs/developer/solvers.md, Over ranks).
 !>
-!>     mpirun -n N shared_system_times ORDER BLOCKS KEPT MOST
+!>     mpirun -n N shared_system_times ORDER BLOCKS MOST
 !>
 !> BLOCKS matrices of that order, dealt out to the ranks; each shares a quarter of its unknowns with the one before it. MOST: order of
 !> the largest front; 0: by MUMPS.
@@ -8,7 +8,7 @@ program shared_system_times
    use, intrinsic :: iso_fortran_env, only: output_unit
    use atrito_kinds, only: ip, lp, wp
    use atrito_mpi, only: begin_ranks, end_ranks, largest_of_ranks, own_rank, rank_count
-   use atrito_packed_matrices, only: packed_diagonals, packed_length, put_packed
+   use atrito_packed_matrices, only: packed_length, put_packed
    use atrito_shared_system, only: shared_system_t, begin_shared, end_shared, factor_shared, memory_of_shared, solve_shared
    use atrito_status, only: status_t, is_ok
    use atrito_system, only: peak_memory
@@ -16,7 +16,7 @@ program shared_system_times
 
    type(shared_system_t) :: system
    type(status_t) :: status
-   integer(ip) :: order, blocks, n_kept, n
+   integer(ip) :: order, blocks, n
    integer(ip), allocatable :: start(:), unknown(:)
    real(wp), allocatable :: values(:), x(:, :)
    real(wp) :: times(4)
@@ -24,15 +24,14 @@ program shared_system_times
    call begin_ranks()
    order = argument(1)
    blocks = argument(2)
-   n_kept = argument(3)
    call make_pattern()
    times(1) = clock()
-   call begin_shared(system, n, n_kept, start, unknown, status, argument(4))
+   call begin_shared(system, n, start, unknown, status, argument(3))
    times(2) = clock()
    if (is_ok(status)) then
       call make_values()
       times(2:3) = [times(2) - times(1), clock()]
-      call factor_shared(system, values, packed_diagonals(system%own, values), system%n, status)
+      call factor_shared(system, values, status)
    end if
    if (is_ok(status)) then
       times(3:4) = [clock() - times(3), clock()]
@@ -97,8 +96,8 @@ contains
 
       peak = largest_of_ranks(int(peak_memory()/1000000, ip))
       factor = largest_of_ranks(int(memory_of_shared(system)/1000000, ip))
-      if (own_rank() == 0) write (output_unit, '(4(a,i0),3(a,f0.2),2(a,i0),a)') &
-         'ranks ', rank_count(), ', blocks ', blocks, ' of ', order, ', kept ', n_kept, ': analysis ', times(2), &
+      if (own_rank() == 0) write (output_unit, '(3(a,i0),3(a,f0.2),2(a,i0),a)') &
+         'ranks ', rank_count(), ', blocks ', blocks, ' of ', order, ': analysis ', times(2), &
          ', factor ', times(3), ', solve ', times(4), ' s; largest rank: factor ', factor, ', peak ', peak, ' MB'
    end subroutine tell
 

@@ -7,22 +7,19 @@ module atrito_ranks_mumps
    use atrito_status, only: status_t, set_status, STATUS_INTERNAL
    implicit none (type, external)
    private
-   public :: ranks_mumps_t, begin_by_mumps, end_by_mumps, factor_by_mumps, schur_by_mumps
-   public :: solve_by_mumps, reduce_by_mumps, expand_by_mumps
-   public :: memory_by_mumps
+   public :: ranks_mumps_t, begin_by_mumps, end_by_mumps, factor_by_mumps, solve_by_mumps, memory_by_mumps
 
    type :: ranks_mumps_t
       integer(ip) :: n = 0
-      integer(ip) :: n_kept = 0
       type(factor_report_t) :: report
       type(packed_matrices_t) :: own
    end type ranks_mumps_t
 
 contains
 
-   subroutine begin_by_mumps(system, n, n_kept, start, unknown, status)
+   subroutine begin_by_mumps(system, n, start, unknown, status)
       type(ranks_mumps_t), intent(inout) :: system
-      integer(ip), intent(in) :: n, n_kept, start(:), unknown(:)
+      integer(ip), intent(in) :: n, start(:), unknown(:)
       type(status_t), intent(out) :: status
 
       call no_mumps(status)
@@ -42,11 +39,6 @@ contains
       call no_mumps(status)
    end subroutine factor_by_mumps
 
-   subroutine schur_by_mumps(system, schur)
-      type(ranks_mumps_t), intent(inout) :: system
-      real(wp), intent(inout) :: schur(:, :)
-   end subroutine schur_by_mumps
-
    subroutine solve_by_mumps(system, x, status)
       type(ranks_mumps_t), intent(inout) :: system
       real(wp), intent(inout) :: x(:, :)
@@ -54,22 +46,6 @@ contains
 
       call no_mumps(status)
    end subroutine solve_by_mumps
-
-   subroutine reduce_by_mumps(system, f, status)
-      type(ranks_mumps_t), intent(inout) :: system
-      real(wp), intent(inout) :: f(:, :)
-      type(status_t), intent(out) :: status
-
-      call no_mumps(status)
-   end subroutine reduce_by_mumps
-
-   subroutine expand_by_mumps(system, x, status)
-      type(ranks_mumps_t), intent(inout) :: system
-      real(wp), intent(inout) :: x(:, :)
-      type(status_t), intent(out) :: status
-
-      call no_mumps(status)
-   end subroutine expand_by_mumps
 
    pure integer(lp) function memory_by_mumps(system) result(bytes)
       type(ranks_mumps_t), intent(in) :: system
