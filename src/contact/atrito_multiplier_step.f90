@@ -53,6 +53,7 @@ module atrito_multiplier_step
    real(wp), parameter :: MOST_KAPPA = 1.0e-2_wp
    integer(ip), parameter :: MOST_REFINEMENTS = 3_ip
    real(wp), parameter :: BALANCED = 1.0e-11_wp      !< residual of a body over its largest force
+   real(wp), parameter :: REFINES = 0.5_wp           !< of it is left, at the most, or the step is taken back
    real(wp), parameter :: SAME_STIFFNESS = 0.1_wp    !< change of D + rho that the factor bears
 
 contains
@@ -244,15 +245,28 @@ contains
       real(wp), intent(in) :: of_body(:)         !< (bodies) largest force on each [F]
       type(multiplier_t), intent(inout) :: multipliers
       type(box_state_t), intent(inout) :: state
-      real(wp) :: residual(system%n), de(system%rows%n)
+      type(multiplier_t) :: kept
+      type(box_state_t) :: kept_state
+      real(wp) :: residual(system%n), de(system%rows%n), part, least
       integer(ip) :: refinement
       logical :: stays
 
-      do refinement = 1, MOST_REFINEMENTS
+      least = huge(least)
+      do refinement = 0, MOST_REFINEMENTS
          call residual_of(system, multipliers, state%q, residual)
          associate (last => system%n - system%k)
-            if (all(abs(residual(:last)) <= BALANCED*of_body(system%body(:last)))) return
+            part = maxval([abs(residual(:last))/max(of_body(system%body(:last)), tiny(1.0_wp)), 0.0_wp])
          end associate
+         if (part <= BALANCED) return
+         if (.not. part < REFINES*least) then            ! what held before was better
+            multipliers = kept
+            state = kept_state
+            return
+         end if
+         if (refinement == MOST_REFINEMENTS) return
+         least = part
+         kept = multipliers
+         kept_state = state
          call system%solve(residual)
          multipliers%solves = multipliers%solves + 1
          call multiply_rows(system%rows, residual, de)

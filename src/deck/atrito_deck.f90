@@ -258,6 +258,7 @@ contains
       integer(ip) :: before, behind, middle
 
       order = deck%sources(source)%order + line
+      if (deck%sources(source)%n_children == 0) return
       before = 0                                   ! the last file that is included above the line: by halves
       behind = deck%sources(source)%n_children + 1
       associate (children => deck%sources(source)%children)

@@ -92,7 +92,7 @@ contains
       end associate
    end function is_holding
 
-   !> A force that is less than what the digits of the deck make of the largest one in its group, and without which a motion were
+   !> A force that is less than what the digits of the deck make of the largest one on its body, and without which a motion were
    !> idle, is none: a roller that stands on one node does not turn until the next one touches because its load is off by the last
    !> digit. With friction the bound at its neighbours may hang on it, and it stays.
    subroutine doubt_small_forces(data, rows, group, idle, holds, solution)
@@ -102,16 +102,15 @@ contains
       real(wp), allocatable, intent(inout) :: idle(:, :) !< (k, motions)
       logical, intent(inout) :: holds(:)            !< (m)
       type(contact_solution_t), intent(inout) :: solution
-      real(wp) :: largest(rows%k), doubt
+      real(wp) :: largest(rows%k), doubt            ! forces on the body of each motion [F]
       logical :: is_sure(size(holds))
       real(wp), allocatable :: more(:, :)
       integer(ip) :: i
 
       largest = 0.0_wp
       do i = 1, rows%m
-         if (rows%first(i + 1) == rows%first(i)) cycle
-         associate (g => group(rows%motion(rows%first(i))))
-            largest(g) = max(largest(g), abs(solution%state%q(i)))
+         associate (own => rows%motion(rows%first(i):rows%first(i + 1) - 1))
+            largest(own) = max(largest(own), abs(solution%state%q(i)))
          end associate
       end do
       is_sure = holds
@@ -120,7 +119,7 @@ contains
             if (.not. holds(i) .or. rows%first(i + 1) == rows%first(i) .or. data%line%law(j)%kind /= FRICTION_NONE) cycle
             if (j > data%line%n - data%line%n_bilateral) cycle
             doubt = max(NO_FORCE, min(DOUBTS*data%rows%doubt(j), MOST_DOUBT))
-            is_sure(i) = abs(solution%state%q(i)) > doubt*largest(group(rows%motion(rows%first(i))))
+            is_sure(i) = abs(solution%state%q(i)) > doubt*minval(largest(rows%motion(rows%first(i):rows%first(i + 1) - 1)))
          end associate
       end do
       if (all(is_sure .eqv. holds)) return

@@ -36,6 +36,7 @@ module atrito_multiplier_loop
       integer(ip) :: lagging = 0                 !< of them, those in which the forces changed nearly as much as in the one before
       logical :: can_wait = .true.               !< with the mixing, for forces that come faster
       real(wp) :: change = 0.0_wp                !< of the forces in the last step, relative as in distance
+      logical :: is_firm = .false.               !< the pull was made usual again
       logical :: slow = .false.                  !< states went on changing: smaller steps
       real(wp), allocatable :: share(:)          !< (points) of the way to Picard's bound that the next one goes
       real(wp), allocatable :: off(:)            !< (points) Picard's bound less the last one [F/L^2]
@@ -62,6 +63,7 @@ module atrito_multiplier_loop
    real(wp), parameter :: LEAST_KAPPA = 1.0e-11_wp, LEAST_PULL = 1.0e-8_wp !< when bodies move; of what has no contact points
    real(wp), parameter :: NO_LOAD = 1.0e-9_wp         !< pull over the forces of a body that is none
    real(wp), parameter :: MOVES = 1.0e-6_wp           !< pull over the forces of a body that moves, when it does not fall:
+   real(wp), parameter :: MOVES_SLOWLY = 1.0e-7_wp    !< the same where the forces have come to rest
    real(wp), parameter :: STEADY_PULL = 0.8_wp        !< of that of the step before
    real(wp), parameter :: SMALL_PULL = 1.0e-3_wp, USUAL_KAPPA = 2.0e-8_wp !< a pull that may become weaker, and how weak
    integer(ip), parameter :: MOST_MOVING = 5_ip
@@ -117,6 +119,7 @@ contains
                                                  solution%is_shared)
          call judge_step(system, line, controls%tolerance, outer, multipliers, loop, solution, image)
          call tell(reporter, outer, loop%distance, multipliers, solution)
+         if (solution%converged) call pull_firmly_again(multipliers, loop, solution)
          if (solution%converged) call look_for_shared(system, rows, shape, multipliers, loop, solution)
          if (solution%converged .or. is_used_up(outer, controls%max_iterations, multipliers%factorisations, loop)) exit
          if (loop%moving > MOST_MOVING) then
@@ -287,6 +290,20 @@ contains
       any_less = any(bears)
    end subroutine take_less_rho
 
+   !> Bodies that have come to where something holds them need a weak pull no more, and with the usual one the last step is better
+   !> conditioned.
+   pure subroutine pull_firmly_again(multipliers, loop, solution)
+      type(multiplier_t), intent(inout) :: multipliers
+      type(loop_t), intent(inout) :: loop
+      type(contact_solution_t), intent(inout) :: solution
+
+      if (loop%is_firm .or. multipliers%kappa >= 0.1_wp*USUAL_KAPPA) return
+      loop%is_firm = .true.
+      loop%steady = 0
+      multipliers%kappa = USUAL_KAPPA
+      solution%converged = .false.
+   end subroutine pull_firmly_again
+
    !> The friction bound of the next step: Picard's as long as states change, then Anderson's mixing within a range of it.
    subroutine next_bound(image, loop, anderson, tau)
       real(wp), intent(in) :: image(:)
@@ -450,7 +467,7 @@ contains
       if (multipliers%settled .and. outer - loop%best_outer >= STALE .and. whole <= STALE_DISTANCE) solution%converged = .true.
       ! a weak pull counts where the forces have come to rest
       loop%steady = merge(loop%steady + 1_ip, 0_ip, loop%distance%drive > STEADY_PULL*loop%drive .and. loop%distance%drive > &
-                          merge(NO_LOAD, MOVES, loop%distance%forces <= LITTLE_LEFT))
+                          merge(MOVES_SLOWLY, MOVES, loop%distance%forces <= LITTLE_LEFT))
       ! a weak pull may still change what is in contact
       loop%moving = merge(loop%moving + 1_ip, 0_ip, loop%steady > 0 .and. loop%distance%drive > &
                           merge(SMALL_PULL, MOVES, multipliers%changed))
