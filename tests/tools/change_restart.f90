@@ -2,6 +2,7 @@
 !>    change_restart FILE                          its lists, and how many values each has
 !>    change_restart FILE LIST I VALUE             the I-th value of a list; of text the code of a character
 !>    change_restart FILE PART NAME I VALUE        the I-th whole number of the first component of that name
+!>    change_restart FILE LIST N                   N zeros in the place of a list, which take no room in the file
 !> A whole number +N or -+N is that much more or less than it was.
 program change_restart
    use, intrinsic :: iso_c_binding, only: c_loc, c_ptr
@@ -9,7 +10,8 @@ program change_restart
    use atrito_kinds, only: lp, wp
    use hdf5, only: hid_t, hsize_t, h5open_f, h5fopen_f, h5fclose_f, H5F_ACC_RDWR_F, h5gn_members_f, h5gget_obj_info_idx_f, &
                    h5dopen_f, h5dread_f, h5dwrite_f, h5dclose_f, h5dget_space_f, h5sget_simple_extent_dims_f, h5kind_to_type, &
-                   H5_INTEGER_KIND, H5T_NATIVE_DOUBLE, H5T_NATIVE_CHARACTER
+                   H5_INTEGER_KIND, H5T_NATIVE_DOUBLE, H5T_NATIVE_CHARACTER, h5dget_type_f, h5ldelete_f, h5screate_simple_f, &
+                   h5pcreate_f, h5pset_chunk_f, h5pset_deflate_f, h5dcreate_f, H5P_DATASET_CREATE_F
    implicit none (type, external)
    character(len=1024) :: argument(5)
    integer(hid_t) :: file
@@ -24,12 +26,14 @@ program change_restart
    select case (command_argument_count())
    case (1)
       call list_all()
+   case (3)
+      call put_zeros(trim(argument(2)), number(argument(3)))
    case (4)
       call change(trim(argument(2)), number(argument(3)), trim(argument(4)))
    case (5)
       call change_named(trim(argument(2)), trim(argument(3)), number(argument(4)), trim(argument(5)))
    case default
-      call fail('change_restart FILE [LIST I VALUE | PART NAME I VALUE]')
+      call fail('change_restart FILE [LIST N | LIST I VALUE | PART NAME I VALUE]')
    end select
    call h5fclose_f(file, error)
    if (error < 0) call fail('cannot be written')
@@ -116,6 +120,27 @@ contains
       call h5dclose_f(dataset, error)
       if (ios /= 0) call fail(text//' is no number')
    end subroutine change
+
+   !> Chunks that nobody writes are zeros.
+   subroutine put_zeros(path, n)
+      character(len=*), intent(in) :: path
+      integer(lp), intent(in) :: n
+      integer(hsize_t), parameter :: CHUNK(1) = 1000000
+      integer(hid_t) :: dataset, kind, space, properties
+      integer(hsize_t) :: length
+
+      call open_list(path, dataset, length)
+      call h5dget_type_f(dataset, kind, error)
+      call h5dclose_f(dataset, error)
+      call h5ldelete_f(file, path, error)
+      call h5screate_simple_f(1, [int(n, hsize_t)], space, error)
+      call h5pcreate_f(H5P_DATASET_CREATE_F, properties, error)
+      call h5pset_chunk_f(properties, 1, CHUNK, error)
+      call h5pset_deflate_f(properties, 9, error)
+      call h5dcreate_f(file, path, kind, space, dataset, error, properties)
+      if (error < 0) call fail('no zeros in '//path)
+      call h5dclose_f(dataset, error)
+   end subroutine put_zeros
 
    subroutine pass(dataset, kind, address, is_written)
       integer(hid_t), intent(in) :: dataset, kind

@@ -6,6 +6,7 @@ restart.py ATRITO CHANGE_RESTART [--all FORM] (every number of the state, which 
 import os
 import random
 import re
+import resource
 import shutil
 import subprocess
 import sys
@@ -45,13 +46,19 @@ AGAINST_ITSELF = [("frame_1", "increment", 1, "9"), ("frame_1", "increment", 1, 
                   ("state", "increments of frames", 1, "2"), ("frame_1", "has_friction", 1, "2"), ("state", "joints", 1, HUGE)]
 SPARSE = [("state", "pair", 1, "0"), ("state", "pair", 1, HUGE), ("state", "n_pairs", 1, "-1"), ("state", "n_pairs", 1, "+1"),
           ("state", "n_contact_pairs", 1, "0")]
+MOST_MEMORY = 1 << 30  # a list of ZEROS numbers takes more
+ZEROS = 300_000_000
 BAD = re.compile(r"untime error|Backtrace|internal error|AddressSanitizer|SIGSEGV")
 VALUES = ["-1", "0", "1", "2", "3", "+1", "-+1", "1000", HUGE, "-2147483648", "9223372036854775807"]
 
 
+def limited():
+    resource.setrlimit(resource.RLIMIT_AS, (MOST_MEMORY, MOST_MEMORY))
+
+
 def restart(atrito, form, folder, path):
     done = subprocess.run([atrito, "deck.inp", "--quiet", "--contact", form, "-o", "out", "--restart", path], cwd=folder,
-                          capture_output=True, timeout=60)
+                          capture_output=True, timeout=60, preexec_fn=limited)
     return done.returncode, done.stderr.decode("utf-8", "replace")
 
 
@@ -84,6 +91,9 @@ def try_form(atrito, change, form, every, folder):
         attempt(case, (5,), "r.h5: is damaged")
     lists = dict(line.split() for line in subprocess.run([change, f"{folder}/sound.h5"], capture_output=True, check=True,
                                                          text=True).stdout.splitlines())
+    # lists that claim far more than the file has
+    for name in lists:
+        attempt([name, ZEROS], (5,), "r.h5: ")
     # what is no number does not go through, wherever it stands among the reals but where something may be undefined
     draw = random.Random(form)
     codes = {}
