@@ -49,7 +49,7 @@ module atrito_sliding_motions
    real(wp), parameter :: MOST_TURN = 1.2_wp        !< of a row [rad]: more than coarse chords make of a curve
    real(wp), parameter :: MIXED_TURN = 30.0_wp      !< where one side alone is straight: in grains over the length of a point
    real(wp), parameter :: EXACT = 1.0e-13_wp        !< grain over size of nodes that are not rounded to digits
-   real(wp), parameter :: CONCENTRIC = 0.3_wp      !< distance of the centres of a pin and its hole, in radii
+   real(wp), parameter :: CONCENTRIC = 1.0_wp      !< distance of the centres of a pin and its hole, in radii of the smaller
 
 contains
 
