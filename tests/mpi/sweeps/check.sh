@@ -205,7 +205,7 @@ done
 wait $job
 code=$?
 expect 0 'a limit that loses a process'
-grep -q 'its process ended with exit code 9, the first rank asks again' err || { fail 'a lost process is not told'; cat err; }
+grep -q 'its process was ended by signal 11, the first rank asks again' err || { fail 'a lost process is not told'; cat err; }
 diff -r whole lost >differences || { fail 'a limit that loses a process: other tables'; cat differences; }
 
 # ---- a rank that is killed: mpirun ends all; what is done stays, and the next sweep goes on
