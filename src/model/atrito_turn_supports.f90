@@ -22,7 +22,10 @@ contains
    pure real(wp) function row_weight(model) result(weight)
       type(model_t), intent(in) :: model
 
-      weight = norm2(maxval(model%mesh%x(:, :model%mesh%n_nodes), dim=2) - minval(model%mesh%x(:, :model%mesh%n_nodes), dim=2))
+      weight = 0.0_wp
+      associate (x => model%mesh%x(:, :model%mesh%n_nodes))
+         if (size(x) > 0) weight = norm2(maxval(x, dim=2) - minval(x, dim=2))
+      end associate
       if (.not. weight > 0.0_wp) weight = 1.0_wp
       if (size(model%sections) > 0) weight = weight*model%sections(1)%thickness
       if (allocated(model%mesh%thickness)) weight = weight*maxval(model%mesh%thickness)
