@@ -55,11 +55,11 @@ contains
          if (size(command%observe) > 0) options = options//', --observe '//join(command%observe, ', --observe ')
       end if
       call take_fingerprint(model, options, recorder%fingerprint)
-      if (recorder%resumes) call judge_file(command%restart, status, identity)
-      if (recorder%resumes .and. is_ok(status)) call protect_input(identity, status)
-      if (recorder%resumes .and. file_exists(command%restart) .and. .not. is_ok(status)) return
-      if (recorder%resumes) call read_restart(command%restart, recorder%fingerprint, recorder%found, recorder%state, status, &
-                                              frames)
+      if (.not. recorder%resumes) return
+      call judge_file(command%restart, status, identity)
+      if (is_ok(status)) call protect_input(identity, status)
+      if (file_exists(command%restart) .and. .not. is_ok(status)) return
+      call read_restart(command%restart, recorder%fingerprint, recorder%found, recorder%state, status, frames)
    end subroutine begin_recorder
 
    !> Writes the file anew. A failure is told once, and the run goes on: its tables are not lost with it.

@@ -225,8 +225,9 @@ contains
 
       if (allocated(context%outer_elements)) return
       associate (mesh => context%model%mesh)
-         outer = outer_faces(mesh, context%around, [(i, i=1, mesh%n_elements)])
-         context%outer_elements = each_once(outer%element(:outer%n))
+         allocate (context%outer_elements(0))
+         if (mesh%n_elements > 0) outer = outer_faces(mesh, context%around, [(i, i=1, mesh%n_elements)])
+         if (outer%n > 0) context%outer_elements = each_once(outer%element(:outer%n))
          context%least_sides = MOST_SIDES
          do i = 1, mesh%n_elements
             context%least_sides = min(context%least_sides, side_count(mesh, i))
