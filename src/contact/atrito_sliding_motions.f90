@@ -42,6 +42,7 @@ module atrito_sliding_motions
 
    real(wp), parameter :: DIGITS_TURN = 3.0_wp      !< by what a chord may be turned, in grains over its length
    real(wp), parameter :: CURVE_TURN = 0.01_wp      !< the same of chords of a curve, in squares of the angle they span
+   real(wp), parameter :: LATTICE = 10.0_wp         !< length of a face in grains, of nodes that were not rounded
    integer, parameter :: MOST_DIGITS = 13           !< that are looked for
    integer(ip), parameter :: LEAST_CHORDS = 3_ip    !< of a round side: two bisectors always meet
    real(wp), parameter :: FLAT = 1.0e-3_wp          !< sag of a face over its length, of one that is straight
@@ -92,6 +93,8 @@ contains
       chords%normal = chords%normal(:, :chords%n)
       chords%length = chords%length(:chords%n)
       chords%of_slave = chords%of_slave(:chords%n)
+      ! nodes on a lattice, as of whole numbers: a mesh of faces as short as their last digit was not rounded to it
+      if (any(chords%length < LATTICE*chords%grain)) chords%grain = EPS_MACH*maxval(abs(chords%place))
    end subroutine list_chords
 
    !> One chord of a straight face, two of a bent one.

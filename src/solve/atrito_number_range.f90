@@ -61,11 +61,11 @@ contains
          text = "Young's modulus times the thickness is "//to_text(stiffness(merge(1, 2, stiffness(1) < LEAST)), 3)//' [F/L]'
       else if (.not. force <= MOST) then
          text = 'forces at nodes are '//to_text(force, 3)//' [F]'
-      else if (force/stiffness(1) > MOST) then
+      else if (force > MOST*min(stiffness(1), 1.0_wp)) then
          text = 'forces of '//to_text(force, 3)//' [F] on a stiffness of '//to_text(stiffness(1), 3)//' [F/L]'
       else if (given > MOST .or. given > MOST/max(stiffness(2), 1.0_wp)) then
          text = 'prescribed displacements are '//to_text(given, 3)//' [L], on a stiffness of '//to_text(stiffness(2), 3)//' [F/L]'
-      else if (maxval([data%model%interactions%nu, 0.0_wp]) > MOST/max(force, given*stiffness(2), tiny(force)/LEAST)) then
+      else if (maxval([data%model%interactions%nu, 0.0_wp]) > MOST/max(force, given*stiffness(2), 1.0_wp)) then
          text = 'the coefficient of friction is '//to_text(maxval(data%model%interactions%nu), 3)
       else
          text = ''
