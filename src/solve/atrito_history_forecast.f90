@@ -84,7 +84,9 @@ contains
       type(step_t), intent(in) :: step
 
       associate (control => step%increments)
-         increments_of = int(min(real(control%most, wp), max(1.0_wp, control%period/control%initial)), lp)
+         increments_of = control%most
+         ! the quotient may leave the range of numbers
+         if (control%initial > control%period/control%most) increments_of = max(1_lp, int(control%period/control%initial, lp))
       end associate
    end function increments_of
 
