@@ -5,8 +5,8 @@
 !>     K = sum over ranks, sum over their matrices of  B_m' S_m B_m,   B_m picks the unknowns of matrix m
 !>
 !> Rank 0 has all right-hand sides and solutions. A tree of dense fronts over the ranks solves it (atrito_shared_fronts) as long as
-!> each of them fits well into one rank; larger systems go to MUMPS over all ranks (atrito_ranks_mumps), which shares out its fronts,
-!> too, and takes two to four times as long where both can (docs/developer/solvers.md).
+!> each of them fits well into one rank; larger systems go to MUMPS over all ranks (atrito_ranks_mumps), which shares out its
+!> fronts, too, and takes two to four times as long where both can (docs/developer/solvers.md).
 !>
 !> All ranks call every procedure in the same order (but memory_of_shared). With one rank it works as well.
 module atrito_shared_system
