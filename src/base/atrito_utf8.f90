@@ -31,20 +31,17 @@ contains
           (first == 240 .and. second < 144) .or. (first == 244 .and. second >= 144)) n = 0
    end function utf8_length
 
-   !> Whether a text has characters that may tell a terminal something: those below the blank but tabs and ends of lines, DEL, and
-   !> those of two bytes, U+0080 to U+009F.
+   !> Whether a text has characters that disturb (visible), but for tabs and ends of lines.
    pure logical function has_controls(text)
       character(len=*), intent(in) :: text
-      integer :: i, code, before
+      character(len=len(text)) :: plain
+      integer :: i
 
-      has_controls = .false.
-      before = 0
+      plain = text
       do i = 1, len(text)
-         code = ichar(text(i:i))
-         has_controls = has_controls .or. (code < 32 .and. (code < 9 .or. code > 10) .and. code /= 13) .or. code == 127 &
-                        .or. (before == 194 .and. code >= 128 .and. code < 160)
-         before = code
+         if (any(text(i:i) == [achar(9), achar(10), achar(13)])) plain(i:i) = ' '
       end do
+      has_controls = visible(plain) /= plain
    end function has_controls
 
    !> Blanks for tabs, and ? for each byte of what disturbs a terminal or lies about the order of letters: control characters, those

@@ -5,7 +5,7 @@
 !> or nothing. Of the displacements that differ by undetermined motions those are given whose relative displacements at the points
 !> are least.
 module atrito_undetermined_motions
-   use atrito_bodies, only: reduce_columns
+   use atrito_bodies, only: simplest_motion
    use atrito_bound_qp, only: box_bounds_t, box_state_t, FREE, AT_LOWER, AT_UPPER
    use atrito_constraint_rows, only: multiply_rows, add_transposed
    use atrito_contact_system, only: contact_system_t
@@ -39,7 +39,7 @@ contains
 
       call find_undetermined_motions(system, multipliers, basis)
       if (size(basis, 2) == 0) return
-      allocate (undetermined, source=simplest(basis(system%n - system%k + 1:, :)))
+      allocate (undetermined, source=simplest_motion(basis(system%n - system%k + 1:, :)))
       least = multipliers
       least_state = state
       associate (amplitudes => least%x(system%n - system%k + 1:))
@@ -112,18 +112,6 @@ contains
          v = v - force
       end do
    end subroutine take_out_held
-
-   !> The motion of the space with the fewest amplitudes, those that come first: the basis reduced by columns.
-   pure function simplest(basis) result(motion)
-      real(wp), intent(in) :: basis(:, :)
-      real(wp) :: motion(size(basis, 1)), reduced(size(basis, 1), size(basis, 2))
-      real(wp), parameter :: ROUND_OFF = 1.0e-6_wp
-
-      reduced = basis
-      call reduce_columns(reduced, ROUND_OFF)
-      motion = reduced(:, 1)
-      where (abs(motion) < ROUND_OFF*maxval(abs(motion))) motion = 0.0_wp
-   end function simplest
 
    !> Numbers between -1/2 and 1/2 with no relation to the bodies.
    pure function without_pattern(n, seed) result(v)

@@ -11,7 +11,7 @@ module atrito_bodies
    implicit none (type, external)
    private
    public :: body_t, bodies_t, find_bodies, number_equations, order_by_dissection, find_rigid_modes, element_equations, mode_at
-   public :: reduce_columns, MOVES_RIGIDLY
+   public :: simplest_motion, MOVES_RIGIDLY
 
    integer(ip), parameter :: MOVES_RIGIDLY = -1_ip
 
@@ -364,6 +364,18 @@ contains
          end do
       end do
    end subroutine reduce_columns
+
+   !> The vector of a space with the fewest entries, those that come first: what a motion is named by.
+   pure function simplest_motion(basis) result(motion)
+      real(wp), intent(in) :: basis(:, :)           !< (entries, vectors >= 1)
+      real(wp) :: motion(size(basis, 1)), reduced(size(basis, 1), size(basis, 2))
+      real(wp), parameter :: ROUND_OFF = 1.0e-6_wp
+
+      reduced = basis
+      call reduce_columns(reduced, ROUND_OFF)
+      motion = reduced(:, 1)
+      where (abs(motion) < ROUND_OFF*maxval(abs(motion))) motion = 0.0_wp
+   end function simplest_motion
 
    !> Displacement of a rigid mode at a place, along a dof; dimensionless.
    pure real(wp) function mode_at(body, mode, x, dof) result(u)

@@ -5,8 +5,8 @@
 !> list that grows number by number takes n log n operations.
 module atrito_ranges
    use atrito_growth, only: resize
-   use atrito_kinds, only: ip
-   use atrito_sorting, only: each_once
+   use atrito_kinds, only: ip, lp
+   use atrito_sorting, only: each_once, first_at_least
    implicit none (type, external)
    private
    public :: ranges_t, add_range, add_numbers, add_ranges, move_ranges, numbers_in, numbers_among, count_numbers, first_number
@@ -97,12 +97,14 @@ contains
       integer(ip), intent(in) :: some(:)                 !< rising
       integer(ip), allocatable :: numbers(:)
       type(ranges_t) :: cleaned, found
+      integer(lp) :: key(size(some))
       integer(ip) :: i, k
 
+      key = some
       cleaned = ranges
       if (cleaned%n_clean < cleaned%n) call clean(cleaned)
       do i = 1, cleaned%n
-         do k = place_of(some, cleaned%first(i)), size(some, kind=ip)
+         do k = first_at_least(key, int(cleaned%first(i), lp)), size(some, kind=ip)
             if (some(k) > cleaned%last(i)) exit
             call add_range(found, some(k), some(k))
          end do
@@ -159,16 +161,18 @@ contains
       type(ranges_t), intent(inout) :: ranges
       type(ranges_t) :: all_once
       integer(ip), allocatable :: bounds(:), next(:)
+      integer(lp), allocatable :: key(:)
       integer(ip) :: i, piece, last_piece
 
       associate (n => ranges%n)
          if (any(ranges%first(2:n) <= ranges%last(:n - 1))) then
             ! the ends of all runs cut the numbers into pieces; next leads from a piece to the next one that no run has taken yet
             bounds = each_once([ranges%first(:n), ranges%last(:n) + 1])
+            key = bounds
             next = [(i, i=1, size(bounds, kind=ip))]
             do i = 1, n
-               piece = place_of(bounds, ranges%first(i))
-               last_piece = place_of(bounds, ranges%last(i) + 1)
+               piece = first_at_least(key, int(ranges%first(i), lp))
+               last_piece = first_at_least(key, ranges%last(i) + 1_lp)
                call find_free(next, piece)
                do while (piece < last_piece)
                   call append_run(all_once, bounds(piece), bounds(piece + 1) - 1)
@@ -185,24 +189,6 @@ contains
       all_once%n_clean = all_once%n
       call move_ranges(all_once, ranges)
    end subroutine clean
-
-   !> Place of the first that is not below a number; one more than there are when all are.
-   pure integer(ip) function place_of(bounds, number) result(place)
-      integer(ip), intent(in) :: bounds(:)               !< rising
-      integer(ip), intent(in) :: number
-      integer(ip) :: high, middle
-
-      place = 1
-      high = size(bounds, kind=ip) + 1
-      do while (place < high)
-         middle = place + (high - place)/2
-         if (bounds(middle) < number) then
-            place = middle + 1
-         else
-            high = middle
-         end if
-      end do
-   end function place_of
 
    !> Goes from a piece on to the first that is free; the way is shorter the next time.
    pure subroutine find_free(next, piece)

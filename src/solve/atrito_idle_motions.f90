@@ -8,7 +8,7 @@
 !> goes back.
 module atrito_idle_motions
    use atrito_assembly, only: fem_t
-   use atrito_bodies, only: mode_at, reduce_columns
+   use atrito_bodies, only: mode_at, simplest_motion
    use atrito_bound_qp, only: FREE, AT_LOWER, AT_UPPER, FROZEN
    use atrito_contact_line, only: friction_bound, rest_of
    use atrito_contact_rows, only: row_value
@@ -63,7 +63,7 @@ contains
       call doubt_small_forces(data, rows, group, idle, holds, solution)
       if (allocated(solution%inner%undetermined)) deallocate (solution%inner%undetermined)
       if (size(idle, 2) == 0) return
-      solution%inner%undetermined = simplest(idle)
+      solution%inner%undetermined = simplest_motion(idle)
       ! a closed point without force may open, one without friction slip
       associate (state => solution%state, n => count(data%line%normal > 0, kind=ip))
          where (state%state(:n) == FREE .and. .not. holds(:n)) state%state(:n) = AT_LOWER
@@ -228,18 +228,6 @@ contains
          end do
       end do
    end subroutine add_row
-
-   !> The motion with the fewest amplitudes.
-   pure function simplest(idle) result(motion)
-      real(wp), intent(in) :: idle(:, :)
-      real(wp) :: motion(size(idle, 1)), reduced(size(idle, 1), size(idle, 2))
-      real(wp), parameter :: ROUND_OFF = 1.0e-6_wp
-
-      reduced = idle
-      call reduce_columns(reduced, ROUND_OFF)
-      motion = reduced(:, 1)
-      where (abs(motion) < ROUND_OFF*maxval(abs(motion))) motion = 0.0_wp
-   end function simplest
 
    !> Of the displacements since the increment before, the sums over the nodes of each body with its motions: Z'(u + Z a - u') and
    !> Z'Z.
