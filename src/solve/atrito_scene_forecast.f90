@@ -42,7 +42,7 @@ contains
       end if
       recovering = recovery_bytes(model, int(model%mesh%n_nodes, lp), int(model%mesh%n_elements, lp)) + request_bytes(model, data)
       if (is_solved_by_increments(model)) then
-         solving = solving_bytes(data, scene) + load_bytes(model) + recovering + &
+         solving = solving_bytes(data, scene) + kept_factor_bytes(data, scene) + load_bytes(model) + recovering + &
                    history_bytes(model, data%line%n, stress_rows(model)) + field_growth(model)
       else if (data%contact_form == CONTACT_SPARSE) then
          solving = max(scene%solving + load_bytes(model), recovering)
@@ -61,6 +61,15 @@ contains
       bytes = scene%solving
       if (data%contact_form /= CONTACT_SPARSE) bytes = dense_solving_bytes(scene)
    end function solving_bytes
+
+   !> The factor of the contact system of the increment before, from which the next one starts.
+   pure integer(lp) function kept_factor_bytes(data, scene) result(bytes)
+      type(scene_data_t), intent(in) :: data
+      type(scene_t), intent(in) :: scene
+
+      bytes = 0
+      if (data%contact_form /= CONTACT_SPARSE) bytes = REAL_BYTES*int(scene%n_normal + scene%n_tangential, lp)**2
+   end function kept_factor_bytes
 
    !> Of fields and of restart files: one library.
    pure integer(lp) function field_library_bytes(data) result(bytes)

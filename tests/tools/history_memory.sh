@@ -52,10 +52,11 @@ measure() {
 history 2 32 20 1 1 nodes stress contact >prints.inp
 history 2 32 160 1 1 nodes stress contact >more.inp
 history 8 16 20 1 2 nodes stress contact >bodies.inp
+history 20 16 20 1 2 nodes stress contact >tower.inp
 history 2 12 4 40 1 nodes contact >steps.inp
 history 2 12 600 1 1 contact >long.inp
 history 2 48 12 1 1 stress >finer.inp
-names='prints more bodies steps long finer'
+names='prints more bodies tower steps long finer'
 if [ "$2" = has-fields ]; then
    history 2 32 20 1 1 nodes stress contact fields >fields.inp
    history 2 32 20 1 1 nodes stress contact restart >restart.inp
