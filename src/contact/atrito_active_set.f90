@@ -15,31 +15,20 @@
 !> body is free under the load, the finite Goldfarb-Idnani steps take over (atrito_goldfarb_idnani).
 module atrito_active_set
    use atrito_kinds, only: ip, lp, wp, HUGE_REAL
-   use atrito_bound_qp, only: bound_qp_t, box_bounds_t, box_state_t, equality_solution_t, solve_free_set, is_vanishing, &
-                              put_at_bounds, row_round_off, force_round_off, FREE, AT_LOWER, AT_UPPER
+   use atrito_bound_qp, only: bound_qp_t, box_bounds_t, box_state_t, box_outcome_t, equality_solution_t, solve_free_set, &
+                              is_vanishing, put_at_bounds, row_round_off, force_round_off, FREE, AT_LOWER, AT_UPPER
    use atrito_goldfarb_idnani, only: take_goldfarb_idnani_steps
    use atrito_free_set_factor, only: free_set_factor_t
    use atrito_solve_history, only: solve_history_t, record_solve
    use atrito_status, only: status_t, is_ok
    implicit none (type, external)
    private
-   public :: box_outcome_t, solve_box, change_states, is_settled
+   public :: solve_box, change_states, is_settled
 
    !> Full steps, and unknowns for each where they are many: the front of a slip zone may move by a few points a step.
    integer(ip), parameter :: MOST_FULL_STEPS = 20, UNKNOWNS_A_STEP = 20
    real(wp), parameter :: OPENS = 1.0e-13_wp      !< tension over the largest pressure that opens a point
    real(wp), parameter :: SLIPS = 1.0e-12_wp      !< excess over the friction bound that lets a point slip
-
-   type :: box_outcome_t
-      logical :: solved = .false.
-      logical :: moves = .false.                  !< no equilibrium: a free motion under the load
-      real(wp), allocatable :: motion(:)          !< (k) that motion
-      real(wp), allocatable :: undetermined(:)            !< (k) a motion that nothing holds and nothing drives; else not allocated
-      real(wp) :: condition = 1.0_wp
-      integer(ip) :: dependent = 0                !< unknown whose row depends on others
-      logical :: used_goldfarb_idnani = .false.
-      logical, allocatable :: is_shared(:)        !< (m) the force is not unique, the least is given; not allocated: not asked for
-   end type box_outcome_t
 
 contains
 

@@ -18,8 +18,8 @@ module atrito_bound_qp
    use atrito_status, only: status_t, set_status, is_ok, STATUS_SINGULAR
    implicit none (type, external)
    private
-   public :: bound_qp_t, box_bounds_t, box_state_t, equality_solution_t, solve_free_set, put_at_bounds, set_residual, &
-             clear_vanishing, is_vanishing, row_round_off, force_round_off
+   public :: bound_qp_t, box_bounds_t, box_state_t, box_outcome_t, equality_solution_t, solve_free_set, put_at_bounds, &
+             set_residual, clear_vanishing, is_vanishing, row_round_off, force_round_off
    public :: FREE, AT_LOWER, AT_UPPER, FROZEN, DEPENDENT_POINTS
 
    !> State of an unknown. FROZEN: q = 0 whatever r is (a point without friction).
@@ -73,6 +73,18 @@ module atrito_bound_qp
    type :: complement_t
       real(wp), allocatable :: vectors(:, :), values(:), scale(:)
    end type complement_t
+
+   !> How the solution of the problem went (atrito_active_set and others).
+   type :: box_outcome_t
+      logical :: solved = .false.
+      logical :: moves = .false.                  !< no equilibrium: a free motion under the load
+      real(wp), allocatable :: motion(:)          !< (k) that motion
+      real(wp), allocatable :: undetermined(:)            !< (k) a motion that nothing holds and nothing drives; else not allocated
+      real(wp) :: condition = 1.0_wp
+      integer(ip) :: dependent = 0                !< unknown whose row depends on others
+      logical :: used_goldfarb_idnani = .false.
+      logical, allocatable :: is_shared(:)        !< (m) the force is not unique, the least is given; not allocated: not asked for
+   end type box_outcome_t
 
 contains
 

@@ -10,8 +10,8 @@
 !> lambda being an eigenvalue of the scaled matrix; elsewhere q stays where it is. Then the least of the forces that move the bodies
 !> alike is taken (atrito_least_forces), so that the answer does not depend on the way.
 module atrito_proximal
-   use atrito_active_set, only: box_outcome_t, solve_box
-   use atrito_bound_qp, only: bound_qp_t, box_bounds_t, box_state_t, set_residual, row_round_off, FREE, FROZEN
+   use atrito_active_set, only: solve_box
+   use atrito_bound_qp, only: bound_qp_t, box_bounds_t, box_state_t, set_residual, row_round_off, FREE, FROZEN, box_outcome_t
    use atrito_constraint_rows, only: constraint_rows_t
    use atrito_kinds, only: ip, wp
    use atrito_least_forces, only: find_least_forces

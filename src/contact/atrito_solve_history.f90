@@ -1,24 +1,16 @@
 !> What changed from one linear solve of the contact line to the next: the rows of iterations.tab.
 module atrito_solve_history
    use atrito_kinds, only: ip, wp
+   use atrito_iteration, only: iteration_t
    use atrito_bound_qp, only: bound_qp_t, box_bounds_t, box_state_t, FREE, AT_LOWER, AT_UPPER
    implicit none (type, external)
    private
-   public :: iteration_t, solve_history_t, record_solve, restart_history, begin_outer, end_outer, state_letters, OUTER_KEPT
+   public :: solve_history_t, record_solve, restart_history, begin_outer, end_outer, state_letters, OUTER_KEPT
 
    integer(ip), parameter :: OUTER_KEPT = 8          !< outer iterations whose states are kept
    !> State of a point: open, closed without a tangential unknown, sticking, slipping along T and against it.
    integer(ip), parameter :: IS_OPEN = 1, IS_CLOSED = 2, IS_STUCK = 3, SLIPS_ALONG = 4, SLIPS_AGAINST = 5
    character(len=1), parameter :: LETTERS(5) = ['o', 'c', '=', '+', '-']
-
-   !> One inner solve: a row of iterations.tab. Changes are relative to the largest value.
-   type :: iteration_t
-      integer(ip) :: step = 1, increment = 1
-      integer(ip) :: outer = 0, inner = 0
-      real(wp) :: change_displacement = 0.0_wp, change_pressure = 0.0_wp, change_friction = 0.0_wp
-      integer(ip) :: open = 0, stick = 0, slip = 0
-      real(wp) :: residual = 0.0_wp                  !< |nu S_rho(p) - tau| / |tau|, of the last outer iteration
-   end type iteration_t
 
    type :: solve_history_t
       integer(ip) :: n = 0

@@ -1,7 +1,7 @@
 !> What the solver found: filled by solve/, read by output/. No text layout here.
 module atrito_results
    use atrito_kinds, only: ip, lp, wp
-   use atrito_solve_history, only: iteration_t
+   use atrito_iteration, only: iteration_t
    use atrito_strings, only: string_t
    implicit none (type, external)
    private

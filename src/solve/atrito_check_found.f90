@@ -6,6 +6,7 @@ module atrito_check_found
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_is_nan
    use atrito_element_table, only: POINT_COUNT
    use atrito_extremes, only: EXTREME_NAMES
+   use atrito_iteration, only: iteration_t
    use atrito_kinds, only: ip, wp
    use atrito_mesh, only: find_element, find_node
    use atrito_model, only: rigid_body_name, step_t
@@ -13,7 +14,6 @@ module atrito_check_found
    use atrito_results, only: body_motion_t, contact_result_t, extreme_t, history_t, joint_t, observed_list_t, observed_t, &
                              results_t, rigid_result_t, scene_t, view_frame, POINT_OPEN, POINT_SLIP
    use atrito_scene_data, only: scene_data_t
-   use atrito_solve_history, only: iteration_t
    use atrito_strings, only: string_t, to_text
    use atrito_utf8, only: has_controls
    implicit none (type, external)

@@ -1,29 +1,22 @@
 !> What the outer loop works on and what it finds: the contact line's state, its stresses, and the verdict.
 module atrito_contact_solution
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-   use atrito_active_set, only: box_outcome_t, solve_box, is_settled
-   use atrito_bound_qp, only: bound_qp_t, box_bounds_t, box_state_t, equality_solution_t, solve_free_set, clear_vanishing, &
-                              force_round_off, FREE, AT_LOWER
+   use atrito_bound_qp, only: bound_qp_t, box_bounds_t, box_outcome_t, box_state_t, AT_LOWER
    use atrito_constraint_rows, only: constraint_rows_t
-   use atrito_contact_line, only: contact_line_t, last_of_pair, pressure_of, shear_force_of, friction_bound, set_friction_bounds, &
-                                  normal_bounds
+   use atrito_contact_line, only: contact_line_t, last_of_pair, pressure_of, friction_bound, set_friction_bounds, normal_bounds
    use atrito_kinds, only: ip, wp, EPS_MACH, HUGE_REAL
    use atrito_free_set_factor, only: free_set_factor_t, condition_of
-   use atrito_multiplier_step, only: multiplier_t
-   use atrito_proximal, only: solve_box_proximal
+   use atrito_contact_system, only: multiplier_t
    use atrito_solve_history, only: solve_history_t
-   use atrito_status, only: status_t, is_ok
    implicit none (type, external)
    private
-   public :: contact_solution_t, serves_as_start, asks_no_force, let_rest, FREE_MOTION, solve_with_bound, bound_of_state, &
-             judge_condition, has_settled, may_be_round_off, relative_residual
+   public :: contact_solution_t, serves_as_start, asks_no_force, let_rest, FREE_MOTION, bound_of_state, &
+             judge_condition, has_settled, may_be_round_off, relative_residual, NOISE
 
    !> Text of the status when no friction bound holds a body; solution%inner%motion is the motion.
    character(len=*), parameter :: FREE_MOTION = 'free motion'
 
    real(wp), parameter :: MOST_ROUND_OFF = 1.0e-7_wp
-   real(wp), parameter :: ROUND_OFFS = 10.0_wp        !< of a force: nothing else
-   integer, parameter :: MOST_ROUNDS = 5
    real(wp), parameter :: NOISE = 1.0e-12_wp          !< of the largest friction bound or force: may be round-off elsewhere
 
    type :: contact_solution_t
@@ -95,39 +88,6 @@ contains
       solution%converged = .true.
    end subroutine let_rest
 
-   !> Solves the inner problem for a frozen friction bound, from the present state. Image: nu S_rho of the pressure found.
-   subroutine solve_with_bound(problem, line, tau, solution, image, status)
-      type(bound_qp_t), intent(in) :: problem
-      type(contact_line_t), intent(in) :: line
-      real(wp), intent(in) :: tau(:)                  !< (n) [F/L^2]; HUGE_REAL: no bound
-      type(contact_solution_t), intent(inout) :: solution
-      real(wp), intent(out) :: image(:)               !< (n) [F/L^2]
-      type(status_t), intent(out) :: status
-
-      solution%tau = tau
-      call set_friction_bounds(line, problem, tau, solution%bounds, solution%state)
-      if (allocated(solution%rows)) then
-         call solve_box_proximal(problem, solution%bounds, solution%state, solution%history, solution%inner, status, &
-                                 solution%factor, solution%rows)
-         call move_alloc(solution%inner%is_shared, solution%is_shared)
-      else
-         call solve_box(problem, solution%bounds, solution%state, solution%history, solution%inner, status, &
-                        solution%factor)
-         if (is_ok(status) .and. .not. (solution%inner%solved .or. solution%inner%moves)) then
-            ! better conditioned, and from another start
-            call solve_box_proximal(problem, solution%bounds, solution%state, solution%history, solution%inner, status, &
-                                    solution%factor)
-         end if
-      end if
-      if (.not. is_ok(status)) return
-      call clear_vanishing(problem, solution%bounds%d, solution%state)
-      if (solution%inner%solved) call open_tensions(problem, solution)
-      if (solution%inner%solved) call clear_noise(problem, line, solution)
-      solution%p = pressure_of(line, solution%state%q)
-      solution%t = shear_force_of(line, solution%state%q, tau)
-      image = bound_of_state(line, solution)
-   end subroutine solve_with_bound
-
    !> The friction bound that the law has in a state: what all loops take next, and stop at.
    pure function bound_of_state(line, solution) result(tau)
       type(contact_line_t), intent(in) :: line
@@ -136,93 +96,6 @@ contains
 
       tau = friction_bound(line, pressure_of(line, solution%state%q))
    end function bound_of_state
-
-   !> A closed point may have a tension that is round-off, of the forces on the bodies there: another body may feel it. Such points
-   !> open, where the others bear it without changing.
-   subroutine open_tensions(problem, solution)
-      type(bound_qp_t), intent(in) :: problem
-      type(contact_solution_t), intent(inout) :: solution
-      type(box_state_t) :: state
-      type(equality_solution_t) :: found
-      type(status_t) :: status
-      logical :: pulled(problem%n_normal)
-      integer :: round
-
-      if (allocated(solution%rows)) return              ! their factor is not that of the free set
-      associate (n => problem%n_normal)
-         state = solution%state
-         do round = 1, MOST_ROUNDS
-            pulled = state%state(:n) == FREE .and. state%q(:n) < 0.0_wp .and. solution%bounds%lower(:n) > -HUGE_REAL
-            if (.not. any(pulled)) exit
-            where (pulled)
-               state%state(:n) = AT_LOWER
-               state%q(:n) = 0.0_wp
-            end where
-            call solve_free_set(problem, solution%bounds%d, state, found, status, solution%factor)
-            if (.not. is_ok(status) .or. found%moves) return
-         end do
-         if (round == 1 .or. round > MOST_ROUNDS) return
-         if (is_settled(problem, solution%bounds, state)) solution%state = state
-      end associate
-   end subroutine open_tensions
-
-   !> Forces of a pair that are round-off become none: at all its points what round-off of the displacements there may do, and far
-   !> below the loads of the bodies that they hold. (A body without load between loaded ones has such forces.)
-   subroutine clear_noise(problem, line, solution)
-      type(bound_qp_t), intent(in) :: problem
-      type(contact_line_t), intent(in) :: line
-      type(contact_solution_t), intent(inout) :: solution
-      logical :: beside_loads(problem%m)
-      integer(ip), allocatable :: unknowns(:)
-      integer(ip) :: first, last
-
-      if (line%n == 0 .or. .not. allocated(line%pair) .or. .not. allocated(problem%h_size)) return
-      if (size(line%pair) < line%n) return
-      if (line%pair(1) == line%pair(line%n)) return
-      beside_loads = noise_beside_loads(problem, solution%state%q)
-      first = 1
-      do while (first <= line%n)
-         last = last_of_pair(line, first)
-         unknowns = [line%normal(first:last), line%tangential(first:last)]
-         unknowns = pack(unknowns, unknowns > 0)
-         if (is_noise(problem, solution, beside_loads, unknowns)) solution%state%q(unknowns) = 0.0_wp
-         first = last + 1
-      end do
-   end subroutine clear_noise
-
-   !> The compliance of friction goes with its bound, which may be noise as well.
-   pure logical function is_noise(problem, solution, beside_loads, unknowns)
-      type(bound_qp_t), intent(in) :: problem
-      type(contact_solution_t), intent(in) :: solution
-      logical, intent(in) :: beside_loads(:)
-      integer(ip), intent(in) :: unknowns(:)
-      real(wp) :: d(problem%m)
-      integer(ip) :: k
-
-      d = 0.0_wp
-      d(:problem%n_normal) = solution%bounds%d(:problem%n_normal)
-      is_noise = .true.
-      do k = 1, size(unknowns, kind=ip)
-         associate (q => solution%state%q(unknowns(k)))
-            if (abs(q) <= 0.0_wp) cycle
-            is_noise = beside_loads(unknowns(k))
-            if (is_noise) is_noise = abs(q) <= ROUND_OFFS*force_round_off(problem, d, solution%state, unknowns(k))
-         end associate
-         if (.not. is_noise) return
-      end do
-   end function is_noise
-
-   pure function noise_beside_loads(problem, q) result(is_noise)
-      type(bound_qp_t), intent(in) :: problem
-      real(wp), intent(in) :: q(:)
-      logical :: is_noise(problem%m)
-      integer(ip) :: j
-
-      is_noise = .true.
-      do j = 1, problem%k
-         if (problem%h_size(j) > 0.0_wp) is_noise = is_noise .and. abs(problem%g(:, j)*q) <= NOISE*problem%h_size(j)
-      end do
-   end function noise_beside_loads
 
    !> Estimates the condition of the last solve, which takes as long as some solutions with its factor.
    subroutine judge_condition(solution)

@@ -10,6 +10,7 @@ module atrito_increment
    use atrito_contact_scales, only: usual_growth, force_round_off, NONE_OF_HAD
    use atrito_contact_solution, only: contact_solution_t
    use atrito_dense_form, only: solve_dense_form
+   use atrito_displacements, only: contact_forces, add_rigid_motions
    use atrito_extremes, only: find_extremes
    use atrito_final_check, only: check_equilibrium, check_balance, check_law, equilibrium_t
    use atrito_force_sums, only: sum_forces
@@ -21,7 +22,7 @@ module atrito_increment
    use atrito_model, only: controls_t, METHOD_ANDERSON, METHOD_NEWTON, METHOD_PICARD
    use atrito_number_range, only: explain_range
    use atrito_outer_loop, only: FREE_MOTION
-   use atrito_recovery, only: contact_forces, add_rigid_motions, recover_contact, recover_stress, estimate_error
+   use atrito_recovery, only: recover_contact, recover_stress, estimate_error
    use atrito_reporter, only: report_progress
    use atrito_results, only: results_t, scene_t, pair_scene_t
    use atrito_rigid_results, only: take_rigid_results

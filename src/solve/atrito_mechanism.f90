@@ -10,9 +10,9 @@ module atrito_mechanism
    use atrito_contact_line, only: contact_line_t
    use atrito_contact_rows, only: contact_rows_t, row_value
    use atrito_dense, only: least_squares
+   use atrito_displacements, only: add_rigid_motions
    use atrito_kinds, only: ip, wp
    use atrito_motion_rows, only: motion_rows_t, motion_rates
-   use atrito_recovery, only: add_rigid_motions
    implicit none (type, external)
    private
    public :: mechanism_t, describe_motion

@@ -3,8 +3,8 @@
 module atrito_row_forces
    use atrito_bilateral_rows, only: bilateral_rows_t, ROW_SUPPORT, ROW_SPRING, ROW_EQUATION
    use atrito_contact_solution, only: contact_solution_t
+   use atrito_displacements, only: add_bilateral_forces
    use atrito_kinds, only: ip, wp
-   use atrito_recovery, only: add_bilateral_forces
    use atrito_results, only: balance_t, results_t
    use atrito_rigid_bodies, only: carriers_of, has_moving_surfaces
    use atrito_scene_data, only: scene_data_t

@@ -1,0 +1,17 @@
+!> A linear solve of the contact line as iterations.tab tells of it.
+module atrito_iteration
+   use atrito_kinds, only: ip, wp
+   implicit none (type, external)
+   private
+   public :: iteration_t
+
+   !> One inner solve: a row of iterations.tab. Changes are relative to the largest value.
+   type :: iteration_t
+      integer(ip) :: step = 1, increment = 1
+      integer(ip) :: outer = 0, inner = 0
+      real(wp) :: change_displacement = 0.0_wp, change_pressure = 0.0_wp, change_friction = 0.0_wp
+      integer(ip) :: open = 0, stick = 0, slip = 0
+      real(wp) :: residual = 0.0_wp                  !< |nu S_rho(p) - tau| / |tau|, of the last outer iteration
+   end type iteration_t
+
+end module atrito_iteration

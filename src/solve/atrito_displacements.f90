@@ -1,0 +1,123 @@
+!> From the contact forces to the displacements of the bodies.
+module atrito_displacements
+   use atrito_assembly, only: fem_t
+   use atrito_bodies, only: body_t, mode_at
+   use atrito_condensed_body, only: condensed_body_t, contact_response, expand_body
+   use atrito_contact_line, only: contact_line_t
+   use atrito_contact_rows, only: contact_rows_t
+   use atrito_contact_solution, only: contact_solution_t
+   use atrito_kinds, only: ip, wp
+   use atrito_threads, only: is_shared
+   implicit none (type, external)
+   private
+   public :: contact_forces, add_bilateral_forces, elastic_displacements, add_rigid_motions
+
+contains
+
+   !> B'q as nodal forces (2, n_nodes) [F]: what the contact and the bilateral rows take from the loads, prescribed dofs too.
+   pure function contact_forces(fem, rows, line, solution) result(force)
+      type(fem_t), intent(in) :: fem
+      type(contact_rows_t), intent(in) :: rows
+      type(contact_line_t), intent(in) :: line
+      type(contact_solution_t), intent(in) :: solution
+      real(wp) :: force(2, fem%mesh%n_nodes)
+      real(wp) :: at_point(2)
+      integer(ip) :: j, k
+
+      force = 0.0_wp
+      do j = 1, rows%n - rows%n_bilateral
+         at_point = line%weight(j)*(max(solution%p(j), 0.0_wp)*rows%normal(:, j) + solution%t(j)*rows%tangent(:, j))
+         do k = rows%first(j), rows%first(j + 1) - 1
+            force(:, rows%node(k)) = force(:, rows%node(k)) + rows%coefficient(k)*at_point
+         end do
+      end do
+      call add_bilateral_forces(rows, [(.true., j=1, rows%n_bilateral)], line%weight*solution%p, force)
+   end function contact_forces
+
+   !> Adds what some bilateral rows take from the loads.
+   pure subroutine add_bilateral_forces(rows, wanted, q, force)
+      type(contact_rows_t), intent(in) :: rows
+      logical, intent(in) :: wanted(:)               !< (bilateral rows)
+      real(wp), intent(in) :: q(:)                   !< (n) of all rows [F]
+      real(wp), intent(inout) :: force(:, :)         !< (2, n_nodes) [F]
+      integer(ip) :: j, k
+
+      associate (before => rows%n - rows%n_bilateral)
+         do j = 1, rows%n_bilateral
+            if (.not. wanted(j)) cycle
+            do k = rows%first(before + j), rows%first(before + j + 1) - 1
+               force(:, rows%node(k)) = force(:, rows%node(k)) + q(before + j)*rows%vector(:, k - rows%before_vectors)
+            end do
+         end do
+      end associate
+   end subroutine add_bilateral_forces
+
+   !> The displacements of one body without its rigid motion: u_e = u0 - F B'q at the contact dofs, the interior from them.
+   subroutine elastic_displacements(fem, i_body, condensed, force, u)
+      type(fem_t), intent(in) :: fem
+      integer(ip), intent(in) :: i_body
+      type(condensed_body_t), intent(in) :: condensed
+      real(wp), intent(in) :: force(:, :)            !< B'q, (2, n_nodes) [F]
+      real(wp), intent(inout) :: u(:, :)             !< (2, n_nodes) [L]: the free dofs of this body are set
+      real(wp), allocatable :: x(:, :)
+      integer(ip) :: i, dof, k, first
+
+      if (fem%bodies%list(i_body)%is_rigid) return
+      associate (body => fem%bodies%list(i_body))
+         first = body%n - body%n_retained
+         x = condensed%load(first + 1:, :)
+         do i = 1, size(body%nodes, kind=ip)
+            do dof = 1, 2
+               k = fem%bodies%equation(dof, body%nodes(i)) - first
+               if (k > 0) x(k, 1) = x(k, 1) - force(dof, body%nodes(i))
+            end do
+         end do
+         call contact_response(condensed, x)
+         call expand_body(fem, i_body, condensed, x(:, 1), u)
+      end associate
+   end subroutine elastic_displacements
+
+   !> u = u_e + Z a.
+   subroutine add_rigid_motions(fem, a, u)
+      type(fem_t), intent(in) :: fem
+      real(wp), intent(in) :: a(:)
+      real(wp), intent(inout) :: u(:, :)             !< (2, n_nodes) [L]
+      integer(ip) :: b, first
+
+      first = 1
+      do b = 1, fem%bodies%n
+         if (size(fem%bodies%list(b)%modes, 2) > 0) call move_body(fem, fem%bodies%list(b), a(first:), u)
+         first = first + size(fem%bodies%list(b)%modes, 2, kind=ip)
+      end do
+   end subroutine add_rigid_motions
+
+   subroutine move_body(fem, body, a, u)
+      type(fem_t), intent(in) :: fem
+      type(body_t), intent(in) :: body
+      real(wp), intent(in) :: a(:)                   !< of its modes and those of later bodies
+      real(wp), intent(inout) :: u(:, :)
+      real(wp) :: mode(3)
+      integer(ip) :: i
+
+      mode = matmul(body%modes, a(:size(body%modes, 2)))
+      !$omp parallel do schedule(static) if (is_shared(size(body%nodes, kind=ip)))
+      do i = 1, size(body%nodes, kind=ip)
+         call move_node(fem, body, mode, body%nodes(i), u(:, body%nodes(i)))
+      end do
+      !$omp end parallel do
+   end subroutine move_body
+
+   pure subroutine move_node(fem, body, mode, node, u)
+      type(fem_t), intent(in) :: fem
+      type(body_t), intent(in) :: body
+      real(wp), intent(in) :: mode(3)
+      integer(ip), intent(in) :: node
+      real(wp), intent(inout) :: u(2)
+      integer(ip) :: dof
+
+      do dof = 1, 2
+         if (fem%bodies%equation(dof, node) /= 0) u(dof) = u(dof) + mode_at(body, mode, fem%mesh%x(:, node), dof)
+      end do
+   end subroutine move_node
+
+end module atrito_displacements
