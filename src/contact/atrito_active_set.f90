@@ -14,9 +14,9 @@
 !> Full steps end in a few solves almost always, but nothing makes them. When a state comes back, after MOST_FULL_STEPS, or when a
 !> body is free under the load, the finite Goldfarb-Idnani steps take over (atrito_goldfarb_idnani).
 module atrito_active_set
+   use atrito_free_set, only: equality_solution_t, solve_free_set, is_vanishing, put_at_bounds, row_round_off, force_round_off
    use atrito_kinds, only: ip, lp, wp, HUGE_REAL
-   use atrito_bound_qp, only: bound_qp_t, box_bounds_t, box_state_t, box_outcome_t, equality_solution_t, solve_free_set, &
-                              is_vanishing, put_at_bounds, row_round_off, force_round_off, FREE, AT_LOWER, AT_UPPER
+   use atrito_bound_qp, only: bound_qp_t, box_bounds_t, box_state_t, box_outcome_t, FREE, AT_LOWER, AT_UPPER
    use atrito_goldfarb_idnani, only: take_goldfarb_idnani_steps
    use atrito_free_set_factor, only: free_set_factor_t
    use atrito_solve_history, only: solve_history_t, record_solve

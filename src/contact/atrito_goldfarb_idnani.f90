@@ -8,9 +8,9 @@
 !>   (iii) when that leaves a body free, move along its motion until a multiplier reaches zero and release that unknown; when none
 !>         does, there is no equilibrium.
 module atrito_goldfarb_idnani
+   use atrito_free_set, only: equality_solution_t, solve_free_set, is_vanishing, put_at_bounds, row_round_off, force_round_off
    use atrito_kinds, only: ip, wp
-   use atrito_bound_qp, only: bound_qp_t, box_bounds_t, box_state_t, equality_solution_t, solve_free_set, is_vanishing, &
-                              put_at_bounds, row_round_off, force_round_off, FREE, AT_LOWER, AT_UPPER
+   use atrito_bound_qp, only: bound_qp_t, box_bounds_t, box_state_t, FREE, AT_LOWER, AT_UPPER
    use atrito_free_set_factor, only: free_set_factor_t
    use atrito_solve_history, only: solve_history_t, record_solve
    use atrito_status, only: status_t, is_ok

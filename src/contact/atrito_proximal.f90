@@ -11,8 +11,9 @@
 !> alike is taken (atrito_least_forces), so that the answer does not depend on the way.
 module atrito_proximal
    use atrito_active_set, only: solve_box
-   use atrito_bound_qp, only: bound_qp_t, box_bounds_t, box_state_t, set_residual, row_round_off, FREE, FROZEN, box_outcome_t
+   use atrito_bound_qp, only: bound_qp_t, box_bounds_t, box_state_t, FREE, FROZEN, box_outcome_t
    use atrito_constraint_rows, only: constraint_rows_t
+   use atrito_free_set, only: set_residual, row_round_off
    use atrito_kinds, only: ip, wp
    use atrito_least_forces, only: find_least_forces
    use atrito_free_set_factor, only: free_set_factor_t

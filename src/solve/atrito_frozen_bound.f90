@@ -1,10 +1,10 @@
 !> The contact line with a friction bound that stands still: what the Picard loop solves once an iteration.
 module atrito_frozen_bound
    use atrito_active_set, only: solve_box, is_settled
-   use atrito_bound_qp, only: bound_qp_t, box_state_t, equality_solution_t, solve_free_set, clear_vanishing, force_round_off, &
-                              FREE, AT_LOWER
+   use atrito_bound_qp, only: bound_qp_t, box_state_t, FREE, AT_LOWER
    use atrito_contact_line, only: contact_line_t, last_of_pair, pressure_of, shear_force_of, set_friction_bounds
    use atrito_contact_solution, only: contact_solution_t, bound_of_state, NOISE
+   use atrito_free_set, only: equality_solution_t, solve_free_set, clear_vanishing, force_round_off
    use atrito_kinds, only: ip, wp, HUGE_REAL
    use atrito_proximal, only: solve_box_proximal
    use atrito_status, only: status_t, is_ok

@@ -1,0 +1,364 @@
+!> The bound-constrained QP (atrito_bound_qp) where it is known which unknowns are free: a linear system.
+module atrito_free_set
+   use atrito_bound_qp, only: bound_qp_t, box_bounds_t, box_state_t, FREE, AT_LOWER, AT_UPPER, FROZEN, DEPENDENT_POINTS
+   use atrito_kinds, only: ip, wp
+   use atrito_dense, only: solve_cholesky, eigen_symmetric
+   use atrito_dense_blocks, only: multiply_symmetric
+   use atrito_dual_preconditioner, only: free_system_t, solve_with_kept, scaled_product
+   use atrito_free_set_factor, only: free_set_factor_t, factor_free_set, condition_of, is_worth_keeping
+   use atrito_status, only: status_t, set_status, is_ok, STATUS_SINGULAR
+   implicit none (type, external)
+   private
+   public :: equality_solution_t, solve_free_set, put_at_bounds, set_residual, clear_vanishing, is_vanishing, row_round_off, &
+             force_round_off
+
+   !> What a solve with a given set of free unknowns found besides q, a, r.
+   type :: equality_solution_t
+      logical :: moves = .false.                 !< the free set does not hold a motion that the load works on
+      real(wp), allocatable :: motion(:)         !< (k) that motion, in the direction of the load
+      logical :: hardly = .false.                !< with moves: so little load that the body rests where nothing stops it
+      real(wp), allocatable :: undetermined(:) !< (k) a motion that neither the free set nor the load touches; else not allocated
+      real(wp) :: condition = 1.0_wp             !< of the scaled matrix of the free set
+      integer(ip) :: dependent = 0               !< an unknown whose row depends on others; 0: none
+   end type equality_solution_t
+
+   real(wp), parameter :: NULL_MOTION = 1.0e-12_wp  !< eigenvalue of a motion that the free set does not hold
+   real(wp), parameter :: NO_LOAD = 1.0e-13_wp      !< part of the load in such a motion that is none
+   real(wp), parameter :: LITTLE_LOAD = 1.0e-9_wp   !< that is none where nothing stops the motion
+   real(wp), parameter :: CLOSES = 1.0e-14_wp       !< round-off of r, of the terms it is made of
+   real(wp), parameter :: VANISHING = 1.0e-25_wp    !< of the force that would undo the displacements: refinement leaves it of 0
+
+   !> How firmly the free set holds each motion: eigenvectors and eigenvalues of G' M^-1 G, scaled to a unit diagonal.
+   type :: complement_t
+      real(wp), allocatable :: vectors(:, :), values(:), scale(:)
+   end type complement_t
+
+contains
+
+   !> Solves for the free unknowns, the others fixed at state%q; sets state%q, a, r, slack. solution%moves: no equilibrium, and a is
+   !> the least motion that satisfies the rest. status: STATUS_SINGULAR when rows depend on each other (solution%dependent).
+   !>
+   !> With F the free unknowns, X the fixed ones and M = (C + D)_FF, the conditions r_F = 0 and G' q = h are the saddle system
+   !>
+   !>     [  M     -G_F ] [ q_F ]   [  (g0 - C q_X)_F  ]
+   !>     [ -G_F'    0  ] [  a  ] = [ -(h - G_X' q_X)  ]
+   !>
+   !> 1. M is scaled to a unit diagonal and factored by Cholesky: rows of stiff and of soft bodies then count alike. A pivot that
+   !>    vanishes is a row that others make up, as where nodes of two pairs are one.
+   !> 2. q_F = M^-1 (rhs + G_F a) leaves S a = h - G_X' q_X - G_F' M^-1 rhs with the complement S = G_F' M^-1 G_F, a matrix of the
+   !>    size of the rigid motions, which is decomposed into its eigenvectors.
+   !> 3. An eigenvalue that vanishes belongs to a motion that the closed points do not hold. It takes no part in a. Where the load
+   !>    works on it there is no equilibrium with these states (moves), else it may be anything (undetermined).
+   !> 4. The residual of both equations is solved for once more with the same factors: what is left is round-off of the solution.
+   !>
+   !> The factor of an earlier solve whose free set differs by some unknowns serves again as the preconditioner of conjugate
+   !> gradients (atrito_dual_preconditioner), where that is cheaper than a new one.
+   subroutine solve_free_set(problem, d, state, solution, status, kept)
+      type(bound_qp_t), intent(in) :: problem
+      real(wp), intent(in) :: d(:)               !< (m) [L/F]
+      type(box_state_t), intent(inout) :: state
+      type(equality_solution_t), intent(out) :: solution
+      type(status_t), intent(out) :: status
+      !> Factor of an earlier solve, which serves again where it can, or of this one; solution%condition is left to condition_of.
+      type(free_set_factor_t), intent(inout), optional :: kept
+      type(free_set_factor_t) :: own
+
+      if (present(kept)) then
+         call solve_with_factor(problem, d, kept, state, solution, status)
+      else
+         call solve_with_factor(problem, d, own, state, solution, status)
+         if (is_ok(status)) solution%condition = condition_of(own)
+      end if
+   end subroutine solve_free_set
+
+   !> By the factor that is there, or by a new one.
+   subroutine solve_with_factor(problem, d, factor, state, solution, status)
+      type(bound_qp_t), intent(in) :: problem
+      real(wp), intent(in) :: d(:)               !< (m) [L/F]
+      type(free_set_factor_t), intent(inout) :: factor
+      type(box_state_t), intent(inout) :: state
+      type(equality_solution_t), intent(inout) :: solution
+      type(status_t), intent(out) :: status
+      type(free_system_t) :: system
+      real(wp), allocatable :: held(:), q(:)
+      logical :: solved
+
+      call free_system(problem, d, state, held, system)
+      q = state%q(system%set)/system%scale
+      solved = .false.
+      if (is_worth_keeping(size(q, kind=ip))) call solve_with_kept(factor, problem%c, system, q, state%a, solved)
+      if (.not. solved) then
+         call factor_free_set(problem%c, d, system%set, factor, solution%dependent)
+         if (solution%dependent > 0) then
+            call set_status(status, STATUS_SINGULAR, DEPENDENT_POINTS)
+            return
+         end if
+         call solve_saddle(problem, factor%matrix, system, held, q, state%a, solution)
+      end if
+      state%q(system%set) = q*system%scale
+      call set_residual(problem, d, state)
+   end subroutine solve_with_factor
+
+   !> The equations of the free unknowns, scaled to a unit diagonal of C + D.
+   subroutine free_system(problem, d, state, held, system)
+      type(bound_qp_t), intent(in) :: problem
+      real(wp), intent(in) :: d(:)
+      type(box_state_t), intent(in) :: state
+      real(wp), allocatable, intent(out) :: held(:) !< (m) forces of the fixed unknowns
+      type(free_system_t), intent(out) :: system
+      real(wp) :: moved(problem%m)
+      integer(ip) :: i
+
+      system%set = pack([(i, i=1, problem%m)], state%state == FREE)
+      held = state%q
+      held(system%set) = 0.0_wp
+      system%d = d(system%set)
+      system%scale = [(1.0_wp/sqrt(problem%c(system%set(i), system%set(i)) + system%d(i)), i=1, size(system%set, kind=ip))]
+      moved = 0.0_wp
+      if (any(held /= 0.0_wp)) call multiply_symmetric(problem%c, held, moved)
+      system%rhs = (problem%g0(system%set) - moved(system%set))*system%scale
+      if (allocated(state%shift)) system%rhs = system%rhs + state%shift(system%set)*system%scale
+      system%load = problem%h - matmul(transpose(problem%g), held)
+      system%g = problem%g(system%set, :)
+      do i = 1, size(system%set, kind=ip)
+         system%g(i, :) = system%g(i, :)*system%scale(i)
+      end do
+   end subroutine free_system
+
+   !> [M -G; -G' 0] [q; a] = [rhs; -load] by the complement of M, with one refinement.
+   subroutine solve_saddle(problem, factor, system, held, q, a, solution)
+      type(bound_qp_t), intent(in) :: problem
+      real(wp), intent(in) :: factor(:, :)       !< of M
+      type(free_system_t), intent(in) :: system
+      real(wp), intent(in) :: held(:)            !< (m) forces of the fixed unknowns
+      real(wp), intent(out) :: q(:)              !< scaled
+      real(wp), intent(inout) :: a(:)
+      type(equality_solution_t), intent(inout) :: solution
+      type(complement_t) :: complement
+      real(wp), allocatable :: y(:, :), x(:), correction(:), da(:)
+
+      associate (gs => system%g, rhs => system%rhs, load => system%load)
+         y = gs
+         call solve_cholesky(factor, y)
+         call complement_modes(gs, y, complement)
+         x = rhs
+         call solve_cholesky(factor, x)
+         call solve_motions(complement, load - matmul(transpose(gs), x), a)
+         q = x + matmul(y, a)
+         ! one refinement: the residual of both equations with the same factors
+         correction = rhs + matmul(gs, a) - scaled_product(problem%c, system, q)
+         call solve_cholesky(factor, correction)
+         allocate (da, mold=a)
+         call solve_motions(complement, load - matmul(transpose(gs), q) - matmul(transpose(gs), correction), da)
+         q = q + correction + matmul(y, da)
+         a = a + da
+         call judge_motions(problem, complement, system, held, q, a, solution)
+      end associate
+   end subroutine solve_saddle
+
+   !> S = G' M^-1 G, scaled to a unit diagonal, by its eigenvectors; y = M^-1 G.
+   subroutine complement_modes(gs, y, complement)
+      real(wp), intent(in) :: gs(:, :), y(:, :)
+      type(complement_t), intent(out) :: complement
+      integer(ip) :: i, j, k, info
+
+      k = size(gs, 2, kind=ip)
+      complement%vectors = matmul(transpose(gs), y)
+      complement%vectors = 0.5_wp*(complement%vectors + transpose(complement%vectors))
+      allocate (complement%scale(k), complement%values(k))
+      associate (vectors => complement%vectors, scale => complement%scale)
+         do j = 1, k
+            scale(j) = 1.0_wp
+            if (vectors(j, j) > 0.0_wp) scale(j) = 1.0_wp/sqrt(vectors(j, j))
+         end do
+         do j = 1, k
+            do i = 1, k
+               vectors(i, j) = vectors(i, j)*scale(i)*scale(j)
+            end do
+         end do
+         call eigen_symmetric(vectors, complement%values, info)
+      end associate
+   end subroutine complement_modes
+
+   !> a from G' M^-1 G a = force; a motion that the free set does not hold takes no part.
+   subroutine solve_motions(complement, force, a)
+      type(complement_t), intent(in) :: complement
+      real(wp), intent(in) :: force(:)
+      real(wp), intent(out) :: a(:)
+      integer(ip) :: j
+
+      a = 0.0_wp
+      do j = 1, size(complement%values, kind=ip)
+         if (complement%values(j) <= NULL_MOTION) cycle
+         a = a + complement%vectors(:, j)*(dot_product(complement%vectors(:, j), force*complement%scale)/complement%values(j))
+      end do
+      a = a*complement%scale
+   end subroutine solve_motions
+
+   !> Whether the load works on a motion that the free set does not hold: then solution%moves. The load is measured by the forces of
+   !> the solution on the bodies that move, and by what was cancelled in it; those before the bodies have moved to where they touch
+   !> may be larger by any factor, and say nothing.
+   subroutine judge_motions(problem, complement, system, held, q, a, solution)
+      type(bound_qp_t), intent(in) :: problem
+      type(complement_t), intent(in) :: complement
+      type(free_system_t), intent(in) :: system
+      real(wp), intent(in) :: held(:)
+      real(wp), intent(in) :: q(:)               !< scaled, of the free set
+      real(wp), intent(in) :: a(:)
+      type(equality_solution_t), intent(inout) :: solution
+      real(wp) :: all_q(problem%m), none(problem%m), work(problem%k), size_of_work(problem%k), motion(problem%k), way(problem%k)
+      real(wp) :: part, size_of_part, round_off
+      integer(ip) :: j
+
+      if (all(complement%values > NULL_MOTION)) return
+      solution%hardly = .true.
+      all_q = held
+      all_q(system%set) = q*system%scale
+      none = min(abs(all_q), VANISHING*forces_of_places(problem, system, a))
+      work = problem%h - matmul(transpose(problem%g), all_q)
+      size_of_work = size_of_load(problem) + matmul(transpose(abs(problem%g)), abs(all_q))
+      motion = 0.0_wp
+      do j = 1, problem%k
+         if (complement%values(j) > NULL_MOTION) cycle
+         way = complement%vectors(:, j)*complement%scale
+         part = dot_product(way, work)
+         size_of_part = dot_product(abs(way), size_of_work)
+         round_off = dot_product(abs(matmul(problem%g, way)), none)
+         if (abs(part) > NO_LOAD*size_of_part + round_off) then
+            motion = motion + complement%vectors(:, j)*part
+            solution%hardly = solution%hardly .and. abs(part) <= LITTLE_LOAD*size_of_part + round_off
+         else
+            solution%undetermined = way
+         end if
+      end do
+      if (all(motion == 0.0_wp)) return
+      solution%moves = .true.
+      solution%motion = motion*complement%scale
+   end subroutine judge_motions
+
+   !> The work of all loads on each motion without sign [F]: what round-off of h is measured by.
+   pure function size_of_load(problem)
+      type(bound_qp_t), intent(in) :: problem
+      real(wp) :: size_of_load(problem%k)
+
+      size_of_load = abs(problem%h)
+      if (allocated(problem%h_size)) size_of_load = problem%h_size
+   end function size_of_load
+
+   !> The force [F] that each unknown alone would need to undo what its displacement is made of.
+   pure function forces_of_places(problem, system, a) result(force)
+      type(bound_qp_t), intent(in) :: problem
+      type(free_system_t), intent(in) :: system
+      real(wp), intent(in) :: a(:)
+      real(wp) :: force(problem%m)
+      integer(ip) :: i
+
+      force = abs(problem%g0) + abs(matmul(problem%g, a))
+      do i = 1, problem%m
+         force(i) = force(i)/yield_of(problem, 0.0_wp, i)
+      end do
+      force(system%set) = (abs(problem%g0(system%set)) + abs(matmul(problem%g(system%set, :), a)))*system%scale**2
+   end function forces_of_places
+
+   !> Sets r = g0 - (C + D) q + G a and its round-off.
+   subroutine set_residual(problem, d, state)
+      type(bound_qp_t), intent(in) :: problem
+      real(wp), intent(in) :: d(:)
+      type(box_state_t), intent(inout) :: state
+      real(wp) :: cq(problem%m), moved(problem%m)
+
+      call multiply_symmetric(problem%c, state%q, cq)
+      moved = matmul(problem%g, state%a)
+      state%r = problem%g0 - cq - d*state%q + moved
+      if (allocated(state%shift)) state%r = state%r + state%shift
+      state%slack = CLOSES*(largest(problem%g0) + largest(cq) + largest(moved))
+   end subroutine set_residual
+
+   !> Round-off of one r, of the terms that it is made of [L]: a fixed unknown is released when r is wrong by more. Rows of stiff
+   !> bodies beside soft ones have far less of it than state%slack.
+   pure real(wp) function row_round_off(problem, state, i) result(slack)
+      type(bound_qp_t), intent(in) :: problem
+      type(box_state_t), intent(in) :: state
+      integer(ip), intent(in) :: i
+      integer(ip) :: j
+
+      if (problem%is_coarse) then
+         slack = state%slack
+         return
+      end if
+      slack = abs(problem%g0(i))
+      if (allocated(state%shift)) slack = slack + abs(state%shift(i))
+      do j = 1, problem%k
+         slack = slack + abs(problem%g(i, j)*state%a(j))
+      end do
+      do j = 1, problem%m
+         slack = slack + abs(problem%c(j, i)*state%q(j))
+      end do
+      slack = CLOSES*slack
+   end function row_round_off
+
+   !> The same as a force [F].
+   pure real(wp) function force_round_off(problem, d, state, i) result(force)
+      type(bound_qp_t), intent(in) :: problem
+      real(wp), intent(in) :: d(:)               !< (m) [L/F]
+      type(box_state_t), intent(in) :: state
+      integer(ip), intent(in) :: i
+
+      force = row_round_off(problem, state, i)/yield_of(problem, d(i), i)
+   end function force_round_off
+
+   !> What a force moves its row by, with the compliance of its law; where that is nothing, as between rigid surfaces, by as much as
+   !> the softest row, so that a force there is no less than others.
+   pure real(wp) function yield_of(problem, d, i) result(yields)
+      type(bound_qp_t), intent(in) :: problem
+      real(wp), intent(in) :: d                  !< of the row [L/F]
+      integer(ip), intent(in) :: i
+      integer(ip) :: j
+
+      yields = problem%c(i, i) + d
+      if (yields > 0.0_wp) return
+      yields = maxval([(problem%c(j, j), j=1, problem%m)])
+      if (.not. yields > 0.0_wp) yields = 1.0_wp
+   end function yield_of
+
+   !> Forces that are what refinement leaves of none become none.
+   pure subroutine clear_vanishing(problem, d, state)
+      type(bound_qp_t), intent(in) :: problem
+      real(wp), intent(in) :: d(:)               !< (m) [L/F]
+      type(box_state_t), intent(inout) :: state
+      integer(ip) :: i
+
+      do i = 1, problem%m
+         if (is_vanishing(problem, d, state, i)) state%q(i) = 0.0_wp
+      end do
+   end subroutine clear_vanishing
+
+   !> Whether a force is what refinement leaves of none.
+   pure logical function is_vanishing(problem, d, state, i)
+      type(bound_qp_t), intent(in) :: problem
+      real(wp), intent(in) :: d(:)               !< (m) [L/F]
+      type(box_state_t), intent(in) :: state
+      integer(ip), intent(in) :: i
+
+      ! a place may be met exactly by a force that is none
+      is_vanishing = abs(state%q(i))*yield_of(problem, d(i), i) <= VANISHING*(state%slack/CLOSES)
+   end function is_vanishing
+
+   pure real(wp) function largest(x)
+      real(wp), intent(in) :: x(:)
+
+      largest = 0.0_wp
+      if (size(x) > 0) largest = maxval(abs(x))
+   end function largest
+
+   !> Fixed unknowns take the values of their bounds.
+   pure subroutine put_at_bounds(bounds, state)
+      type(box_bounds_t), intent(in) :: bounds
+      type(box_state_t), intent(inout) :: state
+
+      where (state%state == AT_LOWER) state%q = bounds%lower
+      where (state%state == AT_UPPER) state%q = bounds%upper
+      where (state%state == FROZEN) state%q = 0.0_wp
+   end subroutine put_at_bounds
+
+end module atrito_free_set
