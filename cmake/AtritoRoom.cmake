@@ -1,9 +1,10 @@
 # One static library a folder of src/, with a module directory of its own. A room sees the
 # modules of the rooms that it names, and of no other: the compiler refuses an upward `use`.
 #
-#   atrito_add_room(<room> SOURCES <file>... USES <room>... [HIDES <room>...] [LIBRARIES <lib>...])
+#   atrito_add_room(<room> SOURCES <file>... [FACE <module>...] USES <room>... [HIDES <room>...] [LIBRARIES <lib>...])
 #
-# USES is passed on to whoever uses this room; HIDES is seen by this room alone.
+# FACE are the modules, without `atrito_`, that other rooms may use; the compiler refuses the rest. Without it all may be used.
+# USES is passed on to whoever uses this room; HIDES is seen by this room alone. Tests look inside, too: atrito_test_options.
 include_guard()
 
 set(ATRITO_WARNINGS -Wall -Wextra -Wimplicit-interface -Wimplicit-procedure -Wunused-parameter
@@ -29,11 +30,21 @@ if(ATRITO_SANITIZE)
 endif()
 
 function(atrito_add_room room)
-   cmake_parse_arguments(ARG "" "" "SOURCES;USES;HIDES;LIBRARIES" ${ARGN})
+   cmake_parse_arguments(ARG "" "" "SOURCES;FACE;USES;HIDES;LIBRARIES" ${ARGN})
    set(modules ${PROJECT_BINARY_DIR}/modules/${room})
    add_library(atrito_${room} STATIC ${ARG_SOURCES})
    set_target_properties(atrito_${room} PROPERTIES Fortran_MODULE_DIRECTORY ${modules})
-   target_include_directories(atrito_${room} PUBLIC ${modules})
+   set_property(GLOBAL APPEND PROPERTY ATRITO_MODULE_FOLDERS ${modules})
+   if(ARG_FACE)
+      # what the face is made of goes into a folder of its own, the only one that others search
+      set(face ${ARG_FACE})
+      list(TRANSFORM face REPLACE "(.+)" "${modules}/atrito_\\1.mod")
+      file(MAKE_DIRECTORY ${modules}/face)
+      add_custom_command(TARGET atrito_${room} POST_BUILD COMMAND ${CMAKE_COMMAND} -E copy_if_different ${face} ${modules}/face)
+      target_include_directories(atrito_${room} PRIVATE ${modules} INTERFACE ${modules}/face)
+   else()
+      target_include_directories(atrito_${room} PUBLIC ${modules})
+   endif()
    target_link_libraries(atrito_${room} PRIVATE atrito_options)
    foreach(other IN LISTS ARG_USES)
       target_link_libraries(atrito_${room} PUBLIC atrito_${other})

@@ -2,7 +2,7 @@
 FNR == NR {
    n++
    type[n] = $1; file[n] = $2; procedures[n] = "," $3 ","; variable[n] = $4; left_out[n] = "," $5 ","
-   has_rule[$2 ~ /^output/ ? $1 : ""] = 1
+   has_rule[$2 ~ /^fields/ ? $1 : ""] = 1
    next
 }
 
@@ -81,7 +81,7 @@ END {
          kind = kind_of[type[r], names[i]]
          if (index(left_out[r], "," names[i] ",")) continue
          if (!is_named(r, names[i])) print file[r] ": " procedures[r] " forgets a component of " type[r] ": " names[i]
-         if (file[r] ~ /^output/ && kind != "" && !(kind in has_rule)) print kind " has no rule"
+         if (file[r] ~ /^fields/ && kind != "" && !(kind in has_rule)) print kind " has no rule"
       }
       m = split(left_out[r], names, ",")
       for (i = 1; i <= m; i++) {

@@ -8,60 +8,60 @@ here=$(cd "$(dirname "$0")" && pwd)
 
 # type, file, procedures (* all), variable, components that are left out
 cat >"$work/rules" <<'RULES'
-results_t          output/atrito_exchange_results.f90 exchange_results results
-contact_result_t   output/atrito_exchange_results.f90 exchange_contact contact
-unsettled_t        output/atrito_exchange_results.f90 exchange_unsettled point
-body_motion_t      output/atrito_exchange_results.f90 exchange_motion body
-rigid_result_t     output/atrito_exchange_results.f90 exchange_rigid body
-joint_t            output/atrito_exchange_results.f90 exchange_joint joint
-observed_t         output/atrito_exchange_results.f90 exchange_observed list
-observed_list_t    output/atrito_restart_file.f90 exchange_observed_list list
-cut_force_t        output/atrito_exchange_results.f90 exchange_cut cut
-iteration_t        output/atrito_exchange_results.f90 exchange_iterations list
-extreme_t          output/atrito_exchange_results.f90 exchange_extreme extreme
-balance_t          output/atrito_exchange_results.f90 exchange_balance balance
-scene_t            output/atrito_exchange_scene.f90 exchange_scene scene
-body_result_t      output/atrito_exchange_scene.f90 exchange_body body
-pair_scene_t       output/atrito_exchange_scene.f90 exchange_pair pair
-string_t           output/atrito_exchange_scene.f90 exchange_strings list
-history_t          output/atrito_restart_file.f90 exchange_findings history ending,factorisations,store,n_stored
-history_row_t      output/atrito_restart_file.f90 exchange_rows list
-restart_state_t    output/atrito_restart_file.f90 exchange_state,exchange_findings state
-warm_start_t       output/atrito_restart_file.f90 exchange_start start
-warm_start_t       solve/atrito_warm_start.f90 put_start,put_multipliers start
-warm_start_t       solve/atrito_warm_start.f90 take_start,take_multipliers start
-contact_solution_t solve/atrito_warm_start.f90 put_start solution factor,inner,converged,verdict,factorisations,body_motion,body_force,has_settled
-box_state_t        solve/atrito_warm_start.f90 put_start state
-box_bounds_t       solve/atrito_warm_start.f90 put_start bounds
-multiplier_t       solve/atrito_warm_start.f90 put_multipliers multipliers factorisations,solves,generation,part,before
-slip_memory_t      solve/atrito_slip_memory.f90 put_memory memory is_incremental
-slip_memory_t      solve/atrito_slip_memory.f90 take_memory memory is_incremental
-run_t              solve/atrito_history.f90 record run options,reporter,scene,has_last,observer,sense,idle,n_idle
-run_t              solve/atrito_history.f90 resume run reporter,observer,idle,n_idle
-progress_t         solve/atrito_history.f90 record now cuts
-model_t            model/atrito_fingerprint.f90 * model deck_path,deck_name,heading,parameters,instances,levels,node_sets,element_sets,springs,ties,equations,inclined,sources,restart_every,asks_nlgeom,solver_mesh,provenance,as_run
-mesh_t             model/atrito_fingerprint.f90 digest_of_mesh mesh node_map,element_map
-material_t         model/atrito_fingerprint.f90 digest_of_materials material name
-section_t          model/atrito_fingerprint.f90 digest_of_materials sections elset,is_tapered
-surface_t          model/atrito_fingerprint.f90 digest_of_surfaces surface
-face_list_t        model/atrito_fingerprint.f90 digest_of_surfaces faces
-interaction_t      model/atrito_fingerprint.f90 digest_of_interactions law
-pair_t             model/atrito_fingerprint.f90 digest_of_pairs pair adjust,adjust_set,is_resolved,is_exchanged
-contact_points_t   model/atrito_fingerprint.f90 add_points points node,s,length,n_faces,n_left_out,n_seeing,faces,coarseness,coarse_node,piece,doubt,is_held,sliding
-bilateral_rows_t   model/atrito_fingerprint.f90 digest_of_rows rows n_groups
-step_t             model/atrito_fingerprint.f90 * step title
-nodal_values_t     model/atrito_fingerprint.f90 add_nodal_values values source
-element_load_t     model/atrito_fingerprint.f90 add_element_loads loads line,source
-amplitude_t        model/atrito_fingerprint.f90 add_amplitude amplitude name
-increments_t       model/atrito_fingerprint.f90 add_way way
-controls_t         model/atrito_fingerprint.f90 add_way controls is_brief,is_first
-requests_t         model/atrito_fingerprint.f90 add_requests requests
-frequencies_t      model/atrito_fingerprint.f90 add_requests every
-requested_t        model/atrito_fingerprint.f90 add_requested requested
+results_t          fields/exchange_results.f90 exchange_results results
+contact_result_t   fields/exchange_results.f90 exchange_contact contact
+unsettled_t        fields/exchange_results.f90 exchange_unsettled point
+body_motion_t      fields/exchange_results.f90 exchange_motion body
+rigid_result_t     fields/exchange_results.f90 exchange_rigid body
+joint_t            fields/exchange_results.f90 exchange_joint joint
+observed_t         fields/exchange_results.f90 exchange_observed list
+observed_list_t    fields/restart_file.f90 exchange_observed_list list
+cut_force_t        fields/exchange_results.f90 exchange_cut cut
+iteration_t        fields/exchange_results.f90 exchange_iterations list
+extreme_t          fields/exchange_results.f90 exchange_extreme extreme
+balance_t          fields/exchange_results.f90 exchange_balance balance
+scene_t            fields/exchange_scene.f90 exchange_scene scene
+body_result_t      fields/exchange_scene.f90 exchange_body body
+pair_scene_t       fields/exchange_scene.f90 exchange_pair pair
+string_t           fields/exchange_scene.f90 exchange_strings list
+history_t          fields/restart_file.f90 exchange_findings history ending,factorisations,store,n_stored
+history_row_t      fields/restart_file.f90 exchange_rows list
+restart_state_t    fields/restart_file.f90 exchange_state,exchange_findings state
+warm_start_t       fields/restart_file.f90 exchange_start start
+warm_start_t       stepping/warm_start.f90 put_start,put_multipliers start
+warm_start_t       stepping/warm_start.f90 take_start,take_multipliers start
+contact_solution_t stepping/warm_start.f90 put_start solution factor,inner,converged,verdict,factorisations,body_motion,body_force,has_settled
+box_state_t        stepping/warm_start.f90 put_start state
+box_bounds_t       stepping/warm_start.f90 put_start bounds
+multiplier_t       stepping/warm_start.f90 put_multipliers multipliers factorisations,solves,generation,part,before
+slip_memory_t      stepping/slip_memory.f90 put_memory memory is_incremental
+slip_memory_t      stepping/slip_memory.f90 take_memory memory is_incremental
+run_t              stepping/history.f90 record run options,reporter,scene,has_last,observer,sense,idle,n_idle
+run_t              stepping/history.f90 resume run reporter,observer,idle,n_idle
+progress_t         stepping/history.f90 record now cuts
+model_t            model/fingerprint.f90 * model deck_path,deck_name,heading,parameters,instances,levels,node_sets,element_sets,springs,ties,equations,inclined,sources,restart_every,asks_nlgeom,solver_mesh,provenance,as_run
+mesh_t             model/fingerprint.f90 digest_of_mesh mesh node_map,element_map
+material_t         model/fingerprint.f90 digest_of_materials material name
+section_t          model/fingerprint.f90 digest_of_materials sections elset,is_tapered
+surface_t          model/fingerprint.f90 digest_of_surfaces surface
+face_list_t        model/fingerprint.f90 digest_of_surfaces faces
+interaction_t      model/fingerprint.f90 digest_of_interactions law
+pair_t             model/fingerprint.f90 digest_of_pairs pair adjust,adjust_set,is_resolved,is_exchanged
+contact_points_t   model/fingerprint.f90 add_points points node,s,length,n_faces,n_left_out,n_seeing,faces,coarseness,coarse_node,piece,doubt,is_held,sliding
+bilateral_rows_t   model/fingerprint.f90 digest_of_rows rows n_groups
+step_t             model/fingerprint.f90 * step title
+nodal_values_t     model/fingerprint.f90 add_nodal_values values source
+element_load_t     model/fingerprint.f90 add_element_loads loads line,source
+amplitude_t        model/fingerprint.f90 add_amplitude amplitude name
+increments_t       model/fingerprint.f90 add_way way
+controls_t         model/fingerprint.f90 add_way controls is_brief,is_first
+requests_t         model/fingerprint.f90 add_requests requests
+frequencies_t      model/fingerprint.f90 add_requests every
+requested_t        model/fingerprint.f90 add_requested requested
 RULES
 
 judge() { # judge SRC: what is wrong, a line each
-   (cd "$1" && awk -f "$here/exchanged.awk" "$work/rules" */*.f90)
+   (cd "$1" && find . -name '*.f90' | sed 's,^\./,,' | xargs awk -f "$here/exchanged.awk" "$work/rules")
 }
 
 judge "$src" >"$work/wrong"
@@ -78,9 +78,9 @@ must_find() { # must_find FILE SED-COMMAND TEXT
    cmp -s "$src/$1" "$work/copy/$1" && fail "$1: $2 changes nothing"
    judge "$work/copy" | grep -qF -- "$3" || fail "not found: $3"
 }
-must_find model/atrito_results.f90 's/^      logical :: law_holds = .*/&\n      real(wp), allocatable :: wear(:), worn(:)/' 'results_t: worn'
-must_find output/atrito_exchange_results.f90 '/contact%slip_increment/d' 'contact_result_t: slip_increment'
-must_find model/atrito_results.f90 's/^      type(scene_t) :: scene/&\n      type(ending_t) :: ending/' 'ending_t has no rule'
-must_find solve/atrito_history.f90 '/run%condition = state%condition/d' 'run_t: condition'
-must_find model/atrito_model.f90 's/^   type :: pair_t$/   type :: couple_t/' 'there is no type pair_t'
+must_find model/types/results.f90 's/^      logical :: law_holds = .*/&\n      real(wp), allocatable :: wear(:), worn(:)/' 'results_t: worn'
+must_find fields/exchange_results.f90 '/contact%slip_increment/d' 'contact_result_t: slip_increment'
+must_find model/types/results.f90 's/^      type(scene_t) :: scene/&\n      type(ending_t) :: ending/' 'ending_t has no rule'
+must_find stepping/history.f90 '/run%condition = state%condition/d' 'run_t: condition'
+must_find model/types/model.f90 's/^   type :: pair_t$/   type :: couple_t/' 'there is no type pair_t'
 finish

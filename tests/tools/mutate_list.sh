@@ -24,11 +24,11 @@ lists() {
 
 cat >"$work/faults" <<'END'
 # a line and two lines
-@ base/atrito_kinds.f90: the module has another name
+@ base/kinds.f90: the module has another name
 - module atrito_kinds
 + module other_kinds
 
-@ base/atrito_kinds.f90: two lines
+@ base/kinds.f90: two lines
 - implicit none (type, external)
 - private
 + implicit none

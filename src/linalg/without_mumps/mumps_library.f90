@@ -1,4 +1,4 @@
-!> The twin of src/linalg/atrito_mumps_library.F90 in a build without MUMPS.
+!> The twin of src/linalg/mumps_library.F90 in a build without MUMPS.
 module atrito_mumps_library
    implicit none (type, external)
    private

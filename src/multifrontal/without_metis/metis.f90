@@ -1,4 +1,4 @@
-!> The twin of src/multifrontal/atrito_metis.F90 in a build without METIS.
+!> The twin of src/multifrontal/metis.F90 in a build without METIS.
 module atrito_metis
    use atrito_kinds, only: ip
    implicit none (type, external)

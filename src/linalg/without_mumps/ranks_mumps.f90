@@ -1,4 +1,4 @@
-!> The twin of src/linalg/atrito_ranks_mumps.f90 in a build without MUMPS: all of it fails, and nobody gets there.
+!> The twin of src/linalg/ranks_mumps.f90 in a build without MUMPS: all of it fails, and nobody gets there.
 module atrito_ranks_mumps
    use atrito_kinds, only: ip, lp, wp
    use atrito_linear_solver, only: factor_report_t

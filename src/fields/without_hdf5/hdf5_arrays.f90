@@ -1,4 +1,4 @@
-!> The twin of src/output/atrito_hdf5_arrays.f90 in a build without HDF5 (ATRITO_HDF5=OFF). A deck that asks for restart files is
+!> The twin of src/fields/hdf5_arrays.f90 in a build without HDF5 (ATRITO_HDF5=OFF). A deck that asks for restart files is
 !> refused before it is solved; --restart comes here and fails.
 module atrito_hdf5_arrays
    use atrito_kinds, only: lp, wp

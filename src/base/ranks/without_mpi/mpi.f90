@@ -1,4 +1,4 @@
-!> The twin of src/base/atrito_mpi.F90: one rank, which has nobody to talk to. It is in the library of the room; atrito-mpi alone
+!> The twin of src/base/ranks/mpi.F90: one rank, which has nobody to talk to. It is in the library of the room; atrito-mpi alone
 !> links the other in front of it, so both have the same procedures with the same interfaces.
 module atrito_mpi
    use atrito_kinds, only: ip, wp

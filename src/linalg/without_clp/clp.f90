@@ -1,4 +1,4 @@
-!> The twin of src/linalg/atrito_clp.F90 in a build without Clp.
+!> The twin of src/linalg/clp.F90 in a build without Clp.
 module atrito_clp
    use atrito_linear_program, only: linear_program_t, linear_solution_t
    implicit none (type, external)

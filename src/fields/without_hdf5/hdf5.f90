@@ -1,4 +1,4 @@
-!> The twin of src/output/atrito_hdf5.f90 in a build without HDF5 (ATRITO_HDF5=OFF). A deck that asks for fields is refused before
+!> The twin of src/fields/hdf5.f90 in a build without HDF5 (ATRITO_HDF5=OFF). A deck that asks for fields is refused before
 !> it is solved, so nothing here is reached; open_hdf5 fails all the same.
 module atrito_hdf5
    use atrito_kinds, only: ip, wp

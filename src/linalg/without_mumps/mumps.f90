@@ -1,4 +1,4 @@
-!> The twin of src/linalg/atrito_mumps.F90 in a build without MUMPS (ATRITO_MUMPS=OFF, or not found). The command line does not
+!> The twin of src/linalg/mumps.F90 in a build without MUMPS (ATRITO_MUMPS=OFF, or not found). The command line does not
 !> accept this solver then, so nothing here is reached; create fails all the same.
 module atrito_mumps
    use atrito_mumps_library, only: mumps_trouble
