@@ -1,4 +1,4 @@
-!> A system that the ranks have together (atrito_shared_system), solved by MUMPS over all of them.
+!> A symmetric positive definite system that the ranks have together, solved by MUMPS over all of them.
 !>
 !> Its matrix is the sum of dense matrices, each over a few of the unknowns; a rank has any number of them, or none:
 !>

@@ -1,5 +1,5 @@
 !> What the parts of a scene share (atrito_scene_parts), when it is too large to be one full matrix: factored and solved by all
-!> ranks together (atrito_shared_system).
+!> ranks together with MUMPS (atrito_ranks_mumps).
 !>
 !> The first rank tells the others what is to be done, with SERVICE_SCENE_TOP, and joins in; `serve_scene_top` is the other end.
 !> There is one such system at a time. All ranks must end it together, so each has it here, whatever becomes of the scene that it
@@ -9,8 +9,7 @@ module atrito_scene_top
    use atrito_mpi, only: rank_count, send_parcel
    use atrito_parcel, only: parcel_t, put, take
    use atrito_rank_services, only: send_to_others, SERVICE_SCENE_TOP
-   use atrito_shared_system, only: shared_system_t, begin_shared, end_shared, factor_shared, memory_of_shared, solve_shared, &
-                                   MOST_ORDER
+   use atrito_ranks_mumps, only: ranks_mumps_t, begin_by_mumps, end_by_mumps, factor_by_mumps, memory_by_mumps, solve_by_mumps
    use atrito_status, only: status_t, is_ok
    implicit none (type, external)
    private
@@ -20,7 +19,7 @@ module atrito_scene_top
    ! What is wanted.
    integer(ip), parameter :: MAKE = 1, FACTOR = 2, SOLVE = 3, FINISH = 4
 
-   type(shared_system_t) :: system
+   type(ranks_mumps_t) :: system
    type(status_t) :: trouble                     !< of the first solve that failed, until it is taken
 
 contains
@@ -43,9 +42,9 @@ contains
       case (FACTOR)
          call factor_own(left, status)
       case (SOLVE)
-         call solve_shared(system, nothing, status)
+         call solve_by_mumps(system, nothing, status)
       case (FINISH)
-         call end_shared(system)
+         call end_by_mumps(system)
       end select
    end subroutine serve_scene_top
 
@@ -53,7 +52,7 @@ contains
       integer(ip), intent(in) :: n, unknown(:)
       type(status_t), intent(out) :: status
 
-      call begin_shared(system, n, [1_ip, size(unknown, kind=ip) + 1_ip], unknown, status, MOST_ORDER)
+      call begin_by_mumps(system, n, [1_ip, size(unknown, kind=ip) + 1_ip], unknown, status)
    end subroutine begin_own
 
    !> The system scales what it gets.
@@ -67,7 +66,7 @@ contains
       else
          allocate (values(0))
       end if
-      call factor_shared(system, values, status)
+      call factor_by_mumps(system, values, status)
    end subroutine factor_own
 
    !> Says which unknowns each part has. status: STATUS_INTERNAL: there is no MUMPS, or too little memory.
@@ -129,7 +128,7 @@ contains
 
       call ask(SOLVE)
       column(:, 1) = x
-      call solve_shared(system, column, status)
+      call solve_by_mumps(system, column, status)
       x = 0.0_wp
       if (is_ok(status)) then
          x = column(:, 1)
@@ -151,7 +150,7 @@ contains
    !> Nothing of it is needed any more.
    subroutine end_scene_top()
       call ask(FINISH)
-      call end_shared(system)
+      call end_by_mumps(system)
    end subroutine end_scene_top
 
    subroutine ask(wanted)
@@ -165,7 +164,7 @@ contains
 
    !> Memory held by this process [bytes].
    pure integer(lp) function scene_top_bytes() result(bytes)
-      bytes = memory_of_shared(system)
+      bytes = memory_by_mumps(system)
    end function scene_top_bytes
 
 end module atrito_scene_top

@@ -1,14 +1,13 @@
 !> A system that several ranks share, against LAPACK: run by mpirun with any number of ranks. All of them make the same random
 !> matrices and know whose each of them is, so rank 0 has the sum as well. Exit 1 and lines of what is wrong where anything is.
 !>
-!>     mpirun -n N shared_system_probe
-program shared_system_probe
+!>     mpirun -n N ranks_mumps_probe
+program ranks_mumps_probe
    use, intrinsic :: iso_fortran_env, only: error_unit
    use atrito_kinds, only: ip, lp, wp, EPS_MACH
    use atrito_mpi, only: begin_ranks, end_ranks, largest_of_ranks, own_rank, rank_count, spread_from_first
    use atrito_packed_matrices, only: packed_length, put_packed
-   use atrito_shared_system, only: shared_system_t, begin_shared, end_shared, factor_shared, memory_of_shared, solve_shared, &
-                                   MOST_ORDER
+   use atrito_ranks_mumps, only: ranks_mumps_t, begin_by_mumps, end_by_mumps, factor_by_mumps, memory_by_mumps, solve_by_mumps
    use atrito_status, only: status_t, is_ok, STATUS_SINGULAR
    implicit none (type, external)
 
@@ -24,30 +23,26 @@ program shared_system_probe
 
    !> An error over n, epsilon and the size of what is compared.
    real(wp), parameter :: LIMIT = 100.0_wp
-   integer(ip) :: failures = 0, shift, engine
-   integer(ip) :: most = MOST_ORDER              ! of a front; 0: by MUMPS
+   integer(ip) :: failures = 0, shift
 
    call begin_ranks()
    call random_init(.true., .false.)             ! the same numbers on all ranks
-   do engine = 1, 2
-      most = merge(MOST_ORDER, 0_ip, engine == 1)
-      do shift = 0, 1
-         call try_system('a matrix a rank', 40_ip, rank_count(), shift, 1.0_wp)
-         call try_system('two matrices a rank', 60_ip, 2*rank_count() + 1, shift, 1.0_wp)
-         call try_system('one matrix: the others have none', 30_ip, 1_ip, shift, 1.0_wp)
-         call try_system('a single unknown', 1_ip, 2_ip, shift, 1.0_wp)
-         call try_system('large', 900_ip, 4_ip, shift, 1.0_wp)
-         call try_system('large numbers', 60_ip, 5_ip, shift, 1.0e150_wp)
-         call try_system('small numbers', 60_ip, 5_ip, shift, 1.0e-150_wp)
-      end do
-      call try_mixed_units()
-      call try_singular('a free chain', 40_ip, .false.)
-      call try_singular('a large free chain', 900_ip, .false.)
-      call try_singular('an empty unknown', 40_ip, .true.)
-      call try_digits(500_ip)
-      call try_negative()
-      call try_free_block()
+   do shift = 0, 1
+      call try_system('a matrix a rank', 40_ip, rank_count(), shift, 1.0_wp)
+      call try_system('two matrices a rank', 60_ip, 2*rank_count() + 1, shift, 1.0_wp)
+      call try_system('one matrix: the others have none', 30_ip, 1_ip, shift, 1.0_wp)
+      call try_system('a single unknown', 1_ip, 2_ip, shift, 1.0_wp)
+      call try_system('large', 900_ip, 4_ip, shift, 1.0_wp)
+      call try_system('large numbers', 60_ip, 5_ip, shift, 1.0e150_wp)
+      call try_system('small numbers', 60_ip, 5_ip, shift, 1.0e-150_wp)
    end do
+   call try_mixed_units()
+   call try_singular('a free chain', 40_ip, .false.)
+   call try_singular('a large free chain', 900_ip, .false.)
+   call try_singular('an empty unknown', 40_ip, .true.)
+   call try_digits(500_ip)
+   call try_negative()
+   call try_free_block()
    failures = largest_of_ranks(failures)
    call end_ranks()
    if (failures > 0) stop 1, quiet = .true.
@@ -61,7 +56,7 @@ contains
 
       if (holds) return
       failures = failures + 1
-      write (error_unit, '(a,i0,a)') 'rank ', own_rank(), merge(', fronts: ', ', MUMPS:  ', most > 0)//what
+      write (error_unit, '(a,i0,a)') 'rank ', own_rank(), ': '//what
    end subroutine expect
 
    !> Random matrices over some of the unknowns, positive definite by their diagonals.
@@ -104,7 +99,7 @@ contains
    !> Begins the system with the matrices of this rank.
    subroutine begin_own(scene, system)
       type(scene_t), intent(in) :: scene
-      type(shared_system_t), intent(inout) :: system
+      type(ranks_mumps_t), intent(inout) :: system
       type(status_t) :: status
       integer(ip), allocatable :: start(:), unknown(:)
       integer(ip) :: m
@@ -116,15 +111,15 @@ contains
          unknown = [unknown, scene%unknown(scene%start(m):scene%start(m + 1) - 1)]
          start = [start, size(unknown, kind=ip) + 1]
       end do
-      call begin_shared(system, scene%n, start, unknown, status, most)
-      call expect(is_ok(status), 'begin_shared fails')
+      call begin_by_mumps(system, scene%n, start, unknown, status)
+      call expect(is_ok(status), 'begin_by_mumps fails')
       if (.not. is_ok(status)) error stop 1
    end subroutine begin_own
 
    !> Hands over the matrices of this rank and factors.
    subroutine factor_own(scene, system, status)
       type(scene_t), intent(in) :: scene
-      type(shared_system_t), intent(inout) :: system
+      type(ranks_mumps_t), intent(inout) :: system
       type(status_t), intent(out) :: status
       real(wp), allocatable :: values(:)
       integer(ip) :: m, k, order
@@ -137,7 +132,7 @@ contains
          order = scene%start(m + 1) - scene%start(m)
          call put_packed(system%own, k, scene%matrices(:order, :order, m), values)
       end do
-      call factor_shared(system, values, status)
+      call factor_by_mumps(system, values, status)
    end subroutine factor_own
 
    subroutine try_system(what, n, count, shift, size_of)
@@ -145,7 +140,7 @@ contains
       integer(ip), intent(in) :: n, count, shift
       real(wp), intent(in) :: size_of
       type(scene_t) :: scene
-      type(shared_system_t) :: system
+      type(ranks_mumps_t) :: system
       type(status_t) :: status
       integer(ip) :: again
 
@@ -154,17 +149,17 @@ contains
       do again = 1, 2
          call factor_own(scene, system, status)
          if (.not. is_ok(status)) then
-            call expect(.false., what//': factor_shared fails: '//status%text)
+            call expect(.false., what//': factor_by_mumps fails: '//status%text)
             exit
          end if
          call expect(system%report%digits_lost < 8.0_wp, what//': digits are lost')
-         call expect(memory_of_shared(system) >= 8*int(n, lp), what//': no memory')
+         call expect(memory_by_mumps(system) >= 8*int(n, lp), what//': no memory')
          call check_solutions(what, scene, system)
          scene%matrices = 3.0_wp*scene%matrices     ! other values of the same pattern
          scene%matrices(1, 1, :) = 2.0_wp*scene%matrices(1, 1, :)
          call add_up(scene)
       end do
-      call end_shared(system)
+      call end_by_mumps(system)
    end subroutine try_system
 
    subroutine add_up(scene)
@@ -189,15 +184,15 @@ contains
    subroutine check_solutions(what, scene, system)
       character(len=*), intent(in) :: what
       type(scene_t), intent(in) :: scene
-      type(shared_system_t), intent(inout) :: system
+      type(ranks_mumps_t), intent(inout) :: system
       type(status_t) :: status
       real(wp) :: x(scene%n, 2), f(scene%n, 2)
 
       call random_number(x)
       f = matmul(scene%total, x)
       x = f
-      call solve_shared(system, x, status)
-      call expect(is_ok(status), what//': solve_shared fails')
+      call solve_by_mumps(system, x, status)
+      call expect(is_ok(status), what//': solve_by_mumps fails')
       if (own_rank() > 0) return
       call expect(is_close(matmul(scene%total, x), f, maxval(sum(abs(scene%total), 1))*max(1.0_wp, maxval(abs(x)))), what// &
                   ': the residual is large')
@@ -206,7 +201,7 @@ contains
    !> Unknowns of units far apart.
    subroutine try_mixed_units()
       type(scene_t) :: scene
-      type(shared_system_t) :: system
+      type(ranks_mumps_t) :: system
       type(status_t) :: status
       real(wp), allocatable :: unit(:)
       real(wp) :: x(50, 1)
@@ -225,9 +220,9 @@ contains
       call factor_own(scene, system, status)
       call expect(is_ok(status) .and. system%report%digits_lost < 6.0_wp, 'mixed units')
       x(:, 1) = matmul(scene%total, [(1.0_wp, i=1, 50)])*unit
-      call solve_shared(system, x, status)
+      call solve_by_mumps(system, x, status)
       if (own_rank() == 0) call expect(all(abs(x(:, 1)*unit - 1.0_wp) < 1.0e-8_wp), 'mixed units: the solution')
-      call end_shared(system)
+      call end_by_mumps(system)
    end subroutine try_mixed_units
 
    !> Springs of stiffness 1 from each unknown to the next, shared out; what holds the first one as well.
@@ -256,7 +251,7 @@ contains
       integer(ip), intent(in) :: n
       logical, intent(in) :: empty
       type(scene_t) :: scene
-      type(shared_system_t) :: system
+      type(ranks_mumps_t) :: system
       type(status_t) :: status
 
       call make_chain(n, merge(1.0_wp, 0.0_wp, empty), scene)
@@ -272,14 +267,14 @@ contains
       call factor_own(scene, system, status)
       call expect(is_ok(status), what//': held, it is singular still')
       call check_solutions(what, scene, system)
-      call end_shared(system)
+      call end_by_mumps(system)
    end subroutine try_singular
 
    !> A chain that is held by 1e-10 of its stiffness loses ten digits or more, and so does a full matrix of that kind.
    subroutine try_digits(n)
       integer(ip), intent(in) :: n
       type(scene_t) :: scene
-      type(shared_system_t) :: system
+      type(ranks_mumps_t) :: system
       type(status_t) :: status
       integer(ip) :: m, i
 
@@ -298,13 +293,13 @@ contains
       call expect(is_ok(status), 'nearly free: not factored')
       call expect(system%report%digits_lost > 8.0_wp .and. system%report%digits_lost < 12.0_wp, 'nearly free: digits lost')
       call expect(system%report%worst_equation > 0 .or. system%report%digits_lost < 9.0_wp, 'nearly free: no unknown is named')
-      call end_shared(system)
+      call end_by_mumps(system)
    end subroutine try_digits
 
    !> A dense block that nothing holds, so large that all ranks factor its front together.
    subroutine try_free_block()
       type(scene_t) :: scene
-      type(shared_system_t) :: system
+      type(ranks_mumps_t) :: system
       type(status_t) :: status
       integer(ip) :: i
       real(wp), parameter :: HOLD(2) = [0.0_wp, 1.0e-3_wp]
@@ -321,7 +316,7 @@ contains
       end do
       ! the last pivot is 800 times what holds a block without any other hold
       call expect(abs(system%report%digits_lost - 3.0_wp) < 0.5_wp, 'a large block that is held: digits lost')
-      call end_shared(system)
+      call end_by_mumps(system)
    end subroutine try_free_block
 
    pure subroutine set_diagonal(matrix, value)
@@ -337,7 +332,7 @@ contains
    !> A negative pivot.
    subroutine try_negative()
       type(scene_t) :: scene
-      type(shared_system_t) :: system
+      type(ranks_mumps_t) :: system
       type(status_t) :: status
 
       call make_scene(50_ip, 4_ip, 0_ip, 1.0_wp, scene)
@@ -346,7 +341,7 @@ contains
       call factor_own(scene, system, status)
       call expect(status%code == STATUS_SINGULAR, 'a negative pivot passes')
       call expect(system%report%sign_changes > 0, 'a negative pivot is not counted')
-      call end_shared(system)
+      call end_by_mumps(system)
    end subroutine try_negative
 
-end program shared_system_probe
+end program ranks_mumps_probe
