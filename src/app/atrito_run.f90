@@ -48,7 +48,7 @@ module atrito_run
    use atrito_write_results, only: write_results, list_files_of_run
    implicit none (type, external)
    private
-   public :: run_deck, load_model, read_model, prepare_observations, solve_options, agree_on_outcome
+   public :: run_deck, take_threads, load_model, read_model, prepare_observations, solve_options, agree_on_outcome
 
 contains
 

@@ -1,6 +1,6 @@
 !> What ranks other than the first do: they wait for what the first wants of them, and do it.
 module atrito_service
-   use atrito_command_line, only: command_t, confine_command, TASK_LIMIT, TASK_STUDY, TASK_SWEEP
+   use atrito_command_line, only: command_t, confine_command, TASK_STUDY, TASK_SWEEP
    use atrito_kinds, only: ip
    use atrito_mpi, only: receive_parcel
    use atrito_parcel, only: parcel_t, take
@@ -11,7 +11,6 @@ module atrito_service
    use atrito_scene_top, only: serve_scene_top
    use atrito_shared_fields, only: serve_fields
    use atrito_run_request, only: take_request
-   use atrito_stability_rounds, only: serve_round
    use atrito_status, only: status_t
    use atrito_study, only: serve_study
    use atrito_sweep, only: serve_sweep
@@ -50,7 +49,7 @@ contains
       end do
    end subroutine serve
 
-   !> The runs of a sweep, a study or a limit.
+   !> The runs of a sweep or a study.
    subroutine serve_runs(request)
       type(parcel_t), intent(inout) :: request
       type(command_t) :: command
@@ -63,8 +62,6 @@ contains
          call serve_sweep(command)
       case (TASK_STUDY)
          call serve_study(command)
-      case (TASK_LIMIT)
-         call serve_round(command, request)
       end select
    end subroutine serve_runs
 

@@ -5,7 +5,7 @@ module atrito_packed_matrices
    use atrito_kinds, only: ip, lp, wp
    implicit none (type, external)
    private
-   public :: packed_matrices_t, packed_length, put_packed, packed_diagonals, list_coordinates, add_diagonals, scale_packed, &
+   public :: packed_matrices_t, packed_length, put_packed, list_coordinates, add_diagonals, scale_packed, &
              raise_diagonals
 
    type :: packed_matrices_t
@@ -52,23 +52,6 @@ contains
          k = k + length
       end do
    end subroutine put_packed
-
-   !> The diagonals of all matrices, one after the other.
-   pure function packed_diagonals(matrices, values) result(diagonals)
-      type(packed_matrices_t), intent(in) :: matrices
-      real(wp), intent(in) :: values(:)          !< (packed_length)
-      real(wp) :: diagonals(size(matrices%unknown))
-      integer(lp) :: k
-      integer(ip) :: m, i
-
-      k = 1
-      do m = 1, size(matrices%start, kind=ip) - 1
-         do i = matrices%start(m), matrices%start(m + 1) - 1
-            diagonals(i) = values(k)
-            k = k + matrices%start(m + 1) - i
-         end do
-      end do
-   end function packed_diagonals
 
    !> Unknowns of row and column of each value.
    pure subroutine list_coordinates(matrices, row, column)
