@@ -35,8 +35,7 @@ module atrito_run
    use atrito_screen, only: compose_summary
    use atrito_solve, only: solve_options_t, CONTACT_AUTO, CONTACT_DENSE, CONTACT_SPARSE, SHARE_AUTO, SHARE_ALL, SHARE_NONE, &
                            SOLVER_AUTO, &
-                           SOLVER_SKYLINE, SOLVER_BANDED, SOLVER_SPARSE, &
-                           SOLVER_MUMPS
+                           SOLVER_SKYLINE, SOLVER_BANDED, SOLVER_SPARSE
    use atrito_status, only: status_t, set_status, reword_status, is_ok, STATUS_OK, STATUS_USAGE, STATUS_DECK, STATUS_FILE, &
                             STATUS_NOT_CONVERGED
    use atrito_strings, only: string_t, upper_case
@@ -349,7 +348,7 @@ contains
    pure function solve_options(command) result(options)
       type(command_t), intent(in) :: command
       type(solve_options_t) :: options
-      integer, parameter :: KINDS(*) = [SOLVER_AUTO, SOLVER_SKYLINE, SOLVER_BANDED, SOLVER_SPARSE, SOLVER_MUMPS]
+      integer, parameter :: KINDS(*) = [SOLVER_AUTO, SOLVER_SKYLINE, SOLVER_BANDED, SOLVER_SPARSE]
       integer, parameter :: SHARES(*) = [SHARE_AUTO, SHARE_ALL, SHARE_NONE]
       integer, parameter :: FORMS(*) = [CONTACT_AUTO, CONTACT_DENSE, CONTACT_SPARSE]
 

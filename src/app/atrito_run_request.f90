@@ -13,8 +13,7 @@ module atrito_run_request
    use atrito_strings, only: string_t, to_text
    implicit none (type, external)
    private
-   public :: request_runs, put_arguments, take_arguments, take_request, has_own_process, &
-             is_sound, print_lost, text_of_end
+   public :: request_runs, put_arguments, take_arguments, take_request, is_sound, print_lost, text_of_end
 
    integer(ip), parameter :: FIRST_SIGNAL = 128_ip   !< exit codes above it are of signals
 
@@ -66,13 +65,6 @@ contains
       call parse_command(arguments, command, ok, error)
       if (.not. ok) error stop 'atrito: ranks do not agree on the command line; is the same program installed on all machines?'
    end subroutine take_request
-
-   !> Whether runs are made in processes apart. MUMPS over MPI does not survive a fork: with it a rank makes its runs itself.
-   pure logical function has_own_process(command)
-      type(command_t), intent(in) :: command
-
-      has_own_process = command%solver /= 'mumps'
-   end function has_own_process
 
    !> Whether a run begins: its deck has no errors, and --observe none either. Nothing is told.
    logical function is_sound(command)

@@ -19,7 +19,6 @@ module atrito_rank_tasks
 
    !> What the tasks are.
    type, abstract :: rank_tasks_t
-      logical :: in_own_process = .true.            !< else by the ranks themselves, rank 0 doing none where there are others
    contains
       procedure(make_task), deferred :: make
       procedure(begin_task), deferred :: begin
@@ -75,7 +74,6 @@ module atrito_rank_tasks
       integer(ip), allocatable :: tasks(:, :)       !< (DEPTH, 0:n_ranks - 1) of each rank; the first is being done
       integer, allocatable :: n(:)                  !< (0:n_ranks - 1) how many
       logical, allocatable :: is_recalled(:)        !< (0:n_ranks - 1) was asked to give a task back and has not replied
-      logical, allocatable :: works(:)              !< (0:n_ranks - 1) does tasks
       real(wp), allocatable :: busy(:)              !< (0:n_ranks - 1) [s]
       real(wp) :: longest = 0.0_wp                  !< [s]
       type(own_work_t) :: own
@@ -99,7 +97,7 @@ contains
       logical :: any_news
 
       call system_clock(began)
-      call begin_hand_out(list, tasks%in_own_process, state)
+      call begin_hand_out(list, state)
       wait_time = SHORT_PAUSE
       do
          call give_to_free(tasks, state)
@@ -109,15 +107,14 @@ contains
          if (any_news) wait_time = SHORT_PAUSE
          if (.not. any_news) call sleep_longer(wait_time)
       end do
-      times = rank_times_t(size(state%n, kind=ip), state%longest, seconds_from(began) - minval(state%busy, mask=state%works))
+      times = rank_times_t(size(state%n, kind=ip), state%longest, seconds_from(began) - minval(state%busy))
       call put(last, LAST_TASK)
       call send_to_others(last)
       call end_task_process(state%own%process)
    end subroutine hand_out
 
-   subroutine begin_hand_out(list, in_own_process, state)
+   subroutine begin_hand_out(list, state)
       integer(ip), intent(in) :: list(:)
-      logical, intent(in) :: in_own_process
       type(hand_out_t), intent(out) :: state
       integer(ip) :: n
 
@@ -126,8 +123,6 @@ contains
       allocate (state%n(0:n - 1), source=0)
       allocate (state%busy(0:n - 1), source=0.0_wp)
       allocate (state%is_recalled(0:n - 1), source=.false.)
-      allocate (state%works(0:n - 1), source=.true.)
-      state%works(0) = in_own_process .or. n == 1
       state%list = list
       state%last = size(list, kind=ip)
       state%last_new = state%last
@@ -143,7 +138,7 @@ contains
       do n = 0, DEPTH - 1
          do rank = ubound(state%n, 1), 0, -1         ! the others first: rank 0 may have to make its process
             if (state%next > merge(state%last, state%last_new, n == 0)) return
-            if (state%n(rank) == n .and. state%works(rank)) call give_next(tasks, state, rank)
+            if (state%n(rank) == n) call give_next(tasks, state, rank)
          end do
       end do
    end subroutine give_to_free
@@ -182,7 +177,7 @@ contains
       integer(ip) :: rank, task
 
       do rank = 0, ubound(state%n, 1)
-         if (count(state%n == 0 .and. state%works) <= count(state%is_recalled)) return
+         if (count(state%n == 0) <= count(state%is_recalled)) return
          if (state%n(rank) < DEPTH .or. state%is_recalled(rank)) cycle
          if (rank > 0) then
             call tell(RECALL, rank)
@@ -333,7 +328,7 @@ contains
       type(own_work_t), intent(inout) :: own
       logical :: is_copy
 
-      if (own%n_given == own%n .or. .not. tasks%in_own_process) return
+      if (own%n_given == own%n) return
       if (.not. is_there(own%process)) then
          call begin_task_process(own%process, is_copy)
          if (is_copy) call work_in_copy(tasks, own%process)

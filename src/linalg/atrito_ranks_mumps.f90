@@ -7,12 +7,12 @@
 !> Rank 0 has all right-hand sides and solutions. All ranks call every procedure in the same order (but memory_by_mumps). With one
 !> rank it works as well.
 !>
-!> MUMPS sees the matrix scaled to a diagonal between 1/2 and 2 by powers of two, as in atrito_mumps, for the same reasons. It
-!> reads the matrices where they are (ICNTL(18)=3). Right-hand sides and solutions go through rank 0: they are little.
+!> MUMPS sees the matrix scaled to a diagonal between 1/2 and 2 by powers of two, which rounds nothing: its smallest pivot then
+!> tells the digits lost, and no unit of the deck matters. It does not tell the equation of that pivot, which is looked for by inverse
+!> iteration where the matrix is singular or nearly so. It reads the matrices where they are (ICNTL(18)=3). Right-hand sides and solutions go through rank 0: they are little.
 !>
 !> Reference: MUMPS users' guide 5.5 (ICNTL, INFOG and RINFOG below are its names).
 module atrito_ranks_mumps
-   use atrito_coordinate_matrix, only: root_scale
    use atrito_kinds, only: ip, lp, wp
    use atrito_linear_solver, only: factor_report_t, smallest_ratio, ALL_DIGITS
    use atrito_mpi, only: all_ranks_communicator, largest_of_ranks, own_rank, spread_from_first, sum_to_first
@@ -23,7 +23,7 @@ module atrito_ranks_mumps
    use atrito_strings, only: to_text
    implicit none (type, external)
    private
-   public :: ranks_mumps_t, begin_by_mumps, end_by_mumps, factor_by_mumps, solve_by_mumps, memory_by_mumps
+   public :: ranks_mumps_t, begin_by_mumps, end_by_mumps, factor_by_mumps, solve_by_mumps, memory_by_mumps, root_scale
 
    !> What MUMPS works on, behind a pointer.
    type :: instance_t
@@ -48,7 +48,7 @@ module atrito_ranks_mumps
    !> More room than predicted, in per cent, at first and when that was too little.
    integer, parameter :: ROOM(*) = [30, 100, 400]
    !> Digits lost from which the place is worth two solves; what is added to a matrix that could not be factored, of its diagonal,
-   !> to find the motion that it leaves free. As in atrito_mumps.
+   !> to find the motion that it leaves free; far below the softest elastic one.
    real(wp), parameter :: MANY_DIGITS = 9.0_wp, SHIFT = 1.0e-13_wp
 
 contains
@@ -177,6 +177,14 @@ contains
       where (abs(diagonal) > 0.0_wp) system%scale = root_scale(diagonal)
       empty = findloc(abs(diagonal) > 0.0_wp, .false., dim=1, kind=ip)
    end subroutine find_scale
+
+   !> A power of two that brings a diagonal to 1/2 .. 2 when it multiplies row and column.
+   elemental real(wp) function root_scale(diagonal)
+      real(wp), intent(in) :: diagonal             !< not 0
+      integer, parameter :: EVEN = 4096            !< beyond all exponents: the quotient rounds down
+
+      root_scale = set_exponent(1.0_wp, EVEN/2 + 1 - (exponent(diagonal) + EVEN)/2)
+   end function root_scale
 
    !> Factors, again with more room where MUMPS predicted too little.
    subroutine run_with_room(system)

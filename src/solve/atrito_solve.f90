@@ -16,14 +16,14 @@ module atrito_solve
    use atrito_scene_shares, only: SHARE_AUTO, SHARE_ALL, SHARE_NONE
    use atrito_scene_survey, only: describe_scene, describe_order, count_fronts, check_scene
    use atrito_solution_warnings, only: warn, idle_text
-   use atrito_solver_choice, only: SOLVER_SKYLINE, SOLVER_BANDED, SOLVER_SPARSE, SOLVER_MUMPS
+   use atrito_solver_choice, only: SOLVER_SKYLINE, SOLVER_BANDED, SOLVER_SPARSE
    use atrito_status, only: status_t, is_ok
    use atrito_timers, only: start_phase, stop_phase
    use atrito_unsettled_points, only: report_unsettled
    implicit none (type, external)
    private
    public :: solve_options_t, solve_static, survey_scene, begin_scene, note_method
-   public :: SOLVER_AUTO, SOLVER_SKYLINE, SOLVER_BANDED, SOLVER_SPARSE, SOLVER_MUMPS
+   public :: SOLVER_AUTO, SOLVER_SKYLINE, SOLVER_BANDED, SOLVER_SPARSE
    public :: CONTACT_AUTO, CONTACT_DENSE, CONTACT_SPARSE
    public :: SHARE_AUTO, SHARE_ALL, SHARE_NONE
 

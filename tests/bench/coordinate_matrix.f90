@@ -2,11 +2,12 @@
 !>
 !> Until finish_matrix the entries are a list a column: column(k) is the entry that follows k in its list. The three arrays are
 !> then what MUMPS reads, made in place: nothing is held twice.
-module atrito_coordinate_matrix
+module coordinate_matrix
    use atrito_kinds, only: ip, lp, wp
+   use atrito_ranks_mumps, only: root_scale
    implicit none (type, external)
    private
-   public :: coordinate_matrix_t, begin_matrix, add_element_matrix, finish_matrix, drop_matrix, root_scale
+   public :: coordinate_matrix_t, begin_matrix, add_element_matrix, finish_matrix, drop_matrix
 
    type :: coordinate_matrix_t
       integer(ip) :: n = 0                       !< order
@@ -140,14 +141,6 @@ contains
       end do
    end subroutine walk_lists
 
-   !> A power of two that brings a diagonal to 1/2 .. 2 when it multiplies row and column.
-   elemental real(wp) function root_scale(diagonal)
-      real(wp), intent(in) :: diagonal             !< not 0
-      integer, parameter :: EVEN = 4096            !< beyond all exponents: the quotient rounds down
-
-      root_scale = set_exponent(1.0_wp, EVEN/2 + 1 - (exponent(diagonal) + EVEN)/2)
-   end function root_scale
-
    pure subroutine scale_entries(entries, scale, row, column, values)
       integer(ip), intent(in) :: entries
       real(wp), intent(in) :: scale(:)
@@ -169,4 +162,4 @@ contains
       matrix%entries = 0
    end subroutine drop_matrix
 
-end module atrito_coordinate_matrix
+end module coordinate_matrix
