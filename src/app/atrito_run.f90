@@ -28,12 +28,13 @@ module atrito_run
    use atrito_plot_files, only: plot_folder, list_plots, PLOTS_OF_RUN
    use atrito_reader, only: read_deck
    use atrito_report_maker, only: make_run_report
+   use atrito_rank_distribution, only: distribute_over_ranks
    use atrito_reporter, only: reporter_t, report_progress
    use atrito_restart_file, only: restart_name
    use atrito_restart_recorder, only: restart_recorder_t, begin_recorder
    use atrito_results, only: history_t, results_t, last_frame
    use atrito_screen, only: compose_summary
-   use atrito_solve, only: solve_options_t, CONTACT_AUTO, CONTACT_DENSE, CONTACT_SPARSE, SHARE_AUTO, SHARE_ALL, SHARE_NONE, &
+   use atrito_solve, only: solve_options_t, CONTACT_AUTO, CONTACT_DENSE, CONTACT_SPARSE, &
                            SOLVER_AUTO, &
                            SOLVER_SKYLINE, SOLVER_BANDED, SOLVER_SPARSE
    use atrito_status, only: status_t, set_status, reword_status, is_ok, STATUS_OK, STATUS_USAGE, STATUS_DECK, STATUS_FILE, &
@@ -345,18 +346,19 @@ contains
                                                  == FULL_STATE(KINDS(kind_named(upper_case(trim(element))))%state))
    end function has_state
 
-   pure function solve_options(command) result(options)
+   function solve_options(command) result(options)
       type(command_t), intent(in) :: command
       type(solve_options_t) :: options
       integer, parameter :: KINDS(*) = [SOLVER_AUTO, SOLVER_SKYLINE, SOLVER_BANDED, SOLVER_SPARSE]
-      integer, parameter :: SHARES(*) = [SHARE_AUTO, SHARE_ALL, SHARE_NONE]
       integer, parameter :: FORMS(*) = [CONTACT_AUTO, CONTACT_DENSE, CONTACT_SPARSE]
 
       options%solver_kind = KINDS(place_of_word('--solver', command%solver))
       options%contact_form = FORMS(place_of_word('--contact', command%contact))
       options%element_errors = command%plot
       ! the runs of sweeps, studies and limits stay where they are
-      if (command%task == TASK_RUN) options%share = SHARES(place_of_word('--share', command%share))
+      if (command%task == TASK_RUN .and. command%share /= 'none') then
+         call distribute_over_ranks(command%share == 'all', options%distribution)
+      end if
    end function solve_options
 
 end module atrito_run

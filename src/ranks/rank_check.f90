@@ -66,7 +66,7 @@ contains
 
    !> status: STATUS_DECK, and an error, when a rank or the ranks of a host need more than there is.
    subroutine check_ranks(data, limit, scene, status)
-      type(scene_data_t), intent(in) :: data         !< shared out, or about to be
+      class(scene_data_t), intent(in) :: data         !< shared out, or about to be
       integer(lp), intent(in) :: limit               !< bytes of each rank; what there is counts where it is less
       type(scene_t), intent(inout) :: scene          !< on return with the forecast of the first rank
       type(status_t), intent(inout) :: status
@@ -87,7 +87,7 @@ contains
 
    !> What each rank grows by at the least [bytes]: to order its elements, and on the first one those of the whole scene.
    function least_of_ranks(data, n_ranks) result(bytes)
-      type(scene_data_t), intent(in) :: data
+      class(scene_data_t), intent(in) :: data
       integer(ip), intent(in) :: n_ranks
       integer(lp) :: bytes(0:n_ranks - 1)
       real(wp) :: nodes, elements
@@ -101,7 +101,7 @@ contains
 
    !> Growth of each rank when its part is there [bytes].
    subroutine forecast_ranks(data, n_ranks, bytes)
-      type(scene_data_t), intent(in) :: data
+      class(scene_data_t), intent(in) :: data
       integer(ip), intent(in) :: n_ranks
       integer(lp), allocatable, intent(out) :: bytes(:) !< (ranks) from 0
       type(rank_size_t) :: ranks(0:n_ranks - 1)
@@ -130,7 +130,7 @@ contains
 
    !> What the ranks have, and told when they had assembled it.
    subroutine measure_ranks(data, ranks)
-      type(scene_data_t), intent(in) :: data
+      class(scene_data_t), intent(in) :: data
       type(rank_size_t), intent(out) :: ranks(0:)
       integer(lp) :: solving(0:size(ranks) - 1)
       integer(ip) :: r, p
@@ -148,7 +148,10 @@ contains
          end select
       end select
       do r = 0, size(ranks, kind=ip) - 1
-         ranks(r)%elements = count(data%rank_of == r, kind=lp)
+         select type (scene => data%assembled)
+         type is (shared_scene_t)
+            ranks(r)%elements = count(scene%rank_of == r, kind=lp)
+         end select
          ranks(r)%nodes = ranks(r)%elements*data%fem%mesh%n_nodes/data%fem%mesh%n_elements
          ranks(r)%solving = with_holes(SOLVER_SPARSE, solving(r))
       end do
@@ -180,14 +183,14 @@ contains
 
    !> What the first rank has of the scene as a whole while stresses are recovered.
    integer(lp) function whole_bytes(data) result(bytes)
-      type(scene_data_t), intent(in) :: data
+      class(scene_data_t), intent(in) :: data
 
       bytes = WHOLE_NODE*data%model%mesh%n_nodes + WHOLE_ELEMENT*data%model%mesh%n_elements + request_bytes(data%model, data)
    end function whole_bytes
 
    !> Reduced loads, which part has an unknown, and whose fields nodes and elements have.
    pure integer(lp) function list_bytes(data) result(bytes)
-      type(scene_data_t), intent(in) :: data
+      class(scene_data_t), intent(in) :: data
       integer(lp), parameter :: INTEGER_BYTES = storage_size(1_ip)/8
 
       bytes = INTEGER_BYTES*(int(data%fem%mesh%n_nodes, lp) + int(data%fem%mesh%n_elements, lp)) &
@@ -240,7 +243,7 @@ contains
    end function together
 
    subroutine tell(data, scene, who, short, status)
-      type(scene_data_t), intent(in) :: data
+      class(scene_data_t), intent(in) :: data
       type(scene_t), intent(in) :: scene
       character(len=*), intent(in) :: who            !< e.g. 'rank 1 of 2 needs'
       type(shortage_t), intent(in) :: short

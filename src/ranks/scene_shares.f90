@@ -1,5 +1,4 @@
-!> The shares of the ranks in a scene that is one matrix: subtrees of its order of elimination, which has small separators; and
-!> whether a scene is worth it.
+!> The shares of the ranks in a scene that is one matrix: subtrees of its order of elimination, which has small separators.
 !>
 !> Whole bodies would be cut along their joints; a separator may as well go through the bodies, where that is shorter: a wall in
 !> bond has half as many unknowns on a line straight through its blocks as along the joints, which step from course to course.
@@ -14,32 +13,14 @@ module atrito_scene_shares
    use atrito_scene_elimination, only: scene_numbering_t
    implicit none (type, external)
    private
-   public :: share_elements, is_worth_sharing, fair_share
-   public :: SHARE_NONE, SHARE_AUTO, SHARE_ALL
+   public :: share_elements, fair_share
 
-   !> What the user asks for.
-   integer, parameter :: SHARE_NONE = 0, SHARE_AUTO = 1, SHARE_ALL = 2
-
-   !> Scenes with fewer displacements, some 0.3 s of one process, are not shared out. A contact force counts as some displacements:
-   !> who has many iterates longer.
-   integer(lp), parameter :: LEAST_DISPLACEMENTS = 200000_lp, OF_A_FORCE = 20_lp
    !> What the first of many ranks has besides, over the work of all.
    real(wp), parameter :: BESIDES = 0.2_wp
    !> By how much of what is fair a rank may have more, and subtrees of it that are not cut any more.
    real(wp), parameter :: MARGIN = 0.08_wp, LEAST_CUT = 0.02_wp
 
 contains
-
-   !> Whether a scene goes over the ranks.
-   pure logical function is_worth_sharing(n_displacements, n_forces, n_ranks, asked)
-      integer(ip), intent(in) :: n_displacements, n_forces !< of contact
-      integer(ip), intent(in) :: n_ranks
-      integer, intent(in) :: asked               !< SHARE_*
-
-      is_worth_sharing = n_ranks > 1 .and. asked /= SHARE_NONE
-      if (asked /= SHARE_AUTO) return
-      is_worth_sharing = is_worth_sharing .and. n_displacements + OF_A_FORCE*n_forces >= LEAST_DISPLACEMENTS
-   end function is_worth_sharing
 
    !> That of each rank but the first, of all the work. Two ranks have the same: it is time that counts. Of many the first one has
    !> less: it has the mesh and the results of the whole scene besides, and would be the largest.

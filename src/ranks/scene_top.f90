@@ -13,14 +13,13 @@ module atrito_scene_top
    use atrito_status, only: status_t, is_ok
    implicit none (type, external)
    private
-   public :: serve_scene_top, begin_scene_top, factor_scene_top, solve_scene_top, end_scene_top, scene_top_bytes, &
-             take_trouble_of_top
+   public :: serve_scene_top, begin_scene_top, factor_scene_top, solve_scene_top, end_scene_top, scene_top_bytes, trouble
 
    ! What is wanted.
    integer(ip), parameter :: MAKE = 1, FACTOR = 2, SOLVE = 3, FINISH = 4
 
    type(ranks_mumps_t) :: system
-   type(status_t) :: trouble                     !< of the first solve that failed, until it is taken
+   type(status_t), target :: trouble             !< of the first solve that failed, until it is taken (scene_system_t)
 
 contains
 
@@ -120,7 +119,7 @@ contains
       if (.not. is_ok(status)) failed = system%report%worst_equation
    end subroutine factor_scene_top
 
-   !> x <- A^-1 x; 0 where that failed, which is noted: nothing that was found may be believed then (take_trouble_of_top).
+   !> x <- A^-1 x; 0 where that failed, which is noted: nothing that was found may be believed then.
    subroutine solve_scene_top(x)
       real(wp), intent(inout) :: x(:)            !< (n)
       real(wp) :: column(size(x), 1)
@@ -136,16 +135,6 @@ contains
          trouble = status
       end if
    end subroutine solve_scene_top
-
-   !> Whether a solve has failed since this was asked last. status: STATUS_INTERNAL then, in place of what it was; else it stays.
-   subroutine take_trouble_of_top(status)
-      type(status_t), intent(inout) :: status
-      type(status_t) :: fine
-
-      if (is_ok(trouble)) return
-      status = trouble
-      trouble = fine
-   end subroutine take_trouble_of_top
 
    !> Nothing of it is needed any more.
    subroutine end_scene_top()

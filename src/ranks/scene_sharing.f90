@@ -8,6 +8,7 @@ module atrito_scene_sharing
    use atrito_scene_elimination, only: scene_numbering_t, number_scene, eliminate_scene
    use atrito_scene_parts, only: scene_parts_t
    use atrito_scene_shares, only: share_elements
+   use atrito_scene_top, only: trouble
    use atrito_shared_scene, only: shared_scene_t, share_scene
    use atrito_status, only: status_t
    implicit none (type, external)
@@ -38,6 +39,8 @@ contains
       n_parts = size(ranked%rank, kind=ip)
       call move_alloc(ranked, parts)
       call share_scene(fem, rows, line, value, part_of_element, n_parts, parts, scene, status)
+      scene%rank_of = rank_of
+      scene%trouble => trouble
    end subroutine share_over_ranks
 
 end module atrito_scene_sharing

@@ -24,6 +24,7 @@ module atrito_shared_scene
    type, extends(scene_system_t) :: shared_scene_t
       class(scene_parts_t), allocatable :: parts
       type(part_lists_t) :: lists
+      integer(ip), allocatable :: rank_of(:)     !< (n_elements)
       integer(ip), allocatable, private :: unknown(:) !< of the scene, of those of the parts one after the other
       integer(ip), allocatable, private :: row(:), pull(:) !< the same of rows and amplitudes
       logical, allocatable, private :: is_kept(:)  !< (unknowns of the parts)
@@ -34,6 +35,7 @@ module atrito_shared_scene
       procedure :: solve => solve_shared
       procedure :: memory_bytes => shared_bytes
       procedure :: solving_bytes => shared_solving_bytes
+      procedure :: release => release_parts
    end type shared_scene_t
 
    integer(lp), parameter :: REAL_BYTES = storage_size(1.0_wp)/8, INDEX_BYTES = storage_size(1_ip)/8
@@ -152,6 +154,13 @@ contains
       call self%parts%solve(of_parts, top)
       x(self%unknown) = of_parts                 ! parts that share an unknown have the same number for it
    end subroutine solve_shared
+
+   !> The ranks give back what they have.
+   subroutine release_parts(self)
+      class(shared_scene_t), intent(inout) :: self
+
+      if (allocated(self%parts)) call self%parts%release()
+   end subroutine release_parts
 
    pure integer(lp) function shared_bytes(self) result(bytes)
       class(shared_scene_t), intent(in) :: self
