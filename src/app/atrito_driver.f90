@@ -22,7 +22,7 @@ module atrito_driver
    use atrito_model, only: model_t
    use atrito_model_memory, only: allow_large_meshes
    use atrito_mpi, only: has_mpi, mpi_name, rank_count
-   use atrito_mumps_library, only: has_mumps, mumps_name, mumps_trouble
+   use atrito_mumps, only: has_mumps, mumps_trouble, mumps_version
    use atrito_page, only: page_t, add_item, plural, print_page
    use atrito_plot_files, only: plot_folder, list_plots, PLOTS_OF_CHECK
    use atrito_reporter, only: reporter_t
@@ -123,8 +123,7 @@ contains
       type(library_t) :: list(2)
 
       list%name = [character(len=8) :: 'MUMPS', 'MPI']
-      list(1)%version = mumps_name()
-      list(1)%version = list(1)%version(index(list(1)%version, ' ') + 1:)//LOADED
+      list(1)%version = mumps_version()//LOADED
       if (are_tried) then
          if (.not. has_mumps()) list(1)%version = 'not used: '//mumps_trouble()
       end if

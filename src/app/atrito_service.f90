@@ -4,11 +4,9 @@ module atrito_service
    use atrito_kinds, only: ip
    use atrito_mpi, only: receive_parcel
    use atrito_parcel, only: parcel_t, take
+   use atrito_part_service, only: serve_part
    use atrito_rank_memory, only: serve_memory
-   use atrito_rank_services, only: await_message, SERVICE_END, SERVICE_FIELDS, SERVICE_MEMORY, SERVICE_RUNS, &
-                                   SERVICE_SCENE_PARTS, SERVICE_SCENE_TOP
-   use atrito_scene_service, only: scene_store_t, serve_scene_parts
-   use atrito_scene_top, only: serve_scene_top
+   use atrito_rank_services, only: await_message, SERVICE_END, SERVICE_FIELDS, SERVICE_MEMORY, SERVICE_PART, SERVICE_RUNS
    use atrito_shared_fields, only: serve_fields
    use atrito_run_request, only: take_request
    use atrito_status, only: status_t
@@ -23,7 +21,6 @@ contains
    !> Comes back when nothing more is wanted.
    subroutine serve()
       type(parcel_t) :: request
-      type(scene_store_t) :: scene
       integer(ip) :: service
 
       do
@@ -33,10 +30,8 @@ contains
          select case (service)
          case (SERVICE_END)
             return
-         case (SERVICE_SCENE_PARTS)
-            call serve_scene_parts(scene, request)
-         case (SERVICE_SCENE_TOP)
-            call serve_scene_top(scene%left, request)
+         case (SERVICE_PART)
+            call serve_part(request)
          case (SERVICE_FIELDS)
             call serve_fields(request)
          case (SERVICE_MEMORY)

@@ -5,9 +5,10 @@ module atrito_parcel
    use, intrinsic :: iso_c_binding, only: c_f_pointer, c_loc, c_ptr
    use, intrinsic :: iso_fortran_env, only: int8
    use atrito_kinds, only: ip, lp, wp
+   use atrito_status, only: status_t
    implicit none (type, external)
    private
-   public :: parcel_t, put, take, make_parcel, parcel_length, parcel_bytes, is_empty
+   public :: parcel_t, put, take, put_text, put_status, take_status, make_parcel, parcel_length, parcel_bytes, is_empty
 
    !> An empty one needs no call before the first put.
    type :: parcel_t
@@ -17,41 +18,20 @@ module atrito_parcel
       integer(lp) :: taken = 0                   !< bytes that were taken
    end type parcel_t
 
-   !> call put(parcel, x): adds a number, a logical, a text, or an array of numbers or logicals (rank 1 or 2).
+   !> call put(parcel, x): adds a number, a logical, a text, or an array of numbers (rank 1 or 2).
    interface put
-      module procedure put_number
-      module procedure put_long
-      module procedure put_real
-      module procedure put_logical
-      module procedure put_text
-      module procedure put_numbers
-      module procedure put_longs
-      module procedure put_reals
-      module procedure put_logicals
-      module procedure put_number_columns
-      module procedure put_real_columns
-      module procedure put_logical_columns
+      module procedure put_number, put_real, put_logical, put_letters, put_numbers, put_reals, put_number_columns, put_real_columns
    end interface put
 
    !> call take(parcel, x): the next item; texts and arrays are allocated.
    interface take
-      module procedure take_number
-      module procedure take_long
-      module procedure take_real
-      module procedure take_logical
-      module procedure take_text
-      module procedure take_numbers
-      module procedure take_longs
-      module procedure take_reals
-      module procedure take_logicals
-      module procedure take_number_columns
-      module procedure take_real_columns
-      module procedure take_logical_columns
+      module procedure take_number, take_real, take_logical, take_letters, take_numbers, take_reals, take_number_columns, &
+         take_real_columns
    end interface take
 
-   integer(lp), parameter :: NUMBERS = 1, LONGS = 2, REALS = 3, LETTERS = 4, LOGICALS = 5
+   integer(lp), parameter :: NUMBERS = 1, REALS = 2, LETTERS = 3
    !> Bytes of an entry of each kind, and of what stands before an item: its kind and the length of rows and columns.
-   integer(lp), parameter :: ENTRY_BYTES(5) = [4_lp, 8_lp, 8_lp, 1_lp, 4_lp], HEAD = 3_lp, HEAD_BYTES = 8*HEAD
+   integer(lp), parameter :: ENTRY_BYTES(3) = [4_lp, 8_lp, 1_lp], HEAD = 3_lp, HEAD_BYTES = 8*HEAD
    integer(lp), parameter :: FIRST_LENGTH = 1024_lp
 
 contains
@@ -95,13 +75,6 @@ contains
       call put_numbers(parcel, [x])
    end subroutine put_number
 
-   subroutine put_long(parcel, x)
-      type(parcel_t), intent(inout) :: parcel
-      integer(lp), intent(in) :: x
-
-      call put_longs(parcel, [x])
-   end subroutine put_long
-
    subroutine put_real(parcel, x)
       type(parcel_t), intent(inout) :: parcel
       real(wp), intent(in) :: x
@@ -113,14 +86,23 @@ contains
       type(parcel_t), intent(inout) :: parcel
       logical, intent(in) :: x
 
-      call put_logicals(parcel, [x])
+      call put_numbers(parcel, [merge(1_ip, 0_ip, x)])
    end subroutine put_logical
 
-   subroutine put_text(parcel, x)
+   subroutine put_letters(parcel, x)
       type(parcel_t), intent(inout) :: parcel
       character(len=*), intent(in), target :: x
 
       call append(parcel, LETTERS, [len(x, kind=lp), 1_lp], c_loc(x))
+   end subroutine put_letters
+
+   !> A text; one that is not allocated is empty.
+   subroutine put_text(parcel, text)
+      type(parcel_t), intent(inout) :: parcel
+      character(len=:), allocatable, intent(in) :: text
+
+      if (allocated(text)) call put_letters(parcel, text)
+      if (.not. allocated(text)) call put_letters(parcel, '')
    end subroutine put_text
 
    subroutine put_numbers(parcel, x)
@@ -130,28 +112,12 @@ contains
       call append(parcel, NUMBERS, [size(x, kind=lp), 1_lp], c_loc(x))
    end subroutine put_numbers
 
-   subroutine put_longs(parcel, x)
-      type(parcel_t), intent(inout) :: parcel
-      integer(lp), intent(in), contiguous, target :: x(:)
-
-      call append(parcel, LONGS, [size(x, kind=lp), 1_lp], c_loc(x))
-   end subroutine put_longs
-
    subroutine put_reals(parcel, x)
       type(parcel_t), intent(inout) :: parcel
       real(wp), intent(in), contiguous, target :: x(:)
 
       call append(parcel, REALS, [size(x, kind=lp), 1_lp], c_loc(x))
    end subroutine put_reals
-
-   subroutine put_logicals(parcel, x)
-      type(parcel_t), intent(inout) :: parcel
-      logical, intent(in) :: x(:)
-      integer(ip), target :: numbers_of(size(x))
-
-      numbers_of = merge(1_ip, 0_ip, x)
-      call append(parcel, LOGICALS, [size(x, kind=lp), 1_lp], c_loc(numbers_of))
-   end subroutine put_logicals
 
    subroutine put_number_columns(parcel, x)
       type(parcel_t), intent(inout) :: parcel
@@ -167,15 +133,6 @@ contains
       call append(parcel, REALS, shape(x, kind=lp), c_loc(x))
    end subroutine put_real_columns
 
-   subroutine put_logical_columns(parcel, x)
-      type(parcel_t), intent(inout) :: parcel
-      logical, intent(in) :: x(:, :)
-      integer(ip), allocatable, target :: numbers_of(:, :)
-
-      numbers_of = merge(1_ip, 0_ip, x)
-      call append(parcel, LOGICALS, shape(x, kind=lp), c_loc(numbers_of))
-   end subroutine put_logical_columns
-
    subroutine take_number(parcel, x)
       type(parcel_t), intent(inout) :: parcel
       integer(ip), intent(out) :: x
@@ -184,15 +141,6 @@ contains
       call take_numbers(parcel, list)
       x = list(1)
    end subroutine take_number
-
-   subroutine take_long(parcel, x)
-      type(parcel_t), intent(inout) :: parcel
-      integer(lp), intent(out) :: x
-      integer(lp), allocatable :: list(:)
-
-      call take_longs(parcel, list)
-      x = list(1)
-   end subroutine take_long
 
    subroutine take_real(parcel, x)
       type(parcel_t), intent(inout) :: parcel
@@ -206,13 +154,13 @@ contains
    subroutine take_logical(parcel, x)
       type(parcel_t), intent(inout) :: parcel
       logical, intent(out) :: x
-      logical, allocatable :: list(:)
+      integer(ip), allocatable :: list(:)
 
-      call take_logicals(parcel, list)
-      x = list(1)
+      call take_numbers(parcel, list)
+      x = list(1) == 1
    end subroutine take_logical
 
-   subroutine take_text(parcel, x)
+   subroutine take_letters(parcel, x)
       type(parcel_t), intent(inout) :: parcel
       character(len=:), allocatable, intent(out), target :: x
       integer(lp) :: lengths(2)
@@ -220,7 +168,7 @@ contains
       call begin_item(parcel, LETTERS, lengths)
       allocate (character(len=lengths(1)) :: x)
       call copy_item(parcel, LETTERS, lengths, c_loc(x))
-   end subroutine take_text
+   end subroutine take_letters
 
    subroutine take_numbers(parcel, x)
       type(parcel_t), intent(inout) :: parcel
@@ -232,16 +180,6 @@ contains
       call copy_item(parcel, NUMBERS, lengths, c_loc(x))
    end subroutine take_numbers
 
-   subroutine take_longs(parcel, x)
-      type(parcel_t), intent(inout) :: parcel
-      integer(lp), allocatable, intent(out), target :: x(:)
-      integer(lp) :: lengths(2)
-
-      call begin_item(parcel, LONGS, lengths)
-      allocate (x(lengths(1)))
-      call copy_item(parcel, LONGS, lengths, c_loc(x))
-   end subroutine take_longs
-
    subroutine take_reals(parcel, x)
       type(parcel_t), intent(inout) :: parcel
       real(wp), allocatable, intent(out), target :: x(:)
@@ -251,18 +189,6 @@ contains
       allocate (x(lengths(1)))
       call copy_item(parcel, REALS, lengths, c_loc(x))
    end subroutine take_reals
-
-   subroutine take_logicals(parcel, x)
-      type(parcel_t), intent(inout) :: parcel
-      logical, allocatable, intent(out) :: x(:)
-      integer(ip), allocatable, target :: numbers_of(:)
-      integer(lp) :: lengths(2)
-
-      call begin_item(parcel, LOGICALS, lengths)
-      allocate (numbers_of(lengths(1)))
-      call copy_item(parcel, LOGICALS, lengths, c_loc(numbers_of))
-      x = numbers_of == 1
-   end subroutine take_logicals
 
    subroutine take_number_columns(parcel, x)
       type(parcel_t), intent(inout) :: parcel
@@ -284,17 +210,25 @@ contains
       call copy_item(parcel, REALS, lengths, c_loc(x))
    end subroutine take_real_columns
 
-   subroutine take_logical_columns(parcel, x)
+   !> Adds an outcome.
+   subroutine put_status(parcel, status)
       type(parcel_t), intent(inout) :: parcel
-      logical, allocatable, intent(out) :: x(:, :)
-      integer(ip), allocatable, target :: numbers_of(:, :)
-      integer(lp) :: lengths(2)
+      type(status_t), intent(in) :: status
 
-      call begin_item(parcel, LOGICALS, lengths)
-      allocate (numbers_of(lengths(1), lengths(2)))
-      call copy_item(parcel, LOGICALS, lengths, c_loc(numbers_of))
-      x = numbers_of == 1
-   end subroutine take_logical_columns
+      call put_number(parcel, int(status%code, ip))
+      call put_text(parcel, status%text)
+   end subroutine put_status
+
+   !> The next item, an outcome.
+   subroutine take_status(parcel, status)
+      type(parcel_t), intent(inout) :: parcel
+      type(status_t), intent(out) :: status
+      integer(ip) :: code
+
+      call take_number(parcel, code)
+      status%code = int(code)
+      call take_letters(parcel, status%text)
+   end subroutine take_status
 
    !> Adds an item: its head, then its entries as they lie in memory.
    subroutine append(parcel, kind_of, lengths, start)

@@ -6,6 +6,7 @@ module atrito_part_maker
    use atrito_contact_line, only: contact_line_t
    use atrito_contact_rows, only: contact_rows_t
    use atrito_element_table, only: MOST_NODES
+   use atrito_fem_piece, only: take_piece
    use atrito_growth, only: grow
    use atrito_kinds, only: ip, lp
    use atrito_scene_cut, only: scene_cut_t, unknowns_at
@@ -37,8 +38,10 @@ contains
                  points => cut%point(cut%first_point(p):cut%first_point(p + 1) - 1))
          call list_members(fem, rows, elements, points, p, cut, nodes, bodies)
          call number_part(fem, rows, numbering, nodes, bodies, points, p, cut, part, unknown, pull)
-         call take_elements(fem, numbering, elements, nodes, bodies, cut, part)
-         call take_springs(numbering, p, cut, part)
+         call take_piece(fem, nodes, elements, part%fem)
+         call take_bodies(fem, numbering, elements, nodes, bodies, cut, part%fem%bodies)
+         part%scene%numbering%spring = cut%unknown_at(pack(numbering%spring, cut%spring_part == p))
+         part%spring_stiffness = pack(cut%spring_stiffness, cut%spring_part == p)
          call take_rows(rows, line, constraints, points, cut, part, row)
       end associate
       cut%place(nodes) = 0
@@ -170,39 +173,6 @@ contains
       end associate
    end subroutine number_motions
 
-   !> Mesh, sections and bodies of a part.
-   subroutine take_elements(fem, numbering, elements, nodes, bodies, cut, part)
-      type(fem_t), intent(in) :: fem
-      type(scene_numbering_t), intent(in) :: numbering
-      integer(ip), intent(in) :: elements(:), nodes(:), bodies(:)
-      type(scene_cut_t), intent(in) :: cut
-      type(scene_part_t), intent(inout) :: part
-      integer(ip), allocatable :: used(:), number(:)
-      integer(ip) :: i, k
-
-      associate (mesh => part%mesh)
-         mesh%n_nodes = size(nodes, kind=ip)
-         mesh%n_elements = size(elements, kind=ip)
-         mesh%x = fem%mesh%x(:, nodes)
-         if (allocated(fem%mesh%thickness)) mesh%thickness = fem%mesh%thickness(nodes)
-         mesh%shape = fem%mesh%shape(elements)
-         mesh%state = fem%mesh%state(elements)
-         allocate (mesh%nodes(MOST_NODES, size(elements)), source=0_ip)
-         do i = 1, mesh%n_elements
-            do k = 1, mesh%shape(i)
-               mesh%nodes(k, i) = cut%place(fem%mesh%nodes(k, elements(i)))
-            end do
-         end do
-      end associate
-      used = each_once(fem%section_of(elements))
-      allocate (number(size(fem%sections)), source=0_ip)
-      number(used) = [(i, i=1, size(used, kind=ip))]
-      part%fem%sections = fem%sections(used)
-      part%fem%section_of = number(fem%section_of(elements))
-      part%fem%grain = fem%grain
-      call take_bodies(fem, numbering, elements, nodes, bodies, cut, part%fem%bodies)
-   end subroutine take_elements
-
    !> Bodies with the numbers of the part's unknowns as equations; of their elements one, where there is any.
    subroutine take_bodies(fem, numbering, elements, nodes, bodies, cut, own)
       type(fem_t), intent(in) :: fem
@@ -233,16 +203,6 @@ contains
                                                             cut%place(fem%bodies%list(bodies(i))%nodes) > 0)
       end do
    end subroutine take_bodies
-
-   subroutine take_springs(numbering, p, cut, part)
-      type(scene_numbering_t), intent(in) :: numbering
-      integer(ip), intent(in) :: p
-      type(scene_cut_t), intent(in) :: cut
-      type(scene_part_t), intent(inout) :: part
-
-      part%scene%numbering%spring = cut%unknown_at(pack(numbering%spring, cut%spring_part == p))
-      part%spring_stiffness = pack(cut%spring_stiffness, cut%spring_part == p)
-   end subroutine take_springs
 
    !> The points with their nodes, and their rows: normal and tangential one after the other.
    subroutine take_rows(rows, line, constraints, points, cut, part, row)

@@ -5,13 +5,12 @@ module atrito_rank_distribution
    use atrito_contact_rows, only: contact_rows_t
    use atrito_kinds, only: ip, lp, wp
    use atrito_mpi, only: rank_count
-   use atrito_rank_check, only: check_ranks
+   use atrito_rank_memory, only: check_ranks
    use atrito_results, only: results_t
    use atrito_scene_data, only: distribution_t
    use atrito_scene_system, only: scene_system_t
-   use atrito_shared_fields, only: shared_fields_t, begin_fields, end_fields, EQUILIBRIUM_WORK
-   use atrito_scene_sharing, only: share_over_ranks
-   use atrito_shared_scene, only: shared_scene_t
+   use atrito_shared_fields, only: shared_fields_t, begin_fields, end_fields
+   use atrito_shared_scene, only: shared_scene_t, share_scene
    use atrito_status, only: status_t
    implicit none (type, external)
    private
@@ -73,7 +72,7 @@ contains
       type(shared_scene_t), allocatable :: shared
 
       allocate (shared)
-      call share_over_ranks(fem, rows, line, value, rank_count(), shared, self%rank_of, status)
+      call share_scene(fem, rows, line, value, rank_count(), shared, self%rank_of, status)
       call move_alloc(shared, scene)
    end subroutine assemble
 
@@ -83,8 +82,7 @@ contains
       real(wp), intent(in) :: u(:, :)
       logical, intent(in) :: by_element
 
-      if (.not. self%fields%has_begun) call begin_fields(fem, self%rank_of, u, by_element, &
-                                                            EQUILIBRIUM_WORK, self%fields)
+      if (.not. self%fields%has_begun) call begin_fields(fem, self%rank_of, u, by_element, self%fields)
    end subroutine begin_own
 
    subroutine end_own(self, fem, results, strain_bound)

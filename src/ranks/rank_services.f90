@@ -8,14 +8,13 @@ module atrito_rank_services
    implicit none (type, external)
    private
    public :: dismiss_ranks, send_to_others, await_message
-   public :: SERVICE_END, SERVICE_FIELDS, SERVICE_SCENE_PARTS, SERVICE_SCENE_TOP, SERVICE_MEMORY, SERVICE_RUNS
+   public :: SERVICE_END, SERVICE_FIELDS, SERVICE_PART, SERVICE_MEMORY, SERVICE_RUNS
 
    integer(ip), parameter :: SERVICE_END = 0_ip    !< nothing more
-   integer(ip), parameter :: SERVICE_FIELDS = 3_ip !< stresses and their error (atrito_shared_fields)
-   integer(ip), parameter :: SERVICE_SCENE_PARTS = 4_ip !< of the parts of a scene (atrito_scene_service)
-   integer(ip), parameter :: SERVICE_SCENE_TOP = 5_ip !< of what these parts share (atrito_scene_top)
-   integer(ip), parameter :: SERVICE_MEMORY = 6_ip !< how much there is for the rank (atrito_rank_memory)
-   integer(ip), parameter :: SERVICE_RUNS = 10_ip  !< runs of a sweep, a study or a limit: the arguments of the program follow
+   integer(ip), parameter :: SERVICE_FIELDS = 1_ip !< stresses and their error (atrito_shared_fields)
+   integer(ip), parameter :: SERVICE_PART = 2_ip   !< of the part of a scene that the rank has (atrito_part_service)
+   integer(ip), parameter :: SERVICE_MEMORY = 3_ip !< how much there is for the rank (atrito_rank_memory)
+   integer(ip), parameter :: SERVICE_RUNS = 4_ip   !< runs of a sweep or a study: the arguments of the program follow
 
    real(wp), parameter :: ALERT = 2.0e-3_wp        !< [s] who waits looks so long without a pause: requests come in quick succession
    real(c_double), parameter :: PAUSE = 1.0e-4_c_double    !< [s] behind that: who waits for long leaves the core to others

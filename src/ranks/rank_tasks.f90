@@ -1,18 +1,16 @@
 !> Tasks that do not depend on each other, shared out over the ranks: whoever is free gets the next one.
 !>
 !> Rank 0 hands them out and does some itself. Each rank does its tasks in a process of its own (atrito_task_process), so that a
-!> crash is the end of one task and not of all ranks, and so that rank 0 can hand out while it works. While there are tasks enough,
-!> a rank has its next one before the last is done, and does not wait for it. Where others have nothing left to do it gives back
-!> what it has not begun: nobody is without a task but at the end, no longer than the longest one.
+!> crash is the end of one task and not of all ranks, and so that rank 0 can hand out while it works.
 module atrito_rank_tasks
    use, intrinsic :: iso_c_binding, only: c_double
    use atrito_kinds, only: ip, lp, wp
    use atrito_mpi, only: ANY_RANK, has_message, rank_count, receive_parcel, send_parcel
    use atrito_parcel, only: parcel_t, put, take
-   use atrito_rank_services, only: await_message, send_to_others
+   use atrito_rank_services, only: await_message
    use atrito_system, only: pause_for
-   use atrito_task_process, only: task_process_t, begin_task_process, give_task, take_task_back, ask_answer, end_task_process, &
-                                  await_task, give_answer, is_ready, is_there, LAST_TASK
+   use atrito_task_process, only: task_process_t, begin_task_process, give_task, ask_answer, end_task_process, await_task, &
+                                  give_answer, is_there, LAST_TASK
    implicit none (type, external)
    private
    public :: rank_tasks_t, rank_times_t, hand_out, work_for_first
@@ -56,32 +54,14 @@ module atrito_rank_tasks
       real(wp) :: longest_idle = 0.0_wp             !< of a rank, all in all
    end type rank_times_t
 
-   integer, parameter :: DEPTH = 2                   !< tasks that a rank has: the one it does and the next
+   !> What came of a task.
+   type :: outcome_t
+      type(parcel_t) :: answer
+      integer :: end_code = 0
+      real(wp) :: seconds = 0.0_wp                  !< that it took
+   end type outcome_t
 
-   !> A rank's own work: the first task is being done.
-   type :: own_work_t
-      type(task_process_t) :: process
-      integer(ip) :: tasks(DEPTH) = 0
-      integer :: n = 0
-      integer :: n_given = 0                        !< to the process, of the n
-   end type own_work_t
-
-   !> What rank 0 knows.
-   type :: hand_out_t
-      integer(ip), allocatable :: list(:)           !< tasks that nobody has been given; behind them room for those that come back
-      integer(ip) :: next = 1, last = 0             !< places in it
-      integer(ip) :: last_new = 0                   !< those behind it have come back
-      integer(ip), allocatable :: tasks(:, :)       !< (DEPTH, 0:n_ranks - 1) of each rank; the first is being done
-      integer, allocatable :: n(:)                  !< (0:n_ranks - 1) how many
-      logical, allocatable :: is_recalled(:)        !< (0:n_ranks - 1) was asked to give a task back and has not replied
-      real(wp), allocatable :: busy(:)              !< (0:n_ranks - 1) [s]
-      real(wp) :: longest = 0.0_wp                  !< [s]
-      type(own_work_t) :: own
-   end type hand_out_t
-
-   integer(ip), parameter :: RECALL = -2_ip          !< in place of a task: give the next one back
-   integer(ip), parameter :: ANSWER_OF = 1_ip, GIVEN_BACK = 2_ip   !< what a rank says
-   real(c_double), parameter :: SHORT_PAUSE = 1.0e-4_c_double, LONG_PAUSE = 1.0e-3_c_double, LONGER = 1.2_c_double   !< [s]
+   real(c_double), parameter :: SHORT_PAUSE = 1.0e-4_c_double, LONG_PAUSE = 5.0e-4_c_double, LONGER = 1.2_c_double   !< [s]
 
 contains
 
@@ -90,77 +70,48 @@ contains
       class(rank_tasks_t), intent(inout) :: tasks
       integer(ip), intent(in) :: list(:)            !< > 0
       type(rank_times_t), intent(out) :: times
-      type(hand_out_t) :: state
-      type(parcel_t) :: last
+      type(task_process_t) :: process
+      type(outcome_t) :: outcome
+      integer(ip), allocatable :: task_of(:)        ! (ranks) from 0; 0: none
+      real(wp), allocatable :: busy(:)
+      integer(ip) :: next, rank
       integer(lp) :: began
       real(c_double) :: wait_time
-      logical :: any_news
+      logical :: is_done
 
       call system_clock(began)
-      call begin_hand_out(list, state)
+      times%n_ranks = rank_count()
+      allocate (task_of(0:rank_count() - 1), source=0_ip)
+      allocate (busy(0:rank_count() - 1), source=0.0_wp)
+      next = 1
       wait_time = SHORT_PAUSE
       do
-         call give_to_free(tasks, state)
-         if (all(state%n == 0) .and. .not. any(state%is_recalled)) exit
-         call recall_for_idle(state)
-         call look_for_answer(tasks, state, any_news)
-         if (any_news) wait_time = SHORT_PAUSE
-         if (.not. any_news) call sleep_longer(wait_time)
-      end do
-      times = rank_times_t(size(state%n, kind=ip), state%longest, seconds_from(began) - minval(state%busy))
-      call put(last, LAST_TASK)
-      call send_to_others(last)
-      call end_task_process(state%own%process)
-   end subroutine hand_out
-
-   subroutine begin_hand_out(list, state)
-      integer(ip), intent(in) :: list(:)
-      type(hand_out_t), intent(out) :: state
-      integer(ip) :: n
-
-      n = rank_count()
-      allocate (state%tasks(DEPTH, 0:n - 1), source=0_ip)
-      allocate (state%n(0:n - 1), source=0)
-      allocate (state%busy(0:n - 1), source=0.0_wp)
-      allocate (state%is_recalled(0:n - 1), source=.false.)
-      state%list = list
-      state%last = size(list, kind=ip)
-      state%last_new = state%last
-   end subroutine begin_hand_out
-
-   !> To each rank without a task one, then to each a next one; what came back goes to who has none.
-   subroutine give_to_free(tasks, state)
-      class(rank_tasks_t), intent(inout) :: tasks
-      type(hand_out_t), intent(inout) :: state
-      integer(ip) :: rank
-      integer :: n
-
-      do n = 0, DEPTH - 1
-         do rank = ubound(state%n, 1), 0, -1         ! the others first: rank 0 may have to make its process
-            if (state%next > merge(state%last, state%last_new, n == 0)) return
-            if (state%n(rank) == n) call give_next(tasks, state, rank)
+         do rank = ubound(task_of, 1, kind=ip), 0, -1     ! the others first: rank 0 may have to make its process
+            if (task_of(rank) > 0 .or. next > size(list)) cycle
+            task_of(rank) = list(next)
+            next = next + 1
+            call tasks%begin(task_of(rank))
+            if (rank > 0) call tell(task_of(rank), rank)
+            if (rank == 0) call begin_own(tasks, process, task_of(0))
          end do
-      end do
-   end subroutine give_to_free
-
-   subroutine give_next(tasks, state, rank)
-      class(rank_tasks_t), intent(inout) :: tasks
-      type(hand_out_t), intent(inout) :: state
-      integer(ip), intent(in) :: rank
-
-      associate (task => state%list(state%next))
-         if (state%next <= state%last_new) call tasks%begin(task)
-         state%n(rank) = state%n(rank) + 1
-         state%tasks(state%n(rank), rank) = task
-         if (rank == 0) then
-            call add_task(state%own, task)
-            call pass_on(tasks, state%own)
+         if (all(task_of == 0)) exit
+         call look_for_outcome(tasks, process, task_of(0), outcome, rank, is_done)
+         if (is_done) then
+            busy(rank) = busy(rank) + outcome%seconds
+            times%longest_task = max(times%longest_task, outcome%seconds)
+            call tasks%keep(task_of(rank), outcome%answer, outcome%end_code)
+            task_of(rank) = 0
+            wait_time = SHORT_PAUSE
          else
-            call tell(task, rank)
+            call sleep_longer(wait_time)
          end if
-      end associate
-      state%next = state%next + 1
-   end subroutine give_next
+      end do
+      times%longest_idle = seconds_from(began) - minval(busy)
+      do rank = 1, rank_count() - 1
+         call tell(LAST_TASK, rank)
+      end do
+      call end_task_process(process)
+   end subroutine hand_out
 
    !> A number for another rank.
    subroutine tell(number, rank)
@@ -171,173 +122,75 @@ contains
       call send_parcel(parcel, rank)
    end subroutine tell
 
-   !> Asks as many ranks for their next task as are without any; all tasks have been given.
-   subroutine recall_for_idle(state)
-      type(hand_out_t), intent(inout) :: state
-      integer(ip) :: rank, task
-
-      do rank = 0, ubound(state%n, 1)
-         if (count(state%n == 0) <= count(state%is_recalled)) return
-         if (state%n(rank) < DEPTH .or. state%is_recalled(rank)) cycle
-         if (rank > 0) then
-            call tell(RECALL, rank)
-            state%is_recalled(rank) = .true.
-         else
-            call give_back(state%own, task)
-            call take_back(state, rank, task)
-         end if
-      end do
-   end subroutine recall_for_idle
-
-   !> A rank has given its next task back, or has begun it.
-   subroutine take_back(state, rank, task)
-      type(hand_out_t), intent(inout) :: state
-      integer(ip), intent(in) :: rank
-      integer(ip), intent(in) :: task               !< 0 where it has begun
-
-      state%is_recalled(rank) = .false.
-      if (task == 0) return
-      state%n(rank) = state%n(rank) - 1
-      state%list = [state%list, task]
-      state%last = state%last + 1
-   end subroutine take_back
-
-   !> One answer, of another rank or of this one.
-   subroutine look_for_answer(tasks, state, any_news)
+   !> What came of a task, of another rank or of rank 0's own.
+   subroutine look_for_outcome(tasks, process, own_task, outcome, rank, is_done)
       class(rank_tasks_t), intent(inout) :: tasks
-      type(hand_out_t), intent(inout) :: state
-      logical, intent(out) :: any_news
-      type(parcel_t) :: head, answer
-      integer(ip) :: rank, what, number
-      integer :: end_code
-      real(wp) :: seconds
+      type(task_process_t), intent(inout) :: process
+      integer(ip), intent(in) :: own_task           !< 0: none
+      type(outcome_t), intent(out) :: outcome
+      integer(ip), intent(out) :: rank
+      logical, intent(out) :: is_done
+      type(parcel_t) :: head
+      integer(ip) :: end_code
 
-      any_news = .false.
-      if (size(state%n) > 1) any_news = has_message()
-      if (any_news) then
+      rank = 0
+      is_done = .false.
+      if (rank_count() > 1) is_done = has_message()
+      if (is_done) then
          call receive_parcel(head, ANY_RANK, rank)
-         call take(head, what)
-         call take(head, number)
-         if (what == GIVEN_BACK) then
-            call take_back(state, rank, number)
-            return
-         end if
-         call take(head, seconds)
-         call receive_parcel(answer, rank)
-         end_code = int(number)
-      else
-         rank = 0
-         call look_at_own(tasks, state%own, answer, any_news, end_code, seconds)
-         if (.not. any_news) return
+         call take(head, end_code)
+         call take(head, outcome%seconds)
+         outcome%end_code = int(end_code)
+         call receive_parcel(outcome%answer, rank)
+      else if (own_task > 0) then
+         call look_at_own(tasks, process, own_task, outcome, is_done)
       end if
-      state%busy(rank) = state%busy(rank) + seconds
-      state%longest = max(state%longest, seconds)
-      call tasks%keep(state%tasks(1, rank), answer, end_code)
-      state%tasks(:, rank) = eoshift(state%tasks(:, rank), 1)
-      state%n(rank) = state%n(rank) - 1
-   end subroutine look_for_answer
+   end subroutine look_for_outcome
 
    !> On the other ranks: does what rank 0 hands out, until there is nothing more.
    subroutine work_for_first(tasks)
       class(rank_tasks_t), intent(inout) :: tasks
-      type(own_work_t) :: own
-      type(parcel_t) :: answer
-      integer :: end_code
-      real(wp) :: seconds
+      type(task_process_t) :: process
+      type(outcome_t) :: outcome
+      type(parcel_t) :: request, head
+      integer(ip) :: task
       real(c_double) :: wait_time
-      logical :: is_done, is_last
+      logical :: is_done
 
-      is_last = .false.
-      wait_time = SHORT_PAUSE
       do
-         if (own%n == 0) call await_message()
-         if (has_message()) call listen(own, is_last)
-         if (is_last) exit
-         call look_at_own(tasks, own, answer, is_done, end_code, seconds)
-         if (is_done) then
-            call send_answer(answer, end_code, seconds)
-            wait_time = SHORT_PAUSE
-         else if (own%n > 0) then
+         call await_message()
+         call receive_parcel(request, 0_ip)
+         call take(request, task)
+         if (task == LAST_TASK) exit
+         call begin_own(tasks, process, task)
+         wait_time = SHORT_PAUSE
+         do
+            call look_at_own(tasks, process, task, outcome, is_done)
+            if (is_done) exit
             call sleep_longer(wait_time)
-         end if
+         end do
+         head = parcel_t()
+         call put(head, int(outcome%end_code, ip))
+         call put(head, outcome%seconds)
+         call send_parcel(head, 0_ip)
+         call send_parcel(outcome%answer, 0_ip)
       end do
-      call end_task_process(own%process)
+      call end_task_process(process)
    end subroutine work_for_first
 
-   !> What rank 0 says: a task, to give one back, or that this was the last.
-   subroutine listen(own, is_last)
-      type(own_work_t), intent(inout) :: own
-      logical, intent(out) :: is_last
-      type(parcel_t) :: request, reply
-      integer(ip) :: number, task
-
-      call receive_parcel(request, 0_ip)
-      call take(request, number)
-      is_last = number == LAST_TASK
-      if (is_last) return
-      if (number == RECALL) then
-         call give_back(own, task)
-         call put(reply, GIVEN_BACK)
-         call put(reply, task)
-         call send_parcel(reply, 0_ip)
-      else
-         call add_task(own, number)
-      end if
-   end subroutine listen
-
-   subroutine send_answer(answer, end_code, seconds)
-      type(parcel_t), intent(in) :: answer
-      integer, intent(in) :: end_code
-      real(wp), intent(in) :: seconds
-      type(parcel_t) :: head
-
-      call put(head, ANSWER_OF)
-      call put(head, int(end_code, ip))
-      call put(head, seconds)
-      call send_parcel(head, 0_ip)
-      call send_parcel(answer, 0_ip)
-   end subroutine send_answer
-
-   subroutine add_task(own, task)
-      type(own_work_t), intent(inout) :: own
-      integer(ip), intent(in) :: task
-
-      own%n = own%n + 1
-      own%tasks(own%n) = task
-   end subroutine add_task
-
-   !> The next task, where it has not begun; else 0.
-   subroutine give_back(own, task)
-      type(own_work_t), intent(inout) :: own
-      integer(ip), intent(out) :: task
-
-      task = 0
-      if (own%n < DEPTH) return
-      if (own%n_given == DEPTH) then
-         task = take_task_back(own%process)
-         if (task == 0) return
-         own%n_given = own%n_given - 1
-      end if
-      task = own%tasks(DEPTH)
-      own%n = own%n - 1
-   end subroutine give_back
-
-   !> Gives the next task to the process of this rank, which is made where there is none.
-   subroutine pass_on(tasks, own)
+   !> Gives a task to the process of this rank, which is made where there is none.
+   subroutine begin_own(tasks, process, task)
       class(rank_tasks_t), intent(inout) :: tasks
-      type(own_work_t), intent(inout) :: own
+      type(task_process_t), intent(inout) :: process
+      integer(ip), intent(in) :: task
       logical :: is_copy
 
-      if (own%n_given == own%n) return
-      if (.not. is_there(own%process)) then
-         call begin_task_process(own%process, is_copy)
-         if (is_copy) call work_in_copy(tasks, own%process)
-         if (.not. is_there(own%process)) return
+      if (.not. is_there(process)) then
+         call begin_task_process(process, is_copy)
+         if (is_copy) call work_in_copy(tasks, process)
       end if
-      if (.not. is_ready(own%process)) return
-      own%n_given = own%n_given + 1
-      call give_task(own%process, own%tasks(own%n_given))
-   end subroutine pass_on
+      if (is_there(process)) call give_task(process, task)
+   end subroutine begin_own
 
    !> Does not come back.
    subroutine work_in_copy(tasks, process)
@@ -357,33 +210,22 @@ contains
    end subroutine work_in_copy
 
    !> Whether the task of this rank is done. Where there is no process to do it, it is done here and now.
-   subroutine look_at_own(tasks, own, answer, is_done, end_code, seconds)
+   subroutine look_at_own(tasks, process, task, outcome, is_done)
       class(rank_tasks_t), intent(inout) :: tasks
-      type(own_work_t), intent(inout) :: own
-      type(parcel_t), intent(out) :: answer
+      type(task_process_t), intent(inout) :: process
+      integer(ip), intent(in) :: task
+      type(outcome_t), intent(out) :: outcome
       logical, intent(out) :: is_done
-      integer, intent(out) :: end_code              !< that of ask_answer
-      real(wp), intent(out) :: seconds              !< that it took
       integer(lp) :: began
 
-      is_done = .false.
-      end_code = 0
-      seconds = 0.0_wp
-      if (own%n == 0) return
-      call pass_on(tasks, own)
-      if (own%n_given > 0) then
-         call ask_answer(own%process, answer, is_done, end_code, seconds)
+      if (is_there(process)) then
+         call ask_answer(process, outcome%answer, is_done, outcome%end_code, outcome%seconds)
       else
          call system_clock(began)
-         call tasks%make(own%tasks(1), answer)
-         seconds = seconds_from(began)
+         call tasks%make(task, outcome%answer)
+         outcome%seconds = seconds_from(began)
          is_done = .true.
       end if
-      if (.not. is_done) return
-      own%tasks = eoshift(own%tasks, 1)
-      own%n = own%n - 1
-      own%n_given = max(own%n_given - 1, 0)
-      if (end_code /= 0) own%n_given = 0              ! the next one had not begun
    end subroutine look_at_own
 
    subroutine sleep_longer(wait_time)

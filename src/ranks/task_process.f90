@@ -1,9 +1,8 @@
 !> A copy of this process that does one task after the other, and keeps what it has made for the next one. Should it crash, the
 !> task is lost and nothing else: whoever made it goes on, and makes another copy.
 !>
-!> The two share a few pages of memory: the task that comes next, and the bytes of the last answer. Both look again and again
-!> whether there is something new, and sleep in between. The next task may be there before the one before it is done, so that the
-!> copy never waits for who hands tasks out; until it has begun it can be taken back.
+!> The two share a few pages of memory: the task, and the bytes of its answer. Both look again and again whether there is something
+!> new, and sleep in between.
 module atrito_task_process
    use, intrinsic :: iso_c_binding, only: c_double, c_f_pointer, c_int, c_loc
    use, intrinsic :: iso_fortran_env, only: int8
@@ -14,8 +13,8 @@ module atrito_task_process
    use atrito_system, only: get_shared, maker_number, pause_for, process_number, set_shared, swap_shared, worker_end
    implicit none (type, external)
    private
-   public :: task_process_t, begin_task_process, give_task, take_task_back, ask_answer, end_task_process, await_task, give_answer
-   public :: is_there, is_ready, LAST_TASK
+   public :: task_process_t, begin_task_process, give_task, ask_answer, end_task_process, await_task, give_answer, is_there
+   public :: LAST_TASK
 
    type :: task_process_t
       private
@@ -28,8 +27,8 @@ module atrito_task_process
    integer(ip), parameter :: LAST_TASK = -1_ip      !< there is nothing more to do
    real(c_double), parameter :: SHORT_PAUSE = 1.0e-4_c_double, LONG_PAUSE = 2.0e-3_c_double    !< [s]
    real(c_double), parameter :: LONGER = 1.1_c_double   !< than the pause before
-   !> Places in what is shared: the next task, whether there is an answer, its length in bytes, the time that it took in whole
-   !> seconds and millionths of one. The answer follows.
+   !> Places in what is shared: the task, whether there is an answer, its length in bytes, the time that it took in whole seconds and
+   !> millionths of one. The answer follows.
    integer, parameter :: NEXT = 1, ANSWERED = 2, LENGTH = 3, SECONDS = 4, MILLIONTHS = 5, HEAD = 6
    integer(ip), parameter :: MOST_NUMBERS = 65536_ip    !< of an answer; the system has pages for those that are used
    integer(lp), parameter :: NUMBER_BYTES = 4_lp
@@ -58,14 +57,7 @@ contains
       is_there = process%runs
    end function is_there
 
-   !> Whether a next task can be given: the one before it has begun.
-   logical function is_ready(process)
-      type(task_process_t), intent(in) :: process
-
-      is_ready = get_shared(process%shared(NEXT)) == 0
-   end function is_ready
-
-   !> The next task, to one that is ready; the task before it need not be done.
+   !> To a copy that has answered the one before.
    subroutine give_task(process, task)
       type(task_process_t), intent(inout) :: process
       integer(ip), intent(in) :: task               !< /= 0
@@ -73,15 +65,7 @@ contains
       call set_shared(process%shared(NEXT), int(task, c_int))
    end subroutine give_task
 
-   !> The next task, where it has not begun; else 0.
-   integer(ip) function take_task_back(process) result(task)
-      type(task_process_t), intent(inout) :: process
-
-      task = 0
-      if (associated(process%shared)) task = int(swap_shared(process%shared(NEXT), 0_c_int), ip)
-   end function take_task_back
-
-   !> Whether the first task that is not answered is done, or lost: then the copy is gone, and the answer is empty.
+   !> Whether the task is done, or lost: then the copy is gone, and the answer is empty.
    subroutine ask_answer(process, answer, is_done, end_code, seconds_taken)
       type(task_process_t), intent(inout) :: process
       type(parcel_t), intent(out), target :: answer
@@ -96,7 +80,7 @@ contains
       is_done = get_shared(process%shared(ANSWERED)) == 1
       if (.not. is_done) then
          ended = worker_end(process%number)
-         ! the copy may have answered, gone on and crashed just now
+         ! the copy may have answered and crashed just now
          is_done = get_shared(process%shared(ANSWERED)) == 1
       end if
       if (is_done) then
@@ -144,26 +128,22 @@ contains
 
       wait_time = SHORT_PAUSE
       do
-         task = take_task_back(process)
-         if (task == LAST_TASK) call end_worker()
+         task = int(swap_shared(process%shared(NEXT), 0_c_int), ip)
+         if (task == LAST_TASK .or. maker_number() /= process%maker) call end_worker()
          if (task /= 0) return
-         call wait_with_maker(process, wait_time)
+         call pause_for(wait_time)
+         wait_time = min(LONG_PAUSE, LONGER*wait_time)
       end do
    end subroutine await_task
 
-   !> In the copy: hands the answer over, when the one before it has been taken.
+   !> In the copy: hands the answer over.
    subroutine give_answer(process, answer, seconds_taken)
       type(task_process_t), intent(inout) :: process
       type(parcel_t), intent(in), target :: answer
       real(wp), intent(in) :: seconds_taken
       integer(int8), pointer :: bytes(:), room(:)
-      real(c_double) :: wait_time
 
       if (parcel_length(answer) > NUMBER_BYTES*MOST_NUMBERS) error stop 'atrito_task_process: an answer is too long'
-      wait_time = SHORT_PAUSE
-      do while (get_shared(process%shared(ANSWERED)) /= 0)
-         call wait_with_maker(process, wait_time)
-      end do
       bytes => parcel_bytes(answer)
       if (associated(bytes)) then
          room => shared_bytes(process, size(bytes, kind=lp))
@@ -174,16 +154,6 @@ contains
       process%shared(MILLIONTHS) = int(MILLION*(seconds_taken - real(process%shared(SECONDS), wp)), c_int)
       call set_shared(process%shared(ANSWERED), 1_c_int)
    end subroutine give_answer
-
-   !> Sleeps, a little longer than the last time; ends where the process that made this one is gone.
-   subroutine wait_with_maker(process, wait_time)
-      type(task_process_t), intent(in) :: process
-      real(c_double), intent(inout) :: wait_time        !< [s]
-
-      if (maker_number() /= process%maker) call end_worker()
-      call pause_for(wait_time)
-      wait_time = min(LONG_PAUSE, LONGER*wait_time)
-   end subroutine wait_with_maker
 
    !> The bytes of the answer.
    function shared_bytes(process, n) result(bytes)

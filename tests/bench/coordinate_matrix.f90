@@ -4,7 +4,7 @@
 !> then what MUMPS reads, made in place: nothing is held twice.
 module coordinate_matrix
    use atrito_kinds, only: ip, lp, wp
-   use atrito_ranks_mumps, only: root_scale
+   use atrito_mumps, only: root_scale
    implicit none (type, external)
    private
    public :: coordinate_matrix_t, begin_matrix, add_element_matrix, finish_matrix, drop_matrix

@@ -2,7 +2,7 @@
 module linear_solve_page
    use atrito_kinds, only: wp
    use atrito_libraries, only: library_t, list_libraries
-   use atrito_mumps_library, only: mumps_name
+   use atrito_mumps, only: mumps_version
    use atrito_page, only: page_t, begin_page, add_line, add_rule, add_entry, left, bytes, number
    use atrito_strings, only: to_text
    use atrito_system, only: peak_memory, processor_seconds
@@ -61,7 +61,7 @@ contains
       do i = 1, size(list)
          if (list(i)%name == 'BLAS') call add_entry(page, 'BLAS', list(i)%version)
       end do
-      call add_entry(page, 'MUMPS', mumps_name())
+      call add_entry(page, 'MUMPS', mumps_version())
    end subroutine add_sizes
 
    !> A line a phase; the sum of those of the solve; the whole process until now.

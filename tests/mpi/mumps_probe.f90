@@ -1,13 +1,13 @@
 !> A system that several ranks share, against LAPACK: run by mpirun with any number of ranks. All of them make the same random
 !> matrices and know whose each of them is, so rank 0 has the sum as well. Exit 1 and lines of what is wrong where anything is.
 !>
-!>     mpirun -n N ranks_mumps_probe
-program ranks_mumps_probe
+!>     mpirun -n N mumps_probe
+program mumps_probe
    use, intrinsic :: iso_fortran_env, only: error_unit
    use atrito_kinds, only: ip, lp, wp, EPS_MACH
    use atrito_mpi, only: begin_ranks, end_ranks, largest_of_ranks, own_rank, rank_count, spread_from_first
-   use atrito_packed_matrices, only: packed_length, put_packed
-   use atrito_ranks_mumps, only: ranks_mumps_t, begin_by_mumps, end_by_mumps, factor_by_mumps, memory_by_mumps, solve_by_mumps
+   use atrito_mumps, only: mumps_system_t, begin_mumps_system, end_mumps_system, factor_mumps_system, mumps_system_bytes, &
+                           solve_mumps_system
    use atrito_status, only: status_t, is_ok, STATUS_SINGULAR
    implicit none (type, external)
 
@@ -96,43 +96,51 @@ contains
       scene%start(count + 1) = last + 1
    end subroutine make_scene
 
-   !> Begins the system with the matrices of this rank.
+   !> Begins the system with the unknowns of the matrices of this rank.
    subroutine begin_own(scene, system)
       type(scene_t), intent(in) :: scene
-      type(ranks_mumps_t), intent(inout) :: system
+      type(mumps_system_t), intent(inout) :: system
       type(status_t) :: status
-      integer(ip), allocatable :: start(:), unknown(:)
-      integer(ip) :: m
 
-      start = [1_ip]
-      allocate (unknown(0))
-      do m = 1, size(scene%owner, kind=ip)
-         if (scene%owner(m) /= own_rank()) cycle
-         unknown = [unknown, scene%unknown(scene%start(m):scene%start(m + 1) - 1)]
-         start = [start, size(unknown, kind=ip) + 1]
-      end do
-      call begin_by_mumps(system, scene%n, start, unknown, status)
-      call expect(is_ok(status), 'begin_by_mumps fails')
+      call begin_mumps_system(system, scene%n, own_unknowns(scene), status)
+      call expect(is_ok(status), 'begin_mumps_system fails')
       if (.not. is_ok(status)) error stop 1
    end subroutine begin_own
 
-   !> Hands over the matrices of this rank and factors.
+   !> Those of all matrices of this rank, each once, the last first.
+   function own_unknowns(scene) result(unknown)
+      type(scene_t), intent(in) :: scene
+      integer(ip), allocatable :: unknown(:)
+      logical :: is_own(scene%n)
+      integer(ip) :: m, i
+
+      is_own = .false.
+      do m = 1, size(scene%owner, kind=ip)
+         if (scene%owner(m) == own_rank()) is_own(scene%unknown(scene%start(m):scene%start(m + 1) - 1)) = .true.
+      end do
+      unknown = pack([(i, i=scene%n, 1, -1)], is_own(scene%n:1:-1))
+   end function own_unknowns
+
+   !> Hands over the sum of the matrices of this rank and factors.
    subroutine factor_own(scene, system, status)
       type(scene_t), intent(in) :: scene
-      type(ranks_mumps_t), intent(inout) :: system
+      type(mumps_system_t), intent(inout) :: system
       type(status_t), intent(out) :: status
       real(wp), allocatable :: values(:)
-      integer(ip) :: m, k, order
+      real(wp) :: total(scene%n, scene%n)
+      integer(ip) :: m, i, j
 
-      allocate (values(packed_length(system%own)))
-      k = 0
+      total = 0.0_wp
       do m = 1, size(scene%owner, kind=ip)
          if (scene%owner(m) /= own_rank()) cycle
-         k = k + 1
-         order = scene%start(m + 1) - scene%start(m)
-         call put_packed(system%own, k, scene%matrices(:order, :order, m), values)
+         associate (own => scene%unknown(scene%start(m):scene%start(m + 1) - 1))
+            total(own, own) = total(own, own) + scene%matrices(:size(own), :size(own), m)
+         end associate
       end do
-      call factor_by_mumps(system, values, status)
+      associate (own => own_unknowns(scene))
+         values = [((total(own(i), own(j)), i=j, size(own, kind=ip)), j=1, size(own, kind=ip))]
+      end associate
+      call factor_mumps_system(system, values, status)
    end subroutine factor_own
 
    subroutine try_system(what, n, count, shift, size_of)
@@ -140,7 +148,7 @@ contains
       integer(ip), intent(in) :: n, count, shift
       real(wp), intent(in) :: size_of
       type(scene_t) :: scene
-      type(ranks_mumps_t) :: system
+      type(mumps_system_t) :: system
       type(status_t) :: status
       integer(ip) :: again
 
@@ -149,17 +157,17 @@ contains
       do again = 1, 2
          call factor_own(scene, system, status)
          if (.not. is_ok(status)) then
-            call expect(.false., what//': factor_by_mumps fails: '//status%text)
+            call expect(.false., what//': factor_mumps_system fails: '//status%text)
             exit
          end if
          call expect(system%report%digits_lost < 8.0_wp, what//': digits are lost')
-         call expect(memory_by_mumps(system) >= 8*int(n, lp), what//': no memory')
+         call expect(mumps_system_bytes(system) >= 8*int(n, lp), what//': no memory')
          call check_solutions(what, scene, system)
          scene%matrices = 3.0_wp*scene%matrices     ! other values of the same pattern
          scene%matrices(1, 1, :) = 2.0_wp*scene%matrices(1, 1, :)
          call add_up(scene)
       end do
-      call end_by_mumps(system)
+      call end_mumps_system(system)
    end subroutine try_system
 
    subroutine add_up(scene)
@@ -184,15 +192,15 @@ contains
    subroutine check_solutions(what, scene, system)
       character(len=*), intent(in) :: what
       type(scene_t), intent(in) :: scene
-      type(ranks_mumps_t), intent(inout) :: system
+      type(mumps_system_t), intent(inout) :: system
       type(status_t) :: status
       real(wp) :: x(scene%n, 2), f(scene%n, 2)
 
       call random_number(x)
       f = matmul(scene%total, x)
       x = f
-      call solve_by_mumps(system, x, status)
-      call expect(is_ok(status), what//': solve_by_mumps fails')
+      call solve_mumps_system(system, x, status)
+      call expect(is_ok(status), what//': solve_mumps_system fails')
       if (own_rank() > 0) return
       call expect(is_close(matmul(scene%total, x), f, maxval(sum(abs(scene%total), 1))*max(1.0_wp, maxval(abs(x)))), what// &
                   ': the residual is large')
@@ -201,7 +209,7 @@ contains
    !> Unknowns of units far apart.
    subroutine try_mixed_units()
       type(scene_t) :: scene
-      type(ranks_mumps_t) :: system
+      type(mumps_system_t) :: system
       type(status_t) :: status
       real(wp), allocatable :: unit(:)
       real(wp) :: x(50, 1)
@@ -220,9 +228,9 @@ contains
       call factor_own(scene, system, status)
       call expect(is_ok(status) .and. system%report%digits_lost < 6.0_wp, 'mixed units')
       x(:, 1) = matmul(scene%total, [(1.0_wp, i=1, 50)])*unit
-      call solve_by_mumps(system, x, status)
+      call solve_mumps_system(system, x, status)
       if (own_rank() == 0) call expect(all(abs(x(:, 1)*unit - 1.0_wp) < 1.0e-8_wp), 'mixed units: the solution')
-      call end_by_mumps(system)
+      call end_mumps_system(system)
    end subroutine try_mixed_units
 
    !> Springs of stiffness 1 from each unknown to the next, shared out; what holds the first one as well.
@@ -251,7 +259,7 @@ contains
       integer(ip), intent(in) :: n
       logical, intent(in) :: empty
       type(scene_t) :: scene
-      type(ranks_mumps_t) :: system
+      type(mumps_system_t) :: system
       type(status_t) :: status
 
       call make_chain(n, merge(1.0_wp, 0.0_wp, empty), scene)
@@ -267,14 +275,14 @@ contains
       call factor_own(scene, system, status)
       call expect(is_ok(status), what//': held, it is singular still')
       call check_solutions(what, scene, system)
-      call end_by_mumps(system)
+      call end_mumps_system(system)
    end subroutine try_singular
 
    !> A chain that is held by 1e-10 of its stiffness loses ten digits or more, and so does a full matrix of that kind.
    subroutine try_digits(n)
       integer(ip), intent(in) :: n
       type(scene_t) :: scene
-      type(ranks_mumps_t) :: system
+      type(mumps_system_t) :: system
       type(status_t) :: status
       integer(ip) :: m, i
 
@@ -293,13 +301,13 @@ contains
       call expect(is_ok(status), 'nearly free: not factored')
       call expect(system%report%digits_lost > 8.0_wp .and. system%report%digits_lost < 12.0_wp, 'nearly free: digits lost')
       call expect(system%report%worst_equation > 0 .or. system%report%digits_lost < 9.0_wp, 'nearly free: no unknown is named')
-      call end_by_mumps(system)
+      call end_mumps_system(system)
    end subroutine try_digits
 
    !> A dense block that nothing holds, so large that all ranks factor its front together.
    subroutine try_free_block()
       type(scene_t) :: scene
-      type(ranks_mumps_t) :: system
+      type(mumps_system_t) :: system
       type(status_t) :: status
       integer(ip) :: i
       real(wp), parameter :: HOLD(2) = [0.0_wp, 1.0e-3_wp]
@@ -316,7 +324,7 @@ contains
       end do
       ! the last pivot is 800 times what holds a block without any other hold
       call expect(abs(system%report%digits_lost - 3.0_wp) < 0.5_wp, 'a large block that is held: digits lost')
-      call end_by_mumps(system)
+      call end_mumps_system(system)
    end subroutine try_free_block
 
    pure subroutine set_diagonal(matrix, value)
@@ -332,7 +340,7 @@ contains
    !> A negative pivot.
    subroutine try_negative()
       type(scene_t) :: scene
-      type(ranks_mumps_t) :: system
+      type(mumps_system_t) :: system
       type(status_t) :: status
 
       call make_scene(50_ip, 4_ip, 0_ip, 1.0_wp, scene)
@@ -341,7 +349,7 @@ contains
       call factor_own(scene, system, status)
       call expect(status%code == STATUS_SINGULAR, 'a negative pivot passes')
       call expect(system%report%sign_changes > 0, 'a negative pivot is not counted')
-      call end_by_mumps(system)
+      call end_mumps_system(system)
    end subroutine try_negative
 
-end program ranks_mumps_probe
+end program mumps_probe
