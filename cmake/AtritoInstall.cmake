@@ -52,7 +52,6 @@ foreach(file "${ATRITO_CLP_FILE}" "${ATRITO_METIS_FILE}")
    endif()
 endforeach()
 list(JOIN recommended ", " CPACK_DEBIAN_PACKAGE_RECOMMENDS)
-atrito_package_of("${ATRITO_MUMPS_FILE}" CPACK_DEBIAN_PACKAGE_SUGGESTS)
 
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME atrito)

@@ -1,5 +1,5 @@
-# MUMPS, sequential, which checks the sparse solver. Sets ATRITO_MUMPS_FOUND, and then ATRITO_MUMPS_INCLUDE_DIR, ATRITO_MUMPS_FILE (what
-# the program loads when it needs it: the name with the version, as the linker would take it) and ATRITO_MUMPS_VERSION. With
+# MUMPS, sequential, for tests. Sets ATRITO_MUMPS_FOUND, and then ATRITO_MUMPS_INCLUDE_DIR, ATRITO_MUMPS_FILE (what
+# they load: the name with the version, as the linker would take it) and ATRITO_MUMPS_VERSION. With
 # ATRITO_MPI also ATRITO_MUMPS_RANKS_FILE, the one of the same version for ranks, which atrito-mpi loads; it must be there then.
 #
 # It is not linked: Debian's static library wants the shared ones of Scotch all the same, and linking the shared one costs every
@@ -34,7 +34,7 @@ if(ATRITO_MUMPS_INCLUDE_DIR AND ATRITO_MUMPS_VERSION AND ATRITO_MUMPS_LIBRARY_PA
    set(ATRITO_MUMPS_FOUND TRUE)
    message(STATUS "MUMPS ${ATRITO_MUMPS_VERSION}, ${ATRITO_MUMPS_FILE}, loaded when it is asked for")
 else()
-   message(STATUS "MUMPS is missing: no --solver mumps, no limit program (tests/bench); libmumps-seq-dev (Debian, Ubuntu) has it")
+   message(STATUS "MUMPS is missing: no limit program (tests/bench); libmumps-seq-dev (Debian, Ubuntu) has it")
 endif()
 
 set(ATRITO_MUMPS_RANKS_FILE "")

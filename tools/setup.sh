@@ -44,7 +44,7 @@ found_metis() {
 install_missing() {
    packages=$(missing_packages)
    command -v gnuplot >/dev/null 2>&1 || want gnuplot-nox "without gnuplot --plot writes its scripts, but no pictures"
-   found_library libdmumps_seq.so || want libmumps-seq-dev "without MUMPS there is no --solver mumps (a check of the sparse solver) and no limit program (tests/bench)"
+   found_library libdmumps_seq.so || want libmumps-seq-dev "without MUMPS there is no limit program (tests/bench)"
    found_library libClp.so || want coinor-libclp-dev "without Clp it is not proved that a scene has no equilibrium: such runs end with 3 in place of 4"
    found_metis || want libmetis-dev "without METIS large graded meshes take longer"
    [ -z "$packages" ] || install_packages "$packages"

@@ -16,11 +16,14 @@ module atrito_driver
    use atrito_folder_claim, only: folder_claim_t, claim_folder, release_folder
    use atrito_keyword_table, only: keyword_table, keyword_names
    use atrito_kinds, only: ip
-   use atrito_libraries, only: version_lines
+   use atrito_libraries, only: library_t, add_libraries, version_lines, LOADED
    use atrito_means, only: secure_means
    use atrito_messages, only: message_t, add_warning, clear_messages
    use atrito_model, only: model_t
-   use atrito_page, only: page_t, add_item, print_page
+   use atrito_model_memory, only: allow_large_meshes
+   use atrito_mpi, only: has_mpi, mpi_name, rank_count
+   use atrito_mumps, only: has_mumps, mumps_trouble, mumps_version
+   use atrito_page, only: page_t, add_item, plural, print_page
    use atrito_plot_files, only: plot_folder, list_plots, PLOTS_OF_CHECK
    use atrito_reporter, only: reporter_t
    use atrito_results, only: scene_t
@@ -110,7 +113,23 @@ contains
       call set_threads(1_ip)
       call clear_messages()
       call reset_timers()
+      if (has_mpi()) call allow_large_meshes()
+      if (rank_count() > 1) call name_libraries(.false.)
    end subroutine begin_program
+
+   !> MUMPS and MPI, of a program that has them.
+   subroutine name_libraries(are_tried)
+      logical, intent(in) :: are_tried              !< what cannot be loaded is told
+      type(library_t) :: list(2)
+
+      list%name = [character(len=8) :: 'MUMPS', 'MPI']
+      list(1)%version = mumps_version()//LOADED
+      if (are_tried) then
+         if (.not. has_mumps()) list(1)%version = 'not used: '//mumps_trouble()
+      end if
+      list(2)%version = mpi_name()//', '//plural(rank_count(), 'rank', 'ranks')
+      call add_libraries(list)
+   end subroutine name_libraries
 
    !> Tells what a deck needs, and draws it where that is asked for; solves nothing, writes nothing else.
    subroutine check_deck(command, code)
@@ -184,6 +203,7 @@ contains
    subroutine print_version()
       type(string_t), allocatable :: lines(:)
 
+      if (has_mpi()) call name_libraries(.true.)
       call version_lines(lines)
       call print_line(PROGRAM_NAME//' '//PROGRAM_VERSION, output_unit)
       call print_lines(lines, output_unit)

@@ -28,15 +28,15 @@ module atrito_run
    use atrito_plot_files, only: plot_folder, list_plots, PLOTS_OF_RUN
    use atrito_reader, only: read_deck
    use atrito_report_maker, only: make_run_report
+   use atrito_rank_distribution, only: distribute_over_ranks
    use atrito_reporter, only: reporter_t, report_progress
    use atrito_restart_file, only: restart_name
    use atrito_restart_recorder, only: restart_recorder_t, begin_recorder
    use atrito_results, only: history_t, results_t, last_frame
    use atrito_screen, only: compose_summary
-   use atrito_solve, only: solve_options_t, CONTACT_AUTO, CONTACT_DENSE, CONTACT_SPARSE, SHARE_AUTO, SHARE_ALL, SHARE_NONE, &
+   use atrito_solve, only: solve_options_t, CONTACT_AUTO, CONTACT_DENSE, CONTACT_SPARSE, &
                            SOLVER_AUTO, &
-                           SOLVER_SKYLINE, SOLVER_BANDED, SOLVER_SPARSE, &
-                           SOLVER_MUMPS
+                           SOLVER_SKYLINE, SOLVER_BANDED, SOLVER_SPARSE
    use atrito_status, only: status_t, set_status, reword_status, is_ok, STATUS_OK, STATUS_USAGE, STATUS_DECK, STATUS_FILE, &
                             STATUS_NOT_CONVERGED
    use atrito_strings, only: string_t, upper_case
@@ -48,7 +48,7 @@ module atrito_run
    use atrito_write_results, only: write_results, list_files_of_run
    implicit none (type, external)
    private
-   public :: run_deck, load_model, read_model, prepare_observations, solve_options, agree_on_outcome
+   public :: run_deck, take_threads, load_model, read_model, prepare_observations, solve_options, agree_on_outcome
 
 contains
 
@@ -346,18 +346,19 @@ contains
                                                  == FULL_STATE(KINDS(kind_named(upper_case(trim(element))))%state))
    end function has_state
 
-   pure function solve_options(command) result(options)
+   function solve_options(command) result(options)
       type(command_t), intent(in) :: command
       type(solve_options_t) :: options
-      integer, parameter :: KINDS(*) = [SOLVER_AUTO, SOLVER_SKYLINE, SOLVER_BANDED, SOLVER_SPARSE, SOLVER_MUMPS]
-      integer, parameter :: SHARES(*) = [SHARE_AUTO, SHARE_ALL, SHARE_NONE]
+      integer, parameter :: KINDS(*) = [SOLVER_AUTO, SOLVER_SKYLINE, SOLVER_BANDED, SOLVER_SPARSE]
       integer, parameter :: FORMS(*) = [CONTACT_AUTO, CONTACT_DENSE, CONTACT_SPARSE]
 
       options%solver_kind = KINDS(place_of_word('--solver', command%solver))
       options%contact_form = FORMS(place_of_word('--contact', command%contact))
       options%element_errors = command%plot
       ! the runs of sweeps, studies and limits stay where they are
-      if (command%task == TASK_RUN) options%share = SHARES(place_of_word('--share', command%share))
+      if (command%task == TASK_RUN .and. command%share /= 'none') then
+         call distribute_over_ranks(command%share == 'all', options%distribution)
+      end if
    end function solve_options
 
 end module atrito_run

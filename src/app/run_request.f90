@@ -13,8 +13,7 @@ module atrito_run_request
    use atrito_strings, only: string_t, to_text
    implicit none (type, external)
    private
-   public :: request_runs, begin_request, put_arguments, take_arguments, take_request, has_own_process, &
-             is_sound, print_lost, text_of_end
+   public :: request_runs, put_arguments, take_arguments, take_request, is_sound, print_lost, text_of_end
 
    integer(ip), parameter :: FIRST_SIGNAL = 128_ip   !< exit codes above it are of signals
 
@@ -23,20 +22,13 @@ contains
    !> On rank 0: the others get ready for what the command line of the program asks for.
    subroutine request_runs()
       type(parcel_t) :: request
-
-      call begin_request(request)
-      call send_to_others(request)
-   end subroutine request_runs
-
-   !> The same, to which more is added before it is sent.
-   subroutine begin_request(request)
-      type(parcel_t), intent(out) :: request
       type(string_t), allocatable :: arguments(:)
 
       call fetch_arguments(arguments)
       call put(request, SERVICE_RUNS)
       call put_arguments(arguments, request)
-   end subroutine begin_request
+      call send_to_others(request)
+   end subroutine request_runs
 
    subroutine put_arguments(arguments, parcel)
       type(string_t), intent(in) :: arguments(:)
@@ -73,13 +65,6 @@ contains
       call parse_command(arguments, command, ok, error)
       if (.not. ok) error stop 'atrito: ranks do not agree on the command line; is the same program installed on all machines?'
    end subroutine take_request
-
-   !> Whether runs are made in processes apart. MUMPS over MPI does not survive a fork: with it a rank makes its runs itself.
-   pure logical function has_own_process(command)
-      type(command_t), intent(in) :: command
-
-      has_own_process = command%solver /= 'mumps'
-   end function has_own_process
 
    !> Whether a run begins: its deck has no errors, and --observe none either. Nothing is told.
    logical function is_sound(command)

@@ -1,17 +1,14 @@
 !> What ranks other than the first do: they wait for what the first wants of them, and do it.
 module atrito_service
-   use atrito_command_line, only: command_t, confine_command, TASK_LIMIT, TASK_STUDY, TASK_SWEEP
+   use atrito_command_line, only: command_t, confine_command, TASK_STUDY, TASK_SWEEP
    use atrito_kinds, only: ip
    use atrito_mpi, only: receive_parcel
    use atrito_parcel, only: parcel_t, take
+   use atrito_part_service, only: serve_part
    use atrito_rank_memory, only: serve_memory
-   use atrito_rank_services, only: await_message, SERVICE_END, SERVICE_FIELDS, SERVICE_MEMORY, SERVICE_RUNS, &
-                                   SERVICE_SCENE_PARTS, SERVICE_SCENE_TOP
-   use atrito_scene_service, only: scene_store_t, serve_scene_parts
-   use atrito_scene_top, only: serve_scene_top
+   use atrito_rank_services, only: await_message, SERVICE_END, SERVICE_FIELDS, SERVICE_MEMORY, SERVICE_PART, SERVICE_RUNS
    use atrito_shared_fields, only: serve_fields
    use atrito_run_request, only: take_request
-   use atrito_stability_rounds, only: serve_round
    use atrito_status, only: status_t
    use atrito_study, only: serve_study
    use atrito_sweep, only: serve_sweep
@@ -24,7 +21,6 @@ contains
    !> Comes back when nothing more is wanted.
    subroutine serve()
       type(parcel_t) :: request
-      type(scene_store_t) :: scene
       integer(ip) :: service
 
       do
@@ -34,10 +30,8 @@ contains
          select case (service)
          case (SERVICE_END)
             return
-         case (SERVICE_SCENE_PARTS)
-            call serve_scene_parts(scene, request)
-         case (SERVICE_SCENE_TOP)
-            call serve_scene_top(scene%left, request)
+         case (SERVICE_PART)
+            call serve_part(request)
          case (SERVICE_FIELDS)
             call serve_fields(request)
          case (SERVICE_MEMORY)
@@ -50,7 +44,7 @@ contains
       end do
    end subroutine serve
 
-   !> The runs of a sweep, a study or a limit.
+   !> The runs of a sweep or a study.
    subroutine serve_runs(request)
       type(parcel_t), intent(inout) :: request
       type(command_t) :: command
@@ -63,8 +57,6 @@ contains
          call serve_sweep(command)
       case (TASK_STUDY)
          call serve_study(command)
-      case (TASK_LIMIT)
-         call serve_round(command, request)
       end select
    end subroutine serve_runs
 

@@ -14,7 +14,7 @@ module atrito_condensed_body
                              skyline_bytes, banded_bytes, sparse_bytes, sparse_entries
    use atrito_results, only: body_result_t
    use atrito_solver_choice, only: new_solver, needs_profile, solver_name, N_STORAGES, SOLVER_SKYLINE, SOLVER_BANDED, &
-                                   SOLVER_SPARSE, SOLVER_MUMPS
+                                   SOLVER_SPARSE
    use atrito_status, only: status_t, set_status, is_ok, STATUS_INTERNAL, STATUS_SINGULAR
    use atrito_linear_solver, only: linear_solver_t, smallest_ratio
    use atrito_strings, only: to_text
@@ -63,15 +63,15 @@ contains
          result%reason = 'asked for'
       else
          kind = SOLVER_SPARSE
-         if (needs_profile(asked, profile%n)) kind = minloc(cost(:SOLVER_SPARSE), dim=1)
-         second = minloc(cost(:SOLVER_SPARSE), dim=1, mask=[SOLVER_SKYLINE, SOLVER_BANDED, SOLVER_SPARSE] /= kind)
+         if (needs_profile(asked, profile%n)) kind = minloc(cost, dim=1)
+         second = minloc(cost, dim=1, mask=[SOLVER_SKYLINE, SOLVER_BANDED, SOLVER_SPARSE] /= kind)
          result%reason = 'predicted cost '//ratio_text(cost(second), cost(kind))//' of '//solver_name(second)
       end if
       result%solver = solver_name(kind)
       result%solver_kind = kind
       result%half_bandwidth = half_bandwidth(profile)
       result%profile = profile_length(profile)
-      if (kind >= SOLVER_SPARSE) result%profile = int(sparse_entries(profile), lp)
+      if (kind == SOLVER_SPARSE) result%profile = int(sparse_entries(profile), lp)
       result%memory = predict_memory(profile, kind) + kept_bytes(profile%n_retained)
       result%most_memory = result%memory
    end subroutine choose_solver
@@ -91,7 +91,6 @@ contains
       cost(SOLVER_SKYLINE) = skyline_flops(profile) + SKYLINE_OVERHEAD*real(profile%n, wp)
       cost(SOLVER_BANDED) = banded_flops(profile)/BAND_SPEED + BAND_OVERHEAD*real(profile%n, wp)
       cost(SOLVER_SPARSE) = sparse_cost(profile)
-      cost(SOLVER_MUMPS) = cost(SOLVER_SPARSE)
    end function predict_costs
 
    !> That of the sparse solver.

@@ -16,17 +16,14 @@ module atrito_scene_data
    use atrito_kinds, only: ip, lp, wp
    use atrito_memory, only: available_memory
    use atrito_model, only: model_t, nodal_values_t, step_t, METHOD_ANDERSON
-   use atrito_mpi, only: rank_count
    use atrito_nodal_loads, only: nodal_loads
    use atrito_points, only: contact_points_t
    use atrito_reporter, only: reporter_t
+   use atrito_results, only: results_t, scene_t
    use atrito_rigid_bodies, only: add_rigid_loads, has_moving_surfaces, set_rigid_motions
    use atrito_scene_builder, only: build_scene, build_bodies, list_held
-   use atrito_scene_shares, only: is_worth_sharing, SHARE_NONE
-   use atrito_scene_sharing, only: share_over_ranks
    use atrito_scene_system, only: scene_system_t, set_scene_gaps, set_scene_load
    use atrito_scene_memory, only: check_average_memory, most_average_entries
-   use atrito_shared_scene, only: shared_scene_t
    use atrito_sliding_bodies, only: let_slide, balance_loads
    use atrito_solver_choice, only: SOLVER_SPARSE
    use atrito_status, only: status_t, is_ok, STATUS_DECK, set_status
@@ -35,8 +32,21 @@ module atrito_scene_data
    use atrito_thermal_loads, only: add_thermal_loads
    implicit none (type, external)
    private
-   public :: scene_data_t, asked_t, prepare, set_time, assemble, drop_assembled, free_load, check_known_points, &
+   public :: scene_data_t, asked_t, distribution_t, prepare, set_time, assemble, drop_assembled, free_load, check_known_points, &
              forces_at_end
+
+   !> How a scene in the sparse form is distributed over several processes. What extends this type assembles the matrix in parts, one
+   !> a process, and has each process recover the stresses of its elements; all else is done in this process, which is all there is
+   !> where no such object is given (asked_t).
+   type, abstract :: distribution_t
+      character(len=:), allocatable :: reason               !< why a scene that it pays off for takes the sparse form
+   contains
+      procedure(ask_whether), deferred :: pays_off
+      procedure(ask_processes), deferred, nopass :: check_memory
+      procedure(assemble_parts), deferred :: assemble
+      procedure(begin_recovery), deferred :: begin_fields
+      procedure(end_recovery), deferred :: end_fields
+   end type distribution_t
 
    type :: scene_data_t
       type(model_t), pointer :: model => null()
@@ -54,12 +64,12 @@ module atrito_scene_data
       integer :: contact_form = CONTACT_DENSE
       character(len=:), allocatable :: reason               !< why this form
       integer :: solver_kind = 0                           !< that the bodies are numbered for
-      logical :: is_shared = .false.                        !< over the ranks, in the sparse form
-      class(scene_system_t), allocatable :: assembled       !< the sparse form, in one matrix or over the ranks
+      class(distribution_t), allocatable :: distribution    !< not allocated: there is one process
+      logical :: is_distributed = .false.                   !< this scene is
+      class(scene_system_t), allocatable :: assembled       !< the sparse form, in one matrix or in parts
       logical :: is_assembled = .false.
       logical :: wants_element_errors = .false.             !< of what is printed
       logical :: is_printed = .true.                        !< what is solved for is printed: it is worth stresses and estimates
-      integer(ip), allocatable :: rank_of(:)                !< (n_elements) not allocated: the first rank has all
       ! Of a history:
       logical :: keeps = .false.                            !< what one increment leaves serves the next
       logical :: may_cut = .false.                          !< without a solution a shorter increment is tried
@@ -75,11 +85,62 @@ module atrito_scene_data
    !> What the user asks for.
    type :: asked_t
       integer :: solver_kind = 0                           !< STORAGE_* or 0
-      integer :: share = SHARE_NONE                        !< SHARE_*
       integer :: contact_form = CONTACT_AUTO
       logical :: element_errors = .false.                   !< the estimated error is kept element by element
-      integer(lp) :: memory = huge(1_lp)                    !< bytes, of each rank; what the machine has counts where it is less
+      integer(lp) :: memory = huge(1_lp)                    !< bytes, of each process; what the machine has counts where it is less
+      class(distribution_t), allocatable :: distribution    !< of a scene that it pays off for; not allocated: none
    end type asked_t
+
+   abstract interface
+
+      !> Whether a scene is distributed.
+      logical function ask_whether(self, n_displacements, n_forces)
+         import :: distribution_t, ip
+         class(distribution_t), intent(in) :: self
+         integer(ip), intent(in) :: n_displacements, n_forces  !< forces: of contact
+      end function ask_whether
+
+      !> Asks all processes for the memory that the scene will take of them: before it is assembled at the least, behind that in all.
+      !> status: STATUS_DECK, which is told by a message, when one has too little.
+      subroutine ask_processes(data, limit, scene, status)
+         import :: scene_data_t, scene_t, status_t, lp
+         class(scene_data_t), intent(in) :: data
+         integer(lp), intent(in) :: limit                   !< bytes of each process; what there is counts where it is less
+         type(scene_t), intent(inout) :: scene              !< on return with the forecast of this process
+         type(status_t), intent(inout) :: status
+      end subroutine ask_processes
+
+      !> Cuts the scene, gives each process its part and has it assembled. status: STATUS_INTERNAL when the memory does not suffice.
+      subroutine assemble_parts(self, fem, rows, line, value, scene, status)
+         import :: distribution_t, fem_t, contact_rows_t, contact_line_t, scene_system_t, status_t, wp
+         class(distribution_t), intent(inout) :: self
+         type(fem_t), intent(in) :: fem
+         type(contact_rows_t), intent(in) :: rows
+         type(contact_line_t), intent(in) :: line
+         real(wp), intent(in) :: value(:, :)                !< (2, n_nodes) prescribed displacements [L]
+         class(scene_system_t), allocatable, intent(out) :: scene
+         type(status_t), intent(out) :: status
+      end subroutine assemble_parts
+
+      !> Has the other processes begin with the stresses of their elements and the estimate of their error, where they have not.
+      subroutine begin_recovery(self, fem, u, by_element)
+         import :: distribution_t, fem_t, wp
+         class(distribution_t), intent(inout) :: self
+         type(fem_t), intent(in) :: fem
+         real(wp), intent(in) :: u(:, :)                    !< (2, n_nodes) [L]
+         logical, intent(in) :: by_element                  !< the error of each is wanted
+      end subroutine begin_recovery
+
+      !> The same as estimate_error (atrito_recovery), with what the other processes found, which have begun.
+      subroutine end_recovery(self, fem, results, strain_bound)
+         import :: distribution_t, fem_t, results_t, wp
+         class(distribution_t), intent(inout) :: self
+         type(fem_t), intent(in) :: fem
+         type(results_t), intent(inout) :: results          !< with the displacements with which they have begun
+         real(wp), intent(out) :: strain_bound              !< no strain is larger than this
+      end subroutine end_recovery
+
+   end interface
 
 contains
 
@@ -99,6 +160,7 @@ contains
       if (present(step)) data%step => step
       call build_scene(model, data%step, data%fem, data%held, data%value, data%points)
       data%rigid_prescribed = data%step%rigid_prescribed
+      if (allocated(asked%distribution)) allocate (data%distribution, source=asked%distribution)
       call choose_form(asked, data)
       data%solver_kind = asked%solver_kind
       data%wants_element_errors = asked%element_errors
@@ -210,8 +272,8 @@ contains
    end subroutine move_skew_supports
 
    !> The form of the contact system, by the numbers of points and nodes: in the dense form the nodes that the points see are kept,
-   !> too, of which a master that is finer has more than there are points. A scene that is worth sharing takes the sparse form, the
-   !> only one that goes over the ranks, where nobody asks for the other one or for a method of it.
+   !> too, of which a master that is finer has more than there are points. A scene that is distributed takes the sparse form where
+   !> nobody asks for the other one or for a method of it.
    subroutine choose_form(asked, data)
       type(asked_t), intent(in) :: asked
       type(scene_data_t), intent(inout) :: data
@@ -230,16 +292,16 @@ contains
       n = max(n, count(seen, kind=ip) - n_points)
       call choose_contact_form(n, 2*data%model%mesh%n_nodes, asked%contact_form, data%step%controls%method /= METHOD_ANDERSON, &
                                min(asked%memory, available_memory()), data%contact_form, data%reason)
-      is_worth_it = any(asked%solver_kind == [0, SOLVER_SPARSE])
-      if (is_worth_it) is_worth_it = is_worth_sharing(2*data%model%mesh%n_nodes, n, rank_count(), asked%share)
+      is_worth_it = allocated(data%distribution) .and. any(asked%solver_kind == [0, SOLVER_SPARSE])
+      if (is_worth_it) is_worth_it = data%distribution%pays_off(2*data%model%mesh%n_nodes, n)
       if (is_worth_it .and. asked%contact_form == CONTACT_AUTO .and. data%step%controls%method == METHOD_ANDERSON) then
          data%contact_form = CONTACT_SPARSE
-         data%reason = 'the one that goes over ranks'
+         data%reason = data%distribution%reason
       end if
-      data%is_shared = is_worth_it .and. data%contact_form == CONTACT_SPARSE
+      data%is_distributed = is_worth_it .and. data%contact_form == CONTACT_SPARSE
    end subroutine choose_form
 
-   !> All bodies in one matrix, or its parts on the ranks, and their fronts; nothing is factored. status:
+   !> All bodies in one matrix, or its parts in several processes, and their fronts; nothing is factored. status:
    !> STATUS_INTERNAL when the memory does not suffice.
    subroutine assemble(data, status)
       type(scene_data_t), intent(inout) :: data
@@ -247,8 +309,8 @@ contains
 
       if (data%is_assembled) return
       call drop_assembled(data)
-      if (data%is_shared) then
-         call assemble_on_ranks(data, status)
+      if (data%is_distributed) then
+         call data%distribution%assemble(data%fem, data%rows, data%line, data%value, data%assembled, status)
       else
          call assemble_here(data, status)
       end if
@@ -267,26 +329,13 @@ contains
       call move_alloc(scene, data%assembled)
    end subroutine assemble_here
 
-   subroutine assemble_on_ranks(data, status)
-      type(scene_data_t), intent(inout) :: data
-      type(status_t), intent(inout) :: status
-      type(shared_scene_t), allocatable :: scene
-
-      allocate (scene)
-      call share_over_ranks(data%fem, data%rows, data%line, data%value, rank_count(), scene, data%rank_of, status)
-      call move_alloc(scene, data%assembled)
-   end subroutine assemble_on_ranks
-
-   !> The matrices are not needed any more: the ranks give back what they have of them.
+   !> The matrices are not needed any more.
    subroutine drop_assembled(data)
       type(scene_data_t), intent(inout) :: data
 
       data%is_assembled = .false.
       if (.not. allocated(data%assembled)) return
-      select type (scene => data%assembled)
-      type is (shared_scene_t)
-         call scene%parts%release()
-      end select
+      call data%assembled%release()
       deallocate (data%assembled)
    end subroutine drop_assembled
 

@@ -8,7 +8,7 @@ module atrito_stability_search
    use atrito_kinds, only: wp
    implicit none (type, external)
    private
-   public :: search_t, tried_t, begin_search, next_step, list_curve, record_balance, record_solution, standing_value, &
+   public :: search_t, tried_t, begin_search, next_step, record_balance, record_solution, standing_value, &
              falling_value, balanced_value, allowed_width
    public :: STEP_BALANCE, STEP_SOLVE, STEP_DONE
    public :: UNKNOWN, STANDS, FALLS, UNDECIDED
@@ -34,7 +34,6 @@ module atrito_stability_search
       integer :: found = 0                          !< once done: FOUND_LIMIT, ...
       type(tried_t), allocatable :: tried(:)        !< in the order in which they were looked at
       real(wp), private :: widths(2) = huge(1.0_wp) !< of the interval before the last two questions of balance
-      logical :: is_on_curve = .false.              !< the last question is about a value of the curve
    end type search_t
 
    !> Values of the curve, as shares of the way from the end that stands to the limit.
@@ -69,14 +68,10 @@ contains
       type(tried_t) :: known
       integer :: standing
 
-      search%is_on_curve = .false.
       call look_at_ends(search, x, step, standing)
       if (step /= STEP_DONE .or. search%found /= 0) return
       call narrow_balance(search, standing, x, step)
-      if (step == STEP_DONE) then
-         call follow_curve(search, standing, x, step)
-         search%is_on_curve = step /= STEP_DONE
-      end if
+      if (step == STEP_DONE) call follow_curve(search, standing, x, step)
       if (step == STEP_DONE) call narrow_solutions(search, standing, x, step)
       if (step == STEP_SOLVE) then   ! a value between two that can be balanced need not be one itself; where it falls, the limit
          known = known_of(search, x) ! is sought on this side of it
@@ -86,32 +81,6 @@ contains
       search%found = FOUND_INTERVAL
       if (abs(falling_value(search) - standing_value(search)) <= allowed_width(search)) search%found = FOUND_LIMIT
    end subroutine next_step
-
-   !> The question of next_step and, where it is of the curve, those that follow there: no value of the curve depends on another.
-   pure subroutine list_curve(search, first, first_step, x, step)
-      type(search_t), intent(in) :: search          !< as next_step left it
-      real(wp), intent(in) :: first                 !< the question, with first_step
-      integer, intent(in) :: first_step             !< STEP_BALANCE or STEP_SOLVE
-      real(wp), allocatable, intent(out) :: x(:)
-      integer, allocatable, intent(out) :: step(:)
-      type(search_t) :: later
-      real(wp) :: next
-      integer :: what
-
-      later = search
-      x = [first]
-      step = [first_step]
-      next = first
-      what = first_step
-      do while (later%is_on_curve)
-         if (what == STEP_BALANCE) call record_balance(later, next, STANDS, 0.0_wp)
-         if (what == STEP_SOLVE) call record_solution(later, next, STANDS)
-         call next_step(later, next, what)
-         if (.not. later%is_on_curve) exit
-         x = [x, next]
-         step = [step, what]
-      end do
-   end subroutine list_curve
 
    !> The ends come first. Two that can be balanced are both solved, to tell what they are.
    pure subroutine look_at_ends(search, x, step, standing)

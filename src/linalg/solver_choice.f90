@@ -2,20 +2,18 @@
 module atrito_solver_choice
    use atrito_banded, only: banded_t
    use atrito_kinds, only: ip
-   use atrito_mumps, only: mumps_t
    use atrito_skyline, only: skyline_t
    use atrito_sparse_solver, only: sparse_t
    use atrito_linear_solver, only: linear_solver_t
    implicit none (type, external)
    private
-   public :: new_solver, solver_name, N_STORAGES, SOLVER_SKYLINE, SOLVER_BANDED, SOLVER_SPARSE, SOLVER_MUMPS
+   public :: new_solver, solver_name, N_STORAGES, SOLVER_SKYLINE, SOLVER_BANDED, SOLVER_SPARSE
    public :: needs_profile
 
    integer, parameter :: SOLVER_SKYLINE = 1
    integer, parameter :: SOLVER_BANDED = 2
    integer, parameter :: SOLVER_SPARSE = 3
-   integer, parameter :: SOLVER_MUMPS = 4
-   integer, parameter :: N_STORAGES = 4
+   integer, parameter :: N_STORAGES = 3
    !> Equations from which on the sparse solver is the fastest for a body of any shape, so that no profile is needed to choose it.
    integer(ip), parameter :: LEAST_SPARSE = 4000_ip
 
@@ -42,16 +40,14 @@ contains
          allocate (banded_t :: solver)
       case (SOLVER_SPARSE)
          allocate (sparse_t :: solver)
-      case (SOLVER_MUMPS)
-         allocate (mumps_t :: solver)
       end select
    end subroutine new_solver
 
-   !> 'skyline', 'banded', 'sparse' or 'mumps'.
+   !> 'skyline', 'banded' or 'sparse'.
    pure function solver_name(kind) result(name)
       integer, intent(in) :: kind                                !< one of SOLVER_*
       character(len=:), allocatable :: name
-      character(len=7), parameter :: NAMES(N_STORAGES) = ['skyline', 'banded ', 'sparse ', 'mumps  ']
+      character(len=7), parameter :: NAMES(N_STORAGES) = ['skyline', 'banded ', 'sparse ']
 
       name = trim(NAMES(kind))
    end function solver_name

@@ -8,6 +8,7 @@ module atrito_scene_system
    use atrito_kinds, only: ip, lp, wp
    use atrito_row_entries, only: direction_of, loads_on_motions
    use atrito_scene_elimination, only: scene_numbering_t
+   use atrito_status, only: status_t, is_ok
    implicit none (type, external)
    private
    public :: scene_system_t, set_scene_gaps, set_flexibility, set_scene_load, displacements_of
@@ -16,8 +17,11 @@ module atrito_scene_system
       type(scene_numbering_t) :: numbering
       logical :: is_near = .false.               !< fronts have one matrix for elements that are near, and not equal
       character(len=:), allocatable :: order     !< how the order of elimination was found
+      type(status_t), pointer :: trouble => null() !< of the first solve that failed, where one can: solve itself has no status
    contains
       procedure(count_solving_bytes), deferred :: solving_bytes
+      procedure :: check_solves => take_trouble
+      procedure :: release => release_load
    end type scene_system_t
 
    abstract interface
@@ -34,6 +38,24 @@ module atrito_scene_system
    real(wp), parameter :: LOAD_ROUND_OFF = 1.0e-13_wp
 
 contains
+
+   !> Whether a solve has failed since this was asked last. status: STATUS_INTERNAL then, in place of what it was; else it stays.
+   subroutine take_trouble(self, status)
+      class(scene_system_t), intent(in) :: self
+      type(status_t), intent(inout) :: status
+
+      if (.not. associated(self%trouble)) return
+      if (is_ok(self%trouble)) return
+      status = self%trouble
+      self%trouble = status_t()
+   end subroutine take_trouble
+
+   !> Lets go of the loads; what extends the type, of what other processes hold for it, too. The rest goes with the scene.
+   subroutine release_load(self)
+      class(scene_system_t), intent(inout) :: self
+
+      if (allocated(self%load)) deallocate (self%load, self%size_of_load)
+   end subroutine release_load
 
    !> What prescribed displacements, initial gaps and rest slips leave of the rows: g0.
    subroutine set_scene_gaps(rows, line, value, scene)

@@ -13,7 +13,6 @@ module atrito_history
    use atrito_history_rows, only: row_of_pair
    use atrito_force_sense, only: force_sense_t, pair_force, tell_forces, watch_forces
    use atrito_increment, only: complete_results, is_solved, solve_increment
-   use atrito_shared_fields, only: shared_fields_t
    use atrito_increment_length, only: cut_increment, is_longer_than_least, lengthen, next_time, progress_t
    use atrito_kinds, only: ip, wp
    use atrito_model, only: is_due, model_t, requests_t, step_t
@@ -480,7 +479,6 @@ contains
       type(history_t), intent(inout) :: history
       type(status_t), intent(inout) :: status
       character(len=:), allocatable :: reason
-      type(shared_fields_t) :: fields
 
       reason = 'no reason is known'
       if (allocated(status%text)) reason = status%text
@@ -496,7 +494,7 @@ contains
       end if
       if (run%last%step /= k) return                 ! the end of a step is a frame
       call set_time(run%data, moment_t(run%last%step_time, run%last%time))
-      call complete_results(run%data, run%last, fields)
+      call complete_results(run%data, run%last)
       call leave_mesh_alone(run%data, run%last)
       run%last%ends_step = .true.
       call add_frame(run%last, run%n_frames, history)

@@ -28,10 +28,8 @@ module atrito_increment
    use atrito_rigid_results, only: take_rigid_results
    use atrito_row_forces, only: share_out_rows, clear_balance, leave_out_sections
    use atrito_scene_data, only: scene_data_t, drop_assembled, forces_at_end
-   use atrito_scene_top, only: take_trouble_of_top
    use atrito_section_forces, only: sum_cuts
    use atrito_sparse_form, only: solve_sparse_form
-   use atrito_shared_fields, only: shared_fields_t, begin_fields, end_fields, EQUILIBRIUM_WORK, STRESS_WORK
    use atrito_status, only: status_t, is_ok
    use atrito_step_loads, only: moment_t
    use atrito_strings, only: to_text
@@ -136,7 +134,7 @@ contains
    end subroutine solve_without_near
 
    !> Solves by one form of the contact system, and checks what it found. Without a solution it is judged whether there can be one:
-   !> status is STATUS_SINGULAR where there is none, STATUS_INTERNAL where the ranks could not solve for what they share.
+   !> status is STATUS_SINGULAR where there is none, STATUS_INTERNAL where the memory did not suffice for a solve.
    subroutine solve_one_form(data, form, controls, store, results, solution, status)
       type(scene_data_t), intent(inout) :: data
       integer, intent(in) :: form                           !< CONTACT_DENSE or CONTACT_SPARSE
@@ -146,14 +144,13 @@ contains
       type(contact_solution_t), intent(out) :: solution
       type(status_t), intent(out) :: status
       real(wp), allocatable :: u(:, :)                      ! without rigid motions, (2, n_nodes) [L]
-      type(shared_fields_t) :: fields
 
       if (form == CONTACT_SPARSE) then
          call solve_sparse_form(data, controls, results, solution, u, status)
       else
          call solve_dense_form(data, controls, store, results, solution, u, status)
       end if
-      call take_trouble_of_top(status)                      ! whatever came of a solve that failed
+      if (allocated(data%assembled)) call data%assembled%check_solves(status)   ! whatever came of a solve that failed
       solution%form = form
       call start_phase('iterate')
       call judge_outcome(data, results, solution, status)
@@ -161,11 +158,11 @@ contains
       if (.not. is_ok(status)) return
       call start_phase('recover')
       if (solution%converged) call settle_idle_motions(data, u, data%before, solution)
-      if (data%is_printed) call begin_early(data, solution, u, fields)
+      if (data%is_printed) call begin_early(data, solution, u)
       if (allocated(data%had%motion)) call clear_what_is_left(data, solution, u)
       call recover(data, solution, u, results)
       call stop_phase('recover')
-      if (data%is_printed) call complete_results(data, results, fields)
+      if (data%is_printed) call complete_results(data, results)
       call start_phase('check')
       call check_law(data%rows, data%line, max(controls%tolerance, solution%residual), results, data%fem%bodies%of_node, &
                      growth_of_bodies(data, results%scene), data%had, solution%inner%condition)
@@ -344,22 +341,19 @@ contains
 
    !> What is worth its time where it is printed: sums by joint, stresses and their error, the largest of all, the limits of
    !> a linear theory.
-   subroutine complete_results(data, results, fields)
-      type(scene_data_t), intent(in) :: data
+   subroutine complete_results(data, results)
+      type(scene_data_t), intent(inout) :: data
       type(results_t), intent(inout) :: results
-      type(shared_fields_t), intent(inout) :: fields        !< may have begun
       real(wp) :: strain_bound
 
       call start_phase('recover')
-      if (allocated(data%rank_of) .and. .not. fields%has_begun) then
-         call begin_fields(data%fem, data%rank_of, results%u, data%wants_element_errors, work_of_stresses(data), fields)
-      end if
+      if (data%is_distributed) call data%distribution%begin_fields(data%fem, results%u, data%wants_element_errors)
       call sum_joints(data%fem%bodies%of_node, data%points, results%contact, results%joints)
       call recover_stress(data%step%requests, data%fem, results)
       call stop_phase('recover')
       call start_phase('estimate')
-      if (allocated(data%rank_of)) then
-         call end_fields(data%fem, fields, results, strain_bound)
+      if (data%is_distributed) then
+         call data%distribution%end_fields(data%fem, results, strain_bound)
       else
          call estimate_error(data%fem, results, strain_bound, data%wants_element_errors)
       end if
@@ -368,32 +362,18 @@ contains
       call stop_phase('estimate')
    end subroutine complete_results
 
-   !> Where there are several ranks the others begin with the fields, while the first one checks the equilibrium.
-   subroutine begin_early(data, solution, u, fields)
-      type(scene_data_t), intent(in) :: data
+   !> Where there are several processes the others begin with the fields, while this one checks the equilibrium.
+   subroutine begin_early(data, solution, u)
+      type(scene_data_t), intent(inout) :: data
       type(contact_solution_t), intent(in) :: solution
       real(wp), intent(in) :: u(:, :)                       !< without rigid motions, (2, n_nodes) [L]
-      type(shared_fields_t), intent(inout) :: fields
       real(wp), allocatable :: total(:, :)
 
-      if (.not. allocated(data%rank_of)) return
+      if (.not. data%is_distributed) return
       total = u
       call add_rigid_motions(data%fem, solution%state%a, total)
-      call begin_fields(data%fem, data%rank_of, total, data%wants_element_errors, EQUILIBRIUM_WORK + work_of_stresses(data), fields)
+      call data%distribution%begin_fields(data%fem, total, data%wants_element_errors)
    end subroutine begin_early
-
-   !> What the stresses that are asked for take, over the fields of all elements.
-   pure real(wp) function work_of_stresses(data) result(work)
-      type(scene_data_t), intent(in) :: data
-
-      work = 0.0_wp
-      associate (requests => data%step%requests)
-         if (requests%stress .or. requests%fields%stress) work = STRESS_WORK
-         if (requests%stress .and. .not. requests%fields%stress) then
-            work = work*real(count(requests%element_s), wp)/real(size(requests%element_s), wp)
-         end if
-      end associate
-   end function work_of_stresses
 
    !> Displacements, reactions, contact fields, energies and balances.
    subroutine recover(data, solution, u, results)

@@ -2,7 +2,6 @@
 module atrito_observer
    use atrito_history_lists, only: add_observed
    use atrito_increment, only: complete_results
-   use atrito_shared_fields, only: shared_fields_t
    use atrito_results, only: observed_list_t, results_t
    use atrito_rigid_results, only: leave_mesh_alone
    use atrito_scene_data, only: scene_data_t
@@ -31,15 +30,14 @@ contains
    !> Notes what is observed of a converged increment. Stresses of one that is not printed are there as long as that takes.
    subroutine note_observed(observer, data, results, list)
       class(observer_t), intent(inout) :: observer
-      type(scene_data_t), intent(in) :: data
+      type(scene_data_t), intent(inout) :: data
       type(results_t), intent(inout) :: results      !< of the increment; complete where it is printed
       type(observed_list_t), intent(inout) :: list
       type(results_t) :: whole
-      type(shared_fields_t) :: fields
 
       if (observer%wants_stress .and. .not. data%is_printed) then
          whole = results
-         call complete_results(data, whole, fields)
+         call complete_results(data, whole)
          call leave_mesh_alone(data, whole)
          call observer%observe(whole)
          call move_alloc(whole%observed, results%observed)

@@ -3,7 +3,7 @@
 !> What is there by then is not counted but asked of the system: libraries, mesh, model, points, averages. To that comes the
 !> largest of what the phases hold that follow: bodies and contact line, or factors of the sparse form; displacements, stresses
 !> and what their recovery works with. Left out are the certificate, a second form where the first finds no solution, and bodies
-!> kept for a next run. Of a scene that is shared out it is asked elsewhere (atrito_rank_check): the first rank's was then told.
+!> kept for a next run. Of a scene that is distributed over processes it is asked elsewhere (distribution_t): this one's was then told.
 module atrito_scene_forecast
    use atrito_contact_form, only: CONTACT_SPARSE
    use atrito_element_table, only: BEST_OF, POINT_COUNT
@@ -36,7 +36,7 @@ contains
       type(scene_t), intent(in) :: scene             !< with its bodies, and what was held so far
       integer(lp) :: solving, recovering
 
-      if (data%is_shared) then
+      if (data%is_distributed) then
          bytes = scene%memory
          return
       end if

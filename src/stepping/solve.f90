@@ -10,22 +10,19 @@ module atrito_solve
    use atrito_number_range, only: is_out_of_range
    use atrito_reporter, only: reporter_t
    use atrito_results, only: results_t, scene_t
-   use atrito_rank_check, only: check_ranks
    use atrito_scene_data, only: scene_data_t, asked_t, prepare, assemble, drop_assembled, check_known_points
    use atrito_scene_forecast, only: forecast_memory
-   use atrito_scene_shares, only: SHARE_AUTO, SHARE_ALL, SHARE_NONE
    use atrito_scene_survey, only: describe_scene, describe_order, count_fronts, check_scene
    use atrito_solution_warnings, only: warn, idle_text
-   use atrito_solver_choice, only: SOLVER_SKYLINE, SOLVER_BANDED, SOLVER_SPARSE, SOLVER_MUMPS
+   use atrito_solver_choice, only: SOLVER_SKYLINE, SOLVER_BANDED, SOLVER_SPARSE
    use atrito_status, only: status_t, is_ok
    use atrito_timers, only: start_phase, stop_phase
    use atrito_unsettled_points, only: report_unsettled
    implicit none (type, external)
    private
    public :: solve_options_t, solve_static, survey_scene, begin_scene, note_method
-   public :: SOLVER_AUTO, SOLVER_SKYLINE, SOLVER_BANDED, SOLVER_SPARSE, SOLVER_MUMPS
+   public :: SOLVER_AUTO, SOLVER_SKYLINE, SOLVER_BANDED, SOLVER_SPARSE
    public :: CONTACT_AUTO, CONTACT_DENSE, CONTACT_SPARSE
-   public :: SHARE_AUTO, SHARE_ALL, SHARE_NONE
 
    integer, parameter :: SOLVER_AUTO = 0
 
@@ -59,8 +56,8 @@ contains
 
       call start_phase('order')
       call prepare(model, store, options%asked_t, data, status, step)
-      if (data%is_shared) then
-         if (is_ok(status)) call begin_shared_scene(options, data, scene, status)
+      if (data%is_distributed) then
+         if (is_ok(status)) call begin_distributed(options, data, scene, status)
          call stop_phase('order')
       else
          if (is_ok(status) .and. data%contact_form == CONTACT_SPARSE) call assemble(data, status)
@@ -72,21 +69,21 @@ contains
       if (is_ok(status)) call check_known_points(data, status)
    end subroutine begin_scene
 
-   !> The memory of all ranks is asked for before their parts are made, for METIS, which cuts the scene, ends the program when it
+   !> The memory of all processes is asked for before their parts are made, for METIS, which cuts the scene, ends the program when it
    !> has too little; and again before the parts are factored.
-   subroutine begin_shared_scene(options, data, scene, status)
+   subroutine begin_distributed(options, data, scene, status)
       type(solve_options_t), intent(in) :: options
       type(scene_data_t), intent(inout) :: data
       type(scene_t), intent(inout) :: scene
       type(status_t), intent(inout) :: status
 
       call describe_scene(data, scene)
-      call check_ranks(data, options%memory, scene, status)
+      call data%distribution%check_memory(data, options%memory, scene, status)
       if (is_ok(status)) call assemble(data, status)
       if (.not. is_ok(status)) return
       call describe_order(data, scene)
-      call check_ranks(data, options%memory, scene, status)
-   end subroutine begin_shared_scene
+      call data%distribution%check_memory(data, options%memory, scene, status)
+   end subroutine begin_distributed
 
    !> Solves. status: STATUS_SINGULAR (free motion, singular body, dependent points), STATUS_DECK (contradiction of prescribed
    !> displacements and hard contact; too little memory, which is told by a message). results%converged and law_holds tell the rest.

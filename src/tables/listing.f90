@@ -12,7 +12,7 @@ module atrito_listing
    use atrito_extreme_report, only: describe_extremes
    use atrito_frame_tables, only: has_frame_rows
    use atrito_increments, only: increment_t, list_increments, has_history, increment_name, ending_text, time_text
-   use atrito_libraries, only: library_t, list_libraries, USED, NOT_USED
+   use atrito_libraries, only: library_t, list_libraries
    use atrito_model, only: model_t
    use atrito_results, only: unsettled_t, results_t, history_t, scene_t, balance_t, iteration_t, last_frame, view_frame
    use atrito_page, only: page_t, begin_page, add_line, add_blank, add_rule, add_heading, add_entry, add_paragraph, left, right, &
@@ -102,7 +102,7 @@ contains
       if (uses(results%scene, 'skyline') .or. uses(results%scene, 'banded')) then
          call add_entry(page, 'order', 'reverse Cuthill-McKee, contact nodes last')
       end if
-      if (uses(results%scene, 'sparse') .or. uses(results%scene, 'mumps')) then
+      if (uses(results%scene, 'sparse')) then
          call add_entry(page, 'order of sparse bodies', 'nested dissection, contact nodes last')
       end if
       call add_entry(page, 'factorisations', to_text(max(history%factorisations, int(results%factorisations, ip))))
@@ -172,7 +172,7 @@ contains
       type(scene_t), intent(in) :: scene
       type(library_t), allocatable, intent(out) :: list(:)
 
-      call list_libraries(merge(USED, NOT_USED, uses(scene, 'mumps')), list, is_by_metis(scene))
+      call list_libraries(.true., list, is_by_metis(scene))
    end subroutine list_used_libraries
 
    !> Whether any order of elimination is METIS's.

@@ -100,9 +100,6 @@ contains
          call add_paragraph(page, text_of(body%name)//': '//number(body%digits_lost, 2)//' digits lost at most, at node '// &
                             to_text(body%worst_node)//' along '//to_text(body%worst_dof)//'; '// &
                             plural(body%sign_changes, 'sign change', 'sign changes'), 3)
-      else if (text_of(body%solver) == 'mumps' .and. body%n_equations > body%n_contact_equations) then
-         call add_paragraph(page, text_of(body%name)//': '//number(body%digits_lost, 2)//' digits lost at most; MUMPS does not' &
-                            //' tell where', 3)
       end if
    end subroutine add_solver_remarks
 
@@ -112,7 +109,7 @@ contains
       character(len=:), allocatable :: text
 
       text = ' (half bandwidth '//to_text(body%half_bandwidth)//')'
-      if (any(text_of(body%solver) == ['sparse', 'mumps ', 'scene ', 'none  '])) text = ''
+      if (any(text_of(body%solver) == ['sparse', 'scene ', 'none  '])) text = ''
    end function bandwidth_text
 
    pure function text_of(text) result(given)

@@ -6,7 +6,7 @@
 module glued_bodies
    use atrito_assembly, only: fem_t, stiffness_cache_t, cached_stiffness
    use atrito_bodies, only: bodies_t, find_bodies
-   use atrito_coordinate_matrix, only: coordinate_matrix_t, add_element_matrix
+   use coordinate_matrix, only: coordinate_matrix_t, add_element_matrix
    use atrito_kinds, only: ip, lp, wp
    use atrito_mesh, only: mesh_t
    use atrito_model, only: model_t

@@ -10,10 +10,10 @@
 module linear_solve
    use, intrinsic :: iso_c_binding, only: c_int, c_size_t
    use atrito_assembly, only: fem_t
-   use atrito_coordinate_matrix, only: coordinate_matrix_t, begin_matrix, finish_matrix
+   use coordinate_matrix, only: coordinate_matrix_t, begin_matrix, finish_matrix
    use atrito_kinds, only: ip, lp, wp
    use atrito_model, only: model_t
-   use atrito_mumps_library, only: dmumps_struc, begin_mumps, run_mumps
+   use atrito_mumps, only: dmumps_struc, begin_mumps, run_mumps
    use atrito_nodal_loads, only: nodal_loads
    use atrito_points, only: contact_points_t
    use atrito_scene_builder, only: build_scene

@@ -1,7 +1,8 @@
 !> What the limit program prints: the cost of one linear solve of the glued bodies, phase by phase.
 module linear_solve_page
    use atrito_kinds, only: wp
-   use atrito_libraries, only: library_t, list_libraries, USED
+   use atrito_libraries, only: library_t, list_libraries
+   use atrito_mumps, only: mumps_version
    use atrito_page, only: page_t, begin_page, add_line, add_rule, add_entry, left, bytes, number
    use atrito_strings, only: to_text
    use atrito_system, only: peak_memory, processor_seconds
@@ -56,10 +57,11 @@ contains
          call add_entry(page, 'eliminated by', 'minimum degree (AMD)')
       end if
       call add_entry(page, 'numbered in the nodes'' order', trim(NUMBERING_TEXTS(plan%numbering)))
-      call list_libraries(USED, list)
+      call list_libraries(.true., list)
       do i = 1, size(list)
-         if (list(i)%name == 'BLAS' .or. list(i)%name == 'MUMPS') call add_entry(page, trim(list(i)%name), list(i)%version)
+         if (list(i)%name == 'BLAS') call add_entry(page, 'BLAS', list(i)%version)
       end do
+      call add_entry(page, 'MUMPS', mumps_version())
    end subroutine add_sizes
 
    !> A line a phase; the sum of those of the solve; the whole process until now.

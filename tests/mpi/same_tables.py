@@ -14,7 +14,7 @@
 
 Both run each deck with --digits 17, the ranks with --share all; exit codes, the codes of messages and all tables are compared, these by
 `atrito compare --rtol 1e-10`, which knows the scale of each column. What differs as well when the plain program solves with --solver
-sparse, skyline or mumps (of --contact sparse, which heeds none of them, with the dense form) is at the edge of double precision, and may
+sparse or skyline (of --contact sparse, which heeds neither of them, with the dense form) is at the edge of double precision, and may
 differ by NOISE times as much. A component that is NOTHING beside the others of its kind (KINDS) in both is round-off. Left out are
 timing.tab and iterations.tab and, in other tables, how many iterations and solves it took, and times. `differs` tells the largest
 difference over what would be allowed."""
@@ -210,7 +210,7 @@ def others(options):
     """What else the plain program can solve with; of two words the last counts. To the sparse form the solver of the bodies is nothing."""
     if ('--contact', 'sparse') in zip(options, options[1:]):
         return [['--contact', 'dense']]
-    return [['--solver', name] for name in ('sparse', 'skyline', 'mumps') if ('--solver', name) not in zip(options, options[1:])]
+    return [['--solver', name] for name in ('sparse', 'skyline') if ('--solver', name) not in zip(options, options[1:])]
 
 
 def try_deck(deck, options, exceptions, environment):

@@ -35,7 +35,7 @@ yields '--quiet' compare --q
 yields '--plot --plot-box' check --plot
 yields '' check --dig
 yields '--version' -V --ver
-yields 'auto banded mumps skyline sparse' --solver ''
+yields 'auto banded skyline sparse' --solver ''
 yields 'skyline sparse' plate.inp --solver = s
 yields 'json text' check plate.inp --messages = =
 yields 'decks' plate.inp -o ''

@@ -2,7 +2,6 @@
 module atrito_command_line
    use atrito_element_table, only: kind_named
    use atrito_kinds, only: ip, wp
-   use atrito_mumps_library, only: has_mumps, mumps_trouble
    use atrito_strings, only: string_t, append_string, nearest_names, to_text, deck_name, lower_case, upper_case
    use atrito_status, only: status_t
    use atrito_numbers, only: read_integer, read_real, NUMBER_OK
@@ -405,16 +404,11 @@ contains
       logical, intent(out) :: ok
       type(message_t), intent(inout) :: error
       integer :: option
-      logical :: is_there
 
       ok = .false.
-      is_there = .true.
-      if (value == 'mumps') is_there = has_mumps()   ! a library, which is looked for when it is asked for
       if (place_of_word('--solver', value) == 0) then
          option = find_option('--solver')
          error = wrong('unknown solver '//value, expected=value_text(option), nearest=nearest_names(value, option_words(option), 2))
-      else if (.not. is_there) then
-         error = wrong('--solver mumps needs MUMPS, and '//mumps_trouble(), expected='auto, skyline, banded or sparse')
       else
          command%solver = value
          ok = .true.

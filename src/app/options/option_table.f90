@@ -41,7 +41,7 @@ module atrito_option_table
                                          default='0', expected='a whole number, 0 to 12: each element into 4, so many times'), &
                                 option_t('--solver', 'NAME', [Y, Y, N, N, Y, Y, Y], &
                                          'solver of the bodies', &
-                                         default='auto', words='auto skyline banded sparse mumps'), &
+                                         default='auto', words='auto skyline banded sparse'), &
                                 option_t('--contact', 'NAME', [Y, Y, N, N, Y, Y, Y], &
                                          'form of the contact system', &
                                          default='auto', words='auto dense sparse'), &

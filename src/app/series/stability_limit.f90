@@ -12,8 +12,7 @@ module atrito_stability_limit
    use atrito_folder_claim, only: folder_claim_t, release_folder
    use atrito_kinds, only: ip, lp, wp
    use atrito_model, only: model_t
-   use atrito_mpi, only: rank_count
-   use atrito_page, only: page_t, add_above_rule, plural
+   use atrito_page, only: page_t
    use atrito_provenance, only: provenance_t
    use atrito_report, only: report_t
    use atrito_report_maker, only: make_report
@@ -21,8 +20,8 @@ module atrito_stability_limit
    use atrito_series_reports, only: begin_series, report_of_limit
    use atrito_series, only: claim_output, find_provenance, series_origin, begin_pictures, tell_series, seconds_since
    use atrito_stability_plot, only: write_stability_plots
+   use atrito_run, only: take_threads
    use atrito_stability_questions, only: question_t, answer_t, ask, load_value, TELL_ALL, TELL_ERRORS
-   use atrito_stability_rounds, only: rounds_t, begin_rounds, look_up
    use atrito_sweep_plan, only: read_range
    use atrito_stability_result, only: stability_t, stability_value_t, CODE_NOT_RUN
    use atrito_stability_search, only: search_t, begin_search, next_step, record_balance, record_solution, standing_value, &
@@ -33,7 +32,6 @@ module atrito_stability_limit
    use atrito_status, only: status_t, set_status, is_ok, STATUS_OK, STATUS_USAGE, STATUS_NOT_CONVERGED, STATUS_SINGULAR
    use atrito_strings, only: string_t, to_text
    use atrito_table, only: origin_t
-   use atrito_threads, only: set_threads
    implicit none (type, external)
    private
    public :: run_limit
@@ -48,7 +46,7 @@ contains
       type(status_t) :: status
       type(folder_claim_t) :: claim
 
-      call set_threads(merge(command%threads, 1_ip, rank_count() == 1))   ! ranks: atrito_stability_rounds sets those of its tasks
+      call take_threads(command)                    ! other ranks have nothing to do
       limit%tolerance = command%limit_tolerance
       call read_range(command%vary(1)%s, command%settings, limit%parameter, limit%ends, status)
       if (is_ok(status) .and. .not. has_clp()) then
@@ -66,7 +64,6 @@ contains
       type(stability_t), intent(inout) :: limit
       integer, intent(out) :: code
       type(search_t) :: search
-      type(rounds_t) :: rounds
       type(status_t) :: status
       type(model_t) :: model
       type(provenance_t) :: provenance
@@ -81,8 +78,7 @@ contains
       if (command%watched(1) > 0) limit%watched = 'u'//to_text(command%watched(2))//' of node '//to_text(command%watched(1))
       allocate (limit%values(0))
       call begin_search(limit%ends(1), limit%ends(2), limit%tolerance, search)
-      call begin_rounds(command, limit%parameter, rounds)
-      call ask_all(command, rounds, search, limit, code)
+      call ask_all(command, search, limit, code)
       if (code /= STATUS_OK) return
       call judge_search(search, limit, status)
       if (is_ok(status)) then
@@ -90,16 +86,15 @@ contains
          if (code /= STATUS_OK) return
          call probe_balance(model, answer, excess, status, limit%collapse)
       end if
-      if (is_ok(status)) call finish(command, provenance, model, limit, rounds, seconds_since(began), status)
+      if (is_ok(status)) call finish(command, provenance, model, limit, seconds_since(began), status)
       if (.not. is_ok(status)) call print_status(status, command%names(1)%s, command%json)
       code = status%code
       if (is_ok(status) .and. .not. limit%is_close) code = STATUS_NOT_CONVERGED
    end subroutine find_limit
 
    !> Asks until the search has what it needs. code: of a deck that has errors at a value, and the like; told.
-   subroutine ask_all(command, rounds, search, limit, code)
+   subroutine ask_all(command, search, limit, code)
       type(command_t), intent(in) :: command
-      type(rounds_t), intent(inout) :: rounds
       type(search_t), intent(inout) :: search
       type(stability_t), intent(inout) :: limit
       integer, intent(out) :: code
@@ -109,7 +104,6 @@ contains
       type(answer_t) :: answer
       type(stability_value_t) :: one
       integer :: telling
-      logical :: is_there
 
       reporter%quiet = command%quiet .or. command%json
       store%keeps = .true.
@@ -118,9 +112,7 @@ contains
          code = STATUS_OK
          if (question%step == STEP_DONE) exit
          telling = telling_of(question, search, limit)
-         call look_up(rounds, search, question, answer, is_there)
-         if (answer%has_news .and. telling == TELL_ALL) is_there = .false.
-         if (.not. is_there) call ask(command, limit%parameter, question, telling, store, answer)
+         call ask(command, limit%parameter, question, telling, store, answer)
          code = answer%code
          if (code /= STATUS_OK) exit
          call find_value(limit, question%x, one)
@@ -249,12 +241,11 @@ contains
    end function end_text
 
    !> Tables, pictures and closing lines.
-   subroutine finish(command, provenance, model, limit, rounds, seconds, status)
+   subroutine finish(command, provenance, model, limit, seconds, status)
       type(command_t), intent(in) :: command
       type(provenance_t), intent(in) :: provenance
       type(model_t), intent(in) :: model            !< at the value that falls
       type(stability_t), intent(in) :: limit
-      type(rounds_t), intent(in) :: rounds
       real(wp), intent(in) :: seconds(2)             !< wall clock and processor
       type(status_t), intent(out) :: status
       type(origin_t) :: origin
@@ -278,10 +269,6 @@ contains
          call report_of_limit(limit, seconds, report)
          call make_report(command, report, has_report)
       end if
-      if (rank_count() > 1) call add_above_rule(page, 'ranks', to_text(rank_count())//'; ' &
-                                                //plural(size(rounds%questions, kind=ip), 'question', 'questions')// &
-                                                ' asked ahead, '//to_text(size(rounds%questions, kind=ip) - rounds%n_used)// &
-                                                ' in vain')
       call tell_series(command, page, has_report)
    end subroutine finish
 

@@ -1,6 +1,4 @@
 !> The two questions of `atrito limit` about a value of its parameter: whether the loads can be balanced, and what the solution is.
-!>
-!> Nothing is kept of a question but its answer, so that it may be asked anywhere, ahead of its time and without a word.
 module atrito_stability_questions
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
    use atrito_balance_probe, only: probe_balance
@@ -11,22 +9,22 @@ module atrito_stability_questions
    use atrito_history, only: solve_history
    use atrito_kinds, only: ip, wp
    use atrito_mesh, only: find_node
-   use atrito_messages, only: clear_messages, count_messages
+   use atrito_messages, only: clear_messages
    use atrito_model, only: model_t
    use atrito_reporter, only: reporter_t
    use atrito_results, only: history_t, results_t
-   use atrito_run, only: load_model, read_model, solve_options, agree_on_outcome
+   use atrito_run, only: load_model, solve_options, agree_on_outcome
    use atrito_stability_search, only: STANDS, UNDECIDED, UNKNOWN, STEP_BALANCE
-   use atrito_status, only: status_t, set_status, is_ok, STATUS_OK, STATUS_DECK, STATUS_USAGE, STATUS_NOT_CONVERGED, &
+   use atrito_status, only: status_t, set_status, is_ok, STATUS_OK, STATUS_USAGE, STATUS_NOT_CONVERGED, &
                             STATUS_SINGULAR
    use atrito_strings, only: append_string, to_text
    implicit none (type, external)
    private
    public :: question_t, answer_t, ask, load_value
-   public :: TELL_ALL, TELL_ERRORS, TELL_NOTHING
+   public :: TELL_ALL, TELL_ERRORS
 
    integer, parameter :: ALL_DIGITS = 17            !< a value as text gives the same value again
-   integer, parameter :: TELL_ALL = 1, TELL_ERRORS = 2, TELL_NOTHING = 3   !< of the messages of the deck
+   integer, parameter :: TELL_ALL = 1, TELL_ERRORS = 2   !< of the messages of the deck
 
    type :: question_t
       real(wp) :: x = 0.0_wp                        !< value of the parameter
@@ -36,7 +34,6 @@ module atrito_stability_questions
    type :: answer_t
       integer :: code = STATUS_OK                   !< else there is none: the deck has errors at this value, and the like
       integer :: verdict = UNKNOWN                  !< STANDS, FALLS, UNDECIDED
-      logical :: has_news = .false.                 !< of a solution: warnings and notes that the deck does not give by itself
       real(wp) :: excess = 0.0_wp                   !< of the balance
       real(wp) :: displacement = 0.0_wp             !< that is watched [L]; nan without a solution
       integer(ip) :: iterations = 0, solves = 0     !< outer iterations and linear solves
@@ -59,17 +56,15 @@ contains
       answer%displacement = ieee_value(1.0_wp, ieee_quiet_nan)
       ! what the deck has to say has been told when it was asked about its balance
       call load_value(command, parameter, question%x, &
-                      merge(max(telling, TELL_ERRORS), telling, question%step /= STEP_BALANCE), model, answer%code, told)
+                      merge(TELL_ERRORS, telling, question%step /= STEP_BALANCE), model, answer%code, told)
       if (answer%code /= STATUS_OK) return
       if (question%step == STEP_BALANCE) then
          call probe_balance(model, answer%verdict, answer%excess, status)
       else
          call solve(command, model, store, answer, status)
-         answer%has_news = count_messages() > told
          if (telling == TELL_ALL .and. answer%verdict /= UNKNOWN) call print_messages(command%quiet, told + 1, command%json)
       end if
       answer%code = status%code
-      if (telling == TELL_NOTHING) return
       if (.not. is_ok(status)) call print_failure(command, parameter//' = '//to_text(question%x, ALL_DIGITS), status)
    end subroutine ask
 
@@ -137,7 +132,7 @@ contains
       end if
    end subroutine watch
 
-   !> Reads the deck with a value. code: STATUS_DECK and the like, told but with TELL_NOTHING.
+   !> Reads the deck with a value. code: STATUS_DECK and the like, told.
    subroutine load_value(command, parameter, x, telling, model, code, read_so_far)
       type(command_t), intent(in) :: command
       character(len=*), intent(in) :: parameter
@@ -148,19 +143,12 @@ contains
       integer(ip), intent(out) :: read_so_far       !< messages of the deck
       type(command_t) :: one
       type(reporter_t) :: reporter
-      logical :: ok
 
       one = command
       reporter%quiet = .true.
       call append_string(one%settings, parameter//'='//to_text(x, ALL_DIGITS))
       call clear_messages()
-      if (telling == TELL_NOTHING) then
-         call read_model(one, model, ok)
-         read_so_far = count_messages()
-         code = merge(STATUS_OK, STATUS_DECK, ok)
-      else
-         call load_model(one, reporter, model, read_so_far, code, only_errors=telling == TELL_ERRORS)
-      end if
+      call load_model(one, reporter, model, read_so_far, code, only_errors=telling == TELL_ERRORS)
    end subroutine load_value
 
    subroutine print_failure(command, place, status)

@@ -13,7 +13,7 @@ module atrito_study
    use atrito_report, only: report_t
    use atrito_report_maker, only: make_report
    use atrito_reporter, only: reporter_t, report_progress
-   use atrito_run_request, only: request_runs, has_own_process, print_lost
+   use atrito_run_request, only: request_runs, print_lost
    use atrito_series_reports, only: begin_series, take_heading, report_of_study
    use atrito_series, only: claim_output, find_provenance, series_origin, begin_pictures, tell_series
    use atrito_plot_files, only: PLOTS_OF_STUDY
@@ -72,7 +72,6 @@ contains
       type(status_t) :: status
 
       call plan_study(asked, runs%command, runs%study, status)
-      runs%in_own_process = has_own_process(runs%command)
       call work_for_first(runs)
    end subroutine serve_study
 
@@ -121,7 +120,6 @@ contains
       integer(ip), allocatable :: order(:)
       integer(ip) :: level, k
 
-      runs%in_own_process = has_own_process(runs%command)
       call share_out(runs, [1_ip])
       if (.not. is_ok(runs%status) .or. has_failed(runs%study%rows(1))) return
       allocate (order(0))

@@ -16,7 +16,8 @@ contains
       integer :: i
 
       call put(parcel, [row%code, row%n_dofs, row%n_points, row%degree])
-      call put(parcel, [row%is_written, row%is_whole, row%peak_is_end, row%has_delta, row%has_eps, row%has_stick_slope])
+      call put(parcel, merge(1_ip, 0_ip, [row%is_written, row%is_whole, row%peak_is_end, row%has_delta, row%has_eps, &
+                                          row%has_stick_slope]))
       call put(parcel, [row%h, row%peak, row%estimate, row%penetration, row%pressure])
       call put(parcel, row%values)
       call put(parcel, size(row%phases, kind=ip))
@@ -46,8 +47,7 @@ contains
    subroutine take_facts(parcel, row)
       type(parcel_t), intent(inout) :: parcel
       type(study_row_t), intent(inout) :: row
-      integer(ip), allocatable :: numbers(:)
-      logical, allocatable :: flags(:)
+      integer(ip), allocatable :: numbers(:), flags(:)
       real(wp), allocatable :: amounts(:)
 
       call take(parcel, numbers)
@@ -57,12 +57,12 @@ contains
       row%n_dofs = numbers(2)
       row%n_points = numbers(3)
       row%degree = numbers(4)
-      row%is_written = flags(1)
-      row%is_whole = flags(2)
-      row%peak_is_end = flags(3)
-      row%has_delta = flags(4)
-      row%has_eps = flags(5)
-      row%has_stick_slope = flags(6)
+      row%is_written = flags(1) == 1
+      row%is_whole = flags(2) == 1
+      row%peak_is_end = flags(3) == 1
+      row%has_delta = flags(4) == 1
+      row%has_eps = flags(5) == 1
+      row%has_stick_slope = flags(6) == 1
       row%h = amounts(1)
       row%peak = amounts(2:3)
       row%estimate = amounts(4)

@@ -24,7 +24,7 @@ module atrito_sweep
    use atrito_report_maker, only: make_report
    use atrito_reporter, only: reporter_t, report_progress
    use atrito_run, only: run_deck
-   use atrito_run_request, only: request_runs, has_own_process, is_sound, print_lost
+   use atrito_run_request, only: request_runs, is_sound, print_lost
    use atrito_series_reports, only: begin_series, report_of_sweep
    use atrito_series, only: claim_output, find_provenance, series_origin, begin_pictures, tell_series, seconds_since
    use atrito_status, only: status_t, set_status, is_ok, STATUS_USAGE, STATUS_NOT_CONVERGED, STATUS_INTERNAL
@@ -179,7 +179,6 @@ contains
       type(command_t) :: one
       integer(ip) :: n_alone
 
-      sweep%in_own_process = has_own_process(sweep%command)
       n_alone = 0
       call make_command(sweep, list(1), one)
       if (.not. is_sound(one)) then
@@ -199,7 +198,6 @@ contains
       type(status_t) :: status
 
       sweep%command = command
-      sweep%in_own_process = has_own_process(command)
       sweep%store%keeps = .true.
       call plan_sweep(command%vary, command%settings, sweep%plan, status)
       call work_for_first(sweep)

@@ -6,25 +6,30 @@ module atrito_model_memory
    use atrito_element_table, only: MOST_NODES_OF_ELEMENT => MOST_NODES
    use atrito_kinds, only: ip, lp
    use atrito_memory, only: memory_text
-   use atrito_mpi, only: has_mpi
    use atrito_strings, only: to_text
    implicit none (type, external)
    private
-   public :: fits_memory, mesh_bytes, most_nodes
+   public :: allow_large_meshes, fits_memory, mesh_bytes, most_nodes
 
    !> What a node and an element take at the peak between reading and solving, measured with blocks of a million nodes: Q1 340
    !> bytes a node, refined 440, Q2 440; of 626,000 nodes and 1,203,000 triangles 441 MB, of address space 468 MB.
    integer(lp), parameter :: NODE_BYTES = 500_lp, ELEMENT_BYTES = 140_lp
    !> Sets, surfaces and the body of a *BLOCK, or of one of its copies, from the second on: of 100,000 copies of an element 1 GB.
    integer(lp), parameter :: BLOCK_BYTES = 9000_lp
-   !> Nodes of a mesh in one process: more are a slip of the pen. Over ranks: a thousand million displacements have their numbers.
-   integer(lp), parameter :: MOST_IN_A_PROCESS = 50000000_lp, MOST_OVER_RANKS = 500000000_lp
+   !> Nodes of a mesh in one process: more are a slip of the pen. A thousand million displacements have their numbers.
+   integer(lp), parameter :: MOST_IN_A_PROCESS = 50000000_lp, MOST_OF_NUMBERS = 500000000_lp
+   integer(lp) :: most = MOST_IN_A_PROCESS
 
 contains
 
+   !> Several processes may share a scene: a mesh may have as many nodes as there are numbers for.
+   subroutine allow_large_meshes()
+      most = MOST_OF_NUMBERS
+   end subroutine allow_large_meshes
+
    !> Nodes that one keyword, or --refine, may make.
    pure integer(lp) function most_nodes()
-      most_nodes = merge(MOST_OVER_RANKS, MOST_IN_A_PROCESS, has_mpi())
+      most_nodes = most
    end function most_nodes
 
    !> Bytes of a mesh with all that is built round it before the solution.
@@ -64,10 +69,10 @@ contains
                            keyword=keyword)
          return
       end if
-      fits = n_nodes <= MOST_OVER_RANKS .and. n_corners <= int(huge(1_ip), lp)
+      fits = n_nodes <= MOST_OF_NUMBERS .and. n_corners <= int(huge(1_ip), lp)
       if (fits) return
       call report_error(context%deck, place, 'E-VALUE', what//'is more than there are numbers for', expected='at most '// &
-                        to_text(MOST_OVER_RANKS)//' nodes, and '//to_text(huge(1_ip))//' nodes of elements', keyword=keyword)
+                        to_text(MOST_OF_NUMBERS)//' nodes, and '//to_text(huge(1_ip))//' nodes of elements', keyword=keyword)
    end function fits_memory
 
    !> The nodes of the elements that are there, one behind the other; more than they are where even that is below a bound.

@@ -28,16 +28,6 @@ for k in 2 4; do
    says "bodies of --refine $k" needs-$k '  sparse  '
    says "why those of --refine $k are" needs-$k 'SOFT: sparse, predicted cost 0.'
 done
-# the same from the library, where the program has it
-if "$atrito" "$input/ex3-pillar-in-ground.inp" -o mumps --solver mumps --refine 2 --digits 17 --quiet 2>mumps.err; then
-   says 'listing of mumps' mumps/ex3-pillar-in-ground.lst '  mumps  '
-   run 0 "$input/ex3-pillar-in-ground.inp" fronts --solver sparse --refine 2 --digits 17 --quiet
-   for table in contact nodes reactions stress; do
-      same_tables "sparse and mumps, $table" fronts/$table.tab mumps/$table.tab 1e-11
-   done
-else
-   says 'without MUMPS' mumps.err '--solver mumps needs MUMPS'
-fi
 # methods and laws
 cp "$here/drag.inp" .
 try_law() { # NAME, the lines of the law

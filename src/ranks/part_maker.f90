@@ -1,0 +1,270 @@
+!> Makes the parts of a scene (atrito_scene_part), one after the other, of the scene and the plan of its cut (atrito_scene_cut).
+module atrito_part_maker
+   use atrito_assembly, only: fem_t
+   use atrito_bodies, only: bodies_t
+   use atrito_constraint_rows, only: constraint_rows_t
+   use atrito_contact_line, only: contact_line_t
+   use atrito_contact_rows, only: contact_rows_t
+   use atrito_element_table, only: MOST_NODES
+   use atrito_fem_piece, only: take_piece
+   use atrito_growth, only: grow
+   use atrito_kinds, only: ip, lp
+   use atrito_scene_cut, only: scene_cut_t, unknowns_at
+   use atrito_scene_elimination, only: scene_numbering_t
+   use atrito_scene_part, only: scene_part_t
+   use atrito_sorting, only: each_once
+   implicit none (type, external)
+   private
+   public :: make_scene_part
+
+contains
+
+   !> Part p, not assembled: what there is of it, and which unknowns, rows and amplitudes of the scene its own are.
+   subroutine make_scene_part(fem, rows, line, numbering, constraints, p, cut, part, unknown, row, pull)
+      type(fem_t), intent(in) :: fem
+      type(contact_rows_t), intent(in) :: rows
+      type(contact_line_t), intent(in) :: line
+      type(scene_numbering_t), intent(in) :: numbering
+      type(constraint_rows_t), intent(in) :: constraints !< B of the scene
+      integer(ip), intent(in) :: p
+      type(scene_cut_t), intent(inout) :: cut
+      type(scene_part_t), intent(out) :: part
+      integer(ip), allocatable, intent(out) :: unknown(:) !< those that are kept last
+      integer(ip), allocatable, intent(out) :: row(:)
+      integer(ip), allocatable, intent(out) :: pull(:)    !< 1..k of the scene
+      integer(ip), allocatable :: nodes(:), bodies(:)
+
+      associate (elements => cut%element(cut%first_element(p):cut%first_element(p + 1) - 1), &
+                 points => cut%point(cut%first_point(p):cut%first_point(p + 1) - 1))
+         call list_members(fem, rows, elements, points, p, cut, nodes, bodies)
+         call number_part(fem, rows, numbering, nodes, bodies, points, p, cut, part, unknown, pull)
+         call take_piece(fem, nodes, elements, part%fem)
+         call take_bodies(fem, numbering, elements, nodes, bodies, cut, part%fem%bodies)
+         part%scene%numbering%spring = cut%unknown_at(pack(numbering%spring, cut%spring_part == p))
+         part%spring_stiffness = pack(cut%spring_stiffness, cut%spring_part == p)
+         call take_rows(rows, line, constraints, points, cut, part, row)
+      end associate
+      cut%place(nodes) = 0
+      cut%place(fem%mesh%n_nodes + bodies) = 0
+      cut%unknown_at(unknown) = 0
+   end subroutine make_scene_part
+
+   !> The nodes of a part as they come in its elements and points, and its bodies in their order; cut%place has their numbers.
+   subroutine list_members(fem, rows, elements, points, p, cut, nodes, bodies)
+      type(fem_t), intent(in) :: fem
+      type(contact_rows_t), intent(in) :: rows
+      integer(ip), intent(in) :: elements(:), points(:), p
+      type(scene_cut_t), intent(inout) :: cut
+      integer(ip), allocatable, intent(out) :: nodes(:), bodies(:)
+      integer(ip) :: i, b, n
+
+      allocate (nodes(MOST_NODES*size(elements)))
+      n = 0
+      do i = 1, size(elements, kind=ip)
+         call take_nodes(fem%mesh%nodes(:fem%mesh%shape(elements(i)), elements(i)), n, cut%place, nodes)
+      end do
+      do i = 1, size(points, kind=ip)
+         call take_nodes(rows%node(rows%first(points(i)):rows%first(points(i) + 1) - 1), n, cut%place, nodes)
+      end do
+      do b = 1, fem%bodies%n                         ! without a point their motions stand with these nodes
+         if (cut%pull_part(b) == p .and. fem%bodies%list(b)%is_rigid) then
+            call take_nodes(fem%bodies%list(b)%nodes, n, cut%place, nodes)
+         end if
+      end do
+      nodes = nodes(:n)
+      bodies = each_once([fem%bodies%of_node(nodes), pack([(b, b=1, fem%bodies%n)], cut%pull_part == p)])
+      do i = 1, size(bodies, kind=ip)
+         cut%place(fem%mesh%n_nodes + bodies(i)) = i
+      end do
+   end subroutine list_members
+
+   !> Adds nodes that have no place yet.
+   pure subroutine take_nodes(new, n, place, nodes)
+      integer(ip), intent(in) :: new(:)
+      integer(ip), intent(inout) :: n
+      integer(ip), intent(inout) :: place(:)
+      integer(ip), allocatable, intent(inout) :: nodes(:)
+      integer(ip) :: k
+
+      if (n + size(new) > size(nodes)) call grow(nodes, 2_lp*(n + size(new)))
+      do k = 1, size(new, kind=ip)
+         if (place(new(k)) > 0) cycle
+         n = n + 1
+         nodes(n) = new(k)
+         place(new(k)) = n
+      end do
+   end subroutine take_nodes
+
+   !> Numbers the unknowns: those that are kept last, in each of the two displacements before motions.
+   subroutine number_part(fem, rows, numbering, nodes, bodies, points, p, cut, part, unknown, pull)
+      type(fem_t), intent(in) :: fem
+      type(contact_rows_t), intent(in) :: rows
+      type(scene_numbering_t), intent(in) :: numbering
+      integer(ip), intent(in) :: nodes(:), bodies(:), points(:), p
+      type(scene_cut_t), intent(inout) :: cut
+      type(scene_part_t), intent(inout) :: part
+      integer(ip), allocatable, intent(out) :: unknown(:), pull(:)
+      logical :: sees(size(bodies))
+      integer(ip), allocatable :: items(:)
+      integer(ip) :: i, k, n
+
+      sees = cut%pull_part(bodies) == p
+      do i = 1, size(points, kind=ip)
+         do k = rows%first(points(i)), rows%first(points(i) + 1) - 1
+            sees(cut%place(fem%mesh%n_nodes + fem%bodies%of_node(rows%node(k)))) = .true.
+         end do
+      end do
+      sees = sees .and. numbering%n_motions(bodies) > 0
+      items = [nodes, fem%mesh%n_nodes + pack(bodies, sees)]
+      allocate (unknown(2*size(nodes) + sum(numbering%n_motions(bodies))))
+      n = 0
+      call number_items(pack(items,.not. cut%is_shared(items)))
+      part%n_kept = n
+      call number_items(pack(items, cut%is_shared(items)))
+      part%n_kept = n - part%n_kept
+      unknown = unknown(:n)
+      call number_motions(numbering, bodies, sees, p, cut, part, pull)
+      part%scene%numbering%n = n
+      part%scene%numbering%body = numbering%body(unknown)
+
+   contains
+
+      subroutine number_items(list)
+         integer(ip), intent(in) :: list(:)
+         integer(ip), allocatable :: own(:)
+         integer(ip) :: m, l
+
+         do m = 1, size(list, kind=ip)
+            own = unknowns_at(fem, numbering, list(m))
+            do l = 1, size(own, kind=ip)
+               n = n + 1
+               unknown(n) = own(l)
+               cut%unknown_at(own(l)) = n
+            end do
+         end do
+      end subroutine number_items
+
+   end subroutine number_part
+
+   !> Motions and pulls of the bodies of a part.
+   subroutine number_motions(numbering, bodies, sees, p, cut, part, pull)
+      type(scene_numbering_t), intent(in) :: numbering
+      integer(ip), intent(in) :: bodies(:)
+      logical, intent(in) :: sees(:)                 !< the motions of the body are unknowns of the part
+      integer(ip), intent(in) :: p
+      type(scene_cut_t), intent(in) :: cut
+      type(scene_part_t), intent(inout) :: part
+      integer(ip), allocatable, intent(out) :: pull(:)
+      integer(ip) :: i, k, n
+
+      n = size(bodies, kind=ip)
+      allocate (pull(0))
+      associate (own => part%scene%numbering)
+         allocate (own%before(n), own%first_motion(n), own%n_motions(n), own%first_pull(n), source=0_ip)
+         do i = 1, n
+            if (.not. sees(i)) cycle
+            own%n_motions(i) = numbering%n_motions(bodies(i))
+            own%first_motion(i) = cut%unknown_at(numbering%first_motion(bodies(i)))
+            if (cut%pull_part(bodies(i)) /= p) cycle
+            own%first_pull(i) = size(pull, kind=ip) + 1
+            pull = [pull, [(numbering%first_pull(bodies(i)) + k - 1, k=1, own%n_motions(i))]]
+         end do
+         own%k = size(pull, kind=ip)
+      end associate
+   end subroutine number_motions
+
+   !> Bodies with the numbers of the part's unknowns as equations; of their elements one, where there is any.
+   subroutine take_bodies(fem, numbering, elements, nodes, bodies, cut, own)
+      type(fem_t), intent(in) :: fem
+      type(scene_numbering_t), intent(in) :: numbering
+      integer(ip), intent(in) :: elements(:), nodes(:), bodies(:)
+      type(scene_cut_t), intent(in) :: cut
+      type(bodies_t), intent(inout) :: own
+      integer(ip) :: i, dof
+
+      own%n = size(bodies, kind=ip)
+      own%n_rigid = count(bodies > fem%bodies%n - fem%bodies%n_rigid, kind=ip)
+      allocate (own%list(own%n))
+      own%of_node = cut%place(fem%mesh%n_nodes + fem%bodies%of_node(nodes))
+      own%of_element = cut%place(fem%mesh%n_nodes + fem%bodies%of_element(elements))
+      own%equation = fem%bodies%equation(:, nodes)
+      do i = 1, size(nodes, kind=ip)
+         do dof = 1, 2
+            if (own%equation(dof, i) <= 0) cycle
+            own%equation(dof, i) = cut%unknown_at(numbering%before(fem%bodies%of_node(nodes(i))) + own%equation(dof, i))
+         end do
+      end do
+      do i = size(elements, kind=ip), 1, -1
+         own%list(own%of_element(i))%elements = [i]
+      end do
+      do i = 1, own%n
+         own%list(i)%is_rigid = fem%bodies%list(bodies(i))%is_rigid
+         if (own%list(i)%is_rigid) own%list(i)%nodes = pack(cut%place(fem%bodies%list(bodies(i))%nodes), &
+                                                            cut%place(fem%bodies%list(bodies(i))%nodes) > 0)
+      end do
+   end subroutine take_bodies
+
+   !> The points with their nodes, and their rows: normal and tangential one after the other.
+   subroutine take_rows(rows, line, constraints, points, cut, part, row)
+      type(contact_rows_t), intent(in) :: rows
+      type(contact_line_t), intent(in) :: line
+      type(constraint_rows_t), intent(in) :: constraints
+      integer(ip), intent(in) :: points(:)
+      type(scene_cut_t), intent(in) :: cut
+      type(scene_part_t), intent(inout) :: part
+      integer(ip), allocatable, intent(out) :: row(:)
+      integer(ip) :: i, k, n
+
+      n = size(points, kind=ip)
+      part%rows%n = n
+      allocate (part%rows%first(n + 1), source=1_ip)
+      part%rows%node = [(cut%place(rows%node(rows%first(points(i)):rows%first(points(i) + 1) - 1)), i=1, n)]
+      part%line%n = n
+      allocate (part%line%normal(n), part%line%tangential(n), source=0_ip)
+      allocate (row(2*n))
+      k = 0
+      do i = 1, n
+         part%rows%first(i + 1) = part%rows%first(i) + rows%first(points(i) + 1) - rows%first(points(i))
+         part%rows%longest = max(part%rows%longest, part%rows%first(i + 1) - part%rows%first(i))
+         call take_row(line%normal(points(i)), k, row, part%line%normal(i))
+         call take_row(line%tangential(points(i)), k, row, part%line%tangential(i))
+      end do
+      row = row(:k)
+      call take_constraints(constraints, row, cut%unknown_at, size(part%scene%numbering%body, kind=ip), part%scene%rows)
+   end subroutine take_rows
+
+   pure subroutine take_row(of_scene, k, row, own)
+      integer(ip), intent(in) :: of_scene        !< 0: none
+      integer(ip), intent(inout) :: k, row(:)
+      integer(ip), intent(inout) :: own
+
+      if (of_scene == 0) return
+      k = k + 1
+      row(k) = of_scene
+      own = k
+   end subroutine take_row
+
+   !> Some rows of B over the unknowns of the part.
+   pure subroutine take_constraints(constraints, row, unknown_at, n, own)
+      type(constraint_rows_t), intent(in) :: constraints
+      integer(ip), intent(in) :: row(:), unknown_at(:), n
+      type(constraint_rows_t), intent(out) :: own
+      integer(ip) :: i, first, length
+
+      own%n = size(row, kind=ip)
+      own%n_columns = n
+      own%point = constraints%point(row)
+      allocate (own%first(own%n + 1), source=1_ip)
+      do i = 1, own%n
+         own%first(i + 1) = own%first(i) + constraints%first(row(i) + 1) - constraints%first(row(i))
+      end do
+      allocate (own%column(own%first(own%n + 1) - 1), own%value(own%first(own%n + 1) - 1))
+      do i = 1, own%n
+         first = constraints%first(row(i))
+         length = own%first(i + 1) - own%first(i)
+         own%column(own%first(i):own%first(i + 1) - 1) = unknown_at(constraints%column(first:first + length - 1))
+         own%value(own%first(i):own%first(i + 1) - 1) = constraints%value(first:first + length - 1)
+      end do
+   end subroutine take_constraints
+
+end module atrito_part_maker

@@ -1,0 +1,246 @@
+!> Tasks that do not depend on each other, shared out over the ranks: whoever is free gets the next one.
+!>
+!> Rank 0 hands them out and does some itself. Each rank does its tasks in a process of its own (atrito_task_process), so that a
+!> crash is the end of one task and not of all ranks, and so that rank 0 can hand out while it works.
+module atrito_rank_tasks
+   use, intrinsic :: iso_c_binding, only: c_double
+   use atrito_kinds, only: ip, lp, wp
+   use atrito_mpi, only: ANY_RANK, has_message, rank_count, receive_parcel, send_parcel
+   use atrito_parcel, only: parcel_t, put, take
+   use atrito_rank_services, only: await_message
+   use atrito_system, only: pause_for
+   use atrito_task_process, only: task_process_t, begin_task_process, give_task, ask_answer, end_task_process, await_task, &
+                                  give_answer, is_there, LAST_TASK
+   implicit none (type, external)
+   private
+   public :: rank_tasks_t, rank_times_t, hand_out, work_for_first
+
+   !> What the tasks are.
+   type, abstract :: rank_tasks_t
+   contains
+      procedure(make_task), deferred :: make
+      procedure(begin_task), deferred :: begin
+      procedure(take_answer), deferred :: keep
+   end type rank_tasks_t
+
+   abstract interface
+      !> Does a task, on any rank.
+      subroutine make_task(self, task, answer)
+         import :: ip, parcel_t, rank_tasks_t
+         class(rank_tasks_t), intent(inout) :: self
+         integer(ip), intent(in) :: task
+         type(parcel_t), intent(inout) :: answer     !< empty
+      end subroutine make_task
+      !> On rank 0: a task is handed out.
+      subroutine begin_task(self, task)
+         import :: ip, rank_tasks_t
+         class(rank_tasks_t), intent(inout) :: self
+         integer(ip), intent(in) :: task
+      end subroutine begin_task
+      !> On rank 0: a task is done, or lost with the process that did it.
+      subroutine take_answer(self, task, answer, end_code)
+         import :: ip, parcel_t, rank_tasks_t
+         class(rank_tasks_t), intent(inout) :: self
+         integer(ip), intent(in) :: task
+         type(parcel_t), intent(inout) :: answer     !< that of make
+         integer, intent(in) :: end_code             !< 0; of a lost one the exit code, or 128 and the number of the signal
+      end subroutine take_answer
+   end interface
+
+   !> How the ranks were occupied [s].
+   type :: rank_times_t
+      integer(ip) :: n_ranks = 1
+      real(wp) :: longest_task = 0.0_wp
+      real(wp) :: longest_idle = 0.0_wp             !< of a rank, all in all
+   end type rank_times_t
+
+   !> What came of a task.
+   type :: outcome_t
+      type(parcel_t) :: answer
+      integer :: end_code = 0
+      real(wp) :: seconds = 0.0_wp                  !< that it took
+   end type outcome_t
+
+   real(c_double), parameter :: SHORT_PAUSE = 1.0e-4_c_double, LONG_PAUSE = 5.0e-4_c_double, LONGER = 1.2_c_double   !< [s]
+
+contains
+
+   !> On rank 0: all tasks of a list, in its order as far as ranks are free. The other ranks call work_for_first.
+   subroutine hand_out(tasks, list, times)
+      class(rank_tasks_t), intent(inout) :: tasks
+      integer(ip), intent(in) :: list(:)            !< > 0
+      type(rank_times_t), intent(out) :: times
+      type(task_process_t) :: process
+      type(outcome_t) :: outcome
+      integer(ip), allocatable :: task_of(:)        ! (ranks) from 0; 0: none
+      real(wp), allocatable :: busy(:)
+      integer(ip) :: next, rank
+      integer(lp) :: began
+      real(c_double) :: wait_time
+      logical :: is_done
+
+      call system_clock(began)
+      times%n_ranks = rank_count()
+      allocate (task_of(0:rank_count() - 1), source=0_ip)
+      allocate (busy(0:rank_count() - 1), source=0.0_wp)
+      next = 1
+      wait_time = SHORT_PAUSE
+      do
+         do rank = ubound(task_of, 1, kind=ip), 0, -1     ! the others first: rank 0 may have to make its process
+            if (task_of(rank) > 0 .or. next > size(list)) cycle
+            task_of(rank) = list(next)
+            next = next + 1
+            call tasks%begin(task_of(rank))
+            if (rank > 0) call tell(task_of(rank), rank)
+            if (rank == 0) call begin_own(tasks, process, task_of(0))
+         end do
+         if (all(task_of == 0)) exit
+         call look_for_outcome(tasks, process, task_of(0), outcome, rank, is_done)
+         if (is_done) then
+            busy(rank) = busy(rank) + outcome%seconds
+            times%longest_task = max(times%longest_task, outcome%seconds)
+            call tasks%keep(task_of(rank), outcome%answer, outcome%end_code)
+            task_of(rank) = 0
+            wait_time = SHORT_PAUSE
+         else
+            call sleep_longer(wait_time)
+         end if
+      end do
+      times%longest_idle = seconds_from(began) - minval(busy)
+      do rank = 1, rank_count() - 1
+         call tell(LAST_TASK, rank)
+      end do
+      call end_task_process(process)
+   end subroutine hand_out
+
+   !> A number for another rank.
+   subroutine tell(number, rank)
+      integer(ip), intent(in) :: number, rank
+      type(parcel_t) :: parcel
+
+      call put(parcel, number)
+      call send_parcel(parcel, rank)
+   end subroutine tell
+
+   !> What came of a task, of another rank or of rank 0's own.
+   subroutine look_for_outcome(tasks, process, own_task, outcome, rank, is_done)
+      class(rank_tasks_t), intent(inout) :: tasks
+      type(task_process_t), intent(inout) :: process
+      integer(ip), intent(in) :: own_task           !< 0: none
+      type(outcome_t), intent(out) :: outcome
+      integer(ip), intent(out) :: rank
+      logical, intent(out) :: is_done
+      type(parcel_t) :: head
+      integer(ip) :: end_code
+
+      rank = 0
+      is_done = .false.
+      if (rank_count() > 1) is_done = has_message()
+      if (is_done) then
+         call receive_parcel(head, ANY_RANK, rank)
+         call take(head, end_code)
+         call take(head, outcome%seconds)
+         outcome%end_code = int(end_code)
+         call receive_parcel(outcome%answer, rank)
+      else if (own_task > 0) then
+         call look_at_own(tasks, process, own_task, outcome, is_done)
+      end if
+   end subroutine look_for_outcome
+
+   !> On the other ranks: does what rank 0 hands out, until there is nothing more.
+   subroutine work_for_first(tasks)
+      class(rank_tasks_t), intent(inout) :: tasks
+      type(task_process_t) :: process
+      type(outcome_t) :: outcome
+      type(parcel_t) :: request, head
+      integer(ip) :: task
+      real(c_double) :: wait_time
+      logical :: is_done
+
+      do
+         call await_message()
+         call receive_parcel(request, 0_ip)
+         call take(request, task)
+         if (task == LAST_TASK) exit
+         call begin_own(tasks, process, task)
+         wait_time = SHORT_PAUSE
+         do
+            call look_at_own(tasks, process, task, outcome, is_done)
+            if (is_done) exit
+            call sleep_longer(wait_time)
+         end do
+         head = parcel_t()
+         call put(head, int(outcome%end_code, ip))
+         call put(head, outcome%seconds)
+         call send_parcel(head, 0_ip)
+         call send_parcel(outcome%answer, 0_ip)
+      end do
+      call end_task_process(process)
+   end subroutine work_for_first
+
+   !> Gives a task to the process of this rank, which is made where there is none.
+   subroutine begin_own(tasks, process, task)
+      class(rank_tasks_t), intent(inout) :: tasks
+      type(task_process_t), intent(inout) :: process
+      integer(ip), intent(in) :: task
+      logical :: is_copy
+
+      if (.not. is_there(process)) then
+         call begin_task_process(process, is_copy)
+         if (is_copy) call work_in_copy(tasks, process)
+      end if
+      if (is_there(process)) call give_task(process, task)
+   end subroutine begin_own
+
+   !> Does not come back.
+   subroutine work_in_copy(tasks, process)
+      class(rank_tasks_t), intent(inout) :: tasks
+      type(task_process_t), intent(inout) :: process
+      type(parcel_t) :: answer
+      integer(ip) :: task
+      integer(lp) :: began
+
+      do
+         call await_task(process, task)
+         call system_clock(began)
+         answer = parcel_t()
+         call tasks%make(task, answer)
+         call give_answer(process, answer, seconds_from(began))
+      end do
+   end subroutine work_in_copy
+
+   !> Whether the task of this rank is done. Where there is no process to do it, it is done here and now.
+   subroutine look_at_own(tasks, process, task, outcome, is_done)
+      class(rank_tasks_t), intent(inout) :: tasks
+      type(task_process_t), intent(inout) :: process
+      integer(ip), intent(in) :: task
+      type(outcome_t), intent(out) :: outcome
+      logical, intent(out) :: is_done
+      integer(lp) :: began
+
+      if (is_there(process)) then
+         call ask_answer(process, outcome%answer, is_done, outcome%end_code, outcome%seconds)
+      else
+         call system_clock(began)
+         call tasks%make(task, outcome%answer)
+         outcome%seconds = seconds_from(began)
+         is_done = .true.
+      end if
+   end subroutine look_at_own
+
+   subroutine sleep_longer(wait_time)
+      real(c_double), intent(inout) :: wait_time        !< [s]
+
+      call pause_for(wait_time)
+      wait_time = min(LONG_PAUSE, LONGER*wait_time)
+   end subroutine sleep_longer
+
+   real(wp) function seconds_from(began) result(seconds)
+      integer(lp), intent(in) :: began
+      integer(lp) :: now, rate
+
+      call system_clock(now, rate)
+      seconds = real(now - began, wp)/real(rate, wp)
+   end function seconds_from
+
+end module atrito_rank_tasks

@@ -1,0 +1,177 @@
+!> A part of a scene: some of its elements and contact points with the unknowns that they touch, as one rank has it.
+!>
+!> With A the stiffness of the elements, B the rows of the points and P the pulls, all of this part alone, the matrix of the scene
+!> is the sum of A + B' diag(stiffness) B + P over the parts. The unknowns that other parts have, too, are the last ones of a part
+!> and are kept: what its factorisation leaves of them is its share in the system that holds the parts together
+!> (atrito_part_service).
+!>
+!> A part has numbers of its own for nodes, elements, bodies, points, rows and unknowns; a contact line and contact rows say only
+!> which points have which rows, and over which nodes.
+module atrito_scene_part
+   use atrito_assembled_scene, only: assembled_scene_t, assemble_part
+   use atrito_assembly, only: fem_t
+   use atrito_bodies, only: bodies_t
+   use atrito_constraint_rows, only: constraint_rows_t
+   use atrito_contact_line, only: contact_line_t
+   use atrito_contact_rows, only: contact_rows_t
+   use atrito_kinds, only: ip, wp
+   use atrito_parcel, only: parcel_t, put, take
+   use atrito_piece_parcel, only: put_piece, receive_piece
+   use atrito_scene_elimination, only: scene_numbering_t
+   use atrito_status, only: status_t
+   implicit none (type, external)
+   private
+   public :: scene_part_t, assemble_scene_part, put_scene_part, take_scene_part
+
+   type :: scene_part_t
+      integer(ip) :: n_kept = 0                  !< unknowns that other parts have, too
+      type(assembled_scene_t) :: scene           !< its numbering and rows; the matrix when it is assembled
+      type(fem_t) :: fem                         !< with a mesh of its own until it is assembled, as is what follows
+      type(contact_rows_t) :: rows               !< first and node alone
+      type(contact_line_t) :: line               !< normal and tangential alone
+      real(wp), allocatable :: spring_stiffness(:) !< [F/L]
+   end type scene_part_t
+
+contains
+
+   !> Numbers the elimination, assembles the elements and finds the fronts; mesh, rows and line are let go of. status:
+   !> STATUS_INTERNAL when the memory does not suffice.
+   subroutine assemble_scene_part(part, status)
+      type(scene_part_t), intent(inout) :: part
+      type(status_t), intent(out) :: status
+      type(fem_t) :: no_fem
+      type(contact_rows_t) :: no_rows
+      type(contact_line_t) :: no_line
+
+      call assemble_part(part%fem, part%rows, part%line, part%spring_stiffness, part%n_kept, part%scene, status)
+      deallocate (part%fem%mesh)
+      part%fem = no_fem
+      part%rows = no_rows
+      part%line = no_line
+   end subroutine assemble_scene_part
+
+   !> Adds a part that is not assembled; its mesh is let go of.
+   subroutine put_scene_part(parcel, part)
+      type(parcel_t), intent(inout) :: parcel
+      type(scene_part_t), intent(inout) :: part
+
+      call put(parcel, part%n_kept)
+      call put(parcel, part%spring_stiffness)
+      call put_piece(parcel, part%fem)
+      deallocate (part%fem%mesh)
+      call put_bodies(parcel, part%fem%bodies)
+      call put_numbering(parcel, part%scene%numbering)
+      associate (rows => part%scene%rows)
+         call put(parcel, [rows%n, rows%n_columns])
+         call put(parcel, rows%first)
+         call put(parcel, rows%column)
+         call put(parcel, rows%value)
+         call put(parcel, rows%point)
+      end associate
+      call put(parcel, [part%rows%n, part%rows%longest])
+      call put(parcel, part%rows%first)
+      call put(parcel, part%rows%node)
+      call put(parcel, part%line%normal)
+      call put(parcel, part%line%tangential)
+   end subroutine put_scene_part
+
+   !> The next items, a part.
+   subroutine take_scene_part(parcel, part)
+      type(parcel_t), intent(inout) :: parcel
+      type(scene_part_t), intent(out) :: part
+      integer(ip), allocatable :: numbers(:)
+
+      call take(parcel, part%n_kept)
+      call take(parcel, part%spring_stiffness)
+      call receive_piece(parcel, part%fem)
+      call take_bodies(parcel, part%fem%bodies)
+      call take_numbering(parcel, part%scene%numbering)
+      associate (rows => part%scene%rows)
+         call take(parcel, numbers)
+         rows%n = numbers(1)
+         rows%n_columns = numbers(2)
+         call take(parcel, rows%first)
+         call take(parcel, rows%column)
+         call take(parcel, rows%value)
+         call take(parcel, rows%point)
+      end associate
+      call take(parcel, numbers)
+      part%rows%n = numbers(1)
+      part%rows%longest = numbers(2)
+      call take(parcel, part%rows%first)
+      call take(parcel, part%rows%node)
+      call take(parcel, part%line%normal)
+      call take(parcel, part%line%tangential)
+      part%line%n = part%rows%n
+   end subroutine take_scene_part
+
+   subroutine put_numbering(parcel, numbering)
+      type(parcel_t), intent(inout) :: parcel
+      type(scene_numbering_t), intent(in) :: numbering
+
+      call put(parcel, [numbering%n, numbering%k])
+      call put(parcel, numbering%before)
+      call put(parcel, numbering%first_motion)
+      call put(parcel, numbering%n_motions)
+      call put(parcel, numbering%first_pull)
+      call put(parcel, numbering%spring)
+      call put(parcel, numbering%body)
+   end subroutine put_numbering
+
+   subroutine take_numbering(parcel, numbering)
+      type(parcel_t), intent(inout) :: parcel
+      type(scene_numbering_t), intent(out) :: numbering
+      integer(ip), allocatable :: numbers(:)
+
+      call take(parcel, numbers)
+      numbering%n = numbers(1)
+      numbering%k = numbers(2)
+      call take(parcel, numbering%before)
+      call take(parcel, numbering%first_motion)
+      call take(parcel, numbering%n_motions)
+      call take(parcel, numbering%first_pull)
+      call take(parcel, numbering%spring)
+      call take(parcel, numbering%body)
+   end subroutine take_numbering
+
+   !> Of the bodies one element each, where there is any, and the nodes of rigid ones.
+   subroutine put_bodies(parcel, bodies)
+      type(parcel_t), intent(inout) :: parcel
+      type(bodies_t), intent(in) :: bodies
+      integer(ip) :: element(bodies%n), b
+
+      element = 0
+      do b = 1, bodies%n
+         if (allocated(bodies%list(b)%elements)) element(b) = bodies%list(b)%elements(1)
+      end do
+      call put(parcel, bodies%n_rigid)
+      call put(parcel, bodies%of_node)
+      call put(parcel, bodies%of_element)
+      call put(parcel, bodies%equation)
+      call put(parcel, element)
+      do b = bodies%n - bodies%n_rigid + 1, bodies%n
+         call put(parcel, bodies%list(b)%nodes)
+      end do
+   end subroutine put_bodies
+
+   subroutine take_bodies(parcel, bodies)
+      type(parcel_t), intent(inout) :: parcel
+      type(bodies_t), intent(out) :: bodies
+      integer(ip), allocatable :: element(:)
+      integer(ip) :: b
+
+      call take(parcel, bodies%n_rigid)
+      call take(parcel, bodies%of_node)
+      call take(parcel, bodies%of_element)
+      call take(parcel, bodies%equation)
+      call take(parcel, element)
+      bodies%n = size(element, kind=ip)
+      allocate (bodies%list(bodies%n))
+      do b = 1, bodies%n
+         if (element(b) > 0) bodies%list(b)%elements = [element(b)]
+         bodies%list(b)%is_rigid = b > bodies%n - bodies%n_rigid
+         if (bodies%list(b)%is_rigid) call take(parcel, bodies%list(b)%nodes)
+      end do
+   end subroutine take_bodies
+
+end module atrito_scene_part

@@ -1,0 +1,290 @@
+!> Recovered stresses and the estimated error over the ranks, each with its own elements.
+!>
+!> A rank gets its elements first, then those in RINGS round them: patches of stresses at the nodes of its own elements look no
+!> farther (a node of the outline takes its stress from the patches of corners next to it, a triangle in a corner from those of its
+!> neighbour, and what a patch is told by the elements round it). So nothing is exchanged at borders, and each value is that of one
+!> process but for the order of sums.
+module atrito_shared_fields
+   use atrito_assembly, only: fem_t
+   use atrito_error_estimate, only: energies_t, integrate_error, relative_error, share_errors
+   use atrito_fem_piece, only: take_piece
+   use atrito_kinds, only: ip, wp
+   use atrito_mesh, only: mesh_t
+   use atrito_mpi, only: rank_count, receive_parcel, send_parcel
+   use atrito_parcel, only: parcel_t, put, take
+   use atrito_piece_parcel, only: put_piece, receive_piece
+   use atrito_plane_state, only: STRESS_NAMES
+   use atrito_range, only: unit_of
+   use atrito_rank_services, only: SERVICE_FIELDS
+   use atrito_results, only: results_t
+   use atrito_stress_recovery, only: stress_field_t, nodal_stresses, recover_stress_field
+   use atrito_thermal_loads, only: largest_thermal_strain
+   implicit none (type, external)
+   private
+   public :: shared_fields_t, begin_fields, end_fields, serve_fields, find_region, list_near
+
+   integer(ip), parameter :: RINGS = 4
+
+   !> The elements of a rank, and what is round them.
+   type :: region_t
+      integer(ip) :: n_own = 0                       !< elements of the rank: the first ones
+      integer(ip) :: n_nodes = 0                     !< of them: the first ones
+      integer(ip), allocatable :: element(:)         !< place in the mesh of the scene
+      integer(ip), allocatable :: node(:)
+   end type region_t
+
+   !> Fields that have begun, or may.
+   type :: shared_fields_t
+      type(region_t), allocatable :: regions(:)      !< from 0
+      logical :: has_begun = .false.
+      real(wp) :: unit = 0.0_wp
+      logical :: by_element = .false.
+   end type shared_fields_t
+
+   !> What is found in a region.
+   type :: found_t
+      real(wp), allocatable :: stress(:, :)          !< (5, nodes of the rank's elements) [F/L^2]
+      type(energies_t) :: energies
+      real(wp), allocatable :: square(:)             !< (elements of the rank) ||e||^2 [F L]; none where nobody asks
+   end type found_t
+
+contains
+
+   !> Gives the other ranks their elements; they begin. end_fields has to follow, with nothing else for the ranks between.
+   subroutine begin_fields(fem, rank_of, u, by_element, fields)
+      type(fem_t), intent(in) :: fem
+      integer(ip), intent(in) :: rank_of(:)          !< (n_elements)
+      real(wp), intent(in) :: u(:, :)                !< (2, n_nodes) [L]
+      logical, intent(in) :: by_element              !< the error of each is wanted
+      type(shared_fields_t), intent(inout) :: fields
+      integer(ip), allocatable :: near(:)
+      integer(ip) :: rank
+      type(fem_t) :: piece
+
+      fields%has_begun = .true.
+      fields%unit = unit_of(u)
+      fields%by_element = by_element
+      allocate (fields%regions(0:rank_count() - 1))
+      call list_near(fem%mesh, rank_of, near)
+      do rank = rank_count() - 1, 0, -1
+         associate (region => fields%regions(rank))
+            call find_region(fem%mesh, rank_of, near, rank, region)
+            if (rank == 0) cycle
+            call take_piece(fem, region%node, region%element, piece)
+            call give_region(region, piece, u(:, region%node), fields, rank)
+            deallocate (piece%mesh)
+         end associate
+      end do
+   end subroutine begin_fields
+
+   !> The same as estimate_error.
+   subroutine end_fields(fem, fields, results, strain_bound)
+      type(fem_t), intent(in) :: fem
+      type(shared_fields_t), intent(inout) :: fields !< that have begun; they have not on return
+      type(results_t), intent(inout) :: results      !< with the displacements with which they have
+      real(wp), intent(out) :: strain_bound          !< no strain is larger than this
+      type(found_t) :: found
+      type(energies_t) :: energies
+      type(fem_t) :: piece
+      integer(ip) :: rank
+
+      allocate (results%nodal_stress(size(STRESS_NAMES), fem%mesh%n_nodes), source=0.0_wp)
+      if (fields%by_element .and. .not. allocated(results%element_error)) then
+         allocate (results%element_error(fem%mesh%n_elements), source=0.0_wp)
+      end if
+      do rank = 0, ubound(fields%regions, 1)
+         associate (region => fields%regions(rank))
+            if (region%n_own == 0) cycle
+            if (rank > 0) then
+               call receive_found(rank, found)
+            else
+               call take_piece(fem, region%node, region%element, piece)
+               call measure_region(region%n_own, region%n_nodes, piece, results%u(:, region%node), fields%unit, &
+                                   fields%by_element, found)
+               deallocate (piece%mesh)
+            end if
+            call take_found(region, found, results, energies)
+         end associate
+      end do
+      deallocate (fields%regions)
+      fields%has_begun = .false.
+      if (fields%by_element) results%element_error = share_errors(energies, results%element_error)
+      results%error_estimate = relative_error(energies)
+      strain_bound = energies%strain + 2*largest_thermal_strain(fem)   ! as estimate_error
+   end subroutine end_fields
+
+   !> Joins in; what is left of the parcel comes behind SERVICE_FIELDS.
+   subroutine serve_fields(request)
+      type(parcel_t), intent(inout) :: request
+      type(fem_t) :: piece
+      type(found_t) :: found
+      type(parcel_t) :: answer
+      real(wp), allocatable :: u(:, :)
+      integer(ip) :: n_own, n_nodes
+      real(wp) :: unit
+      logical :: by_element
+
+      call take(request, n_own)
+      call take(request, n_nodes)
+      call take(request, unit)
+      call take(request, by_element)
+      call take(request, u)
+      call receive_piece(request, piece)
+      call measure_region(n_own, n_nodes, piece, u, unit, by_element, found)
+      deallocate (piece%mesh)
+      call put(answer, found%stress)
+      associate (e => found%energies)
+         call put(answer, [e%solution, e%error, e%round_off, e%strain])
+      end associate
+      call put(answer, found%square)
+      call send_parcel(answer, 0_ip)
+   end subroutine serve_fields
+
+   subroutine give_region(region, piece, u, fields, rank)
+      type(region_t), intent(in) :: region
+      type(fem_t), intent(in) :: piece               !< its elements, with a mesh of their own
+      real(wp), intent(in), contiguous :: u(:, :)    !< (2, nodes of the region) [L]
+      type(shared_fields_t), intent(in) :: fields
+      integer(ip), intent(in) :: rank
+      type(parcel_t) :: request
+
+      if (region%n_own == 0) return
+      call put(request, SERVICE_FIELDS)
+      call put(request, region%n_own)
+      call put(request, region%n_nodes)
+      call put(request, fields%unit)
+      call put(request, fields%by_element)
+      call put(request, u)
+      call put_piece(request, piece)
+      call send_parcel(request, rank)
+   end subroutine give_region
+
+   subroutine receive_found(rank, found)
+      integer(ip), intent(in) :: rank
+      type(found_t), intent(out) :: found
+      type(parcel_t) :: answer
+      real(wp), allocatable :: sums(:)
+
+      call receive_parcel(answer, rank)
+      call take(answer, found%stress)
+      call take(answer, sums)
+      found%energies = energies_t(sums(1), sums(2), sums(3), sums(4))
+      call take(answer, found%square)
+   end subroutine receive_found
+
+   !> Adds what was found in a region; at a border the last rank has its way.
+   pure subroutine take_found(region, found, results, energies)
+      type(region_t), intent(in) :: region
+      type(found_t), intent(in) :: found
+      type(results_t), intent(inout) :: results
+      type(energies_t), intent(inout) :: energies
+
+      results%nodal_stress(:, region%node(:region%n_nodes)) = found%stress
+      energies%solution = energies%solution + found%energies%solution
+      energies%error = energies%error + found%energies%error
+      energies%round_off = energies%round_off + found%energies%round_off
+      energies%strain = max(energies%strain, found%energies%strain)
+      if (allocated(results%element_error)) results%element_error(region%element(:region%n_own)) = found%square
+   end subroutine take_found
+
+   !> Stresses at the nodes of the rank's elements, and their error.
+   subroutine measure_region(n_own, n_nodes, piece, u, unit, by_element, found)
+      integer(ip), intent(in) :: n_own, n_nodes      !< of the rank
+      type(fem_t), intent(inout) :: piece            !< its elements, then those round them
+      real(wp), intent(in) :: u(:, :)                !< (2, nodes of the region) [L]
+      real(wp), intent(in) :: unit
+      logical, intent(in) :: by_element
+      type(found_t), intent(out) :: found
+      type(stress_field_t) :: field
+      real(wp), allocatable :: stress(:, :)
+
+      call recover_stress_field(piece, u, field)
+      call nodal_stresses(piece, field, stress)
+      found%stress = stress(:, :n_nodes)
+      piece%mesh%n_elements = n_own             ! those round them have served
+      allocate (found%square(merge(n_own, 0_ip, by_element)))
+      if (by_element) then
+         call integrate_error(piece, u, field, found%energies, unit, found%square)
+      else
+         call integrate_error(piece, u, field, found%energies, unit)
+      end if
+   end subroutine measure_region
+
+   !> The elements of a rank, then those of the rings round them; and their nodes in this order.
+   pure subroutine find_region(mesh, rank_of, near, rank, region)
+      type(mesh_t), intent(in) :: mesh
+      integer(ip), intent(in) :: rank_of(:)          !< (n_elements) from 0
+      integer(ip), intent(in) :: near(:)             !< elements that may lie in the rings
+      integer(ip), intent(in) :: rank
+      type(region_t), intent(out) :: region
+      integer(ip) :: place(mesh%n_nodes), i, k, n, e
+      logical :: is_in(size(near))
+
+      region%element = pack([(i, i=1, mesh%n_elements)], rank_of == rank)
+      region%n_own = size(region%element, kind=ip)
+      place = RINGS + 1                              ! first the ring of each node
+      do i = 1, region%n_own
+         associate (e => region%element(i))
+            place(mesh%nodes(:mesh%shape(e), e)) = 0
+         end associate
+      end do
+      is_in = .false.
+      call add_rings(mesh, near, place, is_in)
+      region%element = [region%element, pack(near, is_in .and. rank_of(near) /= rank)]
+      allocate (region%node(count(place <= RINGS)))
+      place = 0
+      n = 0
+      do i = 1, size(region%element, kind=ip)
+         e = region%element(i)
+         do k = 1, mesh%shape(e)
+            if (place(mesh%nodes(k, e)) > 0) cycle
+            n = n + 1
+            place(mesh%nodes(k, e)) = n
+            region%node(n) = mesh%nodes(k, e)
+         end do
+         if (i == region%n_own) region%n_nodes = n
+      end do
+   end subroutine find_region
+
+   !> The elements in the rings round any node that elements of several ranks have: what is near no border is looked at RINGS
+   !> times, for any number of ranks.
+   pure subroutine list_near(mesh, rank_of, near)
+      type(mesh_t), intent(in) :: mesh
+      integer(ip), intent(in) :: rank_of(:)
+      integer(ip), allocatable, intent(out) :: near(:)
+      integer(ip) :: ring_of(mesh%n_nodes), owner(mesh%n_nodes), e
+      logical :: is_near(mesh%n_elements)
+
+      owner = -1
+      ring_of = RINGS + 1
+      do e = 1, mesh%n_elements
+         associate (nodes => mesh%nodes(:mesh%shape(e), e))
+            where (owner(nodes) >= 0 .and. owner(nodes) /= rank_of(e)) ring_of(nodes) = 0
+            owner(nodes) = rank_of(e)
+         end associate
+      end do
+      is_near = .false.
+      call add_rings(mesh, [(e, e=1, mesh%n_elements)], ring_of, is_near)
+      near = pack([(e, e=1, mesh%n_elements)], is_near)
+   end subroutine list_near
+
+   !> Goes out ring by ring from the nodes of ring 0.
+   pure subroutine add_rings(mesh, elements, ring_of, is_in)
+      type(mesh_t), intent(in) :: mesh
+      integer(ip), intent(in) :: elements(:)         !< those that are looked at
+      integer(ip), intent(inout) :: ring_of(:)       !< (n_nodes) RINGS + 1: outside
+      logical, intent(inout) :: is_in(:)             !< (elements) lies in a ring
+      integer(ip) :: ring, i
+
+      do ring = 1, RINGS
+         do i = 1, size(elements, kind=ip)
+            if (is_in(i)) cycle
+            associate (nodes => mesh%nodes(:mesh%shape(elements(i)), elements(i)))
+               is_in(i) = any(ring_of(nodes) < ring)
+               if (is_in(i)) ring_of(nodes) = min(ring_of(nodes), ring)
+            end associate
+         end do
+      end do
+   end subroutine add_rings
+
+end module atrito_shared_fields

@@ -1,0 +1,294 @@
+!> The matrix of a scene that is cut into parts, one a rank: the sparse form of the contact system (atrito_contact_system) by direct
+!> substructuring (atrito_part_service has the equations).
+!>
+!> What the iteration needs is here, on the first rank, as for atrito_assembled_scene: numbers, rows, loads and vectors over all
+!> unknowns. Elements, matrices and factors are with the parts. Sums are in the order of the parts.
+module atrito_shared_scene
+   use atrito_assembly, only: fem_t
+   use atrito_contact_line, only: contact_line_t
+   use atrito_contact_rows, only: contact_rows_t
+   use atrito_kinds, only: ip, lp, wp
+   use atrito_mpi, only: rank_count
+   use atrito_parcel, only: parcel_t, put, take, take_status
+   use atrito_part_maker, only: make_scene_part
+   use atrito_part_service, only: ask, ask_with, begin_question, begin_top, factor_top, held_bytes, hear, hear_values, solve_top, &
+                                  trouble, ASSEMBLE, EXPAND, FORGET, MULTIPLY, REDUCE, REFACTOR
+   use atrito_row_entries, only: build_constraint_rows
+   use atrito_scene_cut, only: scene_cut_t, plan_cut, diagonals_of_rows
+   use atrito_scene_elimination, only: eliminate_scene, number_scene
+   use atrito_scene_part, only: scene_part_t, put_scene_part
+   use atrito_scene_shares, only: share_elements
+   use atrito_scene_system, only: scene_system_t, set_scene_gaps, set_flexibility
+   use atrito_status, only: status_t, is_ok
+   implicit none (type, external)
+   private
+   public :: shared_scene_t, share_scene
+
+   !> What a part has of the scene, in its own order.
+   type :: place_t
+      integer(ip) :: rank = 0                    !< who has the part
+      integer(ip) :: n_elements = 0
+      integer(ip), allocatable :: unknown(:)     !< those that other parts have, too, last
+      integer(ip), allocatable :: top(:)         !< number of each of these among all that are shared
+      integer(ip), allocatable :: row(:), pull(:)
+      real(wp) :: solving = 0.0_wp               !< what factoring it will take, where it is [bytes]
+   end type place_t
+
+   type, extends(scene_system_t) :: shared_scene_t
+      type(place_t), allocatable :: parts(:)     !< the first rank, where it has one, has the first
+      integer(ip), allocatable, private :: shared(:) !< unknown of the scene of each that is shared
+      logical, private :: is_stale = .true.      !< the top is not the sum of what is left of the parts
+   contains
+      procedure :: multiply => multiply_shared
+      procedure :: factor => factor_shared
+      procedure :: solve => solve_shared
+      procedure :: memory_bytes => shared_bytes
+      procedure :: solving_bytes => first_solving_bytes
+      procedure :: release => release_parts
+      procedure :: solving_of_ranks
+   end type shared_scene_t
+
+   integer(lp), parameter :: REAL_BYTES = storage_size(1.0_wp)/8, INDEX_BYTES = storage_size(1_ip)/8
+
+contains
+
+   !> Cuts the scene, hands the parts over as they are made, one after the other, and has them assembled. status: STATUS_INTERNAL
+   !> when the memory does not suffice.
+   subroutine share_scene(fem, rows, line, value, n_ranks, scene, rank_of, status)
+      type(fem_t), intent(in) :: fem
+      type(contact_rows_t), intent(in) :: rows
+      type(contact_line_t), intent(in) :: line
+      real(wp), intent(in) :: value(:, :)        !< (2, n_nodes) prescribed displacements [L]
+      integer(ip), intent(in) :: n_ranks
+      type(shared_scene_t), intent(out) :: scene
+      integer(ip), allocatable, intent(out) :: rank_of(:) !< (n_elements) 0..n_ranks - 1
+      type(status_t), intent(out) :: status
+      type(scene_cut_t) :: cut
+      real(wp), allocatable :: diagonal(:), coupling(:)
+      integer(ip), allocatable :: part_of_element(:), rank(:)
+      integer(ip) :: i
+
+      call number_scene(fem, scene%numbering)
+      scene%n = scene%numbering%n
+      scene%k = scene%numbering%k
+      scene%n_bodies = fem%bodies%n
+      scene%body = scene%numbering%body
+      allocate (part_of_element(fem%mesh%n_elements))
+      call share_elements(fem, scene%numbering, eliminate_scene(fem, rows, line, scene%numbering), n_ranks, part_of_element, rank)
+      rank_of = rank(part_of_element)
+      call build_constraint_rows(fem, rows, line, .true., scene%rows)
+      call set_scene_gaps(rows, line, value, scene)
+      allocate (diagonal(scene%n), coupling(scene%n))
+      call diagonals_of_rows(fem, rows, scene%numbering, diagonal, coupling)
+      call plan_cut(fem, rows, line, scene%numbering, diagonal, part_of_element, size(rank, kind=ip), cut)
+      do i = 1, scene%k                          ! springs stand beside the elements
+         associate (spring => scene%numbering%spring(i))
+            if (spring > 0) diagonal(spring) = diagonal(spring) + cut%spring_stiffness(i)
+         end associate
+      end do
+      call set_flexibility(fem, rows, line, diagonal, coupling, scene)
+      deallocate (diagonal, coupling, part_of_element)
+      scene%shared = pack([(i, i=1, scene%n)], cut%top_of > 0)
+      allocate (scene%parts(size(rank)))
+      scene%parts%rank = rank
+      scene%trouble => trouble
+      call hand_over(fem, rows, line, cut, scene)
+      call hear_assembled(scene, status)
+   end subroutine share_scene
+
+   !> Makes the parts, the first rank's last: the others assemble theirs meanwhile.
+   subroutine hand_over(fem, rows, line, cut, scene)
+      type(fem_t), intent(in) :: fem
+      type(contact_rows_t), intent(in) :: rows
+      type(contact_line_t), intent(in) :: line
+      type(scene_cut_t), intent(inout) :: cut
+      type(shared_scene_t), intent(inout) :: scene
+      type(scene_part_t) :: part, nothing
+      type(parcel_t) :: request
+      integer(ip) :: p
+
+      do p = size(scene%parts, kind=ip), 1, -1
+         associate (place => scene%parts(p))
+            call make_scene_part(fem, rows, line, scene%numbering, scene%rows, p, cut, part, place%unknown, place%row, place%pull)
+            place%top = cut%top_of(place%unknown(size(place%unknown) - part%n_kept + 1:))
+            place%n_elements = cut%first_element(p + 1) - cut%first_element(p)
+            call begin_question(ASSEMBLE, request)
+            call put_scene_part(request, part)
+            part = nothing
+            call ask(place%rank, request)
+         end associate
+      end do
+   end subroutine hand_over
+
+   !> What became of the parts; then MUMPS is told who has which unknowns of the top.
+   subroutine hear_assembled(scene, status)
+      type(shared_scene_t), intent(inout) :: scene
+      type(status_t), intent(out) :: status
+      type(status_t) :: of_part
+      type(parcel_t) :: answer
+      character(len=:), allocatable :: order
+      logical :: is_near
+      integer(ip) :: p
+
+      do p = 1, size(scene%parts, kind=ip)
+         call hear(scene%parts(p)%rank, answer)
+         call take_status(answer, of_part)
+         call take(answer, is_near)
+         call take(answer, order)
+         call take(answer, scene%parts(p)%solving)
+         if (is_ok(status)) status = of_part
+         scene%is_near = scene%is_near .or. is_near
+         if (p == 1) call move_alloc(order, scene%order)
+      end do
+      if (is_ok(status)) call begin_top(size(scene%shared, kind=ip), unknown_of, status)
+
+   contains
+
+      function unknown_of(rank) result(unknown)
+         integer(ip), intent(in) :: rank
+         integer(ip), allocatable :: unknown(:)
+         integer(ip) :: i
+
+         i = findloc(scene%parts%rank, rank, dim=1, kind=ip)
+         allocate (unknown(0))
+         if (i > 0) unknown = scene%parts(i)%top
+      end function unknown_of
+
+   end subroutine hear_assembled
+
+   !> y = A x: the sum of the parts'.
+   subroutine multiply_shared(self, x, y)
+      class(shared_scene_t), intent(in) :: self
+      real(wp), intent(in) :: x(:)
+      real(wp), intent(out) :: y(:)
+      real(wp), allocatable :: found(:)
+      integer(ip) :: p
+
+      do p = size(self%parts, kind=ip), 1, -1
+         call ask_with(self%parts(p)%rank, MULTIPLY, x(self%parts(p)%unknown))
+      end do
+      y = 0.0_wp
+      do p = 1, size(self%parts, kind=ip)
+         call hear_values(self%parts(p)%rank, found)
+         associate (own => self%parts(p)%unknown)
+            y(own) = y(own) + found
+         end associate
+      end do
+   end subroutine multiply_shared
+
+   !> The parts, then the top where what is left of any of them is another than before.
+   subroutine factor_shared(self, stiffness, pull, status)
+      class(shared_scene_t), intent(inout) :: self
+      real(wp), intent(in) :: stiffness(:), pull(:)
+      type(status_t), intent(out) :: status
+      type(status_t) :: of_part
+      type(parcel_t) :: request, answer
+      integer(ip) :: p, failed
+      logical :: is_changed
+
+      do p = size(self%parts, kind=ip), 1, -1
+         call begin_question(REFACTOR, request)
+         call put(request, stiffness(self%parts(p)%row))
+         call put(request, pull(self%parts(p)%pull))
+         call ask(self%parts(p)%rank, request)
+      end do
+      self%failed = 0
+      do p = 1, size(self%parts, kind=ip)
+         call hear(self%parts(p)%rank, answer)
+         call take_status(answer, of_part)
+         call take(answer, failed)
+         call take(answer, is_changed)
+         self%is_stale = self%is_stale .or. is_changed
+         if (is_ok(of_part) .or. .not. is_ok(status)) cycle
+         status = of_part                        ! the first failure counts
+         if (failed > 0) self%failed = self%parts(p)%unknown(failed)
+      end do
+      if (.not. (is_ok(status) .and. self%is_stale)) return
+      call factor_top(failed, status)
+      if (failed > 0) self%failed = self%shared(failed)
+      self%is_stale = .not. is_ok(status)
+   end subroutine factor_shared
+
+   subroutine solve_shared(self, x)
+      class(shared_scene_t), intent(in) :: self
+      real(wp), intent(inout) :: x(:)
+      real(wp), allocatable :: f(:), top(:), found(:)
+      integer(ip) :: p
+
+      do p = size(self%parts, kind=ip), 1, -1
+         associate (part => self%parts(p))
+            f = x(part%unknown)
+            f(size(f) - size(part%top) + 1:) = 0.0_wp
+            call ask_with(part%rank, REDUCE, f)
+         end associate
+      end do
+      top = x(self%shared)
+      do p = 1, size(self%parts, kind=ip)
+         call hear_values(self%parts(p)%rank, found)
+         associate (own => self%parts(p)%top)
+            top(own) = top(own) + found
+         end associate
+      end do
+      call solve_top(top)
+      do p = size(self%parts, kind=ip), 1, -1
+         call ask_with(self%parts(p)%rank, EXPAND, top(self%parts(p)%top))
+      end do
+      do p = 1, size(self%parts, kind=ip)
+         call hear_values(self%parts(p)%rank, found)
+         x(self%parts(p)%unknown) = found        ! parts that share an unknown have the same number for it
+      end do
+   end subroutine solve_shared
+
+   !> All ranks give back what they have.
+   subroutine release_parts(self)
+      class(shared_scene_t), intent(inout) :: self
+      type(parcel_t) :: request
+      integer(ip) :: rank
+
+      if (.not. allocated(self%parts)) return
+      do rank = rank_count() - 1, 0, -1
+         call begin_question(FORGET, request)
+         call ask(rank, request)
+      end do
+      deallocate (self%parts)
+   end subroutine release_parts
+
+   pure integer(lp) function shared_bytes(self) result(bytes)
+      class(shared_scene_t), intent(in) :: self
+      integer(ip) :: p
+
+      bytes = held_bytes() + (REAL_BYTES + INDEX_BYTES)*size(self%rows%value, kind=lp)
+      do p = 1, size(self%parts, kind=ip)
+         bytes = bytes + INDEX_BYTES*(size(self%parts(p)%unknown, kind=lp) + size(self%parts(p)%row, kind=lp))
+      end do
+   end function shared_bytes
+
+   !> What solving will take of the first rank.
+   pure integer(lp) function first_solving_bytes(self) result(bytes)
+      class(shared_scene_t), intent(in) :: self
+      integer(lp) :: of_ranks(1)
+
+      of_ranks = self%solving_of_ranks(1_ip)
+      bytes = of_ranks(1)
+   end function first_solving_bytes
+
+   !> What solving will take of the first ranks beyond what they hold when the parts are assembled [bytes]: the parts; of the top a
+   !> share, and what MUMPS makes of the rank's own matrix; on the first one the vectors of the iteration.
+   pure function solving_of_ranks(self, n_ranks) result(bytes)
+      class(shared_scene_t), intent(in) :: self
+      integer(ip), intent(in) :: n_ranks
+      integer(lp) :: bytes(0:n_ranks - 1)
+      integer(lp), parameter :: MUMPS_BYTES = 18_lp, OF_UNKNOWNS = 12_lp, OF_ROWS = 40_lp
+      integer(ip) :: p
+
+      bytes = REAL_BYTES*size(self%shared, kind=lp)**2/2/maxval(self%parts%rank + 1)
+      bytes(0) = bytes(0) + REAL_BYTES*(OF_UNKNOWNS*int(self%n, lp) + OF_ROWS*int(self%rows%n, lp))
+      do p = 1, size(self%parts, kind=ip)
+         associate (part => self%parts(p))
+            if (part%rank < n_ranks) bytes(part%rank) = bytes(part%rank) + int(part%solving, lp) &
+                                                        + MUMPS_BYTES*size(part%top, kind=lp)**2
+         end associate
+      end do
+   end function solving_of_ranks
+
+end module atrito_shared_scene
