@@ -33,6 +33,7 @@ module atrito_scene_data
    use atrito_step_loads, only: moment_t, act_at, is_end, share_at
    use atrito_strings, only: to_text
    use atrito_thermal_loads, only: add_thermal_loads
+   use atrito_turning_rows, only: balance_rows
    implicit none (type, external)
    private
    public :: scene_data_t, asked_t, prepare, set_time, assemble, drop_assembled, free_load, check_known_points, &
@@ -110,6 +111,7 @@ contains
       call let_slide(model%interactions(model%pairs%interaction)%nu > 0.0_wp, data%points, data%fem)
       call straighten_held_points(model%bilateral, data%fem, data%points)
       call build_rows(data%points, data%rows, model%bilateral)
+      call balance_rows(data%points, data%fem, data%rows)
       if (any(model%interactions%rho > 0.0_wp)) then
          call check_average_memory(model%deck_path, data%rows%n, &
                                    average_entries(model, data%points, most_average_entries(asked%memory)), asked%memory, status)
