@@ -36,7 +36,7 @@ module atrito_scene_data
    use atrito_turning_rows, only: balance_rows
    implicit none (type, external)
    private
-   public :: scene_data_t, asked_t, prepare, set_time, assemble, drop_assembled, free_load, check_known_points, &
+   public :: scene_data_t, asked_t, prepare, set_time, assemble, drop_assembled, free_load, reload, check_known_points, &
              forces_at_end
 
    type :: scene_data_t
@@ -258,6 +258,13 @@ contains
       call set_scene_load(data%fem, data%f, free_load(data), data%assembled)
       data%is_assembled = .true.
    end subroutine assemble
+
+   !> Takes the loads anew, which have changed.
+   subroutine reload(data)
+      type(scene_data_t), intent(inout) :: data
+
+      if (data%is_assembled) call set_scene_load(data%fem, data%f, free_load(data), data%assembled)
+   end subroutine reload
 
    subroutine assemble_here(data, status)
       type(scene_data_t), intent(inout) :: data
