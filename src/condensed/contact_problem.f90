@@ -7,7 +7,7 @@ module atrito_contact_problem
    use atrito_bound_qp, only: bound_qp_t
    use atrito_condensed_body, only: condensed_body_t, contact_response, add_flexibilities
    use atrito_contact_line, only: contact_line_t, number_unknowns, rest_of
-   use atrito_contact_rows, only: contact_rows_t, row_value, direction_of_entry
+   use atrito_contact_rows, only: contact_rows_t, row_value, vector_of_entry
    use atrito_contact_scales, only: usual_growth
    use atrito_bilateral_rows, only: bilateral_rows_t
    use atrito_friction_law, only: friction_law_t, FRICTION_NONE, FRICTION_LOCAL
@@ -118,7 +118,7 @@ contains
 
       has_unknown = .false.
       do k = rows%first(j), rows%first(j + 1) - 1
-         along = direction_of_entry(rows, j, k, direction)
+         along = vector_of_entry(rows, j, k, direction)
          do dof = 1, 2
             has_unknown = has_unknown .or. (along(dof) /= 0.0_wp .and. fem%bodies%equation(dof, rows%node(k)) /= 0)
          end do
@@ -313,12 +313,12 @@ contains
       do k = rows%first(point), rows%first(point + 1) - 1
          node = rows%node(k)
          if (fem%bodies%of_node(node) /= i_body) cycle
-         along = direction_of_entry(rows, point, k, direction)
+         along = vector_of_entry(rows, point, k, direction)
          do dof = 1, 2
             if (fem%bodies%equation(dof, node) <= 0 .or. along(dof) == 0.0_wp) cycle
             n = n + 1
             dofs(n) = fem%bodies%equation(dof, node) - (fem%bodies%list(i_body)%n - fem%bodies%list(i_body)%n_retained)
-            coefficients(n) = rows%coefficient(k)*along(dof)
+            coefficients(n) = along(dof)
          end do
       end do
    end subroutine row_entries
@@ -346,8 +346,8 @@ contains
       do i = 1, problem%m
          do k = rows%first(line%point(i)), rows%first(line%point(i) + 1) - 1
             b = fem%bodies%of_node(rows%node(k))
-            call add_motion_row(fem, b, rows%node(k), rows%coefficient(k), &
-                                direction_of_entry(rows, line%point(i), k, direction_of(problem, rows, line, i)), &
+            call add_motion_row(fem, b, rows%node(k), &
+                                vector_of_entry(rows, line%point(i), k, direction_of(problem, rows, line, i)), &
                                 problem%g(i, column(b):column(b + 1) - 1))
          end do
       end do
@@ -355,10 +355,10 @@ contains
    end subroutine add_motions
 
    !> What one entry of a row adds to the row of G: the motions of the body that has the node.
-   pure subroutine add_motion_row(fem, b, node, coefficient, direction, g)
+   pure subroutine add_motion_row(fem, b, node, vector, g)
       type(fem_t), intent(in) :: fem
       integer(ip), intent(in) :: b, node
-      real(wp), intent(in) :: coefficient, direction(2)
+      real(wp), intent(in) :: vector(2)              !< of the entry
       real(wp), intent(inout) :: g(:)                !< (motions of the body)
       integer(ip) :: j, dof
       real(wp) :: z
@@ -368,7 +368,7 @@ contains
             do dof = 1, 2
                if (fem%bodies%equation(dof, node) == 0) cycle
                z = mode_at(body, body%modes(:, j), fem%mesh%x(:, node), dof)
-               g(j) = g(j) + coefficient*direction(dof)*z
+               g(j) = g(j) + vector(dof)*z
             end do
          end do
       end associate

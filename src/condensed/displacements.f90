@@ -30,6 +30,11 @@ contains
          do k = rows%first(j), rows%first(j + 1) - 1
             force(:, rows%node(k)) = force(:, rows%node(k)) + rows%coefficient(k)*at_point
          end do
+         if (.not. allocated(rows%turn)) cycle
+         at_point = line%weight(j)*[max(solution%p(j), 0.0_wp), solution%t(j)]
+         do k = rows%first(j), rows%first(j + 1) - 1
+            force(:, rows%node(k)) = force(:, rows%node(k)) + dot_product(rows%turn(:, k), at_point)*rows%normal(:, j)
+         end do
       end do
       call add_bilateral_forces(rows, [(.true., j=1, rows%n_bilateral)], line%weight*solution%p, force)
    end function contact_forces

@@ -19,6 +19,7 @@ module atrito_master
    type, extends(pieces_t) :: master_t
       logical :: rigid = .false.
       integer(ip) :: degree = 0                     !< of the elements of all faces; 0: rigid, none, or not the same
+      real(wp) :: grain = 0.0_wp                    !< to which nodes are known, those of slaves as well [L]; 0: all digits
       real(wp), allocatable :: ends(:, :, :)        !< (2, first and last end, n) unit normals of the smooth surface
       real(wp), allocatable :: curvature(:, :)      !< (first and last end, n) [1/L] >= 0
       real(wp), allocatable :: kink(:, :)           !< (first and last end, n) 0..1: how far the next piece is another side
@@ -44,10 +45,11 @@ module atrito_master
 contains
 
    !> The faces of elements as a master; their outside lies at the right of the direction of travel.
-   pure subroutine master_of_faces(mesh, faces, master)
+   pure subroutine master_of_faces(mesh, faces, master, grain)
       type(mesh_t), intent(in) :: mesh
       type(face_list_t), intent(in) :: faces
       type(master_t), intent(out) :: master
+      real(wp), intent(in), optional :: grain       !< to which the nodes of the mesh are known [L]; left out: all digits
       integer(ip), allocatable :: nodes(:)
       real(wp), allocatable :: curvature(:)
       integer(ip) :: i
@@ -63,7 +65,8 @@ contains
          master%degree = DEGREE_OF(mesh%shape(faces%element(1)))
          if (any(DEGREE_OF(mesh%shape(faces%element(:faces%n))) /= master%degree)) master%degree = 0
       end if
-      call smooth_surface(mesh, faces, master%ends, curvature, master%bend)
+      if (present(grain)) master%grain = grain
+      call smooth_surface(mesh, faces, master%ends, curvature, master%bend, master%grain)
       call begin_ends(curvature, master)
       call join_faces(mesh, faces, curvature, master)
       call plant(master%pieces_t, master%tree)

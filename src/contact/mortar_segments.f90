@@ -67,7 +67,7 @@ contains
       real(wp), allocatable :: cuts(:)
       integer(ip) :: i
 
-      call find_directions(mesh, slave, segments)
+      call find_directions(mesh, slave, master%grain, segments)
       allocate (segments%first(slave%n + 1), source=1_ip)
       do i = 1, slave%n
          face = take_face(mesh, slave, i, segments)
@@ -97,14 +97,15 @@ contains
    end subroutine join_curves
 
    !> The directions of sight: normals of the smooth surface.
-   pure subroutine find_directions(mesh, slave, segments)
+   pure subroutine find_directions(mesh, slave, grain, segments)
       type(mesh_t), intent(in) :: mesh
       type(face_list_t), intent(in) :: slave
+      real(wp), intent(in) :: grain                 !< to which the nodes are known [L]
       type(segments_t), intent(inout) :: segments
       real(wp), allocatable :: ends(:, :, :)
       integer(ip) :: i
 
-      call smooth_surface(mesh, slave, ends, segments%curvature, segments%bend)
+      call smooth_surface(mesh, slave, ends, segments%curvature, segments%bend, grain)
       allocate (segments%direction(2, 3, slave%n))
       segments%direction(:, :2, :) = ends
       do i = 1, slave%n

@@ -57,7 +57,7 @@ contains
       if (points%n_left_out == slave%n) points%n_seeing = count([(sees_master(mesh, slave, i, master), i=1, slave%n)], kind=ip)
       points%faces = pack([(int(slave%element(i), lp)*MOST_SIDES + slave%face(i), i=1, slave%n)], used)
       call allocate_points(3*slave%n, 3*slave%n*NODAL_ENTRIES, points)
-      call place_points(mesh, thickness, slave, used, points, curvature, mixed)
+      call place_points(mesh, thickness, slave, used, master%grain, points, curvature, mixed)
       call look_for_master(mesh, master, master_faces, curvature, points)
       call trim_points(points)
       if (.not. master%rigid) points%matching = are_matching(mesh, slave, master, points)
@@ -120,11 +120,12 @@ contains
    end function node_finds
 
    !> One point a slave node; weights and normals of the faces that share it are summed.
-   pure subroutine place_points(mesh, thickness, slave, used, points, curvature, mixed)
+   pure subroutine place_points(mesh, thickness, slave, used, grain, points, curvature, mixed)
       type(mesh_t), intent(in) :: mesh
       real(wp), intent(in) :: thickness(:)
       type(face_list_t), intent(in) :: slave
       logical, intent(in) :: used(:)
+      real(wp), intent(in) :: grain                 !< to which the nodes are known [L]
       type(contact_points_t), intent(inout) :: points
       real(wp), allocatable, intent(out) :: curvature(:) !< of the slave at the points [1/L]
       type(mixed_rows_t), intent(inout) :: mixed
@@ -136,7 +137,7 @@ contains
       real(wp) :: s
       integer(ip) :: i, j, k, of_node(3)
 
-      call smooth_surface(mesh, slave, ends, of_face, bend)
+      call smooth_surface(mesh, slave, ends, of_face, bend, grain)
       allocate (curvature(size(points%s)), source=0.0_wp)
       is_corner = .false.
       s = 0.0_wp

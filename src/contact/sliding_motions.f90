@@ -28,7 +28,8 @@ module atrito_sliding_motions
    use atrito_slave_faces, only: nodal_rule_t, nodal_rule, turn_at, sine, clear_small_component
    implicit none (type, external)
    private
-   public :: chords_t, list_chords, find_sliding, turn_points, is_along, note_doubt, serves, adopted, velocity, printed_grain
+   public :: chords_t, list_chords, find_sliding, turn_points, is_along, note_doubt, serves, adopted, velocity, &
+             printed_grain, first_of_master
 
    !> The chords of both sides of a pair.
    type :: chords_t

@@ -12,17 +12,21 @@ module atrito_smooth_normals
 
    !> A smaller turn of the normal [rad] is rounding of the coordinates: the surface is straight there; a turn like this is not.
    real(wp), parameter :: NO_TURN = 1.0e-6_wp, A_TURN = 1.0e-4_wp
+   !> What the last digits of its nodes may turn the normal by along a face: in grains over its length.
+   real(wp), parameter :: DIGITS_TURN = 12.0_wp
+   real(wp), parameter :: LATTICE = 10.0_wp         !< length of a face in grains, of nodes that were not rounded
 
 contains
 
    !> Unit normals at the ends of each face, the mean of both faces unless they meet at a corner; the curvature of each, the
-   !> turn of the normal along it and at its ends over its length; and the same with its sign.
-   pure subroutine smooth_surface(mesh, faces, ends, curvature, bend)
+   !> turn of the normal along it and at its ends over its length, but for what is rounding; and the same with its sign.
+   pure subroutine smooth_surface(mesh, faces, ends, curvature, bend, grain)
       type(mesh_t), intent(in) :: mesh
       type(face_list_t), intent(in) :: faces
       real(wp), allocatable, intent(out) :: ends(:, :, :) !< (2, first and last end, faces)
       real(wp), allocatable, intent(out) :: curvature(:)  !< (faces) [1/L] >= 0
       real(wp), allocatable, intent(out) :: bend(:)       !< (faces) [1/L] > 0: convex
+      real(wp), intent(in), optional :: grain       !< to which the nodes are known [L]; left out: all digits
       type(id_map_t) :: begins                      ! face of its first node
       real(wp) :: turn(faces%n), joints(faces%n), slope(2, faces%n), own(2, 2)
       integer(ip) :: n_joints(faces%n), beside(2, faces%n), last(faces%n), i, k
@@ -60,7 +64,11 @@ contains
       end do
       call bend_chords(is_chord, beside, slope, curvature, bend)
       turn = turn + joints/max(n_joints, 1_ip)
-      curvature = turn*shown(turn)*curvature
+      joints = 0.0_wp                               ! of the turns, what is rounding
+      if (present(grain)) then
+         if (all(1 > LATTICE*grain*curvature)) joints = DIGITS_TURN*grain*curvature
+      end if
+      curvature = turn*shown(turn, joints)*curvature
    end subroutine smooth_surface
 
    !> The slopes of a curve against the two chords that meet at one of its points, as of a circle through their three ends: the
@@ -113,11 +121,13 @@ contains
    end function flatter
 
    !> The part of a turn [rad] that is no rounding, without a step in between.
-   elemental real(wp) function shown(turn)
+   elemental real(wp) function shown(turn, rounding)
       real(wp), intent(in) :: turn
-      real(wp) :: x
+      real(wp), intent(in) :: rounding              !< that is known to be there [rad]
+      real(wp) :: x, none
 
-      x = min(max((turn - NO_TURN)/(A_TURN - NO_TURN), 0.0_wp), 1.0_wp)
+      none = max(NO_TURN, rounding)
+      x = min(max((turn - none)/(max(A_TURN - NO_TURN, none)), 0.0_wp), 1.0_wp)
       shown = x**2*(3 - 2*x)
    end function shown
 

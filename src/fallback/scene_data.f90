@@ -30,10 +30,11 @@ module atrito_scene_data
    use atrito_step_loads, only: moment_t, act_at, is_end, share_at
    use atrito_strings, only: to_text
    use atrito_thermal_loads, only: add_thermal_loads
+   use atrito_turning_rows, only: balance_rows
    implicit none (type, external)
    private
-   public :: scene_data_t, asked_t, distribution_t, prepare, set_time, assemble, drop_assembled, free_load, check_known_points, &
-             forces_at_end
+   public :: scene_data_t, asked_t, distribution_t, prepare, set_time, assemble, drop_assembled, free_load, reload, &
+             check_known_points, forces_at_end
 
    !> How a scene in the sparse form is distributed over several processes. What extends this type assembles the matrix in parts, one
    !> a process, and has each process recover the stresses of its elements; all else is done in this process, which is all there is
@@ -172,6 +173,7 @@ contains
       call let_slide(model%interactions(model%pairs%interaction)%nu > 0.0_wp, data%points, data%fem)
       call straighten_held_points(model%bilateral, data%fem, data%points)
       call build_rows(data%points, data%rows, model%bilateral)
+      call balance_rows(data%points, data%fem, data%rows)
       if (any(model%interactions%rho > 0.0_wp)) then
          call check_average_memory(model%deck_path, data%rows%n, &
                                    average_entries(model, data%points, most_average_entries(asked%memory)), asked%memory, status)
@@ -318,6 +320,13 @@ contains
       call set_scene_load(data%fem, data%f, free_load(data), data%assembled)
       data%is_assembled = .true.
    end subroutine assemble
+
+   !> Takes the loads anew, which have changed.
+   subroutine reload(data)
+      type(scene_data_t), intent(inout) :: data
+
+      if (data%is_assembled) call set_scene_load(data%fem, data%f, free_load(data), data%assembled)
+   end subroutine reload
 
    subroutine assemble_here(data, status)
       type(scene_data_t), intent(inout) :: data

@@ -17,6 +17,7 @@ module atrito_idle_motions
    use atrito_friction_law, only: FRICTION_NONE
    use atrito_incidence, only: list_holders
    use atrito_kinds, only: ip, wp
+   use atrito_load_digits, only: place_doubt, is_within_digits, take_out
    use atrito_motion_rows, only: motion_rows_t, motion_rates
    use atrito_motion_system, only: build_motion_rows
    use atrito_scene_data, only: scene_data_t
@@ -39,20 +40,25 @@ module atrito_idle_motions
 contains
 
    !> Takes the least of the idle motions. solution%inner%undetermined: one of them, the simplest, or not allocated where there is
-   !> none; groups of many motions have what their form of the contact system found.
-   subroutine settle_idle_motions(data, u, before, solution)
-      type(scene_data_t), intent(in) :: data
+   !> none; groups of many motions have what their form of the contact system found. Where a motion were idle but for what the digits
+   !> of the deck make of the loads, that is taken out of data%f, and the increment is to be solved again.
+   subroutine settle_idle_motions(data, u, before, solution, again)
+      type(scene_data_t), intent(inout) :: data
       real(wp), intent(in) :: u(:, :)               !< (2, n_nodes) without rigid motions [L]
       real(wp), pointer, intent(in) :: before(:, :) !< (2, n_nodes) of the increment before [L]; null: there is none
       type(contact_solution_t), intent(inout) :: solution
+      logical, intent(inout) :: again               !< in: whether loads may change; out: they have
       type(motion_rows_t) :: rows
       logical :: holds(size(solution%state%state))  ! rows that hold motions
       real(wp) :: tau(data%line%n)                  ! friction bounds at the points [F/L^2]
       integer(ip), allocatable :: group(:)
+      logical :: may_change
       real(wp), allocatable :: idle(:, :), off(:), metric(:, :, :)
       real(wp) :: way(size(solution%state%a))
       integer(ip) :: i
 
+      may_change = again
+      again = .false.
       call build_motion_rows(data%fem, data%rows, data%line, data%f, rows)
       if (rows%k == 0) return
       tau = friction_bound(data%line, max(solution%p, 0.0_wp))
@@ -60,6 +66,8 @@ contains
       call join_motions(rows, holds, group)
       if (largest_group(group) > MOST_MOTIONS) return
       call find_idle(rows, holds, group, idle)
+      if (may_change) call doubt_loads(data, rows, group, idle, holds, solution, again)
+      if (again) return
       call doubt_small_forces(data, rows, group, idle, holds, solution)
       if (allocated(solution%inner%undetermined)) deallocate (solution%inner%undetermined)
       if (size(idle, 2) == 0) return
@@ -133,6 +141,43 @@ contains
       end do
       holds = is_sure
    end subroutine doubt_small_forces
+
+   !> Takes the work on motions that were idle but for small forces out of the loads, where it is no more than what the digits of the
+   !> deck make of them.
+   subroutine doubt_loads(data, rows, group, idle, holds, solution, has_changed)
+      type(scene_data_t), intent(inout) :: data
+      type(motion_rows_t), intent(in) :: rows
+      integer(ip), intent(in) :: group(:)           !< (k)
+      real(wp), intent(in) :: idle(:, :)            !< (k, motions)
+      logical, intent(in) :: holds(:)               !< (m)
+      type(contact_solution_t), intent(in) :: solution
+      logical, intent(out) :: has_changed
+      real(wp) :: largest(rows%k), doubt(rows%m)    ! forces on the body of each motion [F]
+      logical :: is_sure(rows%m)
+      real(wp), allocatable :: more(:, :)
+      integer(ip) :: i
+
+      has_changed = .false.
+      doubt = place_doubt(data)
+      if (.not. any(doubt > 0.0_wp)) return
+      largest = 0.0_wp
+      do i = 1, rows%m
+         associate (own => rows%motion(rows%first(i):rows%first(i + 1) - 1))
+            largest(own) = max(largest(own), abs(solution%state%q(i)))
+         end associate
+      end do
+      is_sure = holds
+      do i = 1, rows%m
+         if (.not. holds(i) .or. rows%first(i + 1) == rows%first(i)) cycle
+         is_sure(i) = abs(solution%state%q(i)) > doubt(i)*minval(largest(rows%motion(rows%first(i):rows%first(i + 1) - 1)))
+      end do
+      if (all(is_sure .eqv. holds)) return
+      call find_idle(rows, is_sure, group, more)
+      if (size(more, 2) <= size(idle, 2)) return
+      if (.not. is_within_digits(data, rows, more, is_sure, solution%state%q)) return
+      call take_out(data, matmul(more, matmul(rows%work, more)))
+      has_changed = .true.
+   end subroutine doubt_loads
 
    !> Groups of motions that rows join: the number of each, that of its first motion.
    pure subroutine join_motions(rows, holds, group)

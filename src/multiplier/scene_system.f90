@@ -3,7 +3,7 @@
 module atrito_scene_system
    use atrito_assembly, only: fem_t
    use atrito_contact_line, only: contact_line_t, rest_of
-   use atrito_contact_rows, only: contact_rows_t, row_value, direction_of_entry
+   use atrito_contact_rows, only: contact_rows_t, row_value, vector_of_entry
    use atrito_contact_system, only: contact_system_t
    use atrito_kinds, only: ip, lp, wp
    use atrito_row_entries, only: direction_of, loads_on_motions
@@ -93,7 +93,7 @@ contains
          j = line%point(i)
          do k = rows%first(j), rows%first(j + 1) - 1
             node = rows%node(k)
-            d = rows%coefficient(k)*direction_of_entry(rows, j, k, direction_of(rows, line, i))
+            d = vector_of_entry(rows, j, k, direction_of(rows, line, i))
             first = scene%numbering%before(fem%bodies%of_node(node))
             scene%flexibility(i) = scene%flexibility(i) &
                                    + node_flexibility(fem%bodies%equation(:, node), first, diagonal, coupling, d)

@@ -5,16 +5,18 @@ module atrito_contact_rows
    use atrito_points, only: contact_points_t
    implicit none (type, external)
    private
-   public :: contact_rows_t, build_rows, allow_overlap, true_gap, row_value, bodies_of_row, direction_of_entry
+   public :: contact_rows_t, build_rows, allow_overlap, true_gap, row_value, bodies_of_row, vector_of_entry
 
-   !> Row of point j along a direction d_j: the sum of coefficient(k) d_j . u(node(k)) over k from first(j) to first(j+1) - 1. The
-   !> last n_bilateral rows have vectors of their own in place of coefficient(k) d_j, and no direction.
+   !> Row of point j along a direction d_j: the sum of coefficient(k) d_j . u(node(k)) over k from first(j) to first(j+1) - 1, and
+   !> of turn(i, k) n_j . u(node(k)), i being 1 where d_j is the normal and 2 where it is the tangent (atrito_turning_rows). The last
+   !> n_bilateral rows have vectors of their own in place of coefficient(k) d_j, and no direction.
    type :: contact_rows_t
       integer(ip) :: n = 0
       integer(ip) :: longest = 0                     !< most entries of a row
       integer(ip), allocatable :: first(:)           !< (n + 1)
       integer(ip), allocatable :: node(:)
-      real(wp), allocatable :: coefficient(:)        !< the slave's positive, the master's negative; none is 0
+      real(wp), allocatable :: coefficient(:)        !< the slave's positive, the master's negative; 0: for `turn` alone
+      real(wp), allocatable :: turn(:, :)            !< (2, entries) of n in the normal, the tangential row; not allocated: none
       real(wp), allocatable :: normal(:, :)          !< (2, n) n
       real(wp), allocatable :: tangent(:, :)         !< (2, n) T, n turned by +90 degrees
       real(wp), allocatable :: gap(:)                !< (n) initial distance s_j, and overlap that is allowed [L]
@@ -111,8 +113,8 @@ contains
       if (allocated(rows%allowed)) true_gap = gap - rows%allowed(j)
    end function true_gap
 
-   !> The direction of entry k of row j: what the displacement of its node is multiplied by, besides the coefficient.
-   pure function direction_of_entry(rows, j, k, direction) result(vector)
+   !> What the displacement of the node of entry k is multiplied by in row j along a direction.
+   pure function vector_of_entry(rows, j, k, direction) result(vector)
       type(contact_rows_t), intent(in) :: rows
       integer(ip), intent(in) :: j, k
       real(wp), intent(in) :: direction(2)           !< n or T of the point
@@ -120,10 +122,21 @@ contains
 
       if (j > rows%n - rows%n_bilateral) then
          vector = rows%vector(:, k - rows%before_vectors)
-      else
-         vector = direction
+         return
       end if
-   end function direction_of_entry
+      vector = rows%coefficient(k)*direction
+      if (.not. allocated(rows%turn)) return
+      vector = vector + rows%turn(which_row(rows, j, direction), k)*rows%normal(:, j)
+   end function vector_of_entry
+
+   !> 1 for the normal row of a point, 2 for its tangential one.
+   pure integer function which_row(rows, j, direction)
+      type(contact_rows_t), intent(in) :: rows
+      integer(ip), intent(in) :: j
+      real(wp), intent(in) :: direction(2)           !< n or T of the point
+
+      which_row = merge(2, 1, dot_product(direction, rows%tangent(:, j)) > 0.5_wp)
+   end function which_row
 
    !> The relative displacement [L] of point j along a direction.
    pure real(wp) function row_value(rows, j, direction, u) result(value)
@@ -142,6 +155,10 @@ contains
       end if
       do k = rows%first(j), rows%first(j + 1) - 1
          value = value + rows%coefficient(k)*dot_product(direction, u(:, rows%node(k)))
+      end do
+      if (.not. allocated(rows%turn)) return
+      do k = rows%first(j), rows%first(j + 1) - 1
+         value = value + rows%turn(which_row(rows, j, direction), k)*dot_product(rows%normal(:, j), u(:, rows%node(k)))
       end do
    end function row_value
 

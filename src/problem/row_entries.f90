@@ -4,7 +4,7 @@ module atrito_row_entries
    use atrito_bodies, only: bodies_t, body_t, mode_at
    use atrito_constraint_rows, only: constraint_rows_t
    use atrito_contact_line, only: contact_line_t
-   use atrito_contact_rows, only: contact_rows_t, bodies_of_row, direction_of_entry
+   use atrito_contact_rows, only: contact_rows_t, bodies_of_row, vector_of_entry
    use atrito_kinds, only: ip, wp
    implicit none (type, external)
    private
@@ -100,12 +100,12 @@ contains
       n = 0
       do k = rows%first(line%point(i)), rows%first(line%point(i) + 1) - 1
          node = rows%node(k)
-         vector = direction_of_entry(rows, line%point(i), k, direction)
+         vector = vector_of_entry(rows, line%point(i), k, direction)
          do dof = 1, 2
             if (vector(dof) == 0.0_wp .or. fem%bodies%equation(dof, node) <= 0) cycle
             n = n + 1
             column(n) = before(fem%bodies%of_node(node)) + fem%bodies%equation(dof, node)
-            value(n) = rows%coefficient(k)*vector(dof)
+            value(n) = vector(dof)
          end do
       end do
    end subroutine displacements_of_row
@@ -134,7 +134,7 @@ contains
          b = fem%bodies%of_node(node)
          if (b == 0) cycle
          if (.not. (of_all .or. fem%bodies%list(b)%is_rigid)) cycle
-         vector = direction_of_entry(rows, line%point(i), k, direction)
+         vector = vector_of_entry(rows, line%point(i), k, direction)
          do mode = 1, size(fem%bodies%list(b)%modes, 2, kind=ip)
             do e = 1, n
                if (motion(e) == first_motion(b) + mode - 1) exit
@@ -144,7 +144,7 @@ contains
                motion(e) = first_motion(b) + mode - 1
                value(e) = 0.0_wp
             end if
-            value(e) = value(e) + rows%coefficient(k)*along_motion(fem, fem%bodies%list(b), mode, node, vector)
+            value(e) = value(e) + along_motion(fem, fem%bodies%list(b), mode, node, vector)
          end do
       end do
       kept = 0

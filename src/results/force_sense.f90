@@ -61,7 +61,8 @@ contains
                sense%times = times
             end if
          end if
-         call sides_differ(data%points(i), data%fem%mesh%x, results%contact(i), off, moment)
+         call sides_differ(data%points(i), data%fem%mesh%x, results%contact(i), off, moment, data%rows, &
+                           first - data%points(i)%n)
          if (off <= max(UNBALANCED, sense%off)) cycle
          sense%unbalanced = i
          sense%off = off
@@ -159,12 +160,14 @@ contains
 
    !> What the forces of a pair upon both sides leave as a force or a moment: they should add up to nothing. None of a rigid master,
    !> on which no force is put.
-   pure subroutine sides_differ(points, x, contact, off, moment)
+   pure subroutine sides_differ(points, x, contact, off, moment, rows, before)
       type(contact_points_t), intent(in) :: points
       real(wp), intent(in) :: x(:, :)            !< (2, n_nodes) [L]
       type(contact_result_t), intent(in) :: contact
       real(wp), intent(out) :: off               !< the larger one, in parts of the forces and of their lever
       real(wp), intent(out) :: moment            !< [F L]
+      type(contact_rows_t), intent(in), optional :: rows !< that may balance moments (atrito_turning_rows)
+      integer(ip), intent(in), optional :: before !< rows of the pairs before
       real(wp) :: force(2), arm(2), left(2), middle(2), total, size_of_pair, balance
       integer(ip) :: j, k
 
@@ -187,11 +190,31 @@ contains
          end do
          moment = moment + (arm(1)*force(2) - arm(2)*force(1))
          left = left + balance*force
+         if (present(rows) .and. present(before)) then
+            moment = moment + contact%weight(j)/total*dot_product([-contact%pressure(j), contact%shear(j)], &
+                                                                  couples(rows, before + j, x))
+         end if
       end do
       size_of_pair = maxval(norm2(points%x - spread(middle, 2, points%n), dim=1))
       off = max(norm2(left), abs(moment)/size_of_pair)
       moment = moment*total
    end subroutine sides_differ
+
+   !> The moments of what the normal and the tangential row put along the normal besides [L].
+   pure function couples(rows, j, x)
+      type(contact_rows_t), intent(in) :: rows
+      integer(ip), intent(in) :: j
+      real(wp), intent(in) :: x(:, :)            !< (2, n_nodes) [L]
+      real(wp) :: couples(2), arm(2)
+      integer(ip) :: k
+
+      couples = 0.0_wp
+      if (.not. allocated(rows%turn)) return
+      do k = rows%first(j), rows%first(j + 1) - 1
+         arm = x(:, rows%node(k)) - x(:, rows%node(rows%first(j)))
+         couples = couples + rows%turn(:, k)*(arm(1)*rows%normal(2, j) - arm(2)*rows%normal(1, j))
+      end do
+   end function couples
 
    !> Tells what was seen of a run.
    subroutine tell_forces(pairs, contact, sense)

@@ -144,20 +144,14 @@ contains
       type(contact_solution_t), intent(out) :: solution
       type(status_t), intent(out) :: status
       real(wp), allocatable :: u(:, :)                      ! without rigid motions, (2, n_nodes) [L]
+      logical :: again
 
-      if (form == CONTACT_SPARSE) then
-         call solve_sparse_form(data, controls, results, solution, u, status)
-      else
-         call solve_dense_form(data, controls, store, results, solution, u, status)
-      end if
-      if (allocated(data%assembled)) call data%assembled%check_solves(status)   ! whatever came of a solve that failed
-      solution%form = form
-      call start_phase('iterate')
-      call judge_outcome(data, results, solution, status)
-      call stop_phase('iterate')
+      again = .true.
+      call solve_form(data, form, controls, store, results, solution, u, again, status)
+      ! the loads have lost what only the digits of the deck make of them
+      if (again) call solve_form(data, form, controls, store, results, solution, u, again, status)
       if (.not. is_ok(status)) return
       call start_phase('recover')
-      if (solution%converged) call settle_idle_motions(data, u, data%before, solution)
       if (data%is_printed) call begin_early(data, solution, u)
       if (allocated(data%had%motion)) call clear_what_is_left(data, solution, u)
       call recover(data, solution, u, results)
@@ -170,6 +164,38 @@ contains
       call stop_phase('check')
       call take_rigid_results(data, solution, results)
    end subroutine solve_one_form
+
+   !> The solution of one form, with the least of the idle motions.
+   subroutine solve_form(data, form, controls, store, results, solution, u, again, status)
+      type(scene_data_t), intent(inout) :: data
+      integer, intent(in) :: form                           !< CONTACT_DENSE or CONTACT_SPARSE
+      type(controls_t), intent(in) :: controls
+      type(body_cache_t), intent(inout) :: store
+      type(results_t), intent(inout) :: results
+      type(contact_solution_t), intent(out) :: solution
+      real(wp), allocatable, intent(out) :: u(:, :)         !< without rigid motions, (2, n_nodes) [L]
+      logical, intent(inout) :: again                       !< in: whether loads may change; out: they have
+      type(status_t), intent(out) :: status
+      logical :: may_change
+
+      may_change = again
+      again = .false.
+      if (form == CONTACT_SPARSE) then
+         call solve_sparse_form(data, controls, results, solution, u, status)
+      else
+         call solve_dense_form(data, controls, store, results, solution, u, status)
+      end if
+      if (allocated(data%assembled)) call data%assembled%check_solves(status)   ! whatever came of a solve that failed
+      solution%form = form
+      call start_phase('iterate')
+      call judge_outcome(data, results, solution, status)
+      call stop_phase('iterate')
+      if (.not. (is_ok(status) .and. solution%converged)) return
+      call start_phase('recover')
+      again = may_change
+      call settle_idle_motions(data, u, data%before, solution, again)
+      call stop_phase('recover')
+   end subroutine solve_form
 
    !> Where nothing acts on a body any more, what is left of its displacements and of the forces on it is round-off of what it had.
    pure subroutine clear_what_is_left(data, solution, u)

@@ -100,7 +100,7 @@ contains
       is_master = .false.
       is_master(partners) = .true.
       do i = 1, size(masters, kind=ip)
-         if (is_master(i)) call make_master(model, i, masters(i))
+         if (is_master(i)) call make_master(model, i, masters(i), grain)
       end do
       do i = 1, size(points, kind=ip)
          associate (slave => model%surfaces(slaves(i))%faces, surface => model%surfaces(partners(i)), &
@@ -122,17 +122,19 @@ contains
       end do
    end subroutine pair_surfaces
 
-   subroutine make_master(model, i, master)
+   subroutine make_master(model, i, master, grain)
       type(model_t), intent(in) :: model
       integer(ip), intent(in) :: i                     !< the surface
       type(master_t), intent(out) :: master
+      real(wp), intent(in), optional :: grain          !< to which the nodes of the mesh are known [L]; left out: all digits
 
       associate (surface => model%surfaces(i))
          if (surface%kind == SURFACE_SEGMENTS) then
             call master_of_segments(surface%points, master, surface%is_arc, surface%centre)
          else
-            call master_of_faces(model%mesh, surface%faces, master)
+            call master_of_faces(model%mesh, surface%faces, master, grain)
          end if
+         if (present(grain)) master%grain = grain
       end associate
    end subroutine make_master
 

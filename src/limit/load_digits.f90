@@ -1,0 +1,188 @@
+!> Loads on a motion that the digits of the deck alone make.
+!>
+!> A roller on one node of its rim, loaded through its centre, stands: nothing but rounding of coordinates, by some units g of their
+!> last digit, makes a moment about that node, which would turn it onto the next one. So where a motion v of the bodies were idle but
+!> for points with small forces, the work W = h'v of the loads is compared with what the digits can make of it: of the forces on a
+!> body that turns by w, and of the forces of the points that hold, whose normals are known to some g over their lengths l_j,
+!>
+!>    |W| <= 5 g (sum over bodies of |w| sum |f| + sum over points of |q_j| |v_T,j|/l_j).
+!>
+!> Then it is none, and the least change of the loads takes it out of them. Normals along an axis, and decks that are not rounded to
+!> digits, leave nothing in doubt.
+module atrito_load_digits
+   use atrito_bodies, only: mode_at
+   use atrito_contact_rows, only: vector_of_entry
+   use atrito_friction_law, only: FRICTION_NONE
+   use atrito_kinds, only: ip, wp
+   use atrito_motion_rows, only: motion_rows_t
+   use atrito_row_entries, only: first_motions
+   use atrito_scene_data, only: scene_data_t, reload
+   use atrito_sliding_motions, only: printed_grain
+   implicit none (type, external)
+   private
+   public :: place_doubt, is_within_digits, take_out
+
+   real(wp), parameter :: GRAINS = 5.0_wp           !< by which the place of a force may be off
+   real(wp), parameter :: EXACT = 1.0e-13_wp        !< grain over coordinates of a deck that is not rounded to digits
+   real(wp), parameter :: LATTICE = 10.0_wp         !< length of a point in grains, of nodes that were not rounded
+   real(wp), parameter :: MOST = 1.0e-3_wp          !< a larger part of the forces was meant, whatever the digits
+   real(wp), parameter :: ALONG_AXIS = 1.0e-12_wp   !< part of a normal
+
+contains
+
+   !> Of each unknown force, the part of the largest one that the digits may make; 0: none, as with friction.
+   function place_doubt(data) result(doubt)
+      type(scene_data_t), intent(in) :: data
+      real(wp) :: doubt(size(data%line%point)), grain
+      integer(ip) :: i
+
+      doubt = 0.0_wp
+      grain = digits_of_deck(data)
+      if (.not. grain > 0.0_wp) return
+      do i = 1, size(doubt, kind=ip)
+         associate (j => data%line%point(i))
+            if (j > data%line%n - data%line%n_bilateral) cycle
+            if (data%line%law(j)%kind /= FRICTION_NONE) cycle
+            doubt(i) = min(GRAINS*grain/data%rows%reach(j), MOST)
+         end associate
+      end do
+   end function place_doubt
+
+   !> Half a unit of the last digit of the coordinates [L]; 0: they are not rounded, or the loads are sums that are kept.
+   real(wp) function digits_of_deck(data) result(grain)
+      type(scene_data_t), intent(in) :: data
+
+      grain = 0.0_wp
+      associate (n => data%rows%n - data%rows%n_bilateral)
+         if (n == 0 .or. allocated(data%bases)) return
+         grain = printed_grain(data%fem%mesh%x)
+         if (grain <= EXACT*maxval(abs(data%fem%mesh%x))) grain = 0.0_wp
+         if (any(data%rows%reach(:n) < LATTICE*grain)) grain = 0.0_wp
+      end associate
+   end function digits_of_deck
+
+   !> Whether the loads work no more on some motions than the digits make.
+   logical function is_within_digits(data, rows, idle, is_sure, q)
+      type(scene_data_t), intent(in) :: data
+      type(motion_rows_t), intent(in) :: rows
+      real(wp), intent(in) :: idle(:, :)            !< (k, motions) orthogonal, of length one
+      logical, intent(in) :: is_sure(:)             !< (m) rows that hold
+      real(wp), intent(in) :: q(:)                  !< (m) their forces [F]
+      real(wp) :: v(rows%k), allowed, forces, turn, along
+      integer(ip) :: first(data%fem%bodies%n + 1), b, i, j, k
+
+      v = matmul(idle, matmul(rows%work, idle))     ! in which the loads work most
+      first = first_motions(data%fem%bodies)
+      allowed = 0.0_wp
+      do b = 1, data%fem%bodies%n
+         associate (body => data%fem%bodies%list(b))
+            turn = abs(dot_product(body%modes(3, :), v(first(b):first(b + 1) - 1)))
+            if (.not. turn > 0.0_wp) cycle
+            if (body%is_rigid) then
+               is_within_digits = .false.
+               return
+            end if
+            forces = sum(norm2(data%f(:, body%nodes), dim=1))
+            allowed = allowed + forces*turn/body%size
+         end associate
+      end do
+      do i = 1, rows%m
+         j = data%line%point(i)
+         if (.not. is_sure(i) .or. j > data%rows%n - data%rows%n_bilateral) cycle
+         if (minval(abs(data%rows%normal(:, j))) <= ALONG_AXIS) cycle
+         along = 0.0_wp
+         do k = data%rows%first(j), data%rows%first(j + 1) - 1
+            along = along + rate_of_entry(data, first, v, j, k)
+         end do
+         allowed = allowed + abs(q(i)*along)/data%rows%reach(j)
+      end do
+      is_within_digits = dot_product(v, rows%work) <= GRAINS*digits_of_deck(data)*allowed
+   end function is_within_digits
+
+   !> What entry k of point j adds to its slip in a motion of the bodies.
+   real(wp) function rate_of_entry(data, first, v, j, k) result(rate)
+      type(scene_data_t), intent(in) :: data
+      integer(ip), intent(in) :: first(:), j, k
+      real(wp), intent(in) :: v(:)
+      real(wp) :: vector(2), z
+      integer(ip) :: b, mode, dof, node
+
+      rate = 0.0_wp
+      node = data%rows%node(k)
+      b = data%fem%bodies%of_node(node)
+      if (b == 0) return
+      vector = vector_of_entry(data%rows, j, k, data%rows%tangent(:, j))
+      do mode = 1, first(b + 1) - first(b)
+         do dof = 1, 2
+            if (data%fem%bodies%equation(dof, node) == 0) cycle
+            z = mode_at(data%fem%bodies%list(b), data%fem%bodies%list(b)%modes(:, mode), data%fem%mesh%x(:, node), dof)
+            rate = rate + vector(dof)*z*v(first(b) + mode - 1)
+         end do
+      end do
+   end function rate_of_entry
+
+   !> Takes work h on the motions of the bodies out of the loads: of all forces with that work the least, Z (Z'Z)^-1 h.
+   subroutine take_out(data, work)
+      type(scene_data_t), intent(inout) :: data
+      real(wp), intent(in) :: work(:)               !< (k) [F]
+      real(wp) :: z(2, 3), metric(3, 3), force(3)
+      integer(ip) :: first(data%fem%bodies%n + 1), b, i, n
+
+      first = first_motions(data%fem%bodies)
+      do b = 1, data%fem%bodies%n
+         n = first(b + 1) - first(b)
+         if (n == 0) cycle
+         if (.not. any(abs(work(first(b):first(b + 1) - 1)) > 0.0_wp)) cycle
+         associate (nodes => data%fem%bodies%list(b)%nodes)
+            metric = 0.0_wp
+            do i = 1, size(nodes, kind=ip)
+               z = modes_at(data, b, nodes(i))
+               metric = metric + matmul(transpose(z), z)
+            end do
+            force = 0.0_wp
+            force(:n) = solved(metric(:n, :n), work(first(b):first(b + 1) - 1))
+            do i = 1, size(nodes, kind=ip)
+               data%f(:, nodes(i)) = data%f(:, nodes(i)) - matmul(modes_at(data, b, nodes(i)), force)
+            end do
+         end associate
+      end do
+      call reload(data)
+   end subroutine take_out
+
+   !> The motions of a body at a node, over the free dofs.
+   pure function modes_at(data, b, node) result(z)
+      type(scene_data_t), intent(in) :: data
+      integer(ip), intent(in) :: b, node
+      real(wp) :: z(2, 3)
+      integer(ip) :: dof, mode
+
+      z = 0.0_wp
+      associate (body => data%fem%bodies%list(b))
+         do dof = 1, 2
+            if (data%fem%bodies%equation(dof, node) == 0) cycle
+            z(dof, :size(body%modes, 2)) = [(mode_at(body, body%modes(:, mode), data%fem%mesh%x(:, node), dof), &
+                                             mode=1, size(body%modes, 2, kind=ip))]
+         end do
+      end associate
+   end function modes_at
+
+   !> x of A x = b, A symmetric, positive definite and small, by Gauss's elimination.
+   pure function solved(a, b) result(x)
+      real(wp), intent(in) :: a(:, :), b(:)
+      real(wp) :: x(size(b)), u(size(b), size(b))
+      integer(ip) :: i, j
+
+      u = a
+      x = b
+      do i = 1, size(b, kind=ip)
+         do j = i + 1, size(b, kind=ip)
+            x(j) = x(j) - x(i)*(u(j, i)/u(i, i))
+            u(j, i:) = u(j, i:) - u(i, i:)*(u(j, i)/u(i, i))
+         end do
+      end do
+      do i = size(b, kind=ip), 1, -1
+         x(i) = (x(i) - dot_product(u(i, i + 1:), x(i + 1:)))/u(i, i)
+      end do
+   end function solved
+
+end module atrito_load_digits

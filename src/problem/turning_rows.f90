@@ -1,0 +1,196 @@
+!> Contact rows of bodies that turn together.
+!>
+!> The relative displacement of a point is that of the slave's place x_s less that of the master's place x_m. Where the two are apart
+!> by d = x_s - x_m, by a gap or an overlap along the normal n, or along the tangent T where what the point faces was looked for
+!> along another normal, a rotation w of both bodies makes a displacement w perp(d), though neither moves against the other: sides
+!> that stick would hold a rotation that is free, and forces upon both sides leave a moment. So the rotation of the master's face is
+!> taken out of the rows: with its nodes k at s_k = T . x_k along the face,
+!>
+!>    w = - sum_k e_k n . u_k,   e_k = (s_k - mean of s)/sum_i (s_i - mean of s)^2,
+!>
+!>    u_n = n . (u_s - u_m) + w (T . d),   u_T = T . (u_s - u_m) - w (n . d),
+!>
+!> which vanish for every rigid motion that both bodies have together. Of the forces it is the couple that balances their moment. A
+!> master of one node has the nodes of the points beside it.
+!>
+!> Bodies that supports keep from turning have their rows as they are: the supports take the moment (W-SUMS tells of it).
+module atrito_turning_rows
+   use atrito_assembly, only: fem_t
+   use atrito_contact_rows, only: contact_rows_t
+   use atrito_kinds, only: ip, wp
+   use atrito_points, only: contact_points_t
+   use atrito_sliding_motions, only: first_of_master
+   implicit none (type, external)
+   private
+   public :: balance_rows
+
+   real(wp), parameter :: TOUCHING = 1.0e-12_wp     !< of the coordinates: a distance that is round-off
+   real(wp), parameter :: SHORT = 1.0e-6_wp         !< of the length of a point: nodes at one place tell no rotation
+   real(wp), parameter :: FAR = 3.0_wp              !< lengths of a point, beyond which linear theory closes no gap
+   integer(ip), parameter :: MOST_NODES = 64_ip     !< of a master at one point and those beside it
+
+   !> What is n's of nodes in the rows of points, point by point.
+   type :: turns_t
+      integer(ip) :: n = 0
+      integer(ip), allocatable :: row(:), node(:)
+      real(wp), allocatable :: turn(:, :)           !< (2, n) in the normal and in the tangential row
+   end type turns_t
+
+contains
+
+   !> Takes the rotation of the master out of the rows of all points between bodies that may turn.
+   subroutine balance_rows(points, fem, rows)
+      type(contact_points_t), intent(in) :: points(:)
+      type(fem_t), intent(in) :: fem
+      type(contact_rows_t), intent(inout) :: rows
+      logical :: may_turn(fem%bodies%n)
+      type(turns_t) :: turns
+      integer(ip) :: node(MOST_NODES), i, j, m, n
+      real(wp) :: turn(2, MOST_NODES)
+
+      do i = 1, fem%bodies%n
+         associate (body => fem%bodies%list(i))
+            may_turn(i) = .not. body%is_rigid .and. any(abs(body%modes(3, :)) > 0.0_wp)
+         end associate
+      end do
+      if (.not. any(may_turn)) return
+      m = 0
+      do i = 1, size(points, kind=ip)
+         do j = 1, points(i)%n
+            m = m + 1
+            if (points(i)%rigid) cycle
+            call find_turn(points(i), j, fem, may_turn, rows%normal(:, m), node, turn, n)
+            if (n == 0) cycle
+            call make_room(turns, n)
+            turns%row(turns%n + 1:turns%n + n) = m
+            turns%node(turns%n + 1:turns%n + n) = node(:n)
+            turns%turn(:, turns%n + 1:turns%n + n) = turn(:, :n)
+            turns%n = turns%n + n
+         end do
+      end do
+      if (turns%n > 0) call add_turns(turns, rows)
+   end subroutine balance_rows
+
+   pure subroutine make_room(turns, n)
+      type(turns_t), intent(inout) :: turns
+      integer(ip), intent(in) :: n                  !< entries that come
+      type(turns_t) :: larger
+
+      if (.not. allocated(turns%row)) allocate (turns%row(0), turns%node(0), turns%turn(2, 0))
+      if (turns%n + n <= size(turns%row)) return
+      allocate (larger%row(2*(turns%n + n)), larger%node(2*(turns%n + n)), larger%turn(2, 2*(turns%n + n)))
+      larger%row(:turns%n) = turns%row(:turns%n)
+      larger%node(:turns%n) = turns%node(:turns%n)
+      larger%turn(:, :turns%n) = turns%turn(:, :turns%n)
+      call move_alloc(larger%row, turns%row)
+      call move_alloc(larger%node, turns%node)
+      call move_alloc(larger%turn, turns%turn)
+   end subroutine make_room
+
+   !> The nodes that tell the rotation of the master at a point, and what is n's in its rows; n = 0: nothing is.
+   pure subroutine find_turn(points, j, fem, may_turn, normal, node, turn, n)
+      type(contact_points_t), intent(in) :: points
+      integer(ip), intent(in) :: j
+      type(fem_t), intent(in) :: fem
+      logical, intent(in) :: may_turn(:)            !< (bodies)
+      real(wp), intent(in) :: normal(2)
+      integer(ip), intent(out) :: node(:)
+      real(wp), intent(out) :: turn(:, :)           !< (2, n) [1]
+      integer(ip), intent(out) :: n
+      real(wp) :: o(2), d(2), apart(2), s(size(node)), spread_of
+      integer(ip) :: body, k, last
+
+      n = 0
+      last = points%first(j + 1) - 1
+      if (last <= points%first(j)) return
+      body = fem%bodies%of_node(points%entry(last))
+      k = fem%bodies%of_node(points%entry(points%first(j)))
+      if (body == 0 .or. k == 0) return
+      if (.not. (may_turn(body) .and. may_turn(k))) return
+      o = fem%mesh%x(:, points%entry(last))
+      d = 0.0_wp
+      do k = points%first(j), last
+         d = d + points%coefficient(k)*(fem%mesh%x(:, points%entry(k)) - o)
+      end do
+      apart = [dot_product(normal, d), normal(1)*d(2) - normal(2)*d(1)]
+      where (abs(apart) <= TOUCHING*maxval(abs(o))) apart = 0.0_wp
+      if (all(apart == 0.0_wp) .or. maxval(abs(apart)) > FAR*points%length(j)) return
+      call add_master(points, j, fem, body, node, n)
+      if (n == 1) then
+         if (j > 1) call add_master(points, j - 1, fem, body, node, n)
+         if (j < points%n) call add_master(points, j + 1, fem, body, node, n)
+      end if
+      do k = 1, n
+         s(k) = normal(1)*(fem%mesh%x(2, node(k)) - o(2)) - normal(2)*(fem%mesh%x(1, node(k)) - o(1))
+      end do
+      s(:n) = s(:n) - sum(s(:n))/n
+      spread_of = sum(s(:n)**2)
+      if (.not. spread_of > (SHORT*points%length(j))**2) then
+         n = 0
+         return
+      end if
+      turn(1, :n) = -s(:n)*(apart(2)/spread_of)
+      turn(2, :n) = s(:n)*(apart(1)/spread_of)
+   end subroutine find_turn
+
+   !> Adds the nodes of the master at a point that belong to a body.
+   pure subroutine add_master(points, j, fem, body, node, n)
+      type(contact_points_t), intent(in) :: points
+      integer(ip), intent(in) :: j
+      type(fem_t), intent(in) :: fem
+      integer(ip), intent(in) :: body
+      integer(ip), intent(inout) :: node(:), n
+      integer(ip) :: k
+
+      do k = first_of_master(points, j), points%first(j + 1) - 1
+         if (fem%bodies%of_node(points%entry(k)) /= body .or. n == size(node)) cycle
+         if (any(node(:n) == points%entry(k))) cycle
+         n = n + 1
+         node(n) = points%entry(k)
+      end do
+   end subroutine add_master
+
+   !> Gives the rows of points what is n's of some nodes; those that a row has not yet become entries of it.
+   pure subroutine add_turns(turns, rows)
+      type(turns_t), intent(in) :: turns
+      type(contact_rows_t), intent(inout) :: rows
+      integer(ip), allocatable :: node(:)
+      real(wp), allocatable :: coefficient(:), turn(:, :)
+      integer(ip) :: first(rows%n + 1), m, i, k, e, n, last
+
+      n = size(rows%node, kind=ip) + turns%n
+      allocate (node(n), coefficient(n), turn(2, n))
+      n = 0
+      i = 1
+      do m = 1, rows%n
+         if (m == rows%n - rows%n_bilateral + 1) rows%before_vectors = n
+         first(m) = n + 1
+         last = n + rows%first(m + 1) - rows%first(m)
+         node(n + 1:last) = rows%node(rows%first(m):rows%first(m + 1) - 1)
+         coefficient(n + 1:last) = rows%coefficient(rows%first(m):rows%first(m + 1) - 1)
+         turn(:, n + 1:last) = 0.0_wp
+         n = last
+         do e = i, turns%n
+            if (turns%row(e) /= m) exit
+            do k = first(m), n
+               if (node(k) == turns%node(e)) exit
+            end do
+            if (k > n) then
+               n = k
+               node(n) = turns%node(e)
+               coefficient(n) = 0.0_wp
+               turn(:, n) = 0.0_wp
+            end if
+            turn(:, k) = turn(:, k) + turns%turn(:, e)
+         end do
+         i = e
+         rows%longest = max(rows%longest, n + 1 - first(m))
+      end do
+      first(rows%n + 1) = n + 1
+      rows%first = first
+      rows%node = node(:n)
+      rows%coefficient = coefficient(:n)
+      rows%turn = turn(:, :n)
+   end subroutine add_turns
+
+end module atrito_turning_rows
