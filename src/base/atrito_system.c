@@ -355,6 +355,26 @@ int atrito_peek(const char *path, char *text, int room, int from_end) {
    return n;
 }
 
+/* The first bytes of a file that the system makes when it is read (/proc, /sys; such a file has no length): how many there are;
+ * -1: it cannot be read. */
+int atrito_read_system(const char *path, char *text, int room) {
+   int file = open(path, O_RDONLY | O_CLOEXEC);
+   int n = 0;
+
+   if (file < 0)
+      return -1;
+   while (n < room) {
+      ssize_t more = read(file, text + n, (size_t)(room - n));
+      if (more < 0 && errno == EINTR)
+         continue;
+      if (more <= 0)
+         break;
+      n += (int)more;
+   }
+   close(file);
+   return n;
+}
+
 /* The n-th name in a folder that ends so, from 1 on: its length; 0: there is none. */
 int atrito_find_name(const char *folder, const char *ending, int n, char *name, int room) {
    DIR *list = opendir(folder);
