@@ -7,6 +7,7 @@ module atrito_own_files
    use atrito_status, only: status_t, set_status, is_ok, STATUS_FILE
    use atrito_strings, only: string_t, append_string
    use atrito_system, only: c_find_name, c_is_input, c_kind_in, c_kind_of, c_peek, c_remove_file
+   use atrito_unmarked_decks, only: deck_of_copy, listed_line
    implicit none (type, external)
    private
    public :: check_own, check_all_own, check_unread, is_own, remove_own_file, clear_temporary, names_with
@@ -204,12 +205,31 @@ contains
       else if (kind == '.msh') then
          n = c_peek(path//c_null_char, buffer, TAIL, 1)
          is_own = index(buffer(:n), MESH_MARK) > 0
+         if (.not. is_own) is_own = is_as_listed(path)
       else if (family == IS_PICTURE) then
          is_own = is_own_script(name//'.gp')
       else
          is_own = says_so(buffer(:n), kind, name(index(name, '/', back=.true.) + 1:))
+         if (.not. is_own .and. kind == '.inp') is_own = is_as_listed(path)
       end if
    end function is_own
+
+   !> A deck as run, or the copy of a mesh, without a mark, as an older atrito wrote it: exactly what the listing beside it tells of.
+   recursive logical function is_as_listed(path)
+      character(len=*), intent(in) :: path
+      character(len=HEAD) :: buffer
+      character(len=:), allocatable :: deck, line
+      integer :: n, slash
+
+      is_as_listed = .false.
+      slash = index(path, '/', back=.true.)
+      deck = deck_of_copy(path(slash + 1:))
+      if (len(deck) == 0) return
+      if (.not. is_own(path(:slash)//deck//'.lst')) return
+      n = c_peek(path(:slash)//deck//'.lst'//c_null_char, buffer, HEAD, 0)
+      line = listed_line(path(:slash), deck)
+      if (n > 0 .and. len(line) > 0) is_as_listed = index(buffer(:n), achar(10)//line//achar(10)) > 0
+   end function is_as_listed
 
    logical function is_own_script(path)
       character(len=*), intent(in) :: path

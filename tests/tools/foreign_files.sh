@@ -137,6 +137,17 @@ done
 mine' ] || fail 'files of the user are gone'
 "$atrito" out/a.run.inp -o out --quiet && "$atrito" out/a.run.inp -o out --quiet || fail "the deck as it was run: exit $?"
 [ "$(grep -c '^\*\* atrito ' out/a.run.run.inp)" -eq 1 ] || fail 'the mark of the deck as it was run is not there once'
+# a deck as run without a mark, of an older atrito, is known by its digest in the listing; one line more, and it is somebody else's
+rm -rf out
+"$atrito" a.inp -o out --quiet || fail "a deck: exit $?"
+sed -i 1d out/a.run.inp
+"$atrito" a.inp -o out --quiet >said 2>&1 || { fail "over a deck as run without a mark: exit $?"; cat said; }
+sed -i 1d out/a.run.inp
+echo '** mine' >>out/a.run.inp
+refused 'a deck as run without a mark that was changed' out/a.run.inp "$atrito" a.inp -o out
+sed -i '$d' out/a.run.inp
+rm out/a.lst
+refused 'a deck as run without a mark and without a listing' out/a.run.inp "$atrito" a.inp -o out
 for run in 'sweep a.inp --vary q=1,2' 'study a.inp --levels 2' 'sweep a.inp --vary q=1,2 --resume'; do
    for form in tab csv tab; do
       "$atrito" $run -o "out-${run%% *}" --format $form --plot --quiet >said 2>&1 || { fail "again: $run, $form: exit $?"; cat said; }
