@@ -5,7 +5,7 @@
 module atrito_files
    use, intrinsic :: iso_c_binding, only: c_associated, c_int, c_int64_t, c_null_char, c_null_ptr, c_ptr, c_size_t
    use atrito_kinds, only: lp
-   use atrito_own_files, only: check_own, check_all_own, clear_temporary, remove_own_file, TEMPORARY
+   use atrito_own_files, only: check_own, check_all_own, check_length, clear_temporary, remove_own_file, TEMPORARY
    use atrito_paths, only: file_exists, is_folder, make_folder, remove_folders, remove_file, remove_empty_folder, check_folder, &
                            true_path, target_path
    use atrito_renaming, only: find_obstacle, replace_files, rename_over, recover_files
@@ -20,7 +20,7 @@ module atrito_files
    public :: read_file, read_bytes, judge_file, protect_input, forget_inputs, confine_files, read_system_line, read_system_lines, &
              true_path, target_path
    public :: file_exists, is_folder, make_folder, remove_folders, remove_file, remove_own_file, remove_empty_folder, check_folder, &
-             check_own, check_all_own
+             check_own, check_all_own, check_length
    public :: file_set_t, text_file_t, begin_files, reserve_file, open_text, put_line, put_lines, put_text, close_text, &
              NEW_LINE_CHARACTER
    public :: end_files, commit_files, commit_over, discard_files
