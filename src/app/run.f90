@@ -1,6 +1,7 @@
 !> One run: read the deck, build the model, solve, write.
 module atrito_run
    use, intrinsic :: iso_fortran_env, only: output_unit
+   use atrito_as_run_names, only: as_run_name
    use atrito_body_cache, only: body_cache_t
    use atrito_build_model, only: build_model
    use atrito_build_requests, only: refuse_field_files
@@ -9,7 +10,7 @@ module atrito_run
    use atrito_deck, only: deck_t
    use atrito_deck_as_run, only: take_deck_as_run
    use atrito_element_table, only: DEGREE_OF, KINDS, kind_named
-   use atrito_files, only: check_folder, check_all_own, check_own, forget_inputs, is_folder, protect_input
+   use atrito_files, only: check_folder, check_all_own, check_length, check_own, forget_inputs, is_folder, protect_input
    use atrito_folder_claim, only: folder_claim_t, claim_folder, release_folder
    use atrito_frame_spool, only: begin_frames, end_frames, frame_spool_t
    use atrito_given_options, only: options_of_run
@@ -315,7 +316,8 @@ contains
       character(len=:), allocatable :: folder
 
       folder = output_folder(command)
-      if (.not. is_folder(folder)) return
+      call check_length(folder, as_run_name(model%deck_name), status)
+      if (.not. is_ok(status) .or. .not. is_folder(folder)) return
       call check_all_own(folder, list_files_of_run(model, folder), status)
       if (is_ok(status)) call check_all_own(plot_folder(folder), list_plots(folder, PLOTS_OF_RUN), status)
       if (is_ok(status)) call check_own(folder//'/'//restart_name(model), status, may_be_read=.true.)

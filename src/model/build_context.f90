@@ -14,6 +14,7 @@ module atrito_build_context
    use atrito_growth, only: make_room
    use atrito_id_map, only: id_map_t, add_id
    use atrito_items, only: option_text
+   use atrito_joined_blocks, only: joined_blocks_t
    use atrito_kinds, only: ip, lp, wp
    use atrito_messages, only: count_messages, SEVERITY_ERROR
    use atrito_model, only: model_t
@@ -47,6 +48,7 @@ module atrito_build_context
       real(wp) :: spread = -1.0_wp                     !< longer side of the box round the nodes of *NODE [L]; < 0: not asked yet
       integer(ip) :: n_blocks = 0
       type(block_t), allocatable :: blocks(:)          !< the first n_blocks are in use
+      type(joined_blocks_t) :: joined                  !< those up to the last one that has MERGE
       integer(ip), allocatable :: block_of_card(:)     !< for each card the first one; 0: none
       integer(ip) :: elements_to_come = 0              !< of blocks whose elements are not made yet
       type(line_list_t) :: lines

@@ -23,7 +23,7 @@ module atrito_build_parts
       integer(ip), allocatable :: nodes(:, :)          !< (0:order*nx, 0:order*ny), places; 0: none
       integer(ip) :: first_element = 0                 !< place; row by row from BOTTOM
       integer(ip) :: n_elements = 0
-      integer(ip) :: body = 0                          !< the same for blocks that MERGE joins
+      integer(ip) :: joined_to = 0                     !< a block that MERGE joins it with; 0: none
       real(wp) :: low(2) = 0.0_wp, high(2) = 0.0_wp    !< the box round its nodes [L]
       character(len=:), allocatable :: array           !< name of the copies of which it is one; not allocated: it is none
       logical :: at_side(4) = .false.                  !< it stands at this side of all copies, as in BLOCK_SIDES

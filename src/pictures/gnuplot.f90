@@ -55,6 +55,7 @@ contains
          call expect_pictures(folder, names(i)%s)
       end do
       call run_command(plot_command(folder, names), SECONDS_OF_PICTURE*real(size(names), wp), exit_code)
+      if (exit_code == TOO_LATE) call remove_unfinished(folder, names)
       do i = 1, size(names)
          if (has_pictures(folder, names(i)%s)) call append_string(drawn, names(i)%s)
       end do
@@ -74,6 +75,27 @@ contains
          call note_path(folder//'/'//name//endings(k))
       end do
    end subroutine expect_pictures
+
+   !> Removes the pictures that gnuplot had begun last when it was ended: nobody knows how much of them is there.
+   subroutine remove_unfinished(folder, names)
+      character(len=*), intent(in) :: folder
+      type(string_t), intent(in) :: names(:)
+      character(len=4), allocatable :: endings(:)
+      character(len=:), allocatable :: path
+      logical :: is_begun
+      integer :: i, k
+
+      is_begun = .false.
+      do i = size(names), 1, -1
+         endings = picture_endings(names(i)%s)
+         do k = 1, size(endings)
+            path = folder//'/'//names(i)%s//endings(k)
+            is_begun = is_begun .or. file_exists(path)
+            call remove_own_file(path)
+         end do
+         if (is_begun) return
+      end do
+   end subroutine remove_unfinished
 
    !> Whether all pictures of a name are there. They stay, even if the run is interrupted later.
    logical function has_pictures(folder, name)

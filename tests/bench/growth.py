@@ -1,19 +1,20 @@
 #!/usr/bin/env python3
 """How time and memory grow with a deck: each kind of growth_decks.py at growing n, a line a size.
 
-   tests/bench/growth.py [--run] [--from N] [--to N] [--seconds S] [--memory MIB] [--only REGEX] [--list] [--write DIR] [PROGRAM]
+   tests/bench/growth.py [--run] [--from N] [--to N] [--beyond] [--seconds S] [--memory MIB] [--slow E] [--only REGEX] [--list]
+                         [--write DIR] [PROGRAM]
 
 --run        whole runs; otherwise `atrito check`
 --from N     the smallest n, default 1000; the next ones are ten times as large
 --to N       the largest, default 1000000; a kind may have its own that is smaller
+--beyond     also beyond the kind's own largest n
 --seconds S  a kind ends with the first size that takes longer, default 20; what takes three times as long is ended
 --memory MIB limit of the address space, default 8192
 --slow E     tells only kinds whose exponent is above E
 --write DIR  makes the decks in DIR (n = --to), and runs nothing
 
 Time is the processor time of the process, memory its largest resident size. The exponent is that of the time between two sizes,
-the time
-of the smallest deck taken off; it is told where the time is above a tenth of a second. Asserts nothing."""
+the time of the smallest deck taken off; it is told where the time is above a tenth of a second. Asserts nothing."""
 import argparse
 import math
 import os
@@ -57,7 +58,7 @@ def one_kind(name, arguments, folder, base):
     if mode == 'run' and not arguments.run:
         return
     n, before, slope, told = arguments.least, None, 0.0, []
-    while n <= min(arguments.to, most):
+    while n <= (arguments.to if arguments.beyond else min(arguments.to, most)):
         shutil.rmtree(folder, ignore_errors=True)
         files = make(n)
         write_files(files, folder)
@@ -87,6 +88,7 @@ def main():
     parser.add_argument('--run', action='store_true')
     parser.add_argument('--from', dest='least', type=int, default=1000)
     parser.add_argument('--to', type=int, default=1000000)
+    parser.add_argument('--beyond', action='store_true')
     parser.add_argument('--seconds', type=float, default=20.0)
     parser.add_argument('--memory', type=int, default=8192)
     parser.add_argument('--slow', type=float, default=-99.0)

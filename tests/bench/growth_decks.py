@@ -267,7 +267,7 @@ def elgen_lines(n):
                 model=HOLD))
 
 
-@kind(10000)
+@kind(100000)
 def blocks(n):
     body = ''.join([block(f'B{i}', 1, 1, 5 + 2 * i, 0) for i in range(n)])
     return deck(scene(mesh=body + lines(n, '*ELSET, ELSET=G\nB%i').replace('B%d\n' % n, 'B0\n'),
@@ -275,7 +275,7 @@ def blocks(n):
                           for i in range(n)])))
 
 
-@kind(10000)
+@kind(100000)
 def blocks_merged(n):
     body = block('B0', 1, 1, 5, 0) + ''.join(
         [block(f'B{i}', 1, 1, 5 + i, 0).replace('NY=1', f'NY=1, MERGE=B{i - 1}') for i in range(1, n)])
@@ -561,7 +561,7 @@ def rigid_floors(n):
                       in_step=''.join([f'*DSLOAD\nB{i}-TOP, P, 1.\n' for i in range(n)])))
 
 
-@kind(10000)
+@kind(100000)
 def rigid_bodies(n):
     nodes = ''.join([f'*NODE\n{10**6 + i}, {5.5 + 2 * i}, 0.5\n' for i in range(n)])
     body = ''.join([block(f'B{i}', 1, 1, 5 + 2 * i, 0) for i in range(n)])
@@ -583,14 +583,14 @@ def part(name):
             '*NSET, NSET=N\n1, 2, 3, 4\n*SOLID SECTION, ELSET=E, MATERIAL=M\n*END PART\n')
 
 
-@kind(30000)
+@kind(300000)
 def instances(n):
     inst = ''.join([f'*INSTANCE, NAME=I{i}, PART=P\n{2 * i}., 0.\n*END INSTANCE\n' for i in range(n)])
     return deck(assembly(part('P'), inst) + '*BOUNDARY\n' + ''.join([f'I{i}.N, 1, 2\n' for i in range(n)])
                 + '*STEP\n*STATIC\n*CLOAD\nI1.3, 1, 1.\n*END STEP\n')
 
 
-@kind(30000)
+@kind(300000)
 def parts(n):
     inst = ''.join([f'*INSTANCE, NAME=I{i}, PART=P{i}\n{2 * i}., 0.\n*END INSTANCE\n' for i in range(n)])
     return deck(assembly(''.join([part(f'P{i}') for i in range(n)]), inst) + '*BOUNDARY\n' + ''.join([f'I{i}.N, 1, 2\n'

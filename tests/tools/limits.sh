@@ -66,6 +66,10 @@ if [ "$(id -u)" -eq 0 ] && command -v prlimit >/dev/null && command -v setpriv >
       done
    fi
 fi
+# stacks of threads for which there is no room
+OMP_STACKSIZE=99999G timeout 60 "$atrito" "$work/deck.inp" -o out --quiet --threads 2 2>err
+code=$?
+[ $code = 0 ] && grep -q W-THREADS err || { fail "OMP_STACKSIZE=99999G: exit $code"; cat err; }
 # a deck for which there is no memory
 yes '** nothing' | head -c 70000000 >"$work/large.inp"
 (ulimit -v 230000 && exec timeout 60 "$atrito" "$work/large.inp" -o out --quiet) 2>err

@@ -1,19 +1,18 @@
-!> Text files, in and out. The only `open` and `close` of the Fortran sources, for files of the system: they trim names, and what
-!> was opened cannot be asked of them.
+!> Text files, in and out. They are opened by the C library: the `open` of Fortran trims names, and cannot be asked what it opened.
 !>
 !> Output is written in whole sets: every file of a set first goes to a temporary name beside its final one; when all of them
 !> are complete they are renamed together (commit_files), otherwise none is (discard_files).
 module atrito_files
    use, intrinsic :: iso_c_binding, only: c_associated, c_int, c_int64_t, c_null_char, c_null_ptr, c_ptr, c_size_t
    use atrito_kinds, only: lp
-   use atrito_own_files, only: check_own, check_all_own, clear_temporary, remove_own_file, TEMPORARY
+   use atrito_own_files, only: check_own, check_all_own, check_length, clear_temporary, remove_own_file, TEMPORARY
    use atrito_paths, only: file_exists, is_folder, make_folder, remove_folders, remove_file, remove_empty_folder, check_folder, &
                            true_path, target_path
    use atrito_renaming, only: find_obstacle, replace_files, rename_over, recover_files
    use atrito_status, only: status_t, set_status, is_ok, STATUS_FILE
    use atrito_strings, only: string_t, append_string, to_text
    use atrito_system, only: c_open_input, c_identify, c_note_input, forget_inputs, &
-                            c_read_input, c_close_input, c_confine, c_create_file, &
+                            c_read_input, c_read_system, c_close_input, c_confine, c_create_file, &
                             c_write_line, c_write_text, c_close_file, c_settle_file, &
                             hold_interrupts, release_interrupts, note_path, forget_path
    implicit none (type, external)
@@ -21,7 +20,7 @@ module atrito_files
    public :: read_file, read_bytes, judge_file, protect_input, forget_inputs, confine_files, read_system_line, read_system_lines, &
              true_path, target_path
    public :: file_exists, is_folder, make_folder, remove_folders, remove_file, remove_own_file, remove_empty_folder, check_folder, &
-             check_own, check_all_own
+             check_own, check_all_own, check_length
    public :: file_set_t, text_file_t, begin_files, reserve_file, open_text, put_line, put_lines, put_text, close_text, &
              NEW_LINE_CHARACTER
    public :: end_files, commit_files, commit_over, discard_files
@@ -49,7 +48,8 @@ module atrito_files
    !> Answers of c_open_input.
    integer(c_int), parameter :: NOT_THERE = -1, NOT_ALLOWED = -2, IS_FOLDER_CODE = -3, IS_PIPE = -4, IS_DEVICE = -5, &
                                 OF_SYSTEM = -6, OUTSIDE = -7, NOT_OPENED = -8
-   integer, parameter :: LONGEST_SYSTEM_LINE = 4096          !< a path of a control group, at most
+   !> Of a file of the system no more is read: what is asked for stands near its beginning.
+   integer, parameter :: LONGEST_SYSTEM_FILE = 65536
 
 contains
 
@@ -195,34 +195,53 @@ contains
       character(len=*), intent(in) :: path, label
       character(len=:), allocatable, intent(out) :: line
       logical, intent(out) :: found
-      type(string_t), allocatable :: lines(:)
+      character(len=:), allocatable :: text
+      integer :: first
 
-      call read_system_lines(path, lines, label)
-      found = .false.
-      if (size(lines) > 0) found = index(lines(size(lines))%s, label) == 1
-      if (found) line = lines(size(lines))%s
+      call read_system_text(path, text)
+      first = index(text, NEW_LINE_CHARACTER//label) + 1
+      found = first > 1 .and. first <= len(text)
+      if (found) line = first_line(text(first:))
    end subroutine read_system_line
 
    !> The lines of such a file; none where it cannot be read.
-   subroutine read_system_lines(path, lines, last)
+   subroutine read_system_lines(path, lines)
       character(len=*), intent(in) :: path
       type(string_t), allocatable, intent(out) :: lines(:)
-      character(len=*), intent(in), optional :: last   !< the first line that begins so is the last one
-      character(len=LONGEST_SYSTEM_LINE) :: buffer
-      integer :: unit, ios
+      character(len=:), allocatable :: text
+      integer :: first
 
       allocate (lines(0))
-      open (newunit=unit, file=path, status='old', action='read', iostat=ios)
-      if (ios /= 0) return
-      do
-         read (unit, '(a)', iostat=ios) buffer
-         if (ios /= 0) exit
-         call append_string(lines, trim(buffer))
-         if (.not. present(last)) cycle
-         if (index(buffer, last) == 1) exit
+      call read_system_text(path, text)
+      first = 2
+      do while (first <= len(text))
+         call append_string(lines, first_line(text(first:)))
+         first = first + len(lines(size(lines))%s) + 1
       end do
-      close (unit)
    end subroutine read_system_lines
+
+   !> All of such a file, a line's end before its first line; '' where it cannot be read.
+   subroutine read_system_text(path, text)
+      character(len=*), intent(in) :: path
+      character(len=:), allocatable, intent(out) :: text
+      character(len=:), allocatable :: buffer
+      integer(c_int) :: n
+
+      allocate (character(len=LONGEST_SYSTEM_FILE) :: buffer)
+      n = c_read_system(path//c_null_char, buffer, int(LONGEST_SYSTEM_FILE, c_int))
+      text = ''
+      if (n > 0) text = NEW_LINE_CHARACTER//buffer(:n)
+   end subroutine read_system_text
+
+   !> What a text has before the end of its first line.
+   pure function first_line(text) result(line)
+      character(len=*), intent(in) :: text
+      character(len=:), allocatable :: line
+      integer :: length
+
+      length = index(text, NEW_LINE_CHARACTER) - 1
+      line = text(:merge(length, len(text), length >= 0))
+   end function first_line
 
    !> Begins a set of files in a folder, which is made where it is missing. What a run left there that was killed is cleared away.
    subroutine begin_files(set, folder, status)

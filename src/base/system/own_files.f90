@@ -7,9 +7,10 @@ module atrito_own_files
    use atrito_status, only: status_t, set_status, is_ok, STATUS_FILE
    use atrito_strings, only: string_t, append_string
    use atrito_system, only: c_find_name, c_is_input, c_kind_in, c_kind_of, c_peek, c_remove_file
+   use atrito_unmarked_decks, only: deck_of_copy, listed_line
    implicit none (type, external)
    private
-   public :: check_own, check_all_own, check_unread, is_own, remove_own_file, clear_temporary, names_with
+   public :: check_own, check_all_own, check_length, check_unread, is_own, remove_own_file, clear_temporary, names_with
    public :: TEMPORARY, FORMER, OWN_MARK, DECK_MARK, MESH_MARK
 
    !> Endings of a file that is being written, and of one that steps aside for it.
@@ -25,7 +26,8 @@ module atrito_own_files
    integer, parameter :: IS_OTHER = 0, IS_TEXT = 1, IS_BINARY = 2, IS_PICTURE = 3
    integer, parameter :: NONE = 0, PLAIN = 1, FOLDER = 2               !< answers of c_kind_of
    integer, parameter :: HEAD = 8192, TAIL = 256
-   integer, parameter :: LONGEST_NAME = 255
+   !> Bytes that Linux takes.
+   integer, parameter :: LONGEST_NAME = 255, LONGEST_PATH = 4095
    character(len=*), parameter :: WAYS_OUT = 'move it away, or take another folder (-o)'
 
    !> The first columns of each table, by which a file of comma-separated values is known: it has no comments.
@@ -65,6 +67,23 @@ contains
          end do
       end do
    end subroutine check_all_own
+
+   !> Whether the system takes the name that a file has before its own, or the one that a former file of its name steps aside to.
+   !> status: STATUS_FILE.
+   subroutine check_length(folder, name, status)
+      character(len=*), intent(in) :: folder, name
+      type(status_t), intent(out) :: status
+      integer :: length
+
+      length = len(name) + len(TEMPORARY)
+      if (c_kind_in(folder//c_null_char, name//c_null_char) /= NONE) length = len(name) + len(FORMER)
+      if (length > LONGEST_NAME) then
+         call set_status(status, STATUS_FILE, folder//'/'//name//': cannot be written, the name is too long; rename the deck')
+      else if (len(folder) + 1 + length > LONGEST_PATH) then
+         call set_status(status, STATUS_FILE, folder//'/'//name//': cannot be written, the path is too long; '// &
+                         'take another folder (-o)')
+      end if
+   end subroutine check_length
 
    !> Names of a folder that end so.
    function names_with(folder, ending) result(names)
@@ -204,12 +223,31 @@ contains
       else if (kind == '.msh') then
          n = c_peek(path//c_null_char, buffer, TAIL, 1)
          is_own = index(buffer(:n), MESH_MARK) > 0
+         if (.not. is_own) is_own = is_as_listed(path)
       else if (family == IS_PICTURE) then
          is_own = is_own_script(name//'.gp')
       else
          is_own = says_so(buffer(:n), kind, name(index(name, '/', back=.true.) + 1:))
+         if (.not. is_own .and. kind == '.inp') is_own = is_as_listed(path)
       end if
    end function is_own
+
+   !> A deck as run, or the copy of a mesh, without a mark, as an older atrito wrote it: exactly what the listing beside it tells of.
+   recursive logical function is_as_listed(path)
+      character(len=*), intent(in) :: path
+      character(len=HEAD) :: buffer
+      character(len=:), allocatable :: deck, line
+      integer :: n, slash
+
+      is_as_listed = .false.
+      slash = index(path, '/', back=.true.)
+      deck = deck_of_copy(path(slash + 1:))
+      if (len(deck) == 0) return
+      if (.not. is_own(path(:slash)//deck//'.lst')) return
+      n = c_peek(path(:slash)//deck//'.lst'//c_null_char, buffer, HEAD, 0)
+      line = listed_line(path(:slash), deck)
+      if (n > 0 .and. len(line) > 0) is_as_listed = index(buffer(:n), achar(10)//line//achar(10)) > 0
+   end function is_as_listed
 
    logical function is_own_script(path)
       character(len=*), intent(in) :: path

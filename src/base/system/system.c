@@ -3,6 +3,7 @@
  * The numbers and structures of the system stand in its headers, and here alone the compiler sees them. atrito_system.f90 has
  * the Fortran interfaces. Texts come as C strings. */
 #define _GNU_SOURCE
+#include <ctype.h>
 #include <dirent.h>
 #include <dlfcn.h>
 #include <errno.h>
@@ -355,6 +356,26 @@ int atrito_peek(const char *path, char *text, int room, int from_end) {
    return n;
 }
 
+/* The first bytes of a file that the system makes when it is read (/proc, /sys; such a file has no length): how many there are;
+ * -1: it cannot be read. */
+int atrito_read_system(const char *path, char *text, int room) {
+   int file = open(path, O_RDONLY | O_CLOEXEC);
+   int n = 0;
+
+   if (file < 0)
+      return -1;
+   while (n < room) {
+      ssize_t more = read(file, text + n, (size_t)(room - n));
+      if (more < 0 && errno == EINTR)
+         continue;
+      if (more <= 0)
+         break;
+      n += (int)more;
+   }
+   close(file);
+   return n;
+}
+
 /* The n-th name in a folder that ends so, from 1 on: its length; 0: there is none. */
 int atrito_find_name(const char *folder, const char *ending, int n, char *name, int room) {
    DIR *list = opendir(folder);
@@ -472,7 +493,8 @@ int atrito_open_lock(const char *folder) {
 
    if (lock_path(folder, path, sizeof path))
       file = open(path, O_WRONLY | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, S_IWUSR | S_IWGRP | S_IWOTH);
-   if (file >= 0 && (fstat(file, &is) != 0 || !S_ISREG(is.st_mode))) {
+   /* a file with something in it is somebody's, and is not to be removed */
+   if (file >= 0 && (fstat(file, &is) != 0 || !S_ISREG(is.st_mode) || is.st_size > 0)) {
       close(file);
       file = -1;
    }
@@ -953,10 +975,33 @@ int atrito_has_address_space(int64_t bytes) {
    return 1;
 }
 
+/* The stack of a thread that OMP_STACKSIZE asks for, '64M' (KiB without a unit); 0: it asks for none. */
+static int64_t stack_asked_for(void) {
+   static const char units[] = "BKMG";
+   const char *text = getenv("OMP_STACKSIZE");
+   char *rest;
+
+   if (!text)
+      return 0;
+   errno = 0;
+   long long size = strtoll(text, &rest, 10);
+   while (*rest == ' ')
+      rest++;
+   const char *unit = *rest ? strchr(units, toupper((unsigned char)*rest)) : units + 1;
+   if (errno || size <= 0 || !unit)
+      return 0;
+   for (; unit > units; unit--)
+      size = size > INT64_MAX / 1024 ? INT64_MAX : size * 1024;
+   return size;
+}
+
 /* What a thread takes of the address space for its stack. */
 int64_t atrito_stack_of_thread(void) {
    pthread_attr_t attributes;
    size_t size = 0;
+   int64_t asked = stack_asked_for();
+   if (asked > 0)
+      return asked;
    if (pthread_attr_init(&attributes) != 0)
       return 0;
    pthread_attr_getstacksize(&attributes, &size);
@@ -974,14 +1019,19 @@ static void *wait_for_all(void *gate) {
 int atrito_count_threads(int most) {
    pthread_mutex_t gate = PTHREAD_MUTEX_INITIALIZER;
    pthread_t *threads = calloc(most, sizeof *threads);
+   pthread_attr_t attributes;
    int n = 0;
 
+   if (pthread_attr_init(&attributes) != 0)
+      return 0;
+   pthread_attr_setstacksize(&attributes, (size_t)atrito_stack_of_thread());
    pthread_mutex_lock(&gate);
-   while (threads && n < most && pthread_create(&threads[n], NULL, wait_for_all, &gate) == 0)
+   while (threads && n < most && pthread_create(&threads[n], &attributes, wait_for_all, &gate) == 0)
       n++;
    pthread_mutex_unlock(&gate);
    for (int i = 0; i < n; i++)
       pthread_join(threads[i], NULL);
+   pthread_attr_destroy(&attributes);
    free(threads);
    return n;
 }

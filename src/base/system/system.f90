@@ -8,7 +8,7 @@ module atrito_system
    public :: c_is_folder, c_exists, c_may_hold, c_kind_of, c_kind_in, c_is_plain, c_may_write, c_judge_folder, c_make_folder, &
              c_remove_file, c_remove_folder, c_rename, c_true_path
    public :: c_open_input, c_identify, c_note_input, forget_inputs, c_is_input, &
-             c_read_input, c_close_input, c_peek, c_find_name, c_confine
+             c_read_input, c_close_input, c_peek, c_read_system, c_find_name, c_confine
    public :: c_is_terminal, c_create_file, c_write_line, c_write_text, c_close_file, c_settle_file, c_append_line
    public :: c_open_lock, c_close_lock, c_is_lock_of, c_lock_folder
    public :: c_open_nameless, c_place_in_file, c_go_to_place, c_write_bytes, c_read_bytes
@@ -159,6 +159,12 @@ module atrito_system
          character(kind=c_char), intent(inout) :: text(*)
          integer(c_int), value :: room, from_end
       end function c_peek
+      integer(c_int) function c_read_system(path, text, room) bind(C, name='atrito_read_system')
+         import :: c_char, c_int
+         character(kind=c_char), intent(in) :: path(*)
+         character(kind=c_char), intent(inout) :: text(*)
+         integer(c_int), value :: room
+      end function c_read_system
       integer(c_int) function c_find_name(folder, ending, n, name, room) bind(C, name='atrito_find_name')
          import :: c_char, c_int
          character(kind=c_char), intent(in) :: folder(*), ending(*)

@@ -68,10 +68,14 @@ contains
       type(parts_t), intent(inout) :: parts
       character(len=:), allocatable :: name
       type(token_t) :: place
-      integer(ip) :: i
+      type(part_t), allocatable :: list(:)
+      integer(ip), allocatable :: last(:)
+      integer(ip) :: i, n
       logical :: found
 
-      allocate (parts%list(0))
+      call find_ends(deck, last)
+      allocate (list(count(deck%cards(:deck%n_cards)%name == 'PART')))
+      n = 0
       parts%assembly = ''
       do i = 1, deck%n_cards
          select case (deck%cards(i)%name)
@@ -82,23 +86,28 @@ contains
             if (.not. found .or. len(name) == 0) then
                parts%is_undetermined = .true.
             else if (find_name(parts%names, name) > 0) then
-               call report_twice(deck, place, deck%cards(parts%list(find_name(parts%names, name))%card)%place, 'part', name)
+               call report_twice(deck, place, deck%cards(list(find_name(parts%names, name))%card)%place, 'part', name)
             else
                call add_name(parts%names, name)
-               parts%list = [parts%list, part_t(i, i + 1, last_of_block(deck, i))]
+               n = n + 1
+               list(n) = part_t(i, i + 1, last(deck%cards(i)%block))
             end if
          end select
       end do
+      parts%list = list(:n)
    end subroutine list_parts
 
-   !> The last card that belongs to the block that a card opens.
-   pure integer(ip) function last_of_block(deck, opening) result(last)
+   !> The last card that belongs to each block, *END PART not among them.
+   pure subroutine find_ends(deck, last)
       type(deck_t), intent(in) :: deck
-      integer(ip), intent(in) :: opening
+      integer(ip), allocatable, intent(out) :: last(:) !< (0:blocks)
+      integer(ip) :: i
 
-      last = findloc(deck%cards(:deck%n_cards)%block, deck%cards(opening)%block, dim=1, back=.true., kind=ip)
-      if (deck%cards(last)%name == 'END PART') last = last - 1
-   end function last_of_block
+      allocate (last(0:max(0_ip, maxval(deck%cards(:deck%n_cards)%block))), source=0_ip)
+      do i = 1, deck%n_cards
+         last(deck%cards(i)%block) = merge(i - 1, i, deck%cards(i)%name == 'END PART')
+      end do
+   end subroutine find_ends
 
    !> A scope for each instance, one that is faulty too: what refers to it is passed over in silence.
    subroutine list_instances(deck, parts)
@@ -382,6 +391,7 @@ contains
       type(card_t), intent(in) :: cards(:)
       type(parts_t), intent(in) :: parts
       integer(ip) :: i
+      logical :: all_known
 
       if (size(deck%scopes) == 1) then
          call report_error(deck, cards(findloc(cards%name, 'PART', dim=1))%place, 'E-PART', &
@@ -389,8 +399,9 @@ contains
                            expected='*ASSEMBLY, *INSTANCE, NAME=, PART=, *END INSTANCE, *END ASSEMBLY', keyword='INSTANCE')
          return
       end if
+      all_known = all(deck%scopes%ok)
       do i = 1, size(parts%list, kind=ip)
-         if (parts%list(i)%is_taken .or. .not. all(deck%scopes%ok)) cycle
+         if (parts%list(i)%is_taken .or. .not. all_known) cycle
          call report_note(deck, cards(parts%list(i)%card)%place, 'N-PART', 'no *INSTANCE has this part: nothing of it is in '// &
                           'the scene', keyword='INSTANCE')
       end do

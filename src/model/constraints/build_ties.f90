@@ -7,14 +7,15 @@ module atrito_build_ties
    use atrito_diagnostics, only: report_error, report_note, report_warning
    use atrito_faces, only: face_list_t, chain_report_t
    use atrito_items, only: find_option, option_text, option_real, option_word
-   use atrito_kinds, only: ip, wp
+   use atrito_kinds, only: ip, lp, wp
    use atrito_mesh, only: face_nodes
    use atrito_model, only: model_t, tie_t, QUADRATURE_AUTO, QUADRATURE_NODAL, QUADRATURE_MORTAR, SURFACE_SEGMENTS
    use atrito_name_list, only: find_name
-   use atrito_number_list, only: number_list_t, add_number, numbers_of
+   use atrito_number_list, only: number_list_t, add_number, add_numbers, numbers_of
    use atrito_pairing, only: pair_surfaces
    use atrito_points, only: contact_points_t
    use atrito_references, only: report_unknown
+   use atrito_sorting, only: each_once, first_at_least
    use atrito_strings, only: to_text
    implicit none (type, external)
    private
@@ -155,22 +156,25 @@ contains
       type(build_context_t), intent(in) :: context
       type(token_t), intent(in) :: place
       type(face_list_t), intent(in) :: slave, master
-      type(number_list_t) :: shared
-      logical :: is_master(context%model%mesh%n_nodes), is_told(context%model%mesh%n_nodes)
+      type(number_list_t) :: shared, of_master
+      integer(lp), allocatable :: masters(:)
       integer(ip), allocatable :: nodes(:)
-      integer(ip) :: i, k
+      logical, allocatable :: is_told(:)               !< of each of the master's nodes
+      integer(ip) :: i, k, m
 
-      is_master = .false.
-      is_told = .false.
       associate (mesh => context%model%mesh)
          do i = 1, master%n
-            is_master(face_nodes(mesh, master%element(i), master%face(i))) = .true.
+            call add_numbers(of_master, face_nodes(mesh, master%element(i), master%face(i)))
          end do
+         masters = int(each_once(numbers_of(of_master)), lp)
+         allocate (is_told(size(masters)), source=.false.)
          do i = 1, slave%n
             nodes = face_nodes(mesh, slave%element(i), slave%face(i))
             do k = 1, size(nodes, kind=ip)
-               if (.not. is_master(nodes(k)) .or. is_told(nodes(k))) cycle
-               is_told(nodes(k)) = .true.
+               m = first_at_least(masters, int(nodes(k), lp))
+               if (m > size(masters)) cycle
+               if (masters(m) /= nodes(k) .or. is_told(m)) cycle
+               is_told(m) = .true.
                call add_number(shared, mesh%node_id(nodes(k)))
             end do
          end do

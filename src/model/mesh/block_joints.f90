@@ -8,9 +8,11 @@ module atrito_block_joints
    use atrito_deck, only: deck_t, card_t, token_t, token_text, keyword_name, line_item
    use atrito_diagnostics, only: report_error, report_warning
    use atrito_items, only: option_text
-   use atrito_kinds, only: ip, wp
+   use atrito_joined_blocks, only: add_joined_block, blocks_named, join_blocks, are_joined_blocks, blocks_near
+   use atrito_kinds, only: ip, lp, wp
    use atrito_references, only: report_unknown
    use atrito_sets, only: find_set, members_of
+   use atrito_sorting, only: each_once, first_at_least
    use atrito_strings, only: same_name, to_text
    implicit none (type, external)
    private
@@ -32,32 +34,54 @@ contains
       logical, intent(out) :: ok
       type(token_t), allocatable :: names(:)
       character(len=:), allocatable :: own
-      logical :: named(context%n_blocks), good
+      integer(ip), allocatable :: named(:), near(:)
       real(wp) :: reach
-      integer(ip) :: i, b
+      integer(ip) :: i, k
+      logical :: good
 
       ok = .true.
-      named = .false.
-      block%body = context%n_blocks + 1
       block%low = minval(x, dim=2)
       block%high = maxval(x, dim=2)
       reach = MERGE_TOLERANCE*norm2(block%high - block%low)
       names = merge_names(context%deck, context%deck%cards(i_card))
+      if (size(names) == 0) return
+      call note_blocks(context)
+      allocate (named(0))
       do i = 1, size(names, kind=ip)
          call share_with(names(i), x, context, block, named, good)
          ok = ok .and. good
       end do
-      if (.not. ok .or. size(names) == 0) return
-      do b = 1, context%n_blocks
-         if (named(b)) call join_bodies(context, block, context%blocks(b)%body)
+      if (.not. ok .or. size(named) == 0) return
+      named = each_once(named)
+      block%joined_to = named(1)
+      do i = 2, size(named, kind=ip)
+         call join_blocks(context%joined, named(1), named(i))
       end do
       call option_text(context%deck, context%deck%cards(i_card), 'ELSET', own, good)
-      do b = 1, context%n_blocks
-         if (named(b) .or. context%blocks(b)%body /= block%body) cycle
-         if (any(context%blocks(b)%low > block%high + reach) .or. any(context%blocks(b)%high < block%low - reach)) cycle
-         call warn_of_crack(names(1), own, x, context, context%blocks(b), block%nodes)
+      near = blocks_near(context%joined, block%low - reach, block%high + reach)
+      do i = 1, size(near, kind=ip)
+         associate (other => context%blocks(near(i)))
+            if (any(other%low > block%high + reach) .or. any(other%high < block%low - reach)) cycle
+            if (.not. are_joined_blocks(context%joined, named(1), near(i))) cycle
+            k = first_at_least(int(named, lp), int(near(i), lp))
+            if (named(min(k, size(named, kind=ip))) == near(i)) cycle
+            call warn_of_crack(names(1), own, x, context, other, block%nodes)
+         end associate
       end do
    end subroutine share_nodes
+
+   !> Takes the blocks that are new among those that MERGE may join.
+   pure subroutine note_blocks(context)
+      type(build_context_t), intent(inout) :: context
+      integer(ip) :: b
+
+      do b = context%joined%n + 1, context%n_blocks
+         associate (block => context%blocks(b))
+            call add_joined_block(context%joined, block%name, block%low, block%high)
+            if (block%joined_to > 0) call join_blocks(context%joined, block%joined_to, b)
+         end associate
+      end do
+   end subroutine note_blocks
 
    !> The value of MERGE= and the items of MERGE lines.
    function merge_names(deck, card) result(names)
@@ -85,11 +109,11 @@ contains
       real(wp), intent(in) :: x(:, :)
       type(build_context_t), intent(in) :: context
       type(block_t), intent(inout) :: block
-      logical, intent(inout) :: named(:)               !< of the blocks so far
+      integer(ip), allocatable, intent(inout) :: named(:) !< blocks so far whose name was given
       logical, intent(out) :: ok
       character(len=:), allocatable :: other
-      integer(ip), allocatable :: outline(:), match(:), members(:), shared(:, :)
-      integer(ip) :: i_set, k, b, n, width
+      integer(ip), allocatable :: outline(:), match(:), members(:), shared(:, :), own(:)
+      integer(ip) :: i_set, k, n, width
 
       other = token_text(context%deck, place)
       i_set = find_set(context%model%node_sets, other)
@@ -117,13 +141,10 @@ contains
                            expected='blocks whose nodes coincide along a side, within 1e-6 of an element edge', keyword='BLOCK')
          return
       end if
-      k = 0
-      do b = 1, context%n_blocks
-         if (.not. same_name(context%blocks(b)%name, other)) cycle
-         named(b) = .true.
-         k = b
-      end do
-      if (k > 0) ok = are_joined(place, context, block, shared, context%blocks(k))
+      own = blocks_named(context%joined, other)
+      n = size(own, kind=ip)
+      if (n > 0) ok = are_joined(place, context, block, shared, context%blocks(own(n)))
+      named = [named, own]
       if (ok) call warn_of_hanging_nodes(context%deck, place, shared)
    end subroutine share_with
 
@@ -223,20 +244,6 @@ contains
       n = 0
       if (first > 0) n = count(side(first:last) == 0, kind=ip)
    end function between
-
-   !> A block that is merged with two bodies makes them one.
-   pure subroutine join_bodies(context, block, body)
-      type(build_context_t), intent(inout) :: context
-      type(block_t), intent(inout) :: block
-      integer(ip), intent(in) :: body
-      integer(ip) :: b, old
-
-      old = body
-      if (block%body > context%n_blocks) block%body = old
-      do b = 1, context%n_blocks
-         if (context%blocks(b)%body == old) context%blocks(b)%body = block%body
-      end do
-   end subroutine join_bodies
 
    !> Nodes that lie on those of a block of the same body that is not named are apart from them.
    subroutine warn_of_crack(place, own, x, context, other, nodes)

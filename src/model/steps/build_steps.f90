@@ -1,5 +1,6 @@
 !> *STEP and *STATIC: the steps of the history, and how each goes through its time.
 module atrito_build_steps
+   use atrito_amplitudes, only: time_before
    use atrito_build_context, only: build_context_t, place_text
    use atrito_deck, only: deck_t, card_t, data_line_t, option_t, keyword_name, last_item, token_t, token_text, line_item, &
                           is_empty_token
@@ -50,6 +51,9 @@ contains
                call read_restart_card(context%deck, card, context%model)
             end select
          end associate
+      end do
+      do i = 2, size(context%model%steps, kind=ip)
+         context%model%steps(i)%began = time_before(context%model%steps, i)
       end do
    end subroutine build_steps
 

@@ -52,19 +52,16 @@ contains
       end do
    end function removes_all
 
-   !> Of each amplitude what it multiplies by at the end of the step before.
-   pure function last_factors(context) result(factors)
+   !> What an amplitude multiplies by at the end of the step before.
+   pure real(wp) function last_factor(context, amplitude) result(factor)
       type(build_context_t), intent(in) :: context
-      real(wp) :: factors(0:size(context%model%amplitudes))
-      real(wp) :: now
-      integer(ip) :: i, k
+      integer(ip), intent(in) :: amplitude
+      integer(ip) :: k
 
       k = context%open%number
-      now = time_before(context%model%steps, k)
-      do i = 0, size(context%model%amplitudes, kind=ip)
-         factors(i) = factor_at(context%model%amplitudes, i, context%model%steps(k - 1)%increments%period, now)
-      end do
-   end function last_factors
+      factor = factor_at(context%model%amplitudes, amplitude, context%model%steps(k - 1)%increments%period, &
+                         time_before(context%model%steps, k))
+   end function last_factor
 
    !> From the end of a step to the beginning of the next: values stay what they are, and amplitudes over all time go on. What was
    !> removed in the step before is gone.
@@ -72,18 +69,16 @@ contains
       type(build_context_t), intent(in) :: context
       type(nodal_values_t), intent(inout) :: list
       logical, intent(in) :: keeps_zeros               !< displacements of 0 are supports, forces of 0 are nothing
-      real(wp), allocatable :: factors(:)
       integer(ip) :: amplitude, i, n
       real(wp) :: value
 
       if (.not. allocated(list%value)) return
-      factors = last_factors(context)
       if (.not. allocated(list%from)) allocate (list%from(size(list%value)))
       if (.not. allocated(list%amplitude)) allocate (list%amplitude(size(list%value)), source=0_ip)
       n = 0
       do i = 1, list%n
          amplitude = list%amplitude(i)
-         value = list%value(i)*factors(lbound(factors, 1) + amplitude)
+         value = list%value(i)*last_factor(context, amplitude)
          if (.not. goes_on(context%model, amplitude)) then
             amplitude = 0
             list%value(i) = value
@@ -112,17 +107,15 @@ contains
    subroutine carry_loads(context, list)
       type(build_context_t), intent(in) :: context
       type(element_load_t), intent(inout) :: list
-      real(wp), allocatable :: factors(:)
       integer(ip) :: amplitude, i, n
       real(wp) :: value(3)
 
-      factors = last_factors(context)
       if (.not. allocated(list%from)) allocate (list%from(3, size(list%element)))
       if (.not. allocated(list%amplitude)) allocate (list%amplitude(size(list%element)), source=0_ip)
       n = 0
       do i = 1, list%n
          amplitude = list%amplitude(i)
-         value = times(list%value(:, i), list%kind(i), factors(lbound(factors, 1) + amplitude))
+         value = times(list%value(:, i), list%kind(i), last_factor(context, amplitude))
          if (.not. goes_on(context%model, amplitude)) then
             amplitude = 0
             list%value(:, i) = value

@@ -57,16 +57,13 @@ contains
       factor = amplitude_at(amplitudes(place), merge(total_time, step_time, amplitudes(place)%is_total_time))
    end function factor_at
 
-   !> The time of the history at which a step begins.
+   !> The time of the history at which a step begins; one behind the last one, too.
    pure real(wp) function time_before(steps, k) result(time)
       type(step_t), intent(in) :: steps(:)
       integer(ip), intent(in) :: k
-      integer(ip) :: i
 
       time = 0.0_wp
-      do i = 1, k - 1
-         time = time + steps(i)%increments%period
-      end do
+      if (k > 1) time = steps(k - 1)%began + steps(k - 1)%increments%period
    end function time_before
 
 end module atrito_amplitudes

@@ -221,6 +221,7 @@ module atrito_model
    type :: step_t
       character(len=:), allocatable :: title        !< as the deck has it; '' without one
       type(increments_t) :: increments
+      real(wp) :: began = 0.0_wp                    !< time of the history at its beginning
       logical :: at_once = .false.                  !< AMPLITUDE=STEP: what has no amplitude has its last value from the beginning
       type(nodal_values_t) :: prescribed            !< each dof once
       type(nodal_values_t) :: node_loads            !< several on one dof add up

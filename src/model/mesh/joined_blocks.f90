@@ -1,0 +1,221 @@
+!> The blocks of a deck so far: those of a name, which of them MERGE has made one body, and which lie where a box lies. Each is
+!> found without a look at all blocks, since a deck may have them by the thousand, each merged with the one before.
+module atrito_joined_blocks
+   use atrito_growth, only: make_room
+   use atrito_id_map, only: id_map_t, add_id, find_id
+   use atrito_kinds, only: ip, lp, wp
+   use atrito_name_list, only: name_list_t, add_name, find_name
+   use atrito_sorting, only: each_once
+   implicit none (type, external)
+   private
+   public :: joined_blocks_t, add_joined_block, blocks_named, join_blocks, are_joined_blocks, blocks_near
+
+   !> Blocks are numbered as they come. The boxes round them lie in grids of squares: a box in the grid whose squares have the
+   !> least power of two that is longer than its sides, so in four squares at most.
+   type :: joined_blocks_t
+      integer(ip) :: n = 0
+      type(name_list_t), private :: names
+      integer(ip), allocatable, private :: last_of(:)      !< (n) of each name, by its first block: the last block that has it
+      integer(ip), allocatable, private :: before(:)       !< (n) the block before that has the same name; 0: none
+      integer(ip), allocatable, private :: parent(:)       !< (n) another block of its body; itself: the one that stands for all
+      integer(ip), allocatable, private :: in_body(:)      !< (n) blocks of the body, of the one that stands for all
+      type(id_map_t), private :: squares                   !< by a hash
+      integer(ip), allocatable, private :: head(:)         !< of each square the last entry
+      integer(ip), private :: n_entries = 0
+      integer(ip), allocatable, private :: block(:), next(:) !< (n_entries) a block in a square, and another entry of the square
+      integer(ip), private :: n_grids = 0
+      integer(ip), allocatable, private :: grid(:)         !< (n_grids) exponents of the sides of their squares
+      integer(ip), allocatable, private :: filled(:)       !< (n_grids) entries in each
+   end type joined_blocks_t
+
+   !> Squares are not smaller than this part of the coordinates, as a power of two: their numbers stay within 64 bits.
+   integer(ip), parameter :: FINEST = 40
+
+contains
+
+   !> Appends a block.
+   pure subroutine add_joined_block(blocks, name, low, high)
+      type(joined_blocks_t), intent(inout) :: blocks
+      character(len=*), intent(in) :: name
+      real(wp), intent(in) :: low(2), high(2)              !< the box round it [L]
+      integer(ip) :: first
+
+      call make_room(blocks%last_of, blocks%n, blocks%n + 1)
+      call make_room(blocks%before, blocks%n, blocks%n + 1)
+      call make_room(blocks%parent, blocks%n, blocks%n + 1)
+      call make_room(blocks%in_body, blocks%n, blocks%n + 1)
+      blocks%n = blocks%n + 1
+      call add_name(blocks%names, name)
+      first = find_name(blocks%names, name)
+      blocks%before(blocks%n) = 0
+      if (first < blocks%n) blocks%before(blocks%n) = blocks%last_of(first)
+      blocks%last_of(first) = blocks%n
+      blocks%parent(blocks%n) = blocks%n
+      blocks%in_body(blocks%n) = 1
+      call enter_box(blocks, low, high)
+   end subroutine add_joined_block
+
+   !> The blocks of a name, in rising order.
+   pure function blocks_named(blocks, name) result(list)
+      type(joined_blocks_t), intent(in) :: blocks
+      character(len=*), intent(in) :: name
+      integer(ip), allocatable :: list(:)
+      integer(ip) :: b, first, n
+
+      allocate (list(0))
+      first = find_name(blocks%names, name)
+      if (first == 0) return
+      n = 0
+      b = blocks%last_of(first)
+      do while (b > 0)
+         call make_room(list, n, n + 1)
+         n = n + 1
+         list(n) = b
+         b = blocks%before(b)
+      end do
+      list = list(n:1:-1)
+   end function blocks_named
+
+   !> Makes the bodies of two blocks one. The larger one stands for both, so the way to it is short.
+   pure subroutine join_blocks(blocks, a, b)
+      type(joined_blocks_t), intent(inout) :: blocks
+      integer(ip), intent(in) :: a, b
+      integer(ip) :: large, small
+
+      large = body_of(blocks, a)
+      small = body_of(blocks, b)
+      if (large == small) return
+      if (blocks%in_body(large) < blocks%in_body(small)) then
+         large = small
+         small = body_of(blocks, a)
+      end if
+      blocks%parent(small) = large
+      blocks%in_body(large) = blocks%in_body(large) + blocks%in_body(small)
+   end subroutine join_blocks
+
+   !> Whether two blocks are of one body.
+   pure logical function are_joined_blocks(blocks, a, b)
+      type(joined_blocks_t), intent(in) :: blocks
+      integer(ip), intent(in) :: a, b
+
+      are_joined_blocks = body_of(blocks, a) == body_of(blocks, b)
+   end function are_joined_blocks
+
+   pure integer(ip) function body_of(blocks, b) result(body)
+      type(joined_blocks_t), intent(in) :: blocks
+      integer(ip), intent(in) :: b
+
+      body = b
+      do while (blocks%parent(body) /= body)
+         body = blocks%parent(body)
+      end do
+   end function body_of
+
+   !> Blocks that may lie where a box lies, in rising order: all that do, and some beside it.
+   pure function blocks_near(blocks, low, high) result(near)
+      type(joined_blocks_t), intent(in) :: blocks
+      real(wp), intent(in) :: low(2), high(2)              !< [L]
+      integer(ip), allocatable :: near(:)
+      integer(lp) :: first(2), n(2), i, j
+      integer(ip) :: g, k, slot, entry
+
+      allocate (near(0))
+      k = 0
+      do g = 1, blocks%n_grids
+         call find_squares(low, high, blocks%grid(g), first, n)
+         if (n(1) > blocks%filled(g) .or. n(2) > blocks%filled(g)/max(1_lp, n(1))) then
+            ! more squares than there are blocks
+            near = [(k, k=1, blocks%n)]
+            return
+         end if
+         do j = first(2), first(2) + n(2) - 1
+            do i = first(1), first(1) + n(1) - 1
+               slot = find_id(blocks%squares, square_hash(blocks%grid(g), i, j))
+               if (slot == 0) cycle
+               entry = blocks%head(slot)
+               do while (entry > 0)
+                  call make_room(near, k, k + 1)
+                  k = k + 1
+                  near(k) = blocks%block(entry)
+                  entry = blocks%next(entry)
+               end do
+            end do
+         end do
+      end do
+      near = each_once(near(:k))
+   end function blocks_near
+
+   !> Puts the box of the last block into the squares of its grid.
+   pure subroutine enter_box(blocks, low, high)
+      type(joined_blocks_t), intent(inout) :: blocks
+      real(wp), intent(in) :: low(2), high(2)
+      integer(lp) :: first(2), n(2), i, j
+      integer(ip) :: side, g, hash, slot
+      logical :: known
+
+      side = max(exponent(max(maxval(high - low), tiny(1.0_wp))), exponent(max(maxval(abs([low, high])), tiny(1.0_wp))) - FINEST)
+      g = 0
+      if (blocks%n_grids > 0) g = findloc(blocks%grid(:blocks%n_grids), side, dim=1, kind=ip)
+      if (g == 0) then
+         call make_room(blocks%grid, blocks%n_grids, blocks%n_grids + 1)
+         call make_room(blocks%filled, blocks%n_grids, blocks%n_grids + 1)
+         blocks%n_grids = blocks%n_grids + 1
+         g = blocks%n_grids
+         blocks%grid(g) = side
+         blocks%filled(g) = 0
+      end if
+      call find_squares(low, high, side, first, n)
+      do j = first(2), first(2) + n(2) - 1
+         do i = first(1), first(1) + n(1) - 1
+            hash = square_hash(side, i, j)
+            slot = find_id(blocks%squares, hash)
+            if (slot == 0) then
+               slot = blocks%squares%n + 1
+               call make_room(blocks%head, slot - 1, slot)
+               call add_id(blocks%squares, hash, slot, known)
+               blocks%head(slot) = 0
+            end if
+            call make_room(blocks%block, blocks%n_entries, blocks%n_entries + 1)
+            call make_room(blocks%next, blocks%n_entries, blocks%n_entries + 1)
+            blocks%n_entries = blocks%n_entries + 1
+            blocks%block(blocks%n_entries) = blocks%n
+            blocks%next(blocks%n_entries) = blocks%head(slot)
+            blocks%head(slot) = blocks%n_entries
+            blocks%filled(g) = blocks%filled(g) + 1
+         end do
+      end do
+   end subroutine enter_box
+
+   !> The squares over which a box goes: the first ones, and how many along x and y.
+   pure subroutine find_squares(low, high, side, first, n)
+      real(wp), intent(in) :: low(2), high(2)
+      integer(ip), intent(in) :: side                      !< of a square, as a power of two
+      integer(lp), intent(out) :: first(2), n(2)
+
+      first = square_of(low, side)
+      n = square_of(high, side) - first + 1_lp
+   end subroutine find_squares
+
+   !> Number of the square along an axis. Those far beyond all that a grid has are one.
+   pure elemental integer(lp) function square_of(x, side) result(square)
+      real(wp), intent(in) :: x
+      integer(ip), intent(in) :: side
+
+      if (abs(x) > 0.0_wp .and. exponent(x) - side > FINEST + 2) then
+         square = int(sign(2.0_wp**(FINEST + 3), x), lp)
+      else
+         square = floor(scale(x, -side), lp)
+      end if
+   end function square_of
+
+   !> A number > 0 for a square; several may have the same.
+   pure integer(ip) function square_hash(side, i, j) result(hash)
+      integer(ip), intent(in) :: side
+      integer(lp), intent(in) :: i, j
+      integer(lp), parameter :: MASK = 2147483647_lp, FACTOR(3) = [2654435769_lp, 2246822519_lp, 3266489917_lp]
+
+      hash = int(1_lp + modulo(ieor(ieor(shiftr(iand(i, MASK)*FACTOR(1), 8), shiftr(iand(j, MASK)*FACTOR(2), 11)), &
+                                    iand(int(side, lp), MASK)*FACTOR(3)), MASK), ip)
+   end function square_hash
+
+end module atrito_joined_blocks
