@@ -4,7 +4,7 @@
 module atrito_restart_file
    use atrito_archive, only: archive_t, create_archive, open_archive, begin_part, end_part, exchange, exchange_numbers, &
                              exchange_vector, exchange_length, demand, is_sound, close_archive
-   use atrito_exchange_results, only: exchange_results, exchange_iteration_list
+   use atrito_exchange_results, only: exchange_results, exchange_iterations
    use atrito_files, only: file_set_t, begin_files, file_exists, judge_file, reserve_file, commit_over, discard_files
    use atrito_fingerprint, only: fingerprint_t, find_difference
    use atrito_kinds, only: ip, wp
@@ -138,8 +138,8 @@ contains
       call begin_part(archive, 'state')
       call exchange_state(archive, state)
       call exchange_results(archive, state%last)
-      call exchange_row_list(archive, 'rows', history%rows)
-      call exchange_iteration_list(archive, 'iterations', history%iterations)
+      call exchange_rows(archive, history%rows)
+      call exchange_iterations(archive, history%iterations)
       call exchange_observed_list(archive, history%observed)
       if (allocated(history%frames)) increments = history%frames%increment
       call exchange(archive, 'increments of frames', increments)
@@ -265,22 +265,15 @@ contains
                   'observed')
    end subroutine exchange_observed_list
 
-   subroutine exchange_row_list(archive, name, list)
-      type(archive_t), intent(inout) :: archive
-      character(len=*), intent(in) :: name
-      type(history_row_t), allocatable, intent(inout) :: list(:)
-      integer(ip) :: n
-
-      call exchange_length(archive, name, n, list)
-      if (archive%is_reading .and. n >= 0) allocate (list(n))
-      if (n >= 0) call exchange_rows(archive, list)
-   end subroutine exchange_row_list
-
    !> Column by column: there is a row of every increment and pair, in every file.
    subroutine exchange_rows(archive, list)
       type(archive_t), intent(inout) :: archive
-      type(history_row_t), intent(inout) :: list(:)
+      type(history_row_t), allocatable, intent(inout) :: list(:)
+      integer(ip) :: n
 
+      call exchange_length(archive, 'rows', n, list)
+      if (archive%is_reading .and. n >= 0) allocate (list(n))
+      if (n < 0) return
       call exchange_numbers(archive, 'step', list%step)
       call exchange_numbers(archive, 'increment', list%increment)
       call exchange_numbers(archive, 'pair', list%pair)

@@ -20,10 +20,10 @@ cut_force_t        output/atrito_exchange_results.f90 exchange_cut cut
 iteration_t        output/atrito_exchange_results.f90 exchange_iterations list
 extreme_t          output/atrito_exchange_results.f90 exchange_extreme extreme
 balance_t          output/atrito_exchange_results.f90 exchange_balance balance
-scene_t            output/atrito_exchange_scene.f90 exchange_scene scene
-body_result_t      output/atrito_exchange_scene.f90 exchange_body body
-pair_scene_t       output/atrito_exchange_scene.f90 exchange_pair pair
-string_t           output/atrito_exchange_scene.f90 exchange_strings list
+scene_t            output/atrito_exchange_results.f90 exchange_scene scene
+body_result_t      output/atrito_exchange_results.f90 exchange_bodies body
+pair_scene_t       output/atrito_exchange_results.f90 exchange_pairs pair
+string_t           output/atrito_exchange_results.f90 exchange_left_out list
 history_t          output/atrito_restart_file.f90 exchange_findings history ending,factorisations,store,n_stored
 history_row_t      output/atrito_restart_file.f90 exchange_rows list
 restart_state_t    output/atrito_restart_file.f90 exchange_state,exchange_findings state
