@@ -75,7 +75,10 @@ contains
          associate (included => deck%sources(child))
             call put_edited(deck, source, included%include_first - 1, position, edit, patched)
             call put_source(deck, child, edit, patched)
-            call end_line(included%text, patched)
+            ! What follows an included file begins a line.
+            if (len(included%text) /= 0) then
+               if (included%text(len(included%text):) /= LINE_FEED) call append_words(patched, LINE_FEED)
+            end if
             position = included%include_last + 1
          end associate
          child = next_child(deck, source, child)
@@ -114,14 +117,5 @@ contains
       call append_place(patched, source, position, last)
       position = max(position, last + 1)
    end subroutine put_edited
-
-   !> What follows an included file begins a line.
-   subroutine end_line(text, patched)
-      character(len=*), intent(in) :: text
-      type(patched_text_t), intent(inout) :: patched
-
-      if (len(text) == 0) return
-      if (text(len(text):) /= LINE_FEED) call append_words(patched, LINE_FEED)
-   end subroutine end_line
 
 end module atrito_deck_as_run

@@ -244,6 +244,7 @@ contains
       end do
    end subroutine find_option
 
+   !> Whether an option is given on the keyword line, with or without a value.
    pure logical function has_option(deck, card, name)
       type(deck_t), intent(in) :: deck
       type(card_t), intent(in) :: card
