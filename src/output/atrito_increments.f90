@@ -109,6 +109,7 @@ contains
       text = 'step '//to_text(step)//', increment '//to_text(increment)//', time '//time_text(time)
    end function increment_name
 
+   !> A time for readers, in so many digits that increments differ.
    pure function time_text(time) result(text)
       real(wp), intent(in) :: time
       character(len=:), allocatable :: text
