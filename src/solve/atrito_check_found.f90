@@ -489,6 +489,7 @@ contains
       call require(wrong, is_ordered(list%step, list%increment, state), 'order of observed')
    end subroutine check_observed_list
 
+   !> Whether all values are numbers, none of them infinite.
    pure logical function is_finite(values)
       real(wp), intent(in) :: values(:)
 

@@ -105,6 +105,7 @@ contains
       if (has_failed) has_failed = data%assembled%failed > 0
    end function has_failed
 
+   !> Whether an increment has a solution: the outer loop converged and the final check holds.
    pure logical function is_solved(results, status)
       type(results_t), intent(in) :: results
       type(status_t), intent(in) :: status
@@ -408,7 +409,7 @@ contains
       call move_alloc(u, results%u)
       allocate (results%reaction, mold=results%u)
       call check_equilibrium(data%fem, results%u, data%f, contact, data%held, results%reaction, equilibrium, &
-                             sizes_at_points(data, solution), data%thermal, data%had)
+                             sizes_at_points(data, solution), data%thermal)
       imbalance = check_balance(data%fem, data%f, contact, data%rows, data%had)
       results%strain_energy = elastic_energy(data%fem, results%u, equilibrium%energy)
       if (allocated(data%step%requests%cuts)) then          ! rigid motions would cost digits
@@ -469,6 +470,7 @@ contains
       sizes%force = data%line%weight*hypot(solution%p, solution%t)
       sizes%pair = data%line%pair
       sizes%rows = data%rows
+      sizes%had = data%had
       allocate (sizes%motion(data%fem%bodies%n))
       first = 1
       do b = 1, data%fem%bodies%n

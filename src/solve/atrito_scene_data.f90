@@ -35,8 +35,7 @@ module atrito_scene_data
    use atrito_thermal_loads, only: add_thermal_loads
    implicit none (type, external)
    private
-   public :: scene_data_t, asked_t, prepare, set_time, assemble, drop_assembled, free_load, check_known_points, &
-             forces_at_end
+   public :: scene_data_t, asked_t, prepare, set_time, assemble, drop_assembled, free_load, check_known_points, forces_at_end
 
    type :: scene_data_t
       type(model_t), pointer :: model => null()
