@@ -12,10 +12,9 @@ module atrito_files
    use atrito_renaming, only: find_obstacle, replace_files, rename_over, recover_files
    use atrito_status, only: status_t, set_status, is_ok, STATUS_FILE
    use atrito_strings, only: string_t, append_string, to_text
-   use atrito_system, only: c_open_input, c_identify, c_note_input, forget_inputs, &
-                            c_read_input, c_close_input, c_confine, c_create_file, &
-                            c_write_line, c_write_text, c_close_file, c_settle_file, &
-                            hold_interrupts, release_interrupts, note_path, forget_path
+   use atrito_system, only: c_open_input, c_identify, c_note_input, forget_inputs, c_read_input, c_close_input, c_confine, &
+                            c_create_file, c_write_line, c_write_text, c_close_file, c_settle_file, hold_interrupts, &
+                            release_interrupts, note_path, forget_path
    implicit none (type, external)
    private
    public :: read_file, read_bytes, judge_file, protect_input, forget_inputs, confine_files, read_system_line, read_system_lines, &

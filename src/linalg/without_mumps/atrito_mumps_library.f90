@@ -6,16 +6,19 @@ module atrito_mumps_library
 
 contains
 
+   !> This build has no MUMPS.
    pure logical function has_mumps()
       has_mumps = .false.
    end function has_mumps
 
+   !> For --version.
    pure function mumps_name() result(name)
       character(len=:), allocatable :: name
 
       name = 'no MUMPS'
    end function mumps_name
 
+   !> Why there is no MUMPS, for messages.
    pure function mumps_trouble() result(text)
       character(len=:), allocatable :: text
 
