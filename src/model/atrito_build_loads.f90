@@ -91,7 +91,8 @@ contains
 
       associate (open => context%open, loads => context%model%steps(context%open%number)%element_loads)
          call carry_values(context, open%forces, keeps_zeros=.false.)
-         call list_carried(2*context%model%mesh%n_nodes, dof_places(open%forces), open%old_forces)
+         call list_carried(2*context%model%mesh%n_nodes, [(2*open%forces%node(i) + open%forces%dof(i) - 2, i=1, open%forces%n)], &
+                           open%old_forces)
          call carry_reference_loads(context)
          if (removes_all(context, 'CLOAD')) then
             do i = 1, open%forces%n
@@ -108,14 +109,6 @@ contains
          call remove_loads(removes_all(context, 'DLOAD'), removes_all(context, 'DSLOAD'), open%old_loads, loads)
       end associate
    end subroutine carry_on
-
-   pure function dof_places(forces) result(places)
-      type(nodal_values_t), intent(in) :: forces
-      integer(ip) :: places(forces%n)
-      integer(ip) :: i
-
-      places = [(2*forces%node(i) + forces%dof(i) - 2, i=1, forces%n)]
-   end function dof_places
 
    !> Which label of the deck each load has.
    pure function labels_of(context, loads) result(labels)

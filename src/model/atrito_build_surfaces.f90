@@ -36,6 +36,8 @@ contains
    subroutine build_surfaces(context)
       type(build_context_t), intent(inout) :: context
       integer(ip) :: i, n
+      character(len=:), allocatable :: surface
+      logical :: found
 
       ! each block may have four sides of its own, and those of all copies are of their *BLOCK
       n = (context%n_blocks + count_cards(context%deck, 'BLOCK'))*size(BLOCK_SIDES, kind=ip)
@@ -44,7 +46,12 @@ contains
          call put_block_surfaces(context%blocks(i), context)
       end do
       call put_curve_surfaces(context)
-      call list_sections(context)
+      ! Lists the surfaces along which a *PRE-TENSION SECTION cuts: their faces lie inside the mesh.
+      do i = 1, context%deck%n_cards
+         if (keyword_name(context%deck%cards(i)) /= 'PRE-TENSION SECTION') cycle
+         call option_text(context%deck, context%deck%cards(i), 'SURFACE', surface, found)
+         if (found) call add_name(context%section_surfaces, surface)
+      end do
       do i = 1, context%deck%n_cards
          if (keyword_name(context%deck%cards(i)) == 'SURFACE') call read_surface_card(context%deck%cards(i), context)
       end do
@@ -189,20 +196,6 @@ contains
       end do
       call keep_once(faces)
    end subroutine read_faces
-
-   !> Lists the surfaces along which a *PRE-TENSION SECTION cuts: their faces lie inside the mesh.
-   subroutine list_sections(context)
-      type(build_context_t), intent(inout) :: context
-      character(len=:), allocatable :: surface
-      integer(ip) :: i
-      logical :: found
-
-      do i = 1, context%deck%n_cards
-         if (keyword_name(context%deck%cards(i)) /= 'PRE-TENSION SECTION') cycle
-         call option_text(context%deck, context%deck%cards(i), 'SURFACE', surface, found)
-         if (found) call add_name(context%section_surfaces, surface)
-      end do
-   end subroutine list_sections
 
    !> The faces that a line asks for are those of a set on the outline: found without a look at each element, of which a large set
    !> has most inside.

@@ -164,6 +164,7 @@ contains
                                           keyword='TRANSFORM')
    end subroutine take_axes
 
+   !> Whether a node has axes of its own, by *TRANSFORM.
    pure logical function has_local_axes(context, node)
       type(build_context_t), intent(in) :: context
       integer(ip), intent(in) :: node

@@ -22,17 +22,23 @@ module atrito_pair_names
 
 contains
 
+   !> Sorts the contact pairs by their surfaces, so that find_pair finds them by name.
    subroutine index_pairs(context, pairs)
       type(build_context_t), intent(in) :: context
       type(pair_index_t), intent(out) :: pairs
-      integer(ip) :: i
+      integer(ip) :: i, n
 
       associate (all_pairs => context%model%pairs)
          pairs%key = [(key_of(context, [all_pairs(i)%slave, all_pairs(i)%master]), i=1, size(all_pairs, kind=ip))]
       end associate
       pairs%pair = sorted_places(pairs%key)
       pairs%key = pairs%key(pairs%pair)
-      pairs%is_complete = has_all_pairs(context)
+      ! Each line of *CONTACT PAIR has made a pair; where one has not, an error has been told.
+      n = 0
+      do i = 1, context%deck%n_cards
+         if (keyword_name(context%deck%cards(i)) == 'CONTACT PAIR') n = n + context%deck%cards(i)%n_lines
+      end do
+      pairs%is_complete = size(context%model%pairs) == n
    end subroutine index_pairs
 
    pure integer(lp) function key_of(context, surfaces) result(key)
@@ -82,17 +88,5 @@ contains
                            ' and the master '//names(2)%s, expected='the surfaces of one *CONTACT PAIR', keyword=keyword)
       end if
    end subroutine find_pair
-
-   !> Each line of *CONTACT PAIR has made a pair; where one has not, an error has been told.
-   pure logical function has_all_pairs(context)
-      type(build_context_t), intent(in) :: context
-      integer(ip) :: i, n
-
-      n = 0
-      do i = 1, context%deck%n_cards
-         if (keyword_name(context%deck%cards(i)) == 'CONTACT PAIR') n = n + context%deck%cards(i)%n_lines
-      end do
-      has_all_pairs = size(context%model%pairs) == n
-   end function has_all_pairs
 
 end module atrito_pair_names

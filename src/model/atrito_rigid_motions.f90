@@ -61,6 +61,7 @@ contains
       entry = 0
    end function entry_of
 
+   !> Whether a dof of a reference node is prescribed in the step that is built: 1 and 2 its displacements, 6 its rotation.
    pure logical function is_prescribed(context, node, dof)
       type(build_context_t), intent(in) :: context
       integer(ip), intent(in) :: node, dof
