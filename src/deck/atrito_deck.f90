@@ -13,7 +13,7 @@ module atrito_deck
    private
    public :: source_t, token_t, option_t, card_t, data_line_t, scope_t, parameter_t, deck_t
    public :: KEYWORD_UNKNOWN, LEVEL_MODEL, LEVEL_STEP
-   public :: token_text, is_empty_token, is_quoted, is_id_token, written_length, keyword_name, line_item, last_item, &
+   public :: token_text, is_empty_token, is_quoted, is_id_token, written_length, keyword_name, count_lines, line_item, last_item, &
              reading_order, take_source_line, scope_shift, scope_text, model_number
    public :: after_byte_order_mark
    public :: allocate_deck, make_room, append_source, note_include, append_token, append_line, append_card, &
@@ -236,6 +236,18 @@ contains
          token%last = token%first - 1
       end if
    end function line_item
+
+   !> How many data lines all cards of a keyword have.
+   pure integer(ip) function count_lines(deck, keyword) result(n)
+      type(deck_t), intent(in) :: deck
+      character(len=*), intent(in) :: keyword
+      integer(ip) :: i
+
+      n = 0
+      do i = 1, deck%n_cards
+         if (keyword_name(deck%cards(i)) == keyword) n = n + deck%cards(i)%n_lines
+      end do
+   end function count_lines
 
    !> The last item of a data line that has some.
    pure function last_item(deck, line) result(token)

@@ -24,8 +24,8 @@ contains
       n = count(deck%sources(:deck%n_sources)%is_mesh, kind=ip)
       allocate (files(n + 1))
       files(1)%name = as_run_name(deck_name(deck%path))
-      if (allocated(deck%edits%words)) call move_alloc(deck%edits%words, files(1)%text%words)
-      files(1)%text%n_words = deck%edits%n_words
+      files(1)%text%words%n = deck%edits%words%n
+      if (deck%edits%words%n > 0) call move_alloc(deck%edits%words%letters, files(1)%text%words%letters)
       edit = 1
       call put_source(deck, 1_ip, edit, files(1)%text)
       allocate (files(1)%text%texts(deck%n_sources))
@@ -107,10 +107,12 @@ contains
 
       associate (edits => deck%edits)
          do while (edit <= edits%n)
-            if (edits%source(edit) /= source .or. edits%first(edit) > last) exit
-            call append_place(patched, source, position, edits%first(edit) - 1)
-            call append_place(patched, merge(UNCOUNTED, OWN_WORDS, edits%is_name(edit)), edits%from(edit), edits%to(edit))
-            position = edits%last(edit) + 1
+            associate (one => edits%list(edit))
+               if (one%source /= source .or. one%first > last) exit
+               call append_place(patched, source, position, one%first - 1)
+               call append_place(patched, merge(UNCOUNTED, OWN_WORDS, one%is_name), one%from, one%to)
+               position = one%last + 1
+            end associate
             edit = edit + 1
          end do
       end associate

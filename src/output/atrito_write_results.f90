@@ -104,7 +104,7 @@ contains
 
       words = MESH_MARK//PROGRAM_VERSION//NEW_LINE_CHARACTER//'$EndComments'//NEW_LINE_CHARACTER
       if (text%n == 0) return
-      last = text%last(text%n)
+      last = text%pieces(text%n)%last
       if (text%texts(1)%s(last:last) /= NEW_LINE_CHARACTER) words = NEW_LINE_CHARACTER//words
    end function mesh_end
 
