@@ -12,6 +12,7 @@ module atrito_multiplier_step
    use atrito_bound_qp, only: bound_qp_t, box_bounds_t, box_state_t, FREE, AT_LOWER, AT_UPPER, FROZEN
    use atrito_constraint_rows, only: constraint_rows_t, multiply_rows, add_transposed
    use atrito_contact_system, only: contact_system_t
+   use atrito_multipliers, only: multiplier_t
    use atrito_kinds, only: ip, wp, EPS_MACH
    use atrito_least_forces, only: find_least_forces
    use atrito_line_search, only: search_line
@@ -22,28 +23,6 @@ module atrito_multiplier_step
    private
    public :: multiplier_t, begin_multipliers, start_closed, take_multiplier_step, refine_step, accept_step, set_forces, pull_of, &
              take_least_forces, clear_round_off, rho_of
-
-   type :: multiplier_t
-      real(wp) :: r = 1.0e-2_wp                  !< rho over the flexibility of the row
-      real(wp), allocatable :: part(:)           !< (m) of that, which the row takes: less where its forces come slowly
-      real(wp) :: kappa = 1.0e-4_wp              !< pull on a motion over what its rows hold it with
-      real(wp), allocatable :: x(:)              !< (n) [L]
-      real(wp), allocatable :: e(:)              !< (m) B x + g0 [L]
-      real(wp), allocatable :: noise(:)          !< (m) what round-off of e may do to a force [F]
-      real(wp), allocatable :: q_old(:)          !< (m) [F]
-      real(wp), allocatable :: a_old(:)          !< (k) [L]
-      real(wp), allocatable :: hold(:)           !< (k) [F/L] sum of G_ij^2/c_i over the rows of the body
-      integer(ip), allocatable :: pair(:)        !< (m) contact pair of each row
-      real(wp), allocatable :: before(:)         !< (n_pairs) largest force in the increment before, 0 where there is none [F]
-      integer(ip) :: n_pairs = 0
-      integer(ip) :: n_contact_pairs = huge(1_ip) !< those behind are groups of bilateral rows
-      real(wp), allocatable :: stiffness(:)      !< (m) that was factored last
-      real(wp), allocatable :: pull(:)           !< (k) that was factored last
-      logical :: settled = .false.               !< the last step ended with the states that it assumed
-      logical :: changed = .false.               !< the last step changed a state
-      integer(ip) :: factorisations = 0, solves = 0
-      integer(ip) :: generation = -1             !< of the system's factorisation that stiffness and pull are of
-   end type multiplier_t
 
    integer(ip), parameter :: MOST_NEWTON = 200_ip
    integer(ip), parameter :: PATIENCE = 20_ip         !< Newton steps without a full one

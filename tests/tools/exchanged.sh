@@ -28,12 +28,12 @@ history_t          output/atrito_restart_file.f90 exchange_findings history endi
 history_row_t      output/atrito_restart_file.f90 exchange_rows list
 restart_state_t    output/atrito_restart_file.f90 exchange_state,exchange_findings state
 warm_start_t       output/atrito_restart_file.f90 exchange_start start
-warm_start_t       solve/atrito_warm_start.f90 put_start,put_multipliers start
-warm_start_t       solve/atrito_warm_start.f90 take_start,take_multipliers start
+box_state_t        output/atrito_restart_file.f90 exchange_start state
+box_bounds_t       output/atrito_restart_file.f90 exchange_start bounds
+multiplier_t       output/atrito_restart_file.f90 exchange_multipliers multipliers factorisations,solves,generation,part,before
+warm_start_t       solve/atrito_warm_start.f90 put_start start
+warm_start_t       solve/atrito_warm_start.f90 take_start start
 contact_solution_t solve/atrito_warm_start.f90 put_start solution factor,inner,converged,verdict,factorisations,body_motion,body_force,has_settled
-box_state_t        solve/atrito_warm_start.f90 put_start state
-box_bounds_t       solve/atrito_warm_start.f90 put_start bounds
-multiplier_t       solve/atrito_warm_start.f90 put_multipliers multipliers factorisations,solves,generation,part,before
 slip_memory_t      solve/atrito_slip_memory.f90 put_memory memory is_incremental
 slip_memory_t      solve/atrito_slip_memory.f90 take_memory memory is_incremental
 run_t              solve/atrito_history.f90 record run options,reporter,scene,has_last,observer,sense,idle,n_idle
