@@ -35,8 +35,7 @@ module atrito_run
    use atrito_screen, only: compose_summary
    use atrito_solve, only: solve_options_t, CONTACT_AUTO, CONTACT_DENSE, CONTACT_SPARSE, SHARE_AUTO, SHARE_ALL, SHARE_NONE, &
                            SOLVER_AUTO, SOLVER_SKYLINE, SOLVER_BANDED, SOLVER_SPARSE, SOLVER_MUMPS
-   use atrito_status, only: status_t, set_status, reword_status, is_ok, STATUS_OK, STATUS_USAGE, STATUS_DECK, STATUS_FILE, &
-                            STATUS_NOT_CONVERGED
+   use atrito_status, only: status_t, set_status, reword_status, is_ok, STATUS_OK, STATUS_USAGE, STATUS_DECK, STATUS_NOT_CONVERGED
    use atrito_strings, only: string_t, upper_case
    use atrito_study_errors, only: run_facts_t
    use atrito_system, only: address_space_limit

@@ -3,7 +3,7 @@
 module atrito_build_curves
    use atrito_build_context, only: build_context_t, keep_token, ids_text, has_errors
    use atrito_curves, only: curve_t, add_curve, find_curve_faces, find_node_faces, nodes_of_no_face
-   use atrito_deck, only: deck_t, token_t, line_item, keyword_name
+   use atrito_deck, only: token_t, line_item, keyword_name
    use atrito_diagnostics, only: report_error, report_note
    use atrito_element_table, only: MOST_SIDES
    use atrito_faces, only: add_face, face_list_t

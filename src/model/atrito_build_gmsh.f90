@@ -154,7 +154,7 @@ contains
       call note_places(context%nodes%place, before + 1, context%model%mesh%n_nodes, -work%card)
       if (left_out%n > 0) then
          call report_note(context%deck, context%deck%cards(work%card)%place, 'N-NODE', 'node '//ids_text(numbers_of(left_out))// &
-                          ' of '//mesh%file// ' belongs to no element and is left out', &
+                          ' of '//mesh%file//' belongs to no element and is left out', &
                           expected='a physical point, where such a node is meant', keyword='INCLUDE')
       end if
    end subroutine place_nodes

@@ -10,7 +10,7 @@ module atrito_build_loads
    use atrito_faces, only: is_outer_face
    use atrito_items, only: get_integer, get_real
    use atrito_kinds, only: ip, wp
-   use atrito_local_axes, only: dof_direction, has_local_axes
+   use atrito_local_axes, only: dof_direction
    use atrito_load_lists, only: add_nodal_value, add_element_load, replace_nodal_value, replace_element_load, replace_source, &
                                 trim_nodal_values, trim_element_loads, amplitude_of, from_of, source_of
    use atrito_model, only: model_t, nodal_values_t, element_load_t, LOAD_BODY, LOAD_LINEAR, LOAD_TRACTION, SURFACE_ELEMENTS

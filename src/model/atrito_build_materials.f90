@@ -176,7 +176,7 @@ contains
       type(build_context_t), intent(inout) :: context
       type(section_t), intent(inout) :: section
       logical, intent(inout) :: ok                     !< the section has been understood so far
-      character(len=:), allocatable :: name
+      character(len=:), allocatable :: name, what
       type(token_t) :: place
       integer(ip) :: i
       logical :: named
@@ -190,13 +190,9 @@ contains
          ok = ok .and. i > 0 .and. any(abs(section%axis) > 0.0_wp)
          ! Other programs print stresses along the axes of the material.
          if (ok) then
-            if (context%model%materials(section%material)%is_orthotropic) then
-               call report_note(context%deck, place, 'N-ORIENTATION', 'the orientation '//name// &
-                                ' turns the material; stresses are along x and y', keyword='ORIENTATION')
-            else
-               call report_note(context%deck, place, 'N-ORIENTATION', 'the orientation '//name// &
-                                ' turns nothing that is isotropic, and stresses are along x and y', keyword='ORIENTATION')
-            end if
+            what = ' turns nothing that is isotropic, and stresses are along x and y'
+            if (context%model%materials(section%material)%is_orthotropic) what = ' turns the material; stresses are along x and y'
+            call report_note(context%deck, place, 'N-ORIENTATION', 'the orientation '//name//what, keyword='ORIENTATION')
          end if
       end if
       if (.not. ok) return

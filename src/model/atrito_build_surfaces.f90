@@ -5,11 +5,10 @@ module atrito_build_surfaces
    use atrito_coordinates, only: get_coordinate
    use atrito_deck, only: deck_t, card_t, data_line_t, token_t, token_text, line_item, is_id_token, keyword_name
    use atrito_diagnostics, only: report_error
-   use atrito_build_context, only: build_context_t, block_t, BLOCK_SIDES, invalidate_name, place_text, keep_token, count_cards, &
-                                   ids_text, MOST_IDS
+   use atrito_build_context, only: build_context_t, block_t, BLOCK_SIDES, invalidate_name, place_text, count_cards, ids_text, &
+                                   MOST_IDS
    use atrito_element_table, only: MOST_SIDES
    use atrito_faces, only: is_outer_face, outer_faces, add_face, face_list_t
-   use atrito_id_map, only: id_map_t, add_id
    use atrito_items, only: option_text, option_word
    use atrito_kinds, only: ip, wp
    use atrito_mesh, only: elements_of_square, side_count
@@ -25,7 +24,7 @@ module atrito_build_surfaces
    use atrito_refinement, only: is_refined
    use atrito_sets, only: find_set, member_count, members_of
    use atrito_sorting, only: each_once
-   use atrito_strings, only: same_name, to_text
+   use atrito_strings, only: same_name
    implicit none (type, external)
    private
    public :: build_surfaces

@@ -7,13 +7,13 @@ module atrito_build_temperatures
    use atrito_build_loads, only: in_no_element
    use atrito_build_steps, only: open_step
    use atrito_carry_on, only: removes_all
-   use atrito_deck, only: data_line_t, token_t, line_item, keyword_name
+   use atrito_deck, only: data_line_t, line_item, keyword_name
    use atrito_diagnostics, only: report_error, report_note, report_warning
    use atrito_element_table, only: CORNERS_OF, DEGREE_OF
    use atrito_items, only: get_real
    use atrito_kinds, only: ip, wp
    use atrito_mesh, only: mesh_t
-   use atrito_model, only: model_t, step_t
+   use atrito_model, only: step_t
    use atrito_number_list, only: number_list_t, add_number, numbers_of
    use atrito_references, only: find_nodes
    use atrito_refinement, only: map_element

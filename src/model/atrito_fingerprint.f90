@@ -8,9 +8,9 @@ module atrito_fingerprint
    use atrito_digest, only: digest_t, add_to, add_allocated, digest_text
    use atrito_kinds, only: ip
    use atrito_mesh, only: mesh_t
-   use atrito_model, only: model_t, step_t, nodal_values_t, element_load_t, surface_t, requested_t, amplitude_t
+   use atrito_model, only: model_t, step_t, nodal_values_t, element_load_t, requested_t, amplitude_t
    use atrito_points, only: contact_points_t
-   use atrito_strings, only: string_t, to_text
+   use atrito_strings, only: to_text
    implicit none (type, external)
    private
    public :: fingerprint_t, take_fingerprint, find_difference

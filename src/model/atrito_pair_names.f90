@@ -1,7 +1,7 @@
 !> Finds a contact pair of the deck by the names of its surfaces.
 module atrito_pair_names
    use atrito_build_context, only: build_context_t
-   use atrito_deck, only: keyword_name, token_t
+   use atrito_deck, only: count_lines, token_t
    use atrito_diagnostics, only: report_error
    use atrito_kinds, only: ip, lp
    use atrito_name_list, only: find_name
@@ -26,7 +26,7 @@ contains
    subroutine index_pairs(context, pairs)
       type(build_context_t), intent(in) :: context
       type(pair_index_t), intent(out) :: pairs
-      integer(ip) :: i, n
+      integer(ip) :: i
 
       associate (all_pairs => context%model%pairs)
          pairs%key = [(key_of(context, [all_pairs(i)%slave, all_pairs(i)%master]), i=1, size(all_pairs, kind=ip))]
@@ -34,11 +34,7 @@ contains
       pairs%pair = sorted_places(pairs%key)
       pairs%key = pairs%key(pairs%pair)
       ! Each line of *CONTACT PAIR has made a pair; where one has not, an error has been told.
-      n = 0
-      do i = 1, context%deck%n_cards
-         if (keyword_name(context%deck%cards(i)) == 'CONTACT PAIR') n = n + context%deck%cards(i)%n_lines
-      end do
-      pairs%is_complete = size(context%model%pairs) == n
+      pairs%is_complete = size(context%model%pairs) == count_lines(context%deck, 'CONTACT PAIR')
    end subroutine index_pairs
 
    pure integer(lp) function key_of(context, surfaces) result(key)

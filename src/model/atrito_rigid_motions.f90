@@ -9,7 +9,6 @@ module atrito_rigid_motions
    use atrito_load_lists, only: add_nodal_value, amplitude_of, replace_nodal_value, replace_source
    use atrito_local_axes, only: has_local_axes
    use atrito_mesh, only: is_revolved
-   use atrito_model, only: nodal_values_t
    use atrito_strings, only: to_text
    implicit none (type, external)
    private

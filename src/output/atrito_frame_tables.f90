@@ -6,7 +6,7 @@ module atrito_frame_tables
    use atrito_plane_state, only: STRESS_NAMES
    use atrito_strings, only: string_t
    use atrito_model, only: model_t, requests_t, is_due
-   use atrito_results, only: results_t, contact_result_t, body_motion_t
+   use atrito_results, only: results_t, contact_result_t
    use atrito_resultant_report, only: has_resultants, build_resultants
    use atrito_rigid_report, only: build_rigid_table
    use atrito_row_tables, only: has_rows, build_row_table
@@ -86,8 +86,8 @@ contains
    pure integer(ip) function frequency_of(requests, name) result(every)
       type(requests_t), intent(in) :: requests
       character(len=*), intent(in) :: name
-      character(len=*), parameter :: ALONE(7) = [character(len=12) :: 'nodes', 'reactions', 'stress', 'nodal_stress', 'bodies', &
-                                                 'joints', 'sections']
+      character(len=*), parameter :: ALONE(7) = &
+                               [character(len=12) :: 'nodes', 'reactions', 'stress', 'nodal_stress', 'bodies', 'joints', 'sections']
       integer(ip) :: frequencies(0:size(ALONE))
 
       associate (every_of => requests%every)
@@ -336,8 +336,9 @@ contains
       ! Largest component of the resultants.
       force = 0.0_wp
       do j = 1, size(results%bodies, kind=ip)
-         force = max(force, maxval(abs([results%bodies(j)%loads(:2), results%bodies(j)%supports(:2), &
-                 results%bodies(j)%contact(:2)])))
+         associate (body => results%bodies(j))
+            force = max(force, maxval(abs([body%loads(:2), body%supports(:2), body%contact(:2)])))
+         end associate
       end do
       do i = 1, n
          associate (body => results%bodies(i))

@@ -5,7 +5,7 @@
 !> byte that was changed is found when it is read. The first failure is kept in the file; later calls do nothing.
 module atrito_hdf5_arrays
    use, intrinsic :: iso_c_binding, only: c_loc, c_null_char, c_ptr
-   use atrito_kinds, only: ip, lp, wp
+   use atrito_kinds, only: lp, wp
    use atrito_paths, only: remove_file
    use atrito_status, only: status_t, set_status, is_ok, STATUS_FILE
    use hdf5, only: hid_t, hsize_t, h5open_f, h5close_f, h5dont_atexit_f, h5eset_auto_f, h5fcreate_f, h5fopen_f, h5fclose_f, &

@@ -2,7 +2,7 @@
 module atrito_increments
    use atrito_kinds, only: ip, wp
    use atrito_model, only: model_t
-   use atrito_results, only: results_t, history_t, iteration_t
+   use atrito_results, only: history_t, iteration_t
    use atrito_strings, only: to_text
    implicit none (type, external)
    private

@@ -1,9 +1,9 @@
 !> The compiler and the libraries of this program, for the listing and `--version`.
 module atrito_libraries
    use, intrinsic :: iso_fortran_env, only: compiler_version
+   use atrito_kinds, only: ip
    use atrito_blas_info, only: blas_name, is_reference_blas, lapack_version
    use atrito_clp, only: has_clp, clp_version, clp_trouble
-   use atrito_kinds, only: ip
    use atrito_mpi, only: has_mpi, mpi_name, rank_count
    use atrito_multifrontal, only: has_metis, metis_version, metis_trouble
    use atrito_mumps_library, only: has_mumps, mumps_name, mumps_trouble

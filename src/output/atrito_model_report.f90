@@ -363,7 +363,7 @@ contains
                        right('moment about 0,0', 18))
          call add_force(page, 'on nodes', concentrated)
          call add_force(page, trim(merge('loads on faces   ', 'pressure on faces', &
-                        any(model%steps(k)%element_loads%kind == LOAD_TRACTION))), pressure)
+                                         any(model%steps(k)%element_loads%kind == LOAD_TRACTION))), pressure)
          call add_force(page, 'in elements', body)
          call add_force(page, 'all', force_t(concentrated%f + pressure%f + body%f, &
                                              concentrated%moment + pressure%moment + body%moment))

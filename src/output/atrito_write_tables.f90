@@ -95,17 +95,17 @@ contains
       type(file_set_t), intent(inout) :: set
       type(status_t), intent(out) :: status
       logical, intent(in) :: is_csv                 !< comma-separated values
-      type(common_t) :: common
+      type(common_t) :: whole
       type(series_t) :: series(size(TABLE_NAMES))
       type(results_t), pointer :: frame
       type(status_t) :: of_file
       integer(ip) :: i
       integer :: k
 
-      common%digits = digits
-      common%is_csv = is_csv
-      common%origin = origin_of(model, history)
-      call measure_history(model, history, common%scales, common%own)
+      whole%digits = digits
+      whole%is_csv = is_csv
+      whole%origin = origin_of(model, history)
+      call measure_history(model, history, whole%scales, whole%own)
       do k = 1, size(series)
          series(k)%name = trim(TABLE_NAMES(k))
          allocate (series(k)%is_due(last_frame(history)))
@@ -113,16 +113,16 @@ contains
       do i = 1, last_frame(history)
          call view_frame(history, i, frame)
          do k = 1, size(series)
-            call measure_series(model, frame, common, i, series(k))
+            call measure_series(model, frame, whole, i, series(k))
          end do
       end do
       do k = 1, size(series)
-         if (is_ok(status)) call begin_series(model, history, common, set, series(k), status)
+         if (is_ok(status)) call begin_series(model, history, whole, set, series(k), status)
       end do
       do i = 1, merge(last_frame(history), 0_ip, is_ok(status))
          call view_frame(history, i, frame)
          do k = 1, size(series)
-            if (series(k)%is_due(i)) call put_frame(model, frame, common, series(k))
+            if (series(k)%is_due(i)) call put_frame(model, frame, whole, series(k))
          end do
       end do
       do k = 1, size(series)
@@ -133,10 +133,10 @@ contains
 
    !> Notes whether a table has rows of a frame, and the room that they need. Tables of the whole history have none, nor has that of
    !> the times, which comes last.
-   subroutine measure_series(model, frame, common, i, series)
+   subroutine measure_series(model, frame, whole, i, series)
       type(model_t), intent(in), target :: model
       type(results_t), intent(in), target :: frame
-      type(common_t), intent(in) :: common
+      type(common_t), intent(in) :: whole
       integer(ip), intent(in) :: i                  !< which frame
       type(series_t), intent(inout) :: series
       type(table_t) :: piece
@@ -147,17 +147,17 @@ contains
          series%is_due(i) = .not. any(name == [character(len=10) :: 'history', 'iterations', 'timing'])
          if (series%is_due(i) .and. name /= 'summary') series%is_due(i) = has_frame_rows(model, frame, name, i == n)
          if (n == 1 .or. .not. series%is_due(i)) return
-         call build_piece(model, frame, common, name, piece)
-         call measure_rows(series%file, piece, common%digits)
+         call build_piece(model, frame, whole, name, piece)
+         call measure_rows(series%file, piece, whole%digits)
          if (name == 'summary') call join_remarks(series%remarks, piece%remarks)
       end associate
    end subroutine measure_series
 
    !> Opens a table that has rows of frames; one of the whole history is written.
-   subroutine begin_series(model, history, common, set, series, status)
+   subroutine begin_series(model, history, whole, set, series, status)
       type(model_t), intent(in) :: model
       type(history_t), intent(in) :: history
-      type(common_t), intent(in) :: common
+      type(common_t), intent(in) :: whole
       type(file_set_t), intent(inout) :: set
       type(series_t), intent(inout) :: series
       type(status_t), intent(inout) :: status
@@ -168,39 +168,39 @@ contains
          return
       case ('history')
          if (.not. has_rows(model, history)) return
-         call build_history(history, common%scales%length, table)
-         call write_table(set, table, common%origin, common%digits, status, common%is_csv)
+         call build_history(history, whole%scales%length, table)
+         call write_table(set, table, whole%origin, whole%digits, status, whole%is_csv)
       case ('iterations')
          call build_iterations(history, table)
-         call write_table(set, table, common%origin, common%digits, status, common%is_csv)
+         call write_table(set, table, whole%origin, whole%digits, status, whole%is_csv)
       case default
-         if (any(series%is_due)) call open_table(set, series%name, series%file, common%is_csv)
+         if (any(series%is_due)) call open_table(set, series%name, series%file, whole%is_csv)
       end select
    end subroutine begin_series
 
-   subroutine put_frame(model, frame, common, series)
+   subroutine put_frame(model, frame, whole, series)
       type(model_t), intent(in), target :: model
       type(results_t), intent(in), target :: frame
-      type(common_t), intent(in) :: common
+      type(common_t), intent(in) :: whole
       type(series_t), intent(inout) :: series
       type(table_t) :: piece
 
-      call build_piece(model, frame, common, series%name, piece)
-      call put_table(series%file, piece, common%origin, common%digits, series%remarks)
+      call build_piece(model, frame, whole, series%name, piece)
+      call put_table(series%file, piece, whole%origin, whole%digits, series%remarks)
    end subroutine put_frame
 
    !> The rows of a frame; they may point at the fields of model and frame.
-   subroutine build_piece(model, frame, common, name, piece)
+   subroutine build_piece(model, frame, whole, name, piece)
       type(model_t), intent(in), target :: model
       type(results_t), intent(in), target :: frame
-      type(common_t), intent(in) :: common
+      type(common_t), intent(in) :: whole
       character(len=*), intent(in) :: name
       type(table_t), intent(out) :: piece
 
       if (name == 'summary') then
-         call build_summary(frame, common%own, common%digits, piece)
+         call build_summary(frame, whole%own, whole%digits, piece)
       else
-         call build_frame_table(model, frame, common%scales, common%own, name, piece)
+         call build_frame_table(model, frame, whole%scales, whole%own, name, piece)
       end if
    end subroutine build_piece
 

@@ -10,8 +10,8 @@ module atrito_check_found
    use atrito_mesh, only: find_element, find_node
    use atrito_model, only: rigid_body_name, step_t
    use atrito_restart_state, only: restart_state_t
-   use atrito_results, only: body_motion_t, contact_result_t, extreme_t, history_t, joint_t, observed_list_t, observed_t, &
-                             results_t, rigid_result_t, scene_t, view_frame, POINT_OPEN, POINT_SLIP
+   use atrito_results, only: body_motion_t, contact_result_t, extreme_t, history_t, observed_list_t, observed_t, results_t, &
+                             scene_t, view_frame, POINT_OPEN, POINT_SLIP
    use atrito_scene_data, only: scene_data_t
    use atrito_solve_history, only: iteration_t
    use atrito_strings, only: string_t, to_text

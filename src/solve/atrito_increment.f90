@@ -23,7 +23,7 @@ module atrito_increment
    use atrito_outer_loop, only: FREE_MOTION
    use atrito_recovery, only: contact_forces, add_rigid_motions, recover_contact, recover_stress, estimate_error
    use atrito_reporter, only: report_progress
-   use atrito_results, only: results_t, scene_t, pair_scene_t
+   use atrito_results, only: results_t, scene_t
    use atrito_rigid_results, only: take_rigid_results
    use atrito_row_forces, only: share_out_rows, clear_balance, leave_out_sections
    use atrito_scene_data, only: scene_data_t, drop_assembled, forces_at_end

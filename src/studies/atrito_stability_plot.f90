@@ -1,5 +1,6 @@
 !> The pictures of `atrito limit`: what is watched against the parameter, up to the limit; and the mechanism.
 module atrito_stability_plot
+   use atrito_kinds, only: wp
    use atrito_files, only: file_set_t, text_file_t, begin_files, put_line, close_text, end_files
    use atrito_gnuplot, only: draw_written
    use atrito_mechanism_plot, only: write_mechanism_plot
@@ -11,7 +12,6 @@ module atrito_stability_plot
    use atrito_stability_result, only: stability_t
    use atrito_status, only: status_t, is_ok, STATUS_OK, STATUS_NOT_CONVERGED
    use atrito_strings, only: string_t, to_text
-   use atrito_kinds, only: wp
    implicit none (type, external)
    private
    public :: write_stability_plots
