@@ -4,8 +4,7 @@ module atrito_console
    use atrito_colours, only: wants_colours, paint_message
    use atrito_kinds, only: ip
    use atrito_message_json, only: json_of_message
-   use atrito_messages, only: message_t, count_messages, get_message, format_message, &
-                              SEVERITY_ERROR, SEVERITY_NOTE, MOST_ERRORS
+   use atrito_messages, only: message_t, count_messages, get_message, format_message, SEVERITY_ERROR, SEVERITY_NOTE, MOST_ERRORS
    use atrito_status, only: status_t, STATUS_USAGE, STATUS_FILE
    use atrito_strings, only: string_t, to_text
    use atrito_version, only: PROGRAM_NAME

@@ -1,22 +1,23 @@
 !> Does what the command line asks for: reads, solves, writes, and tells how it went.
 module atrito_driver
    use, intrinsic :: iso_fortran_env, only: output_unit, error_unit
+   use atrito_bash_completion, only: compose_bash_completion
    use atrito_blas_info, only: choose_blas_kernels, set_blas_threads
    use atrito_body_cache, only: body_cache_t
    use atrito_screen, only: compose_check
    use atrito_check_plots, only: write_check_plots
-   use atrito_command_line, only: command_t, confine_command, output_folder, parse_command, wrong, wants_json, &
-                                  fetch_arguments, TASK_USAGE, &
-                                  TASK_RUN, TASK_CHECK, &
-                                  TASK_COMPARE, TASK_HELP, TASK_SWEEP, TASK_STUDY, TASK_LIMIT, TASK_OPTIONS, TASK_VERSION
+   use atrito_command_line, only: command_t, confine_command, output_folder, parse_command, wrong, wants_json, fetch_arguments, &
+                                  TASK_USAGE, TASK_RUN, TASK_CHECK, TASK_COMPARE, TASK_HELP, TASK_SWEEP, TASK_STUDY, TASK_LIMIT, &
+                                  TASK_OPTIONS, TASK_VERSION
    use atrito_compare, only: comparison_t, begin_comparison, compare_paths
    use atrito_console, only: print_line, print_lines, print_message, print_messages, print_status
    use atrito_files, only: check_all_own
-   use atrito_help_pages, only: compose_help
+   use atrito_help, only: help_overview, help_keyword, help_manual
    use atrito_folder_claim, only: folder_claim_t, claim_folder, release_folder
    use atrito_keyword_table, only: keyword_table, keyword_names
    use atrito_kinds, only: ip
    use atrito_libraries, only: library_t, add_libraries, version_lines, LOADED
+   use atrito_man_page, only: compose_man_page
    use atrito_means, only: secure_means
    use atrito_messages, only: message_t, add_warning, clear_messages
    use atrito_model, only: model_t
@@ -209,22 +210,35 @@ contains
       call print_lines(lines, output_unit)
    end subroutine print_version
 
+   !> `atrito help`: a keyword, or one of the pages that are made of the tables.
    subroutine print_help(command, code)
       type(command_t), intent(in) :: command
       integer, intent(out) :: code
       type(string_t), allocatable :: lines(:)
-      character(len=:), allocatable :: keyword
-      logical :: known
+      character(len=:), allocatable :: words
+      logical :: is_known
 
-      keyword = upper_case(join(command%names, ' '))
-      call compose_help(keyword, lines, known)
+      words = upper_case(join(command%names, ' '))
+      is_known = .true.
+      select case (words)
+      case ('')
+         call help_overview(lines)
+      case ('ALL')
+         call help_manual(lines)
+      case ('MAN')
+         call compose_man_page(lines)
+      case ('BASH')
+         call compose_bash_completion(lines)
+      case default
+         call help_keyword(words, lines, is_known)
+      end select
       code = STATUS_OK
-      if (known) then
+      if (is_known) then
          call print_lines(lines, output_unit)
       else
          code = STATUS_USAGE
-         call print_wrong(wrong('there is no keyword '//keyword, nearest=nearest_names(keyword, keyword_names(keyword_table()), &
-                                                                                       3)), 'atrito help', command%json)
+         call print_wrong(wrong('there is no keyword '//words, nearest=nearest_names(words, keyword_names(keyword_table()), 3)), &
+                          'atrito help', command%json)
       end if
    end subroutine print_help
 

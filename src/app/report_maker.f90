@@ -14,7 +14,7 @@ module atrito_report_maker
    use atrito_write_report, only: write_report
    implicit none (type, external)
    private
-   public :: make_run_report, make_report, command_text
+   public :: make_run_report, make_report
 
 contains
 

@@ -35,11 +35,9 @@ module atrito_run
    use atrito_restart_recorder, only: restart_recorder_t, begin_recorder
    use atrito_results, only: history_t, results_t, last_frame
    use atrito_screen, only: compose_summary
-   use atrito_solve, only: solve_options_t, CONTACT_AUTO, CONTACT_DENSE, CONTACT_SPARSE, &
-                           SOLVER_AUTO, &
-                           SOLVER_SKYLINE, SOLVER_BANDED, SOLVER_SPARSE
-   use atrito_status, only: status_t, set_status, reword_status, is_ok, STATUS_OK, STATUS_USAGE, STATUS_DECK, STATUS_FILE, &
-                            STATUS_NOT_CONVERGED
+   use atrito_solve, only: solve_options_t, CONTACT_AUTO, CONTACT_DENSE, CONTACT_SPARSE, SOLVER_AUTO, SOLVER_SKYLINE, &
+                           SOLVER_BANDED, SOLVER_SPARSE
+   use atrito_status, only: status_t, set_status, reword_status, is_ok, STATUS_OK, STATUS_USAGE, STATUS_DECK, STATUS_NOT_CONVERGED
    use atrito_strings, only: string_t, upper_case
    use atrito_study_errors, only: run_facts_t
    use atrito_system, only: address_space_limit
@@ -50,6 +48,15 @@ module atrito_run
    implicit none (type, external)
    private
    public :: run_deck, take_threads, load_model, read_model, prepare_observations, solve_options, agree_on_outcome
+
+   !> What a run works with besides its model.
+   type :: means_t
+      type(reporter_t) :: reporter
+      type(frame_spool_t) :: frames
+      type(restart_recorder_t) :: recorder
+      type(observations_t) :: observations
+      integer(ip) :: told = 0                       !< messages printed so far
+   end type means_t
 
 contains
 
@@ -71,39 +78,31 @@ contains
       integer, intent(out) :: code                  !< one of STATUS_*
       type(run_facts_t), intent(out), optional :: facts
       type(model_t) :: model
-      type(frame_spool_t) :: frames
-      type(restart_recorder_t) :: recorder
-      type(observations_t) :: observations
-      type(reporter_t) :: reporter
+      type(means_t), target :: means
       type(status_t) :: status
-      integer(ip) :: told
 
       call take_threads(command)                    ! the other ranks have nothing to do yet
-      reporter%quiet = command%quiet .or. command%json
-      call load_model(command, reporter, model, told, code, keeps_deck=.true.)
-      if (code == STATUS_OK) call prepare_observations(command, model, observations, code)
+      means%reporter%quiet = command%quiet .or. command%json
+      call load_model(command, means%reporter, model, means%told, code, keeps_deck=.true.)
+      if (code == STATUS_OK) call prepare_observations(command, model, means%observations, code)
       if (code /= STATUS_OK) return
       call check_folder(output_folder(command), status)
-      call begin_frames(output_folder(command), frames)
-      if (is_ok(status)) call begin_recorder(command, model, recorder, frames, status)
+      call begin_frames(output_folder(command), means%frames)
+      if (is_ok(status)) call begin_recorder(command, model, means%recorder, means%frames, status)
       if (is_ok(status)) call check_files(command, model, status)
       if (is_ok(status)) then
-         call solve_and_write(command, model, recorder, observations, frames, reporter, told, store, code, facts)
+         call solve_and_write(command, model, means, store, code, facts)
       else                                          ! better now than after an hour
          call print_status(status, model%deck_path, command%json)
          code = status%code
       end if
-      call end_frames(frames)
+      call end_frames(means%frames)
    end subroutine run_model
 
-   subroutine solve_and_write(command, model, recorder, observations, frames, reporter, told, store, code, facts)
+   subroutine solve_and_write(command, model, means, store, code, facts)
       type(command_t), intent(in) :: command
       type(model_t), intent(in) :: model
-      type(restart_recorder_t), intent(inout) :: recorder
-      type(observations_t), intent(inout) :: observations
-      type(frame_spool_t), intent(inout) :: frames
-      type(reporter_t), intent(in) :: reporter
-      integer(ip), intent(in) :: told               !< messages printed so far
+      type(means_t), intent(inout), target :: means
       type(body_cache_t), intent(inout) :: store
       integer, intent(out) :: code
       type(run_facts_t), intent(out), optional :: facts
@@ -111,15 +110,16 @@ contains
       type(status_t) :: status
 
       call set_threads(command%threads)
-      call solve_history(model, solve_options(command), reporter, history, status, store, recorder, observations, frames)
-      call print_messages(command%quiet, told + 1, command%json)
+      call solve_history(model, solve_options(command), means%reporter, history, status, store, means%recorder, &
+                         means%observations, means%frames)
+      call print_messages(command%quiet, means%told + 1, command%json)
       associate (n => last_frame(history))
          if (n > 0) call agree_on_outcome(status, history%frames(n), history%ending%is_early)
          if (.not. is_ok(status)) call print_status(status, model%deck_path, command%json)
          code = status%code
          if (n == 0) return
          call take_threads(command)                 ! they have nothing more to do
-         call write_run(command, reporter, model, history, code)
+         call write_run(command, means%reporter, model, history, code)
          if (.not. present(facts)) return
          facts = facts_of(model, history%frames(n))
          facts%is_written = code == status%code         ! else they could not be
@@ -174,13 +174,10 @@ contains
    subroutine agree_on_outcome(status, results, ends_early)
       type(status_t), intent(inout) :: status
       type(results_t), intent(inout) :: results     !< the last there are
-      logical, intent(in), optional :: ends_early   !< left out: it did not
+      logical, intent(in) :: ends_early
       character(len=:), allocatable :: text
-      logical :: is_early
 
-      is_early = .false.
-      if (present(ends_early)) is_early = ends_early
-      if (is_early) then
+      if (ends_early) then
          if (allocated(status%text)) call reword_status(status, status%text//'; what converged before is written')
          return
       end if
@@ -348,6 +345,7 @@ contains
                                                  == FULL_STATE(KINDS(kind_named(upper_case(trim(element))))%state))
    end function has_state
 
+   !> What the command line asks of the solver: its kind, the form of the contact system, and what else has to be found.
    function solve_options(command) result(options)
       type(command_t), intent(in) :: command
       type(solve_options_t) :: options

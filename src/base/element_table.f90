@@ -90,6 +90,7 @@ contains
       end if
    end function kind_named
 
+   !> Whether the name of an element, in capitals, is that of a membrane: M3D3, M3D4, ... They are read as plane stress.
    pure logical function is_membrane(name)
       character(len=*), intent(in) :: name
 

@@ -3,8 +3,7 @@ module atrito_lapack
    use atrito_kinds, only: ip, wp
    implicit none (type, external)
    private
-   public :: dgemm, dgemv, dgesv, dgesvd, dgelsd, dpbtrf, dpocon, dpotrf, dpotrs, dsyev, dsymv, dsyrk, dtbtrs, dtrsm, dtrsv, &
-             ilaver
+   public :: dgemm, dgemv, dgesv, dgesvd, dgelsd, dpbtrf, dpocon, dpotrf, dpotrs, dsyev, dsymv, dsyrk, dtbtrs, dtrsm, dtrsv, ilaver
 
    interface
 

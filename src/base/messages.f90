@@ -241,6 +241,7 @@ contains
       text = text//' '
    end function place_of_message
 
+   !> A severity as messages begin with it: `error`, `warning` or `note`.
    pure function severity_word(severity) result(word)
       integer, intent(in) :: severity               !< SEVERITY_...
       character(len=:), allocatable :: word

@@ -14,8 +14,7 @@ module atrito_plane_state
    public :: plane_state_t, STATES, PLANE_STRAIN, PLANE_STRESS, AXISYMMETRIC, PLANE_STRAIN_REDUCED, PLANE_STRESS_REDUCED, &
              AXISYMMETRIC_REDUCED
    public :: IS_REDUCED, IS_TAPERED, FULL_STATE, TAPERED_STATE, PLAIN_STATE, COMPONENTS, STRESS_NAMES
-   public :: elastic_t, elasticity_matrix, compliance_matrix, stress_33, thermal_modulus, thermal_stresses, thermal_modulus_33, &
-             von_mises, depth_at
+   public :: elastic_t, elasticity_matrix, compliance_matrix, stress_33, thermal_stresses, thermal_modulus_33, von_mises, depth_at
    public :: FORMULATION_STANDARD, FORMULATION_BBAR
 
    type :: plane_state_t

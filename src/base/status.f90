@@ -41,6 +41,7 @@ contains
       status%text = text
    end subroutine reword_status
 
+   !> Whether nothing has failed: the code is STATUS_OK.
    pure logical function is_ok(status)
       type(status_t), intent(in) :: status
 

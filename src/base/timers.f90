@@ -52,6 +52,7 @@ contains
       list = phases(:n_phases)
    end function get_phases
 
+   !> Forgets all phases and their times.
    subroutine reset_timers()
       phases = phase_time_t()
       n_phases = 0

@@ -113,6 +113,7 @@ contains
       bases%factor = base_factors(model, step, bases%base, moment)
    end subroutine set_factors
 
+   !> The load that several bases make with their factors: sum of factor times load, (2, n_nodes) [F].
    pure function load_of_bases(bases) result(load)
       type(base_loads_t), intent(in) :: bases
       real(wp), allocatable :: load(:, :)

@@ -7,7 +7,7 @@ module atrito_condensed_body
    use atrito_kinds, only: ip, lp, wp
    use atrito_assembly, only: fem_t, body_profile, assemble_body, retained_diagonal
    use atrito_bodies, only: mode_at, order_by_dissection
-   use atrito_dense, only: solve_cholesky, orthonormalise, multiply
+   use atrito_dense, only: solve_cholesky, orthonormalise, add_product
    use atrito_dense_blocks, only: add_inverse_form, factor_in_blocks
    use atrito_hourglass, only: free_hourglass
    use atrito_profile, only: profile_t, begin_profile, profile_length, half_bandwidth, skyline_flops, banded_flops, sparse_flops, &
@@ -23,9 +23,8 @@ module atrito_condensed_body
    implicit none (type, external)
    private
    public :: check_held, hourglass_text, loose_text
-   public :: condensed_body_t, condense_body, choose_solver, set_load, contact_response, &
-             add_flexibilities, &
-             expand_body, motion_text, body_text, how_it_moves, is_turn, sparse_cost
+   public :: condensed_body_t, condense_body, choose_solver, set_load, contact_response, add_flexibilities, expand_body, &
+             motion_text, body_text, how_it_moves, is_turn
 
    type :: condensed_body_t
       class(linear_solver_t), allocatable :: solver
@@ -319,7 +318,7 @@ contains
          q = modes_at_contact(fem, i_body)
          call orthonormalise(q, rank, 1.0e-12_wp, info)
          qs = alpha*q(:, :rank)
-         call multiply(q(:, :rank), qs, body%factor, transb=.true., beta=1.0_wp)
+         call add_product(q(:, :rank), qs, body%factor)
       end if
       call factor_in_blocks(body%factor, failed)
       if (failed == 0) return

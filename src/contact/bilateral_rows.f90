@@ -10,8 +10,7 @@ module atrito_bilateral_rows
    implicit none (type, external)
    private
    public :: bilateral_rows_t, begin_rows, add_row, trim_rows
-   public :: ROW_SUPPORT, ROW_EQUATION, ROW_TIE, ROW_SPRING, ROW_SECTION, ROW_RIGID, &
-             ROW_KIND_NAME
+   public :: ROW_SUPPORT, ROW_EQUATION, ROW_TIE, ROW_SPRING, ROW_SECTION, ROW_RIGID, ROW_KIND_NAME
 
    integer(ip), parameter :: ROW_SUPPORT = 1, ROW_EQUATION = 2, ROW_TIE = 3, ROW_SPRING = 4, ROW_SECTION = 5, ROW_RIGID = 6
    character(len=10), parameter :: ROW_KIND_NAME(6) = [character(len=10) :: 'support', 'equation', 'tie', 'spring', 'section', &
@@ -33,6 +32,7 @@ module atrito_bilateral_rows
 
 contains
 
+   !> No rows, with room for some.
    pure subroutine begin_rows(rows)
       type(bilateral_rows_t), intent(out) :: rows
       integer(ip), parameter :: SOME = 16_ip

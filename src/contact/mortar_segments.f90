@@ -131,6 +131,7 @@ contains
       face%length = norm2(face%x(:, 2) - face%x(:, 1))
    end function take_face
 
+   !> The place on a face of the slave at a coordinate of its own [L].
    pure function place_on_face(face, t) result(x)
       type(slave_face_t), intent(in) :: face
       real(wp), intent(in) :: t                     !< in [-1,1]

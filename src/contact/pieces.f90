@@ -23,6 +23,7 @@ module atrito_pieces
 
 contains
 
+   !> Room for n pieces; what they are is set by who knows them.
    pure subroutine allocate_pieces(n, pieces)
       integer(ip), intent(in) :: n
       class(pieces_t), intent(inout) :: pieces
@@ -49,6 +50,7 @@ contains
       sweep = atan2(cross(from - centre, to - centre), dot_product(from - centre, to - centre))
    end function sweep_of
 
+   !> The place of a piece at a share t of it, 0 at its first end and 1 at its second [L]: on a line, a parabola or an arc.
    pure function place_at(pieces, i, t) result(x)
       class(pieces_t), intent(in) :: pieces
       integer(ip), intent(in) :: i
@@ -204,6 +206,7 @@ contains
       w = [cos(angle)*v(1) - sin(angle)*v(2), sin(angle)*v(1) + cos(angle)*v(2)]
    end function turned
 
+   !> a1 b2 - a2 b1: positive where b lies to the left of a.
    pure real(wp) function cross(a, b)
       real(wp), intent(in) :: a(2), b(2)
 

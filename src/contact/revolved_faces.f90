@@ -20,7 +20,7 @@ module atrito_revolved_faces
    use atrito_slave_faces, only: nodal_rule_t
    implicit none (type, external)
    private
-   public :: revolved_face_t, mixed_rows_t, revolve_face, is_at_axis, note_mixed, mix_rows, axis_hats
+   public :: revolved_face_t, mixed_rows_t, revolve_face, is_at_axis, note_mixed, mix_rows
 
    integer(ip), parameter :: MOST = 3              !< nodes of a face
    !> A face of the second degree that begins within this part of its reach along the radius begins at the axis.

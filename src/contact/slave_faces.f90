@@ -64,6 +64,7 @@ contains
       if (turn > CORNER) turn = 0.0_wp
    end function turn_at
 
+   !> The sine of the angle between two directions; 1 where it is more than a right one.
    pure real(wp) function sine(a, b)
       real(wp), intent(in) :: a(2), b(2)            !< unit vectors
 

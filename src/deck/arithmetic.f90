@@ -17,6 +17,8 @@ module atrito_arithmetic
 
 contains
 
+   !> a + b. outcome: ARITHMETIC_OK, or ARITHMETIC_OVERFLOW where the sum is beyond all numbers, and then the sum is 0. No exception
+   !> is raised.
    pure subroutine add_safely(a, b, sum, outcome)
       real(wp), intent(in) :: a, b
       real(wp), intent(out) :: sum
@@ -29,6 +31,7 @@ contains
       outcome = ARITHMETIC_OK
    end subroutine add_safely
 
+   !> a b. outcome: ARITHMETIC_OK, or ARITHMETIC_OVERFLOW, and then the product is 0. No exception is raised.
    pure subroutine multiply_safely(a, b, product, outcome)
       real(wp), intent(in) :: a, b
       real(wp), intent(out) :: product
@@ -46,6 +49,7 @@ contains
       end if
    end subroutine multiply_safely
 
+   !> a/b. outcome: ARITHMETIC_OK, ARITHMETIC_ZERO_DIVISION or ARITHMETIC_OVERFLOW, and then the quotient is 0.
    pure subroutine divide_safely(a, b, quotient, outcome)
       real(wp), intent(in) :: a, b
       real(wp), intent(out) :: quotient
@@ -88,6 +92,7 @@ contains
       if (a < 0.0_wp .and. mod(b, 2.0_wp) /= 0.0_wp) power = -power
    end subroutine raise_safely
 
+   !> exp(a). outcome: ARITHMETIC_OK, or ARITHMETIC_OVERFLOW, and then the power is 0.
    pure subroutine exponential_safely(a, power, outcome)
       real(wp), intent(in) :: a
       real(wp), intent(out) :: power

@@ -264,16 +264,10 @@ contains
       type(data_line_t), intent(inout) :: line
       type(form_t), intent(in) :: form
       type(tally_t), intent(inout) :: tally
-      type(token_t) :: place
 
       if (form%harmless) then
          call check_unused(deck, card, line, form, 1_ip)
          if (line%ok) call note_once(deck, card, line_item(deck, line, 1_ip), form%doc, tally)
-      else if (.not. form%built) then
-         line%ok = .false.
-         place = line_item(deck, line, 1_ip)
-         call report_error(deck, place, 'E-NOT-BUILT', token_text(deck, place)//' of *'//trim(card%name)//' is not built yet', &
-                           keyword=trim(card%name))
       else if (line%n_tokens > form%max_items) then
          line%ok = .false.
          call report_error(deck, line_item(deck, line, int(form%max_items, ip) + 1), 'E-ITEMS', &

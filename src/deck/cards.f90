@@ -7,8 +7,7 @@ module atrito_cards
    use atrito_foreign_words, only: ask_option, ask_word
    use atrito_items, only: get_real, get_integer, get_name
    use atrito_keyword, only: option_spec_t, KIND_FLAG, KIND_NAME, KIND_WORD, KIND_OPTIONAL_WORD, KIND_REAL, KIND_INTEGER
-   use atrito_keyword_table, only: find_keyword, find_option_spec, find_choice, keyword_names, option_names, choice_names, &
-                                   packed
+   use atrito_keyword_table, only: find_keyword, find_option_spec, find_choice, keyword_names, option_names, choice_names, packed
    use atrito_keyword_text, only: option_text_of, with_dimension, choices_text
    use atrito_messages, only: ID_OUTSIDE
    use atrito_lexer, only: find_equals, trim_place
@@ -69,7 +68,6 @@ contains
          if (subject == deck%subject .or. is_company(deck, name)) return   ! of elements, or of a keyword, that are refused
          call report_outside(deck, card%place, '*'//name, subject)
       case (NOT_FOREIGN)
-         card%is_misspelt = .true.
          near = nearest_names(token_text(deck, card%place), keyword_names(deck%keywords), 1)
          if (size(near) > 0) card%meant = near(1)%s
          call report_error(deck, card%place, 'E-KEYWORD', 'unknown keyword *'//token_text(deck, card%place), &

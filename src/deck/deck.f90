@@ -13,7 +13,7 @@ module atrito_deck
    private
    public :: source_t, token_t, option_t, card_t, data_line_t, scope_t, parameter_t, deck_t
    public :: KEYWORD_UNKNOWN, LEVEL_MODEL, LEVEL_STEP
-   public :: token_text, is_empty_token, is_quoted, is_id_token, same_token, written_length, keyword_name, line_item, last_item, &
+   public :: token_text, is_empty_token, is_quoted, is_id_token, written_length, keyword_name, count_lines, line_item, last_item, &
              reading_order, take_source_line, scope_shift, scope_text, model_number
    public :: after_byte_order_mark
    public :: allocate_deck, make_room, append_source, note_include, append_token, append_line, append_card, &
@@ -64,7 +64,6 @@ module atrito_deck
       integer(ip) :: block = 0                     !< the *PART or *INSTANCE in which it stands, counted; 0: none
       integer(ip) :: scope = 0                     !< whose it is, index in deck%scopes
       logical :: ok = .true.                       !< nothing wrong with its keyword line
-      logical :: is_misspelt = .false.             !< nobody knows its keyword, which is told
       character(len=32) :: meant = ''              !< then the keyword that is nearest, if any
       logical :: is_ignored = .false.              !< of other programs, without effect
       logical :: is_refused = .false.              !< refused by name: passed over with its data lines
@@ -180,6 +179,7 @@ contains
       if (is_quoted(deck, token)) n = n - 2
    end function written_length
 
+   !> Whether nothing stands there: an item between two commas, for example.
    elemental logical function is_empty_token(token)
       type(token_t), intent(in) :: token
 
@@ -212,12 +212,6 @@ contains
       end associate
    end function is_id_token
 
-   elemental logical function same_token(a, b)
-      type(token_t), intent(in) :: a, b
-
-      same_token = a%source == b%source .and. a%first == b%first .and. a%last == b%last
-   end function same_token
-
    !> Name of a card's keyword as in the table, for `select case`; '' when the card is to be passed over.
    pure function keyword_name(card) result(name)
       type(card_t), intent(in) :: card
@@ -243,6 +237,19 @@ contains
       end if
    end function line_item
 
+   !> How many data lines all cards of a keyword have.
+   pure integer(ip) function count_lines(deck, keyword) result(n)
+      type(deck_t), intent(in) :: deck
+      character(len=*), intent(in) :: keyword
+      integer(ip) :: i
+
+      n = 0
+      do i = 1, deck%n_cards
+         if (keyword_name(deck%cards(i)) == keyword) n = n + deck%cards(i)%n_lines
+      end do
+   end function count_lines
+
+   !> The last item of a data line that has some.
    pure function last_item(deck, line) result(token)
       type(deck_t), intent(in) :: deck
       type(data_line_t), intent(in) :: line
@@ -352,6 +359,7 @@ contains
       call move_alloc(longer, deck%lines)
    end subroutine make_room
 
+   !> Adds a text as a source of the deck: a file, or what stands in the place of one. Places in the deck name it by its number.
    subroutine append_source(deck, name, text, identity)
       type(deck_t), intent(inout) :: deck
       character(len=*), intent(in) :: name
@@ -391,6 +399,7 @@ contains
       call move_alloc(from%children, to%children)
    end subroutine move_source
 
+   !> Adds a token behind those of the deck. Those of a card or a line stand one behind the other.
    subroutine append_token(deck, token)
       type(deck_t), intent(inout) :: deck
       type(token_t), intent(in) :: token
@@ -409,6 +418,7 @@ contains
       deck%lines(deck%n_lines) = data_line_t(first_token=deck%n_tokens + 1)
    end subroutine append_line
 
+   !> Adds a keyword line with its options; its data lines follow.
    subroutine append_card(deck, card)
       type(deck_t), intent(inout) :: deck
       type(card_t), intent(in) :: card
@@ -435,6 +445,7 @@ contains
       call move_alloc(longer, deck%meshes)
    end subroutine append_mesh
 
+   !> Adds a parameter, and its name to those by which parameters are found.
    subroutine append_parameter(deck, parameter)
       type(deck_t), intent(inout) :: deck
       type(parameter_t), intent(in) :: parameter

@@ -24,8 +24,8 @@ contains
       n = count(deck%sources(:deck%n_sources)%is_mesh, kind=ip)
       allocate (files(n + 1))
       files(1)%name = as_run_name(deck_name(deck%path))
-      if (allocated(deck%edits%words)) call move_alloc(deck%edits%words, files(1)%text%words)
-      files(1)%text%n_words = deck%edits%n_words
+      files(1)%text%words%n = deck%edits%words%n
+      if (deck%edits%words%n > 0) call move_alloc(deck%edits%words%letters, files(1)%text%words%letters)
       edit = 1
       call put_source(deck, 1_ip, edit, files(1)%text)
       allocate (files(1)%text%texts(deck%n_sources))
@@ -75,7 +75,10 @@ contains
          associate (included => deck%sources(child))
             call put_edited(deck, source, included%include_first - 1, position, edit, patched)
             call put_source(deck, child, edit, patched)
-            call end_line(included%text, patched)
+            ! What follows an included file begins a line.
+            if (len(included%text) /= 0) then
+               if (included%text(len(included%text):) /= LINE_FEED) call append_words(patched, LINE_FEED)
+            end if
             position = included%include_last + 1
          end associate
          child = next_child(deck, source, child)
@@ -104,24 +107,17 @@ contains
 
       associate (edits => deck%edits)
          do while (edit <= edits%n)
-            if (edits%source(edit) /= source .or. edits%first(edit) > last) exit
-            call append_place(patched, source, position, edits%first(edit) - 1)
-            call append_place(patched, merge(UNCOUNTED, OWN_WORDS, edits%is_name(edit)), edits%from(edit), edits%to(edit))
-            position = edits%last(edit) + 1
+            associate (one => edits%list(edit))
+               if (one%source /= source .or. one%first > last) exit
+               call append_place(patched, source, position, one%first - 1)
+               call append_place(patched, merge(UNCOUNTED, OWN_WORDS, one%is_name), one%from, one%to)
+               position = one%last + 1
+            end associate
             edit = edit + 1
          end do
       end associate
       call append_place(patched, source, position, last)
       position = max(position, last + 1)
    end subroutine put_edited
-
-   !> What follows an included file begins a line.
-   subroutine end_line(text, patched)
-      character(len=*), intent(in) :: text
-      type(patched_text_t), intent(inout) :: patched
-
-      if (len(text) == 0) return
-      if (text(len(text):) /= LINE_FEED) call append_words(patched, LINE_FEED)
-   end subroutine end_line
 
 end module atrito_deck_as_run

@@ -101,7 +101,9 @@ contains
 
       message%severity = severity
       message%id = id
-      message%text = shortened(text)
+      ! A text that quotes a very long item, without its middle.
+      message%text = text
+      if (len(text) > LONGEST_TEXT) message%text = text(:LONGEST_TEXT/2)//'...'//text(len(text) - LONGEST_TEXT/2 + 1:)
       message%is_of_place = allocated(deck%scopes)          ! the same of another instance of a part
       if (.not. has_room(severity)) then
          call add_message(message)                          ! it is only counted
@@ -149,14 +151,5 @@ contains
       message%nearest = nearest_names(name, all_names, MOST_NEAREST)
       if (size(message%nearest) == 0 .and. size(all_names) <= SHORT_LIST) call move_alloc(all_names, message%known)
    end subroutine tell_names
-
-   !> A text that quotes a very long item, without its middle.
-   pure function shortened(text) result(short)
-      character(len=*), intent(in) :: text
-      character(len=:), allocatable :: short
-
-      short = text
-      if (len(text) > LONGEST_TEXT) short = text(:LONGEST_TEXT/2)//'...'//text(len(text) - LONGEST_TEXT/2 + 1:)
-   end function shortened
 
 end module atrito_diagnostics

@@ -1,20 +1,24 @@
 !> What of a deck's text is replaced when the deck is written as it was run: places of its files, and the words that take them.
 module atrito_edits
+   use atrito_growing_text, only: growing_text_t, append_text
    use atrito_kinds, only: ip
    use atrito_name_list, only: name_list_t, add_name, find_name
    implicit none (type, external)
    private
-   public :: edits_t, append_edit, append_known_edit, take_known_edit
+   public :: edit_t, edits_t, append_edit, append_known_edit, take_known_edit
+
+   type :: edit_t
+      integer(ip) :: source = 0                      !< which file
+      integer(ip) :: first = 0, last = 0             !< characters of it that are replaced
+      integer(ip) :: from = 0, to = 0                !< the words that take their place, in `words`
+      logical :: is_name = .false.                   !< they are the name of a file that is written, too
+   end type edit_t
 
    !> In the order in which the deck is read.
    type :: edits_t
       integer(ip) :: n = 0
-      integer(ip), allocatable :: source(:)          !< which file
-      integer(ip), allocatable :: first(:), last(:)  !< characters of it that are replaced
-      integer(ip), allocatable :: from(:), to(:)     !< the words, in `words`
-      logical, allocatable :: is_name(:)             !< of a file that is written, too
-      integer(ip) :: n_words = 0
-      character(len=:), allocatable :: words         !< those up to n_words are in use
+      type(edit_t), allocatable :: list(:)
+      type(growing_text_t) :: words
       type(name_list_t), private :: known            !< texts that were replaced before: a deck can have one a node
       integer(ip), allocatable, private :: edit_of(:) !< an edit of each
    end type edits_t
@@ -29,15 +33,12 @@ contains
       integer(ip), intent(in) :: source, first, last
       character(len=*), intent(in) :: words
       logical, intent(in), optional :: is_name       !< left out: .false.
-      integer(ip) :: n
+      integer(ip) :: from
 
-      n = edits%n_words + len(words, kind=ip)
-      if (.not. allocated(edits%words)) edits%words = repeat(' ', max(SOME, len(words, kind=ip)))
-      if (n > len(edits%words)) edits%words = edits%words//repeat(' ', max(len(edits%words), len(words)))
-      edits%words(edits%n_words + 1:n) = words
-      call append_place(edits, source, first, last, edits%n_words + 1, n)
-      if (present(is_name)) edits%is_name(edits%n) = is_name
-      edits%n_words = n
+      from = edits%words%n + 1
+      call append_text(edits%words, words)
+      call append_place(edits, edit_t(source, first, last, from, edits%words%n))
+      if (present(is_name)) edits%list(edits%n)%is_name = is_name
    end subroutine append_edit
 
    !> Appends an edit whose words may serve again for the same text.
@@ -59,37 +60,24 @@ contains
       character(len=*), intent(in) :: text
       integer(ip), intent(in) :: source, first, last
       logical, intent(out) :: found
-      integer(ip) :: known, from, to
+      type(edit_t) :: edit
+      integer(ip) :: known
 
       known = find_name(edits%known, text)
       found = known > 0
       if (.not. found) return
-      from = edits%from(edits%edit_of(known))         ! of their own: the list that has them may move
-      to = edits%to(edits%edit_of(known))
-      call append_place(edits, source, first, last, from, to)
+      edit = edits%list(edits%edit_of(known))
+      call append_place(edits, edit_t(source, first, last, edit%from, edit%to))
    end subroutine take_known_edit
 
-   pure subroutine append_place(edits, source, first, last, from, to)
+   pure subroutine append_place(edits, edit)
       type(edits_t), intent(inout) :: edits
-      integer(ip), intent(in) :: source, first, last, from, to
+      type(edit_t), intent(in) :: edit
 
-      if (.not. allocated(edits%source)) then
-         allocate (edits%source(SOME), edits%first(SOME), edits%last(SOME), edits%from(SOME), edits%to(SOME), edits%is_name(SOME))
-      else if (edits%n == size(edits%source)) then
-         edits%source = [edits%source, edits%source]
-         edits%first = [edits%first, edits%first]
-         edits%last = [edits%last, edits%last]
-         edits%from = [edits%from, edits%from]
-         edits%to = [edits%to, edits%to]
-         edits%is_name = [edits%is_name, edits%is_name]
-      end if
+      if (.not. allocated(edits%list)) allocate (edits%list(SOME))
+      if (edits%n == size(edits%list)) edits%list = [edits%list, edits%list]
       edits%n = edits%n + 1
-      edits%source(edits%n) = source
-      edits%first(edits%n) = first
-      edits%last(edits%n) = last
-      edits%from(edits%n) = from
-      edits%to(edits%n) = to
-      edits%is_name(edits%n) = .false.
+      edits%list(edits%n) = edit
    end subroutine append_place
 
 end module atrito_edits

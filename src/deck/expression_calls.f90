@@ -73,6 +73,7 @@ contains
       end do
    end function has_argument_of
 
+   !> Adds a call at the end of a list, which is allocated.
    pure subroutine append_call(one, list)
       type(call_t), intent(in) :: one
       type(call_t), allocatable, intent(inout) :: list(:)

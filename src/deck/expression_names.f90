@@ -18,6 +18,7 @@ contains
       is_reserved_name = same_name(name, 'pi') .or. is_function(name)
    end function is_reserved_name
 
+   !> Names that parameters cannot have: the functions, `pi` and `deg`.
    pure function reserved_names() result(names)
       type(string_t), allocatable :: names(:)
       integer :: i
@@ -38,6 +39,7 @@ contains
       if (is_name) is_name = scan(text(1:1), LETTERS) == 1 .and. verify(text, LETTERS//DIGITS//'_') == 0
    end function is_name
 
+   !> Whether a name, of any case, is that of a function of one number.
    pure logical function is_function(name)
       character(len=*), intent(in) :: name
       integer :: i

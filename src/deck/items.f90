@@ -8,10 +8,11 @@ module atrito_items
    use atrito_expressions, only: is_name, is_reserved_name
    use atrito_lexer, only: trim_place
    use atrito_numbers, only: read_real, read_integer, NUMBER_OK, NUMBER_TOO_LARGE, NUMBER_NOT_INTEGER
-   use atrito_strings, only: string_t, same_name, to_text, upper_case
+   use atrito_strings, only: same_name, to_text, upper_case
    implicit none (type, external)
    private
-   public :: get_real, get_integer, get_name, find_option, has_option, option_text, option_word, option_real, option_integer
+   public :: get_real, get_integer, get_name, find_option, has_option, option_text, option_word, option_real, option_integer, &
+             refuse_option
    public :: LONGEST_NAME
 
    integer, parameter :: LONGEST_NAME = 80
@@ -244,6 +245,7 @@ contains
       end do
    end subroutine find_option
 
+   !> Whether an option is given on the keyword line, with or without a value.
    pure logical function has_option(deck, card, name)
       type(deck_t), intent(in) :: deck
       type(card_t), intent(in) :: card
@@ -330,5 +332,18 @@ contains
       call get_integer(deck, option%value, what, i, found, keyword=keyword_name(card))
       if (found) value = i
    end subroutine option_integer
+
+   !> Reports an option whose value is out of range. what: what it may be, in words.
+   subroutine refuse_option(deck, card, name, what)
+      type(deck_t), intent(in) :: deck
+      type(card_t), intent(in) :: card
+      character(len=*), intent(in) :: name, what
+      type(option_t) :: option
+      logical :: found
+
+      call find_option(deck, card, name, option, found)
+      call report_error(deck, option%value, 'E-VALUE', name//' = '//token_text(deck, option%value)//' is out of range', &
+                        expected=what, keyword=keyword_name(card))
+   end subroutine refuse_option
 
 end module atrito_items

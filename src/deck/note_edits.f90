@@ -24,6 +24,8 @@ module atrito_note_edits
 
 contains
 
+   !> Notes what is to be edited in the text so that the deck reads as it was run: values in the place of parameters and
+   !> expressions, names of included meshes. Nothing where the deck has errors.
    subroutine note_edits(deck)
       type(deck_t), intent(inout) :: deck
       integer(ip) :: i, n_parameters, n_meshes

@@ -61,7 +61,7 @@ contains
       type(settings_t), intent(in) :: settings
       type(parameter_t) :: parameter
       type(token_t) :: name, expression
-      integer(ip) :: equals
+      integer(ip) :: equals, i
       logical :: ok
 
       equals = find_equals(deck%sources(token%source)%text, token%first, token%last)
@@ -80,23 +80,16 @@ contains
       parameter%place = name
       parameter%expression = expression
       parameter%order = reading_order(deck, token%source, token%line)
-      call apply_settings(settings, parameter)
+      ! Takes the value of a setting, if there is one.
+      i = find_name(settings%names, parameter%name)
+      if (i /= 0) then
+         parameter%known = .true.
+         parameter%value = settings%values(i)
+         parameter%overridden = .true.
+      end if
       if (.not. parameter%known) call evaluate_at(deck, expression, parameter%value, parameter%known)
       call append_parameter(deck, parameter)
    end subroutine define_parameter
-
-   !> Takes the value of a setting, if there is one.
-   pure subroutine apply_settings(settings, parameter)
-      type(settings_t), intent(in) :: settings
-      type(parameter_t), intent(inout) :: parameter
-      integer(ip) :: i
-
-      i = find_name(settings%names, parameter%name)
-      if (i == 0) return
-      parameter%known = .true.
-      parameter%value = settings%values(i)
-      parameter%overridden = .true.
-   end subroutine apply_settings
 
    !> The item at some characters of another one, without the blanks round them.
    pure function part_of(deck, token, first, last) result(part)

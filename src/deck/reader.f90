@@ -88,16 +88,10 @@ contains
          call check_settings(deck, reading%settings, status)
          if (.not. is_ok(reading%refusal)) status = reading%refusal
       end if
-      call cut_to_size(deck)
-   end subroutine read_deck
-
-   subroutine cut_to_size(deck)
-      type(deck_t), intent(inout) :: deck
-
       ! lines and tokens are many: they keep their spare room
       deck%cards = deck%cards(:deck%n_cards)
       deck%parameters = deck%parameters(:deck%n_parameters)
-   end subroutine cut_to_size
+   end subroutine read_deck
 
    !> Reads a source to its end.
    recursive subroutine read_source(deck, reading, source)
@@ -119,7 +113,12 @@ contains
       cursor%position = after_byte_order_mark(deck%sources(source)%text)
       do while (cursor%position <= len(deck%sources(source)%text))
          if (reading%may_be_plain) then
-            call read_plain_lines(deck, reading, cursor)
+            ! Takes many data lines at once, where they are plain; what ends them is read line by line.
+            reading%may_be_plain = .false.
+            call take_plain_lines(deck, cursor%source, cursor%position, cursor%line)
+            associate (card => deck%cards(deck%n_cards))
+               card%n_lines = deck%n_lines - card%first_line + 1
+            end associate
             cycle
          end if
          call next_line(deck, cursor, line)
@@ -136,19 +135,6 @@ contains
          deck%sources(source)%n_lines = deck%sources(source)%n_lines + deck%sources(deck%sources(source)%children(i))%n_lines
       end do
    end subroutine read_source
-
-   !> Takes many data lines at once, where they are plain; what ends them is read line by line.
-   subroutine read_plain_lines(deck, reading, cursor)
-      type(deck_t), intent(inout) :: deck
-      type(reading_t), intent(inout) :: reading
-      type(cursor_t), intent(inout) :: cursor
-
-      reading%may_be_plain = .false.
-      call take_plain_lines(deck, cursor%source, cursor%position, cursor%line)
-      associate (card => deck%cards(deck%n_cards))
-         card%n_lines = deck%n_lines - card%first_line + 1
-      end associate
-   end subroutine read_plain_lines
 
    !> Takes the next line and reports a control character in it.
    subroutine next_line(deck, cursor, line)
@@ -297,7 +283,6 @@ contains
 
       card%first_line = deck%n_lines + 1
       reading%mode = MODE_SKIP
-      if (card%keyword /= KEYWORD_UNKNOWN) call judge_keyword(deck, card, deck%keywords(card%keyword))
       if (card%keyword /= KEYWORD_UNKNOWN) then
          call check_options(deck, card)
          reading%mode = mode_of(deck%keywords(card%keyword))
@@ -315,18 +300,6 @@ contains
       if (deck%subject == 0) deck%subject = card%subject
       call append_card(deck, card)
    end subroutine begin_card
-
-   !> A keyword that has no effect yet is passed over with its data lines.
-   subroutine judge_keyword(deck, card, keyword)
-      type(deck_t), intent(in) :: deck
-      type(card_t), intent(inout) :: card
-      type(keyword_t), intent(in) :: keyword
-
-      if (keyword%built) return
-      call report_error(deck, card%place, 'E-NOT-BUILT', '*'//keyword%name//' is not built yet', keyword=keyword%name)
-      card%keyword = KEYWORD_UNKNOWN
-      card%name = ''
-   end subroutine judge_keyword
 
    pure integer function mode_of(keyword) result(mode)
       type(keyword_t), intent(in) :: keyword

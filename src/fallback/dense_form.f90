@@ -1,8 +1,7 @@
 !> Solving with the dense form: bodies condensed to their contact dofs, and the flexibility of all points.
 module atrito_dense_form
    use atrito_base_loads, only: forget_reduced, load_bodies
-   use atrito_body_cache, only: body_cache_t, provide_bodies, reload_bodies, release_bodies, forget_bodies, &
-                                forget_loads
+   use atrito_body_cache, only: body_cache_t, provide_bodies, reload_bodies, release_bodies, forget_bodies, forget_loads
    use atrito_bound_qp, only: bound_qp_t, DEPENDENT_POINTS
    use atrito_contact_form, only: CONTACT_DENSE
    use atrito_contact_line, only: contact_line_t

@@ -1,6 +1,5 @@
 !> Solving with the sparse form: all bodies in one matrix, the contact points as elements that change.
 module atrito_sparse_form
-   use atrito_assembly, only: fem_t
    use atrito_condensed_body, only: check_held, loose_text
    use atrito_constraint_rows, only: constraint_rows_t
    use atrito_contact_form, only: CONTACT_SPARSE
@@ -14,7 +13,6 @@ module atrito_sparse_form
    use atrito_row_entries, only: build_constraint_rows
    use atrito_scene_system, only: displacements_of
    use atrito_status, only: status_t, set_status, is_ok, STATUS_SINGULAR
-   use atrito_strings, only: to_text
    use atrito_timers, only: start_phase, stop_phase
    implicit none (type, external)
    private

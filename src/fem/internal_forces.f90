@@ -36,7 +36,7 @@ contains
       integer(ip), allocatable :: owner(:)
       real(wp), allocatable :: work(:)
       real(wp) :: unit
-      integer(ip) :: n_parts, part
+      integer(ip) :: n_parts, part, i
 
       n_parts = 1
       allocate (work(chunk_count(fem%mesh%n_elements)))
@@ -51,7 +51,9 @@ contains
       end do
       !$omp end parallel do
       do part = 2, n_parts
-         call add_late_forces(late(part), force)
+         do i = 1, late(part)%n
+            force(:, late(part)%node(i)) = force(:, late(part)%node(i)) + late(part)%force(:, i)
+         end do
       end do
       energy = energy + 0.5_wp*work_of(1_ip, [sum(work)], [unit])
    end subroutine internal_forces
@@ -214,16 +216,6 @@ contains
       late%node(late%n) = node
       late%force(:, late%n) = f
    end subroutine put_down
-
-   pure subroutine add_late_forces(late, force)
-      type(late_forces_t), intent(in) :: late
-      real(wp), intent(inout) :: force(:, :)
-      integer(ip) :: i
-
-      do i = 1, late%n
-         force(:, late%node(i)) = force(:, late%node(i)) + late%force(:, i)
-      end do
-   end subroutine add_late_forces
 
    !> Sums of |K||u| over the elements, which measure the round-off of internal_forces; wanted seldom, so done plainly.
    pure subroutine internal_force_sizes(fem, u, size_of_force)

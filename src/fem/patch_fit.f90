@@ -50,6 +50,7 @@ contains
       fit%n = 0
    end subroutine clear_samples
 
+   !> Adds a point of the patch with its stresses to what the fit has to come near.
    pure subroutine add_sample(x, s, fit)
       real(wp), intent(in) :: x(2)                   !< less the patch's node [L]
       real(wp), intent(in) :: s(COMPONENTS)          !< [F/L^2]

@@ -194,14 +194,18 @@ contains
       type(recovery_t), intent(in) :: work
       type(patch_fit_t), intent(inout) :: fit
       integer(ip), intent(out) :: degree
-      integer(ip) :: full, k
+      integer(ip) :: full, k, point
+      real(wp) :: first(2)
 
       associate (patches => work%patches)
          full = DEGREE_OF(fem%mesh%shape(patches%element(patches%first(i))))
          if (patches%kind(i) /= PATCH_OUTER) then
             call clear_samples(fit)
             do k = patches%first(i), patches%first(i + 1) - 1
-               call add_best_points(fem, i, patches%element(k), work, fit)
+               first = from_patch(fem%mesh, work%patches, i, fem%mesh%nodes(1, patches%element(k)))
+               do point = 1, work%best(fem%mesh%shape(patches%element(k)))%n
+                  call add_sample(first + work%x(:, point, patches%element(k)), work%s(:, point, patches%element(k)), fit)
+               end do
             end do
             call lay_when_new(fem, i, patches, full, fit)
             degree = merge(full - 1, full, patches%kind(i) == PATCH_SINGLE)
@@ -248,20 +252,6 @@ contains
 
       x = mesh%x(:, node) - mesh%x(:, patches%node(i))
    end function from_patch
-
-   pure subroutine add_best_points(fem, i, e, work, fit)
-      type(fem_t), intent(in) :: fem
-      integer(ip), intent(in) :: i, e
-      type(recovery_t), intent(in) :: work
-      type(patch_fit_t), intent(inout) :: fit
-      real(wp) :: first(2)
-      integer(ip) :: point
-
-      first = from_patch(fem%mesh, work%patches, i, fem%mesh%nodes(1, e))
-      do point = 1, work%best(fem%mesh%shape(e))%n
-         call add_sample(first + work%x(:, point, e), work%s(:, point, e), fit)
-      end do
-   end subroutine add_best_points
 
    pure subroutine add_all_points(fem, u, i, e, work, fit)
       type(fem_t), intent(in) :: fem

@@ -10,6 +10,7 @@
 !> What the same process reads again goes one value behind the other into a file without a name (spool_archive): nothing of it is
 !> gathered first, and a part is what lies between a place and the next.
 module atrito_archive
+   use atrito_growth, only: grow
    use atrito_hdf5_arrays, only: hdf5_arrays_t, create_arrays, open_arrays, put_list, get_list, outcome_of, close_arrays
    use atrito_kinds, only: ip, lp, wp
    use atrito_spool, only: spool_t, open_spool, place_of, go_to, give_up_rest, put_values, get_values, close_spool
@@ -48,6 +49,7 @@ module atrito_archive
 
 contains
 
+   !> Begins an archive that is written into a file. A failure is kept until close_archive.
    subroutine create_archive(path, final_path, archive)
       character(len=*), intent(in) :: path            !< where it is written
       character(len=*), intent(in) :: final_path      !< what messages call it
@@ -58,6 +60,7 @@ contains
       call empty_part(archive)
    end subroutine create_archive
 
+   !> Begins an archive that is read from a file. A failure is kept until close_archive.
    subroutine open_archive(path, archive)
       character(len=*), intent(in) :: path
       type(archive_t), intent(out) :: archive
@@ -114,6 +117,7 @@ contains
       archive%status = status_t()
    end subroutine forgive_writing
 
+   !> Lets go of the file of a spooled archive, which is gone then.
    subroutine close_spooled(archive)
       type(archive_t), intent(inout) :: archive
 
@@ -267,7 +271,6 @@ contains
       type(archive_t), intent(inout) :: archive
       character(len=*), intent(in) :: name
       integer(lp), intent(inout) :: values(:)
-      integer(lp), allocatable :: larger(:)
       integer(lp) :: next
 
       if (archive%is_spooled) then
@@ -284,11 +287,7 @@ contains
          if (.not. is_ok(archive%status)) return
          values = archive%longs(archive%n_longs + 1:next)
       else
-         if (next > size(archive%longs, kind=lp)) then
-            allocate (larger(2*next))
-            larger(:archive%n_longs) = archive%longs(:archive%n_longs)
-            call move_alloc(larger, archive%longs)
-         end if
+         if (next > size(archive%longs, kind=lp)) call grow(archive%longs, 2*next)
          archive%longs(archive%n_longs + 1:next) = values
       end if
       archive%n_longs = next
@@ -298,7 +297,6 @@ contains
    subroutine pass_reals(archive, values)
       type(archive_t), intent(inout) :: archive
       real(wp), intent(inout) :: values(:)
-      real(wp), allocatable :: larger(:)
       integer(lp) :: next
 
       if (archive%is_spooled) then
@@ -311,11 +309,7 @@ contains
       if (archive%is_reading) then
          values = archive%reals(archive%n_reals + 1:next)
       else
-         if (next > size(archive%reals, kind=lp)) then
-            allocate (larger(2*next))
-            larger(:archive%n_reals) = archive%reals(:archive%n_reals)
-            call move_alloc(larger, archive%reals)
-         end if
+         if (next > size(archive%reals, kind=lp)) call grow(archive%reals, 2*next)
          archive%reals(archive%n_reals + 1:next) = values
       end if
       archive%n_reals = next

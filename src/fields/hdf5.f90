@@ -12,8 +12,7 @@ module atrito_hdf5
                    h5pcreate_f, h5pclose_f, h5pset_create_inter_group_f, h5pset_chunk_f, h5pset_shuffle_f, h5pset_deflate_f, &
                    h5pset_obj_track_times_f, H5P_LINK_CREATE_F, H5P_FILE_ACCESS_F, H5P_DATASET_CREATE_F, h5screate_f, &
                    h5screate_simple_f, h5sclose_f, h5sselect_hyperslab_f, H5S_SCALAR_F, H5S_SELECT_SET_F, h5dcreate_f, h5dwrite_f, &
-                   h5dclose_f, &
-                   h5acreate_by_name_f, h5awrite_f, h5aclose_f, h5tcopy_f, h5tclose_f, h5tset_cset_f, H5T_CSET_UTF8_F, &
+                   h5dclose_f, h5acreate_by_name_f, h5awrite_f, h5aclose_f, h5tcopy_f, h5tclose_f, h5tset_cset_f, H5T_CSET_UTF8_F, &
                    H5T_STRING, H5T_NATIVE_DOUBLE, H5T_NATIVE_INTEGER
    implicit none (type, external)
    private

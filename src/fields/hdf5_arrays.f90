@@ -5,18 +5,17 @@
 !> byte that was changed is found when it is read. The first failure is kept in the file; later calls do nothing.
 module atrito_hdf5_arrays
    use, intrinsic :: iso_c_binding, only: c_loc, c_null_char, c_ptr
-   use atrito_kinds, only: ip, lp, wp
+   use atrito_kinds, only: lp, wp
    use atrito_paths, only: remove_file
    use atrito_status, only: status_t, set_status, is_ok, STATUS_FILE
    use hdf5, only: hid_t, hsize_t, h5open_f, h5close_f, h5dont_atexit_f, h5eset_auto_f, h5fcreate_f, h5fopen_f, h5fclose_f, &
                    h5fis_hdf5_f, H5F_ACC_EXCL_F, H5F_ACC_RDONLY_F, H5F_LIBVER_LATEST_F, h5pcreate_f, h5pclose_f, &
-                   h5pset_libver_bounds_f, h5pset_create_inter_group_f, h5pset_chunk_f, h5pset_fletcher32_f, &
-                   h5pset_fill_time_f, H5D_FILL_TIME_NEVER_F, &
-                   h5pset_obj_track_times_f, H5P_FILE_ACCESS_F, H5P_LINK_CREATE_F, H5P_DATASET_CREATE_F, h5screate_simple_f, &
-                   h5sclose_f, h5sget_simple_extent_ndims_f, h5sget_simple_extent_dims_f, h5dcreate_f, h5dopen_f, h5dwrite_f, &
-                   h5dread_f, h5dclose_f, h5dget_space_f, h5dget_type_f, h5tequal_f, h5tclose_f, h5kind_to_type, &
-                   h5fget_filesize_f, h5tget_size_f, size_t, &
-                   H5_INTEGER_KIND, H5T_NATIVE_DOUBLE, H5T_NATIVE_CHARACTER
+                   h5pset_libver_bounds_f, h5pset_create_inter_group_f, h5pset_chunk_f, h5pset_fletcher32_f, h5pset_fill_time_f, &
+                   H5D_FILL_TIME_NEVER_F, h5pset_obj_track_times_f, H5P_FILE_ACCESS_F, H5P_LINK_CREATE_F, H5P_DATASET_CREATE_F, &
+                   h5screate_simple_f, h5sclose_f, h5sget_simple_extent_ndims_f, h5sget_simple_extent_dims_f, h5dcreate_f, &
+                   h5dopen_f, h5dwrite_f, h5dread_f, h5dclose_f, h5dget_space_f, h5dget_type_f, h5tequal_f, h5tclose_f, &
+                   h5kind_to_type, h5fget_filesize_f, h5tget_size_f, size_t, H5_INTEGER_KIND, H5T_NATIVE_DOUBLE, &
+                   H5T_NATIVE_CHARACTER
    implicit none (type, external)
    private
    public :: hdf5_arrays_t, create_arrays, open_arrays, put_list, get_list, outcome_of, close_arrays

@@ -4,11 +4,12 @@
 module atrito_restart_file
    use atrito_archive, only: archive_t, create_archive, open_archive, begin_part, end_part, exchange, exchange_numbers, &
                              exchange_vector, exchange_length, demand, is_sound, close_archive
-   use atrito_exchange_results, only: exchange_results, exchange_iteration_list
+   use atrito_exchange_results, only: exchange_results, exchange_iterations
    use atrito_files, only: file_set_t, begin_files, file_exists, judge_file, reserve_file, commit_over, discard_files
    use atrito_fingerprint, only: fingerprint_t, find_difference
-   use atrito_kinds, only: ip, wp
+   use atrito_kinds, only: ip
    use atrito_model, only: model_t
+   use atrito_multipliers, only: multiplier_t
    use atrito_restart_state, only: restart_state_t, warm_start_t
    use atrito_results, only: frame_store_t, results_t, history_t, history_row_t, observed_list_t, put_aside, view_frame
    use atrito_status, only: status_t, set_status, is_ok, STATUS_DECK, STATUS_FILE
@@ -138,8 +139,8 @@ contains
       call begin_part(archive, 'state')
       call exchange_state(archive, state)
       call exchange_results(archive, state%last)
-      call exchange_row_list(archive, 'rows', history%rows)
-      call exchange_iteration_list(archive, 'iterations', history%iterations)
+      call exchange_rows(archive, history%rows)
+      call exchange_iterations(archive, history%iterations)
       call exchange_observed_list(archive, history%observed)
       if (allocated(history%frames)) increments = history%frames%increment
       call exchange(archive, 'increments of frames', increments)
@@ -208,45 +209,59 @@ contains
       call exchange_start(archive, state%start)
    end subroutine exchange_state
 
-   !> Its kind among the forms, and plain arrays.
+   !> What the contact line is started from.
    subroutine exchange_start(archive, start)
       type(archive_t), intent(inout) :: archive
       type(warm_start_t), intent(inout) :: start
+      type(multiplier_t) :: multipliers              ! those of the dense form are in the file, too, without arrays
+      logical :: has_multipliers
 
       call exchange(archive, 'form', start%form)
       call exchange(archive, 'p', start%p)
       call exchange(archive, 'tau', start%tau)
       call exchange(archive, 't', start%t)
-      call exchange(archive, 'state', start%state)
-      call exchange(archive, 'q', start%q)
-      call exchange(archive, 'a', start%a)
-      call exchange(archive, 'r', start%r)
-      call exchange(archive, 'shift', start%shift)
-      call exchange(archive, 'slack', start%slack)
-      call exchange(archive, 'lower', start%lower)
-      call exchange(archive, 'upper', start%upper)
-      call exchange(archive, 'd', start%d)
+      associate (state => start%state, bounds => start%bounds)
+         call exchange(archive, 'state', state%state)
+         call exchange(archive, 'q', state%q)
+         call exchange(archive, 'a', state%a)
+         call exchange(archive, 'r', state%r)
+         call exchange(archive, 'shift', state%shift)
+         call exchange(archive, 'slack', state%slack)
+         call exchange(archive, 'lower', bounds%lower)
+         call exchange(archive, 'upper', bounds%upper)
+         call exchange(archive, 'd', bounds%d)
+      end associate
       call exchange(archive, 'is_shared', start%is_shared)
       call exchange(archive, 'tangential_of', start%tangential_of)
       call exchange(archive, 'residual', start%residual)
       call exchange(archive, 'contraction', start%contraction)
-      call exchange(archive, 'has_multipliers', start%has_multipliers)
-      call exchange(archive, 'step_size', start%step_size)
-      call exchange(archive, 'pull_size', start%pull_size)
-      call exchange(archive, 'x', start%x)
-      call exchange(archive, 'e', start%e)
-      call exchange(archive, 'noise', start%noise)
-      call exchange(archive, 'q_old', start%q_old)
-      call exchange(archive, 'a_old', start%a_old)
-      call exchange(archive, 'hold', start%hold)
-      call exchange(archive, 'pair', start%pair)
-      call exchange(archive, 'n_pairs', start%n_pairs)
-      call exchange(archive, 'n_contact_pairs', start%n_contact_pairs)
-      call exchange(archive, 'stiffness', start%stiffness)
-      call exchange(archive, 'pull', start%pull)
-      call exchange(archive, 'settled', start%settled)
-      call exchange(archive, 'changed', start%changed)
+      has_multipliers = allocated(start%multipliers)
+      if (has_multipliers) multipliers = start%multipliers
+      call exchange(archive, 'has_multipliers', has_multipliers)
+      call exchange_multipliers(archive, multipliers)
+      if (archive%is_reading .and. has_multipliers) start%multipliers = multipliers
    end subroutine exchange_start
+
+   subroutine exchange_multipliers(archive, multipliers)
+      type(archive_t), intent(inout) :: archive
+      type(multiplier_t), intent(inout) :: multipliers
+
+      call exchange(archive, 'step_size', multipliers%r)
+      call exchange(archive, 'pull_size', multipliers%kappa)
+      call exchange(archive, 'x', multipliers%x)
+      call exchange(archive, 'e', multipliers%e)
+      call exchange(archive, 'noise', multipliers%noise)
+      call exchange(archive, 'q_old', multipliers%q_old)
+      call exchange(archive, 'a_old', multipliers%a_old)
+      call exchange(archive, 'hold', multipliers%hold)
+      call exchange(archive, 'pair', multipliers%pair)
+      call exchange(archive, 'n_pairs', multipliers%n_pairs)
+      call exchange(archive, 'n_contact_pairs', multipliers%n_contact_pairs)
+      call exchange(archive, 'stiffness', multipliers%stiffness)
+      call exchange(archive, 'pull', multipliers%pull)
+      call exchange(archive, 'settled', multipliers%settled)
+      call exchange(archive, 'changed', multipliers%changed)
+   end subroutine exchange_multipliers
 
    subroutine exchange_observed_list(archive, list)
       type(archive_t), intent(inout) :: archive
@@ -265,22 +280,15 @@ contains
                   'observed')
    end subroutine exchange_observed_list
 
-   subroutine exchange_row_list(archive, name, list)
-      type(archive_t), intent(inout) :: archive
-      character(len=*), intent(in) :: name
-      type(history_row_t), allocatable, intent(inout) :: list(:)
-      integer(ip) :: n
-
-      call exchange_length(archive, name, n, list)
-      if (archive%is_reading .and. n >= 0) allocate (list(n))
-      if (n >= 0) call exchange_rows(archive, list)
-   end subroutine exchange_row_list
-
    !> Column by column: there is a row of every increment and pair, in every file.
    subroutine exchange_rows(archive, list)
       type(archive_t), intent(inout) :: archive
-      type(history_row_t), intent(inout) :: list(:)
+      type(history_row_t), allocatable, intent(inout) :: list(:)
+      integer(ip) :: n
 
+      call exchange_length(archive, 'rows', n, list)
+      if (archive%is_reading .and. n >= 0) allocate (list(n))
+      if (n < 0) return
       call exchange_numbers(archive, 'step', list%step)
       call exchange_numbers(archive, 'increment', list%increment)
       call exchange_numbers(archive, 'pair', list%pair)

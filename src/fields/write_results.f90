@@ -48,17 +48,20 @@ contains
       logical, intent(in), optional :: is_csv                !< tables as comma-separated values; left out: .false.
       type(file_set_t) :: set
       type(string_t), allocatable :: stale(:)
+      logical :: as_csv
 
+      as_csv = .false.
+      if (present(is_csv)) as_csv = is_csv
       allocate (written(0))
       call begin_files(set, folder, status)
       if (.not. is_ok(status)) return
       call start_phase('write')
-      call write_tables(model, history, digits, set, status, is_csv)
+      call write_tables(model, history, digits, set, status, as_csv)
       if (is_ok(status)) call write_fields(model, history, set, status)
       if (is_ok(status)) call write_deck_as_run(model, set, status)
       call stop_phase('write')
       ! these two tell the time, that of writing the tables included
-      if (is_ok(status)) call write_timing(model, history, digits, set, status, is_csv)
+      if (is_ok(status)) call write_timing(model, history, digits, set, status, as_csv)
       if (is_ok(status)) call write_listing(model, history, set, status, pictures)
       if (associated(history%store) .and. is_ok(status)) then
          if (history%store%has_failed) call set_status(status, STATUS_FILE, folder//': what was put aside there while it was '// &
@@ -101,7 +104,7 @@ contains
 
       words = MESH_MARK//PROGRAM_VERSION//NEW_LINE_CHARACTER//'$EndComments'//NEW_LINE_CHARACTER
       if (text%n == 0) return
-      last = text%last(text%n)
+      last = text%pieces(text%n)%last
       if (text%texts(1)%s(last:last) /= NEW_LINE_CHARACTER) words = NEW_LINE_CHARACTER//words
    end function mesh_end
 

@@ -104,6 +104,7 @@ contains
       call append_string(lines, '</Grid>')
    end subroutine add_time
 
+   !> Closes what begin_xdmf opened.
    subroutine end_xdmf(lines)
       type(string_t), allocatable, intent(inout) :: lines(:)
 

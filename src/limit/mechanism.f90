@@ -38,6 +38,8 @@ module atrito_mechanism
 
 contains
 
+   !> What the motion of a certificate is: which bodies move and how, what slides and opens, and what the loads, friction and gaps
+   !> do on it. Lifts that the loads do not drive are taken out of it first.
    subroutine describe_motion(fem, rows, line, motions, certificate, mechanism, work_at_end)
       type(fem_t), intent(in) :: fem
       type(contact_rows_t), intent(in) :: rows

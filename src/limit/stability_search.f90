@@ -50,6 +50,7 @@ module atrito_stability_search
 
 contains
 
+   !> Begins a search between two values of the parameter; tolerance: the width of the interval that is wanted, over the limit.
    pure subroutine begin_search(first, second, tolerance, search)
       real(wp), intent(in) :: first, second         !< different
       real(wp), intent(in) :: tolerance             !< > 0
@@ -251,6 +252,7 @@ contains
           .and. is_unsolved(search, x)) step = STEP_SOLVE
    end subroutine narrow_solutions
 
+   !> What the balance of the loads at a value was found to be.
    pure subroutine record_balance(search, x, answer, excess)
       type(search_t), intent(inout) :: search
       real(wp), intent(in) :: x
@@ -263,6 +265,7 @@ contains
       search%tried(i)%excess = excess
    end subroutine record_balance
 
+   !> What a solution at a value came to.
    pure subroutine record_solution(search, x, answer)
       type(search_t), intent(inout) :: search
       real(wp), intent(in) :: x

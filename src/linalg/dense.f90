@@ -12,7 +12,7 @@ module atrito_dense
    implicit none (type, external)
    private
    public :: solve_cholesky, estimate_condition, solve_lu, eigen_symmetric
-   public :: orthonormalise, multiply, multiply_vector, null_space, least_squares
+   public :: orthonormalise, add_product, multiply_vector, null_space, least_squares
 
    integer(ip), parameter :: NOT_FINITE = -99             !< an info that is none of LAPACK's
 
@@ -209,62 +209,32 @@ contains
       x = both(:n)
    end subroutine least_squares
 
-   !> c <- alpha op(a) op(b) + beta c (dgemm).
-   subroutine multiply(a, b, c, transa, transb, alpha, beta)
-      real(wp), intent(in), contiguous :: a(:, :)        !< (m, k), or (k, m) when transa
-      real(wp), intent(in), contiguous :: b(:, :)        !< (k, n), or (n, k) when transb
-      real(wp), intent(inout), contiguous :: c(:, :)     !< (m, n); need not be defined when beta = 0
-      logical, intent(in), optional :: transa, transb    !< default false
-      real(wp), intent(in), optional :: alpha            !< default 1
-      real(wp), intent(in), optional :: beta             !< default 0
+   !> c <- c + a b' (dgemm).
+   subroutine add_product(a, b, c)
+      real(wp), intent(in), contiguous :: a(:, :)        !< (m, k)
+      real(wp), intent(in), contiguous :: b(:, :)        !< (n, k)
+      real(wp), intent(inout), contiguous :: c(:, :)     !< (m, n)
       type(halting_t) :: halting
-      integer(ip) :: terms
 
-      terms = size(a, 2, kind=ip)
-      if (operation(transa) == 'T') terms = size(a, 1, kind=ip)
       call suspend_halting(halting)
-      call dgemm(operation(transa), operation(transb), size(c, 1, kind=ip), size(c, 2, kind=ip), terms, &
-                 value_or(alpha, 1.0_wp), a, leading(a), b, leading(b), value_or(beta, 0.0_wp), c, leading(c))
+      call dgemm('N', 'T', size(c, 1, kind=ip), size(c, 2, kind=ip), size(a, 2, kind=ip), 1.0_wp, a, leading(a), b, leading(b), &
+                 1.0_wp, c, leading(c))
       call restore_halting(halting)
-   end subroutine multiply
+   end subroutine add_product
 
-   !> y <- alpha op(a) x + beta y (dgemv).
-   subroutine multiply_vector(a, x, y, transa, alpha, beta)
+   !> y <- a x (dgemv).
+   subroutine multiply_vector(a, x, y)
       real(wp), intent(in), contiguous :: a(:, :)        !< (m, n)
-      real(wp), intent(in), contiguous :: x(:)           !< (n), or (m) when transa
-      real(wp), intent(inout), contiguous :: y(:)        !< (m), or (n) when transa; need not be defined when beta = 0
-      logical, intent(in), optional :: transa            !< default false
-      real(wp), intent(in), optional :: alpha            !< default 1
-      real(wp), intent(in), optional :: beta             !< default 0
+      real(wp), intent(in), contiguous :: x(:)           !< (n)
+      real(wp), intent(out), contiguous :: y(:)          !< (m)
       type(halting_t) :: halting
-      real(wp) :: old
 
-      old = value_or(beta, 0.0_wp)
-      if (size(x) == 0) then       ! dgemv returns at once and leaves y as it is
-         if (old == 0.0_wp) y = 0.0_wp
-         if (old /= 0.0_wp) y = old*y
-         return
-      end if
+      y = 0.0_wp                                         ! dgemv returns at once where n is 0
+      if (size(x) == 0) return
       call suspend_halting(halting)
-      call dgemv(operation(transa), size(a, 1, kind=ip), size(a, 2, kind=ip), value_or(alpha, 1.0_wp), a, leading(a), &
-                 x, 1_ip, old, y, 1_ip)
+      call dgemv('N', size(a, 1, kind=ip), size(a, 2, kind=ip), 1.0_wp, a, leading(a), x, 1_ip, 0.0_wp, y, 1_ip)
       call restore_halting(halting)
    end subroutine multiply_vector
-
-   pure character(len=1) function operation(transposed)
-      logical, intent(in), optional :: transposed
-
-      operation = 'N'
-      if (present(transposed)) operation = merge('T', 'N', transposed)
-   end function operation
-
-   pure real(wp) function value_or(value, default)
-      real(wp), intent(in), optional :: value
-      real(wp), intent(in) :: default
-
-      value_or = default
-      if (present(value)) value_or = value
-   end function value_or
 
    pure integer(ip) function order(a)
       real(wp), intent(in) :: a(:, :)

@@ -16,6 +16,7 @@ module atrito_block_map
 
 contains
 
+   !> Whether a side of the block is an arc.
    pure logical function has_arcs(map)
       type(block_map_t), intent(in) :: map
 

@@ -12,7 +12,7 @@ module atrito_crossings
    use atrito_sorting, only: order_key, sorted_places
    implicit none (type, external)
    private
-   public :: cut_line_t, piece_t, crossing_t, line_through, height_over, place_along, point_at, outline_of, is_ahead, slack_of, &
+   public :: cut_line_t, piece_t, crossing_t, line_through, height_over, point_at, outline_of, is_ahead, slack_of, &
              find_crossings, INSIDE, EDGE_BEHIND, EDGE_AHEAD, MOST_OUTLINE
 
    !> A line from one point to another. Behind it is where its normal comes from.
@@ -56,6 +56,7 @@ module atrito_crossings
 
 contains
 
+   !> The line from one point to another, with its unit vector and its normal, which is the vector turned by -90 degrees.
    pure type(cut_line_t) function line_through(ends) result(line)
       real(wp), intent(in) :: ends(2, 2)            !< two points that differ [L]
 
@@ -81,6 +82,7 @@ contains
       place_along = dot_product(line%along, x - line%start)
    end function place_along
 
+   !> The point of a line at a distance from its start [L].
    pure function point_at(line, place) result(x)
       type(cut_line_t), intent(in) :: line
       real(wp), intent(in) :: place                 !< along the line [L]

@@ -140,7 +140,10 @@ contains
          end do
       end if
       larger%n = map%n
-      call move_table(larger, map)
+      if (allocated(map%key)) deallocate (map%key)
+      if (allocated(larger%key)) call move_alloc(larger%key, map%key)
+      call move_alloc(larger%place, map%place)
+      map%greatest = larger%greatest
    end subroutine grow_table
 
    !> An empty table for so many ids, with room for as many more.
@@ -161,15 +164,6 @@ contains
       end do
       allocate (map%key(0:length - 1), map%place(0:length - 1), source=0_ip)
    end subroutine make_table
-
-   pure subroutine move_table(from, to)
-      type(id_map_t), intent(inout) :: from, to
-
-      if (allocated(to%key)) deallocate (to%key)
-      if (allocated(from%key)) call move_alloc(from%key, to%key)
-      call move_alloc(from%place, to%place)
-      to%greatest = from%greatest
-   end subroutine move_table
 
    !> Puts an id that is not there into the table, which has room for it.
    pure subroutine put_id(map, id, place)

@@ -67,6 +67,7 @@ contains
       end do
    end subroutine add_ranges
 
+   !> Hands the ranges of one list to another without copying them; the first one is not to be used any more.
    pure subroutine move_ranges(from, to)
       type(ranges_t), intent(inout) :: from, to          !< the second one is empty
 

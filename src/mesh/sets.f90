@@ -2,12 +2,10 @@
 module atrito_sets
    use atrito_kinds, only: ip
    use atrito_name_list, only: name_list_t, add_name, find_name
-   use atrito_ranges, only: ranges_t, add_numbers, add_ranges, move_ranges, numbers_in, count_numbers, &
-                            first_number
+   use atrito_ranges, only: ranges_t, add_numbers, add_ranges, move_ranges, numbers_in, count_numbers, first_number
    implicit none (type, external)
    private
-   public :: set_t, set_list_t, set_count, find_set, grow_set, members_of, member_count, first_member, &
-             replace_members
+   public :: set_t, set_list_t, set_count, find_set, grow_set, members_of, member_count, first_member, replace_members
 
    type :: set_t
       character(len=:), allocatable :: name
@@ -28,6 +26,7 @@ module atrito_sets
 
 contains
 
+   !> How many sets a list has.
    pure integer(ip) function set_count(list) result(n)
       type(set_list_t), intent(in) :: list
 
@@ -50,6 +49,7 @@ contains
       members = numbers_in(set%members)
    end function members_of
 
+   !> How many numbers a set has, each counted once.
    pure integer(ip) function member_count(set) result(n)
       type(set_t), intent(in) :: set
 
@@ -63,6 +63,7 @@ contains
       member = first_number(set%members)
    end function first_member
 
+   !> Gives a set other members (places of nodes or elements), in any order.
    pure subroutine replace_members(set, members)
       type(set_t), intent(inout) :: set
       integer(ip), intent(in) :: members(:)

@@ -29,8 +29,7 @@ module atrito_build_context
    public :: build_context_t, open_step_t, references_t, carried_t, replaced_t, numbered_t, block_t, section_cut_t
    public :: BLOCK_SIDES
    public :: prepare_context, add_context_block, note_undetermined_mesh
-   public :: invalidate_block, invalidate_name, spoil_number, is_invalid, is_undetermined, &
-             has_errors, has_lost_elements
+   public :: invalidate_block, invalidate_name, spoil_number, is_invalid, is_undetermined, has_errors, has_lost_elements
    public :: place_token, place_text, note_number, note_place, note_places, keep_token, define_name, count_cards, ids_text, MOST_IDS
 
    type :: build_context_t
@@ -342,6 +341,7 @@ contains
       has_lost_elements = has_errors() .and. (context%elements%invalid%n > 0 .or. is_undetermined(context, 'element'))
    end function has_lost_elements
 
+   !> Whether an error was reported so far.
    logical function has_errors()
       has_errors = count_messages(SEVERITY_ERROR) > 0
    end function has_errors

@@ -8,9 +8,9 @@ module atrito_fingerprint
    use atrito_digest, only: digest_t, add_to, add_allocated, digest_text
    use atrito_kinds, only: ip
    use atrito_mesh, only: mesh_t
-   use atrito_model, only: model_t, step_t, nodal_values_t, element_load_t, surface_t, requested_t, amplitude_t
+   use atrito_model, only: model_t, step_t, nodal_values_t, element_load_t, requested_t, amplitude_t
    use atrito_points, only: contact_points_t
-   use atrito_strings, only: string_t, to_text
+   use atrito_strings, only: to_text
    implicit none (type, external)
    private
    public :: fingerprint_t, take_fingerprint, find_difference
@@ -30,6 +30,7 @@ module atrito_fingerprint
 
 contains
 
+   !> The fingerprint of a model and of the options of a run, part by part.
    subroutine take_fingerprint(model, options, fingerprint)
       type(model_t), intent(in) :: model
       character(len=*), intent(in) :: options         !< of the run, that change digits of its results
@@ -39,7 +40,8 @@ contains
 
       fingerprint%n_steps = size(model%steps, kind=ip)
       allocate (fingerprint%parts(0))
-      call add_part(fingerprint, 'mesh', plural_nodes(model%mesh), digest_of_mesh(model%mesh), 0_ip)
+      call add_part(fingerprint, 'mesh', to_text(model%mesh%n_nodes)//' nodes, '//to_text(model%mesh%n_elements)//' elements', &
+                    digest_of_mesh(model%mesh), 0_ip)
       call add_part(fingerprint, 'sections and materials', to_text(size(model%materials, kind=ip))//' materials', &
                     digest_of_materials(model), 0_ip)
       call add_part(fingerprint, 'surfaces', to_text(size(model%surfaces, kind=ip))//' surfaces', digest_of_surfaces(model), 0_ip)
@@ -54,13 +56,6 @@ contains
          call add_step(fingerprint, model, i)
       end do
    end subroutine take_fingerprint
-
-   pure function plural_nodes(mesh) result(text)
-      type(mesh_t), intent(in) :: mesh
-      character(len=:), allocatable :: text
-
-      text = to_text(mesh%n_nodes)//' nodes, '//to_text(mesh%n_elements)//' elements'
-   end function plural_nodes
 
    subroutine add_part(fingerprint, name, words, digest, step)
       type(fingerprint_t), intent(inout) :: fingerprint

@@ -1,7 +1,7 @@
 !> Finds a contact pair of the deck by the names of its surfaces.
 module atrito_pair_names
    use atrito_build_context, only: build_context_t
-   use atrito_deck, only: keyword_name, token_t
+   use atrito_deck, only: count_lines, token_t
    use atrito_diagnostics, only: report_error
    use atrito_kinds, only: ip, lp
    use atrito_name_list, only: find_name
@@ -22,6 +22,7 @@ module atrito_pair_names
 
 contains
 
+   !> Sorts the contact pairs by their surfaces, so that find_pair finds them by name.
    subroutine index_pairs(context, pairs)
       type(build_context_t), intent(in) :: context
       type(pair_index_t), intent(out) :: pairs
@@ -32,7 +33,8 @@ contains
       end associate
       pairs%pair = sorted_places(pairs%key)
       pairs%key = pairs%key(pairs%pair)
-      pairs%is_complete = has_all_pairs(context)
+      ! Each line of *CONTACT PAIR has made a pair; where one has not, an error has been told.
+      pairs%is_complete = size(context%model%pairs) == count_lines(context%deck, 'CONTACT PAIR')
    end subroutine index_pairs
 
    pure integer(lp) function key_of(context, surfaces) result(key)
@@ -82,17 +84,5 @@ contains
                            ' and the master '//names(2)%s, expected='the surfaces of one *CONTACT PAIR', keyword=keyword)
       end if
    end subroutine find_pair
-
-   !> Each line of *CONTACT PAIR has made a pair; where one has not, an error has been told.
-   pure logical function has_all_pairs(context)
-      type(build_context_t), intent(in) :: context
-      integer(ip) :: i, n
-
-      n = 0
-      do i = 1, context%deck%n_cards
-         if (keyword_name(context%deck%cards(i)) == 'CONTACT PAIR') n = n + context%deck%cards(i)%n_lines
-      end do
-      has_all_pairs = size(context%model%pairs) == n
-   end function has_all_pairs
 
 end module atrito_pair_names

@@ -8,7 +8,7 @@ module atrito_references
    use atrito_items, only: get_integer, get_name
    use atrito_kinds, only: ip
    use atrito_mesh, only: find_node, find_element, side_count
-   use atrito_name_list, only: name_list_t
+   use atrito_name_list, only: name_list_t, find_name
    use atrito_number_list, only: number_list_t, add_number, numbers_of
    use atrito_refined_members, only: fine_elements
    use atrito_refinement, only: is_refined
@@ -16,7 +16,7 @@ module atrito_references
    use atrito_strings, only: to_text, upper_case
    implicit none (type, external)
    private
-   public :: get_id, find_nodes, find_elements, find_one_node, find_one_element, check_faces, report_unknown
+   public :: get_id, find_nodes, find_elements, find_one_node, find_one_element, find_surface, check_faces, report_unknown
 
 contains
 
@@ -219,6 +219,17 @@ contains
       call report_error(context%deck, token, id, 'unknown '//noun//' '//token_text(context%deck, token), expected=expected, &
                         among=known, keyword=keyword)
    end subroutine report_unknown
+
+   !> The surface of a name that an item has; one that nobody defines is reported.
+   subroutine find_surface(context, token, surface, keyword)
+      type(build_context_t), intent(in) :: context
+      type(token_t), intent(in) :: token               !< the item
+      integer(ip), intent(out) :: surface              !< place among the surfaces of the model; 0: there is none
+      character(len=*), intent(in) :: keyword
+
+      surface = find_name(context%surface_names, token_text(context%deck, token))
+      if (surface == 0) call report_unknown(context, token, 'surface', 'E-SURFACE', context%surface_names, keyword)
+   end subroutine find_surface
 
    !> Elements have a face of this number: triangles have no fourth. Of a refined mesh that has been asked of the deck's.
    subroutine check_faces(context, token, elements, face, keyword, ok)

@@ -47,6 +47,7 @@ module atrito_cut_refinement
 
 contains
 
+   !> The corners of some elements, each node once, and of each node the elements whose corner it is.
    subroutine list_corners(elements, nodes, n_nodes_of, n_nodes, lists)
       integer(ip), intent(in) :: elements(:)
       integer(ip), intent(in) :: nodes(:, :), n_nodes_of(:) !< (most nodes, all elements), (all elements)
@@ -67,6 +68,7 @@ contains
       call list_holders(n_nodes, lists%corner, lists%first, lists%element)
    end subroutine list_corners
 
+   !> Gets ready to count the elements round nodes on both sides of a cut. Nodes that are not wanted are left out.
    subroutine begin_sides(lists, wanted, sides)
       type(corner_lists_t), intent(in), target :: lists !< stays where it is
       logical, intent(in) :: wanted(:)           !< (nodes) the others do not count

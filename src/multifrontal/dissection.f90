@@ -8,8 +8,7 @@
 !>
 !> The parts of a large set are cut by threads of their own.
 module atrito_dissection
-   use atrito_cut_refinement, only: corner_lists_t, sides_of_cut_t, begin_sides, leave_out, refine_cut, &
-                                    LOWER_SIDE, UPPER_SIDE
+   use atrito_cut_refinement, only: corner_lists_t, sides_of_cut_t, begin_sides, leave_out, refine_cut, LOWER_SIDE, UPPER_SIDE
    use atrito_kinds, only: ip, lp, wp
    use atrito_threads, only: is_shared
    implicit none (type, external)

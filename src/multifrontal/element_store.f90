@@ -29,6 +29,7 @@ module atrito_element_store
 
 contains
 
+   !> An empty store with room for some elements.
    pure subroutine begin_store(store)
       type(element_store_t), intent(out) :: store
       integer(ip), parameter :: ROOM = 1024_ip
@@ -38,6 +39,8 @@ contains
       store%matrix_start(1) = 0
    end subroutine begin_store
 
+   !> Adds the matrix of an element at its equations. A matrix that is the newest one bit by bit is stored once. store%enough is
+   !> false, and nothing is added, where there is no memory for it.
    pure subroutine add_to_store(store, equations, matrix)
       type(element_store_t), intent(inout) :: store
       integer(ip), intent(in) :: equations(:)    !< 0: prescribed

@@ -356,6 +356,7 @@ contains
       if (left == 0) deallocate (update)
    end subroutine give_back
 
+   !> status: STATUS_INTERNAL, there is not enough memory for the fronts.
    pure subroutine tell_of_memory(status)
       type(status_t), intent(inout) :: status
 

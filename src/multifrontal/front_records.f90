@@ -113,6 +113,7 @@ contains
       tree%longest = maxval(store%start(2:store%n + 1) - store%start(:store%n))
    end subroutine sort_elements
 
+   !> Gets ready to write the records of fronts, once; writer%enough is false where there is no memory for it.
    pure subroutine begin_writer(writer, n)
       type(record_writer_t), intent(inout) :: writer
       integer(ip), intent(in) :: n               !< equations
@@ -133,7 +134,7 @@ contains
       type(assembly_tree_t), intent(inout) :: tree   !< gets the size of the supernode's border
       integer(ip), intent(in) :: p
       type(record_writer_t), intent(inout) :: writer
-      integer(ip) :: child, n_children, n_elements
+      integer(ip) :: child, n_children, n_elements, i, e
       integer(lp) :: base, length
 
       if (.not. writer%enough) return
@@ -153,7 +154,10 @@ contains
       writer%record(:HEADER) = [tree%first(p + 1) - tree%first(p), writer%n_border, n_children, n_elements]
       writer%written = HEADER
       call write_children(tree, p, base, writer)
-      call write_elements(store, tree, p, writer)
+      do i = tree%first_element(p), tree%first_element(p + 1) - 1
+         e = tree%element(i)
+         call write_positions(tree, p, store%matrix_of(e), tree%position(store%start(e) + 1:store%start(e + 1)), writer)
+      end do
       writer%at(writer%border(:writer%n_border)) = 0
       writer%top = base
       call push_border(writer, writer%border(:writer%n_border))
@@ -280,19 +284,6 @@ contains
          child = tree%next_child(child)
       end do
    end subroutine write_children
-
-   pure subroutine write_elements(store, tree, p, writer)
-      type(element_store_t), intent(in) :: store
-      type(assembly_tree_t), intent(in) :: tree
-      integer(ip), intent(in) :: p
-      type(record_writer_t), intent(inout) :: writer
-      integer(ip) :: i, e
-
-      do i = tree%first_element(p), tree%first_element(p + 1) - 1
-         e = tree%element(i)
-         call write_positions(tree, p, store%matrix_of(e), tree%position(store%start(e) + 1:store%start(e + 1)), writer)
-      end do
-   end subroutine write_elements
 
    !> Writes a child or a matrix, and where in the front of supernode p its positions are.
    pure subroutine write_positions(tree, p, name, positions, writer)

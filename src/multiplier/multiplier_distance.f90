@@ -6,9 +6,10 @@ module atrito_multiplier_distance
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use atrito_constraint_rows, only: add_transposed
    use atrito_contact_line, only: contact_line_t
-   use atrito_contact_system, only: contact_system_t, multiplier_t
+   use atrito_contact_system, only: contact_system_t
    use atrito_kinds, only: ip, wp, HUGE_REAL
    use atrito_multiplier_step, only: pull_of
+   use atrito_multipliers, only: multiplier_t
    implicit none (type, external)
    private
    public :: distance_t, measure_distance, measure_bodies, forces_that_are_none, NO_FORCE_AFTER

@@ -7,7 +7,8 @@ module atrito_multiplier_loop
    use atrito_contact_line, only: contact_line_t, pressure_of, shear_force_of, normal_bounds, set_friction_bounds, &
                                   last_contact_pair, pairs_of_unknowns, tangential_of
    use atrito_contact_solution, only: contact_solution_t, asks_no_force, let_rest, FREE_MOTION, bound_of_state
-   use atrito_contact_system, only: contact_system_t, multiplier_t
+   use atrito_contact_system, only: contact_system_t
+   use atrito_multipliers, only: multiplier_t
    use atrito_undetermined_motions, only: settle_undetermined_motions
    use atrito_kinds, only: ip, wp, HUGE_REAL
    use atrito_multiplier_distance, only: distance_t, measure_distance, measure_bodies, forces_that_are_none, NO_FORCE_AFTER

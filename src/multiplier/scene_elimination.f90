@@ -31,6 +31,8 @@ module atrito_scene_elimination
 
 contains
 
+   !> Numbers the unknowns of all bodies, one body behind the other, then the amplitudes of their rigid motions, and chooses for
+   !> each motion the equations that a spring holds it by.
    subroutine number_scene(fem, numbering)
       type(fem_t), intent(in) :: fem
       type(scene_numbering_t), intent(out) :: numbering

@@ -31,6 +31,7 @@ contains
       call draw_written(folder, check_plot_names(model), status, drawn)
    end subroutine write_check_plots
 
+   !> The pictures that `check --plot` draws of a model, names without ending.
    pure function check_plot_names(model) result(names)
       type(model_t), intent(in) :: model
       type(string_t), allocatable :: names(:)

@@ -45,14 +45,20 @@ contains
       character(len=*), intent(in) :: folder
       type(string_t), intent(in) :: names(:)                    !< of the scripts, without .gp
       type(string_t), allocatable, intent(out) :: drawn(:)      !< names of those that have their pictures now
-      integer :: i, exit_code
+      integer :: i, exit_code, k
+      character(len=4), allocatable :: endings(:)
 
       allocate (drawn(0))
       if (size(names) == 0) return
       call remove_own_file(folder//'/'//LOG_NAME)
       call note_path(folder//'/'//LOG_NAME)
       do i = 1, size(names)
-         call expect_pictures(folder, names(i)%s)
+         ! Removes old pictures of this name; new ones go when the run is interrupted.
+         endings = picture_endings(names(i)%s)
+         do k = 1, size(endings)
+            call remove_own_file(folder//'/'//names(i)%s//endings(k))
+            call note_path(folder//'/'//names(i)%s//endings(k))
+         end do
       end do
       call run_command(plot_command(folder, names), SECONDS_OF_PICTURE*real(size(names), wp), exit_code)
       if (exit_code == TOO_LATE) call remove_unfinished(folder, names)
@@ -62,19 +68,6 @@ contains
       call forget_path(folder//'/'//LOG_NAME)
       call judge_outcome(folder, exit_code, size(drawn) == size(names))
    end subroutine draw_pictures
-
-   !> Removes old pictures of this name; new ones go when the run is interrupted.
-   subroutine expect_pictures(folder, name)
-      character(len=*), intent(in) :: folder, name
-      character(len=4), allocatable :: endings(:)
-      integer :: k
-
-      endings = picture_endings(name)
-      do k = 1, size(endings)
-         call remove_own_file(folder//'/'//name//endings(k))
-         call note_path(folder//'/'//name//endings(k))
-      end do
-   end subroutine expect_pictures
 
    !> Removes the pictures that gnuplot had begun last when it was ended: nobody knows how much of them is there.
    subroutine remove_unfinished(folder, names)

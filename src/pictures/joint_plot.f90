@@ -6,7 +6,7 @@ module atrito_joint_plot
    use atrito_kinds, only: ip, wp, is_nan
    use atrito_strings, only: string_t, append_string, to_text
    use atrito_status, only: status_t
-   use atrito_contact_plot, only: state_of, N_STATES, STATE_WORD
+   use atrito_contact_plot, only: state_of, N_STATES, STATE_WORD, STATE_COLOUR
    use atrito_files, only: file_set_t, text_file_t, put_line, close_text
    use atrito_mesh_lines, only: drawing_t, put_place, put_frame, is_drawn_rigid, LINE_INNER
    use atrito_mesh_plot, only: put_heading
@@ -20,7 +20,6 @@ module atrito_joint_plot
    private
    public :: write_joint_plot, has_joint_plot
 
-   integer, parameter :: STATE_COLOUR(0:N_STATES - 1) = [5, 3, 2, 6]
    integer(ip), parameter :: N_WIDTHS = 5           !< of the line of thrust
    real(wp), parameter :: LEAST_SHARE = 1.0e-3_wp   !< of the largest n; a joint with less is not on the line of thrust
    real(wp), parameter :: MANY_JOINTS = 40.0_wp     !< from here on markers and lines are smaller

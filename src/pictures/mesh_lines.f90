@@ -22,7 +22,7 @@ module atrito_mesh_lines
    public :: mesh_lines_t, drawing_t, begin_drawing, displace, displacement_scale, collect_lines
    public :: write_lines, put_lines, put_rigid_lines, put_place, put_window, put_axes, put_frame, put_scene
    public :: add_lines, add_rigid_lines, is_drawn_rigid, rigid_places, body_style
-   public :: LINE_INNER, LINE_OUTER, MOST_NAMES, LONGEST_NAME
+   public :: LINE_INNER, MOST_NAMES, LONGEST_NAME
 
    integer, parameter :: DIGITS = 7                 !< of the data: a picture has a thousand pixels
    integer, parameter :: PIECES = 10                !< straight pieces of a curved edge
@@ -422,6 +422,7 @@ contains
       call put_line(file, 'height = '//to_text(nint(160.0_wp + 860.0_wp*min(1.1_wp, max(0.15_wp, ratio)), ip)))
    end subroutine put_window
 
+   !> Border, marks, legend and the names of the axes of a picture of bodies, and the line styles 8 (undisplaced) and 9 (rigid).
    subroutine put_axes(file, name)
       type(text_file_t), intent(inout) :: file
       character(len=*), intent(in) :: name          !< of the picture

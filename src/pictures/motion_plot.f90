@@ -4,7 +4,7 @@
 !> bodies and the contact points.
 module atrito_motion_plot
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-   use atrito_contact_plot, only: state_of, N_STATES, STATE_WORD
+   use atrito_contact_plot, only: state_of, N_STATES, STATE_WORD, STATE_COLOUR
    use atrito_files, only: file_set_t, text_file_t, put_line, close_text
    use atrito_increments, only: increment_name
    use atrito_kinds, only: ip, wp
@@ -31,10 +31,10 @@ module atrito_motion_plot
    integer(ip), parameter :: WHOLE = 1000, LONGEST = 100, SHORTEST = 5
    real(wp), parameter :: NEEDLE_SHARE = 0.1_wp     !< the largest pressure, as a share of the scene's diagonal
    integer, parameter :: DIGITS = 6
-   integer, parameter :: STATE_COLOUR(0:N_STATES - 1) = [5, 3, 2, 6]
 
 contains
 
+   !> Whether there are several frames to show one after the other.
    pure logical function has_motion_plot(history)
       type(history_t), intent(in) :: history
 

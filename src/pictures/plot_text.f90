@@ -57,6 +57,7 @@ contains
       end do
    end subroutine cover
 
+   !> The length of a range; 0 of an empty one.
    pure real(wp) function span(range)
       type(range_t), intent(in) :: range
 

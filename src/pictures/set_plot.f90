@@ -32,6 +32,7 @@ module atrito_set_plot
 
 contains
 
+   !> Whether the deck defines sets.
    pure logical function has_set_plot(model)
       type(model_t), intent(in) :: model
 
@@ -125,7 +126,7 @@ contains
       type(shown_set_t), intent(in) :: shown
       real(wp), intent(in) :: pixel                 !< of a small picture [L]
       integer(ip), allocatable :: members(:)
-      integer(ip) :: i
+      integer(ip) :: i, k, n
 
       if (shown%of_nodes) then
          call put_thinned(file, model%mesh%x(:, members_of(model%node_sets%sets(shown%place))), pixel)
@@ -136,7 +137,11 @@ contains
          call put_thinned(file, middles_of(model%mesh, members), pixel)
       else
          do i = 1, size(members, kind=ip)
-            call put_polygon(file, model%mesh, members(i))
+            n = side_count(model%mesh, members(i))
+            do k = 0, n
+               call put_place(file, [model%mesh%x(:, model%mesh%nodes(1 + mod(k, n), members(i))), 0.0_wp, 0.0_wp])
+            end do
+            call put_line(file, '')
          end do
       end if
       if (size(members) == 0) call put_line(file, 'NaN NaN')
@@ -168,19 +173,6 @@ contains
       if (size(places, 2) == 0) call put_line(file, 'NaN NaN')
       call put_line(file, '')
    end subroutine put_thinned
-
-   subroutine put_polygon(file, mesh, element)
-      type(text_file_t), intent(inout) :: file
-      type(mesh_t), intent(in) :: mesh
-      integer(ip), intent(in) :: element
-      integer(ip) :: k, n
-
-      n = side_count(mesh, element)
-      do k = 0, n
-         call put_place(file, [mesh%x(:, mesh%nodes(1 + mod(k, n), element)), 0.0_wp, 0.0_wp])
-      end do
-      call put_line(file, '')
-   end subroutine put_polygon
 
    subroutine write_script(set, model, drawing, shown, status)
       type(file_set_t), intent(inout) :: set

@@ -1,7 +1,7 @@
 !> The tractions of the contact upon the slaves, as arrows over the outlines of the displaced bodies.
 module atrito_traction_plot
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-   use atrito_contact_plot, only: state_of, N_STATES, STATE_WORD
+   use atrito_contact_plot, only: state_of, N_STATES, STATE_WORD, STATE_COLOUR
    use atrito_files, only: file_set_t, text_file_t, put_line, close_text
    use atrito_kinds, only: ip, wp
    use atrito_mesh_lines, only: drawing_t, put_place, put_frame, add_lines, add_rigid_lines, LINE_INNER
@@ -22,7 +22,6 @@ module atrito_traction_plot
    integer(ip), parameter :: MOST_ARROWS = 3000
    real(wp), parameter :: LONGEST = 0.12_wp         !< arrow, as a share of the scene's diagonal; shorter where there are many
    real(wp), parameter :: MANY = 150.0_wp, SHORTEST = 0.25_wp !< points from which on they are, down to this share of it
-   integer, parameter :: STATE_COLOUR(0:N_STATES - 1) = [5, 3, 2, 6]
    integer, parameter :: DIGITS = 6
 
 contains

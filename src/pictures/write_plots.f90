@@ -11,8 +11,7 @@ module atrito_write_plots
    use atrito_results, only: results_t, history_t, last_frame
    use atrito_summary, only: pair_count
    use atrito_plot_files, only: check_scripts, plot_folder, CONTACT_PLOT, MESH_PLOT, JOINT_PLOT, HISTORY_PLOT, LOOP_PLOT, &
-                                MOTION_PLOT, &
-                                TRACTION_PLOT
+                                MOTION_PLOT, TRACTION_PLOT
    use atrito_contour_fields, only: contour_t, contours_of
    use atrito_contour_plot, only: write_contour_plots
    use atrito_mesh_lines, only: drawing_t

@@ -64,6 +64,7 @@ contains
       can_be_dense = n_unknowns <= MOST_DENSE
    end function can_be_dense
 
+   !> A form of the contact system as tables and messages have it: `dense` or `sparse`.
    pure function contact_form_name(form) result(name)
       integer, intent(in) :: form
       character(len=:), allocatable :: name

@@ -6,7 +6,7 @@ module atrito_contact_solution
    use atrito_contact_line, only: contact_line_t, last_of_pair, pressure_of, friction_bound, set_friction_bounds, normal_bounds
    use atrito_kinds, only: ip, wp, EPS_MACH, HUGE_REAL
    use atrito_free_set_factor, only: free_set_factor_t, condition_of
-   use atrito_contact_system, only: multiplier_t
+   use atrito_multipliers, only: multiplier_t
    use atrito_solve_history, only: solve_history_t
    implicit none (type, external)
    private

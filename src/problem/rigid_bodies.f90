@@ -22,6 +22,7 @@ module atrito_rigid_bodies
 
 contains
 
+   !> Whether rigid surfaces move with reference nodes, which are nodes of the mesh that is solved then.
    pure logical function has_moving_surfaces(model)
       type(model_t), intent(in) :: model
 

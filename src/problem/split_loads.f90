@@ -27,6 +27,7 @@ module atrito_split_loads
 
 contains
 
+   !> Adds a force at a place to a resultant and its moment, and the sizes of its terms, by which round-off is judged.
    pure subroutine add_force(sum, x, f)
       type(resultant_t), intent(inout) :: sum
       real(wp), intent(in) :: x(2)                  !< where it acts [L]

@@ -118,6 +118,7 @@ contains
       end do
    end function unbroken
 
+   !> Adds a label with its value, plain text, and a remark below it where one is given.
    pure subroutine add_fact(facts, label, value, remark)
       type(fact_t), allocatable, intent(inout) :: facts(:)
       character(len=*), intent(in) :: label, value

@@ -25,6 +25,7 @@ contains
       type(table_top_t), intent(in) :: top
       integer(ip) :: shown, first
       integer :: i
+      character(len=:), allocatable :: text
 
       call add_element(page, 'h3', name)
       if (len(top%title) > 0) call add_note(page, top%title)
@@ -36,35 +37,20 @@ contains
          return
       end if
       shown = min(top%table%n_rows, MOST_ROWS)
-      if (is_turned(top)) then
+      ! A row of the file becomes a column.
+      if (top%table%n_columns > MOST_COLUMNS) then
          do first = 1, shown, SIDE_BY_SIDE
             call add_turned(page, name, top, first, min(shown, first + SIDE_BY_SIDE - 1))
          end do
       else
          call add_upright(page, name, top, shown)
       end if
-      call add_row_note(page, top, shown)
-   end subroutine add_table
-
-   !> A row of the file becomes a column.
-   pure logical function is_turned(top)
-      type(table_top_t), intent(in) :: top
-
-      is_turned = top%table%n_columns > MOST_COLUMNS
-   end function is_turned
-
-   subroutine add_row_note(page, top, shown)
-      type(page_t), intent(inout) :: page
-      type(table_top_t), intent(in) :: top
-      integer(ip), intent(in) :: shown
-      character(len=:), allocatable :: text
-
       text = ''
       if (shown < top%n_rows) text = 'The first '//to_text(shown)//' of '//to_text(top%n_rows)//' rows; all are in ' &
                                      //top%table%name//'.'
       if (is_rounded(top) .and. shown == top%n_rows) text = 'Numbers are rounded here; all digits are in '//top%table%name//'.'
       if (len(text) > 0) call add_note(page, text)
-   end subroutine add_row_note
+   end subroutine add_table
 
    subroutine add_upright(page, name, top, shown)
       type(page_t), intent(inout) :: page
@@ -145,6 +131,7 @@ contains
       call add_line(page, trim(merge('<table class="wide">', '<table>             ', is_wide)))
    end subroutine begin_rows
 
+   !> Ends the table that begin_rows began.
    pure subroutine end_rows(page)
       type(page_t), intent(inout) :: page
 

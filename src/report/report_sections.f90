@@ -103,6 +103,7 @@ contains
       i = 0
    end function place_of
 
+   !> Key numbers: extremes, what the maker of the report knows, energies and checks.
    subroutine add_numbers(report, contents, sections)
       type(report_t), intent(in) :: report
       type(contents_t), intent(in) :: contents
@@ -144,6 +145,7 @@ contains
       call add_section(sections, section)
    end subroutine add_contact
 
+   !> The quantities of each step, from the table summary.
    subroutine add_steps(contents, sections)
       type(contents_t), intent(in) :: contents
       type(page_section_t), allocatable, intent(inout) :: sections(:)
@@ -193,6 +195,7 @@ contains
       is_whole = top%n_rows <= MOST_ROWS
    end function is_whole
 
+   !> The residuals over the iterations, as a chart and as a table.
    subroutine add_convergence(contents, sections)
       type(contents_t), intent(in) :: contents
       type(page_section_t), allocatable, intent(inout) :: sections(:)
@@ -208,6 +211,7 @@ contains
       call add_section(sections, section)
    end subroutine add_convergence
 
+   !> The table timing.
    subroutine add_times(contents, sections)
       type(contents_t), intent(in) :: contents
       type(page_section_t), allocatable, intent(inout) :: sections(:)
@@ -267,6 +271,7 @@ contains
       call add_section(sections, section)
    end subroutine add_origin
 
+   !> The compiler and the libraries with their versions.
    subroutine add_versions(report, sections)
       type(report_t), intent(in) :: report
       type(page_section_t), allocatable, intent(inout) :: sections(:)
@@ -277,6 +282,7 @@ contains
       call add_section(sections, section)
    end subroutine add_versions
 
+   !> The folder, and what stands in it.
    subroutine add_files(report, sections)
       type(report_t), intent(in) :: report
       type(page_section_t), allocatable, intent(inout) :: sections(:)

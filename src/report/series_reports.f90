@@ -89,6 +89,7 @@ contains
       end if
    end subroutine judge_runs
 
+   !> Verdict, key numbers and the table of runs of a sweep.
    subroutine report_of_sweep(names, runs, seconds, report)
       type(string_t), intent(in) :: names(:)        !< the parameters
       type(sweep_run_t), intent(in) :: runs(:)
@@ -197,6 +198,7 @@ contains
       if (row > 0) text = number(run%summary%value(find_column(run%summary, 'value'), row), DIGITS)
    end function amount_text
 
+   !> Verdict, references, what is said of the errors, and the table of runs of a study.
    subroutine report_of_study(study, report)
       type(study_t), intent(in) :: study
       type(report_t), intent(inout) :: report       !< begun
@@ -290,6 +292,7 @@ contains
       if (.not. is_nan(x)) text = number(x, 3)
    end function short_text
 
+   !> Verdict, the values that stand and fall, and the mechanism of a limit.
    subroutine report_of_limit(limit, seconds, report)
       type(stability_t), intent(in) :: limit
       real(wp), intent(in) :: seconds(2)            !< wall clock and processor

@@ -9,7 +9,7 @@ module atrito_table_top
    use atrito_table, only: MARK_COLUMNS, MARK_DIMENSIONS, MARK_NOT_CONVERGED
    implicit none (type, external)
    private
-   public :: table_top_t, read_top, top_of_text, shown_item, dimension_of, is_rounded, ALL_ROWS, SHOWN_DIGITS
+   public :: table_top_t, read_top, top_of_text, shown_item, dimension_of, is_rounded, ALL_ROWS
 
    integer(ip), parameter :: ALL_ROWS = huge(1_ip)
    integer, parameter :: SHOWN_DIGITS = 6           !< of reals in a report

@@ -4,7 +4,7 @@
 !> is read from the folder, so that a table or picture that is new appears without a change here.
 module atrito_write_report
    use atrito_files, only: file_set_t, text_file_t, begin_files, open_text, put_line, close_text, end_files
-   use atrito_html, only: add_element, add_facts, append_page, html_text, shortened
+   use atrito_html, only: add_element, append_page, html_text, shortened
    use atrito_kinds, only: ip
    use atrito_messages, only: add_warning
    use atrito_page, only: page_t, begin_page, add_line

@@ -42,7 +42,7 @@ module atrito_final_check
 contains
 
    !> K u_e - f + B'q of all elements, assembled again: reactions at the prescribed dofs, residual at the free ones.
-   subroutine check_equilibrium(fem, u, f, contact, held, reaction, equilibrium, sizes, thermal, had)
+   subroutine check_equilibrium(fem, u, f, contact, held, reaction, equilibrium, sizes, thermal)
       type(fem_t), intent(in) :: fem
       real(wp), intent(in) :: u(:, :)           !< u_e, without rigid motions, (2, n_nodes) [L]
       real(wp), intent(in) :: f(:, :)           !< applied forces (2, n_nodes) [F]
@@ -52,7 +52,6 @@ contains
       type(equilibrium_t), intent(out) :: equilibrium
       type(contact_sizes_t), intent(in), optional :: sizes
       real(wp), intent(in), optional :: thermal(:, :) !< forces of the temperatures (2, n_nodes) [F]
-      type(had_t), intent(in), optional :: had  !< of the increments before
       type(extremes_t) :: found(chunk_count(fem%mesh%n_nodes))
       real(wp) :: allowed
       integer(ip) :: run, first, last, node
@@ -75,15 +74,15 @@ contains
       equilibrium%largest_force = maxval([found%largest_force, 0.0_wp])
       if (present(thermal)) equilibrium%largest_force = max(equilibrium%largest_force, maxval(abs(thermal)))
       allowed = FORCE_TOLERANCE*equilibrium%largest_force
-      if (present(had)) allowed = allowed + force_round_off(had)
+      if (present(sizes)) allowed = allowed + force_round_off(sizes%had)
       ! the round-off is asked for where it matters
       if (equilibrium%residual > allowed) allowed = allowed + ROUND_OFFS*EPS_MACH*largest_size(fem, u)
       equilibrium%holds = equilibrium%residual <= allowed .and. all(found%finite)
       if (equilibrium%holds .and. present(sizes)) then
          if (present(thermal)) then
-            equilibrium%holds = weak_parts_hold(fem, u, f + thermal, contact, held, reaction, sizes, had)
+            equilibrium%holds = weak_parts_hold(fem, u, f + thermal, contact, held, reaction, sizes)
          else
-            equilibrium%holds = weak_parts_hold(fem, u, f, contact, held, reaction, sizes, had)
+            equilibrium%holds = weak_parts_hold(fem, u, f, contact, held, reaction, sizes)
          end if
       end if
       !$omp parallel do schedule(static) if (is_shared(fem%mesh%n_nodes))

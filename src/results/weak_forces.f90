@@ -16,6 +16,7 @@ module atrito_weak_forces
       integer(ip), allocatable :: pair(:)        !< (points) contact pair of each
       real(wp), allocatable :: motion(:)         !< (bodies) [L]
       type(contact_rows_t) :: rows               !< of the points
+      type(had_t) :: had                         !< of the increments before
    end type contact_sizes_t
 
    real(wp), parameter :: FORCE_TOLERANCE = 5.0e-8_wp !< of the largest force of the pair, of the body
@@ -26,14 +27,13 @@ contains
 
    !> Whether the residual of every node is small beside the forces of its body and pairs. Its round-off is asked for where
    !> it is not.
-   function weak_parts_hold(fem, u, f, contact, held, residual, sizes, had) result(holds)
+   function weak_parts_hold(fem, u, f, contact, held, residual, sizes) result(holds)
       type(fem_t), intent(in) :: fem
       real(wp), intent(in) :: u(:, :)            !< u_e, without rigid motions, (2, n_nodes) [L]
       real(wp), intent(in) :: f(:, :), contact(:, :) !< loads and B'q (2, n_nodes) [F]
       logical, intent(in) :: held(:, :)
       real(wp), intent(in) :: residual(:, :)     !< (2, n_nodes) K u_e - f + B'q; at held dofs the reaction [F]
       type(contact_sizes_t), intent(in) :: sizes
-      type(had_t), intent(in), optional :: had   !< of the increments before
       logical :: holds
       real(wp), allocatable :: round_off(:, :)
       integer(ip) :: b
@@ -44,13 +44,11 @@ contains
       deallocate (round_off)
       allocate (round_off(2, fem%mesh%n_nodes))
       call internal_force_sizes(fem, uncertain_part(fem, u, sizes%motion), round_off)
-      if (present(had)) then
-         do b = 1, fem%bodies%n
-            associate (nodes => fem%bodies%list(b)%nodes)
-               round_off(:, nodes) = round_off(:, nodes) + NONE_OF_HAD*had_force(had, b)
-            end associate
-         end do
-      end if
+      do b = 1, fem%bodies%n
+         associate (nodes => fem%bodies%list(b)%nodes)
+            round_off(:, nodes) = round_off(:, nodes) + NONE_OF_HAD*had_force(sizes%had, b)
+         end associate
+      end do
       holds = bodies_hold(fem, f, contact, held, residual, round_off) .and. pairs_hold(f, held, residual, sizes, round_off)
    end function weak_parts_hold
 

@@ -11,8 +11,8 @@ module atrito_check_found
    use atrito_mesh, only: find_element, find_node
    use atrito_model, only: rigid_body_name, step_t
    use atrito_restart_state, only: restart_state_t
-   use atrito_results, only: body_motion_t, contact_result_t, extreme_t, history_t, joint_t, observed_list_t, observed_t, &
-                             results_t, rigid_result_t, scene_t, view_frame, POINT_OPEN, POINT_SLIP
+   use atrito_results, only: body_motion_t, contact_result_t, extreme_t, history_t, observed_list_t, observed_t, results_t, &
+                             scene_t, view_frame, POINT_OPEN, POINT_SLIP
    use atrito_scene_data, only: scene_data_t
    use atrito_strings, only: string_t, to_text
    use atrito_utf8, only: has_controls
@@ -489,6 +489,7 @@ contains
       call require(wrong, is_ordered(list%step, list%increment, state), 'order of observed')
    end subroutine check_observed_list
 
+   !> Whether all values are numbers, none of them infinite.
    pure logical function is_finite(values)
       real(wp), intent(in) :: values(:)
 

@@ -6,6 +6,7 @@ module atrito_check_start
    use atrito_contact_line, only: last_contact_pair, pairs_of_unknowns, tangential_of
    use atrito_kinds, only: ip, wp
    use atrito_model, only: model_t, nodal_values_t
+   use atrito_multipliers, only: multiplier_t
    use atrito_restart_state, only: restart_state_t, warm_start_t
    use atrito_results, only: scene_t
    use atrito_scene_data, only: scene_data_t
@@ -87,48 +88,50 @@ contains
       call require(wrong, any(start%form == [0, CONTACT_DENSE, CONTACT_SPARSE]), 'form')
       if (allocated(wrong) .or. start%form == 0) return
       associate (n => data%line%n, m => size(data%line%point, kind=ip), n_normal => count(data%line%normal > 0, kind=ip))
-         call require(wrong, is_list(start%q, m) .and. is_list(start%state, m), 'unknowns')
+         call require(wrong, is_list(start%state%q, m) .and. is_list(start%state%state, m), 'unknowns')
          if (allocated(wrong)) return
-         call require(wrong, all(start%state >= FREE .and. start%state <= FROZEN), 'states of unknowns')
+         call require(wrong, all(start%state%state >= FREE .and. start%state%state <= FROZEN), 'states of unknowns')
          call require(wrong, may_be(start%p, n) .and. may_be(start%tau, n) .and. may_be(start%t, n), 'stresses')
-         call require(wrong, may_be(start%r, m) .and. may_be(start%shift, m) .and. may_be(start%lower, m) .and. &
-                      may_be(start%upper, m) .and. may_be(start%d, m), 'bounds')
-         call require(wrong, may_be(start%a, scene%n_rigid), 'amplitudes')
+         call require(wrong, may_be(start%state%r, m) .and. may_be(start%state%shift, m) .and. may_be(start%bounds%lower, m) .and. &
+                      may_be(start%bounds%upper, m) .and. may_be(start%bounds%d, m), 'bounds')
+         call require(wrong, may_be(start%state%a, scene%n_rigid), 'amplitudes')
          if (allocated(start%is_shared)) call require(wrong, is_list(start%is_shared, m), 'is_shared')
          if (allocated(start%tangential_of)) then
             call require(wrong, is_list(start%tangential_of, n_normal), 'tangential_of')
             if (.not. allocated(wrong)) call require(wrong, all(start%tangential_of == tangential_of(data%line, n_normal)), &
                                                      'tangential_of')
          end if
-         call require(wrong, is_finite([start%slack, start%residual, start%contraction]), 'residual')
+         call require(wrong, is_finite([start%state%slack, start%residual, start%contraction]), 'residual')
       end associate
-      if (start%has_multipliers .and. .not. allocated(wrong)) call check_multipliers(data, scene, start, wrong)
+      if (.not. allocated(start%multipliers) .or. allocated(wrong)) return
+      call check_multipliers(data, scene, start%multipliers, wrong)
    end subroutine check_line
 
    !> Those of the sparse form; what has not begun yet has no arrays.
-   pure subroutine check_multipliers(data, scene, start, wrong)
+   pure subroutine check_multipliers(data, scene, multipliers, wrong)
       type(scene_data_t), intent(in) :: data
       type(scene_t), intent(in) :: scene
-      type(warm_start_t), intent(in) :: start
+      type(multiplier_t), intent(in) :: multipliers
       character(len=:), allocatable, intent(inout) :: wrong
 
-      call require(wrong, is_finite([start%step_size, start%pull_size]), 'multipliers')
+      call require(wrong, is_finite([multipliers%r, multipliers%kappa]), 'multipliers')
       if (allocated(wrong)) return
-      call require(wrong, min(start%step_size, start%pull_size) >= 0.0_wp, 'multipliers')
+      call require(wrong, min(multipliers%r, multipliers%kappa) >= 0.0_wp, 'multipliers')
       associate (m => size(data%line%point, kind=ip), k => scene%n_rigid)
-         call require(wrong, may_be(start%e, m) .and. may_be(start%noise, m) .and. may_be(start%q_old, m) .and. &
-                      may_be(start%stiffness, m), 'multipliers')
-         call require(wrong, may_be(start%a_old, k) .and. may_be(start%hold, k) .and. may_be(start%pull, k), 'multipliers')
-         call require(wrong, may_be(start%x, scene%n_dofs + k), 'multipliers')
-         if (allocated(wrong) .or. .not. allocated(start%pair)) return
-         call require(wrong, is_list(start%pair, m), 'pair')
+         call require(wrong, may_be(multipliers%e, m) .and. may_be(multipliers%noise, m) .and. may_be(multipliers%q_old, m) .and. &
+                      may_be(multipliers%stiffness, m), 'multipliers')
+         call require(wrong, may_be(multipliers%a_old, k) .and. may_be(multipliers%hold, k) .and. may_be(multipliers%pull, k), &
+                      'multipliers')
+         call require(wrong, may_be(multipliers%x, scene%n_dofs + k), 'multipliers')
+         if (allocated(wrong) .or. .not. allocated(multipliers%pair)) return
+         call require(wrong, is_list(multipliers%pair, m), 'pair')
          if (allocated(wrong)) return
-         call require(wrong, all(start%pair == pairs_of_unknowns(data%line)) .and. &
-                      start%n_contact_pairs == last_contact_pair(data%line), 'pair')
+         call require(wrong, all(multipliers%pair == pairs_of_unknowns(data%line)) .and. &
+                      multipliers%n_contact_pairs == last_contact_pair(data%line), 'pair')
          if (allocated(data%line%pair)) then
-            call require(wrong, start%n_pairs == maxval([data%line%pair, 0_ip]), 'n_pairs')
+            call require(wrong, multipliers%n_pairs == maxval([data%line%pair, 0_ip]), 'n_pairs')
          else
-            call require(wrong, start%n_pairs == maxval([start%pair, 0_ip]), 'n_pairs')
+            call require(wrong, multipliers%n_pairs == maxval([multipliers%pair, 0_ip]), 'n_pairs')
          end if
       end associate
    end subroutine check_multipliers

@@ -5,8 +5,8 @@
 !> numbers here. Rows of tables are kept by increment and pair, and by iteration. How many increments there will be is known as far
 !> as none is cut or lengthened.
 module atrito_history_forecast
-   use atrito_kinds, only: ip, lp, wp
-   use atrito_model, only: model_t, requests_t, step_t
+   use atrito_kinds, only: ip, lp
+   use atrito_model, only: model_t, step_t
    implicit none (type, external)
    private
    public :: is_solved_by_increments, history_bytes, field_growth

@@ -9,6 +9,7 @@ module atrito_history_lists
 
 contains
 
+   !> Adds a row of history.tab; the list doubles where it is full, so it may have more room than n.
    pure subroutine add_row(row, n, rows)
       type(history_row_t), intent(in) :: row
       integer(ip), intent(inout) :: n
@@ -24,6 +25,7 @@ contains
       rows(n) = row
    end subroutine add_row
 
+   !> Adds the log of an increment behind those before; the list may have more room than n.
    pure subroutine add_iterations(new, n, iterations)
       type(iteration_t), intent(in) :: new(:)
       integer(ip), intent(inout) :: n

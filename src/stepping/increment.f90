@@ -24,7 +24,7 @@ module atrito_increment
    use atrito_outer_loop, only: FREE_MOTION
    use atrito_recovery, only: recover_contact, recover_stress, estimate_error
    use atrito_reporter, only: report_progress
-   use atrito_results, only: results_t, scene_t, pair_scene_t
+   use atrito_results, only: results_t, scene_t
    use atrito_rigid_results, only: take_rigid_results
    use atrito_row_forces, only: share_out_rows, clear_balance, leave_out_sections
    use atrito_scene_data, only: scene_data_t, drop_assembled, forces_at_end
@@ -104,6 +104,7 @@ contains
       if (has_failed) has_failed = data%assembled%failed > 0
    end function has_failed
 
+   !> Whether an increment has a solution: the outer loop converged and the final check holds.
    pure logical function is_solved(results, status)
       type(results_t), intent(in) :: results
       type(status_t), intent(in) :: status
@@ -415,7 +416,7 @@ contains
       call move_alloc(u, results%u)
       allocate (results%reaction, mold=results%u)
       call check_equilibrium(data%fem, results%u, data%f, contact, data%held, results%reaction, equilibrium, &
-                             sizes_at_points(data, solution), data%thermal, data%had)
+                             sizes_at_points(data, solution), data%thermal)
       imbalance = check_balance(data%fem, data%f, contact, data%rows, data%had)
       results%strain_energy = elastic_energy(data%fem, results%u, equilibrium%energy)
       if (allocated(data%step%requests%cuts)) then          ! rigid motions would cost digits
@@ -476,6 +477,7 @@ contains
       sizes%force = data%line%weight*hypot(solution%p, solution%t)
       sizes%pair = data%line%pair
       sizes%rows = data%rows
+      sizes%had = data%had
       allocate (sizes%motion(data%fem%bodies%n))
       first = 1
       do b = 1, data%fem%bodies%n

@@ -15,8 +15,7 @@ module atrito_scene_forecast
    use atrito_solver_choice, only: SOLVER_SPARSE
    implicit none (type, external)
    private
-   public :: forecast_memory, field_library_bytes, load_bytes, recovery_bytes, request_bytes, with_holes, &
-             LATER_BYTES
+   public :: forecast_memory, field_library_bytes, load_bytes, recovery_bytes, request_bytes, with_holes, LATER_BYTES
 
    integer(lp), parameter :: REAL_BYTES = 8_lp
    !> Code and places for work that are first touched later; of BLAS with large matrices.

@@ -4,7 +4,7 @@ module atrito_scene_survey
    use atrito_body_memory, only: estimate_body_memory, count_body_memory
    use atrito_condensed_body, only: choose_solver
    use atrito_contact_form, only: contact_form_name, CONTACT_SPARSE
-   use atrito_kinds, only: ip, lp, wp
+   use atrito_kinds, only: ip, lp
    use atrito_memory, only: available_memory, held_memory, resident_memory
    use atrito_model, only: model_t
    use atrito_profile, only: profile_t

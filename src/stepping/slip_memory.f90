@@ -126,6 +126,7 @@ contains
       state%moved = memory%moved
    end subroutine put_memory
 
+   !> The memory of slip that a restart file has.
    pure subroutine take_memory(state, memory)
       type(restart_state_t), intent(in) :: state
       type(slip_memory_t), intent(inout) :: memory   !< of the same points

@@ -239,6 +239,7 @@ contains
       end do
    end function largest_number
 
+   !> Whether an item of a table is an integer or a real.
    elemental logical function is_number(kind)
       integer, intent(in) :: kind                   !< ITEM_*
 

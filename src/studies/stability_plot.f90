@@ -1,5 +1,6 @@
 !> The pictures of `atrito limit`: what is watched against the parameter, up to the limit; and the mechanism.
 module atrito_stability_plot
+   use atrito_kinds, only: wp
    use atrito_files, only: file_set_t, text_file_t, begin_files, put_line, close_text, end_files
    use atrito_gnuplot, only: draw_written
    use atrito_mechanism_plot, only: write_mechanism_plot
@@ -11,7 +12,6 @@ module atrito_stability_plot
    use atrito_stability_result, only: stability_t
    use atrito_status, only: status_t, is_ok, STATUS_OK, STATUS_NOT_CONVERGED
    use atrito_strings, only: string_t, to_text
-   use atrito_kinds, only: wp
    implicit none (type, external)
    private
    public :: write_stability_plots
@@ -32,9 +32,17 @@ contains
       type(file_set_t) :: set
       type(status_t) :: status
       type(string_t) :: plots(2)
+      type(text_file_t) :: file
 
       call begin_files(set, plot_folder(folder), status)
-      if (is_ok(status)) call write_data(set, limit, status)
+      ! Blocks: values that stand, values without a decision.
+      if (is_ok(status)) then
+         call open_data(set, LIMIT_PLOT, file)
+         call put_line(file, '# blocks: solved and checked, not converged; columns: '//limit%parameter//', displacement [L]')
+         call put_values(file, limit, STATUS_OK)
+         call put_values(file, limit, STATUS_NOT_CONVERGED)
+         call close_text(file, status)
+      end if
       if (is_ok(status)) call write_script(set, title, limit, status)
       if (is_ok(status)) call write_mechanism_plot(set, model, limit, title, view, status)
       call check_scripts(set, status)
@@ -43,20 +51,6 @@ contains
       plots(2)%s = MECHANISM_PLOT
       call draw_written(folder, plots, status, drawn)
    end subroutine write_stability_plots
-
-   !> Blocks: values that stand, values without a decision.
-   subroutine write_data(set, limit, status)
-      type(file_set_t), intent(inout) :: set
-      type(stability_t), intent(in) :: limit
-      type(status_t), intent(out) :: status
-      type(text_file_t) :: file
-
-      call open_data(set, LIMIT_PLOT, file)
-      call put_line(file, '# blocks: solved and checked, not converged; columns: '//limit%parameter//', displacement [L]')
-      call put_values(file, limit, STATUS_OK)
-      call put_values(file, limit, STATUS_NOT_CONVERGED)
-      call close_text(file, status)
-   end subroutine write_data
 
    subroutine put_values(file, limit, code)
       type(text_file_t), intent(inout) :: file
@@ -82,6 +76,7 @@ contains
       type(text_file_t) :: file
       type(range_t) :: across, up
       integer :: i
+      character(len=:), allocatable :: line
 
       call cover(across, [limit%stands, limit%falls])
       call cover(up, [0.0_wp])
@@ -102,7 +97,12 @@ contains
       call put_line(file, 'set xlabel '//quoted(limit%parameter)//' noenhanced; set ylabel '//quoted(limit%watched//' [L]')// &
                     ' noenhanced')
       call put_line(file, 'set key noautotitle outside bottom center horizontal Left reverse samplen 2.5')
-      call put_curves(file, limit)
+      line = 'plot "limit.dat" index 0 using 1:2 with linespoints lt 1 lw 1.8 pt 7 ps 0.9*dot lc rgb "'//COLOUR(1)// &
+             '" title "stands"'
+      if (any(limit%values%code == STATUS_NOT_CONVERGED)) line = line//', "limit.dat" index 1 using 1:(0) with points lt 1'// &
+                                                                 ' lw 1.5 pt 2 ps 1.1*dot lc rgb "#606060" title "undecided"'
+      call put_line(file, line//', NaN with lines lt 1 lw 1.5 lc rgb "#D55E00" title '// &
+                    quoted('falls from '//to_text(limit%falls, 8)//' on')//' noenhanced')
       call end_script(file, status)
    end subroutine write_script
 
@@ -122,18 +122,5 @@ contains
       call put_line(file, 'set arrow 1 from first '//to_text(limit%falls, MANY_DIGITS)//', graph 0 rto 0, graph 1 nohead lt 1'// &
                     ' lw 1.5 lc rgb "#D55E00"')
    end subroutine put_fallen
-
-   subroutine put_curves(file, limit)
-      type(text_file_t), intent(inout) :: file
-      type(stability_t), intent(in) :: limit
-      character(len=:), allocatable :: line
-
-      line = 'plot "limit.dat" index 0 using 1:2 with linespoints lt 1 lw 1.8 pt 7 ps 0.9*dot lc rgb "'//COLOUR(1)// &
-             '" title "stands"'
-      if (any(limit%values%code == STATUS_NOT_CONVERGED)) line = line//', "limit.dat" index 1 using 1:(0) with points lt 1'// &
-                                                                 ' lw 1.5 pt 2 ps 1.1*dot lc rgb "#606060" title "undecided"'
-      call put_line(file, line//', NaN with lines lt 1 lw 1.5 lc rgb "#D55E00" title '// &
-                    quoted('falls from '//to_text(limit%falls, 8)//' on')//' noenhanced')
-   end subroutine put_curves
 
 end module atrito_stability_plot

@@ -80,13 +80,18 @@ contains
       real(wp), intent(in) :: seconds(2)               !< wall clock and processor
       type(page_t), intent(out) :: page
       type(string_t), intent(in) :: pictures(:)        !< that were drawn, names without folder and ending
+      type(string_t), allocatable :: texts(:)
+      integer :: i
 
       call begin_report(page, '   limit of '//limit%parameter//' in '//deck)
       call add_rule(page, '-')
       call add_item(page, 'stands at', limit%parameter//' = '//number(limit%stands, DIGITS)//': solved and checked')
       call add_item(page, 'falls at', limit%parameter//' = '//number(limit%falls, DIGITS)//': proved')
       call add_item(page, 'limit', limit_text(limit))
-      call add_undecided(limit, page)
+      texts = undecided_texts(limit)
+      do i = 1, size(texts)
+         call add_item(page, trim(merge('         ', 'undecided', index(texts(i)%s, 'although') == 1)), texts(i)%s)
+      end do
       call add_item(page, 'displacement', displacement_text(limit))
       call add_item(page, 'values', values_text(limit))
       call add_rule(page, '-')
@@ -96,6 +101,7 @@ contains
       call add_files(page, folder, 'limit mechanism', pictures)
    end subroutine compose_stability
 
+   !> The limit in words: its middle, half of the interval that holds it, and whether that is as close as asked.
    function limit_text(limit) result(text)
       type(stability_t), intent(in) :: limit
       character(len=:), allocatable :: text
@@ -126,18 +132,6 @@ contains
       if (proofs > 0) call append_string(texts, plural(proofs, 'value is', 'values are')//' too near the limit for a proof')
    end function undecided_texts
 
-   subroutine add_undecided(limit, page)
-      type(stability_t), intent(in) :: limit
-      type(page_t), intent(inout) :: page
-      type(string_t), allocatable :: texts(:)
-      integer :: i
-
-      texts = undecided_texts(limit)
-      do i = 1, size(texts)
-         call add_item(page, trim(merge('         ', 'undecided', index(texts(i)%s, 'although') == 1)), texts(i)%s)
-      end do
-   end subroutine add_undecided
-
    !> What is watched, at the value that stands.
    function displacement_text(limit) result(text)
       type(stability_t), intent(in) :: limit
@@ -151,6 +145,7 @@ contains
       end do
    end function displacement_text
 
+   !> How many values were tried, and how: `7: 3 solved, 4 by their balance alone; 2 factorisations`.
    function values_text(limit) result(text)
       type(stability_t), intent(in) :: limit
       character(len=:), allocatable :: text

@@ -210,6 +210,7 @@ contains
       end do
    end function phase_seconds
 
+   !> Seconds of all phases of a run, by the wall clock (WALL) or of the processor (PROCESSOR); 0 where there are none.
    pure real(wp) function total_seconds(row, clock) result(seconds)
       type(study_row_t), intent(in) :: row
       integer, intent(in) :: clock

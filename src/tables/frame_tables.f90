@@ -6,7 +6,7 @@ module atrito_frame_tables
    use atrito_plane_state, only: STRESS_NAMES
    use atrito_strings, only: string_t
    use atrito_model, only: model_t, requests_t, is_due
-   use atrito_results, only: results_t, contact_result_t, body_motion_t
+   use atrito_results, only: results_t, contact_result_t
    use atrito_resultant_report, only: has_resultants, build_resultants
    use atrito_rigid_report, only: build_rigid_table
    use atrito_row_tables, only: has_rows, build_row_table
@@ -86,25 +86,15 @@ contains
    pure integer(ip) function frequency_of(requests, name) result(every)
       type(requests_t), intent(in) :: requests
       character(len=*), intent(in) :: name
+      character(len=*), parameter :: ALONE(7) = &
+                               [character(len=12) :: 'nodes', 'reactions', 'stress', 'nodal_stress', 'bodies', 'joints', 'sections']
+      integer(ip) :: frequencies(0:size(ALONE))
 
-      select case (name)
-      case ('nodes')
-         every = requests%every%nodes
-      case ('reactions')
-         every = requests%every%reactions
-      case ('stress')
-         every = requests%every%stress
-      case ('nodal_stress')
-         every = requests%every%nodal_stress
-      case ('bodies')
-         every = requests%every%bodies
-      case ('joints')
-         every = requests%every%joints
-      case ('sections')
-         every = requests%every%sections
-      case default
-         every = requests%every%contact
-      end select
+      associate (every_of => requests%every)
+         frequencies = [every_of%contact, every_of%nodes, every_of%reactions, every_of%stress, every_of%nodal_stress, &
+                        every_of%bodies, every_of%joints, every_of%sections]
+      end associate
+      every = frequencies(findloc(ALONE == name, .true., dim=1))
    end function frequency_of
 
    !> The rows of a frame in a table; the table may point at the fields of model and frame.
@@ -333,6 +323,7 @@ contains
       type(results_t), intent(in) :: results        !< with bodies
       type(scales_t), intent(in) :: scales
       type(table_t), intent(out) :: table
+      integer(ip) :: j
       character(len=8), parameter :: GROUPS(3) = ['loads   ', 'supports', 'contact ']
       character(len=7), parameter :: COMPONENTS(3) = ['_fx    ', '_fy    ', '_moment']
       character(len=len(GROUPS) + len(COMPONENTS)) :: columns(3)
@@ -342,7 +333,13 @@ contains
       integer :: k
 
       n = size(results%bodies, kind=ip)
-      force = largest_force(results%bodies)
+      ! Largest component of the resultants.
+      force = 0.0_wp
+      do j = 1, size(results%bodies, kind=ip)
+         associate (body => results%bodies(j))
+            force = max(force, maxval(abs([body%loads(:2), body%supports(:2), body%contact(:2)])))
+         end associate
+      end do
       do i = 1, n
          associate (body => results%bodies(i))
             names(i)%s = one_word(body%name)
@@ -368,17 +365,6 @@ contains
       end do
       call add_integers(table, 'increment', [results%increment])
    end subroutine build_bodies
-
-   !> Largest component of the resultants.
-   pure real(wp) function largest_force(bodies) result(largest)
-      type(body_motion_t), intent(in) :: bodies(:)
-      integer(ip) :: i
-
-      largest = 0.0_wp
-      do i = 1, size(bodies, kind=ip)
-         largest = max(largest, maxval(abs([bodies(i)%loads(:2), bodies(i)%supports(:2), bodies(i)%contact(:2)])))
-      end do
-   end function largest_force
 
    !> A row a joint.
    subroutine build_joints(results, scales, own, table)

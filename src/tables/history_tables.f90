@@ -26,6 +26,7 @@ contains
       integer(ip), allocatable :: pair(:)
       type(string_t), allocatable :: names(:), values(:)
       integer(ip) :: i, n
+      integer :: j, k
 
       call list_quantities(frame, own, list, pair)
       n = size(list, kind=ip)
@@ -40,7 +41,12 @@ contains
       call add_words(table, 'quantity', '-', names, on_the_left=.true.)
       call add_words(table, 'value', 'mixed', values, on_the_left=.false.)
       call add_integers(table, 'increment', [frame%increment])
-      call describe_dimensions(table, list)
+      ! The dimensions of the column `value`, one comment line a dimension.
+      do k = 1, size(DIMENSIONS)
+         do j = 1, size(list)
+            if (list(j)%dimension == DIMENSIONS(k)) call note_name(mark_of(k), trim(list(j)%name), table%remarks)
+         end do
+      end do
    end subroutine build_summary
 
    subroutine list_quantities(frame, own, list, pair)
@@ -76,19 +82,6 @@ contains
          text = trimmed_real(quantity%value, digits)
       end if
    end function quantity_text
-
-   !> The dimensions of the column `value`, one comment line a dimension.
-   pure subroutine describe_dimensions(table, list)
-      type(table_t), intent(inout) :: table
-      type(quantity_t), intent(in) :: list(:)
-      integer :: i, j
-
-      do i = 1, size(DIMENSIONS)
-         do j = 1, size(list)
-            if (list(j)%dimension == DIMENSIONS(i)) call note_name(mark_of(i), trim(list(j)%name), table%remarks)
-         end do
-      end do
-   end subroutine describe_dimensions
 
    pure function mark_of(i) result(mark)
       integer, intent(in) :: i                      !< place in DIMENSIONS

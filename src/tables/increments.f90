@@ -2,7 +2,7 @@
 module atrito_increments
    use atrito_kinds, only: ip, wp
    use atrito_model, only: model_t
-   use atrito_results, only: results_t, history_t, iteration_t
+   use atrito_results, only: history_t, iteration_t
    use atrito_strings, only: to_text
    implicit none (type, external)
    private
@@ -109,6 +109,7 @@ contains
       text = 'step '//to_text(step)//', increment '//to_text(increment)//', time '//time_text(time)
    end function increment_name
 
+   !> A time for readers, in so many digits that increments differ.
    pure function time_text(time) result(text)
       real(wp), intent(in) :: time
       character(len=:), allocatable :: text

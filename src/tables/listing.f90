@@ -22,8 +22,7 @@ module atrito_listing
    use atrito_row_tables, only: describe_rows
    use atrito_rigid_report, only: describe_rigid_bodies
    use atrito_scene_report, only: describe_needs, describe_bodies, describe_pairs
-   use atrito_summary, only: quantity_t, scales_t, summarise_pair, pair_quantities, step_quantities, measure_history, &
-                             pair_name
+   use atrito_summary, only: quantity_t, scales_t, summarise_pair, pair_quantities, step_quantities, measure_history, pair_name
    use atrito_table, only: ZERO_SHARE
    use atrito_utf8, only: visible
    implicit none (type, external)
@@ -97,6 +96,8 @@ contains
       type(page_t), intent(inout) :: page
       type(history_t), intent(in) :: history
       type(results_t), intent(in) :: results        !< the last of it
+      type(library_t), allocatable :: list(:)
+      integer :: i
 
       call describe_bodies(page, results%scene, factored=.true., some=.false.)
       if (uses(results%scene, 'skyline') .or. uses(results%scene, 'banded')) then
@@ -107,7 +108,10 @@ contains
       end if
       call add_entry(page, 'factorisations', to_text(max(history%factorisations, int(results%factorisations, ip))))
       call add_entry(page, 'linear solves of the line', to_text(int(results%linear_solves, ip)))
-      call add_libraries(page, results%scene)
+      call list_used_libraries(results%scene, list)
+      do i = 1, size(list)
+         call add_entry(page, trim(list(i)%name), list(i)%version)
+      end do
    end subroutine add_solver
 
    !> Messages, pictures, the estimated error and the times.
@@ -154,18 +158,6 @@ contains
       call add_line(page, '   of the last increment that is printed, '//frame_name(history%frames(last_frame(history)))//':')
       call add_blank(page)
    end subroutine add_increments
-
-   subroutine add_libraries(page, scene)
-      type(page_t), intent(inout) :: page
-      type(scene_t), intent(in) :: scene
-      type(library_t), allocatable :: list(:)
-      integer :: i
-
-      call list_used_libraries(scene, list)
-      do i = 1, size(list)
-         call add_entry(page, trim(list(i)%name), list(i)%version)
-      end do
-   end subroutine add_libraries
 
    !> Compiler and libraries; those that this run did not use are told so.
    subroutine list_used_libraries(scene, list)

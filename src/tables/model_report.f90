@@ -359,7 +359,14 @@ contains
       if (size(model%steps) > 1 .and. .not. has_loads(model%steps(k))) then
          call add_entry(page, 'loads', 'none')
       else
-         call add_load_table(page, concentrated, pressure, body, any(model%steps(k)%element_loads%kind == LOAD_TRACTION))
+         call add_line(page, '   '//left('loads, resultants', 24)//right('F1 [F]', 16)//right('F2 [F]', 16)// &
+                       right('moment about 0,0', 18))
+         call add_force(page, 'on nodes', concentrated)
+         call add_force(page, trim(merge('loads on faces   ', 'pressure on faces', &
+                                         any(model%steps(k)%element_loads%kind == LOAD_TRACTION))), pressure)
+         call add_force(page, 'in elements', body)
+         call add_force(page, 'all', force_t(concentrated%f + pressure%f + body%f, &
+                                             concentrated%moment + pressure%moment + body%moment))
       end if
       if (.not. allocated(model%steps(k)%heating)) return
       call add_blank(page)
@@ -373,20 +380,6 @@ contains
 
       has_loads = step%node_loads%n + step%element_loads%n + step%rigid_loads%n > 0
    end function has_loads
-
-   subroutine add_load_table(page, concentrated, pressure, body, has_traction)
-      type(page_t), intent(inout) :: page
-      type(force_t), intent(in) :: concentrated, pressure, body
-      logical, intent(in) :: has_traction           !< on some face
-
-      call add_line(page, '   '//left('loads, resultants', 24)//right('F1 [F]', 16)//right('F2 [F]', 16)// &
-                    right('moment about 0,0', 18))
-      call add_force(page, 'on nodes', concentrated)
-      call add_force(page, trim(merge('loads on faces   ', 'pressure on faces', has_traction)), pressure)
-      call add_force(page, 'in elements', body)
-      call add_force(page, 'all', force_t(concentrated%f + pressure%f + body%f, &
-                                          concentrated%moment + pressure%moment + body%moment))
-   end subroutine add_load_table
 
    subroutine add_force(page, name, force)
       type(page_t), intent(inout) :: page

@@ -24,6 +24,7 @@ module atrito_page
 
 contains
 
+   !> An empty page.
    pure subroutine begin_page(page, width)
       type(page_t), intent(out) :: page
       integer, intent(in) :: width                  !< columns
@@ -92,6 +93,7 @@ contains
       page%lines(page%n)%s = trim(text)
    end subroutine add_line
 
+   !> Adds an empty line.
    pure subroutine add_blank(page)
       type(page_t), intent(inout) :: page
 

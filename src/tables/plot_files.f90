@@ -6,8 +6,7 @@ module atrito_plot_files
    use atrito_kinds, only: ip
    use atrito_strings, only: string_t, append_string, to_text
    use atrito_version, only: PROGRAM_VERSION
-   use atrito_files, only: file_exists, is_folder, remove_file, remove_empty_folder, &
-                           file_set_t, text_file_t, open_text, put_line
+   use atrito_files, only: file_exists, is_folder, remove_file, remove_empty_folder, file_set_t, text_file_t, open_text, put_line
    use atrito_messages, only: add_warning
    use atrito_own_files, only: check_own, OWN_MARK
    use atrito_status, only: status_t, is_ok
@@ -44,6 +43,7 @@ module atrito_plot_files
 
 contains
 
+   !> The folder of the pictures: DIR/plots.
    pure function plot_folder(folder) result(path)
       character(len=*), intent(in) :: folder        !< of the tables
       character(len=:), allocatable :: path

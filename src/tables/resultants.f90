@@ -6,7 +6,6 @@ module atrito_resultants
    use atrito_model, only: model_t, step_t, nodal_values_t, element_load_t, SURFACE_SEGMENTS
    use atrito_results, only: results_t, contact_result_t
    use atrito_step_loads, only: act_at, is_end, moment_t
-   use atrito_strings, only: string_t
    use atrito_summary, only: pair_count
    implicit none (type, external)
    private

@@ -10,7 +10,7 @@ module atrito_summary
    implicit none (type, external)
    private
    public :: pair_summary_t, quantity_t, scales_t
-   public :: summarise_pair, pair_quantities, step_quantities, quantity_names, measure_fields, scales_of_pair
+   public :: summarise_pair, pair_quantities, step_quantities, quantity_names
    public :: measure_history
    public :: pair_count, pair_name, body_count
 
@@ -285,6 +285,7 @@ contains
                         max(a%force, b%force), max(a%area, b%area))
    end function larger
 
+   !> Contact pairs of a frame.
    pure integer(ip) function pair_count(results)
       type(results_t), intent(in) :: results
 
@@ -303,6 +304,7 @@ contains
       if (i <= size(results%scene%pairs)) name = results%scene%pairs(i)%slave//' on '//results%scene%pairs(i)%master
    end function pair_name
 
+   !> Bodies of a scene.
    pure integer(ip) function body_count(scene)
       type(scene_t), intent(in) :: scene
 

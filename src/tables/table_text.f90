@@ -56,7 +56,12 @@ contains
       integer, intent(in) :: digits
       integer :: i
 
-      call widen_columns(piece, digits)
+      ! Gives each column room for its values, its name and its dimension, so that the names stand above the numbers.
+      do i = 1, size(piece%columns)
+         associate (column => piece%columns(i))
+            column%width = max(len(column%name), len(column%dimension), value_width(piece, column, digits))
+         end associate
+      end do
       if (.not. allocated(file%head%columns)) call take_head(piece, file%head)
       do i = 1, size(piece%columns)
          file%head%columns(i)%width = max(file%head%columns(i)%width, piece%columns(i)%width)
@@ -142,19 +147,6 @@ contains
       end do
       call end_files(set, status, stale)
    end subroutine write_table_set
-
-   !> Gives each column room for its values, its name and its dimension, so that the names stand above the numbers.
-   subroutine widen_columns(table, digits)
-      type(table_t), intent(inout) :: table
-      integer, intent(in) :: digits
-      integer :: i
-
-      do i = 1, size(table%columns)
-         associate (column => table%columns(i))
-            column%width = max(len(column%name), len(column%dimension), value_width(table, column, digits))
-         end associate
-      end do
-   end subroutine widen_columns
 
    pure subroutine place_columns(table)
       type(table_t), intent(inout) :: table

@@ -24,8 +24,18 @@ module atrito_write_tables
                                                                     'rigid', 'joints', 'sections', 'ties', 'equations', 'springs', &
                                                                                                              'iterations', 'timing']
 
+   !> What all tables of a run have in common.
+   type :: common_t
+      integer :: digits                             !< significant ones, 6..17
+      logical :: is_csv
+      type(origin_t) :: origin
+      type(scales_t) :: scales                      !< of the history: what is nothing beside them is written as 0
+      type(scales_t), allocatable :: own(:)         !< of each pair
+   end type common_t
+
    !> A table that gets its rows frame by frame.
    type :: series_t
+      character(len=:), allocatable :: name
       logical, allocatable :: is_due(:)             !< (frames) that have rows in it
       type(string_t), allocatable :: remarks(:)     !< that all frames have a part in; not allocated: there are none
       type(growing_table_t) :: file
@@ -84,32 +94,35 @@ contains
       integer, intent(in) :: digits                 !< significant digits, 6..17
       type(file_set_t), intent(inout) :: set
       type(status_t), intent(out) :: status
-      logical, intent(in), optional :: is_csv       !< left out: .false.
-      type(scales_t) :: scales
-      type(scales_t), allocatable :: own(:)
+      logical, intent(in) :: is_csv                 !< comma-separated values
+      type(common_t) :: whole
       type(series_t) :: series(size(TABLE_NAMES))
       type(results_t), pointer :: frame
       type(status_t) :: of_file
-      type(origin_t) :: origin
       integer(ip) :: i
       integer :: k
 
-      origin = origin_of(model, history)
-      call measure_history(model, history, scales, own)
+      whole%digits = digits
+      whole%is_csv = is_csv
+      whole%origin = origin_of(model, history)
+      call measure_history(model, history, whole%scales, whole%own)
+      do k = 1, size(series)
+         series(k)%name = trim(TABLE_NAMES(k))
+         allocate (series(k)%is_due(last_frame(history)))
+      end do
       do i = 1, last_frame(history)
          call view_frame(history, i, frame)
          do k = 1, size(series)
-            call measure_series(model, frame, scales, own, trim(TABLE_NAMES(k)), digits, i, last_frame(history), series(k))
+            call measure_series(model, frame, whole, i, series(k))
          end do
       end do
       do k = 1, size(series)
-         if (is_ok(status)) call begin_series(model, history, scales, origin, trim(TABLE_NAMES(k)), digits, set, series(k), &
-                                              status, is_csv)
+         if (is_ok(status)) call begin_series(model, history, whole, set, series(k), status)
       end do
       do i = 1, merge(last_frame(history), 0_ip, is_ok(status))
          call view_frame(history, i, frame)
          do k = 1, size(series)
-            if (series(k)%is_due(i)) call put_frame(model, frame, scales, own, origin, trim(TABLE_NAMES(k)), digits, series(k))
+            if (series(k)%is_due(i)) call put_frame(model, frame, whole, series(k))
          end do
       end do
       do k = 1, size(series)
@@ -118,91 +131,78 @@ contains
       end do
    end subroutine write_tables
 
-   !> Notes whether a table has rows of a frame, and the room that they need.
-   subroutine measure_series(model, frame, scales, own, name, digits, i, n, series)
+   !> Notes whether a table has rows of a frame, and the room that they need. Tables of the whole history have none, nor has that of
+   !> the times, which comes last.
+   subroutine measure_series(model, frame, whole, i, series)
       type(model_t), intent(in), target :: model
       type(results_t), intent(in), target :: frame
-      type(scales_t), intent(in) :: scales, own(:)  !< of the history, of each pair
-      character(len=*), intent(in) :: name
-      integer, intent(in) :: digits
-      integer(ip), intent(in) :: i, n               !< which frame of how many
+      type(common_t), intent(in) :: whole
+      integer(ip), intent(in) :: i                  !< which frame
       type(series_t), intent(inout) :: series
       type(table_t) :: piece
+      integer :: n
 
-      if (i == 1) allocate (series%is_due(n))
-      series%is_due(i) = .not. is_of_history(name)
-      if (series%is_due(i) .and. name /= 'summary') series%is_due(i) = has_frame_rows(model, frame, name, i == n)
-      if (n == 1 .or. .not. series%is_due(i)) return
-      call build_piece(model, frame, scales, own, name, digits, piece)
-      call measure_rows(series%file, piece, digits)
-      if (name == 'summary') call join_remarks(series%remarks, piece%remarks)
+      n = size(series%is_due)
+      associate (name => series%name)
+         series%is_due(i) = .not. any(name == [character(len=10) :: 'history', 'iterations', 'timing'])
+         if (series%is_due(i) .and. name /= 'summary') series%is_due(i) = has_frame_rows(model, frame, name, i == n)
+         if (n == 1 .or. .not. series%is_due(i)) return
+         call build_piece(model, frame, whole, name, piece)
+         call measure_rows(series%file, piece, whole%digits)
+         if (name == 'summary') call join_remarks(series%remarks, piece%remarks)
+      end associate
    end subroutine measure_series
 
    !> Opens a table that has rows of frames; one of the whole history is written.
-   subroutine begin_series(model, history, scales, origin, name, digits, set, series, status, is_csv)
+   subroutine begin_series(model, history, whole, set, series, status)
       type(model_t), intent(in) :: model
       type(history_t), intent(in) :: history
-      type(scales_t), intent(in) :: scales
-      type(origin_t), intent(in) :: origin
-      character(len=*), intent(in) :: name
-      integer, intent(in) :: digits
+      type(common_t), intent(in) :: whole
       type(file_set_t), intent(inout) :: set
       type(series_t), intent(inout) :: series
       type(status_t), intent(inout) :: status
-      logical, intent(in), optional :: is_csv
       type(table_t) :: table
 
-      select case (name)
+      select case (series%name)
       case ('timing')
          return
       case ('history')
          if (.not. has_rows(model, history)) return
-         call build_history(history, scales%length, table)
-         call write_table(set, table, origin, digits, status, is_csv)
+         call build_history(history, whole%scales%length, table)
+         call write_table(set, table, whole%origin, whole%digits, status, whole%is_csv)
       case ('iterations')
          call build_iterations(history, table)
-         call write_table(set, table, origin, digits, status, is_csv)
+         call write_table(set, table, whole%origin, whole%digits, status, whole%is_csv)
       case default
-         if (any(series%is_due)) call open_table(set, name, series%file, is_csv)
+         if (any(series%is_due)) call open_table(set, series%name, series%file, whole%is_csv)
       end select
    end subroutine begin_series
 
-   subroutine put_frame(model, frame, scales, own, origin, name, digits, series)
+   subroutine put_frame(model, frame, whole, series)
       type(model_t), intent(in), target :: model
       type(results_t), intent(in), target :: frame
-      type(scales_t), intent(in) :: scales, own(:)
-      type(origin_t), intent(in) :: origin
-      character(len=*), intent(in) :: name
-      integer, intent(in) :: digits
+      type(common_t), intent(in) :: whole
       type(series_t), intent(inout) :: series
       type(table_t) :: piece
 
-      call build_piece(model, frame, scales, own, name, digits, piece)
-      call put_table(series%file, piece, origin, digits, series%remarks)
+      call build_piece(model, frame, whole, series%name, piece)
+      call put_table(series%file, piece, whole%origin, whole%digits, series%remarks)
    end subroutine put_frame
 
    !> The rows of a frame; they may point at the fields of model and frame.
-   subroutine build_piece(model, frame, scales, own, name, digits, piece)
+   subroutine build_piece(model, frame, whole, name, piece)
       type(model_t), intent(in), target :: model
       type(results_t), intent(in), target :: frame
-      type(scales_t), intent(in) :: scales, own(:)
+      type(common_t), intent(in) :: whole
       character(len=*), intent(in) :: name
-      integer, intent(in) :: digits
       type(table_t), intent(out) :: piece
 
       if (name == 'summary') then
-         call build_summary(frame, own, digits, piece)
+         call build_summary(frame, whole%own, whole%digits, piece)
       else
-         call build_frame_table(model, frame, scales, own, name, piece)
+         call build_frame_table(model, frame, whole%scales, whole%own, name, piece)
       end if
    end subroutine build_piece
-
-   !> Tables of the whole history, and that of the times, which comes last.
-   pure logical function is_of_history(name)
-      character(len=*), intent(in) :: name
-
-      is_of_history = any(name == [character(len=10) :: 'history', 'iterations', 'timing'])
-   end function is_of_history
 
    !> Whether there is a history to be told of.
    pure logical function has_rows(model, history)
@@ -226,7 +226,7 @@ contains
       integer, intent(in) :: digits
       type(file_set_t), intent(inout) :: set
       type(status_t), intent(out) :: status
-      logical, intent(in), optional :: is_csv       !< left out: .false.
+      logical, intent(in) :: is_csv                 !< comma-separated values
       type(phase_time_t), allocatable :: phases(:)
       type(string_t), allocatable :: names(:)
       type(table_t) :: table

@@ -20,20 +20,20 @@ cut_force_t        fields/exchange_results.f90 exchange_cut cut
 iteration_t        fields/exchange_results.f90 exchange_iterations list
 extreme_t          fields/exchange_results.f90 exchange_extreme extreme
 balance_t          fields/exchange_results.f90 exchange_balance balance
-scene_t            fields/exchange_scene.f90 exchange_scene scene
-body_result_t      fields/exchange_scene.f90 exchange_body body
-pair_scene_t       fields/exchange_scene.f90 exchange_pair pair
-string_t           fields/exchange_scene.f90 exchange_strings list
+scene_t            fields/exchange_results.f90 exchange_scene scene
+body_result_t      fields/exchange_results.f90 exchange_bodies body
+pair_scene_t       fields/exchange_results.f90 exchange_pairs pair
+string_t           fields/exchange_results.f90 exchange_left_out list
 history_t          fields/restart_file.f90 exchange_findings history ending,factorisations,store,n_stored
 history_row_t      fields/restart_file.f90 exchange_rows list
 restart_state_t    fields/restart_file.f90 exchange_state,exchange_findings state
 warm_start_t       fields/restart_file.f90 exchange_start start
-warm_start_t       stepping/warm_start.f90 put_start,put_multipliers start
-warm_start_t       stepping/warm_start.f90 take_start,take_multipliers start
+box_state_t        fields/restart_file.f90 exchange_start state
+box_bounds_t       fields/restart_file.f90 exchange_start bounds
+multiplier_t       fields/restart_file.f90 exchange_multipliers multipliers factorisations,solves,generation,part,before
+warm_start_t       stepping/warm_start.f90 put_start start
+warm_start_t       stepping/warm_start.f90 take_start start
 contact_solution_t stepping/warm_start.f90 put_start solution factor,inner,converged,verdict,factorisations,body_motion,body_force,has_settled
-box_state_t        stepping/warm_start.f90 put_start state
-box_bounds_t       stepping/warm_start.f90 put_start bounds
-multiplier_t       stepping/warm_start.f90 put_multipliers multipliers factorisations,solves,generation,part,before
 slip_memory_t      stepping/slip_memory.f90 put_memory memory is_incremental
 slip_memory_t      stepping/slip_memory.f90 take_memory memory is_incremental
 run_t              stepping/history.f90 record run options,reporter,scene,has_last,observer,sense,idle,n_idle

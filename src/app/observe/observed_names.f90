@@ -13,7 +13,7 @@ module atrito_observed_names
    use atrito_summary, only: quantity_t
    implicit none (type, external)
    private
-   public :: name_fault_t, find_term, field_names, observable_names, TIME_NAME
+   public :: name_fault_t, find_term, field_names, observable_names
 
    !> What is wrong, and where in the expression.
    type, extends(place_fault_t) :: name_fault_t

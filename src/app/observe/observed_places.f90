@@ -14,7 +14,7 @@ module atrito_observed_places
    use atrito_strings, only: string_t, append_string, same_name, to_text
    implicit none (type, external)
    private
-   public :: place_fault_t, find_place, place_names, has_support, has_element
+   public :: place_fault_t, find_place, has_support, has_element
 
    !> What is wrong with a name or number; text not allocated: nothing.
    type :: place_fault_t

@@ -1,14 +1,17 @@
-!> Completion for bash, 4 or later: `atrito help bash`.
+!> Completion for bash, 4 or later: `atrito help bash`. The words are those of the tables of tasks, options and keywords.
 module atrito_bash_completion
-   use atrito_completion_words, only: commands_with, options_of, options_where, known_keywords, task_word, HELP_PAGES, &
-                                      VALUE_OWN, VALUE_WORDS, VALUE_A_FOLDER, VALUE_A_FILE, kind_of_value
    use atrito_keyword, only: keyword_t
-   use atrito_option_table, only: OPTIONS
-   use atrito_strings, only: string_t, append_string
-   use atrito_task_table, only: TASKS
+   use atrito_keyword_table, only: keyword_table
+   use atrito_option_table, only: OPTIONS, VALUE_FOLDER, VALUE_FILE, has_value
+   use atrito_strings, only: string_t, append_string, join
+   use atrito_task_table, only: TASKS, command_names
    implicit none (type, external)
    private
-   public :: compose_bash_completion
+   public :: compose_bash_completion, options_of, options_where, VALUE_WORDS
+
+   character(len=*), parameter :: HELP_PAGES = 'all man bash'    !< what `atrito help` knows besides keywords
+   !> What bash can do for the value of an option: there is none; nothing, for the user alone knows it; ...
+   integer, parameter :: VALUE_NONE = 0, VALUE_OWN = 1, VALUE_WORDS = 2, VALUE_A_FOLDER = 3, VALUE_A_FILE = 4
 
    character(len=88), parameter :: HEAD(*) = [character(len=88) :: &
                                               '# Completion for bash; printed by `atrito help bash`.', &
@@ -54,6 +57,7 @@ module atrito_bash_completion
 
 contains
 
+   !> The script for bash, line by line.
    subroutine compose_bash_completion(lines)
       type(string_t), allocatable, intent(out) :: lines(:)
       type(keyword_t), allocatable :: keywords(:)
@@ -61,7 +65,7 @@ contains
 
       allocate (lines(0))
       call add_lines(lines, HEAD)
-      call known_keywords(keywords)
+      keywords = keyword_table()
       do i = 1, size(keywords)
          call append_string(lines, keywords(i)%name)
       end do
@@ -107,7 +111,7 @@ contains
       call append_string(lines, '            if [ "${COMP_WORDS[i + 1]}" = = ]; then ((i++)); fi')
       call append_string(lines, '            ((i++)) ;;')
       call append_string(lines, '         -*) ;;')
-      call append_string(lines, '         '//commands_with('|')//') task=${COMP_WORDS[i]} ;;')
+      call append_string(lines, '         '//join(command_names(), '|')//') task=${COMP_WORDS[i]} ;;')
       call append_string(lines, '         *) task=run ;;')
       call append_string(lines, '      esac')
       call append_string(lines, '   done')
@@ -116,21 +120,72 @@ contains
    !> What is to be had in this place.
    subroutine add_choice(lines)
       type(string_t), allocatable, intent(inout) :: lines(:)
+      character(len=:), allocatable :: command
       integer :: task
 
       call append_string(lines, '   case ${task:-run}:$cur in')
       do task = 1, size(TASKS)
-         call append_string(lines, '      '//task_word(task)//':-*) _atrito_words '''//options_of(task)//''' ;;')
+         command = trim(TASKS(task)%name)
+         if (len(command) == 0) command = 'run'
+         call append_string(lines, '      '//command//':-*) _atrito_words '''//options_of(task)//''' ;;')
       end do
       call append_string(lines, '      help:*) _atrito_keywords "$i" ;;')
       call append_string(lines, '      compare:*) _atrito_files ''*'' ;;')
       call append_string(lines, '      *)')
       call append_string(lines, '         _atrito_files ''*.inp''')
       call append_string(lines, '         [ -n "$task" ] || mapfile -t -O ${#COMPREPLY[@]} COMPREPLY < <(compgen -W '''// &
-                         commands_with(' ')//''' -- "$cur") ;;')
+                         join(command_names(), ' ')//''' -- "$cur") ;;')
       call append_string(lines, '   esac')
       call append_string(lines, '}')
       call append_string(lines, 'complete -F _atrito atrito')
    end subroutine add_choice
+
+   !> What a shell can do for the value of an option, VALUE_...
+   pure integer function kind_of_value(option) result(kind)
+      integer, intent(in) :: option                 !< place in OPTIONS
+
+      kind = VALUE_OWN
+      if (.not. has_value(option)) kind = VALUE_NONE
+      if (OPTIONS(option)%value == VALUE_FOLDER) kind = VALUE_A_FOLDER
+      if (OPTIONS(option)%value == VALUE_FILE) kind = VALUE_A_FILE
+      if (len_trim(OPTIONS(option)%words) > 0) kind = VALUE_WORDS
+   end function kind_of_value
+
+   !> All names of the options that a task knows, blanks between them.
+   pure function options_of(task) result(text)
+      integer, intent(in) :: task
+      character(len=:), allocatable :: text
+      type(string_t), allocatable :: names(:)
+      integer :: i
+
+      allocate (names(0))
+      do i = 1, size(OPTIONS)
+         if (OPTIONS(i)%for_task(task)) call add_names(names, i)
+      end do
+      text = join(names, ' ')
+   end function options_of
+
+   !> The options whose values are of one of these kinds, `|` between them.
+   pure function options_where(kinds) result(text)
+      integer, intent(in) :: kinds(:)               !< VALUE_...
+      character(len=:), allocatable :: text
+      type(string_t), allocatable :: names(:)
+      integer :: i
+
+      allocate (names(0))
+      do i = 1, size(OPTIONS)
+         if (any(kinds == kind_of_value(i))) call add_names(names, i)
+      end do
+      text = join(names, '|')
+   end function options_where
+
+   !> Appends both names of an option.
+   pure subroutine add_names(names, option)
+      type(string_t), allocatable, intent(inout) :: names(:)
+      integer, intent(in) :: option                 !< place in OPTIONS
+
+      call append_string(names, trim(OPTIONS(option)%name))
+      if (len_trim(OPTIONS(option)%short) > 0) call append_string(names, trim(OPTIONS(option)%short))
+   end subroutine add_names
 
 end module atrito_bash_completion

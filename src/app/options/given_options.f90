@@ -1,7 +1,7 @@
 !> What the user gave on the command line that changes results or tables, for the heads of tables, in a fixed order.
 module atrito_given_options
-   use atrito_command_line, only: command_t, TASK_STUDY, TASK_LIMIT
    use atrito_kinds, only: wp
+   use atrito_command_line, only: command_t, TASK_STUDY, TASK_LIMIT
    use atrito_number_text, only: DEFAULT_DIGITS
    use atrito_numbers, only: exact_text
    use atrito_strings, only: join, to_text

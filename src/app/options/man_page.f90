@@ -23,6 +23,7 @@ module atrito_man_page
 
 contains
 
+   !> The manual page in the language of man(7), line by line.
    subroutine compose_man_page(lines)
       type(string_t), allocatable, intent(out) :: lines(:)
 
@@ -102,7 +103,7 @@ contains
 
       call append_string(lines, '.SS '//roff(title))
       do i = 1, size(table)
-         if (table(i)%level /= level .or. .not. table(i)%built) cycle
+         if (table(i)%level /= level) cycle
          name = '*'//table(i)%name
          if (table(i)%own) name = name//' +'
          call add_entry(lines, name, table(i)%summary)

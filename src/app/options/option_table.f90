@@ -120,12 +120,14 @@ contains
       if (i == 0 .and. len_trim(name) > 0) i = findloc(OPTIONS%short == name, .true., dim=1)
    end function find_option
 
+   !> Whether an option has a value behind it.
    pure logical function has_value(option)
       integer, intent(in) :: option                 !< place in OPTIONS
 
       has_value = len_trim(OPTIONS(option)%value) > 0
    end function has_value
 
+   !> The long names of all options, for the nearest names in messages.
    pure function option_names() result(names)
       type(string_t), allocatable :: names(:)
       integer :: i

@@ -4,7 +4,7 @@ module atrito_task_table
    implicit none (type, external)
    private
    public :: TASK_USAGE, TASK_RUN, TASK_CHECK, TASK_COMPARE, TASK_HELP, TASK_SWEEP, TASK_STUDY, TASK_LIMIT, TASK_OPTIONS, &
-             TASK_VERSION, TASKS, TAKES_DECK, TAKES_PATHS, TAKES_KEYWORD
+             TASK_VERSION, TASKS
    public :: task_named, command_names, task_form, called, task_text
 
    integer, parameter :: TASK_USAGE = 0             !< nothing was asked: tell how, exit 1
@@ -48,6 +48,7 @@ contains
       if (len_trim(word) > 0) task = max(TASK_RUN, findloc(TASKS%name == word, .true., dim=1))
    end function task_named
 
+   !> The words that commands begin with: check, compare, help, ...
    pure function command_names() result(names)
       type(string_t), allocatable :: names(:)
       integer :: task

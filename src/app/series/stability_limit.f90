@@ -117,7 +117,9 @@ contains
          if (code /= STATUS_OK) exit
          call find_value(limit, question%x, one)
          call take_answer(question, answer, search, one)
-         call keep_value(one, limit)
+         ! Puts it at its place among the others.
+         limit%values = [pack(limit%values, limit%values%value < one%value), one, &
+                         pack(limit%values, limit%values%value > one%value)]
          call report_progress(reporter, limit%parameter//' = '//to_text(question%x, 12)//'  '//answer_text(one))
       end do
    end subroutine ask_all
@@ -186,15 +188,6 @@ contains
          if (abs(limit%values(i)%value - x) <= 0.0_wp) one = limit%values(i)
       end do
    end subroutine find_value
-
-   !> Puts it at its place among the others.
-   pure subroutine keep_value(one, limit)
-      type(stability_value_t), intent(in) :: one
-      type(stability_t), intent(inout) :: limit
-
-      limit%values = [pack(limit%values, limit%values%value < one%value), one, &
-                      pack(limit%values, limit%values%value > one%value)]
-   end subroutine keep_value
 
    !> The bounds. status: STATUS_USAGE where both ends stand or fall, STATUS_NOT_CONVERGED where none is known to stand.
    subroutine judge_search(search, limit, status)

@@ -222,6 +222,8 @@ contains
       type(parcel_t), intent(inout) :: answer
       integer, intent(in) :: end_code
       integer :: i
+      character(len=:), allocatable :: text
+      integer(ip) :: code
 
       if (task > size(self%study%rows)) then
          if (end_code /= 0) return
@@ -230,23 +232,15 @@ contains
          end do
       else if (end_code == 0) then
          call take_row(answer, self%study%rows(task))
-         call take_status(answer, self%status)
+         call take(answer, code)
+         if (code /= STATUS_OK) then
+            call take(answer, text)
+            if (is_ok(self%status)) call set_status(self%status, int(code), text)
+         end if
       else
          call lose_row(self, self%study%rows(task), end_code)
       end if
    end subroutine take_answer
-
-   subroutine take_status(answer, status)
-      type(parcel_t), intent(inout) :: answer
-      type(status_t), intent(inout) :: status        !< an earlier one stays
-      character(len=:), allocatable :: text
-      integer(ip) :: code
-
-      call take(answer, code)
-      if (code == STATUS_OK) return
-      call take(answer, text)
-      if (is_ok(status)) call set_status(status, int(code), text)
-   end subroutine take_status
 
    subroutine lose_row(runs, row, end_code)
       class(study_runs_t), intent(in) :: runs

@@ -106,6 +106,7 @@ contains
       call clear_messages()
    end subroutine find_probe
 
+   !> Whether a run has no solution, not even a last iterate.
    pure logical function has_failed(row)
       type(study_row_t), intent(in) :: row
 
@@ -154,26 +155,16 @@ contains
       one%report = .false.
       one%refine = command%refine + row%level
       if (row%element /= DECK_ELEMENTS) one%element = row%element
-      one%shape = shape_of(one%element)
-      one%state = state_of(one%element)
+      one%shape = 0                                 ! those of the deck
+      one%state = 0
+      if (len_trim(one%element) > 0) then
+         associate (kind => KINDS(kind_named(upper_case(trim(one%element)))))
+            one%shape = kind%shape
+            one%state = kind%state
+         end associate
+      end if
       one%folder = output_folder(command)//'/'//row%element//'_'//to_text(row%level)
    end subroutine make_command
-
-   !> 0: the deck's own.
-   pure integer(ip) function shape_of(element)
-      character(len=*), intent(in) :: element
-
-      shape_of = 0
-      if (len_trim(element) > 0) shape_of = KINDS(kind_named(upper_case(trim(element))))%shape
-   end function shape_of
-
-   !> The same of the state.
-   pure integer(ip) function state_of(element)
-      character(len=*), intent(in) :: element
-
-      state_of = 0
-      if (len_trim(element) > 0) state_of = KINDS(kind_named(upper_case(trim(element))))%state
-   end function state_of
 
    !> A quantity of the first pair, or of the step; `missing` where the summary has none.
    pure real(wp) function amount(summary, name, missing)

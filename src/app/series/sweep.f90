@@ -30,8 +30,7 @@ module atrito_sweep
    use atrito_status, only: status_t, set_status, is_ok, STATUS_USAGE, STATUS_NOT_CONVERGED, STATUS_INTERNAL
    use atrito_strings, only: string_t, append_string, to_text
    use atrito_study_errors, only: run_facts_t
-   use atrito_sweep_journal, only: sweep_journal_t, begin_journal, note_begin, note_end, find_done, remove_journal, &
-                                   OUTCOMES
+   use atrito_sweep_journal, only: sweep_journal_t, begin_journal, note_begin, note_end, find_done, remove_journal, OUTCOMES
    use atrito_sweep_plan, only: sweep_plan_t, plan_sweep
    use atrito_sweep_tables, only: sweep_run_t, read_summary, write_sweep, compose_sweep
    use atrito_table, only: origin_t
@@ -356,24 +355,17 @@ contains
             call report_of_sweep(plan%names, runs, seconds, report)
             call make_report(command, report, has_report)
          end if
-         call tell_work(sweep, page)
+         ! What is to be told of ranks, and of what was done before.
+         if (sweep%n_left > 0) call add_above_rule(page, 'left alone', &
+                                                   plural(sweep%n_left, 'run', 'runs')//', made by an earlier sweep')
+         associate (times => sweep%times)
+            if (times%n_ranks > 1) call add_above_rule(page, 'ranks', to_text(times%n_ranks)//', idle for '// &
+                                                       number(times%longest_idle, 3)//' s at most; longest run '// &
+                                                       number(times%longest_task, 3)//' s')
+         end associate
          call tell_series(command, page, has_report)
       end associate
    end subroutine finish
-
-   !> What is to be told of ranks, and of what was done before.
-   subroutine tell_work(sweep, page)
-      type(sweep_t), intent(in) :: sweep
-      type(page_t), intent(inout) :: page
-
-      if (sweep%n_left > 0) call add_above_rule(page, 'left alone', &
-                                                plural(sweep%n_left, 'run', 'runs')//', made by an earlier sweep')
-      associate (times => sweep%times)
-         if (times%n_ranks > 1) call add_above_rule(page, 'ranks', to_text(times%n_ranks)//', idle for '// &
-                                                    number(times%longest_idle, 3)//' s at most; longest run '// &
-                                                    number(times%longest_task, 3)//' s')
-      end associate
-   end subroutine tell_work
 
    !> Lays the runs that came to their end over one another.
    subroutine plot_sweep(command, plan, runs, deck, drawn)

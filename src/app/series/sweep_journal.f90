@@ -48,6 +48,7 @@ contains
       if (.not. command%resume) call remove_journal(journal)
    end subroutine begin_journal
 
+   !> Forgets what was done.
    subroutine remove_journal(journal)
       type(sweep_journal_t), intent(in) :: journal
 

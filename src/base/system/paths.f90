@@ -19,12 +19,14 @@ module atrito_paths
 
 contains
 
+   !> Whether there is a file or a folder of this path; a link that leads nowhere is none.
    logical function file_exists(path)
       character(len=*), intent(in) :: path
 
       file_exists = c_exists(path//c_null_char) == 1
    end function file_exists
 
+   !> Whether there is a folder of this path, or a link to one.
    logical function is_folder(path)
       character(len=*), intent(in) :: path
 

@@ -60,7 +60,7 @@ contains
       type(status_t), intent(out) :: status
       type(string_t), allocatable :: paths(:)       ! gfortran 12 spoils the lengths in one of fixed size
       logical :: is_aside(size(names) + size(stale))
-      integer :: i, done
+      integer :: i, j, done
 
       allocate (paths(0))
       do i = 1, size(names)
@@ -76,7 +76,12 @@ contains
             if (is_aside(i)) call remove_file(paths(i)%s//FORMER)
          end do
       else
-         call take_back(paths, is_aside, done, status)
+         ! The names go back to the files that had them before.
+         do j = 1, size(paths)
+            if (j <= done) call remove_file(paths(j)%s)
+            if (.not. is_aside(j)) cycle
+            if (.not. renamed(paths(j)%s//FORMER, paths(j)%s)) status%text = status%text//'; the former one is '//paths(j)%s//FORMER
+         end do
       end if
    end subroutine replace_files
 
@@ -167,21 +172,6 @@ contains
          end if
       end do
    end subroutine name_new_files
-
-   !> The names go back to the files that had them before.
-   subroutine take_back(paths, is_aside, done, status)
-      type(string_t), intent(in) :: paths(:)
-      logical, intent(in) :: is_aside(:)
-      integer, intent(in) :: done
-      type(status_t), intent(inout) :: status
-      integer :: i
-
-      do i = 1, size(paths)
-         if (i <= done) call remove_file(paths(i)%s)
-         if (.not. is_aside(i)) cycle
-         if (.not. renamed(paths(i)%s//FORMER, paths(i)%s)) status%text = status%text//'; the former one is '//paths(i)%s//FORMER
-      end do
-   end subroutine take_back
 
    logical function renamed(from, to)
       character(len=*), intent(in) :: from, to

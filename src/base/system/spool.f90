@@ -123,6 +123,7 @@ contains
       if (spool%is_sound) spool%is_sound = c_read_bytes(spool%stream, bytes, int(length, c_size_t)) == 1
    end subroutine get_bytes
 
+   !> Closes the file, which is gone then, and makes the spool as it was before it was opened.
    subroutine close_spool(spool)
       type(spool_t), intent(inout) :: spool
       integer :: done

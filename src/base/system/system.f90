@@ -15,8 +15,7 @@ module atrito_system
    public :: guard_interrupts, hold_interrupts, release_interrupts, note_path, forget_path, guard_exit, release_exit
    public :: terminate, be_rank, forgive_faults
    public :: c_begin_worker, c_end_worker, await_workers, c_run_command, c_share_memory, find_routine
-   public :: worker_end, process_number, maker_number, pause_for, get_shared, set_shared, &
-             swap_shared
+   public :: worker_end, process_number, maker_number, pause_for, get_shared, set_shared, swap_shared
    public :: c_has_address_space, c_count_threads, stack_of_thread, stack_limit
    public :: processor_seconds, peak_memory, address_space_limit, keep_freed_memory, reusable_memory
    public :: c_suspend_halting, c_restore_halting
@@ -96,56 +95,69 @@ module atrito_system
    procedure(ask_bytes), bind(C, name='atrito_reusable_memory') :: reusable_memory
 
    interface
+      !> 1: a file of the process is a terminal.
       integer(c_int) function c_is_terminal(file) bind(C, name='atrito_is_terminal')
          import :: c_int
          integer(c_int), value :: file              !< 1: standard output, 2: standard error
       end function c_is_terminal
+      !> 1: so many bytes of address space can be had now, in one piece.
       integer(c_int) function c_has_address_space(bytes) bind(C, name='atrito_has_address_space')
          import :: c_int, c_int64_t
          integer(c_int64_t), value :: bytes
       end function c_has_address_space
+      !> How many threads there can be beside this one, 0 to most: they are made, and end at once.
       integer(c_int) function c_count_threads(most) bind(C, name='atrito_count_threads')
          import :: c_int
          integer(c_int), value :: most
       end function c_count_threads
+      !> 1: the folder is new; where is_noted is 1 it is noted then, to be removed if the program is interrupted.
       integer(c_int) function c_make_folder(path, is_noted) bind(C, name='atrito_make_folder')
          import :: c_char, c_int
          character(kind=c_char), intent(in) :: path(*)
          integer(c_int), value :: is_noted
       end function c_make_folder
+      !> 1: the file has its new name, in one step of the file system; whatever had that name is replaced.
       integer(c_int) function c_rename(from, to) bind(C, name='atrito_rename')
          import :: c_char, c_int
          character(kind=c_char), intent(in) :: from(*), to(*)
       end function c_rename
+      !> The path without links, `.` and `..`: its length, 0 where there is no such file or its path has more than `room` bytes.
       integer(c_int) function c_true_path(path, resolved, room) bind(C, name='atrito_true_path')
          import :: c_char, c_int
          character(kind=c_char), intent(in) :: path(*)
          character(kind=c_char), intent(inout) :: resolved(*)
          integer(c_int), value :: room
       end function c_true_path
+      !> Opens a file to be read: its descriptor and its length [bytes], or, negative, why it is not opened (atrito_files has the
+      !> words).
       integer(c_int) function c_open_input(path, length) bind(C, name='atrito_open_input')
          import :: c_char, c_int, c_int64_t
          character(kind=c_char), intent(in) :: path(*)
          integer(c_int64_t), intent(inout) :: length
       end function c_open_input
+      !> What a name in a folder is, as c_kind_of tells it of a path.
       integer(c_int) function c_kind_in(folder, name) bind(C, name='atrito_kind_in')
          import :: c_char, c_int
          character(kind=c_char), intent(in) :: folder(*), name(*)
       end function c_kind_in
+      !> 1: a text has nothing but printable characters of ASCII.
       pure integer(c_int) function c_is_plain(text, length) bind(C, name='atrito_is_plain')
          import :: c_char, c_int, c_size_t
          character(kind=c_char), intent(in) :: text(*)
          integer(c_size_t), intent(in), value :: length
       end function c_is_plain
+      !> What an open file is, whatever its name: its device and its number there.
       subroutine c_identify(file, identity) bind(C, name='atrito_identify')
          import :: c_int, c_int64_t
          integer(c_int), value :: file
          integer(c_int64_t), intent(inout) :: identity(2)
       end subroutine c_identify
+      !> 1: a file, by c_identify, is noted as one of the user: it is not replaced or removed until forget_inputs.
       integer(c_int) function c_note_input(identity) bind(C, name='atrito_note_input')
          import :: c_int, c_int64_t
          integer(c_int64_t), intent(in) :: identity(2)
       end function c_note_input
+      !> 1: so many bytes of an open file were read, from a place on [bytes].
       integer(c_int) function c_read_input(file, text, length, place) bind(C, name='atrito_read_input')
          import :: c_char, c_int, c_int64_t, c_size_t
          integer(c_int), value :: file
@@ -153,12 +165,15 @@ module atrito_system
          integer(c_size_t), value :: length
          integer(c_int64_t), value :: place
       end function c_read_input
+      !> The first bytes of a plain file, or the last ones where from_end is 1: how many there are, room at most; -1: it is no plain
+      !> file.
       integer(c_int) function c_peek(path, text, room, from_end) bind(C, name='atrito_peek')
          import :: c_char, c_int
          character(kind=c_char), intent(in) :: path(*)
          character(kind=c_char), intent(inout) :: text(*)
          integer(c_int), value :: room, from_end
       end function c_peek
+      !> Reads a small file of the system at once: the number of bytes.
       integer(c_int) function c_read_system(path, text, room) bind(C, name='atrito_read_system')
          import :: c_char, c_int
          character(kind=c_char), intent(in) :: path(*)
@@ -171,72 +186,89 @@ module atrito_system
          integer(c_int), value :: n, room
          character(kind=c_char), intent(inout) :: name(*)
       end function c_find_name
+      !> From now on files outside of the first folder are not read, and files outside of the second one not written.
       subroutine c_confine(input, output) bind(C, name='atrito_confine')
          import :: c_char
          character(kind=c_char), intent(in) :: input(*), output(*)
       end subroutine c_confine
+      !> Has the shell run a command and waits for its end: the exit code; 128 and the number of the signal that ended it; 127 where
+      !> there is no shell; 124 where it was ended after so many seconds.
       integer(c_int) function c_run_command(command, seconds) bind(C, name='atrito_run_command')
          import :: c_char, c_double, c_int
          character(kind=c_char), intent(in) :: command(*)
          real(c_double), value :: seconds
       end function c_run_command
+      !> A file that is not there yet, to be written; null: it cannot be made.
       type(c_ptr) function c_create_file(path) bind(C, name='atrito_create_file')
          import :: c_char, c_ptr
          character(kind=c_char), intent(in) :: path(*)
       end function c_create_file
+      !> A file without a name on the disk of a folder, to be written and read, which is gone with the process; null: there is none.
       type(c_ptr) function c_open_nameless(folder) bind(C, name='atrito_open_nameless')
          import :: c_char, c_ptr
          character(kind=c_char), intent(in) :: folder(*)
       end function c_open_nameless
+      !> The place that is read or written next [bytes]; -1: it is not known.
       integer(c_int64_t) function c_place_in_file(file) bind(C, name='atrito_place_in_file')
          import :: c_int64_t, c_ptr
          type(c_ptr), value :: file
       end function c_place_in_file
+      !> 1: the file is at the place [bytes], and what was written before is with the system; else the rest of it is given up.
       integer(c_int) function c_go_to_place(file, place) bind(C, name='atrito_go_to_place')
          import :: c_int, c_int64_t, c_ptr
          type(c_ptr), value :: file
          integer(c_int64_t), value :: place
       end function c_go_to_place
+      !> 1: the file is closed, and all that was written into it is with the system.
       integer(c_int) function c_close_file(file) bind(C, name='atrito_close_file')
          import :: c_int, c_ptr
          type(c_ptr), value :: file
       end function c_close_file
+      !> 1: the file that was opened is the one that others find in the folder: the run that had it may have removed it.
       integer(c_int) function c_is_lock_of(file, folder) bind(C, name='atrito_is_lock_of')
          import :: c_char, c_int
          integer(c_int), value :: file              !< of c_open_lock
          character(kind=c_char), intent(in) :: folder(*)
       end function c_is_lock_of
+      !> 1: the folder is locked, or its file system has no locks; 0: others have it still after so many seconds.
       integer(c_int) function c_lock_folder(file, seconds) bind(C, name='atrito_lock_folder')
          import :: c_double, c_int
          integer(c_int), value :: file              !< of c_open_lock
          real(c_double), value :: seconds
       end function c_lock_folder
+      !> 1: the line is at the end of a plain file, which is made where it is missing; lines of several processes do not mix.
       integer(c_int) function c_append_line(path, line) bind(C, name='atrito_append_line')
          import :: c_char, c_int
          character(kind=c_char), intent(in) :: path(*), line(*)
       end function c_append_line
+      !> How a worker has ended: -1 while it runs; else its exit code, or 128 and the number of the signal that ended it.
       integer(c_int) function worker_end(id) bind(C, name='atrito_worker_end')
          import :: c_int
          integer(c_int), value :: id                !< of c_begin_worker
       end function worker_end
+      !> Does nothing for so many seconds; a signal ends it earlier.
       subroutine pause_for(seconds) bind(C, name='atrito_pause')
          import :: c_double
          real(c_double), value :: seconds
       end subroutine pause_for
+      !> An integer that workers share: what was written before it was set is seen by whoever has read it.
       integer(c_int) function get_shared(number) bind(C, name='atrito_get_shared')
          import :: c_int
          integer(c_int), intent(in) :: number
       end function get_shared
+      !> Sets an integer that workers share and says what it was: of two that do so at once one alone gets the old value.
       integer(c_int) function swap_shared(number, value) bind(C, name='atrito_swap_shared')
          import :: c_int
          integer(c_int), intent(inout) :: number
          integer(c_int), value :: value
       end function swap_shared
+      !> Sets an integer that workers share, after all that was written before.
       subroutine set_shared(number, value) bind(C, name='atrito_set_shared')
          import :: c_int
          integer(c_int), intent(inout) :: number
          integer(c_int), value :: value
       end subroutine set_shared
+      !> So many bytes of zeros that all workers to come see and change; null: the system has none.
       type(c_ptr) function c_share_memory(bytes) bind(C, name='atrito_share_memory')
          import :: c_ptr, c_size_t
          integer(c_size_t), value :: bytes
@@ -245,13 +277,16 @@ module atrito_system
          import :: c_char, c_funptr
          character(kind=c_char), intent(in) :: file(*), symbol(*)
       end function c_find_routine
+      !> Processor time of this process and of its children that have ended [s].
       real(c_double) function processor_seconds() bind(C, name='atrito_processor_seconds')
          import :: c_double
       end function processor_seconds
+      !> Saves the floating-point environment, in 256 bytes, clears the flags of exceptions and lets none of them halt the program.
       subroutine c_suspend_halting(environment) bind(C, name='atrito_suspend_halting')
          import :: c_int64_t
          integer(c_int64_t), intent(inout) :: environment(*)
       end subroutine c_suspend_halting
+      !> Makes the floating-point environment what it was when it was saved.
       subroutine c_restore_halting(environment) bind(C, name='atrito_restore_halting')
          import :: c_int64_t
          integer(c_int64_t), intent(in) :: environment(*)
@@ -275,6 +310,7 @@ contains
       call c_note_path(path//c_null_char)
    end subroutine note_path
 
+   !> A path that was noted stays when the program ends.
    subroutine forget_path(path)
       character(len=*), intent(in) :: path
 

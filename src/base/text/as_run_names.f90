@@ -8,6 +8,7 @@ module atrito_as_run_names
 
 contains
 
+   !> The name of the file that holds the deck as it was run: `deck.run.inp`.
    pure function as_run_name(deck) result(name)
       character(len=*), intent(in) :: deck           !< name of the deck, without folder and .inp
       character(len=:), allocatable :: name

@@ -243,6 +243,7 @@ contains
       end do
    end function hexadecimal
 
+   !> A digest as text: its two numbers, 0 to 2**31 - 2, with a hyphen between them.
    pure function digest_text(digest) result(text)
       type(digest_t), intent(in) :: digest
       character(len=:), allocatable :: text

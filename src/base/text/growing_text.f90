@@ -7,7 +7,7 @@ module atrito_growing_text
 
    type :: growing_text_t
       integer(ip) :: n = 0                              !< characters so far
-      character(len=:), allocatable, private :: letters !< those up to n are in use
+      character(len=:), allocatable :: letters  !< those up to n are in use; not allocated: there is no text
    end type growing_text_t
 
    integer(ip), parameter :: FIRST_LENGTH = 256

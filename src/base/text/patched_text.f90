@@ -3,6 +3,7 @@
 module atrito_patched_text
    use atrito_digest, only: text_digest_t, add_characters, hexadecimal
    use atrito_files, only: file_set_t, text_file_t, open_text, put_text, close_text
+   use atrito_growing_text, only: growing_text_t, append_text
    use atrito_kinds, only: ip
    use atrito_status, only: status_t
    use atrito_strings, only: string_t
@@ -13,13 +14,17 @@ module atrito_patched_text
    !> In the place of a text: a piece is a place in `words`; or one that no digest counts, the name of another file.
    integer(ip), parameter :: OWN_WORDS = 0, UNCOUNTED = -1
 
+   type :: piece_t
+      integer(ip) :: text = OWN_WORDS                !< place in texts, OWN_WORDS or UNCOUNTED
+      integer(ip) :: first = 0, last = 0             !< its characters there
+   end type piece_t
+
    !> The pieces follow each other.
    type :: patched_text_t
       type(string_t), allocatable :: texts(:)
-      character(len=:), allocatable :: words         !< all words between the places, those up to n_words in use
-      integer(ip) :: n = 0, n_words = 0
-      integer(ip), allocatable :: text(:)            !< of each piece: place in texts, OWN_WORDS or UNCOUNTED
-      integer(ip), allocatable :: first(:), last(:)  !< of each piece: its characters there
+      type(growing_text_t) :: words                  !< all words between the places
+      integer(ip) :: n = 0
+      type(piece_t), allocatable :: pieces(:)
    end type patched_text_t
 
    type :: named_text_t
@@ -37,30 +42,21 @@ contains
       integer(ip), intent(in) :: text, first, last
 
       if (last < first) return
-      if (.not. allocated(patched%text)) allocate (patched%text(SOME), patched%first(SOME), patched%last(SOME))
-      if (patched%n == size(patched%text)) then
-         patched%text = [patched%text, patched%text]
-         patched%first = [patched%first, patched%first]
-         patched%last = [patched%last, patched%last]
-      end if
+      if (.not. allocated(patched%pieces)) allocate (patched%pieces(SOME))
+      if (patched%n == size(patched%pieces)) patched%pieces = [patched%pieces, patched%pieces]
       patched%n = patched%n + 1
-      patched%text(patched%n) = text
-      patched%first(patched%n) = first
-      patched%last(patched%n) = last
+      patched%pieces(patched%n) = piece_t(text, first, last)
    end subroutine append_place
 
    !> Appends words of their own.
    pure subroutine append_words(patched, words)
       type(patched_text_t), intent(inout) :: patched
       character(len=*), intent(in) :: words
-      integer(ip) :: n
+      integer(ip) :: first
 
-      n = patched%n_words + len(words, kind=ip)
-      if (.not. allocated(patched%words)) patched%words = repeat(' ', max(SOME, len(words)))
-      if (n > len(patched%words)) patched%words = patched%words//repeat(' ', max(len(patched%words), len(words)))
-      patched%words(patched%n_words + 1:n) = words
-      call append_place(patched, OWN_WORDS, patched%n_words + 1, n)
-      patched%n_words = n
+      first = patched%words%n + 1
+      call append_text(patched%words, words)
+      call append_place(patched, OWN_WORDS, first, patched%words%n)
    end subroutine append_words
 
    !> Writes it as a file of a set. status: STATUS_FILE when it could not be written.
@@ -76,9 +72,9 @@ contains
       call open_text(set, name, file)
       if (present(before)) call put_text(file, before)
       do i = 1, patched%n
-         associate (k => patched%text(i), first => patched%first(i), last => patched%last(i))
+         associate (k => patched%pieces(i)%text, first => patched%pieces(i)%first, last => patched%pieces(i)%last)
             if (k < 1) then
-               call put_text(file, patched%words(first:last))
+               call put_text(file, patched%words%letters(first:last))
             else
                call put_text(file, patched%texts(k)%s(first:last))
             end if
@@ -107,8 +103,8 @@ contains
       integer(ip) :: i
 
       do i = 1, patched%n
-         associate (k => patched%text(i), first => patched%first(i), last => patched%last(i))
-            if (k == OWN_WORDS) call add_characters(digest, patched%words(first:last))
+         associate (k => patched%pieces(i)%text, first => patched%pieces(i)%first, last => patched%pieces(i)%last)
+            if (k == OWN_WORDS) call add_characters(digest, patched%words%letters(first:last))
             if (k > 0) call add_characters(digest, patched%texts(k)%s(first:last))
          end associate
       end do

@@ -27,6 +27,7 @@ module atrito_strings
 
 contains
 
+   !> A text of the same length with the letters A to Z made small; other bytes stay as they are.
    pure function lower_case(text) result(lower)
       character(len=*), intent(in) :: text
       character(len=len(text)) :: lower
@@ -38,6 +39,7 @@ contains
       end do
    end function lower_case
 
+   !> A text of the same length with the letters a to z made capitals; other bytes stay as they are.
    pure function upper_case(text) result(upper)
       character(len=*), intent(in) :: text
       character(len=len(text)) :: upper
@@ -195,6 +197,8 @@ contains
       end do
    end function join
 
+   !> Adds a text at the end of a list; a list that is not allocated counts as an empty one. The texts before it are moved, not
+   !> copied: n of them take n such steps, so long lists are made by add_string.
    pure subroutine append_string(list, text)
       type(string_t), allocatable, intent(inout) :: list(:)
       character(len=*), intent(in) :: text

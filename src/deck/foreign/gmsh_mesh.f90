@@ -8,8 +8,7 @@ module atrito_gmsh_mesh
    implicit none (type, external)
    private
    public :: gmsh_mesh_t, gmsh_part_t, gmsh_name_t
-   public :: add_part, find_part, add_element, trim_gmsh_mesh, move_mesh, note_group_name, group_name, &
-             part_name
+   public :: add_part, find_part, add_element, trim_gmsh_mesh, move_mesh, note_group_name, group_name, part_name
 
    !> An entity of the drawing with the physical groups to which it belongs.
    type :: gmsh_part_t

@@ -159,6 +159,7 @@ contains
       words%fault%column = words%first - words%start + 1
    end subroutine fail
 
+   !> Whether the word that was read last is this one, letter for letter.
    pure logical function word_is(text, words, word)
       character(len=*), intent(in) :: text, word
       type(words_t), intent(in) :: words
@@ -203,6 +204,7 @@ contains
                                                                 'as many as follow')
    end subroutine check_count
 
+   !> Fails, with a message at the word that was read last, where a number is not positive.
    subroutine check_number(words, number)
       type(words_t), intent(inout) :: words
       integer(ip), intent(in) :: number

@@ -39,7 +39,7 @@ contains
       type(keyword_t), intent(in) :: table(:)
       character(len=*), intent(in) :: title
       logical, intent(in) :: levels(:)             !< by LEVEL_*
-      character(len=:), allocatable :: name, text
+      character(len=:), allocatable :: name
       integer :: i
 
       call append_string(lines, '')
@@ -48,9 +48,7 @@ contains
          if (.not. levels(table(i)%level)) cycle
          name = '*'//table(i)%name
          if (table(i)%own) name = name//' +'
-         text = table(i)%summary
-         if (.not. table(i)%built) text = text//' (not built yet)'
-         call append_entry(lines, name, text)
+         call append_entry(lines, name, table(i)%summary)
       end do
    end subroutine append_group
 
@@ -129,7 +127,6 @@ contains
       if (keyword%own) line = line//" +"
       place = level_text(keyword%level)
       if (len(keyword%parent) > 0) place = 'behind *'//keyword%parent
-      if (.not. keyword%built) place = place//', not built yet'
       line = line//repeat(' ', max(2, WIDTH - len(line) - len(place)))//place
    end function title_line
 
@@ -158,7 +155,6 @@ contains
       title = 'Data lines'
       if (len(form%option) > 0) title = title//' '//condition_text(form)
       title = title//': '//form%doc//' ('//lines_text(form)//')'
-      if (.not. form%built) title = title//', not built yet'
       if (form%harmless) title = title//', no effect'
       call append_string(lines, '')
       call append_wrapped(lines, '', title)

@@ -71,7 +71,6 @@ module atrito_keyword
       character(len=:), allocatable :: word      !< '' : none
       integer :: min_lines = 1, max_lines = ANY_NUMBER
       integer :: min_items = 0, max_items = 0
-      logical :: built = .true.
       logical :: harmless = .false.              !< lines of another solver: a note, not read
       logical :: goes_on = .false.               !< a line with too few items goes on in the next
       character(len=:), allocatable :: doc
@@ -82,7 +81,6 @@ module atrito_keyword
       character(len=:), allocatable :: name
       integer :: level = LEVEL_MODEL
       logical :: own = .false.
-      logical :: built = .true.
       character(len=:), allocatable :: parent    !< keyword to whose block it belongs; '' : none
       character(len=:), allocatable :: summary   !< one line
       character(len=:), allocatable :: doc       !< further sentences; may be ''
@@ -207,12 +205,12 @@ contains
    end subroutine describe
 
    !> Begins a form of data line. when: '' always, 'OPTION' with it, '-OPTION' without it, 'OPTION=A|B' with these values.
-   subroutine add_form(keywords, doc, min_lines, max_lines, when, word, built, harmless)
+   subroutine add_form(keywords, doc, min_lines, max_lines, when, word, harmless)
       type(keyword_list_t), intent(inout) :: keywords
       character(len=*), intent(in) :: doc
       integer, intent(in) :: min_lines, max_lines
       character(len=*), intent(in), optional :: when, word
-      logical, intent(in), optional :: built, harmless
+      logical, intent(in), optional :: harmless
 
       call finish_form(keywords)
       keywords%n_forms = keywords%n_forms + 1
@@ -221,10 +219,8 @@ contains
          form%min_lines = min_lines
          form%max_lines = max_lines
          call set_text(form%word, word)
-         form%built = .true.
          form%harmless = .false.
          form%goes_on = .false.
-         if (present(built)) form%built = built
          if (present(harmless)) form%harmless = harmless
          call set_condition(form, when)
          form%min_items = merge(1, 0, len(form%word) > 0)
@@ -382,7 +378,6 @@ contains
 
       to%level = from%level
       to%own = from%own
-      to%built = from%built
       call move_alloc(from%name, to%name)
       call move_alloc(from%parent, to%parent)
       call move_alloc(from%summary, to%summary)
@@ -423,7 +418,6 @@ contains
       to%max_lines = from%max_lines
       to%min_items = from%min_items
       to%max_items = from%max_items
-      to%built = from%built
       to%harmless = from%harmless
       to%goes_on = from%goes_on
       call move_alloc(from%option, to%option)

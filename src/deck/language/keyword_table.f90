@@ -94,6 +94,7 @@ contains
       end do
    end function find_choice
 
+   !> The names of all keywords, for the nearest names in messages.
    pure function keyword_names(table) result(names)
       type(keyword_t), intent(in) :: table(:)
       type(string_t), allocatable :: names(:)
@@ -105,6 +106,7 @@ contains
       end do
    end function keyword_names
 
+   !> The names of the options of a keyword that have an effect, for messages.
    pure function option_names(options) result(names)
       type(option_spec_t), intent(in) :: options(:)
       type(string_t), allocatable :: names(:)
@@ -116,6 +118,7 @@ contains
       end do
    end function option_names
 
+   !> The words that an option may have in this version, for messages.
    pure function choice_names(choices) result(names)
       type(choice_t), intent(in) :: choices(:)
       type(string_t), allocatable :: names(:)

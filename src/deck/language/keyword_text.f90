@@ -2,13 +2,12 @@
 module atrito_keyword_text
    use atrito_keyword, only: option_spec_t, choice_t, form_t, item_t, ANY_NUMBER, KIND_FLAG, KIND_NAME, KIND_WORD, &
                              KIND_OPTIONAL_WORD, KIND_REAL, KIND_INTEGER, KIND_FILE, KIND_ID, KIND_ID_OR_NAME, KIND_TEXT, &
-                             KIND_REAL_OR_NAME, &
-                             LEVEL_MODEL, LEVEL_STEP
+                             KIND_REAL_OR_NAME, LEVEL_MODEL, LEVEL_STEP
    use atrito_strings, only: to_text
    implicit none (type, external)
    private
-   public :: form_text, item_text, option_text_of, choices_text, lines_text, condition_text, kind_words, with_dimension, &
-             level_text, item_meaning
+   public :: form_text, item_text, option_text_of, choices_text, lines_text, condition_text, with_dimension, level_text, &
+             item_meaning
 
 contains
 
@@ -177,6 +176,7 @@ contains
       end select
    end function kind_words
 
+   !> A text with its dimension behind it: `x [L]`; the text alone where there is none.
    pure function with_dimension(text, dimension) result(both)
       character(len=*), intent(in) :: text, dimension
       character(len=:), allocatable :: both

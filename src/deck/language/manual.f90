@@ -54,7 +54,7 @@ contains
       call append_string(lines, '|---|---|---|')
       do i = 1, size(table)
          call append_string(lines, '| '//escaped(title_of(table(i)))//' | '//escaped(level_text(table(i)%level))//' | '// &
-                            escaped(table(i)%summary)//not_built(table(i)%built)//' |')
+                            escaped(table(i)%summary)//' |')
       end do
    end subroutine append_overview
 
@@ -67,7 +67,7 @@ contains
       call append_string(lines, '')
       call append_string(lines, '## '//escaped(title_of(keyword)))
       call append_string(lines, '')
-      text = capitalised(escaped(keyword%summary))//not_built(keyword%built)//'. Place: '//escaped(level_text(keyword%level))
+      text = capitalised(escaped(keyword%summary))//'. Place: '//escaped(level_text(keyword%level))
       if (len(keyword%parent) > 0) text = text//', behind '//escaped('*'//keyword%parent)
       call append_string(lines, text//'.')
       if (len(keyword%doc) > 0) then
@@ -96,7 +96,7 @@ contains
          if (len(options(i)%dimension) > 0) text = text//' ['//options(i)%dimension//']'
          if (size(options(i)%choices) > 0) text = text//': '//choices_text(options(i)%choices)
          if (len(options(i)%needs) > 0) text = text//'; goes with '//options(i)%needs
-         text = text//not_built(options(i)%built)
+         if (.not. options(i)%built) text = text//' (not built yet)'
          if (options(i)%harmless) text = text//' (no effect, a note)'
          call append_string(lines, '| '//escaped(option_text_of(options(i)))//' | '//escaped(text)//' | '// &
                             default_of(options(i))//' |')
@@ -119,7 +119,7 @@ contains
 
       text = 'Data lines'
       if (len(form%option) > 0) text = text//' '//condition_text(form)
-      text = text//': '//form%doc//' ('//lines_text(form)//')'//not_built(form%built)
+      text = text//': '//form%doc//' ('//lines_text(form)//')'
       if (form%harmless) text = text//' (no effect)'
       call append_string(lines, '')
       call append_string(lines, escaped(text)//':')
@@ -205,14 +205,6 @@ contains
       title = '*'//keyword%name
       if (keyword%own) title = title//' +'
    end function title_of
-
-   pure function not_built(built) result(text)
-      logical, intent(in) :: built
-      character(len=:), allocatable :: text
-
-      text = ''
-      if (.not. built) text = ' (not built yet)'
-   end function not_built
 
    pure function capitalised(text) result(capital)
       character(len=*), intent(in) :: text

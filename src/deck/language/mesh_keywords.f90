@@ -11,6 +11,7 @@ module atrito_mesh_keywords
 
 contains
 
+   !> Adds the keywords of meshes: parameters and files, nodes, elements, blocks, surfaces, parts, in the order of the manual.
    subroutine define_mesh_keywords(k)
       type(keyword_list_t), intent(inout) :: k
 

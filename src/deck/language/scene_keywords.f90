@@ -13,6 +13,7 @@ module atrito_scene_keywords
 
 contains
 
+   !> Adds the keywords of the scene: materials, contact, supports, constraints, in the order of the manual.
    subroutine define_scene_keywords(k)
       type(keyword_list_t), intent(inout) :: k
 

@@ -17,6 +17,7 @@ module atrito_step_keywords
 
 contains
 
+   !> Adds the keywords of steps: amplitudes, loads, controls and what is printed, in the order of the manual.
    subroutine define_step_keywords(k)
       type(keyword_list_t), intent(inout) :: k
 
@@ -31,7 +32,8 @@ contains
       call define_print_keywords(k)
       call define_file_keywords(k)
       call define_restart(k)
-      call define_end_step(k)
+      call define_keyword(k, 'END STEP', LEVEL_STEP, 'ends the step', doc='Nothing may follow the last one.')
+      call add_example(k, '*END STEP')
    end subroutine define_step_keywords
 
    subroutine define_amplitude(k)
@@ -289,13 +291,6 @@ contains
       call add_item(k, '[variable]...', KIND_NAME, 'of other programs; the file always has all fields')
       call add_example(k, '*CONTACT FILE')
    end subroutine define_file_keywords
-
-   subroutine define_end_step(k)
-      type(keyword_list_t), intent(inout) :: k
-
-      call define_keyword(k, 'END STEP', LEVEL_STEP, 'ends the step', doc='Nothing may follow the last one.')
-      call add_example(k, '*END STEP')
-   end subroutine define_end_step
 
    subroutine define_interference(k)
       type(keyword_list_t), intent(inout) :: k

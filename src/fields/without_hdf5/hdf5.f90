@@ -22,10 +22,12 @@ module atrito_hdf5
 
 contains
 
+   !> This build has no HDF5.
    pure logical function has_hdf5()
       has_hdf5 = .false.
    end function has_hdf5
 
+   !> The file fails: this build has no HDF5.
    subroutine open_hdf5(path, final_path, file)
       character(len=*), intent(in) :: path, final_path
       type(hdf5_file_t), intent(out) :: file
@@ -33,6 +35,7 @@ contains
       if (len(path) > 0) call set_status(file%status, STATUS_FILE, final_path//': this build of atrito has no HDF5')
    end subroutine open_hdf5
 
+   !> Does nothing.
    subroutine begin_dataset(file, path, n_components, n_rows, is_real, name, dimension)
       type(hdf5_file_t), intent(inout) :: file
       character(len=*), intent(in) :: path, name, dimension
@@ -61,6 +64,7 @@ contains
       integer(ip), intent(in) :: number
    end subroutine put_integer_attribute
 
+   !> status: STATUS_FILE, of open_hdf5.
    subroutine close_hdf5(file, status)
       type(hdf5_file_t), intent(inout) :: file
       type(status_t), intent(out) :: status

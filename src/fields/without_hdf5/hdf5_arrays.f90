@@ -26,6 +26,7 @@ module atrito_hdf5_arrays
 
 contains
 
+   !> The file fails: this build has no HDF5.
    subroutine create_arrays(path, final_path, file)
       character(len=*), intent(in) :: path, final_path
       type(hdf5_arrays_t), intent(out) :: file
@@ -33,6 +34,7 @@ contains
       if (len(path) > 0) call set_status(file%status, STATUS_FILE, final_path//': this build of atrito has no HDF5')
    end subroutine create_arrays
 
+   !> The file fails: this build has no HDF5.
    subroutine open_arrays(path, file)
       character(len=*), intent(in) :: path
       type(hdf5_arrays_t), intent(out) :: file
@@ -82,6 +84,7 @@ contains
       allocate (character(len=0) :: text)
    end subroutine get_text
 
+   !> status: STATUS_FILE, of create_arrays or open_arrays.
    subroutine outcome_of(file, status)
       type(hdf5_arrays_t), intent(in) :: file
       type(status_t), intent(out) :: status
@@ -89,6 +92,7 @@ contains
       status = file%status
    end subroutine outcome_of
 
+   !> status: STATUS_FILE, of create_arrays or open_arrays.
    subroutine close_arrays(file, status)
       type(hdf5_arrays_t), intent(inout) :: file
       type(status_t), intent(out) :: status

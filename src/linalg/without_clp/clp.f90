@@ -15,16 +15,19 @@ contains
 
    end subroutine solve_linear_program
 
+   !> This build has no Clp.
    pure logical function has_clp()
       has_clp = .false.
    end function has_clp
 
+   !> For --version.
    pure function clp_version() result(version)
       character(len=:), allocatable :: version
 
       version = 'none'
    end function clp_version
 
+   !> Why there is no Clp, for messages.
    pure function clp_trouble() result(text)
       character(len=:), allocatable :: text
 

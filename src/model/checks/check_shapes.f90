@@ -26,6 +26,8 @@ module atrito_check_shapes
 
 contains
 
+   !> Reports elements whose shape makes no sense: nodes in clockwise order, sides folded over each other, nothing inside; the first
+   !> of them one by one, the others by their number.
    subroutine check_shapes(mesh, context)
       type(mesh_t), intent(in) :: mesh
       type(build_context_t), intent(in) :: context

@@ -3,12 +3,11 @@ module atrito_build_equations
    use atrito_bilateral_rows, only: add_row, ROW_EQUATION
    use atrito_build_context, only: build_context_t
    use atrito_build_rigid_bodies, only: ROTATION_DOF
-   use atrito_deck, only: card_t, data_line_t, token_t, line_item, is_empty_token, keyword_name
+   use atrito_deck, only: data_line_t, token_t, line_item, is_empty_token, keyword_name
    use atrito_diagnostics, only: report_error, report_note
    use atrito_items, only: get_integer, get_real
    use atrito_kinds, only: ip, wp
    use atrito_load_lists, only: add_nodal_value, trim_nodal_values
-   use atrito_model, only: model_t
    use atrito_references, only: find_nodes
    use atrito_refinement, only: is_refined
    use atrito_row_dofs, only: check_row_dof, check_row_nodes, row_terms, TERMS_A_DOF, WHAT_DOF

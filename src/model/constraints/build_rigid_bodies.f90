@@ -227,6 +227,7 @@ contains
       call add_id(context%rigid_bodies, body%node, n + 1, known)
    end subroutine append_rigid_body
 
+   !> Gives back the room that the list of rigid bodies keeps for growing.
    pure subroutine cut_rigid_bodies(context)
       type(build_context_t), intent(inout) :: context
 

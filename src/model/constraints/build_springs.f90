@@ -46,11 +46,14 @@ contains
       if (is_spring_card) is_spring_card = index(option_word(context%deck, card, 'TYPE'), 'SPRING') == 1
    end function is_spring_card
 
+   !> Makes the springs of all *ELEMENT cards of type SPRING1, SPRING2 and SPRINGA, with directions and stiffnesses of *SPRING, and
+   !> their rows among the bilateral ones.
    subroutine build_springs(context)
       type(build_context_t), intent(inout) :: context
       type(reading_t) :: reading
       type(string_t), allocatable :: names(:)
       integer(ip) :: i, k, n
+      integer(lp), allocatable :: sets(:)
 
       n = 0
       do i = 1, context%deck%n_cards
@@ -64,7 +67,11 @@ contains
          call read_elements(context%deck%cards(i), context, reading)
       end do
       context%model%springs = context%model%springs(:reading%n)
-      call sort_by_sets(reading)
+      ! Lists the springs of each set.
+      sets = int(reading%set(:reading%n), lp)
+      reading%sorted = sorted_places(sets)
+      sets = sets(reading%sorted)
+      reading%first = [(first_at_least(sets, int(k, lp)), k=1, reading%sets%n + 1)]
       reading%weight = row_weight(context%model)
       names = names_of(reading%sets)
       allocate (reading%given(reading%sets%n), source=.false.)
@@ -83,18 +90,6 @@ contains
                                                          expected='*SPRING, ELSET='//names(k)%s, keyword='SPRING')
       end do
    end subroutine build_springs
-
-   !> Lists the springs of each set.
-   pure subroutine sort_by_sets(reading)
-      type(reading_t), intent(inout) :: reading
-      integer(lp), allocatable :: sets(:)
-      integer(ip) :: k
-
-      sets = int(reading%set(:reading%n), lp)
-      reading%sorted = sorted_places(sets)
-      sets = sets(reading%sorted)
-      reading%first = [(first_at_least(sets, int(k, lp)), k=1, reading%sets%n + 1)]
-   end subroutine sort_by_sets
 
    !> *ELEMENT, TYPE=SPRING1 or SPRING2: number, one node or two.
    subroutine read_elements(card, context, reading)
@@ -143,7 +138,12 @@ contains
          ok = ok .and. good
       end do
       if (.not. ok) return
-      known = is_element(context, spring%id)
+      ! A number that an element of the deck has.
+      if (is_refined(context%refinement)) then
+         known = find_id(context%deck_elements, spring%id) > 0
+      else
+         known = find_element(context%model%mesh, spring%id) > 0
+      end if
       if (.not. known) call add_id(reading%ids, spring%id, reading%n + 1, known)
       if (known) then
          call report_error(context%deck, place, 'E-TWICE', 'element '//to_text(spring%id)//' is defined twice', &
@@ -160,18 +160,6 @@ contains
       reading%set(reading%n) = set
       reading%place(reading%n) = place
    end subroutine read_element_line
-
-   !> A number that an element of the deck has.
-   pure logical function is_element(context, id)
-      type(build_context_t), intent(in) :: context
-      integer(ip), intent(in) :: id
-
-      if (is_refined(context%refinement)) then
-         is_element = find_id(context%deck_elements, id) > 0
-      else
-         is_element = find_element(context%model%mesh, id) > 0
-      end if
-   end function is_element
 
    !> *SPRING: dofs, stiffness.
    subroutine read_spring_card(card, context, reading)

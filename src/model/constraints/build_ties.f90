@@ -3,18 +3,17 @@ module atrito_build_ties
    use atrito_bilateral_rows, only: add_row, ROW_TIE
    use atrito_build_context, only: build_context_t, ids_text, is_invalid, has_errors
    use atrito_check_shapes, only: check_shapes
-   use atrito_deck, only: card_t, data_line_t, option_t, token_t, token_text, line_item, keyword_name
+   use atrito_deck, only: card_t, option_t, token_t, line_item, keyword_name
    use atrito_diagnostics, only: report_error, report_note, report_warning
    use atrito_faces, only: face_list_t, chain_report_t
    use atrito_items, only: find_option, option_text, option_real, option_word
    use atrito_kinds, only: ip, lp, wp
    use atrito_mesh, only: face_nodes
-   use atrito_model, only: model_t, tie_t, QUADRATURE_AUTO, QUADRATURE_NODAL, QUADRATURE_MORTAR, SURFACE_SEGMENTS
-   use atrito_name_list, only: find_name
+   use atrito_model, only: model_t, tie_t, QUADRATURE_NODAL, QUADRATURE_MORTAR, SURFACE_SEGMENTS
    use atrito_number_list, only: number_list_t, add_number, add_numbers, numbers_of
    use atrito_pairing, only: pair_surfaces
    use atrito_points, only: contact_points_t
-   use atrito_references, only: report_unknown
+   use atrito_references, only: find_surface
    use atrito_sorting, only: each_once, first_at_least
    use atrito_strings, only: to_text
    implicit none (type, external)
@@ -65,8 +64,8 @@ contains
       if (.not. found) return
       do i = card%first_line, card%first_line + card%n_lines - 1
          if (.not. context%deck%lines(i)%ok) cycle
-         call find_surface(context%deck%lines(i), 1_ip, context, tie%slave)
-         call find_surface(context%deck%lines(i), 2_ip, context, tie%master)
+         call find_surface(context, line_item(context%deck, context%deck%lines(i), 1_ip), tie%slave, KEYWORD)
+         call find_surface(context, line_item(context%deck, context%deck%lines(i), 2_ip), tie%master, KEYWORD)
          if (min(tie%slave, tie%master) == 0) cycle
          n = n + 1
          context%model%ties(n) = tie
@@ -94,18 +93,6 @@ contains
       call report_error(context%deck, option%value, 'E-VALUE', 'POSITION TOLERANCE='//to_text(tolerance)//' is negative', &
                         expected=WHAT, keyword=KEYWORD)
    end subroutine read_tolerance
-
-   subroutine find_surface(line, item, context, surface)
-      type(data_line_t), intent(in) :: line
-      integer(ip), intent(in) :: item
-      type(build_context_t), intent(in) :: context
-      integer(ip), intent(out) :: surface              !< place; 0: unknown, reported
-      type(token_t) :: token
-
-      token = line_item(context%deck, line, item)
-      surface = find_name(context%surface_names, token_text(context%deck, token))
-      if (surface == 0) call report_unknown(context, token, 'surface', 'E-SURFACE', context%surface_names, KEYWORD)
-   end subroutine find_surface
 
    !> What can be told of each tie without looking for its points.
    subroutine check_ties(context, chains)

@@ -1,7 +1,7 @@
 !> *TRANSFORM: local axes of nodes, along which supports, forces and equations are given.
 module atrito_local_axes
    use atrito_build_context, only: build_context_t, ids_text
-   use atrito_deck, only: card_t, token_t, line_item, is_empty_token, keyword_name
+   use atrito_deck, only: card_t, token_t, line_item, keyword_name
    use atrito_diagnostics, only: report_error
    use atrito_items, only: get_real, option_text, option_word
    use atrito_kinds, only: ip, wp
@@ -164,6 +164,7 @@ contains
                                           keyword='TRANSFORM')
    end subroutine take_axes
 
+   !> Whether a node has axes of its own, by *TRANSFORM.
    pure logical function has_local_axes(context, node)
       type(build_context_t), intent(in) :: context
       integer(ip), intent(in) :: node

@@ -9,7 +9,6 @@ module atrito_rigid_motions
    use atrito_load_lists, only: add_nodal_value, amplitude_of, replace_nodal_value, replace_source
    use atrito_local_axes, only: has_local_axes
    use atrito_mesh, only: is_revolved
-   use atrito_model, only: nodal_values_t
    use atrito_strings, only: to_text
    implicit none (type, external)
    private
@@ -61,6 +60,7 @@ contains
       entry = 0
    end function entry_of
 
+   !> Whether a dof of a reference node is prescribed in the step that is built: 1 and 2 its displacements, 6 its rotation.
    pure logical function is_prescribed(context, node, dof)
       type(build_context_t), intent(in) :: context
       integer(ip), intent(in) :: node, dof

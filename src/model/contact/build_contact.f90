@@ -1,6 +1,6 @@
 !> *SURFACE INTERACTION with *SURFACE BEHAVIOR and *FRICTION, and *CONTACT PAIR.
 module atrito_build_contact
-   use atrito_deck, only: deck_t, card_t, data_line_t, token_t, option_t, token_text, line_item, is_empty_token, keyword_name
+   use atrito_deck, only: deck_t, card_t, token_t, option_t, count_lines, line_item, is_empty_token, keyword_name
    use atrito_adjustment, only: read_adjustment
    use atrito_contact_rules, only: quadrature_of
    use atrito_diagnostics, only: report_error, report_note
@@ -10,7 +10,7 @@ module atrito_build_contact
    use atrito_model, only: interaction_t, pair_t, QUADRATURE_AUTO, QUADRATURE_NODAL, &
                            FRICTION_NONE, FRICTION_LOCAL, FRICTION_NONLOCAL, KERNEL_LINE
    use atrito_name_list, only: find_name
-   use atrito_references, only: report_unknown
+   use atrito_references, only: find_surface, report_unknown
    use atrito_strings, only: to_text
    implicit none (type, external)
    private
@@ -25,7 +25,7 @@ contains
       integer(ip) :: i, current, n_pairs
 
       allocate (context%model%interactions(count_cards(context%deck, 'SURFACE INTERACTION')), &
-                context%model%pairs(count_pair_lines(context%deck)))
+                context%model%pairs(count_lines(context%deck, 'CONTACT PAIR')))
       current = 0
       given = .false.
       do i = 1, context%deck%n_cards
@@ -49,17 +49,6 @@ contains
       end do
       context%model%pairs = context%model%pairs(:n_pairs)
    end subroutine build_contact
-
-   !> Each line makes a pair at most.
-   pure integer(ip) function count_pair_lines(deck) result(n)
-      type(deck_t), intent(in) :: deck
-      integer(ip) :: i
-
-      n = 0
-      do i = 1, deck%n_cards
-         if (keyword_name(deck%cards(i)) == 'CONTACT PAIR') n = n + deck%cards(i)%n_lines
-      end do
-   end function count_pair_lines
 
    subroutine read_interaction_card(card, context, current)
       type(card_t), intent(in) :: card
@@ -179,8 +168,8 @@ contains
       call read_adjustment(context, card, pair)
       do i = card%first_line, card%first_line + card%n_lines - 1
          if (.not. context%deck%lines(i)%ok) cycle
-         call find_surface(context%deck%lines(i), 1_ip, context, pair%slave)
-         call find_surface(context%deck%lines(i), 2_ip, context, pair%master)
+         call find_surface(context, line_item(context%deck, context%deck%lines(i), 1_ip), pair%slave, 'CONTACT PAIR')
+         call find_surface(context, line_item(context%deck, context%deck%lines(i), 2_ip), pair%master, 'CONTACT PAIR')
          context%pairs_undetermined = context%pairs_undetermined .or. pair%interaction == 0
          if (min(pair%interaction, pair%slave, pair%master) == 0) cycle
          n_pairs = n_pairs + 1
@@ -215,17 +204,5 @@ contains
                            expected='one of them', keyword='CONTACT PAIR')
       end if
    end subroutine read_quadrature
-
-   subroutine find_surface(line, item, context, surface)
-      type(data_line_t), intent(in) :: line
-      integer(ip), intent(in) :: item
-      type(build_context_t), intent(in) :: context
-      integer(ip), intent(out) :: surface              !< place; 0: unknown, reported
-      type(token_t) :: token
-
-      token = line_item(context%deck, line, item)
-      surface = find_name(context%surface_names, token_text(context%deck, token))
-      if (surface == 0) call report_unknown(context, token, 'surface', 'E-SURFACE', context%surface_names, 'CONTACT PAIR')
-   end subroutine find_surface
 
 end module atrito_build_contact

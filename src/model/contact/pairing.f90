@@ -122,6 +122,7 @@ contains
       end do
    end subroutine pair_surfaces
 
+   !> A surface as the master of pairs: its faces or segments, with what finds the nearest of them.
    subroutine make_master(model, i, master, grain)
       type(model_t), intent(in) :: model
       integer(ip), intent(in) :: i                     !< the surface

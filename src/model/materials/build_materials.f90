@@ -17,7 +17,7 @@ module atrito_build_materials
    use atrito_strings, only: to_text
    implicit none (type, external)
    private
-   public :: build_materials, SECTION_INVALID
+   public :: build_materials
 
    !> In model%section_of while the model is built: the element has a section, which is faulty.
    integer(ip), parameter :: SECTION_INVALID = -1
@@ -176,7 +176,7 @@ contains
       type(build_context_t), intent(inout) :: context
       type(section_t), intent(inout) :: section
       logical, intent(inout) :: ok                     !< the section has been understood so far
-      character(len=:), allocatable :: name
+      character(len=:), allocatable :: name, what
       type(token_t) :: place
       integer(ip) :: i
       logical :: named
@@ -188,7 +188,12 @@ contains
          if (i == 0) call report_unknown(context, place, 'orientation', 'E-ORIENTATION', context%orientation_names, 'SOLID SECTION')
          if (i > 0) section%axis = context%orientation_axis(:, i)
          ok = ok .and. i > 0 .and. any(abs(section%axis) > 0.0_wp)
-         if (ok) call note_orientation(context, place, name, context%model%materials(section%material)%is_orthotropic)
+         ! Other programs print stresses along the axes of the material.
+         if (ok) then
+            what = ' turns nothing that is isotropic, and stresses are along x and y'
+            if (context%model%materials(section%material)%is_orthotropic) what = ' turns the material; stresses are along x and y'
+            call report_note(context%deck, place, 'N-ORIENTATION', 'the orientation '//name//what, keyword='ORIENTATION')
+         end if
       end if
       if (.not. ok) return
       if (.not. context%model%materials(section%material)%is_orthotropic) return
@@ -199,22 +204,6 @@ contains
       call report_error(context%deck, card%place, 'E-FORMULATION', 'FORMULATION=BBAR is for isotropic materials', &
                         expected='FORMULATION=STANDARD for an orthotropic material', keyword='SOLID SECTION')
    end subroutine take_orientation
-
-   !> Other programs print stresses along the axes of the material.
-   subroutine note_orientation(context, place, name, turns)
-      type(build_context_t), intent(in) :: context
-      type(token_t), intent(in) :: place
-      character(len=*), intent(in) :: name
-      logical, intent(in) :: turns                     !< the material is not isotropic
-
-      if (turns) then
-         call report_note(context%deck, place, 'N-ORIENTATION', 'the orientation '//name// &
-                          ' turns the material; stresses are along x and y', keyword='ORIENTATION')
-      else
-         call report_note(context%deck, place, 'N-ORIENTATION', 'the orientation '//name// &
-                          ' turns nothing that is isotropic, and stresses are along x and y', keyword='ORIENTATION')
-      end if
-   end subroutine note_orientation
 
    subroutine read_thickness(deck, card, thickness, ok)
       type(deck_t), intent(in) :: deck

@@ -7,13 +7,13 @@ module atrito_build_temperatures
    use atrito_build_loads, only: in_no_element
    use atrito_build_steps, only: open_step
    use atrito_carry_on, only: removes_all
-   use atrito_deck, only: data_line_t, token_t, line_item, keyword_name
+   use atrito_deck, only: data_line_t, line_item, keyword_name
    use atrito_diagnostics, only: report_error, report_note, report_warning
    use atrito_element_table, only: CORNERS_OF, DEGREE_OF
    use atrito_items, only: get_real
    use atrito_kinds, only: ip, wp
    use atrito_mesh, only: mesh_t
-   use atrito_model, only: model_t, step_t
+   use atrito_model, only: step_t
    use atrito_number_list, only: number_list_t, add_number, numbers_of
    use atrito_references, only: find_nodes
    use atrito_refinement, only: map_element
@@ -253,13 +253,20 @@ contains
       type(build_context_t), intent(inout) :: context
       logical, allocatable :: is_heated(:)             ! of the materials
       logical :: expands
-      integer(ip) :: i
+      integer(ip) :: i, e
 
       if (has_errors()) return
       associate (model => context%model)
          allocate (is_heated(size(model%materials)), source=.false.)
          do i = 1, size(model%steps, kind=ip)
-            if (allocated(model%steps(i)%heating)) call mark_heated(model, model%steps(i)%heating, is_heated)
+            ! The materials of elements that grow warmer or colder.
+            if (allocated(model%steps(i)%heating)) then
+               do e = 1, model%mesh%n_elements
+                  if (model%section_of(e) < 1) cycle
+                  if (.not. any(abs(model%steps(i)%heating(model%mesh%nodes(:model%mesh%shape(e), e))) > 0.0_wp)) cycle
+                  is_heated(model%sections(model%section_of(e))%material) = .true.
+               end do
+            end if
          end do
          expands = any(is_heated .and. abs(model%materials%expansion) > 0.0_wp)
          do i = 1, size(is_heated, kind=ip)
@@ -276,19 +283,5 @@ contains
          end do
       end associate
    end subroutine check_temperatures
-
-   !> The materials of elements that grow warmer or colder.
-   pure subroutine mark_heated(model, heating, is_heated)
-      type(model_t), intent(in) :: model
-      real(wp), intent(in) :: heating(:)
-      logical, intent(inout) :: is_heated(:)
-      integer(ip) :: e
-
-      do e = 1, model%mesh%n_elements
-         if (model%section_of(e) < 1) cycle
-         if (.not. any(abs(heating(model%mesh%nodes(:model%mesh%shape(e), e))) > 0.0_wp)) cycle
-         is_heated(model%sections(model%section_of(e))%material) = .true.
-      end do
-   end subroutine mark_heated
 
 end module atrito_build_temperatures

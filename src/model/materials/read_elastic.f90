@@ -23,6 +23,8 @@ module atrito_read_elastic
 
 contains
 
+   !> Takes an *ELASTIC card for a material, isotropic or orthotropic. A material whose card is faulty is noted as such, so that
+   !> nothing more is said of it.
    subroutine read_elastic_card(card, material, context, i)
       type(card_t), intent(in) :: card
       type(material_t), intent(inout) :: material

@@ -9,6 +9,7 @@ module atrito_section_elasticity
 
 contains
 
+   !> The elasticity of a section: that of its material, turned by the orientation of the section where it is orthotropic.
    pure type(elastic_t) function elasticity_of(section, material) result(elastic)
       type(section_t), intent(in) :: section
       type(material_t), intent(in) :: material

@@ -41,6 +41,7 @@ module atrito_block_spec
 
 contains
 
+   !> What a *BLOCK card asks for. ok: it has no errors; all of them are reported.
    subroutine read_block_spec(deck, card, spec, ok)
       type(deck_t), intent(in) :: deck
       type(card_t), intent(in) :: card
@@ -63,6 +64,7 @@ contains
                         expected='fewer elements NX, NY, or fewer copies', keyword='BLOCK')
    end subroutine read_block_spec
 
+   !> Nodes of a block with all of its copies; huge of a default integer where there would be more.
    pure integer(lp) function count_nodes(spec) result(n)
       type(block_spec_t), intent(in) :: spec
       integer(lp) :: factors(4)

@@ -23,6 +23,8 @@ module atrito_build_block
 
 contains
 
+   !> Makes the nodes and the node sets of a *BLOCK card, its copies too. A faulty block leaves the mesh undetermined, so that what
+   !> names its nodes is not reported.
    subroutine read_block_card(i_card, context)
       integer(ip), intent(in) :: i_card                !< place in deck%cards
       type(build_context_t), intent(inout) :: context
@@ -60,6 +62,7 @@ contains
    subroutine place_copy(i_card, spec, name, i, j, context, ok)
       integer(ip), intent(in) :: i_card
       type(block_spec_t), intent(in) :: spec
+      integer(ip) :: l
       character(len=*), intent(in) :: name             !< of the *BLOCK
       integer(ip), intent(in) :: i, j
       type(build_context_t), intent(inout) :: context
@@ -80,7 +83,10 @@ contains
       block%shape = spec%shape
       call place_block_nodes(i_card, shifted, context, block, ok)
       if (.not. ok) return
-      call put_block_sets(context, block)
+      call put_node_set(context, block%card, block%name, pack(block%nodes, block%nodes > 0))
+      do l = 1, size(BLOCK_SIDES, kind=ip)
+         call put_node_set(context, block%card, block%name//trim(BLOCK_SIDES(l)), side_nodes(block, l))
+      end do
       call add_context_block(context, block)
       context%elements_to_come = context%elements_to_come + count_elements(block)
    end subroutine place_copy
@@ -171,17 +177,6 @@ contains
       end if
    end function lines_of
 
-   subroutine put_block_sets(context, block)
-      type(build_context_t), intent(inout) :: context
-      type(block_t), intent(in) :: block
-      integer(ip) :: k
-
-      call put_node_set(context, block%card, block%name, pack(block%nodes, block%nodes > 0))
-      do k = 1, size(BLOCK_SIDES, kind=ip)
-         call put_node_set(context, block%card, block%name//trim(BLOCK_SIDES(k)), side_nodes(block, k))
-      end do
-   end subroutine put_block_sets
-
    subroutine put_array_sets(i_card, name, context)
       integer(ip), intent(in) :: i_card
       character(len=*), intent(in) :: name             !< of the *BLOCK
@@ -201,6 +196,7 @@ contains
       end do
    end subroutine put_array_sets
 
+   !> Makes the elements of a *BLOCK card, whose nodes are there, with their sets and surfaces.
    subroutine place_block_elements(i_card, context)
       integer(ip), intent(in) :: i_card
       type(build_context_t), intent(inout) :: context

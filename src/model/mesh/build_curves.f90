@@ -3,7 +3,7 @@
 module atrito_build_curves
    use atrito_build_context, only: build_context_t, keep_token, ids_text, has_errors
    use atrito_curves, only: curve_t, add_curve, find_curve_faces, find_node_faces, nodes_of_no_face
-   use atrito_deck, only: deck_t, token_t, line_item, keyword_name
+   use atrito_deck, only: token_t, line_item, keyword_name
    use atrito_diagnostics, only: report_error, report_note
    use atrito_element_table, only: MOST_SIDES
    use atrito_faces, only: add_face, face_list_t
@@ -102,13 +102,21 @@ contains
       ok = faces%n > 0
    end subroutine take_node_surface
 
+   !> Makes surfaces of the curves of a Gmsh mesh that a *SURFACE of the deck does not define already.
    subroutine put_curve_surfaces(context)
       type(build_context_t), intent(inout) :: context
       type(name_list_t) :: of_deck
       integer(ip) :: i
+      character(len=:), allocatable :: name
+      logical :: found
 
       if (context%curves%n == 0) return
-      call list_surfaces(context%deck, of_deck)
+      ! The names of all *SURFACE of the deck.
+      do i = 1, context%deck%n_cards
+         if (keyword_name(context%deck%cards(i)) /= 'SURFACE') cycle
+         call option_text(context%deck, context%deck%cards(i), 'NAME', name, found)
+         if (found) call add_name(of_deck, name)
+      end do
       do i = 1, context%curves%n
          call put_curve_surface(context%curves%list(i), of_deck, context)
       end do
@@ -132,21 +140,6 @@ contains
                                                ' are on no outline: its surface has the others')
    end subroutine put_curve_surface
 
-   !> The names of all *SURFACE of the deck.
-   pure subroutine list_surfaces(deck, names)
-      type(deck_t), intent(in) :: deck
-      type(name_list_t), intent(inout) :: names
-      character(len=:), allocatable :: name
-      integer(ip) :: i
-      logical :: found
-
-      do i = 1, deck%n_cards
-         if (keyword_name(deck%cards(i)) /= 'SURFACE') cycle
-         call option_text(deck, deck%cards(i), 'NAME', name, found)
-         if (found) call add_name(names, name)
-      end do
-   end subroutine list_surfaces
-
    !> The faces of the present mesh that lie on some of the deck's.
    subroutine put_fine_faces(coarse, context, faces)
       type(face_list_t), intent(in) :: coarse
@@ -163,6 +156,7 @@ contains
       end do
    end subroutine put_fine_faces
 
+   !> Adds a surface, under its name, to those of the model.
    subroutine add_surface(context, surface, place)
       type(build_context_t), intent(inout) :: context
       type(surface_t), intent(in) :: surface

@@ -64,6 +64,7 @@ contains
       end do
    end function mesh_of_card
 
+   !> Reports an error of an included mesh at its *INCLUDE. The mesh is undetermined then: what names its nodes is not reported.
    subroutine refuse(i_card, context, id, text, expected)
       integer(ip), intent(in) :: i_card
       type(build_context_t), intent(inout) :: context
@@ -151,18 +152,12 @@ contains
          context%nodes%greatest = max(context%nodes%greatest, mesh%node_id(i) + shift)
       end do
       call note_places(context%nodes%place, before + 1, context%model%mesh%n_nodes, -work%card)
-      if (left_out%n > 0) call note_left_out(mesh, numbers_of(left_out), work%card, context)
+      if (left_out%n > 0) then
+         call report_note(context%deck, context%deck%cards(work%card)%place, 'N-NODE', 'node '//ids_text(numbers_of(left_out))// &
+                          ' of '//mesh%file//' belongs to no element and is left out', &
+                          expected='a physical point, where such a node is meant', keyword='INCLUDE')
+      end if
    end subroutine place_nodes
-
-   subroutine note_left_out(mesh, ids, i_card, context)
-      type(gmsh_mesh_t), intent(in) :: mesh
-      integer(ip), intent(in) :: ids(:), i_card
-      type(build_context_t), intent(in) :: context
-
-      call report_note(context%deck, context%deck%cards(i_card)%place, 'N-NODE', 'node '//ids_text(ids)//' of '//mesh%file// &
-                       ' belongs to no element and is left out', expected='a physical point, where such a node is meant', &
-                       keyword='INCLUDE')
-   end subroutine note_left_out
 
    !> What is added to the numbers of a file, so that none is there already.
    subroutine find_shift(ids, taken, greatest, noun, i_card, context, shift, ok)

@@ -19,7 +19,7 @@ module atrito_build_lines
    use atrito_turned_elements, only: turned_nodes
    implicit none (type, external)
    private
-   public :: is_line_card, read_lines, is_line_item, line_items_of_range, turn_elements
+   public :: is_line_card, read_lines, is_line_item, turn_elements
 
 contains
 

@@ -1,7 +1,7 @@
 !> *NODE, *NGEN and *NFILL: the nodes of the mesh, in the order of the deck.
 module atrito_build_nodes
    use atrito_coordinates, only: get_coordinate, is_coordinate
-   use atrito_deck, only: deck_t, data_line_t, token_t, line_item, keyword_name
+   use atrito_deck, only: deck_t, data_line_t, line_item, keyword_name
    use atrito_diagnostics, only: report_error
    use atrito_build_context, only: build_context_t, spoil_number, note_number, note_place
    use atrito_items, only: get_integer, get_real, option_text
@@ -214,7 +214,7 @@ contains
             call read_ngen_line(context%deck%lines(i), context, ends, step, ok)
             if (.not. ok) cycle
             first_new = context%model%mesh%n_nodes + 1
-            call fill_line(context, ends, step, context%deck%lines(i)%first_token, 'NGEN')
+            call fill_line(context, ends, step, context%deck%lines(i)%first_token)
             call add_number(members, ends(1))
             call add_numbers(members, [(k, k=first_new, context%model%mesh%n_nodes)])
             call add_number(members, ends(2))
@@ -265,10 +265,9 @@ contains
    end function is_step
 
    !> Nodes between two nodes, equally spaced, numbered by `step` from the first.
-   subroutine fill_line(context, ends, step, place, keyword)
+   subroutine fill_line(context, ends, step, place)
       type(build_context_t), intent(inout) :: context
       integer(ip), intent(in) :: ends(2), step, place
-      character(len=*), intent(in) :: keyword
       real(wp) :: a(2), b(2), t
       integer(ip) :: i, n, first_id
       logical :: ok
@@ -279,7 +278,7 @@ contains
       b = context%model%mesh%x(:, ends(2))
       do i = 1, n - 1
          t = real(i, wp)/real(n, wp)
-         call place_node(context, first_id + i*step, (1 - t)*a + t*b, place, ok, keyword)
+         call place_node(context, first_id + i*step, (1 - t)*a + t*b, place, ok, 'NGEN')
          if (.not. ok) return
       end do
    end subroutine fill_line

@@ -5,11 +5,10 @@ module atrito_build_surfaces
    use atrito_coordinates, only: get_coordinate
    use atrito_deck, only: deck_t, card_t, data_line_t, token_t, token_text, line_item, is_id_token, keyword_name
    use atrito_diagnostics, only: report_error
-   use atrito_build_context, only: build_context_t, block_t, BLOCK_SIDES, invalidate_name, place_text, keep_token, count_cards, &
-                                   ids_text, MOST_IDS
+   use atrito_build_context, only: build_context_t, block_t, BLOCK_SIDES, invalidate_name, place_text, count_cards, ids_text, &
+                                   MOST_IDS
    use atrito_element_table, only: MOST_SIDES
    use atrito_faces, only: is_outer_face, outer_faces, add_face, face_list_t
-   use atrito_id_map, only: id_map_t, add_id
    use atrito_items, only: option_text, option_word
    use atrito_kinds, only: ip, wp
    use atrito_mesh, only: elements_of_square, side_count
@@ -25,7 +24,7 @@ module atrito_build_surfaces
    use atrito_refinement, only: is_refined
    use atrito_sets, only: find_set, member_count, members_of
    use atrito_sorting, only: each_once
-   use atrito_strings, only: same_name, to_text
+   use atrito_strings, only: same_name
    implicit none (type, external)
    private
    public :: build_surfaces
@@ -36,6 +35,8 @@ contains
    subroutine build_surfaces(context)
       type(build_context_t), intent(inout) :: context
       integer(ip) :: i, n
+      character(len=:), allocatable :: surface
+      logical :: found
 
       ! each block may have four sides of its own, and those of all copies are of their *BLOCK
       n = (context%n_blocks + count_cards(context%deck, 'BLOCK'))*size(BLOCK_SIDES, kind=ip)
@@ -44,7 +45,12 @@ contains
          call put_block_surfaces(context%blocks(i), context)
       end do
       call put_curve_surfaces(context)
-      call list_sections(context)
+      ! Lists the surfaces along which a *PRE-TENSION SECTION cuts: their faces lie inside the mesh.
+      do i = 1, context%deck%n_cards
+         if (keyword_name(context%deck%cards(i)) /= 'PRE-TENSION SECTION') cycle
+         call option_text(context%deck, context%deck%cards(i), 'SURFACE', surface, found)
+         if (found) call add_name(context%section_surfaces, surface)
+      end do
       do i = 1, context%deck%n_cards
          if (keyword_name(context%deck%cards(i)) == 'SURFACE') call read_surface_card(context%deck%cards(i), context)
       end do
@@ -189,20 +195,6 @@ contains
       end do
       call keep_once(faces)
    end subroutine read_faces
-
-   !> Lists the surfaces along which a *PRE-TENSION SECTION cuts: their faces lie inside the mesh.
-   subroutine list_sections(context)
-      type(build_context_t), intent(inout) :: context
-      character(len=:), allocatable :: surface
-      integer(ip) :: i
-      logical :: found
-
-      do i = 1, context%deck%n_cards
-         if (keyword_name(context%deck%cards(i)) /= 'PRE-TENSION SECTION') cycle
-         call option_text(context%deck, context%deck%cards(i), 'SURFACE', surface, found)
-         if (found) call add_name(context%section_surfaces, surface)
-      end do
-   end subroutine list_sections
 
    !> The faces that a line asks for are those of a set on the outline: found without a look at each element, of which a large set
    !> has most inside.

@@ -34,7 +34,7 @@ contains
       character(len=:), allocatable :: name
       type(token_t) :: place
       type(cut_t) :: cut
-      integer(ip) :: i
+      integer(ip) :: i, j
       logical :: found, ok
 
       if (has_option(context%deck, card, 'SURFACE')) return
@@ -47,30 +47,20 @@ contains
             if (.not. line%ok) cycle
             cut%name = name
             if (card%n_lines > 1) cut%name = name//'-'//to_text(i)
-            call check_name(context, cut%name, place, requests, ok)
+            ! A step has one cut of a name.
+            j = find_name(context%open%cut_names, cut%name)
+            ok = j == 0
+            if (.not. ok) then
+               call report_error(context%deck, place, 'E-TWICE', 'cut '//cut%name//' is defined already in this step, in '// &
+                                 place_text(context%deck, context%cut_lines(requests%cuts(j)), place), &
+                                 expected='another NAME=, or all lines in one card', keyword=KEYWORD)
+            end if
             if (.not. ok) return
             call read_line(context, line, cut%ends, ok)
             if (ok) call add_cut(context, cut, line_item(context%deck, line, 1_ip), requests)
          end associate
       end do
    end subroutine read_cut_card
-
-   !> A step has one cut of a name.
-   subroutine check_name(context, name, place, requests, ok)
-      type(build_context_t), intent(in) :: context
-      character(len=*), intent(in) :: name
-      type(token_t), intent(in) :: place
-      type(requests_t), intent(in) :: requests             !< of the step so far
-      logical, intent(out) :: ok
-      integer(ip) :: i
-
-      i = find_name(context%open%cut_names, name)
-      ok = i == 0
-      if (ok) return
-      call report_error(context%deck, place, 'E-TWICE', 'cut '//name//' is defined already in this step, in '// &
-                        place_text(context%deck, context%cut_lines(requests%cuts(i)), place), &
-                        expected='another NAME=, or all lines in one card', keyword=KEYWORD)
-   end subroutine check_name
 
    !> The set that chooses crossings; 0: none is given.
    subroutine find_elset(context, card, elset, ok)

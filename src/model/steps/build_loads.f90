@@ -10,7 +10,7 @@ module atrito_build_loads
    use atrito_faces, only: is_outer_face
    use atrito_items, only: get_integer, get_real
    use atrito_kinds, only: ip, wp
-   use atrito_local_axes, only: dof_direction, has_local_axes
+   use atrito_local_axes, only: dof_direction
    use atrito_load_lists, only: add_nodal_value, add_element_load, replace_nodal_value, replace_element_load, replace_source, &
                                 trim_nodal_values, trim_element_loads, amplitude_of, from_of, source_of
    use atrito_model, only: model_t, nodal_values_t, element_load_t, LOAD_BODY, LOAD_LINEAR, LOAD_TRACTION, SURFACE_ELEMENTS
@@ -91,7 +91,8 @@ contains
 
       associate (open => context%open, loads => context%model%steps(context%open%number)%element_loads)
          call carry_values(context, open%forces, keeps_zeros=.false.)
-         call list_carried(2*context%model%mesh%n_nodes, dof_places(open%forces), open%old_forces)
+         call list_carried(2*context%model%mesh%n_nodes, [(2*open%forces%node(i) + open%forces%dof(i) - 2, i=1, open%forces%n)], &
+                           open%old_forces)
          call carry_reference_loads(context)
          if (removes_all(context, 'CLOAD')) then
             do i = 1, open%forces%n
@@ -108,14 +109,6 @@ contains
          call remove_loads(removes_all(context, 'DLOAD'), removes_all(context, 'DSLOAD'), open%old_loads, loads)
       end associate
    end subroutine carry_on
-
-   pure function dof_places(forces) result(places)
-      type(nodal_values_t), intent(in) :: forces
-      integer(ip) :: places(forces%n)
-      integer(ip) :: i
-
-      places = [(2*forces%node(i) + forces%dof(i) - 2, i=1, forces%n)]
-   end function dof_places
 
    !> Which label of the deck each load has.
    pure function labels_of(context, loads) result(labels)

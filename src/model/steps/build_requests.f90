@@ -6,9 +6,10 @@ module atrito_build_requests
    use atrito_build_cuts, only: read_cut_card, cut_requests_to_size
    use atrito_carry_on, only: is_of_step
    use atrito_foreign_words, only: variable_of_component
-   use atrito_items, only: find_option, has_option, option_integer, option_real, option_text, option_word
+   use atrito_items, only: find_option, has_option, option_integer, option_real, option_text, option_word, &
+                           refuse_option
    use atrito_kinds, only: ip, wp
-   use atrito_model, only: controls_t, requested_t, requests_t, step_t, METHOD_ANDERSON, METHOD_PICARD, METHOD_NEWTON, METHOD_NAME
+   use atrito_model, only: controls_t, requested_t, requests_t, step_t, METHOD_PICARD, METHOD_NAME
    use atrito_references, only: report_unknown
    use atrito_sets, only: set_list_t, find_set, members_of
    use atrito_strings, only: to_text, upper_case
@@ -185,53 +186,22 @@ contains
       type(deck_t), intent(in) :: deck
       type(card_t), intent(in) :: card
       type(controls_t), intent(inout) :: controls
-      real(wp) :: tolerance, relaxation
-      integer(ip) :: most
       logical :: found
 
-      if (has_option(deck, card, 'METHOD')) call choose_method(option_word(deck, card, 'METHOD'), controls%method)
-      tolerance = controls%tolerance
-      call option_real(deck, card, 'TOLERANCE', WHAT_TOLERANCE, tolerance, found)
-      if (found) call judge(deck, card, 'TOLERANCE', tolerance > 0.0_wp .and. tolerance <= LARGEST_TOLERANCE, WHAT_TOLERANCE)
-      controls%tolerance = tolerance
-      most = controls%max_iterations
-      call option_integer(deck, card, 'MAXIT', WHAT_MAXIT, most, found)
-      if (found) call judge(deck, card, 'MAXIT', most >= 1, WHAT_MAXIT)
-      controls%max_iterations = most
-      relaxation = controls%relaxation
-      call option_real(deck, card, 'RELAXATION', WHAT_RELAXATION, relaxation, found)
-      if (found) call judge(deck, card, 'RELAXATION', relaxation > 0.0_wp .and. relaxation <= 1.0_wp, WHAT_RELAXATION)
-      controls%relaxation = relaxation
+      if (has_option(deck, card, 'METHOD')) then
+         controls%method = max(1_ip, findloc(METHOD_NAME == option_word(deck, card, 'METHOD'), .true., dim=1, kind=ip))
+      end if
+      call option_real(deck, card, 'TOLERANCE', WHAT_TOLERANCE, controls%tolerance, found)
+      if (found .and. .not. (controls%tolerance > 0.0_wp .and. controls%tolerance <= LARGEST_TOLERANCE)) then
+         call refuse_option(deck, card, 'TOLERANCE', WHAT_TOLERANCE)
+      end if
+      call option_integer(deck, card, 'MAXIT', WHAT_MAXIT, controls%max_iterations, found)
+      if (found .and. controls%max_iterations < 1) call refuse_option(deck, card, 'MAXIT', WHAT_MAXIT)
+      call option_real(deck, card, 'RELAXATION', WHAT_RELAXATION, controls%relaxation, found)
+      if (found .and. .not. (controls%relaxation > 0.0_wp .and. controls%relaxation <= 1.0_wp)) then
+         call refuse_option(deck, card, 'RELAXATION', WHAT_RELAXATION)
+      end if
    end subroutine read_controls_card
-
-   subroutine choose_method(word, method)
-      character(len=*), intent(in) :: word
-      integer(ip), intent(inout) :: method
-
-      select case (word)
-      case ('PICARD')
-         method = METHOD_PICARD
-      case ('NEWTON')
-         method = METHOD_NEWTON
-      case ('ANDERSON')
-         method = METHOD_ANDERSON
-      end select
-   end subroutine choose_method
-
-   !> Reports the value of an option that is out of range.
-   subroutine judge(deck, card, name, in_range, what)
-      type(deck_t), intent(in) :: deck
-      type(card_t), intent(in) :: card
-      character(len=*), intent(in) :: name, what
-      logical, intent(in) :: in_range
-      type(option_t) :: option
-      logical :: found
-
-      if (in_range) return
-      call find_option(deck, card, name, option, found)
-      call report_error(deck, option%value, 'E-VALUE', name//' = '//token_text(deck, option%value)//' is out of range', &
-                        expected=what, keyword='CONTROLS')
-   end subroutine judge
 
    !> RELAXATION= belongs to PICARD: the other methods choose their steps themselves.
    subroutine check_relaxation(context, controls)

@@ -6,7 +6,7 @@ module atrito_build_steps
                           is_empty_token
    use atrito_diagnostics, only: report_error, report_note, report_outside, report_warning
    use atrito_foreign_keywords, only: LINEAR_STEP
-   use atrito_items, only: find_option, get_real, has_option, option_integer, option_word
+   use atrito_items, only: find_option, get_real, has_option, option_integer, option_word, refuse_option
    use atrito_kinds, only: ip, wp
    use atrito_model, only: model_t, step_t, increments_t
    use atrito_name_list, only: name_list_t
@@ -101,18 +101,6 @@ contains
       call find_option(deck, card, 'PERTURBATION', option, found)
       if (found .and. n_steps > 1) call report_outside(deck, option%name, 'PERTURBATION in one of several steps', LINEAR_STEP)
    end subroutine check_perturbation
-
-   subroutine refuse_option(deck, card, name, what)
-      type(deck_t), intent(in) :: deck
-      type(card_t), intent(in) :: card
-      character(len=*), intent(in) :: name, what
-      type(option_t) :: option
-      logical :: found
-
-      call find_option(deck, card, name, option, found)
-      call report_error(deck, option%value, 'E-VALUE', name//' = '//token_text(deck, option%value)//' is out of range', &
-                        expected=what, keyword=keyword_name(card))
-   end subroutine refuse_option
 
    !> A whole line, its commas, too.
    pure function line_text(deck, line) result(text)

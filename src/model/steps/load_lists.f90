@@ -174,6 +174,7 @@ contains
       list%from(:, list%n) = [0.0_wp, list%value(2:, list%n)*merge(1, 0, kind == LOAD_HYDROSTATIC)]
    end subroutine add_element_load
 
+   !> Gives back the room kept for growing.
    pure subroutine trim_element_loads(list)
       type(element_load_t), intent(inout) :: list
 

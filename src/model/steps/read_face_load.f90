@@ -76,6 +76,7 @@ contains
                                                keyword == 'DSLOAD'))//', '//label//', '//magnitude_of(label)//rest, keyword=keyword)
    end function has_no_rest
 
+   !> What the magnitude of a load with this label is, for messages.
    pure function magnitude_of(label) result(what)
       character(len=*), intent(in) :: label
       character(len=:), allocatable :: what

@@ -13,6 +13,7 @@ module atrito_number_list
 
 contains
 
+   !> Adds a number at the end.
    pure subroutine add_number(list, value)
       type(number_list_t), intent(inout) :: list
       integer(ip), intent(in) :: value
@@ -22,6 +23,7 @@ contains
       list%values(list%n) = value
    end subroutine add_number
 
+   !> Adds numbers at the end, in their order.
    pure subroutine add_numbers(list, values)
       type(number_list_t), intent(inout) :: list
       integer(ip), intent(in) :: values(:)

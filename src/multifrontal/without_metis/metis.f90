@@ -19,16 +19,19 @@ contains
       done = .false.
    end subroutine halve_graph
 
+   !> This build has no METIS.
    pure logical function has_metis()
       has_metis = .false.
    end function has_metis
 
+   !> For --version.
    pure function metis_version() result(version)
       character(len=:), allocatable :: version
 
       version = 'none'
    end function metis_version
 
+   !> Why there is no METIS, for messages.
    pure function metis_trouble() result(text)
       character(len=:), allocatable :: text
 

@@ -27,6 +27,8 @@ module atrito_contour_layout
 
 contains
 
+   !> Where the parts of a contour picture are, for the window that it shows: the raster as large as there is room, the bar below it
+   !> where the window is wide, else beside it.
    pure type(layout_t) function make_layout(window) result(layout)
       type(range_t), intent(in) :: window(2)        !< to be shown, of some length [L]
       real(wp) :: side(2), pixel

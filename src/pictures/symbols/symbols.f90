@@ -114,6 +114,7 @@ contains
       call append_string(symbols%curves, '   NaN '//drawn//' title "'//title//'"')
    end subroutine put_entry
 
+   !> Ends a block; one into which nothing was put has left no trace in the file.
    subroutine end_block(symbols)
       type(symbols_t), intent(inout) :: symbols
 
@@ -147,6 +148,7 @@ contains
       call put_line(symbols%file, '')
    end subroutine put_path
 
+   !> An arrow from a place of the undisplaced bodies, which moves with the displacement u.
    subroutine put_arrow(symbols, u, from, arrow)
       type(symbols_t), intent(inout) :: symbols
       real(wp), intent(in) :: u(2), from(2), arrow(2)   !< [L]
@@ -157,6 +159,7 @@ contains
       call put_line(symbols%file, '')
    end subroutine put_arrow
 
+   !> A marker at a place of the undisplaced bodies, which moves with the displacement u; its size is relative to that of the block.
    subroutine put_marker(symbols, u, place, size_of_marker)
       type(symbols_t), intent(inout) :: symbols
       real(wp), intent(in) :: u(2), place(2)        !< [L]

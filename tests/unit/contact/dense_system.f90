@@ -2,10 +2,11 @@
 module dense_system
    use atrito_bound_qp, only: bound_qp_t, box_bounds_t, box_state_t, FREE
    use atrito_constraint_rows, only: constraint_rows_t
-   use atrito_contact_system, only: contact_system_t, multiplier_t
+   use atrito_contact_system, only: contact_system_t
    use atrito_dense, only: solve_cholesky
    use atrito_kinds, only: ip, lp, wp, HUGE_REAL
    use atrito_multiplier_step, only: begin_multipliers, start_closed, take_multiplier_step, accept_step
+   use atrito_multipliers, only: multiplier_t
    use atrito_solve_history, only: solve_history_t, begin_outer
    use atrito_status, only: status_t, set_status, is_ok, STATUS_SINGULAR
    use dense_measures, only: factor_cholesky

@@ -46,7 +46,8 @@ contains
       state%increment = 2
       state%last = history%frames(2)
       state%rest = [1.0_wp/3, -0.0_wp]
-      state%start%pair = [integer(ip) ::]
+      allocate (state%start%multipliers)
+      state%start%multipliers%pair = [integer(ip) ::]
    end subroutine make_history
 
    subroutine write_case(model, history, state, status)

@@ -1,30 +1,24 @@
 !> Where a history stands after a converged increment: all that the next one begins from. Filled and taken by solve/, kept in a
 !> restart file by output/.
 module atrito_restart_state
+   use atrito_bound_qp, only: box_bounds_t, box_state_t
    use atrito_kinds, only: ip, wp
+   use atrito_multipliers, only: multiplier_t
    use atrito_results, only: results_t
    implicit none (type, external)
    private
    public :: restart_state_t, warm_start_t
 
-   !> What the contact line is started from, as plain arrays; factors are not among it. See contact_solution_t in solve/.
+   !> What the contact line is started from; factors are not among it. See contact_solution_t in solve/.
    type :: warm_start_t
       integer(ip) :: form = 0                       !< CONTACT_*; 0: there is nothing to start from
       real(wp), allocatable :: p(:), tau(:), t(:)   !< at the points [F/L^2]
-      integer(ip), allocatable :: state(:)          !< of the unknowns
-      real(wp), allocatable :: q(:), a(:), r(:), shift(:)
-      real(wp) :: slack = 0.0_wp
-      real(wp), allocatable :: lower(:), upper(:), d(:)
-      logical, allocatable :: is_shared(:)
-      integer(ip), allocatable :: tangential_of(:)
+      type(box_state_t) :: state
+      type(box_bounds_t) :: bounds
+      logical, allocatable :: is_shared(:)          !< (unknowns) the force is not unique
+      integer(ip), allocatable :: tangential_of(:)  !< (normal unknowns)
       real(wp) :: residual = 0.0_wp, contraction = 0.0_wp
-      logical :: has_multipliers = .false.          !< what follows is theirs: of the sparse form
-      real(wp) :: step_size = 0.0_wp, pull_size = 0.0_wp
-      real(wp), allocatable :: x(:), e(:), noise(:), q_old(:), a_old(:), hold(:)
-      integer(ip), allocatable :: pair(:)
-      integer(ip) :: n_pairs = 0, n_contact_pairs = 0
-      real(wp), allocatable :: stiffness(:), pull(:)
-      logical :: settled = .false., changed = .false.
+      type(multiplier_t), allocatable :: multipliers !< of the sparse form
    end type warm_start_t
 
    type :: restart_state_t
