@@ -159,7 +159,7 @@ contains
    !> motion. STATUS_INTERNAL when the memory is too small. The same on all ranks.
    subroutine factor_mumps_system(system, values, status)
       type(mumps_system_t), intent(inout) :: system
-      !> (m (m + 1)/2 for m unknowns) lower triangle of the matrix of this rank by columns; scaled on return
+      !> (m (m + 1)/2 for m unknowns) lower triangle of the matrix of this rank by columns; scaled meanwhile
       real(wp), intent(inout), contiguous, target :: values(:)
       type(status_t), intent(out) :: status
       integer(ip) :: empty
@@ -175,10 +175,11 @@ contains
       end if
       call make_coordinates(system, status)
       if (.not. is_ok(status)) return
-      call scale_values(system, values)
+      call scale_values(system, system%scale, values)
       system%instance%mumps%a_loc => values
       call run_with_room(system)
       call judge_pivots(system, values, status)
+      call scale_values(system, 1.0_wp/system%scale, values)   ! powers of two: nothing is lost
       call drop_coordinates(system)
    end subroutine factor_mumps_system
 
@@ -216,8 +217,9 @@ contains
       root_scale = set_exponent(1.0_wp, EVEN/2 + 1 - (exponent(diagonal) + EVEN)/2)
    end function root_scale
 
-   pure subroutine scale_values(system, values)
+   pure subroutine scale_values(system, scale, values)
       type(mumps_system_t), intent(in) :: system
+      real(wp), intent(in) :: scale(:)           !< (n) of rows and columns
       real(wp), intent(inout) :: values(:)
       integer(lp) :: k, length
       integer(ip) :: j
@@ -225,7 +227,7 @@ contains
       k = 0
       do j = 1, size(system%own, kind=ip)
          length = size(system%own, kind=lp) - j + 1
-         values(k + 1:k + length) = values(k + 1:k + length)*system%scale(system%own(j))*system%scale(system%own(j:))
+         values(k + 1:k + length) = values(k + 1:k + length)*scale(system%own(j))*scale(system%own(j:))
          k = k + length
       end do
    end subroutine scale_values
@@ -247,6 +249,7 @@ contains
       type(mumps_system_t), intent(inout) :: system
       real(wp), intent(inout) :: values(:)
       type(status_t), intent(inout) :: status
+      real(wp) :: diagonal(size(system%own))
       logical :: singular, failed
 
       associate (mumps => system%instance%mumps, report => system%report)
@@ -263,10 +266,12 @@ contains
          report%digits_lost = ALL_DIGITS
          if (.not. singular) report%digits_lost = max(-log10(report%smallest_pivot), 0.0_wp)
          if (failed) then                         ! once more, with what find_weakest wants
-            associate (diagonal => diagonal_places(size(system%own, kind=ip)))
-               values(diagonal) = (1.0_wp + SHIFT)*values(diagonal)
+            associate (places => diagonal_places(size(system%own, kind=ip)))
+               diagonal = values(places)
+               values(places) = (1.0_wp + SHIFT)*diagonal
+               call run_with_room(system)
+               values(places) = diagonal
             end associate
-            call run_with_room(system)
          end if
          if (singular .or. report%digits_lost > MANY_DIGITS) call find_weakest(system)
          if (singular) call set_status(status, STATUS_SINGULAR, 'the matrix is singular or indefinite: its softest '// &

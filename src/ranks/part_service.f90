@@ -263,14 +263,11 @@ contains
       if (.not. is_ok(status)) failed = own%top%report%worst_equation
    end subroutine factor_top
 
-   !> MUMPS scales what it gets.
    subroutine factor_own_top(status)
       type(status_t), intent(out) :: status
-      real(wp), allocatable :: values(:)
 
-      allocate (values(0))
-      if (allocated(own%left)) values = own%left
-      call factor_mumps_system(own%top, values, status)
+      if (.not. allocated(own%left)) allocate (own%left(0))   ! the rank has no part
+      call factor_mumps_system(own%top, own%left, status)
    end subroutine factor_own_top
 
    !> x <- S^-1 x; 0 where that failed, which is noted: nothing that was found may be believed then.
