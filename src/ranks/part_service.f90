@@ -3,7 +3,7 @@
 !> With A_p the matrix of part p, its unknowns in the order interior i, kept c, the system of the scene is solved by direct
 !> substructuring:
 !>
-!>     S_p = A_cc - A_ci A_ii^-1 A_ic        REFACTOR, on each rank
+!>     S_p = A_cc - A_ci A_ii^-1 A_ic        REFACTOR, on each rank, which keeps it
 !>     S = sum of S_p, factored              factor_top, by MUMPS on all ranks together
 !>     g_c = f_c - A_ci A_ii^-1 f_i          REDUCE, on each rank
 !>     S x_c = sum of g_c                    solve_top
@@ -16,7 +16,7 @@ module atrito_part_service
    use atrito_mpi, only: rank_count, receive_parcel, send_parcel
    use atrito_mumps, only: mumps_system_t, begin_mumps_system, end_mumps_system, factor_mumps_system, mumps_system_bytes, &
                            solve_mumps_system
-   use atrito_multifrontal, only: expand_variable, kept_matrix, reduce_variable
+   use atrito_multifrontal, only: expand_variable, kept_values, reduce_variable
    use atrito_parcel, only: parcel_t, put, put_status, put_text, take
    use atrito_rank_services, only: SERVICE_PART
    use atrito_scene_part, only: scene_part_t, assemble_scene_part, take_scene_part
@@ -35,11 +35,10 @@ module atrito_part_service
    type :: store_t
       type(scene_part_t) :: part
       real(wp), allocatable :: x(:)              !< loads that were reduced
-      real(wp), allocatable :: left(:)           !< S_p, its lower triangle by columns
       type(mumps_system_t) :: top                !< S, of all ranks
    end type store_t
 
-   type(store_t) :: own
+   type(store_t), target :: own
    type(parcel_t) :: own_answer                  !< of the first rank to itself
    type(status_t), target :: trouble             !< of the first solve of the top that failed, until it is taken (scene_system_t)
 
@@ -143,7 +142,6 @@ contains
    !> Takes the part, in the place of the one that there was. Answer: status, is_near, the order, what factoring will take [bytes].
    subroutine answer_assembled(request, answer)
       type(parcel_t), intent(inout) :: request, answer
-      integer(lp), parameter :: LEFT_BYTES = 12_lp   ! S_p as a full matrix and packed
       type(status_t) :: status
       real(wp) :: bytes
 
@@ -152,7 +150,7 @@ contains
       request = parcel_t()                       ! what was taken needs no copy
       call assemble_scene_part(own%part, status)
       bytes = 0.0_wp
-      if (is_ok(status)) bytes = real(own%part%scene%solving_bytes() + LEFT_BYTES*int(own%part%n_kept, lp)**2, wp)
+      if (is_ok(status)) bytes = real(own%part%scene%solving_bytes(), wp)
       call put_status(answer, status)
       call put(answer, own%part%scene%is_near)
       call put_text(answer, own%part%scene%order)
@@ -162,30 +160,16 @@ contains
    !> Takes the stiffness of rows and pulls [F/L]. Answer: status, the unknown whose pivot was not positive, whether S_p is another.
    subroutine answer_factored(request, answer)
       type(parcel_t), intent(inout) :: request, answer
-      real(wp), allocatable :: stiffness(:), pull(:), s(:, :)
+      real(wp), allocatable :: stiffness(:), pull(:)
       type(status_t) :: status
-      integer(lp) :: k
-      integer(ip) :: j
-      logical :: is_changed
 
       call take(request, stiffness)
       call take(request, pull)
-      associate (n => own%part%n_kept, scene => own%part%scene)
+      associate (scene => own%part%scene)
          call scene%factor(stiffness, pull, status)
-         is_changed = is_ok(status) .and. scene%matrix%n_refactored > 0   ! what failed is factored again
-         if (is_changed) then
-            if (.not. allocated(own%left)) allocate (own%left(int(n, lp)*(n + 1)/2))
-            allocate (s(n, n))
-            call kept_matrix(scene%matrix, s)
-            k = 0
-            do j = 1, n
-               own%left(k + 1:k + n - j + 1) = s(j:, j)
-               k = k + n - j + 1
-            end do
-         end if
          call put_status(answer, status)
          call put(answer, scene%failed)
-         call put(answer, is_changed)
+         call put(answer, is_ok(status) .and. scene%matrix%n_refactored > 0)   ! what failed is factored again
       end associate
    end subroutine answer_factored
 
@@ -225,7 +209,6 @@ contains
 
       own%part = no_part
       if (allocated(own%x)) deallocate (own%x)
-      if (allocated(own%left)) deallocate (own%left)
    end subroutine drop_part
 
    !> Says which unknowns of the top this rank has. status: STATUS_INTERNAL: there is no MUMPS, or too little memory.
@@ -265,9 +248,12 @@ contains
 
    subroutine factor_own_top(status)
       type(status_t), intent(out) :: status
+      real(wp), pointer, contiguous :: values(:)
+      real(wp), target :: nothing(0)
 
-      if (.not. allocated(own%left)) allocate (own%left(0))   ! the rank has no part
-      call factor_mumps_system(own%top, own%left, status)
+      values => kept_values(own%part%scene%matrix)
+      if (.not. associated(values)) values => nothing   ! the rank has no part, or shares nothing
+      call factor_mumps_system(own%top, values, status)
    end subroutine factor_own_top
 
    !> x <- S^-1 x; 0 where that failed, which is noted: nothing that was found may be believed then.
@@ -302,7 +288,6 @@ contains
    pure integer(lp) function held_bytes() result(bytes)
       bytes = mumps_system_bytes(own%top)
       if (own%part%scene%n > 0) bytes = bytes + own%part%scene%memory_bytes()
-      if (allocated(own%left)) bytes = bytes + size(own%left, kind=lp)*(storage_size(1.0_wp)/8)
    end function held_bytes
 
 end module atrito_part_service

@@ -278,7 +278,7 @@ contains
       class(shared_scene_t), intent(in) :: self
       integer(ip), intent(in) :: n_ranks
       integer(lp) :: bytes(0:n_ranks - 1)
-      integer(lp), parameter :: MUMPS_BYTES = 18_lp, OF_UNKNOWNS = 12_lp, OF_ROWS = 40_lp
+      integer(lp), parameter :: MUMPS_BYTES = 14_lp, OF_UNKNOWNS = 12_lp, OF_ROWS = 40_lp
       integer(ip) :: p
 
       bytes = REAL_BYTES*size(self%shared, kind=lp)**2/2/maxval(self%parts%rank + 1)
