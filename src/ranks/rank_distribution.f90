@@ -14,7 +14,7 @@ module atrito_rank_distribution
    use atrito_status, only: status_t
    implicit none (type, external)
    private
-   public :: distribute_over_ranks, is_worth_sharing
+   public :: distribute_over_ranks, rank_distribution_t
 
    type, extends(distribution_t) :: rank_distribution_t
       logical :: is_always = .false.                 !< whether it pays off or not
@@ -47,19 +47,13 @@ contains
       call move_alloc(ranks, distribution)
    end subroutine distribute_over_ranks
 
+   !> Whether a scene is large enough, or is to be shared out in any case.
    logical function pays_off(self, n_displacements, n_forces)
       class(rank_distribution_t), intent(in) :: self
       integer(ip), intent(in) :: n_displacements, n_forces
 
-      pays_off = self%is_always .or. is_worth_sharing(n_displacements, n_forces)
+      pays_off = self%is_always .or. n_displacements + OF_A_FORCE*n_forces >= LEAST_DISPLACEMENTS
    end function pays_off
-
-   !> Whether a scene is large enough.
-   pure logical function is_worth_sharing(n_displacements, n_forces)
-      integer(ip), intent(in) :: n_displacements, n_forces !< of contact
-
-      is_worth_sharing = n_displacements + OF_A_FORCE*n_forces >= LEAST_DISPLACEMENTS
-   end function is_worth_sharing
 
    subroutine assemble(self, fem, rows, line, value, scene, status)
       class(rank_distribution_t), intent(inout) :: self
