@@ -6,15 +6,15 @@ module atrito_mpi
    use, intrinsic :: iso_fortran_env, only: int8
    use atrito_kinds, only: ip, lp, wp
    use atrito_parcel, only: parcel_t, make_parcel, parcel_bytes
-   use mpi_f08, only: MPI_Abort, MPI_Allreduce, MPI_ANY_SOURCE, MPI_BYTE, MPI_Comm, MPI_Comm_free, MPI_Comm_rank, &
-                      MPI_Comm_size, MPI_Comm_split_type, MPI_COMM_TYPE_SHARED, MPI_COMM_WORLD, MPI_DOUBLE_PRECISION, &
-                      MPI_Finalize, MPI_Get_library_version, MPI_IN_PLACE, MPI_INFO_NULL, MPI_Init_thread, MPI_INTEGER, &
-                      MPI_INTEGER8, MPI_Iprobe, MPI_MAX, MPI_MAX_LIBRARY_VERSION_STRING, MPI_Recv, MPI_Send, MPI_Status, &
-                      MPI_STATUS_IGNORE, MPI_SUM, MPI_THREAD_FUNNELED
+   use mpi_f08, only: MPI_Allreduce, MPI_ANY_SOURCE, MPI_BYTE, MPI_Comm, MPI_Comm_free, MPI_Comm_rank, MPI_Comm_size, &
+                      MPI_Comm_split_type, MPI_COMM_TYPE_SHARED, MPI_COMM_WORLD, MPI_DOUBLE_PRECISION, MPI_Finalize, &
+                      MPI_Get_library_version, MPI_IN_PLACE, MPI_INFO_NULL, MPI_Init_thread, MPI_INTEGER8, MPI_Iprobe, &
+                      MPI_MAX_LIBRARY_VERSION_STRING, MPI_Recv, MPI_Send, MPI_Status, MPI_STATUS_IGNORE, MPI_SUM, &
+                      MPI_THREAD_FUNNELED
    implicit none (type, external)
    private
-   public :: begin_ranks, end_ranks, abort_ranks, own_rank, rank_count, ranks_on_host, ANY_RANK
-   public :: send_parcel, receive_parcel, has_message, sum_over_ranks, largest_of_ranks
+   public :: begin_ranks, end_ranks, own_rank, rank_count, ranks_on_host, ANY_RANK
+   public :: send_parcel, receive_parcel, has_message, sum_over_ranks
    public :: all_ranks_communicator, has_mpi, mpi_name
 
    !> The sender of any message that waits.
@@ -37,13 +37,6 @@ contains
 
       call MPI_Finalize()
    end subroutine end_ranks
-
-   !> Ends all ranks at once: what one of them cannot tell the others would have these wait for ever.
-   subroutine abort_ranks(code)
-      integer, intent(in) :: code                    !< exit code
-
-      call MPI_Abort(MPI_COMM_WORLD, code)
-   end subroutine abort_ranks
 
    !> 0 is the first.
    integer(ip) function own_rank() result(rank)
@@ -122,15 +115,6 @@ contains
 
       call MPI_Allreduce(MPI_IN_PLACE, x, size(x), MPI_DOUBLE_PRECISION, MPI_SUM, MPI_COMM_WORLD)
    end subroutine sum_over_ranks
-
-   !> The largest of a number over all ranks, for all of them. All ranks call it.
-   integer(ip) function largest_of_ranks(own) result(largest)
-      integer(ip), intent(in) :: own
-      integer :: found(1)
-
-      call MPI_Allreduce([int(own)], found, 1, MPI_INTEGER, MPI_MAX, MPI_COMM_WORLD)
-      largest = int(found(1), ip)
-   end function largest_of_ranks
 
    !> The communicator of all ranks, for a library that takes it as a number.
    integer function all_ranks_communicator() result(communicator)

@@ -24,7 +24,7 @@ module atrito_mumps
    use atrito_halting, only: halting_t, suspend_halting, restore_halting
    use atrito_kinds, only: ip, lp, wp
    use atrito_linear_solver, only: smallest_ratio
-   use atrito_mpi, only: all_ranks_communicator, has_mpi, largest_of_ranks, own_rank, sum_over_ranks
+   use atrito_mpi, only: all_ranks_communicator, has_mpi, own_rank, sum_over_ranks
    use atrito_status, only: status_t, set_status, is_ok, STATUS_INTERNAL, STATUS_SINGULAR
    use atrito_strings, only: to_text
    use atrito_system, only: find_routine
@@ -108,10 +108,11 @@ contains
    !> What one rank cannot do, none can.
    subroutine agree(status)
       type(status_t), intent(inout) :: status
-      integer(ip) :: worst
+      real(wp) :: failures(1)
 
-      worst = largest_of_ranks(int(status%code, ip))
-      if (worst /= 0 .and. is_ok(status)) call set_status(status, int(worst), 'another rank failed')
+      failures = merge(0.0_wp, 1.0_wp, is_ok(status))
+      call sum_over_ranks(failures)
+      if (failures(1) > 0.0_wp .and. is_ok(status)) call set_status(status, STATUS_INTERNAL, 'another rank failed')
    end subroutine agree
 
    !> Rows and columns of the lower triangle of this rank's matrix, as factor_mumps_system has its values.

@@ -199,28 +199,18 @@ contains
       part%rows%node = [(cut%place(rows%node(rows%first(points(i)):rows%first(points(i) + 1) - 1)), i=1, n)]
       part%line%n = n
       allocate (part%line%normal(n), part%line%tangential(n), source=0_ip)
-      allocate (row(2*n))
       k = 0
       do i = 1, n
          part%rows%first(i + 1) = part%rows%first(i) + rows%first(points(i) + 1) - rows%first(points(i))
          part%rows%longest = max(part%rows%longest, part%rows%first(i + 1) - part%rows%first(i))
-         call take_row(line%normal(points(i)), k, row, part%line%normal(i))
-         call take_row(line%tangential(points(i)), k, row, part%line%tangential(i))
+         if (line%normal(points(i)) > 0) part%line%normal(i) = k + 1
+         if (line%tangential(points(i)) > 0) part%line%tangential(i) = k + 1 + min(1_ip, part%line%normal(i))
+         k = max(k, part%line%normal(i), part%line%tangential(i))
       end do
-      row = row(:k)
+      row = [(line%normal(points(i)), line%tangential(points(i)), i=1, n)]
+      row = pack(row, row > 0)
       call take_constraints(constraints, row, cut%unknown_at, size(part%scene%numbering%body, kind=ip), part%scene%rows)
    end subroutine take_rows
-
-   pure subroutine take_row(of_scene, k, row, own)
-      integer(ip), intent(in) :: of_scene        !< 0: none
-      integer(ip), intent(inout) :: k, row(:)
-      integer(ip), intent(inout) :: own
-
-      if (of_scene == 0) return
-      k = k + 1
-      row(k) = of_scene
-      own = k
-   end subroutine take_row
 
    !> Some rows of B over the unknowns of the part.
    pure subroutine take_constraints(constraints, row, unknown_at, n, own)

@@ -17,11 +17,12 @@ module atrito_shared_fields
    use atrito_range, only: unit_of
    use atrito_rank_services, only: SERVICE_FIELDS
    use atrito_results, only: results_t
+   use atrito_scene_data, only: distribution_t
    use atrito_stress_recovery, only: stress_field_t, nodal_stresses, recover_stress_field
    use atrito_thermal_loads, only: largest_thermal_strain
    implicit none (type, external)
    private
-   public :: shared_fields_t, begin_fields, end_fields, serve_fields, find_region, list_near
+   public :: field_distribution_t, serve_fields
 
    integer(ip), parameter :: RINGS = 4
 
@@ -33,44 +34,46 @@ module atrito_shared_fields
       integer(ip), allocatable :: node(:)
    end type region_t
 
-   !> Fields that have begun, or may.
-   type :: shared_fields_t
-      type(region_t), allocatable :: regions(:)      !< from 0
-      logical :: has_begun = .false.
-      real(wp) :: unit = 0.0_wp
-      logical :: by_element = .false.
-   end type shared_fields_t
+   !> What of a distributed scene the stresses are; atrito_rank_distribution adds the matrix.
+   type, extends(distribution_t), abstract :: field_distribution_t
+      integer(ip), allocatable :: rank_of(:)         !< (n_elements) from 0
+      type(region_t), allocatable, private :: regions(:)   !< from 0, while fields have begun
+      real(wp), private :: unit = 0.0_wp
+      logical, private :: by_element = .false.       !< the error of each is wanted
+   contains
+      procedure :: begin_fields
+      procedure :: end_fields
+   end type field_distribution_t
 
 contains
 
    !> Gives the other ranks their elements; they begin. end_fields has to follow, with nothing else for the ranks between.
-   subroutine begin_fields(fem, rank_of, u, by_element, fields)
+   subroutine begin_fields(self, fem, u, by_element)
+      class(field_distribution_t), intent(inout) :: self
       type(fem_t), intent(in) :: fem
-      integer(ip), intent(in) :: rank_of(:)          !< (n_elements)
       real(wp), intent(in) :: u(:, :)                !< (2, n_nodes) [L]
-      logical, intent(in) :: by_element              !< the error of each is wanted
-      type(shared_fields_t), intent(inout) :: fields
+      logical, intent(in) :: by_element
       type(parcel_t) :: request
       integer(ip), allocatable :: near(:)
       integer(ip) :: rank
 
-      fields%has_begun = .true.
-      fields%unit = unit_of(u)
-      fields%by_element = by_element
-      allocate (fields%regions(0:rank_count() - 1))
-      call list_near(fem%mesh, rank_of, near)
+      if (allocated(self%regions)) return
+      self%unit = unit_of(u)
+      self%by_element = by_element
+      allocate (self%regions(0:rank_count() - 1))
+      call list_near(fem%mesh, self%rank_of, near)
       do rank = 0, rank_count() - 1
-         call find_region(fem%mesh, rank_of, near, rank, fields%regions(rank))
+         call find_region(fem%mesh, self%rank_of, near, rank, self%regions(rank))
          if (rank == 0) cycle
-         call put_region(fem, u, fields, fields%regions(rank), request)
+         call put_region(self, fem, u, self%regions(rank), request)
          call send_parcel(request, rank)
       end do
    end subroutine begin_fields
 
    !> The same as estimate_error.
-   subroutine end_fields(fem, fields, results, strain_bound)
+   subroutine end_fields(self, fem, results, strain_bound)
+      class(field_distribution_t), intent(inout) :: self
       type(fem_t), intent(in) :: fem
-      type(shared_fields_t), intent(inout) :: fields !< that have begun; they have not on return
       type(results_t), intent(inout) :: results      !< with the displacements with which they have
       real(wp), intent(out) :: strain_bound          !< no strain is larger than this
       type(energies_t) :: energies
@@ -78,30 +81,29 @@ contains
       integer(ip) :: rank, service
 
       allocate (results%nodal_stress(size(STRESS_NAMES), fem%mesh%n_nodes), source=0.0_wp)
-      if (fields%by_element .and. .not. allocated(results%element_error)) then
+      if (self%by_element .and. .not. allocated(results%element_error)) then
          allocate (results%element_error(fem%mesh%n_elements), source=0.0_wp)
       end if
-      do rank = 0, ubound(fields%regions, 1)
+      do rank = 0, ubound(self%regions, 1)
          if (rank == 0) then
-            call put_region(fem, results%u, fields, fields%regions(0), request)
+            call put_region(self, fem, results%u, self%regions(0), request)
             call take(request, service)
             call answer_fields(request, answer)
          else
             call receive_parcel(answer, rank)
          end if
-         call take_found(fields%regions(rank), answer, results, energies)
+         call take_found(self%regions(rank), answer, results, energies)
       end do
-      deallocate (fields%regions)
-      fields%has_begun = .false.
-      if (fields%by_element) results%element_error = share_errors(energies, results%element_error)
+      deallocate (self%regions)
+      if (self%by_element) results%element_error = share_errors(energies, results%element_error)
       results%error_estimate = relative_error(energies)
       strain_bound = energies%strain + 2*largest_thermal_strain(fem)   ! as estimate_error
    end subroutine end_fields
 
-   subroutine put_region(fem, u, fields, region, request)
+   subroutine put_region(self, fem, u, region, request)
+      class(field_distribution_t), intent(in) :: self
       type(fem_t), intent(in) :: fem
       real(wp), intent(in) :: u(:, :)                !< (2, n_nodes) [L]
-      type(shared_fields_t), intent(in) :: fields
       type(region_t), intent(in) :: region
       type(parcel_t), intent(out) :: request
       type(fem_t) :: piece
@@ -109,8 +111,8 @@ contains
       call put(request, SERVICE_FIELDS)
       call put(request, region%n_own)
       call put(request, region%n_nodes)
-      call put(request, fields%unit)
-      call put(request, fields%by_element)
+      call put(request, self%unit)
+      call put(request, self%by_element)
       call put(request, u(:, region%node))
       if (region%n_own == 0) return
       call take_piece(fem, region%node, region%element, piece)

@@ -5,7 +5,7 @@
 program mumps_probe
    use, intrinsic :: iso_fortran_env, only: error_unit
    use atrito_kinds, only: ip, lp, wp, EPS_MACH
-   use atrito_mpi, only: begin_ranks, end_ranks, largest_of_ranks, own_rank, rank_count
+   use atrito_mpi, only: begin_ranks, end_ranks, own_rank, rank_count, sum_over_ranks
    use atrito_mumps, only: mumps_system_t, begin_mumps_system, end_mumps_system, factor_mumps_system, mumps_system_bytes, &
                            solve_mumps_system
    use atrito_status, only: status_t, is_ok, STATUS_SINGULAR
@@ -24,6 +24,7 @@ program mumps_probe
    !> An error over n, epsilon and the size of what is compared.
    real(wp), parameter :: LIMIT = 100.0_wp
    integer(ip) :: failures = 0, shift
+   real(wp) :: found(1)
 
    call begin_ranks()
    call random_init(.true., .false.)             ! the same numbers on all ranks
@@ -42,9 +43,10 @@ program mumps_probe
    call try_singular('an empty unknown', 40_ip, .true.)
    call try_negative()
    call try_free_block()
-   failures = largest_of_ranks(failures)
+   found = real(failures, wp)
+   call sum_over_ranks(found)
    call end_ranks()
-   if (failures > 0) stop 1, quiet = .true.
+   if (found(1) > 0.0_wp) stop 1, quiet = .true.
 
 contains
 

@@ -5,8 +5,8 @@ module atrito_mpi
    use atrito_parcel, only: parcel_t
    implicit none (type, external)
    private
-   public :: begin_ranks, end_ranks, abort_ranks, own_rank, rank_count, ranks_on_host, ANY_RANK
-   public :: send_parcel, receive_parcel, has_message, sum_over_ranks, largest_of_ranks
+   public :: begin_ranks, end_ranks, own_rank, rank_count, ranks_on_host, ANY_RANK
+   public :: send_parcel, receive_parcel, has_message, sum_over_ranks
    public :: all_ranks_communicator, has_mpi, mpi_name
 
    integer(ip), parameter :: ANY_RANK = -1_ip
@@ -19,12 +19,6 @@ contains
 
    subroutine end_ranks()
    end subroutine end_ranks
-
-   subroutine abort_ranks(code)
-      integer, intent(in) :: code
-
-      error stop code
-   end subroutine abort_ranks
 
    integer(ip) function own_rank()
       own_rank = 0
@@ -61,12 +55,6 @@ contains
    subroutine sum_over_ranks(x)
       real(wp), intent(inout), contiguous :: x(:)
    end subroutine sum_over_ranks
-
-   integer(ip) function largest_of_ranks(own)
-      integer(ip), intent(in) :: own
-
-      largest_of_ranks = own
-   end function largest_of_ranks
 
    !> What sequential libraries take for a communicator.
    integer function all_ranks_communicator()
