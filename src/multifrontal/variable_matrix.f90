@@ -8,9 +8,9 @@
 !> of a load, and expand_variable finds x_i = A_ii^-1 (f_i - A_ik x_k).
 !>
 !> Use: create_variable_matrix; then set_variable_element, factor_variable_matrix and solve_variable_matrix as often as wanted; with
-!> kept unknowns kept_matrix, reduce_variable and expand_variable in place of the last.
+!> kept unknowns kept_values, reduce_variable and expand_variable in place of the last.
 module atrito_variable_matrix
-   use atrito_element_store, only: element_store_t, pack_matrix, unpack_matrix, move_store, sum_couplings, sum_diagonals
+   use atrito_element_store, only: element_store_t, pack_matrix, move_store, sum_couplings, sum_diagonals
    use atrito_elimination, only: elimination_t
    use atrito_front_classes, only: children_of
    use atrito_front_factors, only: fronts_t, front_bytes_t, plan_fronts, factor_class, count_class, held_bytes, tell_of_memory, &
@@ -22,7 +22,7 @@ module atrito_variable_matrix
    implicit none (type, external)
    private
    public :: variable_matrix_t, create_variable_matrix, set_variable_element, factor_variable_matrix, solve_variable_matrix, &
-             kept_matrix, reduce_variable, expand_variable, add_fixed_product, fixed_diagonal, variable_matrix_bytes, &
+             kept_values, reduce_variable, expand_variable, add_fixed_product, fixed_diagonal, variable_matrix_bytes, &
              expect_variable_factors
 
    type :: variable_matrix_t
@@ -208,13 +208,15 @@ contains
       end do
    end subroutine solve_variable_matrix
 
-   !> What the last factorisation leaves of the matrix at the kept unknowns, their Schur complement: both triangles.
-   pure subroutine kept_matrix(matrix, s)
-      type(variable_matrix_t), intent(in) :: matrix
-      real(wp), intent(out) :: s(:, :)             !< (n_kept, n_kept)
+   !> What the last factorisation leaves of the matrix at the kept unknowns, their Schur complement: the lower triangle by columns,
+   !> where the matrix has it. Whoever changes it puts it back. Not associated where nothing is kept.
+   function kept_values(matrix) result(values)
+      type(variable_matrix_t), intent(in), target :: matrix
+      real(wp), pointer, contiguous :: values(:)   !< (n_kept (n_kept + 1)/2)
 
-      if (matrix%n_kept > 0) call unpack_matrix(matrix%fronts%factors(matrix%n_fronts)%update, s)
-   end subroutine kept_matrix
+      nullify (values)
+      if (matrix%n_kept > 0) values => matrix%fronts%factors(matrix%n_fronts)%update
+   end function kept_values
 
    !> f <- L^-1 f by positions; the last n_kept are what it leaves at the kept unknowns.
    subroutine reduce_variable(matrix, f)

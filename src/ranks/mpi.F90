@@ -5,17 +5,17 @@
 module atrito_mpi
    use, intrinsic :: iso_fortran_env, only: int8
    use atrito_kinds, only: ip, lp, wp
-   use atrito_parcel, only: parcel_t, make_parcel, parcel_bytes, parcel_length
-   use mpi_f08, only: MPI_Abort, MPI_Allreduce, MPI_ANY_SOURCE, MPI_Bcast, MPI_BYTE, MPI_Comm, MPI_Comm_free, MPI_Comm_rank, &
-                      MPI_COMM_SELF, MPI_Comm_size, MPI_Comm_split_type, MPI_COMM_TYPE_SHARED, MPI_COMM_WORLD, &
-                      MPI_DOUBLE_PRECISION, MPI_Finalize, MPI_Get_library_version, MPI_INFO_NULL, MPI_Init_thread, MPI_INTEGER, &
-                      MPI_INTEGER8, MPI_Iprobe, MPI_MAX, MPI_MAX_LIBRARY_VERSION_STRING, MPI_Recv, MPI_Reduce, MPI_Send, &
-                      MPI_Status, MPI_STATUS_IGNORE, MPI_SUM, MPI_THREAD_FUNNELED
+   use atrito_parcel, only: parcel_t, make_parcel, parcel_bytes
+   use mpi_f08, only: MPI_Allreduce, MPI_ANY_SOURCE, MPI_BYTE, MPI_Comm, MPI_Comm_free, MPI_Comm_rank, MPI_Comm_size, &
+                      MPI_Comm_split_type, MPI_COMM_TYPE_SHARED, MPI_COMM_WORLD, MPI_DOUBLE_PRECISION, MPI_Finalize, &
+                      MPI_Get_library_version, MPI_IN_PLACE, MPI_INFO_NULL, MPI_Init_thread, MPI_INTEGER8, MPI_Iprobe, &
+                      MPI_MAX_LIBRARY_VERSION_STRING, MPI_Recv, MPI_Send, MPI_Status, MPI_STATUS_IGNORE, MPI_SUM, &
+                      MPI_THREAD_FUNNELED
    implicit none (type, external)
    private
-   public :: begin_ranks, end_ranks, abort_ranks, own_rank, rank_count, ranks_on_host, ANY_RANK
-   public :: send_parcel, receive_parcel, has_message, sum_to_first, largest_of_ranks
-   public :: spread_from_first, all_ranks_communicator, own_communicator, has_mpi, mpi_name
+   public :: begin_ranks, end_ranks, own_rank, rank_count, ranks_on_host, ANY_RANK
+   public :: send_parcel, receive_parcel, has_message, sum_over_ranks
+   public :: all_ranks_communicator, has_mpi, mpi_name
 
    !> The sender of any message that waits.
    integer(ip), parameter :: ANY_RANK = -1_ip
@@ -37,13 +37,6 @@ contains
 
       call MPI_Finalize()
    end subroutine end_ranks
-
-   !> Ends all ranks at once: what one of them cannot tell the others would have these wait for ever.
-   subroutine abort_ranks(code)
-      integer, intent(in) :: code                    !< exit code
-
-      call MPI_Abort(MPI_COMM_WORLD, code)
-   end subroutine abort_ranks
 
    !> 0 is the first.
    integer(ip) function own_rank() result(rank)
@@ -78,9 +71,9 @@ contains
       integer(int8), pointer :: bytes(:)
       integer(lp) :: length, first, last
 
-      length = parcel_length(parcel)
-      call MPI_Send([length], 1, MPI_INTEGER8, int(to), LENGTH_TAG, MPI_COMM_WORLD)
       bytes => parcel_bytes(parcel)
+      length = size(bytes, kind=lp)
+      call MPI_Send([length], 1, MPI_INTEGER8, int(to), LENGTH_TAG, MPI_COMM_WORLD)
       do first = 1, length, SLICE
          last = min(length, first + SLICE - 1)
          call MPI_Send(bytes(first:last), int(last - first + 1), MPI_BYTE, int(to), CONTENT_TAG, MPI_COMM_WORLD)
@@ -116,45 +109,17 @@ contains
       call MPI_Iprobe(MPI_ANY_SOURCE, LENGTH_TAG, MPI_COMM_WORLD, has_message, MPI_STATUS_IGNORE)
    end function has_message
 
-   !> Adds up a list of numbers over all ranks, for rank 0. All ranks call it.
-   subroutine sum_to_first(x)
-      real(wp), intent(inout), contiguous :: x(:)    !< of each rank; on return, on rank 0, the sums
-      real(wp), allocatable :: sums(:)
+   !> Adds up a list of numbers over all ranks, for all of them. All ranks call it.
+   subroutine sum_over_ranks(x)
+      real(wp), intent(inout), contiguous :: x(:)    !< of each rank; on return the sums
 
-      allocate (sums(size(x)))
-      call MPI_Reduce(x, sums, size(x), MPI_DOUBLE_PRECISION, MPI_SUM, 0, MPI_COMM_WORLD)
-      if (own_rank() == 0) x = sums
-   end subroutine sum_to_first
-
-   !> The largest of a number over all ranks, for all of them. All ranks call it.
-   integer(ip) function largest_of_ranks(own) result(largest)
-      integer(ip), intent(in) :: own
-      integer :: found(1)
-
-      call MPI_Allreduce([int(own)], found, 1, MPI_INTEGER, MPI_MAX, MPI_COMM_WORLD)
-      largest = int(found(1), ip)
-   end function largest_of_ranks
-
-   !> Gives all ranks the numbers that rank 0 has. All ranks call it.
-   subroutine spread_from_first(x)
-      real(wp), intent(inout), contiguous :: x(:)    !< of one length on all ranks
-      integer(lp) :: first, last
-
-      do first = 1, size(x, kind=lp), SLICE/8
-         last = min(size(x, kind=lp), first + SLICE/8 - 1)
-         call MPI_Bcast(x(first:last), int(last - first + 1), MPI_DOUBLE_PRECISION, 0, MPI_COMM_WORLD)
-      end do
-   end subroutine spread_from_first
+      call MPI_Allreduce(MPI_IN_PLACE, x, size(x), MPI_DOUBLE_PRECISION, MPI_SUM, MPI_COMM_WORLD)
+   end subroutine sum_over_ranks
 
    !> The communicator of all ranks, for a library that takes it as a number.
    integer function all_ranks_communicator() result(communicator)
       communicator = MPI_COMM_WORLD%MPI_VAL
    end function all_ranks_communicator
-
-   !> That of this rank alone.
-   integer function own_communicator() result(communicator)
-      communicator = MPI_COMM_SELF%MPI_VAL
-   end function own_communicator
 
    !> Whether the ranks are those of MPI: a library that comes in two kinds is wanted in that for MPI then.
    pure logical function has_mpi()

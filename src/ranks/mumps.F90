@@ -8,8 +8,8 @@
 !> rank it works as well.
 !>
 !> MUMPS sees the matrix scaled to a diagonal between 1/2 and 2 by powers of two, which rounds nothing: its smallest pivot then
-!> tells the digits lost, and no unit of the deck matters. It does not tell the equation of that pivot, which is looked for by inverse
-!> iteration where the matrix is singular or nearly so. It reads the matrices where they are (ICNTL(18)=3). Right-hand sides and
+!> tells whether digits are left, and no unit of the deck matters. It does not tell the equation of that pivot, which is looked for by
+!> inverse iteration where the matrix is singular. It reads the matrices where they are (ICNTL(18)=3). Right-hand sides and
 !> solutions go through rank 0: they are little.
 !>
 !> The library is loaded when it is asked for: starting would cost a millisecond more for it and for what it needs. CMake says which
@@ -23,9 +23,8 @@ module atrito_mumps
    use, intrinsic :: iso_c_binding, only: c_associated, c_f_procpointer, c_funptr
    use atrito_halting, only: halting_t, suspend_halting, restore_halting
    use atrito_kinds, only: ip, lp, wp
-   use atrito_linear_solver, only: factor_report_t, smallest_ratio, ALL_DIGITS
-   use atrito_mpi, only: all_ranks_communicator, has_mpi, largest_of_ranks, own_communicator, own_rank, spread_from_first, &
-                         sum_to_first
+   use atrito_linear_solver, only: smallest_ratio
+   use atrito_mpi, only: all_ranks_communicator, has_mpi, own_rank, sum_over_ranks
    use atrito_status, only: status_t, set_status, is_ok, STATUS_INTERNAL, STATUS_SINGULAR
    use atrito_strings, only: to_text
    use atrito_system, only: find_routine
@@ -44,7 +43,7 @@ module atrito_mumps
    !> Ended by end_mumps_system, which all ranks call: none can do so by itself, hence it is not ended when it goes out of scope.
    type :: mumps_system_t
       integer(ip) :: n = 0                       !< unknowns
-      type(factor_report_t) :: report            !< of the last factorisation, the same on all ranks
+      integer(ip) :: weakest = 0                 !< on rank 0: the unknown that moves most in the softest motion, of a matrix without factor
       integer(ip), allocatable, private :: own(:) !< unknowns of the matrix of this rank
       type(instance_t), pointer, private :: instance => null()
       real(wp), allocatable, private :: scale(:) !< (n) of rows and columns
@@ -65,9 +64,9 @@ module atrito_mumps
    integer, parameter :: NO_ROOM(*) = [-8, -9, -14, -15, -17, -20], NO_MEMORY = -13
    !> More room than predicted, in per cent, at first and when that was too little.
    integer, parameter :: ROOM(*) = [30, 100, 400]
-   !> Digits lost from which the place is worth two solves; what is added to a matrix that could not be factored, of its diagonal,
-   !> to find the motion that it leaves free: far below the softest elastic one.
-   real(wp), parameter :: MANY_DIGITS = 9.0_wp, SHIFT = 1.0e-13_wp
+   !> Added to a matrix that could not be factored, of its diagonal, to find the motion that it leaves free: far below the softest
+   !> elastic one.
+   real(wp), parameter :: SHIFT = 1.0e-13_wp
 
 contains
 
@@ -88,7 +87,7 @@ contains
       call agree(status)
       if (.not. is_ok(status)) return
       allocate (system%instance)
-      call begin_mumps(system%instance%mumps, status, all_ranks_communicator())
+      call begin_mumps(system%instance%mumps, status)
       call agree(status)
       if (.not. is_ok(status)) then
          deallocate (system%instance)
@@ -109,10 +108,11 @@ contains
    !> What one rank cannot do, none can.
    subroutine agree(status)
       type(status_t), intent(inout) :: status
-      integer(ip) :: worst
+      real(wp) :: failures(1)
 
-      worst = largest_of_ranks(int(status%code, ip))
-      if (worst /= 0 .and. is_ok(status)) call set_status(status, int(worst), 'another rank failed')
+      failures = merge(0.0_wp, 1.0_wp, is_ok(status))
+      call sum_over_ranks(failures)
+      if (failures(1) > 0.0_wp .and. is_ok(status)) call set_status(status, STATUS_INTERNAL, 'another rank failed')
    end subroutine agree
 
    !> Rows and columns of the lower triangle of this rank's matrix, as factor_mumps_system has its values.
@@ -155,30 +155,27 @@ contains
 
    !> Factors K.
    !>
-   !> status: STATUS_SINGULAR when K is singular or indefinite; `report` then names the unknown that moves most in its softest
-   !> motion. STATUS_INTERNAL when the memory is too small. The same on all ranks.
+   !> status: STATUS_SINGULAR when K is singular or indefinite, STATUS_INTERNAL when the memory is too small. The same on all ranks.
    subroutine factor_mumps_system(system, values, status)
       type(mumps_system_t), intent(inout) :: system
-      !> (m (m + 1)/2 for m unknowns) lower triangle of the matrix of this rank by columns; scaled on return
+      !> (m (m + 1)/2 for m unknowns) lower triangle of the matrix of this rank by columns; scaled meanwhile
       real(wp), intent(inout), contiguous, target :: values(:)
       type(status_t), intent(out) :: status
-      integer(ip) :: empty
 
-      system%report = factor_report_t()
+      system%weakest = 0
       if (system%n == 0) return
-      call find_scale(system, values, empty)
-      if (empty > 0) then
-         system%report%worst_equation = empty
-         system%report%digits_lost = ALL_DIGITS
-         call set_status(status, STATUS_SINGULAR, 'the matrix is singular: unknown '//to_text(empty)//' is empty')
+      call find_scale(system, values)
+      if (system%weakest > 0) then
+         call set_status(status, STATUS_SINGULAR, 'the matrix is singular: unknown '//to_text(system%weakest)//' is empty')
          return
       end if
       call make_coordinates(system, status)
       if (.not. is_ok(status)) return
-      call scale_values(system, values)
+      call scale_values(system, system%scale, values)
       system%instance%mumps%a_loc => values
       call run_with_room(system)
       call judge_pivots(system, values, status)
+      call scale_values(system, 1.0_wp/system%scale, values)   ! powers of two: nothing is lost
       call drop_coordinates(system)
    end subroutine factor_mumps_system
 
@@ -191,21 +188,19 @@ contains
       places = [(1 + (j - 1)*n - (j - 1)*(j - 2)/2, j=1, n)]
    end function diagonal_places
 
-   !> From the diagonal of the sum. `empty`: the first unknown without stiffness, else 0.
-   subroutine find_scale(system, values, empty)
+   !> From the diagonal of the sum. The weakest unknown is the first one without stiffness, if there is any.
+   subroutine find_scale(system, values)
       type(mumps_system_t), intent(inout) :: system
       real(wp), intent(in) :: values(:)
-      integer(ip), intent(out) :: empty
       real(wp) :: diagonal(system%n)
 
       diagonal = 0.0_wp
       diagonal(system%own) = values(diagonal_places(size(system%own, kind=ip)))
-      call sum_to_first(diagonal)
-      call spread_from_first(diagonal)
+      call sum_over_ranks(diagonal)
       if (.not. allocated(system%scale)) allocate (system%scale(system%n))
       system%scale = 1.0_wp
       where (abs(diagonal) > 0.0_wp) system%scale = root_scale(diagonal)
-      empty = findloc(abs(diagonal) > 0.0_wp, .false., dim=1, kind=ip)
+      system%weakest = findloc(abs(diagonal) > 0.0_wp, .false., dim=1, kind=ip)
    end subroutine find_scale
 
    !> A power of two that brings a diagonal to 1/2 .. 2 when it multiplies row and column.
@@ -216,8 +211,9 @@ contains
       root_scale = set_exponent(1.0_wp, EVEN/2 + 1 - (exponent(diagonal) + EVEN)/2)
    end function root_scale
 
-   pure subroutine scale_values(system, values)
+   pure subroutine scale_values(system, scale, values)
       type(mumps_system_t), intent(in) :: system
+      real(wp), intent(in) :: scale(:)           !< (n) of rows and columns
       real(wp), intent(inout) :: values(:)
       integer(lp) :: k, length
       integer(ip) :: j
@@ -225,7 +221,7 @@ contains
       k = 0
       do j = 1, size(system%own, kind=ip)
          length = size(system%own, kind=lp) - j + 1
-         values(k + 1:k + length) = values(k + 1:k + length)*system%scale(system%own(j))*system%scale(system%own(j:))
+         values(k + 1:k + length) = values(k + 1:k + length)*scale(system%own(j))*scale(system%own(j:))
          k = k + length
       end do
    end subroutine scale_values
@@ -242,36 +238,28 @@ contains
       end do
    end subroutine run_with_room
 
-   !> Fills the report and the status from what MUMPS says.
+   !> The status, and the weakest unknown where there is no factor, from what MUMPS says.
    subroutine judge_pivots(system, values, status)
       type(mumps_system_t), intent(inout) :: system
       real(wp), intent(inout) :: values(:)
       type(status_t), intent(inout) :: status
-      logical :: singular, failed
+      real(wp) :: diagonal(size(system%own))
 
-      associate (mumps => system%instance%mumps, report => system%report)
-         failed = any(mumps%infog(1) == NO_PIVOTS)
-         if (.not. failed) call judge_failure(system, status)
-         if (.not. is_ok(status)) return
-         singular = failed
-         if (.not. singular) then
-            report%sign_changes = mumps%infog(12)
-            report%smallest_pivot = mumps%rinfog(19)
-            report%largest_pivot = mumps%rinfog(21)
-            singular = report%smallest_pivot <= smallest_ratio(system%n) .or. report%sign_changes > 0
-         end if
-         report%digits_lost = ALL_DIGITS
-         if (.not. singular) report%digits_lost = max(-log10(report%smallest_pivot), 0.0_wp)
-         if (failed) then                         ! once more, with what find_weakest wants
-            associate (diagonal => diagonal_places(size(system%own, kind=ip)))
-               values(diagonal) = (1.0_wp + SHIFT)*values(diagonal)
-            end associate
+      associate (mumps => system%instance%mumps, places => diagonal_places(size(system%own, kind=ip)))
+         if (any(mumps%infog(1) == NO_PIVOTS)) then   ! once more, with what find_weakest wants
+            diagonal = values(places)
+            values(places) = (1.0_wp + SHIFT)*diagonal
             call run_with_room(system)
+            values(places) = diagonal
+         else
+            call judge_failure(system, status)
+            if (.not. is_ok(status)) return
+            if (mumps%rinfog(19) > smallest_ratio(system%n) .and. mumps%infog(12) == 0) return   ! smallest pivot, negative ones
          end if
-         if (singular .or. report%digits_lost > MANY_DIGITS) call find_weakest(system)
-         if (singular) call set_status(status, STATUS_SINGULAR, 'the matrix is singular or indefinite: its softest '// &
-                                       'motion is largest at unknown '//to_text(report%worst_equation))
       end associate
+      call find_weakest(system)
+      call set_status(status, STATUS_SINGULAR, 'the matrix is singular or indefinite: its softest motion is largest at unknown '// &
+                      to_text(system%weakest))
    end subroutine judge_pivots
 
    subroutine judge_failure(system, status)
@@ -284,65 +272,50 @@ contains
       end associate
    end subroutine judge_failure
 
-   !> Puts the unknown that moves most in the softest motion into the report, by inverse iteration. 0 where the
-   !> matrix has no factor.
+   !> By inverse iteration. 0 where the matrix has no factor.
    subroutine find_weakest(system)
       type(mumps_system_t), intent(inout) :: system
       integer(ip) :: i
-      real(wp) :: x(system%n, 1), y(system%n), found(1)
+      real(wp) :: x(system%n), y(system%n)
 
       if (system%instance%mumps%infog(1) < 0) return
       ! without a symmetry that the motion could have
       y = [(1.0_wp + real(modulo(37*modulo(i, 101), 101), wp)/101.0_wp, i=1, system%n)]
       do i = 1, 3
-         x(:, 1) = y/system%scale/maxval(abs(y))
-         call solve_with(system, 1_ip, x)
-         y = x(:, 1)/system%scale                  ! scaled unknowns: those of the deck may leave the range of numbers
-         if (own_rank() > 0) y = 1.0_wp            ! rank 0 alone has the solution
+         x = y/system%scale/maxval(abs(y))
+         call solve_with(system, x)
+         if (own_rank() == 0) y = x/system%scale   ! scaled unknowns: those of the deck may leave the range of numbers
       end do
-      found = real(maxloc(abs(y/maxval(abs(y))*system%scale), dim=1), wp)
-      call spread_from_first(found)
-      system%report%worst_equation = nint(found(1), ip)
+      system%weakest = maxloc(abs(y/maxval(abs(y))*system%scale), dim=1, kind=ip)
    end subroutine find_weakest
 
-   !> Solves K x = f: all loads at once; how many, rank 0 knows.
+   !> Solves K x = f.
    subroutine solve_mumps_system(system, x, status)
       type(mumps_system_t), intent(inout) :: system
-      real(wp), intent(inout) :: x(:, :)         !< (n, loads) on rank 0: f; on return x. Other ranks: of any size
+      real(wp), intent(inout) :: x(:)            !< (n) on rank 0: f; on return x. Other ranks: of any size
       type(status_t), intent(out) :: status
-      real(wp) :: loads(1)
 
       if (system%n == 0) return
-      loads = real(size(x, 2), wp)
-      call spread_from_first(loads)
-      if (nint(loads(1)) == 0) return
-      call solve_with(system, nint(loads(1), ip), x)
+      call solve_with(system, x)
       call judge_failure(system, status)
    end subroutine solve_mumps_system
 
    !> A solve of MUMPS in the unknowns of the caller, who has them on rank 0.
-   subroutine solve_with(system, loads, x)
+   subroutine solve_with(system, x)
       type(mumps_system_t), intent(inout) :: system
-      integer(ip), intent(in) :: loads
-      real(wp), intent(inout) :: x(:, :)         !< (n, loads)
-      integer(ip) :: j
-      real(wp), allocatable, target :: rhs(:, :)
+      real(wp), intent(inout) :: x(:)            !< (n)
+      real(wp), target :: rhs(system%n)
 
-      allocate (rhs(system%n, merge(loads, 0_ip, own_rank() == 0)))
-      do j = 1, size(rhs, 2, kind=ip)
-         rhs(:, j) = x(:, j)*system%scale
-      end do
+      if (own_rank() == 0) rhs = x*system%scale
       associate (mumps => system%instance%mumps)
-         mumps%nrhs = loads
+         mumps%nrhs = 1
          mumps%lrhs = system%n
-         mumps%rhs(1:size(rhs, kind=lp)) => rhs
+         mumps%rhs => rhs
          call run_mumps(mumps, SOLVE)
          nullify (mumps%rhs)
          if (mumps%infog(1) < 0) return
       end associate
-      do j = 1, size(rhs, 2, kind=ip)
-         x(:, j) = rhs(:, j)*system%scale
-      end do
+      if (own_rank() == 0) x = rhs*system%scale
    end subroutine solve_with
 
    !> What this rank holds of the factor, as MUMPS counts it, and the rest [bytes].
@@ -399,28 +372,26 @@ contains
       if (has_mpi()) file = ATRITO_MUMPS_RANKS_LIBRARY
    end function library_file
 
-   !> An instance for a symmetric positive definite matrix whose diagonal is about 1, of this rank alone or of all ranks, which call
-   !> it together then.
+   !> An instance for a symmetric positive definite matrix whose diagonal is about 1, of all ranks, which call it together.
    !>
    !> status: STATUS_INTERNAL: there is no library, or it is of a version whose dmumps_struc may be another one. Such an instance is
    !> left alone.
-   subroutine begin_mumps(instance, status, communicator)
+   subroutine begin_mumps(instance, status)
       type(dmumps_struc), intent(inout) :: instance
       type(status_t), intent(out) :: status
-      integer, intent(in), optional :: communicator   !< of the ranks that work on it; this rank alone without it
 
       if (.not. has_mumps()) then
          call set_status(status, STATUS_INTERNAL, mumps_trouble())
          return
       end if
-      instance%comm = own_communicator()
-      if (present(communicator)) instance%comm = communicator
+      instance%comm = all_ranks_communicator()
       instance%par = 1
       instance%sym = 1                           ! positive definite: pivots in the order of the analysis
       instance%version_number = ''
       call run_mumps(instance, BEGIN)
       if (instance%version_number /= ATRITO_MUMPS_VERSION) then
-         call set_status(status, STATUS_INTERNAL, version_text(instance%version_number))
+         call set_status(status, STATUS_INTERNAL, 'the library '//library_file()//' is version '//trim(instance%version_number)// &
+                         ' of MUMPS, and this program was built for '//ATRITO_MUMPS_VERSION//': build it anew')
          return
       end if
       instance%icntl(1:4) = 0                    ! prints nothing
@@ -429,16 +400,6 @@ contains
       instance%icntl(8) = 0                      ! scaled already
       instance%icntl(12) = 1                     ! the plain symmetric analysis
    end subroutine begin_mumps
-
-   pure function version_text(found) result(text)
-      character(len=*), intent(in) :: found
-      character(len=:), allocatable :: text
-
-      text = 'another version'
-      if (verify(trim(found), '0123456789.') == 0 .and. len_trim(found) > 0) text = 'version '//trim(found)
-      text = 'the library '//library_file()//' is '//text//' of MUMPS, and this program was built for '// &
-             ATRITO_MUMPS_VERSION//': build it anew'
-   end function version_text
 
    !> One call of MUMPS, which raises harmless floating-point exceptions.
    subroutine run_mumps(instance, job)

@@ -8,7 +8,7 @@ module atrito_parcel
    use atrito_status, only: status_t
    implicit none (type, external)
    private
-   public :: parcel_t, put, take, put_text, put_status, take_status, make_parcel, parcel_length, parcel_bytes, is_empty
+   public :: parcel_t, put, take, put_text, put_status, take_status, make_parcel, parcel_bytes
 
    !> An empty one needs no call before the first put.
    type :: parcel_t
@@ -18,15 +18,14 @@ module atrito_parcel
       integer(lp) :: taken = 0                   !< bytes that were taken
    end type parcel_t
 
-   !> call put(parcel, x): adds a number, a logical, a text, or an array of numbers (rank 1 or 2).
+   !> call put(parcel, x): adds a number, a logical, a text, or an array of numbers (reals of rank 2, too).
    interface put
-      module procedure put_number, put_real, put_logical, put_letters, put_numbers, put_reals, put_number_columns, put_real_columns
+      module procedure put_number, put_real, put_logical, put_letters, put_numbers, put_reals, put_real_columns
    end interface put
 
    !> call take(parcel, x): the next item; texts and arrays are allocated.
    interface take
-      module procedure take_number, take_real, take_logical, take_letters, take_numbers, take_reals, take_number_columns, &
-         take_real_columns
+      module procedure take_number, take_real, take_logical, take_letters, take_numbers, take_reals, take_real_columns
    end interface take
 
    integer(lp), parameter :: NUMBERS = 1, REALS = 2, LETTERS = 3
@@ -45,28 +44,15 @@ contains
       parcel%length = length
    end subroutine make_parcel
 
-   !> Bytes that were put.
-   pure integer(lp) function parcel_length(parcel) result(length)
-      type(parcel_t), intent(in) :: parcel
-
-      length = parcel%length
-   end function parcel_length
-
-   !> All bytes that were put. Not associated where there are none.
+   !> All bytes that were put.
    function parcel_bytes(parcel) result(bytes)
       type(parcel_t), intent(in), target :: parcel
       integer(int8), pointer :: bytes(:)
+      integer(int8), target, save :: nothing(0)
 
-      nullify (bytes)
+      bytes => nothing
       if (parcel%length > 0) bytes => parcel%bytes(:parcel%length)
    end function parcel_bytes
-
-   !> Whether everything was taken.
-   pure logical function is_empty(parcel)
-      type(parcel_t), intent(in) :: parcel
-
-      is_empty = parcel%taken == parcel%length
-   end function is_empty
 
    subroutine put_number(parcel, x)
       type(parcel_t), intent(inout) :: parcel
@@ -118,13 +104,6 @@ contains
 
       call append(parcel, REALS, [size(x, kind=lp), 1_lp], c_loc(x))
    end subroutine put_reals
-
-   subroutine put_number_columns(parcel, x)
-      type(parcel_t), intent(inout) :: parcel
-      integer(ip), intent(in), contiguous, target :: x(:, :)
-
-      call append(parcel, NUMBERS, shape(x, kind=lp), c_loc(x))
-   end subroutine put_number_columns
 
    subroutine put_real_columns(parcel, x)
       type(parcel_t), intent(inout) :: parcel
@@ -189,16 +168,6 @@ contains
       allocate (x(lengths(1)))
       call copy_item(parcel, REALS, lengths, c_loc(x))
    end subroutine take_reals
-
-   subroutine take_number_columns(parcel, x)
-      type(parcel_t), intent(inout) :: parcel
-      integer(ip), allocatable, intent(out), target :: x(:, :)
-      integer(lp) :: lengths(2)
-
-      call begin_item(parcel, NUMBERS, lengths)
-      allocate (x(lengths(1), lengths(2)))
-      call copy_item(parcel, NUMBERS, lengths, c_loc(x))
-   end subroutine take_number_columns
 
    subroutine take_real_columns(parcel, x)
       type(parcel_t), intent(inout) :: parcel

@@ -5,10 +5,8 @@ module atrito_part_maker
    use atrito_constraint_rows, only: constraint_rows_t
    use atrito_contact_line, only: contact_line_t
    use atrito_contact_rows, only: contact_rows_t
-   use atrito_element_table, only: MOST_NODES
    use atrito_fem_piece, only: take_piece
-   use atrito_growth, only: grow
-   use atrito_kinds, only: ip, lp
+   use atrito_kinds, only: ip
    use atrito_scene_cut, only: scene_cut_t, unknowns_at
    use atrito_scene_elimination, only: scene_numbering_t
    use atrito_scene_part, only: scene_part_t
@@ -49,51 +47,31 @@ contains
       cut%unknown_at(unknown) = 0
    end subroutine make_scene_part
 
-   !> The nodes of a part as they come in its elements and points, and its bodies in their order; cut%place has their numbers.
+   !> The nodes of the elements and points of a part, and its bodies, in their order; cut%place has their numbers.
    subroutine list_members(fem, rows, elements, points, p, cut, nodes, bodies)
       type(fem_t), intent(in) :: fem
       type(contact_rows_t), intent(in) :: rows
       integer(ip), intent(in) :: elements(:), points(:), p
       type(scene_cut_t), intent(inout) :: cut
       integer(ip), allocatable, intent(out) :: nodes(:), bodies(:)
-      integer(ip) :: i, b, n
+      logical :: is_in(fem%mesh%n_nodes)
+      integer(ip) :: i, b
 
-      allocate (nodes(MOST_NODES*size(elements)))
-      n = 0
+      is_in = .false.
       do i = 1, size(elements, kind=ip)
-         call take_nodes(fem%mesh%nodes(:fem%mesh%shape(elements(i)), elements(i)), n, cut%place, nodes)
+         is_in(fem%mesh%nodes(:fem%mesh%shape(elements(i)), elements(i))) = .true.
       end do
       do i = 1, size(points, kind=ip)
-         call take_nodes(rows%node(rows%first(points(i)):rows%first(points(i) + 1) - 1), n, cut%place, nodes)
+         is_in(rows%node(rows%first(points(i)):rows%first(points(i) + 1) - 1)) = .true.
       end do
       do b = 1, fem%bodies%n                         ! without a point their motions stand with these nodes
-         if (cut%pull_part(b) == p .and. fem%bodies%list(b)%is_rigid) then
-            call take_nodes(fem%bodies%list(b)%nodes, n, cut%place, nodes)
-         end if
+         if (cut%pull_part(b) == p .and. fem%bodies%list(b)%is_rigid) is_in(fem%bodies%list(b)%nodes) = .true.
       end do
-      nodes = nodes(:n)
+      nodes = pack([(i, i=1, fem%mesh%n_nodes)], is_in)
       bodies = each_once([fem%bodies%of_node(nodes), pack([(b, b=1, fem%bodies%n)], cut%pull_part == p)])
-      do i = 1, size(bodies, kind=ip)
-         cut%place(fem%mesh%n_nodes + bodies(i)) = i
-      end do
+      cut%place(nodes) = [(i, i=1, size(nodes, kind=ip))]
+      cut%place(fem%mesh%n_nodes + bodies) = [(i, i=1, size(bodies, kind=ip))]
    end subroutine list_members
-
-   !> Adds nodes that have no place yet.
-   pure subroutine take_nodes(new, n, place, nodes)
-      integer(ip), intent(in) :: new(:)
-      integer(ip), intent(inout) :: n
-      integer(ip), intent(inout) :: place(:)
-      integer(ip), allocatable, intent(inout) :: nodes(:)
-      integer(ip) :: k
-
-      if (n + size(new) > size(nodes)) call grow(nodes, 2_lp*(n + size(new)))
-      do k = 1, size(new, kind=ip)
-         if (place(new(k)) > 0) cycle
-         n = n + 1
-         nodes(n) = new(k)
-         place(new(k)) = n
-      end do
-   end subroutine take_nodes
 
    !> Numbers the unknowns: those that are kept last, in each of the two displacements before motions.
    subroutine number_part(fem, rows, numbering, nodes, bodies, points, p, cut, part, unknown, pull)
@@ -221,28 +199,18 @@ contains
       part%rows%node = [(cut%place(rows%node(rows%first(points(i)):rows%first(points(i) + 1) - 1)), i=1, n)]
       part%line%n = n
       allocate (part%line%normal(n), part%line%tangential(n), source=0_ip)
-      allocate (row(2*n))
       k = 0
       do i = 1, n
          part%rows%first(i + 1) = part%rows%first(i) + rows%first(points(i) + 1) - rows%first(points(i))
          part%rows%longest = max(part%rows%longest, part%rows%first(i + 1) - part%rows%first(i))
-         call take_row(line%normal(points(i)), k, row, part%line%normal(i))
-         call take_row(line%tangential(points(i)), k, row, part%line%tangential(i))
+         if (line%normal(points(i)) > 0) part%line%normal(i) = k + 1
+         if (line%tangential(points(i)) > 0) part%line%tangential(i) = k + 1 + min(1_ip, part%line%normal(i))
+         k = max(k, part%line%normal(i), part%line%tangential(i))
       end do
-      row = row(:k)
+      row = [(line%normal(points(i)), line%tangential(points(i)), i=1, n)]
+      row = pack(row, row > 0)
       call take_constraints(constraints, row, cut%unknown_at, size(part%scene%numbering%body, kind=ip), part%scene%rows)
    end subroutine take_rows
-
-   pure subroutine take_row(of_scene, k, row, own)
-      integer(ip), intent(in) :: of_scene        !< 0: none
-      integer(ip), intent(inout) :: k, row(:)
-      integer(ip), intent(inout) :: own
-
-      if (of_scene == 0) return
-      k = k + 1
-      row(k) = of_scene
-      own = k
-   end subroutine take_row
 
    !> Some rows of B over the unknowns of the part.
    pure subroutine take_constraints(constraints, row, unknown_at, n, own)

@@ -3,20 +3,20 @@
 !> With A_p the matrix of part p, its unknowns in the order interior i, kept c, the system of the scene is solved by direct
 !> substructuring:
 !>
-!>     S_p = A_cc - A_ci A_ii^-1 A_ic        REFACTOR, on each rank
-!>     S = sum of S_p, factored              factor_top, by MUMPS on all ranks together
+!>     S_p = A_cc - A_ci A_ii^-1 A_ic        REFACTOR, on each rank, which keeps it
+!>     S = sum of S_p, factored              TOP_FACTOR, by MUMPS on all ranks together
 !>     g_c = f_c - A_ci A_ii^-1 f_i          REDUCE, on each rank
-!>     S x_c = sum of g_c                    solve_top
+!>     S x_c = sum of g_c                    TOP_SOLVE, the same
 !>     x_i = A_ii^-1 (f_i - A_ic x_c)        EXPAND, on each rank
 !>
 !> A question is a parcel: SERVICE_PART, what is wanted, and what goes with it. The first rank asks itself as it asks the others, but
 !> after them, so that all work at the same time. A rank has one part, and that of one scene at a time.
 module atrito_part_service
    use atrito_kinds, only: ip, lp, wp
-   use atrito_mpi, only: rank_count, receive_parcel, send_parcel
+   use atrito_mpi, only: receive_parcel, send_parcel
    use atrito_mumps, only: mumps_system_t, begin_mumps_system, end_mumps_system, factor_mumps_system, mumps_system_bytes, &
                            solve_mumps_system
-   use atrito_multifrontal, only: expand_variable, kept_matrix, reduce_variable
+   use atrito_multifrontal, only: expand_variable, kept_values, reduce_variable
    use atrito_parcel, only: parcel_t, put, put_status, put_text, take
    use atrito_rank_services, only: SERVICE_PART
    use atrito_scene_part, only: scene_part_t, assemble_scene_part, take_scene_part
@@ -24,24 +24,21 @@ module atrito_part_service
    implicit none (type, external)
    private
    public :: serve_part, begin_question, ask, ask_with, hear, hear_values
-   public :: begin_top, factor_top, solve_top, trouble, held_bytes
-   public :: ASSEMBLE, MULTIPLY, REFACTOR, REDUCE, EXPAND, FORGET
+   public :: held_bytes, ASSEMBLE, MULTIPLY, REFACTOR, REDUCE, EXPAND, TOP_BEGIN, TOP_FACTOR, TOP_SOLVE, FORGET
 
    ! What is wanted.
-   integer(ip), parameter :: ASSEMBLE = 1, MULTIPLY = 2, REFACTOR = 3, REDUCE = 4, EXPAND = 5, FORGET = 6
-   integer(ip), parameter :: BEGIN_TOP_HERE = 7, FACTOR_TOP_HERE = 8, SOLVE_TOP_HERE = 9
+   integer(ip), parameter :: ASSEMBLE = 1, MULTIPLY = 2, REFACTOR = 3, REDUCE = 4, EXPAND = 5, &
+                             TOP_BEGIN = 6, TOP_FACTOR = 7, TOP_SOLVE = 8, FORGET = 9
 
    !> What a rank has.
    type :: store_t
       type(scene_part_t) :: part
       real(wp), allocatable :: x(:)              !< loads that were reduced
-      real(wp), allocatable :: left(:)           !< S_p, its lower triangle by columns
       type(mumps_system_t) :: top                !< S, of all ranks
    end type store_t
 
-   type(store_t) :: own
+   type(store_t), target :: own
    type(parcel_t) :: own_answer                  !< of the first rank to itself
-   type(status_t), target :: trouble             !< of the first solve of the top that failed, until it is taken (scene_system_t)
 
 contains
 
@@ -49,27 +46,9 @@ contains
    subroutine serve_part(request)
       type(parcel_t), intent(inout) :: request
       type(parcel_t) :: answer
-      real(wp) :: nothing(0, 0)
-      type(status_t) :: status
-      integer(ip) :: wanted, n
-      integer(ip), allocatable :: unknown(:)
 
-      call take(request, wanted)
-      select case (wanted)
-      case (BEGIN_TOP_HERE)
-         call take(request, n)
-         call take(request, unknown)
-         call begin_mumps_system(own%top, n, unknown, status)
-      case (FACTOR_TOP_HERE)
-         call factor_own_top(status)
-      case (SOLVE_TOP_HERE)
-         call solve_mumps_system(own%top, nothing, status)
-      case (FORGET)
-         call let_go()
-      case default
-         call answer_question(wanted, request, answer)
-         call send_parcel(answer, 0_ip)
-      end select
+      call answer_question(request, answer)
+      call send_parcel(answer, 0_ip)
    end subroutine serve_part
 
    subroutine begin_question(wanted, request)
@@ -80,21 +59,19 @@ contains
       call put(request, wanted)
    end subroutine begin_question
 
-   !> Asks a rank; the first one, the last that is asked, works at once. The answer comes with hear; of FORGET there is none.
+   !> Asks a rank; the first one, the last that is asked, works at once. The answer comes with hear.
    subroutine ask(rank, request)
       integer(ip), intent(in) :: rank
       type(parcel_t), intent(inout) :: request   !< by begin_question
-      integer(ip) :: wanted
+      integer(ip) :: service
 
       if (rank > 0) then
          call send_parcel(request, rank)
-         return
+      else
+         call take(request, service)
+         own_answer = parcel_t()
+         call answer_question(request, own_answer)
       end if
-      call take(request, wanted)                 ! SERVICE_PART
-      call take(request, wanted)
-      own_answer = parcel_t()
-      if (wanted == FORGET) call let_go()
-      if (wanted /= FORGET) call answer_question(wanted, request, own_answer)
    end subroutine ask
 
    !> Asks with one vector over the unknowns of the part: MULTIPLY, REDUCE, EXPAND.
@@ -126,24 +103,29 @@ contains
       call take(answer, values)
    end subroutine hear_values
 
-   subroutine answer_question(wanted, request, answer)
-      integer(ip), intent(in) :: wanted
+   subroutine answer_question(request, answer)
       type(parcel_t), intent(inout) :: request, answer
+      integer(ip) :: wanted
 
+      call take(request, wanted)
       select case (wanted)
       case (ASSEMBLE)
          call answer_assembled(request, answer)
       case (REFACTOR)
          call answer_factored(request, answer)
-      case default
+      case (MULTIPLY, REDUCE, EXPAND)
          call answer_values(wanted, request, answer)
+      case (TOP_BEGIN, TOP_FACTOR, TOP_SOLVE)
+         call answer_top(wanted, request, answer)
+      case (FORGET)
+         call end_mumps_system(own%top)
+         call drop_part()
       end select
    end subroutine answer_question
 
    !> Takes the part, in the place of the one that there was. Answer: status, is_near, the order, what factoring will take [bytes].
    subroutine answer_assembled(request, answer)
       type(parcel_t), intent(inout) :: request, answer
-      integer(lp), parameter :: LEFT_BYTES = 12_lp   ! S_p as a full matrix and packed
       type(status_t) :: status
       real(wp) :: bytes
 
@@ -152,7 +134,7 @@ contains
       request = parcel_t()                       ! what was taken needs no copy
       call assemble_scene_part(own%part, status)
       bytes = 0.0_wp
-      if (is_ok(status)) bytes = real(own%part%scene%solving_bytes() + LEFT_BYTES*int(own%part%n_kept, lp)**2, wp)
+      if (is_ok(status)) bytes = real(own%part%scene%solving_bytes(), wp)
       call put_status(answer, status)
       call put(answer, own%part%scene%is_near)
       call put_text(answer, own%part%scene%order)
@@ -162,30 +144,16 @@ contains
    !> Takes the stiffness of rows and pulls [F/L]. Answer: status, the unknown whose pivot was not positive, whether S_p is another.
    subroutine answer_factored(request, answer)
       type(parcel_t), intent(inout) :: request, answer
-      real(wp), allocatable :: stiffness(:), pull(:), s(:, :)
+      real(wp), allocatable :: stiffness(:), pull(:)
       type(status_t) :: status
-      integer(lp) :: k
-      integer(ip) :: j
-      logical :: is_changed
 
       call take(request, stiffness)
       call take(request, pull)
-      associate (n => own%part%n_kept, scene => own%part%scene)
+      associate (scene => own%part%scene)
          call scene%factor(stiffness, pull, status)
-         is_changed = is_ok(status) .and. scene%matrix%n_refactored > 0   ! what failed is factored again
-         if (is_changed) then
-            if (.not. allocated(own%left)) allocate (own%left(int(n, lp)*(n + 1)/2))
-            allocate (s(n, n))
-            call kept_matrix(scene%matrix, s)
-            k = 0
-            do j = 1, n
-               own%left(k + 1:k + n - j + 1) = s(j:, j)
-               k = k + n - j + 1
-            end do
-         end if
          call put_status(answer, status)
          call put(answer, scene%failed)
-         call put(answer, is_changed)
+         call put(answer, is_ok(status) .and. scene%matrix%n_refactored > 0)   ! what failed is factored again
       end associate
    end subroutine answer_factored
 
@@ -214,98 +182,50 @@ contains
       call put(answer, y)
    end subroutine answer_values
 
-   !> All ranks come here together, for the top.
-   subroutine let_go()
-      call end_mumps_system(own%top)
-      call drop_part()
-   end subroutine let_go
-
    subroutine drop_part()
       type(scene_part_t) :: no_part
 
       own%part = no_part
       if (allocated(own%x)) deallocate (own%x)
-      if (allocated(own%left)) deallocate (own%left)
    end subroutine drop_part
 
-   !> Says which unknowns of the top this rank has. status: STATUS_INTERNAL: there is no MUMPS, or too little memory.
-   subroutine begin_top(n, unknown_of, status)
-      integer(ip), intent(in) :: n               !< unknowns
-      interface
-         !> Numbers of the unknowns that the part of a rank keeps, in its order; of no size: it has no part.
-         function unknown_of(rank) result(unknown)
-            import :: ip
-            integer(ip), intent(in) :: rank
-            integer(ip), allocatable :: unknown(:)
-         end function unknown_of
-      end interface
-      type(status_t), intent(out) :: status
-      type(parcel_t) :: request
-      integer(ip) :: rank
-
-      do rank = 1, rank_count() - 1
-         call begin_question(BEGIN_TOP_HERE, request)
-         call put(request, n)
-         call put(request, unknown_of(rank))
-         call send_parcel(request, rank)
-      end do
-      call begin_mumps_system(own%top, n, unknown_of(0_ip), status)
-   end subroutine begin_top
-
-   !> Factors S. status: STATUS_SINGULAR when it is singular or indefinite, STATUS_INTERNAL when the memory does not suffice.
-   subroutine factor_top(failed, status)
-      integer(ip), intent(out) :: failed         !< unknown of the top that moves most in its softest motion; 0: none
-      type(status_t), intent(out) :: status
-
-      call tell_others(FACTOR_TOP_HERE)
-      call factor_own_top(status)
-      failed = 0
-      if (.not. is_ok(status)) failed = own%top%report%worst_equation
-   end subroutine factor_top
-
-   !> MUMPS scales what it gets.
-   subroutine factor_own_top(status)
-      type(status_t), intent(out) :: status
-      real(wp), allocatable :: values(:)
-
-      allocate (values(0))
-      if (allocated(own%left)) values = own%left
-      call factor_mumps_system(own%top, values, status)
-   end subroutine factor_own_top
-
-   !> x <- S^-1 x; 0 where that failed, which is noted: nothing that was found may be believed then.
-   subroutine solve_top(x)
-      real(wp), intent(inout) :: x(:)            !< (n)
-      real(wp) :: column(size(x), 1)
-      type(status_t) :: status
-
-      call tell_others(SOLVE_TOP_HERE)
-      column(:, 1) = x
-      call solve_mumps_system(own%top, column, status)
-      x = 0.0_wp
-      if (is_ok(status)) then
-         x = column(:, 1)
-      else if (is_ok(trouble)) then
-         trouble = status
-      end if
-   end subroutine solve_top
-
-   subroutine tell_others(wanted)
+   !> All ranks are asked, for MUMPS wants them together: to begin, with the number of unknowns of the top and those of this rank; to
+   !> factor; to solve, with the loads [F], which the first rank alone has. Answer: status, the unknown that moves most in the
+   !> softest motion of a top that has no factor, or the solution [L].
+   subroutine answer_top(wanted, request, answer)
       integer(ip), intent(in) :: wanted
-      type(parcel_t) :: request
-      integer(ip) :: rank
+      type(parcel_t), intent(inout) :: request, answer
+      type(status_t) :: status
+      integer(ip) :: n
+      integer(ip), allocatable :: unknown(:)
+      real(wp), allocatable :: x(:)
+      real(wp), pointer, contiguous :: values(:)
+      real(wp), target :: nothing(0)
 
-      call begin_question(wanted, request)
-      do rank = 1, rank_count() - 1
-         call send_parcel(request, rank)
-      end do
-   end subroutine tell_others
+      select case (wanted)
+      case (TOP_BEGIN)
+         call take(request, n)
+         call take(request, unknown)
+         call begin_mumps_system(own%top, n, unknown, status)
+         call put_status(answer, status)
+      case (TOP_FACTOR)
+         values => kept_values(own%part%scene%matrix)
+         if (.not. associated(values)) values => nothing   ! the rank has no part, or shares nothing
+         call factor_mumps_system(own%top, values, status)
+         call put_status(answer, status)
+         call put(answer, own%top%weakest)
+      case (TOP_SOLVE)
+         call take(request, x)
+         call solve_mumps_system(own%top, x, status)
+         call put_status(answer, status)
+         call put(answer, x)
+      end select
+   end subroutine answer_top
 
    !> Memory held by this process for its part and the top [bytes].
    pure integer(lp) function held_bytes() result(bytes)
       bytes = mumps_system_bytes(own%top)
       if (own%part%scene%n > 0) bytes = bytes + own%part%scene%memory_bytes()
-      if (allocated(own%left)) bytes = bytes + size(own%left, kind=lp)*(storage_size(1.0_wp)/8)
    end function held_bytes
 
 end module atrito_part_service

@@ -1,6 +1,7 @@
 !> Some elements of a scene (atrito_fem_piece) in parcels: what their stiffness and stresses depend on.
 module atrito_piece_parcel
    use atrito_assembly, only: fem_t
+   use atrito_element_table, only: MOST_NODES
    use atrito_kinds, only: ip
    use atrito_parcel, only: parcel_t, put, take
    use atrito_plane_state, only: elastic_t
@@ -19,7 +20,7 @@ contains
          call put(parcel, mesh%x)
          call put(parcel, mesh%shape)
          call put(parcel, mesh%state)
-         call put(parcel, mesh%nodes)
+         call put(parcel, [mesh%nodes])
          call put(parcel, mesh%node_id)
          call put(parcel, mesh%element_id)
          call put(parcel, allocated(mesh%thickness))
@@ -47,7 +48,8 @@ contains
          call take(parcel, mesh%x)
          call take(parcel, mesh%shape)
          call take(parcel, mesh%state)
-         call take(parcel, mesh%nodes)
+         call take(parcel, numbers)
+         mesh%nodes = reshape(numbers, [MOST_NODES, size(mesh%shape, kind=ip)])
          call take(parcel, mesh%node_id)
          call take(parcel, mesh%element_id)
          call take(parcel, is_there)

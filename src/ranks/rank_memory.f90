@@ -22,7 +22,6 @@ module atrito_rank_memory
    use atrito_results, only: scene_t
    use atrito_scene_data, only: scene_data_t
    use atrito_scene_forecast, only: field_library_bytes, load_bytes, recovery_bytes, request_bytes, with_holes, LATER_BYTES
-   use atrito_scene_shares, only: fair_share
    use atrito_shared_scene, only: shared_scene_t
    use atrito_solver_choice, only: SOLVER_SPARSE
    use atrito_status, only: status_t, STATUS_DECK
@@ -90,9 +89,9 @@ contains
       allocate (ranks(0:rank_count() - 1))
       call put(request, SERVICE_MEMORY)
       call send_to_others(request)
-      call own_memory(ranks(0))
-      do rank = 1, rank_count() - 1
-         call receive_parcel(answer, rank)
+      do rank = 0, rank_count() - 1
+         if (rank == 0) call put_own_memory(answer)
+         if (rank > 0) call receive_parcel(answer, rank)
          call take(answer, ranks(rank)%host)
          call take(answer, bytes)
          ranks(rank)%held = int(bytes(1), lp)
@@ -104,28 +103,26 @@ contains
 
    !> The answer of another rank.
    subroutine serve_memory()
-      type(rank_memory_t) :: own
       type(parcel_t) :: answer
-      integer(lp), parameter :: MOST = 2_lp**62      ! so much is no limit, and a number of double precision
 
-      call own_memory(own)
-      call put(answer, own%host)
-      call put(answer, real(min([own%held, own%free, own%own, own%of_host], MOST), wp))
+      call put_own_memory(answer)
       call send_parcel(answer, 0_ip)
    end subroutine serve_memory
 
-   !> Of this rank.
-   subroutine own_memory(own)
-      type(rank_memory_t), intent(out) :: own
+   !> Of this rank: host, held, free, own, of_host.
+   subroutine put_own_memory(parcel)
+      type(parcel_t), intent(inout) :: parcel
+      character(len=:), allocatable :: host
+      integer(lp), parameter :: MOST = 2_lp**62      ! so much is no limit, and a number of double precision
+      integer(lp) :: free
       logical :: found
 
-      call read_system_line('/proc/sys/kernel/hostname', '', own%host, found)
-      if (.not. found) own%host = ''
-      own%free = min(reusable_memory(), resident_memory())
-      own%held = resident_memory() - own%free
-      own%own = address_space_left()
-      own%of_host = shared_memory_left()
-   end subroutine own_memory
+      call read_system_line('/proc/sys/kernel/hostname', '', host, found)
+      if (.not. found) host = ''
+      free = min(reusable_memory(), resident_memory())
+      call put(parcel, host)
+      call put(parcel, real(min([resident_memory() - free, free, address_space_left(), shared_memory_left()], MOST), wp))
+   end subroutine put_own_memory
 
    !> Growth of each rank [bytes]; before its part is there at the least.
    subroutine forecast_ranks(data, n_ranks, bytes)
@@ -136,8 +133,7 @@ contains
       integer(ip) :: p, r
 
       associate (mesh => data%fem%mesh, model => data%model)
-         elements = int(fair_share(n_ranks)*real(mesh%n_elements, wp), lp)
-         elements(0) = max(0_lp, mesh%n_elements - sum(elements(1:)))
+         elements = mesh%n_elements/n_ranks
          border = 0
          solving = CUT_BYTES*elements
          solving(0) = CUT_BYTES*mesh%n_elements
@@ -167,6 +163,14 @@ contains
 
    contains
 
+      !> Two phases one after the other.
+      pure integer(lp) function overlap(one, other, left_behind)
+         integer(lp), intent(in) :: one, other
+         real(wp), intent(in) :: left_behind
+
+         overlap = max(one, other) + int(left_behind*real(min(one, other), wp), lp)
+      end function overlap
+
       !> Stresses and patches of the rank's elements and of those in the rings round them.
       pure integer(lp) function recovering(r) result(held)
          integer(ip), intent(in) :: r
@@ -177,13 +181,6 @@ contains
       end function recovering
 
    end subroutine forecast_ranks
-
-   elemental integer(lp) function overlap(solving, recovering, left_behind) result(bytes)
-      integer(lp), intent(in) :: solving, recovering
-      real(wp), intent(in) :: left_behind
-
-      bytes = max(solving, recovering) + int(left_behind*real(min(solving, recovering), wp), lp)
-   end function overlap
 
    !> The first rank, or the ranks of the first host, that have too little.
    pure function find_shortage(ranks, growth, limit) result(short)
@@ -243,26 +240,21 @@ contains
       call add_message(message)
    end subroutine tell
 
-   !> 'rank 1 (host node7) needs'
+   !> 'rank 1 (host node7) of 4 needs'
    function who_text(ranks, short) result(text)
       type(rank_memory_t), intent(in) :: ranks(0:)
       type(shortage_t), intent(in) :: short
-      character(len=:), allocatable :: text
+      character(len=:), allocatable :: text, host
       integer(ip) :: r
-      logical :: several_hosts
 
-      several_hosts = any([(ranks(r)%host /= ranks(0)%host, r=1, size(ranks, kind=ip) - 1)])
+      host = ''
+      if (any([(ranks(r)%host /= ranks(0)%host, r=1, size(ranks, kind=ip) - 1)])) host = 'host '//ranks(short%first)%host
       if (short%n > 1) then
-         text = 'the '//to_text(short%n)//' ranks of '
-         if (several_hosts) then
-            text = text//'host '//ranks(short%first)%host//' need'
-         else
-            text = text//'this machine need'
-         end if
+         if (len(host) == 0) host = 'this machine'
+         text = 'the '//to_text(short%n)//' ranks of '//host//' need'
       else
-         text = 'rank '//to_text(short%first)
-         if (several_hosts) text = text//' (host '//ranks(short%first)%host//')'
-         text = text//' of '//to_text(size(ranks, kind=ip))//' needs'
+         if (len(host) > 0) host = ' ('//host//')'
+         text = 'rank '//to_text(short%first)//host//' of '//to_text(size(ranks, kind=ip))//' needs'
       end if
    end function who_text
 

@@ -58,7 +58,6 @@ module atrito_rank_tasks
    type :: outcome_t
       type(parcel_t) :: answer
       integer :: end_code = 0
-      real(wp) :: seconds = 0.0_wp                  !< that it took
    end type outcome_t
 
    real(c_double), parameter :: SHORT_PAUSE = 1.0e-4_c_double, LONG_PAUSE = 5.0e-4_c_double, LONGER = 1.2_c_double   !< [s]
@@ -73,9 +72,10 @@ contains
       type(task_process_t) :: process
       type(outcome_t) :: outcome
       integer(ip), allocatable :: task_of(:)        ! (ranks) from 0; 0: none
-      real(wp), allocatable :: busy(:)
+      real(wp), allocatable :: busy(:)              ! [s]
       integer(ip) :: next, rank
       integer(lp) :: began
+      integer(lp), allocatable :: given(:)
       real(c_double) :: wait_time
       logical :: is_done
 
@@ -83,6 +83,7 @@ contains
       times%n_ranks = rank_count()
       allocate (task_of(0:rank_count() - 1), source=0_ip)
       allocate (busy(0:rank_count() - 1), source=0.0_wp)
+      allocate (given(0:rank_count() - 1))
       next = 1
       wait_time = SHORT_PAUSE
       do
@@ -91,14 +92,15 @@ contains
             task_of(rank) = list(next)
             next = next + 1
             call tasks%begin(task_of(rank))
+            call system_clock(given(rank))
             if (rank > 0) call tell(task_of(rank), rank)
             if (rank == 0) call begin_own(tasks, process, task_of(0))
          end do
          if (all(task_of == 0)) exit
          call look_for_outcome(tasks, process, task_of(0), outcome, rank, is_done)
          if (is_done) then
-            busy(rank) = busy(rank) + outcome%seconds
-            times%longest_task = max(times%longest_task, outcome%seconds)
+            busy(rank) = busy(rank) + seconds_from(given(rank))
+            times%longest_task = max(times%longest_task, seconds_from(given(rank)))
             call tasks%keep(task_of(rank), outcome%answer, outcome%end_code)
             task_of(rank) = 0
             wait_time = SHORT_PAUSE
@@ -139,7 +141,6 @@ contains
       if (is_done) then
          call receive_parcel(head, ANY_RANK, rank)
          call take(head, end_code)
-         call take(head, outcome%seconds)
          outcome%end_code = int(end_code)
          call receive_parcel(outcome%answer, rank)
       else if (own_task > 0) then
@@ -171,7 +172,6 @@ contains
          end do
          head = parcel_t()
          call put(head, int(outcome%end_code, ip))
-         call put(head, outcome%seconds)
          call send_parcel(head, 0_ip)
          call send_parcel(outcome%answer, 0_ip)
       end do
@@ -198,14 +198,12 @@ contains
       type(task_process_t), intent(inout) :: process
       type(parcel_t) :: answer
       integer(ip) :: task
-      integer(lp) :: began
 
       do
          call await_task(process, task)
-         call system_clock(began)
          answer = parcel_t()
          call tasks%make(task, answer)
-         call give_answer(process, answer, seconds_from(began))
+         call give_answer(process, answer)
       end do
    end subroutine work_in_copy
 
@@ -216,15 +214,12 @@ contains
       integer(ip), intent(in) :: task
       type(outcome_t), intent(out) :: outcome
       logical, intent(out) :: is_done
-      integer(lp) :: began
 
+      is_done = .true.
       if (is_there(process)) then
-         call ask_answer(process, outcome%answer, is_done, outcome%end_code, outcome%seconds)
+         call ask_answer(process, outcome%answer, is_done, outcome%end_code)
       else
-         call system_clock(began)
          call tasks%make(task, outcome%answer)
-         outcome%seconds = seconds_from(began)
-         is_done = .true.
       end if
    end subroutine look_at_own
 

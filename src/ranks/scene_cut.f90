@@ -1,7 +1,6 @@
 !> How a scene is cut into parts (atrito_scene_part), given which element is in which part; atrito_part_maker makes them.
 !>
-!> A contact point belongs to the part of its slave node, a bilateral row to that of its first node; where these lie on a cut, to
-!> that of the next node that does not. The other nodes and the motions of the bodies come with it, so a node belongs to the parts
+!> A contact point belongs to the part of its slave node, a bilateral row to that of its first node. The other nodes and the motions of the bodies come with it, so a node belongs to the parts
 !> of its elements and of the points that see it, and the motions of a body to the parts of the points that see it. What belongs
 !> to several parts is shared: all of its unknowns are kept by all of them, and numbered in the order of the scene's unknowns in the
 !> system that holds the parts together.
@@ -47,22 +46,15 @@ contains
       integer(ip), intent(in) :: part_of_element(:)  !< (n_elements) 1..n_parts
       integer(ip), intent(in) :: n_parts
       type(scene_cut_t), intent(out) :: cut
-      integer(ip) :: home(fem%mesh%n_nodes), e, i, k
-      logical :: is_border(fem%mesh%n_nodes)
+      integer(ip) :: home(fem%mesh%n_nodes), e, i
 
       cut%n_parts = n_parts
       home = 0
-      is_border = .false.
       do e = fem%mesh%n_elements, 1, -1              ! the first element at a node is the last to tell
-         do k = 1, fem%mesh%shape(e)
-            associate (node => fem%mesh%nodes(k, e))
-               is_border(node) = is_border(node) .or. (home(node) > 0 .and. home(node) /= part_of_element(e))
-               home(node) = part_of_element(e)
-            end associate
-         end do
+         home(fem%mesh%nodes(:fem%mesh%shape(e), e)) = part_of_element(e)
       end do
       call list_holders(n_parts, reshape(part_of_element, [1_ip, fem%mesh%n_elements]), cut%first_element, cut%element)
-      call share_points(rows, line, home, is_border, n_parts, cut)
+      call share_points(rows, line, home, n_parts, cut)
       call find_shared(fem, rows, numbering, cut)
       call place_pulls(fem, numbering, part_of_element, cut)
       call place_springs(fem, numbering, home, cut)
@@ -75,42 +67,34 @@ contains
    end subroutine plan_cut
 
    !> The parts of the points that have a row.
-   subroutine share_points(rows, line, home, is_border, n_parts, cut)
+   subroutine share_points(rows, line, home, n_parts, cut)
       type(contact_rows_t), intent(in) :: rows
       type(contact_line_t), intent(in) :: line
       integer(ip), intent(in) :: home(:)             !< (n_nodes) part of the first element there; 0: none
-      logical, intent(in) :: is_border(:)            !< (n_nodes) several parts have elements there
       integer(ip), intent(in) :: n_parts
       type(scene_cut_t), intent(inout) :: cut
       integer(ip) :: part(1, line%n), j
 
       part = 0
       do j = 1, line%n
-         if (line%normal(j) > 0 .or. line%tangential(j) > 0) part(1, j) = part_of_point(rows, j, home, is_border)
+         if (line%normal(j) > 0 .or. line%tangential(j) > 0) part(1, j) = part_of_point(rows, j, home)
       end do
       call list_holders(n_parts, part, cut%first_point, cut%point)
    end subroutine share_points
 
-   !> The part of the first slave node whose elements are all in one, else of any such node, else of any node; 1 where rigid bodies
-   !> meet alone.
-   pure integer(ip) function part_of_point(rows, j, home, is_border) result(part)
+   !> The part of the first slave node with elements, else of any node; 1 where rigid bodies meet alone.
+   pure integer(ip) function part_of_point(rows, j, home) result(part)
       type(contact_rows_t), intent(in) :: rows
       integer(ip), intent(in) :: j, home(:)
-      logical, intent(in) :: is_border(:)            !< (n_nodes) several parts have elements there
-      integer(ip) :: k, claim, best
+      integer(ip) :: k
 
-      part = 1
-      best = 0
+      part = 0
       do k = rows%first(j), rows%first(j + 1) - 1
-         associate (node => rows%node(k))
-            if (home(node) == 0) cycle
-            claim = merge(1, 3, is_border(node))
-            if (rows%coefficient(k) > 0.0_wp) claim = claim + 1
-            if (claim <= best) cycle
-            best = claim
-            part = home(node)
-         end associate
+         if (part == 0) part = home(rows%node(k))
+         if (rows%coefficient(k) > 0.0_wp .and. home(rows%node(k)) > 0) exit
       end do
+      if (k < rows%first(j + 1)) part = home(rows%node(k))
+      part = max(part, 1_ip)
    end function part_of_point
 
    !> Goes through the parts: a node or motion that had another one before is shared.

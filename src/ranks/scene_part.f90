@@ -147,7 +147,7 @@ contains
       call put(parcel, bodies%n_rigid)
       call put(parcel, bodies%of_node)
       call put(parcel, bodies%of_element)
-      call put(parcel, bodies%equation)
+      call put(parcel, [bodies%equation])
       call put(parcel, element)
       do b = bodies%n - bodies%n_rigid + 1, bodies%n
          call put(parcel, bodies%list(b)%nodes)
@@ -163,7 +163,8 @@ contains
       call take(parcel, bodies%n_rigid)
       call take(parcel, bodies%of_node)
       call take(parcel, bodies%of_element)
-      call take(parcel, bodies%equation)
+      call take(parcel, element)
+      bodies%equation = reshape(element, [2, size(element)/2])
       call take(parcel, element)
       bodies%n = size(element, kind=ip)
       allocate (bodies%list(bodies%n))

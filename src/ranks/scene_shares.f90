@@ -13,25 +13,12 @@ module atrito_scene_shares
    use atrito_scene_elimination, only: scene_numbering_t
    implicit none (type, external)
    private
-   public :: share_elements, fair_share
+   public :: share_elements
 
-   !> What the first of many ranks has besides, over the work of all.
-   real(wp), parameter :: BESIDES = 0.2_wp
-   !> By how much of what is fair a rank may have more, and subtrees of it that are not cut any more.
+   !> By how much of the mean a rank may have more, and subtrees of it that are not cut any more.
    real(wp), parameter :: MARGIN = 0.08_wp, LEAST_CUT = 0.02_wp
 
 contains
-
-   !> That of each rank but the first, of all the work. Two ranks have the same: it is time that counts. Of many the first one has
-   !> less: it has the mesh and the results of the whole scene besides, and would be the largest.
-   pure real(wp) function fair_share(n_ranks) result(share)
-      integer(ip), intent(in) :: n_ranks         !< >= 1
-      real(wp) :: n
-
-      n = real(n_ranks, wp)
-      share = 1.0_wp
-      if (n_ranks > 1) share = min((1.0_wp + BESIDES*(n - 2.0_wp)/n)/n, 1.0_wp/(n - 1.0_wp))
-   end function fair_share
 
    !> The part of each element, and whose it is; ranks without elements have no part.
    subroutine share_elements(fem, numbering, elimination, n_ranks, part_of_element, rank)
@@ -41,11 +28,16 @@ contains
       integer(ip), intent(in) :: n_ranks             !< >= 1
       integer(ip), intent(out) :: part_of_element(:) !< (n_elements) 1..size(rank)
       integer(ip), allocatable, intent(out) :: rank(:) !< (parts) 0..n_ranks - 1, ascending
-      integer(ip) :: rank_of(size(elimination%last)), part_of_rank(0:n_ranks - 1), e, i
+      integer(ip) :: rank_of(size(elimination%last)), rank_at(numbering%n), part_of_rank(0:n_ranks - 1), e, i, s
 
       call share_supernodes(elimination, n_ranks, rank_of)
+      i = 1
+      do s = 1, size(rank_of, kind=ip)
+         rank_at(i:elimination%last(s)) = rank_of(s)
+         i = elimination%last(s) + 1
+      end do
       do e = 1, fem%mesh%n_elements
-         part_of_element(e) = rank_of_element(fem, numbering, elimination, rank_of, e)
+         part_of_element(e) = rank_of_element(fem, numbering, elimination, rank_at, e)
       end do
       call join_neighbours(fem, part_of_element)
       part_of_rank = 0
@@ -107,16 +99,15 @@ contains
       real(wp), intent(in) :: weight(:)
       logical, intent(in) :: is_root(:)
       integer(ip), intent(inout) :: rank_of(:)       !< at the roots
-      real(wp) :: before, total, fair
+      real(wp) :: before, mean
       integer(ip) :: s
 
-      total = max(sum(weight, mask=is_root), 1.0_wp)
-      fair = fair_share(n_ranks)
-      before = fair*real(n_ranks, wp) - 1.0_wp       ! what the first rank has less than the others
+      mean = max(sum(weight, mask=is_root), 1.0_wp)/real(n_ranks, wp)
+      before = 0.0_wp
       do s = 1, size(rank_of, kind=ip)
          if (.not. is_root(s)) cycle
-         rank_of(s) = max(0, min(floor((before + 0.5_wp*weight(s)/total)/fair, ip), n_ranks - 1))
-         before = before + weight(s)/total
+         rank_of(s) = min(floor((before + 0.5_wp*weight(s))/mean, ip), n_ranks - 1)
+         before = before + weight(s)
       end do
    end subroutine give_to_ranks
 
@@ -132,16 +123,17 @@ contains
       do s = 1, size(rank_of, kind=ip)
          if (is_root(s)) load(rank_of(s)) = load(rank_of(s)) + weight(s)
       end do
-      is_even = maxval(load) <= (1.0_wp + MARGIN)*fair_share(n_ranks)*sum(load)
+      is_even = maxval(load) <= (1.0_wp + MARGIN)*sum(load)/real(n_ranks, wp)
    end function is_even
 
    !> That of the unknown of the element that is eliminated first; -1: all of them are above the subtrees, or there are none.
-   pure integer(ip) function rank_of_element(fem, numbering, elimination, rank_of, e) result(rank)
+   pure integer(ip) function rank_of_element(fem, numbering, elimination, rank_at, e) result(rank)
       type(fem_t), intent(in) :: fem
       type(scene_numbering_t), intent(in) :: numbering
       type(elimination_t), intent(in) :: elimination
-      integer(ip), intent(in) :: rank_of(:), e
-      integer(ip) :: k, dof, first, low, high, middle
+      integer(ip), intent(in) :: rank_at(:)          !< (positions in the elimination)
+      integer(ip), intent(in) :: e
+      integer(ip) :: k, dof, first
 
       first = huge(first)
       do k = 1, fem%mesh%shape(e)
@@ -152,18 +144,7 @@ contains
          end do
       end do
       rank = -1
-      if (first == huge(first)) return
-      low = 1
-      high = size(elimination%last, kind=ip)
-      do while (low < high)                          ! the supernode of the position
-         middle = (low + high)/2
-         if (elimination%last(middle) < first) then
-            low = middle + 1
-         else
-            high = middle
-         end if
-      end do
-      rank = rank_of(low)
+      if (first < huge(first)) rank = rank_at(first)
    end function rank_of_element
 
    !> Elements that no subtree has go with one that has a node of theirs; without such a one, with the first rank.

@@ -17,11 +17,12 @@ module atrito_shared_fields
    use atrito_range, only: unit_of
    use atrito_rank_services, only: SERVICE_FIELDS
    use atrito_results, only: results_t
+   use atrito_scene_data, only: distribution_t
    use atrito_stress_recovery, only: stress_field_t, nodal_stresses, recover_stress_field
    use atrito_thermal_loads, only: largest_thermal_strain
    implicit none (type, external)
    private
-   public :: shared_fields_t, begin_fields, end_fields, serve_fields, find_region, list_near
+   public :: field_distribution_t, serve_fields
 
    integer(ip), parameter :: RINGS = 4
 
@@ -33,93 +34,110 @@ module atrito_shared_fields
       integer(ip), allocatable :: node(:)
    end type region_t
 
-   !> Fields that have begun, or may.
-   type :: shared_fields_t
-      type(region_t), allocatable :: regions(:)      !< from 0
-      logical :: has_begun = .false.
-      real(wp) :: unit = 0.0_wp
-      logical :: by_element = .false.
-   end type shared_fields_t
-
-   !> What is found in a region.
-   type :: found_t
-      real(wp), allocatable :: stress(:, :)          !< (5, nodes of the rank's elements) [F/L^2]
-      type(energies_t) :: energies
-      real(wp), allocatable :: square(:)             !< (elements of the rank) ||e||^2 [F L]; none where nobody asks
-   end type found_t
+   !> What of a distributed scene the stresses are; atrito_rank_distribution adds the matrix.
+   type, extends(distribution_t), abstract :: field_distribution_t
+      integer(ip), allocatable :: rank_of(:)         !< (n_elements) from 0
+      type(region_t), allocatable, private :: regions(:)   !< from 0, while fields have begun
+      real(wp), private :: unit = 0.0_wp
+      logical, private :: by_element = .false.       !< the error of each is wanted
+   contains
+      procedure :: begin_fields
+      procedure :: end_fields
+   end type field_distribution_t
 
 contains
 
    !> Gives the other ranks their elements; they begin. end_fields has to follow, with nothing else for the ranks between.
-   subroutine begin_fields(fem, rank_of, u, by_element, fields)
+   subroutine begin_fields(self, fem, u, by_element)
+      class(field_distribution_t), intent(inout) :: self
       type(fem_t), intent(in) :: fem
-      integer(ip), intent(in) :: rank_of(:)          !< (n_elements)
       real(wp), intent(in) :: u(:, :)                !< (2, n_nodes) [L]
-      logical, intent(in) :: by_element              !< the error of each is wanted
-      type(shared_fields_t), intent(inout) :: fields
+      logical, intent(in) :: by_element
+      type(parcel_t) :: request
       integer(ip), allocatable :: near(:)
       integer(ip) :: rank
-      type(fem_t) :: piece
 
-      fields%has_begun = .true.
-      fields%unit = unit_of(u)
-      fields%by_element = by_element
-      allocate (fields%regions(0:rank_count() - 1))
-      call list_near(fem%mesh, rank_of, near)
-      do rank = rank_count() - 1, 0, -1
-         associate (region => fields%regions(rank))
-            call find_region(fem%mesh, rank_of, near, rank, region)
-            if (rank == 0) cycle
-            call take_piece(fem, region%node, region%element, piece)
-            call give_region(region, piece, u(:, region%node), fields, rank)
-            deallocate (piece%mesh)
-         end associate
+      if (allocated(self%regions)) return
+      self%unit = unit_of(u)
+      self%by_element = by_element
+      allocate (self%regions(0:rank_count() - 1))
+      call list_near(fem%mesh, self%rank_of, near)
+      do rank = 0, rank_count() - 1
+         call find_region(fem%mesh, self%rank_of, near, rank, self%regions(rank))
+         if (rank == 0) cycle
+         call put_region(self, fem, u, self%regions(rank), request)
+         call send_parcel(request, rank)
       end do
    end subroutine begin_fields
 
    !> The same as estimate_error.
-   subroutine end_fields(fem, fields, results, strain_bound)
+   subroutine end_fields(self, fem, results, strain_bound)
+      class(field_distribution_t), intent(inout) :: self
       type(fem_t), intent(in) :: fem
-      type(shared_fields_t), intent(inout) :: fields !< that have begun; they have not on return
       type(results_t), intent(inout) :: results      !< with the displacements with which they have
       real(wp), intent(out) :: strain_bound          !< no strain is larger than this
-      type(found_t) :: found
       type(energies_t) :: energies
-      type(fem_t) :: piece
-      integer(ip) :: rank
+      type(parcel_t) :: request, answer
+      integer(ip) :: rank, service
 
       allocate (results%nodal_stress(size(STRESS_NAMES), fem%mesh%n_nodes), source=0.0_wp)
-      if (fields%by_element .and. .not. allocated(results%element_error)) then
+      if (self%by_element .and. .not. allocated(results%element_error)) then
          allocate (results%element_error(fem%mesh%n_elements), source=0.0_wp)
       end if
-      do rank = 0, ubound(fields%regions, 1)
-         associate (region => fields%regions(rank))
-            if (region%n_own == 0) cycle
-            if (rank > 0) then
-               call receive_found(rank, found)
-            else
-               call take_piece(fem, region%node, region%element, piece)
-               call measure_region(region%n_own, region%n_nodes, piece, results%u(:, region%node), fields%unit, &
-                                   fields%by_element, found)
-               deallocate (piece%mesh)
-            end if
-            call take_found(region, found, results, energies)
-         end associate
+      do rank = 0, ubound(self%regions, 1)
+         if (rank == 0) then
+            call put_region(self, fem, results%u, self%regions(0), request)
+            call take(request, service)
+            call answer_fields(request, answer)
+         else
+            call receive_parcel(answer, rank)
+         end if
+         call take_found(self%regions(rank), answer, results, energies)
       end do
-      deallocate (fields%regions)
-      fields%has_begun = .false.
-      if (fields%by_element) results%element_error = share_errors(energies, results%element_error)
+      deallocate (self%regions)
+      if (self%by_element) results%element_error = share_errors(energies, results%element_error)
       results%error_estimate = relative_error(energies)
       strain_bound = energies%strain + 2*largest_thermal_strain(fem)   ! as estimate_error
    end subroutine end_fields
 
+   subroutine put_region(self, fem, u, region, request)
+      class(field_distribution_t), intent(in) :: self
+      type(fem_t), intent(in) :: fem
+      real(wp), intent(in) :: u(:, :)                !< (2, n_nodes) [L]
+      type(region_t), intent(in) :: region
+      type(parcel_t), intent(out) :: request
+      type(fem_t) :: piece
+
+      call put(request, SERVICE_FIELDS)
+      call put(request, region%n_own)
+      call put(request, region%n_nodes)
+      call put(request, self%unit)
+      call put(request, self%by_element)
+      call put(request, u(:, region%node))
+      if (region%n_own == 0) return
+      call take_piece(fem, region%node, region%element, piece)
+      call put_piece(request, piece)
+      deallocate (piece%mesh)
+   end subroutine put_region
+
    !> Joins in; what is left of the parcel comes behind SERVICE_FIELDS.
    subroutine serve_fields(request)
       type(parcel_t), intent(inout) :: request
-      type(fem_t) :: piece
-      type(found_t) :: found
       type(parcel_t) :: answer
-      real(wp), allocatable :: u(:, :)
+
+      call answer_fields(request, answer)
+      call send_parcel(answer, 0_ip)
+   end subroutine serve_fields
+
+   !> Stresses at the nodes of the rank's elements [F/L^2], and their error: the energies, and ||e||^2 of each element [F L] where it
+   !> is wanted. Without elements there is no answer.
+   subroutine answer_fields(request, answer)
+      type(parcel_t), intent(inout) :: request
+      type(parcel_t), intent(out) :: answer
+      type(fem_t) :: piece
+      type(stress_field_t) :: field
+      type(energies_t) :: e
+      real(wp), allocatable :: u(:, :), stress(:, :), square(:)
       integer(ip) :: n_own, n_nodes
       real(wp) :: unit
       logical :: by_element
@@ -129,86 +147,38 @@ contains
       call take(request, unit)
       call take(request, by_element)
       call take(request, u)
+      if (n_own == 0) return
       call receive_piece(request, piece)
-      call measure_region(n_own, n_nodes, piece, u, unit, by_element, found)
-      deallocate (piece%mesh)
-      call put(answer, found%stress)
-      associate (e => found%energies)
-         call put(answer, [e%solution, e%error, e%round_off, e%strain])
-      end associate
-      call put(answer, found%square)
-      call send_parcel(answer, 0_ip)
-   end subroutine serve_fields
-
-   subroutine give_region(region, piece, u, fields, rank)
-      type(region_t), intent(in) :: region
-      type(fem_t), intent(in) :: piece               !< its elements, with a mesh of their own
-      real(wp), intent(in), contiguous :: u(:, :)    !< (2, nodes of the region) [L]
-      type(shared_fields_t), intent(in) :: fields
-      integer(ip), intent(in) :: rank
-      type(parcel_t) :: request
-
-      if (region%n_own == 0) return
-      call put(request, SERVICE_FIELDS)
-      call put(request, region%n_own)
-      call put(request, region%n_nodes)
-      call put(request, fields%unit)
-      call put(request, fields%by_element)
-      call put(request, u)
-      call put_piece(request, piece)
-      call send_parcel(request, rank)
-   end subroutine give_region
-
-   subroutine receive_found(rank, found)
-      integer(ip), intent(in) :: rank
-      type(found_t), intent(out) :: found
-      type(parcel_t) :: answer
-      real(wp), allocatable :: sums(:)
-
-      call receive_parcel(answer, rank)
-      call take(answer, found%stress)
-      call take(answer, sums)
-      found%energies = energies_t(sums(1), sums(2), sums(3), sums(4))
-      call take(answer, found%square)
-   end subroutine receive_found
-
-   !> Adds what was found in a region; at a border the last rank has its way.
-   pure subroutine take_found(region, found, results, energies)
-      type(region_t), intent(in) :: region
-      type(found_t), intent(in) :: found
-      type(results_t), intent(inout) :: results
-      type(energies_t), intent(inout) :: energies
-
-      results%nodal_stress(:, region%node(:region%n_nodes)) = found%stress
-      energies%solution = energies%solution + found%energies%solution
-      energies%error = energies%error + found%energies%error
-      energies%round_off = energies%round_off + found%energies%round_off
-      energies%strain = max(energies%strain, found%energies%strain)
-      if (allocated(results%element_error)) results%element_error(region%element(:region%n_own)) = found%square
-   end subroutine take_found
-
-   !> Stresses at the nodes of the rank's elements, and their error.
-   subroutine measure_region(n_own, n_nodes, piece, u, unit, by_element, found)
-      integer(ip), intent(in) :: n_own, n_nodes      !< of the rank
-      type(fem_t), intent(inout) :: piece            !< its elements, then those round them
-      real(wp), intent(in) :: u(:, :)                !< (2, nodes of the region) [L]
-      real(wp), intent(in) :: unit
-      logical, intent(in) :: by_element
-      type(found_t), intent(out) :: found
-      type(stress_field_t) :: field
-      real(wp), allocatable :: stress(:, :)
-
+      request = parcel_t()                           ! what was taken needs no copy
       call recover_stress_field(piece, u, field)
       call nodal_stresses(piece, field, stress)
-      found%stress = stress(:, :n_nodes)
-      piece%mesh%n_elements = n_own             ! those round them have served
-      allocate (found%square(merge(n_own, 0_ip, by_element)))
-      if (by_element) then
-         call integrate_error(piece, u, field, found%energies, unit, found%square)
-      else
-         call integrate_error(piece, u, field, found%energies, unit)
-      end if
-   end subroutine measure_region
+      piece%mesh%n_elements = n_own                  ! those round them have served
+      allocate (square(merge(n_own, 0_ip, by_element)))
+      if (by_element) call integrate_error(piece, u, field, e, unit, square)
+      if (.not. by_element) call integrate_error(piece, u, field, e, unit)
+      deallocate (piece%mesh)
+      call put(answer, stress(:, :n_nodes))
+      call put(answer, [e%solution, e%error, e%round_off, e%strain])
+      call put(answer, square)
+   end subroutine answer_fields
+
+   !> Adds what was found in a region; at a border the last rank has its way.
+   subroutine take_found(region, answer, results, energies)
+      type(region_t), intent(in) :: region
+      type(parcel_t), intent(inout) :: answer
+      type(results_t), intent(inout) :: results
+      type(energies_t), intent(inout) :: energies
+      real(wp), allocatable :: stress(:, :), sums(:), square(:)
+
+      if (region%n_own == 0) return
+      call take(answer, stress)
+      call take(answer, sums)
+      call take(answer, square)
+      results%nodal_stress(:, region%node(:region%n_nodes)) = stress
+      energies = energies_t(energies%solution + sums(1), energies%error + sums(2), energies%round_off + sums(3), &
+                            max(energies%strain, sums(4)))
+      if (allocated(results%element_error)) results%element_error(region%element(:region%n_own)) = square
+   end subroutine take_found
 
    !> The elements of a rank, then those of the rings round them; and their nodes in this order.
    pure subroutine find_region(mesh, rank_of, near, rank, region)

@@ -11,8 +11,8 @@ module atrito_shared_scene
    use atrito_mpi, only: rank_count
    use atrito_parcel, only: parcel_t, put, take, take_status
    use atrito_part_maker, only: make_scene_part
-   use atrito_part_service, only: ask, ask_with, begin_question, begin_top, factor_top, held_bytes, hear, hear_values, solve_top, &
-                                  trouble, ASSEMBLE, EXPAND, FORGET, MULTIPLY, REDUCE, REFACTOR
+   use atrito_part_service, only: ask, ask_with, begin_question, hear, hear_values, held_bytes, ASSEMBLE, EXPAND, FORGET, &
+                                  MULTIPLY, REDUCE, REFACTOR, TOP_BEGIN, TOP_FACTOR, TOP_SOLVE
    use atrito_row_entries, only: build_constraint_rows
    use atrito_scene_cut, only: scene_cut_t, plan_cut, diagonals_of_rows
    use atrito_scene_elimination, only: eliminate_scene, number_scene
@@ -23,6 +23,8 @@ module atrito_shared_scene
    implicit none (type, external)
    private
    public :: shared_scene_t, share_scene
+
+   type(status_t), target :: trouble             !< of the first solve of the top that failed, until it is taken (scene_system_t)
 
    !> What a part has of the scene, in its own order.
    type :: place_t
@@ -140,21 +142,51 @@ contains
          scene%is_near = scene%is_near .or. is_near
          if (p == 1) call move_alloc(order, scene%order)
       end do
-      if (is_ok(status)) call begin_top(size(scene%shared, kind=ip), unknown_of, status)
-
-   contains
-
-      function unknown_of(rank) result(unknown)
-         integer(ip), intent(in) :: rank
-         integer(ip), allocatable :: unknown(:)
-         integer(ip) :: i
-
-         i = findloc(scene%parts%rank, rank, dim=1, kind=ip)
-         allocate (unknown(0))
-         if (i > 0) unknown = scene%parts(i)%top
-      end function unknown_of
-
+      if (is_ok(status)) call begin_top(scene, status)
    end subroutine hear_assembled
+
+   !> Says which unknowns of the top each rank has. status: STATUS_INTERNAL: there is no MUMPS, or too little memory.
+   subroutine begin_top(scene, status)
+      type(shared_scene_t), intent(in) :: scene
+      type(status_t), intent(out) :: status
+      type(parcel_t) :: request, answer
+      integer(ip) :: rank, p
+
+      do rank = rank_count() - 1, 0, -1
+         call begin_question(TOP_BEGIN, request)
+         call put(request, size(scene%shared, kind=ip))
+         p = findloc(scene%parts%rank, rank, dim=1, kind=ip)
+         if (p > 0) call put(request, scene%parts(p)%top)
+         if (p == 0) call put(request, [integer(ip) ::])
+         call ask(rank, request)
+      end do
+      call hear_all(answer)
+      call take_status(answer, status)
+   end subroutine begin_top
+
+   !> Asks all ranks without anything besides.
+   subroutine ask_all(wanted, answer)
+      integer(ip), intent(in) :: wanted
+      type(parcel_t), intent(out) :: answer
+      type(parcel_t) :: request
+      integer(ip) :: rank
+
+      do rank = rank_count() - 1, 0, -1
+         call begin_question(wanted, request)
+         call ask(rank, request)
+      end do
+      call hear_all(answer)
+   end subroutine ask_all
+
+   !> The answers of all ranks; that of the first one counts.
+   subroutine hear_all(answer)
+      type(parcel_t), intent(out) :: answer
+      integer(ip) :: rank
+
+      do rank = rank_count() - 1, 0, -1
+         call hear(rank, answer)
+      end do
+   end subroutine hear_all
 
    !> y = A x: the sum of the parts'.
    subroutine multiply_shared(self, x, y)
@@ -204,7 +236,9 @@ contains
          if (failed > 0) self%failed = self%parts(p)%unknown(failed)
       end do
       if (.not. (is_ok(status) .and. self%is_stale)) return
-      call factor_top(failed, status)
+      call ask_all(TOP_FACTOR, answer)
+      call take_status(answer, status)
+      call take(answer, failed)
       if (failed > 0) self%failed = self%shared(failed)
       self%is_stale = .not. is_ok(status)
    end subroutine factor_shared
@@ -239,37 +273,48 @@ contains
       end do
    end subroutine solve_shared
 
+   !> x <- S^-1 x; 0 where that failed, which is noted: nothing that was found may be believed then.
+   subroutine solve_top(x)
+      real(wp), intent(inout) :: x(:)            !< (shared unknowns)
+      real(wp), allocatable :: found(:)
+      type(parcel_t) :: request, answer
+      type(status_t) :: status
+      integer(ip) :: rank
+
+      do rank = rank_count() - 1, 0, -1
+         call begin_question(TOP_SOLVE, request)
+         call put(request, x(:merge(size(x), 0, rank == 0)))
+         call ask(rank, request)
+      end do
+      call hear_all(answer)
+      call take_status(answer, status)
+      call take(answer, found)
+      x = 0.0_wp
+      if (is_ok(status)) x = found
+      if (is_ok(trouble)) trouble = status
+   end subroutine solve_top
+
    !> All ranks give back what they have.
    subroutine release_parts(self)
       class(shared_scene_t), intent(inout) :: self
-      type(parcel_t) :: request
-      integer(ip) :: rank
+      type(parcel_t) :: answer
 
       if (.not. allocated(self%parts)) return
-      do rank = rank_count() - 1, 0, -1
-         call begin_question(FORGET, request)
-         call ask(rank, request)
-      end do
+      call ask_all(FORGET, answer)
       deallocate (self%parts)
    end subroutine release_parts
 
    pure integer(lp) function shared_bytes(self) result(bytes)
       class(shared_scene_t), intent(in) :: self
-      integer(ip) :: p
 
-      bytes = held_bytes() + (REAL_BYTES + INDEX_BYTES)*size(self%rows%value, kind=lp)
-      do p = 1, size(self%parts, kind=ip)
-         bytes = bytes + INDEX_BYTES*(size(self%parts(p)%unknown, kind=lp) + size(self%parts(p)%row, kind=lp))
-      end do
+      bytes = held_bytes() + (REAL_BYTES + INDEX_BYTES)*(size(self%rows%value, kind=lp) + int(self%n, lp))
    end function shared_bytes
 
    !> What solving will take of the first rank.
    pure integer(lp) function first_solving_bytes(self) result(bytes)
       class(shared_scene_t), intent(in) :: self
-      integer(lp) :: of_ranks(1)
 
-      of_ranks = self%solving_of_ranks(1_ip)
-      bytes = of_ranks(1)
+      bytes = sum(self%solving_of_ranks(1_ip))
    end function first_solving_bytes
 
    !> What solving will take of the first ranks beyond what they hold when the parts are assembled [bytes]: the parts; of the top a
@@ -278,7 +323,7 @@ contains
       class(shared_scene_t), intent(in) :: self
       integer(ip), intent(in) :: n_ranks
       integer(lp) :: bytes(0:n_ranks - 1)
-      integer(lp), parameter :: MUMPS_BYTES = 18_lp, OF_UNKNOWNS = 12_lp, OF_ROWS = 40_lp
+      integer(lp), parameter :: MUMPS_BYTES = 14_lp, OF_UNKNOWNS = 12_lp, OF_ROWS = 40_lp
       integer(ip) :: p
 
       bytes = REAL_BYTES*size(self%shared, kind=lp)**2/2/maxval(self%parts%rank + 1)

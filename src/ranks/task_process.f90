@@ -6,8 +6,8 @@
 module atrito_task_process
    use, intrinsic :: iso_c_binding, only: c_double, c_f_pointer, c_int, c_loc
    use, intrinsic :: iso_fortran_env, only: int8
-   use atrito_kinds, only: ip, lp, wp
-   use atrito_parcel, only: parcel_t, make_parcel, parcel_bytes, parcel_length
+   use atrito_kinds, only: ip, lp
+   use atrito_parcel, only: parcel_t, make_parcel, parcel_bytes
    use atrito_processes, only: begin_worker, end_worker, share_integers
    use atrito_status, only: STATUS_INTERNAL
    use atrito_system, only: get_shared, maker_number, pause_for, process_number, set_shared, swap_shared, worker_end
@@ -27,12 +27,10 @@ module atrito_task_process
    integer(ip), parameter :: LAST_TASK = -1_ip      !< there is nothing more to do
    real(c_double), parameter :: SHORT_PAUSE = 1.0e-4_c_double, LONG_PAUSE = 2.0e-3_c_double    !< [s]
    real(c_double), parameter :: LONGER = 1.1_c_double   !< than the pause before
-   !> Places in what is shared: the task, whether there is an answer, its length in bytes, the time that it took in whole seconds and
-   !> millionths of one. The answer follows.
-   integer, parameter :: NEXT = 1, ANSWERED = 2, LENGTH = 3, SECONDS = 4, MILLIONTHS = 5, HEAD = 6
+   !> Places in what is shared: the task, whether there is an answer, its length in bytes. The answer follows.
+   integer, parameter :: NEXT = 1, ANSWERED = 2, LENGTH = 3, HEAD = 4
    integer(ip), parameter :: MOST_NUMBERS = 65536_ip    !< of an answer; the system has pages for those that are used
    integer(lp), parameter :: NUMBER_BYTES = 4_lp
-   real(wp), parameter :: MILLION = 1.0e6_wp
 
 contains
 
@@ -66,16 +64,14 @@ contains
    end subroutine give_task
 
    !> Whether the task is done, or lost: then the copy is gone, and the answer is empty.
-   subroutine ask_answer(process, answer, is_done, end_code, seconds_taken)
+   subroutine ask_answer(process, answer, is_done, end_code)
       type(task_process_t), intent(inout) :: process
       type(parcel_t), intent(out), target :: answer
       logical, intent(out) :: is_done
       integer, intent(out) :: end_code              !< of a copy that is gone, as that of worker_end, never 0; else 0
-      real(wp), intent(out) :: seconds_taken        !< by the task; of a lost one 0
       integer :: ended
 
       end_code = 0
-      seconds_taken = 0.0_wp
       ended = -1
       is_done = get_shared(process%shared(ANSWERED)) == 1
       if (.not. is_done) then
@@ -84,7 +80,7 @@ contains
          is_done = get_shared(process%shared(ANSWERED)) == 1
       end if
       if (is_done) then
-         call take_answer(process, answer, seconds_taken)
+         call take_answer(process, answer)
       else if (ended >= 0) then
          is_done = .true.
          process%runs = .false.
@@ -92,19 +88,15 @@ contains
       end if
    end subroutine ask_answer
 
-   subroutine take_answer(process, answer, seconds_taken)
+   subroutine take_answer(process, answer)
       type(task_process_t), intent(inout) :: process
       type(parcel_t), intent(inout), target :: answer
-      real(wp), intent(out) :: seconds_taken
       integer(int8), pointer :: bytes(:), found(:)
 
       call make_parcel(int(process%shared(LENGTH), lp), answer)
       bytes => parcel_bytes(answer)
-      if (associated(bytes)) then
-         found => shared_bytes(process, size(bytes, kind=lp))
-         bytes = found
-      end if
-      seconds_taken = real(process%shared(SECONDS), wp) + real(process%shared(MILLIONTHS), wp)/MILLION
+      found => shared_bytes(process, size(bytes, kind=lp))
+      bytes = found
       call set_shared(process%shared(ANSWERED), 0_c_int)
    end subroutine take_answer
 
@@ -137,21 +129,16 @@ contains
    end subroutine await_task
 
    !> In the copy: hands the answer over.
-   subroutine give_answer(process, answer, seconds_taken)
+   subroutine give_answer(process, answer)
       type(task_process_t), intent(inout) :: process
       type(parcel_t), intent(in), target :: answer
-      real(wp), intent(in) :: seconds_taken
       integer(int8), pointer :: bytes(:), room(:)
 
-      if (parcel_length(answer) > NUMBER_BYTES*MOST_NUMBERS) error stop 'atrito_task_process: an answer is too long'
       bytes => parcel_bytes(answer)
-      if (associated(bytes)) then
-         room => shared_bytes(process, size(bytes, kind=lp))
-         room = bytes
-      end if
-      process%shared(LENGTH) = int(parcel_length(answer), c_int)
-      process%shared(SECONDS) = int(seconds_taken, c_int)
-      process%shared(MILLIONTHS) = int(MILLION*(seconds_taken - real(process%shared(SECONDS), wp)), c_int)
+      if (size(bytes, kind=lp) > NUMBER_BYTES*MOST_NUMBERS) error stop 'atrito_task_process: an answer is too long'
+      room => shared_bytes(process, size(bytes, kind=lp))
+      room = bytes
+      process%shared(LENGTH) = int(size(bytes), c_int)
       call set_shared(process%shared(ANSWERED), 1_c_int)
    end subroutine give_answer
 

@@ -5,7 +5,7 @@
 program mumps_probe
    use, intrinsic :: iso_fortran_env, only: error_unit
    use atrito_kinds, only: ip, lp, wp, EPS_MACH
-   use atrito_mpi, only: begin_ranks, end_ranks, largest_of_ranks, own_rank, rank_count, spread_from_first
+   use atrito_mpi, only: begin_ranks, end_ranks, own_rank, rank_count, sum_over_ranks
    use atrito_mumps, only: mumps_system_t, begin_mumps_system, end_mumps_system, factor_mumps_system, mumps_system_bytes, &
                            solve_mumps_system
    use atrito_status, only: status_t, is_ok, STATUS_SINGULAR
@@ -24,6 +24,7 @@ program mumps_probe
    !> An error over n, epsilon and the size of what is compared.
    real(wp), parameter :: LIMIT = 100.0_wp
    integer(ip) :: failures = 0, shift
+   real(wp) :: found(1)
 
    call begin_ranks()
    call random_init(.true., .false.)             ! the same numbers on all ranks
@@ -40,12 +41,12 @@ program mumps_probe
    call try_singular('a free chain', 40_ip, .false.)
    call try_singular('a large free chain', 900_ip, .false.)
    call try_singular('an empty unknown', 40_ip, .true.)
-   call try_digits(500_ip)
    call try_negative()
    call try_free_block()
-   failures = largest_of_ranks(failures)
+   found = real(failures, wp)
+   call sum_over_ranks(found)
    call end_ranks()
-   if (failures > 0) stop 1, quiet = .true.
+   if (found(1) > 0.0_wp) stop 1, quiet = .true.
 
 contains
 
@@ -160,7 +161,6 @@ contains
             call expect(.false., what//': factor_mumps_system fails: '//status%text)
             exit
          end if
-         call expect(system%report%digits_lost < 8.0_wp, what//': digits are lost')
          call expect(mumps_system_bytes(system) >= 8*int(n, lp), what//': no memory')
          call check_solutions(what, scene, system)
          scene%matrices = 3.0_wp*scene%matrices     ! other values of the same pattern
@@ -195,12 +195,15 @@ contains
       type(mumps_system_t), intent(inout) :: system
       type(status_t) :: status
       real(wp) :: x(scene%n, 2), f(scene%n, 2)
+      integer :: i
 
       call random_number(x)
       f = matmul(scene%total, x)
       x = f
-      call solve_mumps_system(system, x, status)
-      call expect(is_ok(status), what//': solve_mumps_system fails')
+      do i = 1, 2
+         call solve_mumps_system(system, x(:, i), status)
+         call expect(is_ok(status), what//': solve_mumps_system fails')
+      end do
       if (own_rank() > 0) return
       call expect(is_close(matmul(scene%total, x), f, maxval(sum(abs(scene%total), 1))*max(1.0_wp, maxval(abs(x)))), what// &
                   ': the residual is large')
@@ -226,9 +229,9 @@ contains
       end do
       call begin_own(scene, system)
       call factor_own(scene, system, status)
-      call expect(is_ok(status) .and. system%report%digits_lost < 6.0_wp, 'mixed units')
+      call expect(is_ok(status), 'mixed units')
       x(:, 1) = matmul(scene%total, [(1.0_wp, i=1, 50)])*unit
-      call solve_mumps_system(system, x, status)
+      call solve_mumps_system(system, x(:, 1), status)
       if (own_rank() == 0) call expect(all(abs(x(:, 1)*unit - 1.0_wp) < 1.0e-8_wp), 'mixed units: the solution')
       call end_mumps_system(system)
    end subroutine try_mixed_units
@@ -267,9 +270,8 @@ contains
       call begin_own(scene, system)
       call factor_own(scene, system, status)
       call expect(status%code == STATUS_SINGULAR, what//' is not found to be singular')
-      call expect(system%report%digits_lost > 15.0_wp, what//': digits lost')
-      call expect(system%report%worst_equation > 0 .and. system%report%worst_equation <= n, what//': its unknown')
-      if (empty) call expect(system%report%worst_equation == 3, what//' is not named')
+      call expect(own_rank() > 0 .or. (system%weakest > 0 .and. system%weakest <= n), what//': its unknown')
+      if (empty) call expect(own_rank() > 0 .or. system%weakest == 3, what//' is not named')
       ! and a matrix that is regular afterwards
       call make_chain(n, 1.0_wp, scene)
       call factor_own(scene, system, status)
@@ -277,32 +279,6 @@ contains
       call check_solutions(what, scene, system)
       call end_mumps_system(system)
    end subroutine try_singular
-
-   !> A chain that is held by 1e-10 of its stiffness loses ten digits or more, and so does a full matrix of that kind.
-   subroutine try_digits(n)
-      integer(ip), intent(in) :: n
-      type(scene_t) :: scene
-      type(mumps_system_t) :: system
-      type(status_t) :: status
-      integer(ip) :: m, i
-
-      call make_scene(n, 3_ip, 0_ip, 1.0_wp, scene)
-      do m = 1, 3
-         associate (own => scene%unknown(scene%start(m):scene%start(m + 1) - 1))
-            scene%matrices(:, :, m) = -1.0_wp
-            do i = 1, size(own, kind=ip)
-               scene%matrices(i, i, m) = real(size(own) - 1, wp)
-               if (own(i) == 5) scene%matrices(i, i, m) = real(size(own) - 1, wp) + 1.0e-8_wp
-            end do
-         end associate
-      end do
-      call begin_own(scene, system)
-      call factor_own(scene, system, status)
-      call expect(is_ok(status), 'nearly free: not factored')
-      call expect(system%report%digits_lost > 8.0_wp .and. system%report%digits_lost < 12.0_wp, 'nearly free: digits lost')
-      call expect(system%report%worst_equation > 0 .or. system%report%digits_lost < 9.0_wp, 'nearly free: no unknown is named')
-      call end_mumps_system(system)
-   end subroutine try_digits
 
    !> A dense block that nothing holds, so large that all ranks factor its front together.
    subroutine try_free_block()
@@ -319,11 +295,8 @@ contains
          call set_diagonal(scene%matrices(:, :, 1), 799.0_wp + HOLD(i))
          call factor_own(scene, system, status)
          call expect(is_ok(status) .eqv. i == 2, 'a large block: status')
-         call expect((system%report%digits_lost > 15.0_wp) .eqv. i == 1, 'a large block: digits lost')
-         if (i == 1) call expect(system%report%worst_equation > 0, 'a large block: its unknown')
+         if (i == 1) call expect(own_rank() > 0 .or. system%weakest > 0, 'a large block: its unknown')
       end do
-      ! the last pivot is 800 times what holds a block without any other hold
-      call expect(abs(system%report%digits_lost - 3.0_wp) < 0.5_wp, 'a large block that is held: digits lost')
       call end_mumps_system(system)
    end subroutine try_free_block
 
@@ -348,7 +321,6 @@ contains
       call begin_own(scene, system)
       call factor_own(scene, system, status)
       call expect(status%code == STATUS_SINGULAR, 'a negative pivot passes')
-      call expect(system%report%sign_changes > 0, 'a negative pivot is not counted')
       call end_mumps_system(system)
    end subroutine try_negative
 

@@ -5,9 +5,9 @@ module atrito_mpi
    use atrito_parcel, only: parcel_t
    implicit none (type, external)
    private
-   public :: begin_ranks, end_ranks, abort_ranks, own_rank, rank_count, ranks_on_host, ANY_RANK
-   public :: send_parcel, receive_parcel, has_message, sum_to_first, largest_of_ranks
-   public :: spread_from_first, all_ranks_communicator, own_communicator, has_mpi, mpi_name
+   public :: begin_ranks, end_ranks, own_rank, rank_count, ranks_on_host, ANY_RANK
+   public :: send_parcel, receive_parcel, has_message, sum_over_ranks
+   public :: all_ranks_communicator, has_mpi, mpi_name
 
    integer(ip), parameter :: ANY_RANK = -1_ip
    character(len=*), parameter :: NOBODY = 'atrito_mpi: there is no other rank'
@@ -19,12 +19,6 @@ contains
 
    subroutine end_ranks()
    end subroutine end_ranks
-
-   subroutine abort_ranks(code)
-      integer, intent(in) :: code
-
-      error stop code
-   end subroutine abort_ranks
 
    integer(ip) function own_rank()
       own_rank = 0
@@ -58,28 +52,14 @@ contains
       has_message = .false.
    end function has_message
 
-   subroutine sum_to_first(x)
+   subroutine sum_over_ranks(x)
       real(wp), intent(inout), contiguous :: x(:)
-   end subroutine sum_to_first
-
-   integer(ip) function largest_of_ranks(own)
-      integer(ip), intent(in) :: own
-
-      largest_of_ranks = own
-   end function largest_of_ranks
-
-   subroutine spread_from_first(x)
-      real(wp), intent(inout), contiguous :: x(:)
-   end subroutine spread_from_first
+   end subroutine sum_over_ranks
 
    !> What sequential libraries take for a communicator.
    integer function all_ranks_communicator()
       all_ranks_communicator = 0
    end function all_ranks_communicator
-
-   integer function own_communicator()
-      own_communicator = 0
-   end function own_communicator
 
    pure logical function has_mpi()
       has_mpi = .false.

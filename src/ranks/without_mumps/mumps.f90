@@ -1,7 +1,6 @@
 !> The twin of src/ranks/mumps.F90 in a build without MUMPS, which has one rank: all of it fails, and nobody gets there.
 module atrito_mumps
    use atrito_kinds, only: ip, lp, wp
-   use atrito_linear_solver, only: factor_report_t
    use atrito_status, only: status_t, set_status, STATUS_INTERNAL
    implicit none (type, external)
    private
@@ -10,7 +9,7 @@ module atrito_mumps
 
    type :: mumps_system_t
       integer(ip) :: n = 0
-      type(factor_report_t) :: report
+      integer(ip) :: weakest = 0
    end type mumps_system_t
 
 contains
@@ -31,7 +30,7 @@ contains
 
    subroutine solve_mumps_system(system, x, status)
       type(mumps_system_t), intent(inout) :: system
-      real(wp), intent(inout) :: x(:, :)
+      real(wp), intent(inout) :: x(:)
       type(status_t), intent(out) :: status
    end subroutine solve_mumps_system
 

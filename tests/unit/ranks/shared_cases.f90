@@ -1,17 +1,15 @@
-!> Scenes of decks, and ways to cut them, for the tests of shared scenes.
+!> Scenes of decks for the tests of shared scenes.
 module shared_cases
    use atrito_body_cache, only: body_cache_t
    use atrito_contact_form, only: CONTACT_SPARSE
-   use atrito_kinds, only: ip, lp, wp
    use atrito_messages, only: count_messages, SEVERITY_ERROR
    use atrito_model, only: model_t
    use atrito_scene_data, only: scene_data_t, asked_t, prepare
    use atrito_status, only: status_t, is_ok
-   use body_cases, only: random_numbers
    use model_cases, only: build
    implicit none (type, external)
    private
-   public :: prepare_deck, cut_across, cut_at_random, by_bodies, PRESSED, WALL, ROWS, PLATENS, LAYERS
+   public :: prepare_deck, PRESSED, WALL, ROWS, PLATENS, LAYERS
 
    character(len=*), parameter :: STONE = '*MATERIAL, NAME=STONE|*ELASTIC|1000., .3|'
    character(len=*), parameter :: JOINT = '*SURFACE INTERACTION, NAME=JOINT|*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR|1e5|'// &
@@ -101,43 +99,5 @@ contains
       call prepare(model, store, asked, data, status)
       ok = is_ok(status)
    end subroutine prepare_deck
-
-   !> Parts of equal numbers of elements, one beside the other along x1: they cut bodies.
-   function cut_across(data, n_parts) result(part)
-      type(scene_data_t), intent(in) :: data
-      integer(ip), intent(in) :: n_parts
-      integer(ip) :: part(data%fem%mesh%n_elements)
-      real(wp) :: x(size(part))
-      integer(ip) :: e
-
-      do e = 1, size(part, kind=ip)
-         x(e) = sum(data%fem%mesh%x(1, data%fem%mesh%nodes(:4, e))) + 1.0e-6_wp*e
-      end do
-      do e = 1, size(part, kind=ip)
-         part(e) = 1 + (count(x < x(e), kind=ip)*n_parts)/size(part, kind=ip)
-      end do
-   end function cut_across
-
-   !> Every element in any part: nearly all nodes are shared.
-   function cut_at_random(data, n_parts) result(part)
-      type(scene_data_t), intent(in) :: data
-      integer(ip), intent(in) :: n_parts
-      integer(ip) :: part(data%fem%mesh%n_elements)
-      real(wp) :: a(size(part))
-      integer(lp) :: state
-
-      state = 99 + n_parts
-      call random_numbers(state, a)
-      part = min(n_parts, 1 + int(0.5_wp*(a + 1.0_wp)*n_parts, ip))
-   end function cut_at_random
-
-   !> Whole bodies, in turn.
-   function by_bodies(data, n_parts) result(part)
-      type(scene_data_t), intent(in) :: data
-      integer(ip), intent(in) :: n_parts
-      integer(ip) :: part(data%fem%mesh%n_elements)
-
-      part = 1 + mod(data%fem%bodies%of_element - 1, n_parts)
-   end function by_bodies
 
 end module shared_cases
