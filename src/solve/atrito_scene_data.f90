@@ -111,7 +111,7 @@ contains
       call let_slide(model%interactions(model%pairs%interaction)%nu > 0.0_wp, data%points, data%fem)
       call straighten_held_points(model%bilateral, data%fem, data%points)
       call build_rows(data%points, data%rows, model%bilateral)
-      call balance_rows(data%points, data%fem, data%rows)
+      call balance_rows(model%interactions(model%pairs%interaction)%nu > 0.0_wp, data%points, data%fem, data%rows)
       if (any(model%interactions%rho > 0.0_wp)) then
          call check_average_memory(model%deck_path, data%rows%n, &
                                    average_entries(model, data%points, most_average_entries(asked%memory)), asked%memory, status)

@@ -13,12 +13,14 @@
 !> which vanish for every rigid motion that both bodies have together. Of the forces it is the couple that balances their moment. A
 !> master of one node has the nodes of the points beside it.
 !>
-!> Bodies that supports keep from turning have their rows as they are: the supports take the moment (W-SUMS tells of it).
+!> It is done where a round side meets a round or a straight one along which it may slide or roll (atrito_sliding_motions). Straight
+!> sides face each other over gaps that are as small as displacements, and have their rows as they are. So have bodies that supports
+!> keep from turning: the supports take the moment (W-SUMS tells of it).
 module atrito_turning_rows
    use atrito_assembly, only: fem_t
    use atrito_contact_rows, only: contact_rows_t
    use atrito_kinds, only: ip, wp
-   use atrito_points, only: contact_points_t
+   use atrito_points, only: contact_points_t, sliding_t
    use atrito_sliding_motions, only: first_of_master
    implicit none (type, external)
    private
@@ -38,8 +40,9 @@ module atrito_turning_rows
 
 contains
 
-   !> Takes the rotation of the master out of the rows of all points between bodies that may turn.
-   subroutine balance_rows(points, fem, rows)
+   !> Takes the rotation of the master out of the rows of points of curved sides between bodies that may turn.
+   subroutine balance_rows(rubs, points, fem, rows)
+      logical, intent(in) :: rubs(:)                !< (pairs) with friction
       type(contact_points_t), intent(in) :: points(:)
       type(fem_t), intent(in) :: fem
       type(contact_rows_t), intent(inout) :: rows
@@ -53,12 +56,12 @@ contains
             may_turn(i) = .not. body%is_rigid .and. any(abs(body%modes(3, :)) > 0.0_wp)
          end associate
       end do
-      if (.not. any(may_turn)) return
+      if (.not. (any(may_turn) .and. any(rubs))) return
       m = 0
       do i = 1, size(points, kind=ip)
          do j = 1, points(i)%n
             m = m + 1
-            if (points(i)%rigid) cycle
+            if (points(i)%rigid .or. .not. rubs(i) .or. .not. is_curved(points(i)%sliding)) cycle
             call find_turn(points(i), j, fem, may_turn, rows%normal(:, m), node, turn, n)
             if (n == 0) cycle
             call make_room(turns, n)
@@ -70,6 +73,13 @@ contains
       end do
       if (turns%n > 0) call add_turns(turns, rows)
    end subroutine balance_rows
+
+   !> Whether one of the sides is round, and both slide along themselves.
+   pure logical function is_curved(sliding)
+      type(sliding_t), intent(in) :: sliding
+
+      is_curved = sliding%exists .and. (sliding%is_round .or. sliding%meets_round)
+   end function is_curved
 
    pure subroutine make_room(turns, n)
       type(turns_t), intent(inout) :: turns
