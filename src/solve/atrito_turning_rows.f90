@@ -18,8 +18,10 @@
 !> keep from turning: the supports take the moment (W-SUMS tells of it).
 module atrito_turning_rows
    use atrito_assembly, only: fem_t
+   use atrito_bilateral_rows, only: bilateral_rows_t
    use atrito_contact_rows, only: contact_rows_t
    use atrito_kinds, only: ip, wp
+   use atrito_left_motions, only: motions_left
    use atrito_points, only: contact_points_t, sliding_t
    use atrito_sliding_motions, only: first_of_master
    implicit none (type, external)
@@ -41,22 +43,26 @@ module atrito_turning_rows
 contains
 
    !> Takes the rotation of the master out of the rows of points of curved sides between bodies that may turn.
-   subroutine balance_rows(rubs, points, fem, rows)
+   subroutine balance_rows(rubs, points, fem, bilateral, rows)
       logical, intent(in) :: rubs(:)                !< (pairs) with friction
       type(contact_points_t), intent(in) :: points(:)
       type(fem_t), intent(in) :: fem
+      type(bilateral_rows_t), intent(in) :: bilateral
       type(contact_rows_t), intent(inout) :: rows
+      real(wp), parameter :: NO_TURN = 1.0e-9_wp    ! of a motion
       logical :: may_turn(fem%bodies%n)
       type(turns_t) :: turns
       integer(ip) :: node(MOST_NODES), i, j, m, n
       real(wp) :: turn(2, MOST_NODES)
 
-      do i = 1, fem%bodies%n
-         associate (body => fem%bodies%list(i))
-            may_turn(i) = .not. body%is_rigid .and. any(abs(body%modes(3, :)) > 0.0_wp)
+      may_turn = .false.
+      do i = 1, merge(fem%bodies%n, 0_ip, any(rubs))
+         if (fem%bodies%list(i)%is_rigid) cycle
+         associate (left => motions_left(fem, bilateral, i))
+            may_turn(i) = any(abs(left(3, :)) > NO_TURN)
          end associate
       end do
-      if (.not. (any(may_turn) .and. any(rubs))) return
+      if (.not. any(may_turn)) return
       m = 0
       do i = 1, size(points, kind=ip)
          do j = 1, points(i)%n
