@@ -12,6 +12,7 @@ module atrito_points
    type :: sliding_t
       logical :: exists = .false.
       logical :: is_of_both = .true.                !< both sides slide along themselves; else one that is straight
+      logical :: meets_round = .false.              !< the other one is round then
       logical :: is_round = .false.                 !< a rotation about the centre; else a translation
       logical :: is_convex = .false.                !< of the side that it was found by: the centre lies inside its body
       real(wp) :: direction(2) = 0.0_wp             !< of a translation, unit vector

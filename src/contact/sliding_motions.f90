@@ -203,6 +203,7 @@ contains
       if (own(1)%exists .neqv. own(2)%exists) then
          motion = own(merge(1, 2, own(1)%exists))
          motion%is_of_both = .false.
+         motion%meets_round = is_round(chords%of_slave .neqv. own(1)%exists, chords)
       end if
       if (any(own%exists) .or. min(count(chords%of_slave), count(.not. chords%of_slave)) < LEAST_CHORDS) return
       call find_round(spread(.true., 1, chords%n), chords, motion)
@@ -214,6 +215,18 @@ contains
       if (norm2(own(1)%centre - own(2)%centre) > CONCENTRIC*min(own(1)%radius, own(2)%radius)) return
       motion = merge_pin(own)
    end subroutine find_sliding
+
+   !> Whether some chords are those of a circle.
+   logical function is_round(asked, chords)
+      logical, intent(in) :: asked(:)               !< (n)
+      type(chords_t), intent(in) :: chords
+      type(sliding_t) :: motion
+
+      is_round = count(asked) >= LEAST_CHORDS
+      if (.not. is_round) return
+      call find_round(asked, chords, motion)
+      is_round = motion%exists
+   end function is_round
 
    pure type(sliding_t) function merge_pin(own) result(pin)
       type(sliding_t), intent(in) :: own(2)         !< of the slave and of the master

@@ -170,10 +170,11 @@ contains
       call take_numbering(store, data%held, data%points, data%solver_kind, data%fem, known, model%bilateral)
       if (.not. known) call build_bodies(model, data%held, data%points, data%solver_kind, data%fem)
       if (has_moving_surfaces(model)) call set_rigid_motions(model, data%step%rigid_prescribed, data%fem%bodies)
-      call let_slide(model%interactions(model%pairs%interaction)%nu > 0.0_wp, data%points, data%fem)
+      call let_slide(model%interactions(model%pairs%interaction)%nu > 0.0_wp, data%points, data%fem, model%bilateral)
       call straighten_held_points(model%bilateral, data%fem, data%points)
       call build_rows(data%points, data%rows, model%bilateral)
-      call balance_rows(data%points, data%fem, data%rows)
+      call balance_rows(model%interactions(model%pairs%interaction)%nu > 0.0_wp, data%points, data%fem, model%bilateral, &
+                        data%rows)
       if (any(model%interactions%rho > 0.0_wp)) then
          call check_average_memory(model%deck_path, data%rows%n, &
                                    average_entries(model, data%points, most_average_entries(asked%memory)), asked%memory, status)

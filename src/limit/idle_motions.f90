@@ -23,7 +23,7 @@ module atrito_idle_motions
    use atrito_scene_data, only: scene_data_t
    implicit none (type, external)
    private
-   public :: settle_idle_motions
+   public :: settle_idle_motions, stop_slow_motion
 
    integer(ip), parameter :: MOST_MOTIONS = 300_ip  !< of a group: its null space takes their cube of operations
    real(wp), parameter :: NULL_MOTION = 1.0e-14_wp  !< square of what rows see of an idle motion, over that of the others
@@ -110,7 +110,7 @@ contains
       real(wp), allocatable, intent(inout) :: idle(:, :) !< (k, motions)
       logical, intent(inout) :: holds(:)            !< (m)
       type(contact_solution_t), intent(inout) :: solution
-      real(wp) :: largest(rows%k), doubt            ! forces on the body of each motion [F]
+      real(wp) :: largest(rows%k)                   ! forces on the body of each motion [F]
       logical :: is_sure(size(holds))
       real(wp), allocatable :: more(:, :)
       integer(ip) :: i
@@ -126,8 +126,8 @@ contains
          associate (j => data%line%point(i))
             if (.not. holds(i) .or. rows%first(i + 1) == rows%first(i) .or. data%line%law(j)%kind /= FRICTION_NONE) cycle
             if (j > data%line%n - data%line%n_bilateral) cycle
-            doubt = max(NO_FORCE, min(DOUBTS*data%rows%doubt(j), MOST_DOUBT))
-            is_sure(i) = abs(solution%state%q(i)) > doubt*minval(largest(rows%motion(rows%first(i):rows%first(i + 1) - 1)))
+            is_sure(i) = abs(solution%state%q(i)) > dropped_part(data, i) &
+                         *minval(largest(rows%motion(rows%first(i):rows%first(i + 1) - 1)))
          end associate
       end do
       if (all(is_sure .eqv. holds)) return
@@ -142,6 +142,38 @@ contains
       holds = is_sure
    end subroutine doubt_small_forces
 
+   !> Where no solution was found since a motion went on that the loads drive: takes its work out of the loads, where it is no more
+   !> than what the digits of the deck make of them.
+   subroutine stop_slow_motion(data, solution, has_changed)
+      type(scene_data_t), intent(inout) :: data
+      type(contact_solution_t), intent(in) :: solution
+      logical, intent(out) :: has_changed
+      type(motion_rows_t) :: rows
+      logical, allocatable :: holds(:)
+
+      has_changed = .false.
+      if (.not. (allocated(solution%inner%motion) .and. allocated(solution%state%q))) return
+      if (data%line%has_friction) return
+      call build_motion_rows(data%fem, data%rows, data%line, data%f, rows)
+      if (size(solution%inner%motion) /= rows%k .or. size(solution%state%q) /= rows%m) return
+      if (.not. any(place_doubt(data) > 0.0_wp)) return
+      allocate (holds(rows%m), source=.true.)
+      associate (v => solution%inner%motion)
+         if (.not. sum(v**2) > 0.0_wp) return
+         if (.not. is_within_digits(data, rows, v, holds, solution%state%q)) return
+         call take_out(data, v*(dot_product(v, rows%work)/sum(v**2)))
+      end associate
+      has_changed = .true.
+   end subroutine stop_slow_motion
+
+   !> The part of the largest force on its bodies that a force is none at, whatever loads there are.
+   pure real(wp) function dropped_part(data, i) result(part)
+      type(scene_data_t), intent(in) :: data
+      integer(ip), intent(in) :: i                  !< unknown force
+
+      part = max(NO_FORCE, min(DOUBTS*data%rows%doubt(data%line%point(i)), MOST_DOUBT))
+   end function dropped_part
+
    !> Takes the work on motions that were idle but for small forces out of the loads, where it is no more than what the digits of the
    !> deck make of them.
    subroutine doubt_loads(data, rows, group, idle, holds, solution, has_changed)
@@ -153,7 +185,7 @@ contains
       type(contact_solution_t), intent(in) :: solution
       logical, intent(out) :: has_changed
       real(wp) :: largest(rows%k), doubt(rows%m)    ! forces on the body of each motion [F]
-      logical :: is_sure(rows%m)
+      logical :: is_sure(rows%m), is_due            ! larger forces than those that are dropped in any case
       real(wp), allocatable :: more(:, :)
       integer(ip) :: i
 
@@ -167,15 +199,23 @@ contains
          end associate
       end do
       is_sure = holds
+      is_due = .false.
       do i = 1, rows%m
-         if (.not. holds(i) .or. rows%first(i + 1) == rows%first(i)) cycle
-         is_sure(i) = abs(solution%state%q(i)) > doubt(i)*minval(largest(rows%motion(rows%first(i):rows%first(i + 1) - 1)))
+         if (.not. (holds(i) .and. doubt(i) > 0.0_wp) .or. rows%first(i + 1) == rows%first(i)) cycle
+         associate (force => abs(solution%state%q(i)), most => minval(largest(rows%motion(rows%first(i):rows%first(i + 1) - 1))))
+            is_sure(i) = force > doubt(i)*most
+            ! what is dropped is felt by supports along directions of their own
+            is_due = is_due .or. (.not. is_sure(i) &
+                                  .and. force > merge(NO_FORCE, dropped_part(data, i), data%line%n_bilateral > 0)*most)
+         end associate
       end do
-      if (all(is_sure .eqv. holds)) return
+      if (.not. is_due) return
       call find_idle(rows, is_sure, group, more)
       if (size(more, 2) <= size(idle, 2)) return
-      if (.not. is_within_digits(data, rows, more, is_sure, solution%state%q)) return
-      call take_out(data, matmul(more, matmul(rows%work, more)))
+      associate (most => matmul(more, matmul(rows%work, more))) ! in which the loads work most
+         if (.not. is_within_digits(data, rows, most, is_sure, solution%state%q)) return
+         call take_out(data, most)
+      end associate
       has_changed = .true.
    end subroutine doubt_loads
 

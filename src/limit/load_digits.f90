@@ -25,7 +25,7 @@ module atrito_load_digits
    real(wp), parameter :: GRAINS = 5.0_wp           !< by which the place of a force may be off
    real(wp), parameter :: EXACT = 1.0e-13_wp        !< grain over coordinates of a deck that is not rounded to digits
    real(wp), parameter :: LATTICE = 10.0_wp         !< length of a point in grains, of nodes that were not rounded
-   real(wp), parameter :: MOST = 1.0e-3_wp          !< a larger part of the forces was meant, whatever the digits
+   real(wp), parameter :: MOST = 5.0e-3_wp          !< a larger part of the forces was meant, whatever the digits
    real(wp), parameter :: ALONG_AXIS = 1.0e-12_wp   !< part of a normal
 
 contains
@@ -61,17 +61,16 @@ contains
       end associate
    end function digits_of_deck
 
-   !> Whether the loads work no more on some motions than the digits make.
-   logical function is_within_digits(data, rows, idle, is_sure, q)
+   !> Whether the loads work no more on a motion than the digits make.
+   logical function is_within_digits(data, rows, v, is_sure, q)
       type(scene_data_t), intent(in) :: data
       type(motion_rows_t), intent(in) :: rows
-      real(wp), intent(in) :: idle(:, :)            !< (k, motions) orthogonal, of length one
+      real(wp), intent(in) :: v(:)                  !< (k) its amplitudes
       logical, intent(in) :: is_sure(:)             !< (m) rows that hold
       real(wp), intent(in) :: q(:)                  !< (m) their forces [F]
-      real(wp) :: v(rows%k), allowed, forces, turn, along
+      real(wp) :: allowed, forces, turn, along
       integer(ip) :: first(data%fem%bodies%n + 1), b, i, j, k
 
-      v = matmul(idle, matmul(rows%work, idle))     ! in which the loads work most
       first = first_motions(data%fem%bodies)
       allowed = 0.0_wp
       do b = 1, data%fem%bodies%n
@@ -88,7 +87,8 @@ contains
       end do
       do i = 1, rows%m
          j = data%line%point(i)
-         if (.not. is_sure(i) .or. j > data%rows%n - data%rows%n_bilateral) cycle
+         if (.not. is_sure(i)) cycle
+         if (j > data%rows%n - data%rows%n_bilateral) cycle
          if (minval(abs(data%rows%normal(:, j))) <= ALONG_AXIS) cycle
          along = 0.0_wp
          do k = data%rows%first(j), data%rows%first(j + 1) - 1
@@ -96,7 +96,8 @@ contains
          end do
          allowed = allowed + abs(q(i)*along)/data%rows%reach(j)
       end do
-      is_within_digits = dot_product(v, rows%work) <= GRAINS*digits_of_deck(data)*allowed
+      allowed = min(GRAINS*digits_of_deck(data)*allowed, MOST*dot_product(abs(v), rows%work_size))
+      is_within_digits = abs(dot_product(v, rows%work)) <= allowed
    end function is_within_digits
 
    !> What entry k of point j adds to its slip in a motion of the bodies.

@@ -5,7 +5,8 @@ module atrito_contact_rows
    use atrito_points, only: contact_points_t
    implicit none (type, external)
    private
-   public :: contact_rows_t, build_rows, allow_overlap, true_gap, row_value, bodies_of_row, vector_of_entry
+   public :: contact_rows_t, build_rows, allow_overlap, true_gap, row_value, bodies_of_row, vector_of_entry, &
+             direction_of_entry, turn_of_entry
 
    !> Row of point j along a direction d_j: the sum of coefficient(k) d_j . u(node(k)) over k from first(j) to first(j+1) - 1, and
    !> of turn(i, k) n_j . u(node(k)), i being 1 where d_j is the normal and 2 where it is the tangent (atrito_turning_rows). The last
@@ -120,14 +121,35 @@ contains
       real(wp), intent(in) :: direction(2)           !< n or T of the point
       real(wp) :: vector(2)
 
+      vector = rows%coefficient(k)*direction_of_entry(rows, j, k, direction)
+      if (allocated(rows%turn)) vector = vector + turn_of_entry(rows, j, k, direction)
+   end function vector_of_entry
+
+   !> The direction of entry k of row j, which its coefficient goes with.
+   pure function direction_of_entry(rows, j, k, direction) result(vector)
+      type(contact_rows_t), intent(in) :: rows
+      integer(ip), intent(in) :: j, k
+      real(wp), intent(in) :: direction(2)           !< n or T of the point
+      real(wp) :: vector(2)
+
       if (j > rows%n - rows%n_bilateral) then
          vector = rows%vector(:, k - rows%before_vectors)
-         return
+      else
+         vector = direction
       end if
-      vector = rows%coefficient(k)*direction
-      if (.not. allocated(rows%turn)) return
-      vector = vector + rows%turn(which_row(rows, j, direction), k)*rows%normal(:, j)
-   end function vector_of_entry
+   end function direction_of_entry
+
+   !> What is n's of entry k of row j besides.
+   pure function turn_of_entry(rows, j, k, direction) result(vector)
+      type(contact_rows_t), intent(in) :: rows
+      integer(ip), intent(in) :: j, k
+      real(wp), intent(in) :: direction(2)           !< n or T of the point
+      real(wp) :: vector(2)
+
+      vector = 0.0_wp
+      if (.not. allocated(rows%turn) .or. j > rows%n - rows%n_bilateral) return
+      vector = rows%turn(which_row(rows, j, direction), k)*rows%normal(:, j)
+   end function turn_of_entry
 
    !> 1 for the normal row of a point, 2 for its tangential one.
    pure integer function which_row(rows, j, direction)

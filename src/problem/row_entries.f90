@@ -4,7 +4,7 @@ module atrito_row_entries
    use atrito_bodies, only: bodies_t, body_t, mode_at
    use atrito_constraint_rows, only: constraint_rows_t
    use atrito_contact_line, only: contact_line_t
-   use atrito_contact_rows, only: contact_rows_t, bodies_of_row, vector_of_entry
+   use atrito_contact_rows, only: contact_rows_t, bodies_of_row, vector_of_entry, direction_of_entry, turn_of_entry
    use atrito_kinds, only: ip, wp
    implicit none (type, external)
    private
@@ -121,7 +121,7 @@ contains
       integer(ip), intent(inout) :: motion(:)
       real(wp), intent(inout) :: value(:)
       logical, intent(in), optional :: rigid_only !< of rigid bodies alone; default .false.
-      real(wp) :: direction(2), vector(2)
+      real(wp) :: direction(2), vector(2), turn(2)
       integer(ip) :: k, node, b, mode, e, kept
       logical :: of_all
 
@@ -134,7 +134,8 @@ contains
          b = fem%bodies%of_node(node)
          if (b == 0) cycle
          if (.not. (of_all .or. fem%bodies%list(b)%is_rigid)) cycle
-         vector = vector_of_entry(rows, line%point(i), k, direction)
+         vector = direction_of_entry(rows, line%point(i), k, direction)
+         turn = turn_of_entry(rows, line%point(i), k, direction)
          do mode = 1, size(fem%bodies%list(b)%modes, 2, kind=ip)
             do e = 1, n
                if (motion(e) == first_motion(b) + mode - 1) exit
@@ -144,7 +145,8 @@ contains
                motion(e) = first_motion(b) + mode - 1
                value(e) = 0.0_wp
             end if
-            value(e) = value(e) + along_motion(fem, fem%bodies%list(b), mode, node, vector)
+            value(e) = value(e) + rows%coefficient(k)*along_motion(fem, fem%bodies%list(b), mode, node, vector)
+            if (any(abs(turn) > 0.0_wp)) value(e) = value(e) + along_motion(fem, fem%bodies%list(b), mode, node, turn)
          end do
       end do
       kept = 0

@@ -9,8 +9,10 @@
 !> told that a balanced load moves the body.
 module atrito_sliding_bodies
    use atrito_assembly, only: fem_t
+   use atrito_bilateral_rows, only: bilateral_rows_t
    use atrito_bodies, only: body_t, mode_at
    use atrito_kinds, only: ip, wp
+   use atrito_left_motions, only: motions_left
    use atrito_points, only: contact_points_t, sliding_t
    use atrito_sliding_motions, only: is_along, turn_points
    implicit none (type, external)
@@ -27,10 +29,11 @@ contains
    !> Of each pair that slides along itself in a motion that the supports leave to one of its bodies: turns its rows along that, and
    !> notes the motion of the bodies of decks with some digits, whose loads are balanced along it. Sides that are exact as they
    !> stand, as along an axis, leave nothing in doubt.
-   subroutine let_slide(rubs, points, fem)
+   subroutine let_slide(rubs, points, fem, bilateral)
       logical, intent(in) :: rubs(:)                !< (pairs) with friction
       type(contact_points_t), intent(inout) :: points(:)
       type(fem_t), intent(inout) :: fem
+      type(bilateral_rows_t), intent(in) :: bilateral
       real(wp) :: motion(4)
       integer(ip) :: i, k, b(2)
       logical :: is_free, is_exact
@@ -44,7 +47,7 @@ contains
             if (b(k) == 0) cycle
             call turn_about(points(i)%sliding, fem%bodies%list(b(k)))
             motion = motion_of_body(points(i)%sliding, fem%bodies%list(b(k)))
-            if (.not. is_left_free(fem%bodies%list(b(k)), motion)) cycle
+            if (.not. is_left_free(motions_left(fem, bilateral, b(k)), motion)) cycle
             is_free = .true.
             if (is_along_axis(points(i)%sliding) .or. points(i)%sliding%grain <= EXACT*points(i)%sliding%extent) cycle
             call add_motion(motion, fem%bodies%list(b(k)))
@@ -84,15 +87,15 @@ contains
    end function motion_of_body
 
    !> Whether the supports of a body allow a motion, to the digits.
-   pure logical function is_left_free(body, motion)
-      type(body_t), intent(in) :: body
+   pure logical function is_left_free(modes, motion)
+      real(wp), intent(in) :: modes(:, :)           !< (3, motions) that supports leave
       real(wp), intent(in) :: motion(4)
       real(wp) :: rest(3)
       integer(ip) :: j
 
       rest = motion(:3)
-      do j = 1, size(body%modes, 2, kind=ip)
-         rest = rest - body%modes(:, j)*(dot_product(body%modes(:, j), rest)/sum(body%modes(:, j)**2))
+      do j = 1, size(modes, 2, kind=ip)
+         rest = rest - modes(:, j)*(dot_product(modes(:, j), rest)/sum(modes(:, j)**2))
       end do
       is_left_free = maxval(abs(rest)) <= max(motion(4), EXACT)*maxval(abs(motion(:3)))
    end function is_left_free

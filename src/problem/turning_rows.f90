@@ -13,12 +13,16 @@
 !> which vanish for every rigid motion that both bodies have together. Of the forces it is the couple that balances their moment. A
 !> master of one node has the nodes of the points beside it.
 !>
-!> Bodies that supports keep from turning have their rows as they are: the supports take the moment (W-SUMS tells of it).
+!> It is done where a round side meets a round or a straight one along which it may slide or roll (atrito_sliding_motions). Straight
+!> sides face each other over gaps that are as small as displacements, and have their rows as they are. So have bodies that supports
+!> keep from turning: the supports take the moment (W-SUMS tells of it).
 module atrito_turning_rows
    use atrito_assembly, only: fem_t
+   use atrito_bilateral_rows, only: bilateral_rows_t
    use atrito_contact_rows, only: contact_rows_t
    use atrito_kinds, only: ip, wp
-   use atrito_points, only: contact_points_t
+   use atrito_left_motions, only: motions_left
+   use atrito_points, only: contact_points_t, sliding_t
    use atrito_sliding_motions, only: first_of_master
    implicit none (type, external)
    private
@@ -38,19 +42,24 @@ module atrito_turning_rows
 
 contains
 
-   !> Takes the rotation of the master out of the rows of all points between bodies that may turn.
-   subroutine balance_rows(points, fem, rows)
+   !> Takes the rotation of the master out of the rows of points of curved sides between bodies that may turn.
+   subroutine balance_rows(rubs, points, fem, bilateral, rows)
+      logical, intent(in) :: rubs(:)                !< (pairs) with friction
       type(contact_points_t), intent(in) :: points(:)
       type(fem_t), intent(in) :: fem
+      type(bilateral_rows_t), intent(in) :: bilateral
       type(contact_rows_t), intent(inout) :: rows
+      real(wp), parameter :: NO_TURN = 1.0e-9_wp    ! of a motion
       logical :: may_turn(fem%bodies%n)
       type(turns_t) :: turns
       integer(ip) :: node(MOST_NODES), i, j, m, n
       real(wp) :: turn(2, MOST_NODES)
 
-      do i = 1, fem%bodies%n
-         associate (body => fem%bodies%list(i))
-            may_turn(i) = .not. body%is_rigid .and. any(abs(body%modes(3, :)) > 0.0_wp)
+      may_turn = .false.
+      do i = 1, merge(fem%bodies%n, 0_ip, any(rubs))
+         if (fem%bodies%list(i)%is_rigid) cycle
+         associate (left => motions_left(fem, bilateral, i))
+            may_turn(i) = any(abs(left(3, :)) > NO_TURN)
          end associate
       end do
       if (.not. any(may_turn)) return
@@ -58,7 +67,7 @@ contains
       do i = 1, size(points, kind=ip)
          do j = 1, points(i)%n
             m = m + 1
-            if (points(i)%rigid) cycle
+            if (points(i)%rigid .or. .not. rubs(i) .or. .not. is_curved(points(i)%sliding)) cycle
             call find_turn(points(i), j, fem, may_turn, rows%normal(:, m), node, turn, n)
             if (n == 0) cycle
             call make_room(turns, n)
@@ -70,6 +79,13 @@ contains
       end do
       if (turns%n > 0) call add_turns(turns, rows)
    end subroutine balance_rows
+
+   !> Whether one of the sides is round, and both slide along themselves.
+   pure logical function is_curved(sliding)
+      type(sliding_t), intent(in) :: sliding
+
+      is_curved = sliding%exists .and. (sliding%is_round .or. sliding%meets_round)
+   end function is_curved
 
    pure subroutine make_room(turns, n)
       type(turns_t), intent(inout) :: turns

@@ -15,7 +15,7 @@ module atrito_increment
    use atrito_final_check, only: check_equilibrium, check_balance, check_law, equilibrium_t
    use atrito_force_sums, only: sum_forces
    use atrito_joint_sums, only: sum_joints
-   use atrito_idle_motions, only: settle_idle_motions
+   use atrito_idle_motions, only: settle_idle_motions, stop_slow_motion
    use atrito_kinds, only: ip, wp
    use atrito_linear_limits, only: find_large
    use atrito_mesh, only: is_revolved
@@ -189,6 +189,11 @@ contains
       if (allocated(data%assembled)) call data%assembled%check_solves(status)   ! whatever came of a solve that failed
       solution%form = form
       call start_phase('iterate')
+      if (may_change .and. .not. solution%converged) call stop_slow_motion(data, solution, again)
+      if (again) then
+         call stop_phase('iterate')
+         return
+      end if
       call judge_outcome(data, results, solution, status)
       call stop_phase('iterate')
       if (.not. (is_ok(status) .and. solution%converged)) return

@@ -1,5 +1,5 @@
 # A pin in the hole of a lug, both rings of straight faces: -v digits=6 -v angle=30 -v faces=24 -v holes=24 -v slave=PIN -v moment=0 -v gap=0
-# -v type=CPE4 -v quadrature=NODAL -v force=10 -v hold=0 -v nu=0. The pin is pushed along -y of the turned frame at the nodes of its hole.
+# -v type=CPE4 -v quadrature=NODAL -v force=10 -v hold=0 -v nu=0 -v loose=0. loose: the lug is not held. The pin is pushed along -y of the turned frame at the nodes of its hole.
 function put(x) { return sprintf("%." digits "g", x) + 0 == 0 ? "0" : sprintf("%." digits "g", x) }
 function ring(name, r1, r2, n, first, element,   i, j, a, r, k) {
    print "*NODE, NSET=" name
@@ -28,7 +28,8 @@ BEGIN {
    print "*MATERIAL, NAME=M\n*ELASTIC\n1e5, 0.3\n*SOLID SECTION, ELSET=PIN, MATERIAL=M\n*SOLID SECTION, ELSET=LUG, MATERIAL=M"
    print "*SURFACE INTERACTION, NAME=I\n*FRICTION\n" nu "\n*CONTACT PAIR, INTERACTION=I" ((quadrature != "") ? ", QUADRATURE=" quadrature : "")
    print (slave == "LUG") ? "LUG-SIDE, PIN-SIDE" : "PIN-SIDE, LUG-SIDE"
-   print "*BOUNDARY\nOUTSIDE, 1, 2"
+   if (!loose) print "*BOUNDARY\nOUTSIDE, 1, 2"
+   if (loose && hold) print "*BOUNDARY"
    if (hold) print "BORE, 1, 2"
    print "*STEP\n*STATIC\n*CLOAD"
    printf "BORE, 1, %.17g\nBORE, 2, %.17g\n", force/faces*sin(turn), -force/faces*cos(turn)
