@@ -49,7 +49,7 @@ interaction_t      model/atrito_fingerprint.f90 digest_of_interactions law
 pair_t             model/atrito_fingerprint.f90 digest_of_pairs pair adjust,adjust_set,is_resolved,is_exchanged
 contact_points_t   model/atrito_fingerprint.f90 add_points points node,s,length,n_faces,n_left_out,n_seeing,faces,coarseness,coarse_node,piece,doubt,is_held,sliding
 bilateral_rows_t   model/atrito_fingerprint.f90 digest_of_rows rows n_groups
-step_t             model/atrito_fingerprint.f90 * step title
+step_t             model/atrito_fingerprint.f90 * step title,began
 nodal_values_t     model/atrito_fingerprint.f90 add_nodal_values values source
 element_load_t     model/atrito_fingerprint.f90 add_element_loads loads line,source
 amplitude_t        model/atrito_fingerprint.f90 add_amplitude amplitude name
