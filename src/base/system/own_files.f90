@@ -232,7 +232,7 @@ contains
       end if
    end function is_own
 
-   !> A deck as run, or the copy of a mesh, without a mark, as an older atrito wrote it: exactly what the listing beside it tells of.
+   !> A deck as run, or the copy of a mesh, without a mark, as an older atrito wrote it: just what the listing beside it tells of.
    recursive logical function is_as_listed(path)
       character(len=*), intent(in) :: path
       character(len=HEAD) :: buffer

@@ -12,8 +12,8 @@ module atrito_unmarked_decks
 
 contains
 
-   !> The name of the deck of which a file is a copy, by the file's name: 'a' of 'a.run.inp', 'a.run.msh' and 'a.run-2.msh'; '' where
-   !> it has another form.
+   !> The name of the deck of which a file is a copy, by the file's name: 'a' of 'a.run.inp', 'a.run.msh' and 'a.run-2.msh'; ''
+   !> where it has another form.
    pure function deck_of_copy(name) result(deck)
       character(len=*), intent(in) :: name           !< without folder
       character(len=:), allocatable :: deck
