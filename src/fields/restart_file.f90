@@ -200,12 +200,14 @@ contains
       call exchange(archive, 'from', state%from)
       call exchange(archive, 'from_of_motions', state%from_of_motions)
       call exchange(archive, 'released', state%released)
-      call exchange(archive, 'rest', state%rest)
-      call exchange(archive, 'slip', state%slip)
-      call exchange(archive, 'shear', state%shear)
-      call exchange(archive, 'slides', state%slides)
-      call exchange(archive, 'dissipation', state%dissipation)
-      call exchange(archive, 'moved', state%moved)
+      associate (memory => state%memory)
+         call exchange(archive, 'rest', memory%rest)
+         call exchange(archive, 'slip', memory%slip)
+         call exchange(archive, 'shear', memory%shear)
+         call exchange(archive, 'slides', memory%slides)
+         call exchange(archive, 'dissipation', memory%dissipation)
+         call exchange(archive, 'moved', memory%moved)
+      end associate
       call exchange_start(archive, state%start)
    end subroutine exchange_state
 

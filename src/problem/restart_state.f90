@@ -7,7 +7,7 @@ module atrito_restart_state
    use atrito_results, only: results_t
    implicit none (type, external)
    private
-   public :: restart_state_t, warm_start_t
+   public :: restart_state_t, slip_memory_t, warm_start_t
 
    !> What the contact line is started from; factors are not among it. See contact_solution_t in solve/.
    type :: warm_start_t
@@ -20,6 +20,17 @@ module atrito_restart_state
       real(wp) :: residual = 0.0_wp, contraction = 0.0_wp
       type(multiplier_t), allocatable :: multipliers !< of the sparse form
    end type warm_start_t
+
+   !> What friction remembers: see atrito_slip_memory in solve/.
+   type :: slip_memory_t
+      logical, allocatable :: is_incremental(:)      !< (points) the law has a rest slip
+      real(wp), allocatable :: rest(:)               !< (points) s0 [L]
+      real(wp), allocatable :: slip(:)               !< (points) u_T of the last increment [L]
+      real(wp), allocatable :: shear(:)              !< (points) t of the last increment [F/L^2]
+      logical, allocatable :: slides(:)              !< (points) the friction of the last increment was at its bound
+      real(wp), allocatable :: dissipation(:)        !< (pairs) from the beginning [F L]
+      real(wp), allocatable :: moved(:)              !< (pairs) largest displacement and slip so far [L]
+   end type slip_memory_t
 
    type :: restart_state_t
       integer(ip) :: step = 1, increment = 0        !< the last one that converged
@@ -35,12 +46,7 @@ module atrito_restart_state
       real(wp), allocatable :: from(:)              !< prescribed, at the beginning of the step [L]; not allocated: the deck's
       real(wp), allocatable :: from_of_motions(:)   !< prescribed at reference nodes, at the beginning of the step
       real(wp), allocatable :: released(:, :)       !< (2, n_nodes) of supports that the step does not have [F]
-      real(wp), allocatable :: rest(:)              !< (points) rest slip [L]
-      real(wp), allocatable :: slip(:)              !< (points) u_T [L]
-      real(wp), allocatable :: shear(:)             !< (points) [F/L^2]
-      logical, allocatable :: slides(:)             !< (points)
-      real(wp), allocatable :: dissipation(:)       !< (pairs) so far [F L]
-      real(wp), allocatable :: moved(:)             !< (pairs) largest displacement and slip so far [L]
+      type(slip_memory_t) :: memory                 !< all but is_incremental, which the deck gives
       type(warm_start_t) :: start
       type(results_t) :: last                       !< the increment
    end type restart_state_t

@@ -65,10 +65,10 @@ contains
       type(restart_state_t), intent(in) :: state
       character(len=:), allocatable, intent(inout) :: wrong
 
-      associate (n => sum(data%points%n), pairs => size(data%points, kind=ip), bodies => data%fem%bodies%n)
-         call require(wrong, is_list(state%rest, n) .and. is_list(state%slip, n) .and. is_list(state%shear, n) .and. &
-                      is_list(state%slides, n), 'rest slips')
-         call require(wrong, is_list(state%dissipation, pairs) .and. is_list(state%moved, pairs), 'dissipation')
+      associate (n => sum(data%points%n), pairs => size(data%points, kind=ip), bodies => data%fem%bodies%n, memory => state%memory)
+         call require(wrong, is_list(memory%rest, n) .and. is_list(memory%slip, n) .and. is_list(memory%shear, n) .and. &
+                      is_list(memory%slides, n), 'rest slips')
+         call require(wrong, is_list(memory%dissipation, pairs) .and. is_list(memory%moved, pairs), 'dissipation')
          if (allocated(state%released)) call require(wrong, is_list(state%released, 2_ip, data%fem%mesh%n_nodes) .or. &
                                                      is_list(state%released, 2_ip, data%model%mesh%n_nodes), 'released')
          call require(wrong, allocated(state%had_motion) .eqv. allocated(state%had_force), 'had_motion')

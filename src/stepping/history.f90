@@ -20,7 +20,7 @@ module atrito_history
    use atrito_pressure_warnings, only: warn_of_pressures
    use atrito_recorder, only: recorder_t
    use atrito_reporter, only: reporter_t, report_progress
-   use atrito_restart_state, only: restart_state_t
+   use atrito_restart_state, only: restart_state_t, slip_memory_t
    use atrito_results, only: ending_t, extreme_t, frame_store_t, history_t, results_t, scene_t
    use atrito_rigid_bodies, only: hold_the_same
    use atrito_rigid_results, only: leave_mesh_alone
@@ -28,7 +28,7 @@ module atrito_history
    use atrito_scene_builder, only: list_held
    use atrito_scene_data, only: check_known_points, drop_assembled, scene_data_t, set_time
    use atrito_scene_forecast, only: forecast_memory
-   use atrito_slip_memory, only: begin_memory, put_memory, put_rest, remember_slips, slip_memory_t, take_memory
+   use atrito_slip_memory, only: begin_memory, put_rest, remember_slips
    use atrito_solution_warnings, only: warn, idle_text
    use atrito_solve, only: begin_scene, note_method, solve_options_t, solve_static, CONTACT_SPARSE
    use atrito_status, only: is_ok, reword_status, set_status, status_t, STATUS_DECK, STATUS_NOT_CONVERGED, STATUS_SINGULAR
@@ -174,7 +174,8 @@ contains
          if (allocated(state%released)) run%data%released = state%released
          run%data%fem%grain = state%grain
          if (allocated(state%had_motion)) call widen(run%data%had, state%had_motion, state%had_force)
-         call take_memory(state, run%memory)
+         state%memory%is_incremental = run%memory%is_incremental
+         run%memory = state%memory
          call put_rest(run%memory, run%data%line)
          run%last = state%last
          run%has_last = .true.
@@ -233,7 +234,7 @@ contains
          if (allocated(run%step%rigid_prescribed%from)) state%from_of_motions = run%step%rigid_prescribed%from
       end if
       if (allocated(run%data%released)) state%released = run%data%released
-      call put_memory(run%memory, state)
+      state%memory = run%memory
       state%last = run%last
       call put_start(run%data%last, state%start)
       call take_start(state%start, run%data%last)

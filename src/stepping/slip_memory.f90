@@ -9,21 +9,11 @@ module atrito_slip_memory
    use atrito_friction_law, only: is_full, stick_compliance, FRICTION_NONE
    use atrito_kinds, only: ip, wp
    use atrito_model, only: model_t
-   use atrito_restart_state, only: restart_state_t
+   use atrito_restart_state, only: slip_memory_t
    use atrito_results, only: contact_result_t
    implicit none (type, external)
    private
-   public :: slip_memory_t, begin_memory, remember_slips, put_rest, put_memory, take_memory
-
-   type :: slip_memory_t
-      logical, allocatable :: is_incremental(:)      !< (points) the law has a rest slip
-      real(wp), allocatable :: rest(:)               !< (points) s0 [L]
-      real(wp), allocatable :: slip(:)               !< (points) u_T of the last increment [L]
-      real(wp), allocatable :: shear(:)              !< (points) t of the last increment [F/L^2]
-      logical, allocatable :: slides(:)              !< (points) the friction of the last increment was at its bound
-      real(wp), allocatable :: dissipation(:)        !< (pairs) from the beginning [F L]
-      real(wp), allocatable :: moved(:)              !< (pairs) largest displacement and slip so far [L]
-   end type slip_memory_t
+   public :: begin_memory, remember_slips, put_rest
 
 contains
 
@@ -112,31 +102,5 @@ contains
          line%shear_before(j) = memory%shear(j)
       end do
    end subroutine put_rest
-
-   !> What is remembered, for a run that goes on later.
-   pure subroutine put_memory(memory, state)
-      type(slip_memory_t), intent(in) :: memory
-      type(restart_state_t), intent(inout) :: state
-
-      state%rest = memory%rest
-      state%slip = memory%slip
-      state%shear = memory%shear
-      state%slides = memory%slides
-      state%dissipation = memory%dissipation
-      state%moved = memory%moved
-   end subroutine put_memory
-
-   !> The memory of slip that a restart file has.
-   pure subroutine take_memory(state, memory)
-      type(restart_state_t), intent(in) :: state
-      type(slip_memory_t), intent(inout) :: memory   !< of the same points
-
-      memory%rest = state%rest
-      memory%slip = state%slip
-      memory%shear = state%shear
-      memory%slides = state%slides
-      memory%dissipation = state%dissipation
-      memory%moved = state%moved
-   end subroutine take_memory
 
 end module atrito_slip_memory

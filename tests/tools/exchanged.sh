@@ -34,8 +34,7 @@ multiplier_t       fields/restart_file.f90 exchange_multipliers multipliers fact
 warm_start_t       stepping/warm_start.f90 put_start start
 warm_start_t       stepping/warm_start.f90 take_start start
 contact_solution_t stepping/warm_start.f90 put_start solution factor,inner,converged,verdict,factorisations,body_motion,body_force,has_settled
-slip_memory_t      stepping/slip_memory.f90 put_memory memory is_incremental
-slip_memory_t      stepping/slip_memory.f90 take_memory memory is_incremental
+slip_memory_t      fields/restart_file.f90 exchange_state memory is_incremental
 run_t              stepping/history.f90 record run options,reporter,scene,has_last,observer,sense,idle,n_idle
 run_t              stepping/history.f90 resume run reporter,observer,idle,n_idle
 progress_t         stepping/history.f90 record now cuts

@@ -6,7 +6,7 @@ module atrito_face_symbols
    use atrito_kinds, only: ip, wp
    use atrito_load_resultants, only: last_factor
    use atrito_mesh, only: face_nodes
-   use atrito_model, only: model_t, is_on_volume, LOAD_TRACTION, LOAD_HYDROSTATIC
+   use atrito_model, only: is_on_volume, LOAD_TRACTION, LOAD_HYDROSTATIC
    use atrito_shape_functions, only: face_shape_values
    use atrito_symbols, only: symbols_t, begin_block, end_block, put_path, put_arrow, thinned, ARROW_LOOKS, SLANT
    implicit none (type, external)
@@ -25,6 +25,7 @@ module atrito_face_symbols
       integer(ip), allocatable :: load(:)           !< (n) the first load of each
       integer(ip), allocatable :: next(:)           !< (loads) the next one on the same face; 0: none
       real(wp), allocatable :: factor(:)            !< (loads) of its amplitude
+      real(wp) :: largest = 0.0_wp                  !< traction on them [F/L^2]
    end type loaded_faces_t
 
    !> A place of a loaded face, and what is drawn there.
@@ -37,26 +38,21 @@ module atrito_face_symbols
 contains
 
    !> Puts the arrows of a step, as loads are at its end.
-   subroutine put_face_loads(model, step, u, legend, symbols)
-      type(model_t), intent(in) :: model
-      integer(ip), intent(in) :: step
-      real(wp), intent(in) :: u(:, :)               !< (2, n_nodes) [L]
+   subroutine put_face_loads(legend, symbols)
       character(len=*), intent(in) :: legend        !< of the arrows
       type(symbols_t), intent(inout) :: symbols
       type(loaded_faces_t) :: faces
-      real(wp) :: largest
       integer(ip) :: i, k
 
-      call list_faces(model, step, faces)
-      largest = 0.0_wp
+      call list_faces(symbols, faces)
       do i = 1, faces%n
          do k = -1, 1
-            largest = max(largest, size_of(traction_on(model, step, faces, i, real(k, wp))))
+            faces%largest = max(faces%largest, size_of(traction_on(symbols, faces, i, real(k, wp))))
          end do
       end do
-      if (.not. largest > 0.0_wp) return
-      call put_lines_of_ends(model, step, faces, largest, u, symbols)
-      call put_arrows(model, step, faces, largest, u, legend, symbols)
+      if (.not. faces%largest > 0.0_wp) return
+      call put_lines_of_ends(faces, symbols)
+      call put_arrows(faces, legend, symbols)
    end subroutine put_face_loads
 
    pure real(wp) function size_of(traction)
@@ -66,20 +62,19 @@ contains
    end function size_of
 
    !> Each face once, with its loads one behind the other.
-   subroutine list_faces(model, step, faces)
-      type(model_t), intent(in) :: model
-      integer(ip), intent(in) :: step
+   subroutine list_faces(symbols, faces)
+      type(symbols_t), intent(in) :: symbols
       type(loaded_faces_t), intent(out) :: faces
       type(id_map_t) :: known_faces
       integer(ip) :: i, key, at
       logical :: known
 
-      associate (loads => model%steps(step)%element_loads)
+      associate (loads => symbols%model%steps(symbols%step)%element_loads)
          allocate (faces%load(loads%n), faces%next(loads%n), source=0_ip)
          allocate (faces%factor(loads%n), source=1.0_wp)
          do i = 1, loads%n
             if (is_on_volume(loads%kind(i))) cycle
-            if (allocated(loads%amplitude)) faces%factor(i) = last_factor(model, step, loads%amplitude(i))
+            if (allocated(loads%amplitude)) faces%factor(i) = last_factor(symbols%model, symbols%step, loads%amplitude(i))
             if (.not. abs(faces%factor(i)) > 0.0_wp) faces%factor(i) = 1.0_wp
             key = MOST_SIDES*(loads%element(i) - 1) + loads%face(i)
             call add_id(known_faces, key, faces%n + 1, known)
@@ -92,9 +87,9 @@ contains
    end subroutine list_faces
 
    !> The force per area at a place of a face.
-   pure function traction_on(model, step, faces, i, t) result(traction)
-      type(model_t), intent(in) :: model
-      integer(ip), intent(in) :: step, i
+   pure function traction_on(symbols, faces, i, t) result(traction)
+      type(symbols_t), intent(in) :: symbols
+      integer(ip), intent(in) :: i
       type(loaded_faces_t), intent(in) :: faces
       real(wp), intent(in) :: t                     !< in [-1,1]
       real(wp) :: traction(2)                       !< [F/L^2]
@@ -103,10 +98,10 @@ contains
       integer(ip) :: k
 
       traction = 0.0_wp
-      x = model%mesh%x(:, nodes_of(model, step, faces%load(i)))
+      x = symbols%model%mesh%x(:, nodes_of(symbols, faces%load(i)))
       normal = outward_normal(x, t)
       k = faces%load(i)
-      associate (loads => model%steps(step)%element_loads)
+      associate (loads => symbols%model%steps(symbols%step)%element_loads)
          do while (k > 0)
             associate (value => loads%value(:, k))
                select case (loads%kind(k))
@@ -125,55 +120,50 @@ contains
    end function traction_on
 
    !> The nodes of the face of a load.
-   pure function nodes_of(model, step, load) result(nodes)
-      type(model_t), intent(in) :: model
-      integer(ip), intent(in) :: step, load
+   pure function nodes_of(symbols, load) result(nodes)
+      type(symbols_t), intent(in) :: symbols
+      integer(ip), intent(in) :: load
       integer(ip), allocatable :: nodes(:)
 
-      associate (loads => model%steps(step)%element_loads)
-         nodes = face_nodes(model%mesh, loads%element(load), loads%face(load))
+      associate (loads => symbols%model%steps(symbols%step)%element_loads)
+         nodes = face_nodes(symbols%model%mesh, loads%element(load), loads%face(load))
       end associate
    end function nodes_of
 
    !> What is drawn at a place of a face.
-   pure type(spot_t) function spot_on(model, step, faces, i, t, u, scale, pixel) result(spot)
-      type(model_t), intent(in) :: model
-      integer(ip), intent(in) :: step, i
+   pure type(spot_t) function spot_on(symbols, faces, i, t) result(spot)
+      type(symbols_t), intent(in) :: symbols
+      integer(ip), intent(in) :: i
       type(loaded_faces_t), intent(in) :: faces
-      real(wp), intent(in) :: t, u(:, :)
-      real(wp), intent(in) :: scale                 !< largest traction [F/L^2]
-      real(wp), intent(in) :: pixel                 !< [L]
+      real(wp), intent(in) :: t
       real(wp), allocatable :: x(:, :), n(:)
       integer(ip), allocatable :: nodes(:)
       real(wp) :: share(2), normal(2), length, along
 
-      nodes = nodes_of(model, step, faces%load(i))
-      x = model%mesh%x(:, nodes)
+      nodes = nodes_of(symbols, faces%load(i))
+      x = symbols%model%mesh%x(:, nodes)
       normal = outward_normal(x, t)
       n = face_shape_values(size(nodes, kind=ip), t)
       spot%place = matmul(x, n)
-      spot%u = matmul(u(:, nodes), n)
-      share = traction_on(model, step, faces, i, t)/scale
+      spot%u = matmul(symbols%u(:, nodes), n)
+      share = traction_on(symbols, faces, i, t)/faces%largest
       length = norm2(share)
       spot%from = spot%place
-      spot%arrow = LONGEST*pixel*share
+      spot%arrow = LONGEST*symbols%pixel*share
       if (.not. length > 0.0_wp) return
       along = dot_product(share, normal)/length
       spot%is_shear = abs(along) < AXIS_OF_SHEAR
       if (spot%is_shear) then
-         spot%arrow = 2*HALF_SHEAR*pixel*max(0.5_wp, length)/length*share
-         spot%from = spot%place + OFF*pixel*normal - 0.5_wp*spot%arrow
+         spot%arrow = 2*HALF_SHEAR*symbols%pixel*max(0.5_wp, length)/length*share
+         spot%from = spot%place + OFF*symbols%pixel*normal - 0.5_wp*spot%arrow
       else if (along < -SLANT) then
          spot%from = spot%place - spot%arrow
       end if
    end function spot_on
 
    !> The lines that join the free ends, which show how a load goes along a side.
-   subroutine put_lines_of_ends(model, step, faces, largest, u, symbols)
-      type(model_t), intent(in) :: model
-      integer(ip), intent(in) :: step
+   subroutine put_lines_of_ends(faces, symbols)
       type(loaded_faces_t), intent(in) :: faces
-      real(wp), intent(in) :: largest, u(:, :)
       type(symbols_t), intent(inout) :: symbols
       real(wp) :: ends(2, 0:MOST_PIECES), moves(2, 0:MOST_PIECES)
       type(spot_t) :: spot
@@ -181,11 +171,11 @@ contains
 
       call begin_block(symbols, 'ends of the loads on faces', '', 'with lines'//LOOKS)
       do i = 1, faces%n
-         spot = spot_on(model, step, faces, i, 0.0_wp, u, largest, symbols%pixel)
+         spot = spot_on(symbols, faces, i, 0.0_wp)
          if (spot%is_shear) cycle
-         n = pieces_of(model, step, faces, i, PIECE*symbols%pixel)
+         n = pieces_of(symbols, faces, i, PIECE)
          do k = 0, n
-            spot = spot_on(model, step, faces, i, 2*real(k, wp)/n - 1, u, largest, symbols%pixel)
+            spot = spot_on(symbols, faces, i, 2*real(k, wp)/n - 1)
             ends(:, k) = spot%from
             if (all(.not. abs(spot%from - spot%place) > 0.0_wp)) ends(:, k) = spot%place + spot%arrow
             moves(:, k) = spot%u
@@ -196,38 +186,35 @@ contains
    end subroutine put_lines_of_ends
 
    !> Equal pieces of a face, none of which is shorter than a length.
-   pure integer(ip) function pieces_of(model, step, faces, i, least) result(n)
-      type(model_t), intent(in) :: model
-      integer(ip), intent(in) :: step, i
+   pure integer(ip) function pieces_of(symbols, faces, i, least) result(n)
+      type(symbols_t), intent(in) :: symbols
+      integer(ip), intent(in) :: i
       type(loaded_faces_t), intent(in) :: faces
-      real(wp), intent(in) :: least                 !< [L]
+      real(wp), intent(in) :: least                 !< [pixels]
       real(wp), allocatable :: x(:, :)
 
-      x = model%mesh%x(:, nodes_of(model, step, faces%load(i)))
-      n = int(min(norm2(x(:, 2) - x(:, 1))/least, real(MOST_PIECES, wp)), ip)
+      x = symbols%model%mesh%x(:, nodes_of(symbols, faces%load(i)))
+      n = int(min(norm2(x(:, 2) - x(:, 1))/(least*symbols%pixel), real(MOST_PIECES, wp)), ip)
       n = max(1_ip, n)
    end function pieces_of
 
    !> The arrows, so far apart that they can be told from each other.
-   subroutine put_arrows(model, step, faces, largest, u, legend, symbols)
-      type(model_t), intent(in) :: model
-      integer(ip), intent(in) :: step
+   subroutine put_arrows(faces, legend, symbols)
       type(loaded_faces_t), intent(in) :: faces
-      real(wp), intent(in) :: largest, u(:, :)
       character(len=*), intent(in) :: legend
       type(symbols_t), intent(inout) :: symbols
       type(spot_t), allocatable :: spots(:)
       real(wp), allocatable :: places(:, :)
       integer(ip) :: i, k, n, total
 
-      total = sum([(pieces_of(model, step, faces, i, SPACING*symbols%pixel) + 1, i=1, faces%n)])
+      total = sum([(pieces_of(symbols, faces, i, SPACING) + 1, i=1, faces%n)])
       allocate (spots(total), places(2, total))
       total = 0
       do i = 1, faces%n
-         n = pieces_of(model, step, faces, i, SPACING*symbols%pixel)
+         n = pieces_of(symbols, faces, i, SPACING)
          do k = 0, n
             total = total + 1
-            spots(total) = spot_on(model, step, faces, i, 2*real(k, wp)/n - 1, u, largest, symbols%pixel)
+            spots(total) = spot_on(symbols, faces, i, 2*real(k, wp)/n - 1)
             places(:, total) = spots(total)%place
          end do
       end do

@@ -4,7 +4,7 @@ module atrito_link_symbols
    use atrito_bilateral_rows, only: ROW_EQUATION, ROW_SECTION
    use atrito_kinds, only: ip, wp
    use atrito_mesh, only: is_revolved
-   use atrito_model, only: model_t, spring_t
+   use atrito_model, only: spring_t
    use atrito_plot_text, only: span
    use atrito_strings, only: to_text
    use atrito_symbols, only: symbols_t, begin_block, end_block, put_stroke, put_path, put_arrow, put_marker, thinned, &
@@ -27,26 +27,22 @@ module atrito_link_symbols
 contains
 
    !> Puts them, and widens the window to the axis.
-   subroutine put_links(model, step, u, symbols)
-      type(model_t), intent(in) :: model
-      integer(ip), intent(in) :: step
-      real(wp), intent(in) :: u(:, :)               !< (2, n_nodes) [L]
+   subroutine put_links(symbols)
       type(symbols_t), intent(inout) :: symbols
 
-      call put_axis(model, symbols)
-      call put_springs(model, u, symbols)
-      call put_equations(model, u, symbols)
-      call put_sections(model, step, u, symbols)
-      call put_references(model, step, u, symbols)
+      call put_axis(symbols)
+      call put_springs(symbols)
+      call put_equations(symbols)
+      call put_sections(symbols)
+      call put_references(symbols)
    end subroutine put_links
 
    !> The axis, a little longer than the bodies.
-   subroutine put_axis(model, symbols)
-      type(model_t), intent(in) :: model
+   subroutine put_axis(symbols)
       type(symbols_t), intent(inout) :: symbols
       real(wp) :: low, high
 
-      if (.not. is_revolved(model%mesh)) return
+      if (.not. is_revolved(symbols%model%mesh)) return
       associate (x => symbols%window(1), y => symbols%window(2))
          if (x%low > FAR_AXIS*hypot(span(x), span(y))) return
          low = y%low - BEYOND*symbols%pixel
@@ -57,39 +53,37 @@ contains
       call end_block(symbols)
    end subroutine put_axis
 
-   subroutine put_springs(model, u, symbols)
-      type(model_t), intent(in) :: model
-      real(wp), intent(in) :: u(:, :)
+   subroutine put_springs(symbols)
       type(symbols_t), intent(inout) :: symbols
       integer(ip) :: i
 
-      if (.not. allocated(model%springs)) return
-      if (size(model%springs) == 0) return
+      if (.not. allocated(symbols%model%springs)) return
+      if (size(symbols%model%springs) == 0) return
       call begin_block(symbols, 'springs', '', SPRINGS//' title "springs"')
-      do i = 1, size(model%springs, kind=ip)
-         call put_spring(model, model%springs(i), u, symbols)
+      do i = 1, size(symbols%model%springs, kind=ip)
+         call put_spring(symbols%model%springs(i), symbols)
       end do
       call end_block(symbols)
    end subroutine put_springs
 
    !> A zigzag between two nodes; from a node to the ground, or where both nodes coincide, along the direction of its dof.
-   subroutine put_spring(model, spring, u, symbols)
-      type(model_t), intent(in) :: model
+   subroutine put_spring(spring, symbols)
       type(spring_t), intent(in) :: spring
-      real(wp), intent(in) :: u(:, :)
       type(symbols_t), intent(inout) :: symbols
       real(wp) :: ends(2, 2), moves(2, 2), along(2), shares(COILS + 2), places(2, COILS + 2), us(2, COILS + 2)
       integer :: k
 
       along = 0.0_wp
       along(max(1_ip, spring%dof(1))) = -FREE_SPRING*symbols%pixel
-      ends(:, 1) = model%mesh%x(:, spring%node(1))
-      moves(:, 1) = u(:, spring%node(1))
+      ends(:, 1) = symbols%model%mesh%x(:, spring%node(1))
+      moves(:, 1) = symbols%u(:, spring%node(1))
       ends(:, 2) = ends(:, 1) + along
       moves(:, 2) = moves(:, 1)
       if (spring%node(2) > 0) then
-         moves(:, 2) = u(:, spring%node(2))
-         if (norm2(model%mesh%x(:, spring%node(2)) - ends(:, 1)) > symbols%pixel) ends(:, 2) = model%mesh%x(:, spring%node(2))
+         moves(:, 2) = symbols%u(:, spring%node(2))
+         associate (other => symbols%model%mesh%x(:, spring%node(2)))
+            if (norm2(other - ends(:, 1)) > symbols%pixel) ends(:, 2) = other
+         end associate
       end if
       along = ends(:, 2) - ends(:, 1)
       along = along/norm2(along)
@@ -107,13 +101,11 @@ contains
    end subroutine put_spring
 
    !> Dotted lines from the first node of an equation to the others.
-   subroutine put_equations(model, u, symbols)
-      type(model_t), intent(in) :: model
-      real(wp), intent(in) :: u(:, :)
+   subroutine put_equations(symbols)
       type(symbols_t), intent(inout) :: symbols
       integer(ip) :: i, k, n, every, drawn
 
-      associate (rows => model%bilateral)
+      associate (rows => symbols%model%bilateral)
          n = count([(rows%kind(i) == ROW_EQUATION, i=1, rows%n)], kind=ip)
          if (n == 0) return
          every = 1 + n/MOST_LINES
@@ -125,7 +117,8 @@ contains
             if (mod(drawn, every) /= 0) cycle
             do k = rows%first(i) + 1, rows%first(i + 1) - 1
                associate (nodes => [rows%node(rows%first(i)), rows%node(k)])
-                  if (all(nodes <= model%mesh%n_nodes)) call put_path(symbols, u(:, nodes), model%mesh%x(:, nodes))
+                  if (any(nodes > symbols%model%mesh%n_nodes)) cycle
+                  call put_path(symbols, symbols%u(:, nodes), symbols%model%mesh%x(:, nodes))
                end associate
             end do
          end do
@@ -134,64 +127,59 @@ contains
    end subroutine put_equations
 
    !> Markers along a pre-tension section, and arrows in its middle that pull the sides together.
-   subroutine put_sections(model, step, u, symbols)
-      type(model_t), intent(in) :: model
-      integer(ip), intent(in) :: step
-      real(wp), intent(in) :: u(:, :)
+   subroutine put_sections(symbols)
       type(symbols_t), intent(inout) :: symbols
       integer(ip), allocatable :: rows(:), nodes(:)
       integer(ip) :: b, i
 
-      if (.not. allocated(model%rigid_bodies)) return
-      do b = 1, size(model%rigid_bodies, kind=ip)
-         if (.not. model%rigid_bodies(b)%is_section) cycle
-         associate (all_rows => model%bilateral)
+      if (.not. allocated(symbols%model%rigid_bodies)) return
+      do b = 1, size(symbols%model%rigid_bodies, kind=ip)
+         if (.not. symbols%model%rigid_bodies(b)%is_section) cycle
+         associate (all_rows => symbols%model%bilateral)
             ! of two rows a node the first is along the normal: it has a third entry
             rows = pack([(i, i=1, all_rows%n)], [(all_rows%kind(i) == ROW_SECTION .and. all_rows%part(i) == b .and. &
                                                   all_rows%first(i + 1) - all_rows%first(i) == 3, i=1, all_rows%n)])
             nodes = all_rows%node(all_rows%first(rows))
             call begin_block(symbols, 'a pre-tension section', ':(dot*$5)', 'with points pt 13 ps variable '//SECTIONS// &
-                             ' title "pre-tension section'//section_text(model, step, b)//'"')
-            nodes = pack(nodes, thinned(model%mesh%x(:, nodes), BETWEEN*symbols%pixel))
+                             ' title "pre-tension section'//section_text(symbols, b)//'"')
+            nodes = pack(nodes, thinned(symbols%model%mesh%x(:, nodes), BETWEEN*symbols%pixel))
             do i = 1, size(nodes, kind=ip)
-               call put_marker(symbols, u(:, nodes(i)), model%mesh%x(:, nodes(i)), 1.0_wp)
+               call put_marker(symbols, symbols%u(:, nodes(i)), symbols%model%mesh%x(:, nodes(i)), 1.0_wp)
             end do
             call end_block(symbols)
-            call put_pull(model, all_rows%vector(:, all_rows%first(rows(1))), nodes, u, symbols)
+            call put_pull(all_rows%vector(:, all_rows%first(rows(1))), nodes, symbols)
          end associate
       end do
    end subroutine put_sections
 
    !> `, force 1000 [F]`
-   pure function section_text(model, step, body) result(text)
-      type(model_t), intent(in) :: model
-      integer(ip), intent(in) :: step, body
+   pure function section_text(symbols, body) result(text)
+      type(symbols_t), intent(in) :: symbols
+      integer(ip), intent(in) :: body
       character(len=:), allocatable :: text
       integer(ip) :: i
 
       text = ''
-      associate (node => model%rigid_bodies(body)%node, now => model%steps(step))
+      associate (node => symbols%model%rigid_bodies(body)%node, now => symbols%model%steps(symbols%step))
          do i = 1, now%rigid_loads%n
-            if (now%rigid_loads%node(i) == node) text = ', force '//to_text(end_value(model, step, now%rigid_loads, i), 4)//' [F]'
+            if (now%rigid_loads%node(i) == node) text = ', force '//to_text(end_value(symbols, now%rigid_loads, i), 4)//' [F]'
          end do
          do i = 1, now%rigid_prescribed%n
             if (now%rigid_prescribed%node(i) /= node .or. now%rigid_prescribed%dof(i) /= 1) cycle
-            text = ', taken out '//to_text(end_value(model, step, now%rigid_prescribed, i), 4)//' [L]'
+            text = ', taken out '//to_text(end_value(symbols, now%rigid_prescribed, i), 4)//' [L]'
          end do
       end associate
    end function section_text
 
    !> Two arrows towards each other along the normal.
-   subroutine put_pull(model, normal, nodes, u, symbols)
-      type(model_t), intent(in) :: model
+   subroutine put_pull(normal, nodes, symbols)
       real(wp), intent(in) :: normal(2)             !< unit vector
       integer(ip), intent(in) :: nodes(:)           !< of the section
-      real(wp), intent(in) :: u(:, :)
       type(symbols_t), intent(inout) :: symbols
       real(wp) :: middle(2), move(2), arrow(2)
 
-      middle = sum(model%mesh%x(:, nodes), dim=2)/size(nodes)
-      move = sum(u(:, nodes), dim=2)/size(nodes)
+      middle = sum(symbols%model%mesh%x(:, nodes), dim=2)/size(nodes)
+      move = sum(symbols%u(:, nodes), dim=2)/size(nodes)
       arrow = PULL*symbols%pixel*normal
       call begin_block(symbols, 'its force', ':5:6', ARROW_LOOKS//' lw 1.8 '//SECTIONS)
       call put_arrow(symbols, move, middle - 1.2_wp*arrow, arrow)
@@ -200,34 +188,31 @@ contains
    end subroutine put_pull
 
    !> Reference nodes of rigid surfaces; a square round those whose rotation is held.
-   subroutine put_references(model, step, u, symbols)
-      type(model_t), intent(in) :: model
-      integer(ip), intent(in) :: step
-      real(wp), intent(in) :: u(:, :)
+   subroutine put_references(symbols)
       type(symbols_t), intent(inout) :: symbols
       real(wp) :: place(2), h
       integer(ip) :: i
 
-      if (.not. allocated(model%rigid_bodies)) return
-      if (.not. any(.not. model%rigid_bodies%is_section)) return
+      if (.not. allocated(symbols%model%rigid_bodies)) return
+      if (.not. any(.not. symbols%model%rigid_bodies%is_section)) return
       call begin_block(symbols, 'reference nodes', ':(dot*$5)', 'with points pt 7 ps variable lc rgb "#202020"'// &
                        ' title "reference nodes, in squares: no rotation"')
-      do i = 1, size(model%rigid_bodies, kind=ip)
-         associate (node => model%rigid_bodies(i)%node)
-            if (.not. model%rigid_bodies(i)%is_section) call put_marker(symbols, u(:, node), place_of_node(model, symbols, node), &
-                                                                        1.0_wp)
+      do i = 1, size(symbols%model%rigid_bodies, kind=ip)
+         associate (body => symbols%model%rigid_bodies(i))
+            if (body%is_section) cycle
+            call put_marker(symbols, symbols%u(:, body%node), place_of_node(symbols, body%node), 1.0_wp)
          end associate
       end do
       call end_block(symbols)
       h = HALF_SQUARE*symbols%pixel
-      associate (held => model%steps(step)%rigid_prescribed)
+      associate (held => symbols%model%steps(symbols%step)%rigid_prescribed)
          if (count(held%dof(:held%n) > 2) == 0) return
          call begin_block(symbols, 'rotations that are prescribed', '', 'with lines lt 1 lw 1.3 lc rgb "#202020"')
          do i = 1, held%n
             if (held%dof(i) <= 2) cycle
-            place = place_of_node(model, symbols, held%node(i))
-            call put_stroke(symbols, u(:, held%node(i)), reshape([place + [-h, -h], place + [h, -h], place + [h, h], &
-                                                                  place + [-h, h], place + [-h, -h]], [2, 5]))
+            place = place_of_node(symbols, held%node(i))
+            call put_stroke(symbols, symbols%u(:, held%node(i)), reshape([place + [-h, -h], place + [h, -h], place + [h, h], &
+                                                                          place + [-h, h], place + [-h, -h]], [2, 5]))
          end do
          call end_block(symbols)
       end associate

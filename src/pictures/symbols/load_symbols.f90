@@ -8,7 +8,7 @@ module atrito_load_symbols
    use atrito_kinds, only: ip, wp
    use atrito_load_resultants, only: force_t, load_resultants, last_factor
    use atrito_mesh, only: mesh_t, side_count
-   use atrito_model, only: model_t, nodal_values_t, LOAD_BODY, LOAD_LINEAR
+   use atrito_model, only: nodal_values_t, LOAD_BODY, LOAD_LINEAR
    use atrito_strings, only: to_text
    use atrito_symbols, only: symbols_t, begin_block, end_block, put_stroke, put_arrow, put_marker, thinned, find_outward, &
                              end_value, place_of_node, is_section_node, largest_length, arrow_at, ARROW_LOOKS
@@ -27,24 +27,21 @@ module atrito_load_symbols
 contains
 
    !> Puts the loads of a step, as they are at its end.
-   subroutine put_loads(model, step, u, symbols)
-      type(model_t), intent(in) :: model
-      integer(ip), intent(in) :: step
-      real(wp), intent(in) :: u(:, :)               !< (2, n_nodes) [L]
+   subroutine put_loads(symbols)
       type(symbols_t), intent(inout) :: symbols
       type(force_t) :: concentrated, on_faces, in_bodies
 
-      associate (now => model%steps(step))
-         call load_resultants(model, concentrated, on_faces, in_bodies, step)
+      associate (now => symbols%model%steps(symbols%step))
+         call load_resultants(symbols%model, concentrated, on_faces, in_bodies, symbols%step)
          if (now%node_loads%n + now%rigid_loads%n > 0) then
-            call put_forces(model, step, u, force_text(concentrated), symbols)
-            call put_moments(model, step, u, symbols)
+            call put_forces(force_text(concentrated), symbols)
+            call put_moments(symbols)
          end if
          if (now%element_loads%n > 0) then
-            call put_body_loads(model, step, u, force_text(in_bodies), symbols)
-            call put_face_loads(model, step, u, 'loads on faces, resultant '//force_text(on_faces), symbols)
+            call put_body_loads(force_text(in_bodies), symbols)
+            call put_face_loads('loads on faces, resultant '//force_text(on_faces), symbols)
          end if
-         if (allocated(now%heating)) call put_temperatures(model, now%heating, u, symbols)
+         if (allocated(now%heating)) call put_temperatures(now%heating, symbols)
       end associate
    end subroutine put_loads
 
@@ -60,10 +57,7 @@ contains
    end function force_text
 
    !> Forces at nodes, each with all that acts there.
-   subroutine put_forces(model, step, u, resultant, symbols)
-      type(model_t), intent(in) :: model
-      integer(ip), intent(in) :: step
-      real(wp), intent(in) :: u(:, :)
+   subroutine put_forces(resultant, symbols)
       character(len=*), intent(in) :: resultant
       type(symbols_t), intent(inout) :: symbols
       real(wp), allocatable :: force(:, :), outward(:, :), places(:, :)
@@ -71,77 +65,70 @@ contains
       integer(ip), allocatable :: nodes(:)
       integer(ip) :: i
 
-      allocate (force(2, model%mesh%n_nodes), source=0.0_wp)
-      call add_forces(model, step, model%steps(step)%node_loads, force)
-      call add_forces(model, step, model%steps(step)%rigid_loads, force)
+      allocate (force(2, symbols%model%mesh%n_nodes), source=0.0_wp)
+      call add_forces(symbols, symbols%model%steps(symbols%step)%node_loads, force)
+      call add_forces(symbols, symbols%model%steps(symbols%step)%rigid_loads, force)
       largest = largest_length(force)
       if (.not. largest > 0.0_wp) return
-      nodes = pack([(i, i=1, model%mesh%n_nodes)], abs(force(1, :)) + abs(force(2, :)) > 0.0_wp)
+      nodes = pack([(i, i=1, symbols%model%mesh%n_nodes)], abs(force(1, :)) + abs(force(2, :)) > 0.0_wp)
       allocate (places(2, size(nodes)))
       do i = 1, size(nodes, kind=ip)
-         places(:, i) = place_of_node(model, symbols, nodes(i))
+         places(:, i) = place_of_node(symbols, nodes(i))
       end do
       nodes = pack(nodes, thinned(places, BETWEEN_FORCES*symbols%pixel))
-      outward = find_outward(model%mesh)
+      outward = find_outward(symbols%model%mesh)
       call begin_block(symbols, 'forces at nodes', ':5:6', ARROW_LOOKS//FORCES//' title "forces at nodes, resultant '// &
                        resultant//'"')
       do i = 1, size(nodes, kind=ip)
-         call arrow_at(place_of_node(model, symbols, nodes(i)), force(:, nodes(i))/largest, outward(:2, nodes(i)), &
+         call arrow_at(place_of_node(symbols, nodes(i)), force(:, nodes(i))/largest, outward(:2, nodes(i)), &
                        LONGEST_FORCE*symbols%pixel, from, arrow)
-         call put_arrow(symbols, u(:, nodes(i)), from, arrow)
+         call put_arrow(symbols, symbols%u(:, nodes(i)), from, arrow)
       end do
       call end_block(symbols)
    end subroutine put_forces
 
-   subroutine add_forces(model, step, list, force)
-      type(model_t), intent(in) :: model
-      integer(ip), intent(in) :: step
+   subroutine add_forces(symbols, list, force)
+      type(symbols_t), intent(in) :: symbols
       type(nodal_values_t), intent(in) :: list
       real(wp), intent(inout) :: force(:, :)        !< (2, n_nodes) [F]
       integer(ip) :: i
 
       do i = 1, list%n
          if (list%dof(i) > 2) cycle
-         if (is_section_node(model, list%node(i))) cycle
+         if (is_section_node(symbols%model, list%node(i))) cycle
          associate (sum_there => force(list%dof(i), list%node(i)))
-            sum_there = sum_there + end_value(model, step, list, i)
+            sum_there = sum_there + end_value(symbols, list, i)
          end associate
       end do
    end subroutine add_forces
 
    !> Moments at reference nodes: three quarters of a circle, which the head ends.
-   subroutine put_moments(model, step, u, symbols)
-      type(model_t), intent(in) :: model
-      integer(ip), intent(in) :: step
-      real(wp), intent(in) :: u(:, :)
+   subroutine put_moments(symbols)
       type(symbols_t), intent(inout) :: symbols
       real(wp) :: arc(2, PIECES), angle, value
       integer(ip) :: i
       integer :: k
 
-      associate (loads => model%steps(step)%rigid_loads)
+      associate (loads => symbols%model%steps(symbols%step)%rigid_loads)
          do i = 1, loads%n
-            value = end_value(model, step, loads, i)
+            value = end_value(symbols, loads, i)
             if (loads%dof(i) <= 2 .or. .not. abs(value) > 0.0_wp) cycle
             do k = 1, PIECES
                angle = sign(1.0_wp, value)*1.5_wp*acos(-1.0_wp)*real(k - 1, wp)/real(PIECES - 1, wp)
-               arc(:, k) = place_of_node(model, symbols, loads%node(i)) + RADIUS*symbols%pixel*[cos(angle), sin(angle)]
+               arc(:, k) = place_of_node(symbols, loads%node(i)) + RADIUS*symbols%pixel*[cos(angle), sin(angle)]
             end do
             call begin_block(symbols, 'a moment', '', 'with lines lt 1'//FORCES)
-            call put_stroke(symbols, u(:, loads%node(i)), arc)
+            call put_stroke(symbols, symbols%u(:, loads%node(i)), arc)
             call end_block(symbols)
             call begin_block(symbols, 'its head', ':5:6', ARROW_LOOKS//FORCES//' title "moment '//to_text(value, 4)//' [F L]"')
-            call put_arrow(symbols, u(:, loads%node(i)), arc(:, PIECES - 1), 2*(arc(:, PIECES) - arc(:, PIECES - 1)))
+            call put_arrow(symbols, symbols%u(:, loads%node(i)), arc(:, PIECES - 1), 2*(arc(:, PIECES) - arc(:, PIECES - 1)))
             call end_block(symbols)
          end do
       end associate
    end subroutine put_moments
 
    !> Forces per volume: arrows at the middles of elements, far apart.
-   subroutine put_body_loads(model, step, u, resultant, symbols)
-      type(model_t), intent(in) :: model
-      integer(ip), intent(in) :: step
-      real(wp), intent(in) :: u(:, :)
+   subroutine put_body_loads(resultant, symbols)
       character(len=*), intent(in) :: resultant
       type(symbols_t), intent(inout) :: symbols
       real(wp), allocatable :: density(:, :), places(:, :)
@@ -149,13 +136,13 @@ contains
       integer(ip), allocatable :: elements(:)
       integer(ip) :: i
 
-      call sum_densities(model, step, density)
+      call sum_densities(symbols, density)
       largest = largest_length(density)
       if (.not. largest > 0.0_wp) return
-      elements = pack([(i, i=1, model%mesh%n_elements)], abs(density(1, :)) + abs(density(2, :)) > 0.0_wp)
+      elements = pack([(i, i=1, symbols%model%mesh%n_elements)], abs(density(1, :)) + abs(density(2, :)) > 0.0_wp)
       allocate (places(2, size(elements)))
       do i = 1, size(elements, kind=ip)
-         places(:, i) = mean_of(model%mesh, model%mesh%x, elements(i))
+         places(:, i) = mean_of(symbols%model%mesh, symbols%model%mesh%x, elements(i))
       end do
       elements = pack(elements, thinned(places, BETWEEN_BODY*symbols%pixel))
       call begin_block(symbols, 'body loads', ':5:6', ARROW_LOOKS//BODY//' title "body loads, resultant '//resultant//'"')
@@ -163,31 +150,30 @@ contains
          share = density(:, elements(i))/largest
          if (norm2(share) < LEAST_SHARE) share = share*(LEAST_SHARE/norm2(share))
          arrow = LONGEST_BODY*symbols%pixel*share
-         call put_arrow(symbols, mean_of(model%mesh, u, elements(i)), &
-                        mean_of(model%mesh, model%mesh%x, elements(i)) - 0.5_wp*arrow, arrow)
+         call put_arrow(symbols, mean_of(symbols%model%mesh, symbols%u, elements(i)), &
+                        mean_of(symbols%model%mesh, symbols%model%mesh%x, elements(i)) - 0.5_wp*arrow, arrow)
       end do
       call end_block(symbols)
    end subroutine put_body_loads
 
    !> The force per volume in the middle of each element.
-   subroutine sum_densities(model, step, density)
-      type(model_t), intent(in) :: model
-      integer(ip), intent(in) :: step
+   subroutine sum_densities(symbols, density)
+      type(symbols_t), intent(in) :: symbols
       real(wp), allocatable, intent(out) :: density(:, :)   !< (2, n_elements) [F/L^3]
       real(wp) :: factor, x(2)
       integer(ip) :: i
 
-      allocate (density(2, model%mesh%n_elements), source=0.0_wp)
-      associate (loads => model%steps(step)%element_loads)
+      allocate (density(2, symbols%model%mesh%n_elements), source=0.0_wp)
+      associate (loads => symbols%model%steps(symbols%step)%element_loads)
          do i = 1, loads%n
             factor = 1.0_wp
-            if (allocated(loads%amplitude)) factor = last_factor(model, step, loads%amplitude(i))
+            if (allocated(loads%amplitude)) factor = last_factor(symbols%model, symbols%step, loads%amplitude(i))
             if (.not. abs(factor) > 0.0_wp) factor = 1.0_wp
             associate (value => loads%value(:, i), there => density(:, loads%element(i)))
                if (loads%kind(i) == LOAD_BODY) then
                   there = there + factor*value(:2)
                else if (loads%kind(i) == LOAD_LINEAR) then
-                  x = mean_of(model%mesh, model%mesh%x, loads%element(i))
+                  x = mean_of(symbols%model%mesh, symbols%model%mesh%x, loads%element(i))
                   there = there + factor*[value(1)*x(1) + value(2)*x(2), value(2)*x(1) + value(3)*x(2)]
                end if
             end associate
@@ -208,10 +194,8 @@ contains
    end function mean_of
 
    !> Discs whose area grows with the change, of one colour where it grows warmer and another where colder.
-   subroutine put_temperatures(model, heating, u, symbols)
-      type(model_t), intent(in) :: model
+   subroutine put_temperatures(heating, symbols)
       real(wp), intent(in) :: heating(:)            !< (n_nodes)
-      real(wp), intent(in) :: u(:, :)
       type(symbols_t), intent(inout) :: symbols
       real(wp) :: largest
       integer(ip), allocatable :: nodes(:)
@@ -220,15 +204,16 @@ contains
       largest = maxval(abs(heating))
       if (.not. largest > 0.0_wp) return
       do way = 1, -1, -2
-         nodes = pack([(i, i=1, model%mesh%n_nodes)], way*heating(:model%mesh%n_nodes) > 0.0_wp)
+         nodes = pack([(i, i=1, symbols%model%mesh%n_nodes)], way*heating(:symbols%model%mesh%n_nodes) > 0.0_wp)
          if (size(nodes) == 0) cycle
-         nodes = pack(nodes, thinned(model%mesh%x(:, nodes), BETWEEN_DISCS*symbols%pixel))
+         nodes = pack(nodes, thinned(symbols%model%mesh%x(:, nodes), BETWEEN_DISCS*symbols%pixel))
          call begin_block(symbols, merge('warmer nodes', 'colder nodes', way > 0), ':(dot*$5)', &
                           'with points pt 7 ps variable lc rgb "'//merge('#70E6550D', '#704292C6', way > 0)//'" title "'// &
                           trim(merge('warmer by up to', 'colder by up to', way > 0))//' '// &
-                          to_text(maxval(way*heating(:model%mesh%n_nodes)), 4)//'"')
+                          to_text(maxval(way*heating(:symbols%model%mesh%n_nodes)), 4)//'"')
          do i = 1, size(nodes, kind=ip)
-            call put_marker(symbols, u(:, nodes(i)), model%mesh%x(:, nodes(i)), 1.8_wp*sqrt(abs(heating(nodes(i)))/largest))
+            call put_marker(symbols, symbols%u(:, nodes(i)), symbols%model%mesh%x(:, nodes(i)), &
+                            1.8_wp*sqrt(abs(heating(nodes(i)))/largest))
          end do
          call end_block(symbols)
       end do

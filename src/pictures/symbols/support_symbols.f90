@@ -6,7 +6,7 @@ module atrito_support_symbols
    use atrito_bilateral_rows, only: ROW_SUPPORT
    use atrito_kinds, only: ip, wp
    use atrito_mesh, only: is_revolved
-   use atrito_model, only: model_t, nodal_values_t
+   use atrito_model, only: nodal_values_t
    use atrito_strings, only: to_text
    use atrito_symbols, only: symbols_t, begin_block, end_block, put_entry, put_stroke, put_arrow, thinned, &
                              find_outward, end_value, place_of_node, is_section_node, largest_length, arrow_at, ARROW_LOOKS
@@ -34,33 +34,29 @@ module atrito_support_symbols
 contains
 
    !> Puts the supports of a step, with the values of its end.
-   subroutine put_supports(model, step, u, symbols)
-      type(model_t), intent(in) :: model
-      integer(ip), intent(in) :: step
-      real(wp), intent(in) :: u(:, :)               !< (2, n_nodes) [L]
+   subroutine put_supports(symbols)
       type(symbols_t), intent(inout) :: symbols
       logical, allocatable :: held(:, :)            ! (2, n_nodes)
       real(wp), allocatable :: moved(:, :), outward(:, :)
 
-      allocate (held(2, model%mesh%n_nodes), source=.false.)
-      allocate (moved(2, model%mesh%n_nodes), source=0.0_wp)
-      call take_values(model, step, model%steps(step)%prescribed, held, moved)
-      call take_values(model, step, model%steps(step)%rigid_prescribed, held, moved)
-      if (is_revolved(model%mesh)) then
-         associate (x => model%mesh%x(1, :model%mesh%n_nodes))
+      allocate (held(2, symbols%model%mesh%n_nodes), source=.false.)
+      allocate (moved(2, symbols%model%mesh%n_nodes), source=0.0_wp)
+      call take_values(symbols, symbols%model%steps(symbols%step)%prescribed, held, moved)
+      call take_values(symbols, symbols%model%steps(symbols%step)%rigid_prescribed, held, moved)
+      if (is_revolved(symbols%model%mesh)) then
+         associate (x => symbols%model%mesh%x(1, :symbols%model%mesh%n_nodes))
             held(1, :) = held(1, :) .and. x > NEAR_AXIS*maxval(x)
          end associate
       end if
-      outward = find_outward(model%mesh)
-      call put_fixed(model, held, outward, u, symbols)
-      call put_rollers(model, held, outward, u, symbols)
-      call put_moved(model, moved, outward, u, symbols)
+      outward = find_outward(symbols%model%mesh)
+      call put_fixed(held, outward, symbols)
+      call put_rollers(held, outward, symbols)
+      call put_moved(moved, outward, symbols)
    end subroutine put_supports
 
    !> What is prescribed at nodes; rotations of reference nodes are left out.
-   subroutine take_values(model, step, list, held, moved)
-      type(model_t), intent(in) :: model
-      integer(ip), intent(in) :: step
+   subroutine take_values(symbols, list, held, moved)
+      type(symbols_t), intent(in) :: symbols
       type(nodal_values_t), intent(in) :: list
       logical, intent(inout) :: held(:, :)
       real(wp), intent(inout) :: moved(:, :)
@@ -69,23 +65,22 @@ contains
 
       do i = 1, list%n
          if (list%dof(i) > 2) cycle
-         if (is_section_node(model, list%node(i))) cycle
-         value = end_value(model, step, list, i)
+         if (is_section_node(symbols%model, list%node(i))) cycle
+         value = end_value(symbols, list, i)
          held(list%dof(i), list%node(i)) = .not. abs(value) > 0.0_wp
          moved(list%dof(i), list%node(i)) = value
       end do
    end subroutine take_values
 
    !> Nodes with both directions held, and squares round reference nodes whose rotation is held.
-   subroutine put_fixed(model, held, outward, u, symbols)
-      type(model_t), intent(in) :: model
+   subroutine put_fixed(held, outward, symbols)
       logical, intent(in) :: held(:, :)
-      real(wp), intent(in) :: outward(:, :), u(:, :)
+      real(wp), intent(in) :: outward(:, :)
       type(symbols_t), intent(inout) :: symbols
       type(supports_t) :: fixed
       integer(ip) :: i
 
-      call find_held(model, HELD_BOTH, held, outward, u, symbols, fixed)
+      call find_held(HELD_BOTH, held, outward, symbols, fixed)
       if (size(fixed%place, 2) == 0) return
       call begin_block(symbols, 'supports in both directions', '', 'with filledcurves closed lc rgb "'//GREY//'"')
       do i = 1, size(fixed%place, 2, kind=ip)
@@ -101,17 +96,16 @@ contains
    end subroutine put_fixed
 
    !> Nodes with one direction held, inclined ones too.
-   subroutine put_rollers(model, held, outward, u, symbols)
-      type(model_t), intent(in) :: model
+   subroutine put_rollers(held, outward, symbols)
       logical, intent(in) :: held(:, :)
-      real(wp), intent(in) :: outward(:, :), u(:, :)
+      real(wp), intent(in) :: outward(:, :)
       type(symbols_t), intent(inout) :: symbols
       type(supports_t) :: rollers(3)
       integer(ip) :: k, i
 
-      call find_held(model, HELD_1, held, outward, u, symbols, rollers(1))
-      call find_held(model, HELD_2, held, outward, u, symbols, rollers(2))
-      call find_inclined(model, outward, u, symbols, rollers(3))
+      call find_held(HELD_1, held, outward, symbols, rollers(1))
+      call find_held(HELD_2, held, outward, symbols, rollers(2))
+      call find_inclined(outward, symbols, rollers(3))
       if (sum([(size(rollers(k)%place, 2), k=1, 3)]) == 0) return
       call begin_block(symbols, 'supports in one direction', '', LOOKS)
       do k = 1, 3
@@ -125,11 +119,10 @@ contains
    end subroutine put_rollers
 
    !> The nodes that are held so, thinned.
-   subroutine find_held(model, kind, held, outward, u, symbols, supports)
-      type(model_t), intent(in) :: model
+   subroutine find_held(kind, held, outward, symbols, supports)
       integer(ip), intent(in) :: kind               !< HELD_*
       logical, intent(in) :: held(:, :)
-      real(wp), intent(in) :: outward(:, :), u(:, :)
+      real(wp), intent(in) :: outward(:, :)
       type(symbols_t), intent(in) :: symbols
       type(supports_t), intent(out) :: supports
       logical :: is_so(size(held, 2))
@@ -139,19 +132,17 @@ contains
 
       is_so = merge(1, 0, held(1, :)) + merge(2, 0, held(2, :)) == kind
       nodes = pack([(i, i=1, size(held, 2, kind=ip))], is_so)
-      call place_supports(model, nodes, u, symbols, supports, kept)
+      call place_supports(nodes, symbols, supports, kept)
       if (size(kept) == 0) return
-      own = find_outward(model%mesh, is_so)         ! at a corner that of the side that is held
+      own = find_outward(symbols%model%mesh, is_so)         ! at a corner that of the side that is held
       do i = 1, size(kept, kind=ip)
          supports%ground(:, i) = ground_of(kind, own(:, kept(i)), outward(:, kept(i)))
       end do
    end subroutine find_held
 
    !> Places of nodes, thinned; kept: those that are left.
-   subroutine place_supports(model, nodes, u, symbols, supports, kept)
-      type(model_t), intent(in) :: model
+   subroutine place_supports(nodes, symbols, supports, kept)
       integer(ip), intent(in) :: nodes(:)
-      real(wp), intent(in) :: u(:, :)
       type(symbols_t), intent(in) :: symbols
       type(supports_t), intent(out) :: supports
       integer(ip), allocatable, intent(out) :: kept(:)
@@ -159,13 +150,13 @@ contains
       integer(ip) :: i
 
       do i = 1, size(nodes, kind=ip)
-         places(:, i) = place_of_node(model, symbols, nodes(i))
+         places(:, i) = place_of_node(symbols, nodes(i))
       end do
       kept = pack(nodes, thinned(places, SPACING*symbols%pixel))
       allocate (supports%place(2, size(kept)), supports%u(2, size(kept)), supports%ground(2, size(kept)))
       do i = 1, size(kept, kind=ip)
-         supports%place(:, i) = place_of_node(model, symbols, kept(i))
-         supports%u(:, i) = u(:, kept(i))
+         supports%place(:, i) = place_of_node(symbols, kept(i))
+         supports%u(:, i) = symbols%u(:, kept(i))
       end do
    end subroutine place_supports
 
@@ -196,19 +187,19 @@ contains
    end function ground_of
 
    !> Supports along directions that are no axis, thinned.
-   subroutine find_inclined(model, outward, u, symbols, supports)
-      type(model_t), intent(in) :: model
-      real(wp), intent(in) :: outward(:, :), u(:, :)
+   subroutine find_inclined(outward, symbols, supports)
+      real(wp), intent(in) :: outward(:, :)
       type(symbols_t), intent(in) :: symbols
       type(supports_t), intent(out) :: supports
       integer(ip), allocatable :: rows(:), nodes(:), kept(:)
       integer(ip) :: i
 
-      associate (all_rows => model%bilateral)
+      associate (all_rows => symbols%model%bilateral)
          rows = pack([(i, i=1, all_rows%n)], [(all_rows%kind(i) == ROW_SUPPORT, i=1, all_rows%n)])
          allocate (nodes(0))
-         if (size(rows) > 0) nodes = model%inclined%node(:size(rows)) ! in the row others carry the motion of a reference node
-         call place_supports(model, nodes, u, symbols, supports, kept)
+         ! not the nodes of the rows: in a row others carry the motion of a reference node
+         if (size(rows) > 0) nodes = symbols%model%inclined%node(:size(rows))
+         call place_supports(nodes, symbols, supports, kept)
          do i = 1, size(kept, kind=ip)
             associate (row => rows(findloc(nodes, kept(i), dim=1)))
                associate (along => all_rows%vector(:, all_rows%first(row)))
@@ -278,10 +269,9 @@ contains
    end function from_node
 
    !> Arrows along prescribed displacements that are not 0.
-   subroutine put_moved(model, moved, outward, u, symbols)
-      type(model_t), intent(in) :: model
+   subroutine put_moved(moved, outward, symbols)
       real(wp), intent(in) :: moved(:, :)           !< (2, n_nodes) [L]
-      real(wp), intent(in) :: outward(:, :), u(:, :)
+      real(wp), intent(in) :: outward(:, :)
       type(symbols_t), intent(inout) :: symbols
       type(supports_t) :: supports
       real(wp) :: largest, from(2), arrow(2)
@@ -291,7 +281,7 @@ contains
       largest = largest_length(moved)
       if (.not. largest > 0.0_wp) return
       nodes = pack([(i, i=1, size(moved, 2, kind=ip))], abs(moved(1, :)) + abs(moved(2, :)) > 0.0_wp)
-      call place_supports(model, nodes, u, symbols, supports, kept)
+      call place_supports(nodes, symbols, supports, kept)
       call begin_block(symbols, 'prescribed displacements', ':5:6', ARROW_LOOKS//MOVED_LOOKS// &
                        ' title "prescribed displacement, up to '//to_text(largest, 4)//' [L]"')
       do i = 1, size(kept, kind=ip)

@@ -34,8 +34,11 @@ module atrito_symbols
    real(wp), parameter :: ASKEW = 0.618_wp          !< across a direction that hardly a side has
    integer(ip), parameter :: MOST_CELLS = 32767     !< of a grid along an axis
 
-   !> What is written so far.
+   !> What the symbols are of, and what is written of them so far.
    type :: symbols_t
+      type(model_t), pointer :: model => null()
+      integer(ip) :: step = 0                       !< whose supports and loads they are, as at its end
+      real(wp), pointer :: u(:, :) => null()        !< (2, n_nodes) [L]: the symbols go with the nodes
       type(text_file_t) :: file
       character(len=:), allocatable :: data         !< its name, as a script has it
       real(wp) :: pixel = 1.0_wp                    !< length of one [L]
@@ -49,13 +52,19 @@ module atrito_symbols
 
 contains
 
-   !> Opens the file.
-   subroutine begin_symbols(set, picture, drawing, symbols)
+   !> Opens the file. Model and displacements are looked at until it is closed.
+   subroutine begin_symbols(set, picture, model, step, u, drawing, symbols)
       type(file_set_t), intent(inout) :: set        !< of the plots' folder
       character(len=*), intent(in) :: picture       !< whose symbols they are, without ending
+      type(model_t), intent(in), target :: model
+      integer(ip), intent(in) :: step
+      real(wp), intent(in), target :: u(:, :)       !< (2, n_nodes) [L]
       type(drawing_t), intent(in) :: drawing        !< of the bodies
       type(symbols_t), intent(out) :: symbols
 
+      symbols%model => model
+      symbols%step = step
+      symbols%u => u
       symbols%pixel = pixel_of(drawing%window)
       symbols%window = drawing%window
       symbols%scale = drawing%scale
@@ -265,21 +274,20 @@ contains
    end function find_outward
 
    !> Where symbols of a node stand: at it. Those of a reference node far from all that is drawn stand at the middle of its surface.
-   pure function place_of_node(model, symbols, node) result(place)
-      type(model_t), intent(in) :: model
+   pure function place_of_node(symbols, node) result(place)
       type(symbols_t), intent(in) :: symbols
       integer(ip), intent(in) :: node
       real(wp) :: place(2), room
       integer(ip) :: body
 
-      place = model%mesh%x(:, node)
+      place = symbols%model%mesh%x(:, node)
       body = 0
-      if (allocated(model%rigid_bodies)) body = findloc(model%rigid_bodies%node, node, dim=1, kind=ip)
+      if (allocated(symbols%model%rigid_bodies)) body = findloc(symbols%model%rigid_bodies%node, node, dim=1, kind=ip)
       if (body == 0) return
-      if (model%rigid_bodies(body)%surface == 0) return
+      if (symbols%model%rigid_bodies(body)%surface == 0) return
       room = 0.5_wp*(span(symbols%window(1)) + span(symbols%window(2)))
       if (all(place >= symbols%window%low - room) .and. all(place <= symbols%window%high + room)) return
-      associate (points => model%surfaces(model%rigid_bodies(body)%surface)%points)
+      associate (points => symbols%model%surfaces(symbols%model%rigid_bodies(body)%surface)%points)
          place = 0.5_wp*(minval(points, dim=2) + maxval(points, dim=2))
       end associate
    end function place_of_node
@@ -320,14 +328,14 @@ contains
    end function largest_length
 
    !> A prescribed displacement or a force at the end of a step; where its amplitude has come to 0, what that multiplies.
-   pure real(wp) function end_value(model, step, list, i) result(value)
-      type(model_t), intent(in) :: model
-      integer(ip), intent(in) :: step, i            !< place in the list
+   pure real(wp) function end_value(symbols, list, i) result(value)
+      type(symbols_t), intent(in) :: symbols
       type(nodal_values_t), intent(in) :: list
+      integer(ip), intent(in) :: i                  !< place in the list
       real(wp) :: factor
 
       factor = 1.0_wp
-      if (amplitude_of(list, i) > 0) factor = last_factor(model, step, amplitude_of(list, i))
+      if (amplitude_of(list, i) > 0) factor = last_factor(symbols%model, symbols%step, amplitude_of(list, i))
       value = list%value(i)
       if (abs(factor) > 0.0_wp) value = value*factor
    end function end_value

@@ -24,19 +24,19 @@ contains
    subroutine write_symbols(set, picture, model, step, u, drawing, curves, status)
       type(file_set_t), intent(inout) :: set
       character(len=*), intent(in) :: picture       !< without ending; that of a scene has surfaces too, undisplaced
-      type(model_t), intent(in) :: model
+      type(model_t), intent(in), target :: model
       integer(ip), intent(in) :: step               !< whose supports and loads they are, as at its end
-      real(wp), intent(in) :: u(:, :)               !< (2, n_nodes) [L]: the symbols go with the nodes
+      real(wp), intent(in), target :: u(:, :)       !< (2, n_nodes) [L]: the symbols go with the nodes
       type(drawing_t), intent(inout) :: drawing
       type(string_t), allocatable, intent(out) :: curves(:)   !< to be drawn over the bodies
       type(status_t), intent(out) :: status
       type(symbols_t) :: symbols
 
-      call begin_symbols(set, picture, drawing, symbols)
+      call begin_symbols(set, picture, model, step, u, drawing, symbols)
       if (picture == SCENE_PLOT) call put_surfaces(model, symbols)
-      call put_links(model, step, u, symbols)
-      call put_supports(model, step, u, symbols)
-      call put_loads(model, step, u, symbols)
+      call put_links(symbols)
+      call put_supports(symbols)
+      call put_loads(symbols)
       drawing%window = symbols%window
       call move_alloc(symbols%curves, curves)
       call end_symbols(symbols, status)

@@ -45,7 +45,7 @@ contains
       history%iterations%residual = [0.1_wp, tiny(1.0_wp)/4, huge(1.0_wp)]
       state%increment = 2
       state%last = history%frames(2)
-      state%rest = [1.0_wp/3, -0.0_wp]
+      state%memory%rest = [1.0_wp/3, -0.0_wp]
       allocate (state%start%multipliers)
       state%start%multipliers%pair = [integer(ip) ::]
    end subroutine make_history
