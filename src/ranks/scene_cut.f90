@@ -1,9 +1,9 @@
 !> How a scene is cut into parts (atrito_scene_part), given which element is in which part; atrito_part_maker makes them.
 !>
-!> A contact point belongs to the part of its slave node, a bilateral row to that of its first node. The other nodes and the motions of the bodies come with it, so a node belongs to the parts
-!> of its elements and of the points that see it, and the motions of a body to the parts of the points that see it. What belongs
-!> to several parts is shared: all of its unknowns are kept by all of them, and numbered in the order of the scene's unknowns in the
-!> system that holds the parts together.
+!> A contact point belongs to the part of its slave node, a bilateral row to that of its first node. The other nodes and the motions
+!> of the bodies come with it, so a node belongs to the parts of its elements and of the points that see it, and the motions of a
+!> body to the parts of the points that see it. What belongs to several parts is shared: all of its unknowns are kept by all of
+!> them, and numbered in the order of the scene's unknowns in the system that holds the parts together.
 !>
 !> The pulls of a body are in the first part that sees it; without a point, in that of its first element. Springs that hold u_e are
 !> in the part of the first element at their node. What a rigid body moves is no unknown but its motions: they are like others.
