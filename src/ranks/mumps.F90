@@ -56,8 +56,7 @@ module atrito_mumps
       end subroutine call_mumps
    end interface
 
-   ! JOB
-   integer, parameter :: BEGIN = -1, ANALYSE = 1, FACTOR = 2, SOLVE = 3, FINISH = -2
+   integer, parameter :: BEGIN = -1, ANALYSE = 1, FACTOR = 2, SOLVE = 3, FINISH = -2 !< JOB
    !> INFOG(1) of a pivot that is not positive: on a rank; in the last front, which all ranks share.
    integer, parameter :: NO_PIVOTS(2) = [-10, -40]
    !> INFOG(1) of work space that was predicted too small, and of too little memory.

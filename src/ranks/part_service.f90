@@ -105,6 +105,7 @@ contains
 
    subroutine answer_question(request, answer)
       type(parcel_t), intent(inout) :: request, answer
+      type(scene_part_t) :: no_part
       integer(ip) :: wanted
 
       call take(request, wanted)
@@ -119,7 +120,7 @@ contains
          call answer_top(wanted, request, answer)
       case (FORGET)
          call end_mumps_system(own%top)
-         call drop_part()
+         own%part = no_part
       end select
    end subroutine answer_question
 
@@ -129,7 +130,6 @@ contains
       type(status_t) :: status
       real(wp) :: bytes
 
-      call drop_part()
       call take_scene_part(request, own%part)
       request = parcel_t()                       ! what was taken needs no copy
       call assemble_scene_part(own%part, status)
@@ -181,13 +181,6 @@ contains
       end select
       call put(answer, y)
    end subroutine answer_values
-
-   subroutine drop_part()
-      type(scene_part_t) :: no_part
-
-      own%part = no_part
-      if (allocated(own%x)) deallocate (own%x)
-   end subroutine drop_part
 
    !> All ranks are asked, for MUMPS wants them together: to begin, with the number of unknowns of the top and those of this rank;
    !> to factor; to solve, with the loads [F], which the first rank alone has. Answer: status, the unknown that moves most in the

@@ -308,7 +308,7 @@ contains
       type(status_t), intent(inout) :: status
       real(wp), allocatable :: q(:, :), qs(:, :)
       real(wp) :: alpha
-      integer(ip) :: n, i, rank, failed, info
+      integer(ip) :: n, i, n_independent, failed, info
 
       n = fem%bodies%list(i_body)%n_retained
       allocate (body%factor(n, n))
@@ -317,9 +317,9 @@ contains
       if (size(fem%bodies%list(i_body)%modes, 2) > 0) then
          alpha = sum([(body%factor(i, i)/n, i=1, n)])
          q = modes_at_contact(fem, i_body)
-         call orthonormalise(q, rank, 1.0e-12_wp, info)
-         qs = alpha*q(:, :rank)
-         call multiply(q(:, :rank), qs, body%factor, transb=.true., beta=1.0_wp)
+         call orthonormalise(q, n_independent, 1.0e-12_wp, info)
+         qs = alpha*q(:, :n_independent)
+         call multiply(q(:, :n_independent), qs, body%factor, transb=.true., beta=1.0_wp)
       end if
       call factor_in_blocks(body%factor, failed)
       if (failed == 0) return
