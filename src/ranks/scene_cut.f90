@@ -17,7 +17,7 @@ module atrito_scene_cut
    use atrito_scene_elimination, only: scene_numbering_t
    implicit none (type, external)
    private
-   public :: scene_cut_t, plan_cut, unknowns_at, diagonals_of_rows
+   public :: place_t, scene_cut_t, plan_cut, unknowns_at, diagonals_of_rows
 
    !> What belongs to which part. Nodes and motions: those of body b are the last but bodies%n - b.
    type :: scene_cut_t
@@ -33,6 +33,16 @@ module atrito_scene_cut
       integer(ip), allocatable :: place(:)           !< (nodes and motions) for whoever makes the parts: 0
       integer(ip), allocatable :: unknown_at(:)      !< (n) the same
    end type scene_cut_t
+
+   !> What a part has of the scene, in its own order.
+   type :: place_t
+      integer(ip) :: rank = 0                    !< who has the part
+      integer(ip) :: n_elements = 0
+      integer(ip), allocatable :: unknown(:)     !< those that other parts have, too, last
+      integer(ip), allocatable :: top(:)         !< number of each of these among all that are shared
+      integer(ip), allocatable :: row(:), pull(:)
+      real(wp) :: solving = 0.0_wp               !< what factoring it will take, where it is [bytes]
+   end type place_t
 
 contains
 
