@@ -307,7 +307,7 @@ contains
       type(status_t), intent(inout) :: status
       real(wp), allocatable :: q(:, :), qs(:, :)
       real(wp) :: alpha
-      integer(ip) :: n, i, rank, failed, info
+      integer(ip) :: n, i, n_independent, failed, info
 
       n = fem%bodies%list(i_body)%n_retained
       allocate (body%factor(n, n))
@@ -316,9 +316,9 @@ contains
       if (size(fem%bodies%list(i_body)%modes, 2) > 0) then
          alpha = sum([(body%factor(i, i)/n, i=1, n)])
          q = modes_at_contact(fem, i_body)
-         call orthonormalise(q, rank, 1.0e-12_wp, info)
-         qs = alpha*q(:, :rank)
-         call add_product(q(:, :rank), qs, body%factor)
+         call orthonormalise(q, n_independent, 1.0e-12_wp, info)
+         qs = alpha*q(:, :n_independent)
+         call add_product(q(:, :n_independent), qs, body%factor)
       end if
       call factor_in_blocks(body%factor, failed)
       if (failed == 0) return

@@ -36,9 +36,9 @@ module atrito_scene_data
    public :: scene_data_t, asked_t, distribution_t, prepare, set_time, assemble, drop_assembled, free_load, reload, &
              check_known_points, forces_at_end
 
-   !> How a scene in the sparse form is distributed over several processes. What extends this type assembles the matrix in parts, one
-   !> a process, and has each process recover the stresses of its elements; all else is done in this process, which is all there is
-   !> where no such object is given (asked_t).
+   !> How a scene in the sparse form is distributed over several processes. What extends this type assembles the matrix in parts,
+   !> one a process, and has each process recover the stresses of its elements; all else is done in this process, which is all there
+   !> is where no such object is given (asked_t).
    type, abstract :: distribution_t
       character(len=:), allocatable :: reason               !< why a scene that it pays off for takes the sparse form
    contains
@@ -101,8 +101,8 @@ module atrito_scene_data
          integer(ip), intent(in) :: n_displacements, n_forces  !< forces: of contact
       end function ask_whether
 
-      !> Asks all processes for the memory that the scene will take of them: before it is assembled at the least, behind that in all.
-      !> status: STATUS_DECK, which is told by a message, when one has too little.
+      !> Asks all processes for the memory that the scene will take of them: before it is assembled at the least, behind that in
+      !> all. status: STATUS_DECK, which is told by a message, when one has too little.
       subroutine ask_processes(data, limit, scene, status)
          import :: scene_data_t, scene_t, status_t, lp
          class(scene_data_t), intent(in) :: data

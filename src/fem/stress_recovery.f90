@@ -341,9 +341,9 @@ contains
    end function rank_for
 
    !> Adds the values of an element's patches of a rank for its node.
-   pure subroutine add_borrowed(mesh, e, k, rank, work, stress, count)
+   pure subroutine add_borrowed(mesh, e, k, wanted, work, stress, count)
       type(mesh_t), intent(in) :: mesh
-      integer(ip), intent(in) :: e, k, rank
+      integer(ip), intent(in) :: e, k, wanted        !< wanted: the rank
       type(recovery_t), intent(in) :: work
       real(wp), intent(inout) :: stress(COMPONENTS)
       integer(ip), intent(inout) :: count
@@ -352,7 +352,7 @@ contains
       lender = lender_to(work%patches, e)
       do corner = 1, CORNERS_OF(mesh%shape(lender))
          i = work%patches%place(corner, lender)
-         if (work%patches%kind(i) == PATCH_NONE .or. rank_for(mesh%shape(e), lender == e, corner, k) /= rank) cycle
+         if (work%patches%kind(i) == PATCH_NONE .or. rank_for(mesh%shape(e), lender == e, corner, k) /= wanted) cycle
          stress = stress + fitted_value(from_patch(mesh, work%patches, i, mesh%nodes(k, e)), work%polynomial(i))
          count = count + 1
       end do

@@ -4,18 +4,18 @@
 !>
 !>     K = sum over ranks of  B_r' S_r B_r,   B_r picks the unknowns of rank r
 !>
-!> Rank 0 has all right-hand sides and solutions. All ranks call every procedure in the same order (but mumps_system_bytes). With one
-!> rank it works as well.
+!> Rank 0 has all right-hand sides and solutions. All ranks call every procedure in the same order (but mumps_system_bytes). With
+!> one rank it works as well.
 !>
 !> MUMPS sees the matrix scaled to a diagonal between 1/2 and 2 by powers of two, which rounds nothing: its smallest pivot then
-!> tells whether digits are left, and no unit of the deck matters. It does not tell the equation of that pivot, which is looked for by
-!> inverse iteration where the matrix is singular. It reads the matrices where they are (ICNTL(18)=3). Right-hand sides and
+!> tells whether digits are left, and no unit of the deck matters. It does not tell the equation of that pivot, which is looked for
+!> by inverse iteration where the matrix is singular. It reads the matrices where they are (ICNTL(18)=3). Right-hand sides and
 !> solutions go through rank 0: they are little.
 !>
 !> The library is loaded when it is asked for: starting would cost a millisecond more for it and for what it needs. CMake says which
-!> file that is and which version the header has whose dmumps_struc is compiled in (ATRITO_MUMPS_VERSION). There are two such files of
-!> one version: the sequential one (ATRITO_MUMPS_LIBRARY), with an MPI of its own that does nothing, for tests, and that for ranks
-!> (ATRITO_MUMPS_RANKS_LIBRARY). A process may never have both, whose MPI would be that of the first.
+!> file that is and which version the header has whose dmumps_struc is compiled in (ATRITO_MUMPS_VERSION). There are two such files
+!> of one version: the sequential one (ATRITO_MUMPS_LIBRARY), with an MPI of its own that does nothing, for tests, and that for
+!> ranks (ATRITO_MUMPS_RANKS_LIBRARY). A process may never have both, whose MPI would be that of the first.
 !>
 !> Reference: P. R. Amestoy, I. S. Duff, J. Koster, J.-Y. L'Excellent, SIAM J. Matrix Anal. Appl. 23 (2001) 15-41; MUMPS users'
 !> guide 5.5 (JOB, ICNTL, INFOG and RINFOG below are its names).
@@ -43,7 +43,7 @@ module atrito_mumps
    !> Ended by end_mumps_system, which all ranks call: none can do so by itself, hence it is not ended when it goes out of scope.
    type :: mumps_system_t
       integer(ip) :: n = 0                       !< unknowns
-      integer(ip) :: weakest = 0                 !< on rank 0: the unknown that moves most in the softest motion, of a matrix without factor
+      integer(ip) :: weakest = 0                 !< on rank 0, of a matrix without factor: what moves most in its softest motion
       integer(ip), allocatable, private :: own(:) !< unknowns of the matrix of this rank
       type(instance_t), pointer, private :: instance => null()
       real(wp), allocatable, private :: scale(:) !< (n) of rows and columns
@@ -56,8 +56,7 @@ module atrito_mumps
       end subroutine call_mumps
    end interface
 
-   ! JOB
-   integer, parameter :: BEGIN = -1, ANALYSE = 1, FACTOR = 2, SOLVE = 3, FINISH = -2
+   integer, parameter :: BEGIN = -1, ANALYSE = 1, FACTOR = 2, SOLVE = 3, FINISH = -2 !< JOB
    !> INFOG(1) of a pivot that is not positive: on a rank; in the last front, which all ranks share.
    integer, parameter :: NO_PIVOTS(2) = [-10, -40]
    !> INFOG(1) of work space that was predicted too small, and of too little memory.

@@ -7,7 +7,7 @@ module atrito_part_maker
    use atrito_contact_rows, only: contact_rows_t
    use atrito_fem_piece, only: take_piece
    use atrito_kinds, only: ip
-   use atrito_scene_cut, only: scene_cut_t, unknowns_at
+   use atrito_scene_cut, only: place_t, scene_cut_t, unknowns_at
    use atrito_scene_elimination, only: scene_numbering_t
    use atrito_scene_part, only: scene_part_t
    use atrito_sorting, only: each_once
@@ -18,7 +18,7 @@ module atrito_part_maker
 contains
 
    !> Part p, not assembled: what there is of it, and which unknowns, rows and amplitudes of the scene its own are.
-   subroutine make_scene_part(fem, rows, line, numbering, constraints, p, cut, part, unknown, row, pull)
+   subroutine make_scene_part(fem, rows, line, numbering, constraints, p, cut, part, place)
       type(fem_t), intent(in) :: fem
       type(contact_rows_t), intent(in) :: rows
       type(contact_line_t), intent(in) :: line
@@ -27,24 +27,22 @@ contains
       integer(ip), intent(in) :: p
       type(scene_cut_t), intent(inout) :: cut
       type(scene_part_t), intent(out) :: part
-      integer(ip), allocatable, intent(out) :: unknown(:) !< those that are kept last
-      integer(ip), allocatable, intent(out) :: row(:)
-      integer(ip), allocatable, intent(out) :: pull(:)    !< 1..k of the scene
+      type(place_t), intent(inout) :: place          !< its unknowns, rows and pulls
       integer(ip), allocatable :: nodes(:), bodies(:)
 
       associate (elements => cut%element(cut%first_element(p):cut%first_element(p + 1) - 1), &
                  points => cut%point(cut%first_point(p):cut%first_point(p + 1) - 1))
          call list_members(fem, rows, elements, points, p, cut, nodes, bodies)
-         call number_part(fem, rows, numbering, nodes, bodies, points, p, cut, part, unknown, pull)
+         call number_part(fem, rows, numbering, nodes, bodies, p, cut, part, place)
          call take_piece(fem, nodes, elements, part%fem)
          call take_bodies(fem, numbering, elements, nodes, bodies, cut, part%fem%bodies)
          part%scene%numbering%spring = cut%unknown_at(pack(numbering%spring, cut%spring_part == p))
          part%spring_stiffness = pack(cut%spring_stiffness, cut%spring_part == p)
-         call take_rows(rows, line, constraints, points, cut, part, row)
+         call take_rows(rows, line, constraints, points, cut, part, place%row)
       end associate
       cut%place(nodes) = 0
       cut%place(fem%mesh%n_nodes + bodies) = 0
-      cut%unknown_at(unknown) = 0
+      cut%unknown_at(place%unknown) = 0
    end subroutine make_scene_part
 
    !> The nodes of the elements and points of a part, and its bodies, in their order; cut%place has their numbers.
@@ -74,36 +72,36 @@ contains
    end subroutine list_members
 
    !> Numbers the unknowns: those that are kept last, in each of the two displacements before motions.
-   subroutine number_part(fem, rows, numbering, nodes, bodies, points, p, cut, part, unknown, pull)
+   subroutine number_part(fem, rows, numbering, nodes, bodies, p, cut, part, place)
       type(fem_t), intent(in) :: fem
       type(contact_rows_t), intent(in) :: rows
       type(scene_numbering_t), intent(in) :: numbering
-      integer(ip), intent(in) :: nodes(:), bodies(:), points(:), p
+      integer(ip), intent(in) :: nodes(:), bodies(:), p
       type(scene_cut_t), intent(inout) :: cut
       type(scene_part_t), intent(inout) :: part
-      integer(ip), allocatable, intent(out) :: unknown(:), pull(:)
+      type(place_t), intent(inout) :: place
       logical :: sees(size(bodies))
       integer(ip), allocatable :: items(:)
       integer(ip) :: i, k, n
 
       sees = cut%pull_part(bodies) == p
-      do i = 1, size(points, kind=ip)
-         do k = rows%first(points(i)), rows%first(points(i) + 1) - 1
+      do i = cut%first_point(p), cut%first_point(p + 1) - 1
+         do k = rows%first(cut%point(i)), rows%first(cut%point(i) + 1) - 1
             sees(cut%place(fem%mesh%n_nodes + fem%bodies%of_node(rows%node(k)))) = .true.
          end do
       end do
       sees = sees .and. numbering%n_motions(bodies) > 0
       items = [nodes, fem%mesh%n_nodes + pack(bodies, sees)]
-      allocate (unknown(2*size(nodes) + sum(numbering%n_motions(bodies))))
+      allocate (place%unknown(2*size(nodes) + sum(numbering%n_motions(bodies))))
       n = 0
       call number_items(pack(items,.not. cut%is_shared(items)))
       part%n_kept = n
       call number_items(pack(items, cut%is_shared(items)))
       part%n_kept = n - part%n_kept
-      unknown = unknown(:n)
-      call number_motions(numbering, bodies, sees, p, cut, part, pull)
+      place%unknown = place%unknown(:n)
+      call number_motions(numbering, bodies, sees, p, cut, part, place%pull)
       part%scene%numbering%n = n
-      part%scene%numbering%body = numbering%body(unknown)
+      part%scene%numbering%body = numbering%body(place%unknown)
 
    contains
 
@@ -116,7 +114,7 @@ contains
             own = unknowns_at(fem, numbering, list(m))
             do l = 1, size(own, kind=ip)
                n = n + 1
-               unknown(n) = own(l)
+               place%unknown(n) = own(l)
                cut%unknown_at(own(l)) = n
             end do
          end do

@@ -9,8 +9,8 @@
 !>     S x_c = sum of g_c                    TOP_SOLVE, the same
 !>     x_i = A_ii^-1 (f_i - A_ic x_c)        EXPAND, on each rank
 !>
-!> A question is a parcel: SERVICE_PART, what is wanted, and what goes with it. The first rank asks itself as it asks the others, but
-!> after them, so that all work at the same time. A rank has one part, and that of one scene at a time.
+!> A question is a parcel: SERVICE_PART, what is wanted, and what goes with it. The first rank asks itself as it asks the others,
+!> but after them, so that all work at the same time. A rank has one part, and that of one scene at a time.
 module atrito_part_service
    use atrito_kinds, only: ip, lp, wp
    use atrito_mpi, only: receive_parcel, send_parcel
@@ -105,6 +105,7 @@ contains
 
    subroutine answer_question(request, answer)
       type(parcel_t), intent(inout) :: request, answer
+      type(scene_part_t) :: no_part
       integer(ip) :: wanted
 
       call take(request, wanted)
@@ -119,7 +120,7 @@ contains
          call answer_top(wanted, request, answer)
       case (FORGET)
          call end_mumps_system(own%top)
-         call drop_part()
+         own%part = no_part
       end select
    end subroutine answer_question
 
@@ -129,7 +130,6 @@ contains
       type(status_t) :: status
       real(wp) :: bytes
 
-      call drop_part()
       call take_scene_part(request, own%part)
       request = parcel_t()                       ! what was taken needs no copy
       call assemble_scene_part(own%part, status)
@@ -182,15 +182,8 @@ contains
       call put(answer, y)
    end subroutine answer_values
 
-   subroutine drop_part()
-      type(scene_part_t) :: no_part
-
-      own%part = no_part
-      if (allocated(own%x)) deallocate (own%x)
-   end subroutine drop_part
-
-   !> All ranks are asked, for MUMPS wants them together: to begin, with the number of unknowns of the top and those of this rank; to
-   !> factor; to solve, with the loads [F], which the first rank alone has. Answer: status, the unknown that moves most in the
+   !> All ranks are asked, for MUMPS wants them together: to begin, with the number of unknowns of the top and those of this rank;
+   !> to factor; to solve, with the loads [F], which the first rank alone has. Answer: status, the unknown that moves most in the
    !> softest motion of a top that has no factor, or the solution [L].
    subroutine answer_top(wanted, request, answer)
       integer(ip), intent(in) :: wanted

@@ -7,10 +7,9 @@
 !>     recovering   mesh of its region, and the parcel               2 (72 n + 64 e)
 !>                  stresses and patches                             recovery_bytes(n, e)
 !>
-!> and of the smaller one what does not serve again: among factors and parcels memory goes to pieces, on the first rank less, whose
-!> arrays are of the whole scene. A region has some rings of elements more than the rank: RINGS for each node of a border. The first
-!> rank has loads, displacements, reactions, stresses of the whole scene besides, and a part or a region of another rank while it is
-!> sent.
+!> and of the smaller one what does not serve again: memory goes to pieces, on the first rank less, whose arrays are of the whole
+!> scene. A region has some rings of elements more than the rank: RINGS for each node of a border. The first rank has loads,
+!> displacements, reactions, stresses of the whole scene besides, and a part or a region of another rank while it is sent.
 module atrito_rank_memory
    use atrito_files, only: read_system_line
    use atrito_kinds, only: ip, lp, wp

@@ -1,9 +1,9 @@
 !> How a scene is cut into parts (atrito_scene_part), given which element is in which part; atrito_part_maker makes them.
 !>
-!> A contact point belongs to the part of its slave node, a bilateral row to that of its first node. The other nodes and the motions of the bodies come with it, so a node belongs to the parts
-!> of its elements and of the points that see it, and the motions of a body to the parts of the points that see it. What belongs
-!> to several parts is shared: all of its unknowns are kept by all of them, and numbered in the order of the scene's unknowns in the
-!> system that holds the parts together.
+!> A contact point belongs to the part of its slave node, a bilateral row to that of its first node. The other nodes and the motions
+!> of the bodies come with it, so a node belongs to the parts of its elements and of the points that see it, and the motions of a
+!> body to the parts of the points that see it. What belongs to several parts is shared: all of its unknowns are kept by all of
+!> them, and numbered in the order of the scene's unknowns in the system that holds the parts together.
 !>
 !> The pulls of a body are in the first part that sees it; without a point, in that of its first element. Springs that hold u_e are
 !> in the part of the first element at their node. What a rigid body moves is no unknown but its motions: they are like others.
@@ -17,7 +17,7 @@ module atrito_scene_cut
    use atrito_scene_elimination, only: scene_numbering_t
    implicit none (type, external)
    private
-   public :: scene_cut_t, plan_cut, unknowns_at, diagonals_of_rows
+   public :: place_t, scene_cut_t, plan_cut, unknowns_at, diagonals_of_rows
 
    !> What belongs to which part. Nodes and motions: those of body b are the last but bodies%n - b.
    type :: scene_cut_t
@@ -33,6 +33,16 @@ module atrito_scene_cut
       integer(ip), allocatable :: place(:)           !< (nodes and motions) for whoever makes the parts: 0
       integer(ip), allocatable :: unknown_at(:)      !< (n) the same
    end type scene_cut_t
+
+   !> What a part has of the scene, in its own order.
+   type :: place_t
+      integer(ip) :: rank = 0                    !< who has the part
+      integer(ip) :: n_elements = 0
+      integer(ip), allocatable :: unknown(:)     !< those that other parts have, too, last
+      integer(ip), allocatable :: top(:)         !< number of each of these among all that are shared
+      integer(ip), allocatable :: row(:), pull(:)
+      real(wp) :: solving = 0.0_wp               !< what factoring it will take, where it is [bytes]
+   end type place_t
 
 contains
 

@@ -129,8 +129,8 @@ contains
       call send_parcel(answer, 0_ip)
    end subroutine serve_fields
 
-   !> Stresses at the nodes of the rank's elements [F/L^2], and their error: the energies, and ||e||^2 of each element [F L] where it
-   !> is wanted. Without elements there is no answer.
+   !> Stresses at the nodes of the rank's elements [F/L^2], and their error: the energies, and ||e||^2 of each element [F L] where
+   !> it is wanted. Without elements there is no answer.
    subroutine answer_fields(request, answer)
       type(parcel_t), intent(inout) :: request
       type(parcel_t), intent(out) :: answer

@@ -14,7 +14,7 @@ module atrito_shared_scene
    use atrito_part_service, only: ask, ask_with, begin_question, hear, hear_values, held_bytes, ASSEMBLE, EXPAND, FORGET, &
                                   MULTIPLY, REDUCE, REFACTOR, TOP_BEGIN, TOP_FACTOR, TOP_SOLVE
    use atrito_row_entries, only: build_constraint_rows
-   use atrito_scene_cut, only: scene_cut_t, plan_cut, diagonals_of_rows
+   use atrito_scene_cut, only: place_t, scene_cut_t, plan_cut, diagonals_of_rows
    use atrito_scene_elimination, only: eliminate_scene, number_scene
    use atrito_scene_part, only: scene_part_t, put_scene_part
    use atrito_scene_shares, only: share_elements
@@ -25,16 +25,6 @@ module atrito_shared_scene
    public :: shared_scene_t, share_scene
 
    type(status_t), target :: trouble             !< of the first solve of the top that failed, until it is taken (scene_system_t)
-
-   !> What a part has of the scene, in its own order.
-   type :: place_t
-      integer(ip) :: rank = 0                    !< who has the part
-      integer(ip) :: n_elements = 0
-      integer(ip), allocatable :: unknown(:)     !< those that other parts have, too, last
-      integer(ip), allocatable :: top(:)         !< number of each of these among all that are shared
-      integer(ip), allocatable :: row(:), pull(:)
-      real(wp) :: solving = 0.0_wp               !< what factoring it will take, where it is [bytes]
-   end type place_t
 
    type, extends(scene_system_t) :: shared_scene_t
       type(place_t), allocatable :: parts(:)     !< the first rank, where it has one, has the first
@@ -111,7 +101,7 @@ contains
 
       do p = size(scene%parts, kind=ip), 1, -1
          associate (place => scene%parts(p))
-            call make_scene_part(fem, rows, line, scene%numbering, scene%rows, p, cut, part, place%unknown, place%row, place%pull)
+            call make_scene_part(fem, rows, line, scene%numbering, scene%rows, p, cut, part, place)
             place%top = cut%top_of(place%unknown(size(place%unknown) - part%n_kept + 1:))
             place%n_elements = cut%first_element(p + 1) - cut%first_element(p)
             call begin_question(ASSEMBLE, request)

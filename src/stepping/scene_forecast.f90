@@ -1,9 +1,9 @@
 !> The memory that the process will hold at the most, before anything is factored.
 !>
-!> What is there by then is not counted but asked of the system: libraries, mesh, model, points, averages. To that comes the
-!> largest of what the phases hold that follow: bodies and contact line, or factors of the sparse form; displacements, stresses
-!> and what their recovery works with. Left out are the certificate, a second form where the first finds no solution, and bodies
-!> kept for a next run. Of a scene that is distributed over processes it is asked elsewhere (distribution_t): this one's was then told.
+!> What is there by then is not counted but asked of the system: libraries, mesh, model, points, averages. To that comes the largest
+!> of what the phases hold that follow: bodies and contact line, or factors of the sparse form; displacements, stresses and what
+!> their recovery works with. Left out are the certificate, a second form where the first finds no solution, and bodies kept for a
+!> next run. Of a scene that is distributed over processes it is asked elsewhere (distribution_t): this one's was then told.
 module atrito_scene_forecast
    use atrito_contact_form, only: CONTACT_SPARSE
    use atrito_element_table, only: BEST_OF, POINT_COUNT

@@ -69,8 +69,8 @@ contains
       if (is_ok(status)) call check_known_points(data, status)
    end subroutine begin_scene
 
-   !> The memory of all processes is asked for before their parts are made, for METIS, which cuts the scene, ends the program when it
-   !> has too little; and again before the parts are factored.
+   !> The memory of all processes is asked for before their parts are made, for METIS, which cuts the scene, ends the program when
+   !> it has too little; and again before the parts are factored.
    subroutine begin_distributed(options, data, scene, status)
       type(solve_options_t), intent(in) :: options
       type(scene_data_t), intent(inout) :: data
