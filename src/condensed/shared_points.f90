@@ -23,6 +23,7 @@ module atrito_shared_points
 
 contains
 
+   !> Whether a line was not solved since rows of it depend on each other: then solve_shared_points can.
    pure logical function has_dependent_points(status)
       type(status_t), intent(in) :: status
 

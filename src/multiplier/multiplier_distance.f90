@@ -29,6 +29,7 @@ module atrito_multiplier_distance
 
 contains
 
+   !> How far a step is from the solution, where q = q_o, a = a_o, and the friction bound is that of the pressures.
    function measure_distance(system, line, multipliers, q, tau, image) result(distance)
       class(contact_system_t), intent(in) :: system
       type(contact_line_t), intent(in) :: line

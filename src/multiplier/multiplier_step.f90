@@ -165,6 +165,7 @@ contains
       end associate
    end subroutine residual_of
 
+   !> rho_i = r c_i [L/F] of each row, of r the share that the row takes.
    pure function rho_of(system, multipliers) result(rho)
       class(contact_system_t), intent(in) :: system
       type(multiplier_t), intent(in) :: multipliers
@@ -173,6 +174,7 @@ contains
       rho = multipliers%r*multipliers%part*system%flexibility
    end function rho_of
 
+   !> The stiffness [F/L] by which each rigid motion is pulled to where it was before the step.
    pure function pull_of(multipliers) result(pull)
       type(multiplier_t), intent(in) :: multipliers
       real(wp) :: pull(size(multipliers%hold))

@@ -185,6 +185,7 @@ contains
       end do
    end function first_motions
 
+   !> Unit vector along which an unknown force acts: the normal or the tangent of its point.
    pure function direction_of(rows, line, i) result(d)
       type(contact_rows_t), intent(in) :: rows
       type(contact_line_t), intent(in) :: line

@@ -180,6 +180,7 @@ module atrito_system
          character(kind=c_char), intent(inout) :: text(*)
          integer(c_int), value :: room
       end function c_read_system
+      !> The n-th name in a folder that ends so, from 1 on: its length; 0: there is none.
       integer(c_int) function c_find_name(folder, ending, n, name, room) bind(C, name='atrito_find_name')
          import :: c_char, c_int
          character(kind=c_char), intent(in) :: folder(*), ending(*)
