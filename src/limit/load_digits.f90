@@ -25,7 +25,7 @@ module atrito_load_digits
    real(wp), parameter :: GRAINS = 5.0_wp           !< by which the place of a force may be off
    real(wp), parameter :: EXACT = 1.0e-13_wp        !< grain over coordinates of a deck that is not rounded to digits
    real(wp), parameter :: LATTICE = 10.0_wp         !< length of a point in grains, of nodes that were not rounded
-   real(wp), parameter :: MOST = 5.0e-3_wp          !< a larger part of the forces was meant, whatever the digits
+   real(wp), parameter :: MOST = 1.0e-3_wp          !< a larger part of the forces was meant, whatever the digits
    real(wp), parameter :: ALONG_AXIS = 1.0e-12_wp   !< part of a normal
 
 contains

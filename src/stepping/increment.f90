@@ -150,7 +150,10 @@ contains
       again = .true.
       call solve_form(data, form, controls, store, results, solution, u, again, status)
       ! the loads have lost what only the digits of the deck make of them
-      if (again) call solve_form(data, form, controls, store, results, solution, u, again, status)
+      if (again) then
+         again = .false.
+         call solve_form(data, form, controls, store, results, solution, u, again, status)
+      end if
       if (.not. is_ok(status)) return
       call start_phase('recover')
       if (data%is_printed) call begin_early(data, solution, u)
