@@ -30,6 +30,7 @@ contains
       call send_to_others(request)
    end subroutine request_runs
 
+   !> The arguments of the program, for another rank.
    subroutine put_arguments(arguments, parcel)
       type(string_t), intent(in) :: arguments(:)
       type(parcel_t), intent(inout) :: parcel
@@ -41,6 +42,7 @@ contains
       end do
    end subroutine put_arguments
 
+   !> The same from the parcel that the first rank has sent.
    subroutine take_arguments(parcel, arguments)
       type(parcel_t), intent(inout) :: parcel
       type(string_t), allocatable, intent(out) :: arguments(:)

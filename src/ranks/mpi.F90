@@ -46,6 +46,7 @@ contains
       rank = int(r, ip)
    end function own_rank
 
+   !> All of them; 1 in a program that was not begun by mpirun.
    integer(ip) function rank_count() result(n)
       integer :: ranks
 

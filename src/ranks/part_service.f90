@@ -51,6 +51,7 @@ contains
       call send_parcel(answer, 0_ip)
    end subroutine serve_part
 
+   !> The head of a question about a part: what is wanted, one of the constants above; what it needs is put behind it.
    subroutine begin_question(wanted, request)
       integer(ip), intent(in) :: wanted
       type(parcel_t), intent(out) :: request
@@ -85,6 +86,7 @@ contains
       call ask(rank, request)
    end subroutine ask_with
 
+   !> The answer to ask, from the rank that was asked.
    subroutine hear(rank, answer)
       integer(ip), intent(in) :: rank
       type(parcel_t), intent(out) :: answer

@@ -49,6 +49,7 @@ contains
       if (maker_number() /= process%maker) call end_worker()
    end subroutine begin_task_process
 
+   !> Whether the process has been begun, and not been ended.
    pure logical function is_there(process)
       type(task_process_t), intent(in) :: process
 

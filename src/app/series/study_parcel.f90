@@ -10,6 +10,7 @@ module atrito_study_parcel
 
 contains
 
+   !> A row of study.tab, for the first rank.
    subroutine put_row(row, parcel)
       type(study_row_t), intent(in) :: row           !< with values and phases
       type(parcel_t), intent(inout) :: parcel

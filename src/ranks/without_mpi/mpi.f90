@@ -1,4 +1,4 @@
-!> The twin of src/base/ranks/mpi.F90: one rank, which has nobody to talk to. It is in the library of the room; atrito-mpi alone
+!> The twin of src/ranks/mpi.F90: one rank, which has nobody to talk to. It is in the library of the room; atrito-mpi alone
 !> links the other in front of it, so both have the same procedures with the same interfaces.
 module atrito_mpi
    use atrito_kinds, only: ip, wp
@@ -14,24 +14,30 @@ module atrito_mpi
 
 contains
 
+   !> Nothing begins.
    subroutine begin_ranks()
    end subroutine begin_ranks
 
+   !> Nothing ends.
    subroutine end_ranks()
    end subroutine end_ranks
 
+   !> The only one there is.
    integer(ip) function own_rank()
       own_rank = 0
    end function own_rank
 
+   !> 1.
    integer(ip) function rank_count()
       rank_count = 1
    end function rank_count
 
+   !> 1.
    integer(ip) function ranks_on_host()
       ranks_on_host = 1
    end function ranks_on_host
 
+   !> Nobody takes it: an invariant is broken.
    subroutine send_parcel(parcel, to)
       type(parcel_t), intent(in), target :: parcel
       integer(ip), intent(in) :: to
@@ -39,6 +45,7 @@ contains
       error stop NOBODY
    end subroutine send_parcel
 
+   !> Nobody sends one: an invariant is broken.
    subroutine receive_parcel(parcel, from, sender)
       type(parcel_t), intent(out), target :: parcel
       integer(ip), intent(in) :: from
@@ -48,10 +55,12 @@ contains
       error stop NOBODY
    end subroutine receive_parcel
 
+   !> None ever comes.
    logical function has_message()
       has_message = .false.
    end function has_message
 
+   !> A sum over one rank is what it was.
    subroutine sum_over_ranks(x)
       real(wp), intent(inout), contiguous :: x(:)
    end subroutine sum_over_ranks
@@ -61,10 +70,12 @@ contains
       all_ranks_communicator = 0
    end function all_ranks_communicator
 
+   !> There is no MPI in this program.
    pure logical function has_mpi()
       has_mpi = .false.
    end function has_mpi
 
+   !> For --version.
    function mpi_name() result(name)
       character(len=:), allocatable :: name
 

@@ -14,6 +14,7 @@ module atrito_mumps
 
 contains
 
+   !> status: STATUS_INTERNAL, with the reason, where there is anything to solve.
    subroutine begin_mumps_system(system, n, unknown, status)
       type(mumps_system_t), intent(inout) :: system
       integer(ip), intent(in) :: n, unknown(:)
@@ -22,38 +23,45 @@ contains
       if (n > 0) call set_status(status, STATUS_INTERNAL, mumps_trouble())
    end subroutine begin_mumps_system
 
+   !> Not called, since no system begins.
    subroutine factor_mumps_system(system, values, status)
       type(mumps_system_t), intent(inout) :: system
       real(wp), intent(inout), contiguous, target :: values(:)
       type(status_t), intent(out) :: status
    end subroutine factor_mumps_system
 
+   !> Not called, since no system begins.
    subroutine solve_mumps_system(system, x, status)
       type(mumps_system_t), intent(inout) :: system
       real(wp), intent(inout) :: x(:)
       type(status_t), intent(out) :: status
    end subroutine solve_mumps_system
 
+   !> Nothing is held [bytes].
    pure integer(lp) function mumps_system_bytes(system) result(bytes)
       type(mumps_system_t), intent(in) :: system
 
       bytes = 0
    end function mumps_system_bytes
 
+   !> There is nothing to let go of.
    subroutine end_mumps_system(system)
       type(mumps_system_t), intent(inout) :: system
    end subroutine end_mumps_system
 
+   !> This build has none.
    pure logical function has_mumps()
       has_mumps = .false.
    end function has_mumps
 
+   !> Of no library: empty.
    pure function mumps_version() result(version)
       character(len=:), allocatable :: version
 
       version = ''
    end function mumps_version
 
+   !> Why there is no MUMPS.
    pure function mumps_trouble() result(text)
       character(len=:), allocatable :: text
 
