@@ -39,8 +39,8 @@ module atrito_idle_motions
 
 contains
 
-   !> Takes the least of the idle motions. solution%inner%undetermined: one of them, the simplest, or not allocated where there is
-   !> none; groups of many motions have what their form of the contact system found. Where a motion were idle but for what the digits
+   !> Takes the least of the idle motions. solution%inner%undetermined: one of them, the simplest, or not allocated where there
+   !> is none; groups of many motions have what their form of the contact system found. Where a motion were idle but for what the digits
    !> of the deck make of the loads, that is taken out of data%f, and the increment is to be solved again.
    subroutine settle_idle_motions(data, u, before, solution, again)
       type(scene_data_t), intent(inout) :: data
@@ -174,8 +174,8 @@ contains
       part = max(NO_FORCE, min(DOUBTS*data%rows%doubt(data%line%point(i)), MOST_DOUBT))
    end function dropped_part
 
-   !> Takes the work on motions that were idle but for small forces out of the loads, where it is no more than what the digits of the
-   !> deck make of them.
+   !> Takes the work on motions that were idle but for small forces out of the loads, where it is no more than what the digits of
+   !> the deck make of them.
    subroutine doubt_loads(data, rows, group, idle, holds, solution, has_changed)
       type(scene_data_t), intent(inout) :: data
       type(motion_rows_t), intent(in) :: rows

@@ -1,9 +1,9 @@
 !> Loads on a motion that the digits of the deck alone make.
 !>
 !> A roller on one node of its rim, loaded through its centre, stands: nothing but rounding of coordinates, by some units g of their
-!> last digit, makes a moment about that node, which would turn it onto the next one. So where a motion v of the bodies were idle but
-!> for points with small forces, the work W = h'v of the loads is compared with what the digits can make of it: of the forces on a
-!> body that turns by w, and of the forces of the points that hold, whose normals are known to some g over their lengths l_j,
+!> last digit, makes a moment about that node, which would turn it onto the next one. So where a motion v of the bodies were idle
+!> but for points with small forces, the work W = h'v of the loads is compared with what the digits can make of it: of the forces on
+!> a body that turns by w, and of the forces of the points that hold, whose normals are known to some g over their lengths l_j,
 !>
 !>    |W| <= 5 g (sum over bodies of |w| sum |f| + sum over points of |q_j| |v_T,j|/l_j).
 !>

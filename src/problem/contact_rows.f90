@@ -9,8 +9,8 @@ module atrito_contact_rows
              direction_of_entry, turn_of_entry
 
    !> Row of point j along a direction d_j: the sum of coefficient(k) d_j . u(node(k)) over k from first(j) to first(j+1) - 1, and
-   !> of turn(i, k) n_j . u(node(k)), i being 1 where d_j is the normal and 2 where it is the tangent (atrito_turning_rows). The last
-   !> n_bilateral rows have vectors of their own in place of coefficient(k) d_j, and no direction.
+   !> of turn(i, k) n_j . u(node(k)), i being 1 where d_j is the normal and 2 where it is the tangent (atrito_turning_rows). The
+   !> last n_bilateral rows have vectors of their own in place of coefficient(k) d_j, and no direction.
    type :: contact_rows_t
       integer(ip) :: n = 0
       integer(ip) :: longest = 0                     !< most entries of a row
