@@ -40,8 +40,8 @@ module atrito_idle_motions
 contains
 
    !> Takes the least of the idle motions. solution%inner%undetermined: one of them, the simplest, or not allocated where there
-   !> is none; groups of many motions have what their form of the contact system found. Where a motion were idle but for what the digits
-   !> of the deck make of the loads, that is taken out of data%f, and the increment is to be solved again.
+   !> is none; groups of many motions have what their form of the contact system found. Where a motion were idle but for what the
+   !> digits of the deck make of the loads, that is taken out of data%f, and the increment is to be solved again.
    subroutine settle_idle_motions(data, u, before, solution, again)
       type(scene_data_t), intent(inout) :: data
       real(wp), intent(in) :: u(:, :)               !< (2, n_nodes) without rigid motions [L]

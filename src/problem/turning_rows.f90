@@ -2,9 +2,9 @@
 !>
 !> The relative displacement of a point is that of the slave's place x_s less that of the master's place x_m. Where the two are
 !> apart by d = x_s - x_m, by a gap or an overlap along the normal n, or along the tangent T where what the point faces was looked
-!> for along another normal, a rotation w of both bodies makes a displacement w perp(d), though neither moves against the other: sides
-!> that stick would hold a rotation that is free, and forces upon both sides leave a moment. So the rotation of the master's face is
-!> taken out of the rows: with its nodes k at s_k = T . x_k along the face,
+!> for along another normal, a rotation w of both bodies makes a displacement w perp(d), though neither moves against the other:
+!> sides that stick would hold a rotation that is free, and forces upon both sides leave a moment. So the rotation of the master's
+!> face is taken out of the rows: with its nodes k at s_k = T . x_k along the face,
 !>
 !>    w = - sum_k e_k n . u_k,   e_k = (s_k - mean of s)/sum_i (s_i - mean of s)^2,
 !>

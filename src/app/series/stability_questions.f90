@@ -42,8 +42,8 @@ module atrito_stability_questions
 
 contains
 
-   !> Asks one question of a limit: whether the loads balance at a value of the parameter, or what a solution has there. What there is
-   !> to tell of a value that is not to be had stands in answer%code, one of STATUS_*.
+   !> Asks one question of a limit: whether the loads balance at a value of the parameter, or what a solution has there. What there
+   !> is to tell of a value that is not to be had stands in answer%code, one of STATUS_*.
    subroutine ask(command, parameter, question, telling, store, answer)
       type(command_t), intent(in) :: command
       character(len=*), intent(in) :: parameter     !< that varies
