@@ -53,11 +53,11 @@ cat >"$work/faults" <<'END'
 - x
 same nothing asks for it
 
-@ solve/b.f90: four
+@ stepping/b.f90: four
 - x
 END
 printf 'base/a.f90: one\tsurvived\nbase/a.f90: one\tcaught by unit_base\nbase/a.f90: two\tsurvived\nbase/a.f90: three\tsurvived\n' >"$work/results"
-printf 'solve/b.f90: four\tdoes not build\n' >>"$work/results"
+printf 'stepping/b.f90: four\tdoes not build\n' >>"$work/results"
 "$python" "$mutate" --faults "$work/faults" --score "$work/results" >"$work/out" || complain "score: exit $?"
 grep -q '^all  *1  *2  *1  *50.0 %' "$work/out" || { complain 'the score'; cat "$work/out"; }
 grep -qx 'survived: base/a.f90: two' "$work/out" || complain 'the survivor is not named'
