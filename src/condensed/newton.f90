@@ -8,11 +8,11 @@ module atrito_newton
    use atrito_bound_qp, only: bound_qp_t, FREE, AT_LOWER, AT_UPPER, FROZEN
    use atrito_contact_line, only: contact_line_t, pressure_of, shear_force_of, set_friction_bounds
    use atrito_contact_solution, only: contact_solution_t, bound_of_state, judge_condition, has_settled
+   use atrito_controls, only: controls_t
    use atrito_dense, only: solve_lu
    use atrito_free_set, only: set_residual
    use atrito_friction_law, only: FRICTION_NONLOCAL
    use atrito_kinds, only: ip, wp
-   use atrito_model, only: controls_t
    use atrito_solve_history, only: record_solve, begin_outer, end_outer
    implicit none (type, external)
    private

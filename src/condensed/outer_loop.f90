@@ -7,9 +7,9 @@ module atrito_outer_loop
    use atrito_constraint_rows, only: constraint_rows_t
    use atrito_contact_line, only: contact_line_t, normal_bounds, tangential_of
    use atrito_contact_solution, only: contact_solution_t, FREE_MOTION, judge_condition, relative_residual
+   use atrito_controls, only: controls_t, METHOD_ANDERSON, METHOD_PICARD, METHOD_NEWTON
    use atrito_frozen_bound, only: solve_with_bound
    use atrito_kinds, only: ip, wp, HUGE_REAL
-   use atrito_model, only: controls_t, METHOD_ANDERSON, METHOD_PICARD, METHOD_NEWTON
    use atrito_newton, only: iterate_newton
    use atrito_picard_loop, only: line_task_t, iterate, is_too_much
    use atrito_reporter, only: reporter_t, report_progress

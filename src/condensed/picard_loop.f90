@@ -22,9 +22,9 @@ module atrito_picard_loop
    use atrito_contact_line, only: contact_line_t
    use atrito_contact_solution, only: contact_solution_t, FREE_MOTION, judge_condition, has_settled, may_be_round_off, &
                                       relative_residual
+   use atrito_controls, only: controls_t, METHOD_PICARD
    use atrito_frozen_bound, only: solve_with_bound
    use atrito_kinds, only: ip, wp, HUGE_REAL
-   use atrito_model, only: controls_t, METHOD_PICARD
    use atrito_reporter, only: reporter_t, report_progress
    use atrito_solve_history, only: solve_history_t, begin_outer, end_outer
    use atrito_status, only: status_t, set_status, is_ok, STATUS_SINGULAR

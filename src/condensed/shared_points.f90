@@ -6,10 +6,10 @@ module atrito_shared_points
    use atrito_contact_line, only: contact_line_t
    use atrito_contact_rows, only: contact_rows_t
    use atrito_contact_solution, only: contact_solution_t
+   use atrito_controls, only: controls_t
    use atrito_kinds, only: ip
    use atrito_mesh, only: mesh_t
    use atrito_messages, only: add_note
-   use atrito_model, only: controls_t
    use atrito_outer_loop, only: solve_contact_line
    use atrito_reporter, only: reporter_t, report_progress
    use atrito_row_entries, only: build_constraint_rows

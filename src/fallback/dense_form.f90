@@ -7,10 +7,10 @@ module atrito_dense_form
    use atrito_contact_line, only: contact_line_t
    use atrito_contact_problem, only: build_flexibility, set_right_hand_sides
    use atrito_contact_solution, only: contact_solution_t, serves_as_start, asks_no_force, let_rest
+   use atrito_controls, only: controls_t, METHOD_ANDERSON
    use atrito_dense_refinement, only: refine_dense_solution
    use atrito_displacements, only: contact_forces, elastic_displacements
    use atrito_kinds, only: ip, wp
-   use atrito_model, only: controls_t, METHOD_ANDERSON
    use atrito_outer_loop, only: solve_contact_line, continue_contact_line
    use atrito_reporter, only: report_progress
    use atrito_results, only: results_t

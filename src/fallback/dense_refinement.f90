@@ -12,10 +12,10 @@ module atrito_dense_refinement
    use atrito_condensed_body, only: condensed_body_t, set_load
    use atrito_contact_problem, only: add_displacements
    use atrito_contact_solution, only: contact_solution_t
+   use atrito_controls, only: controls_t
    use atrito_displacements, only: contact_forces, elastic_displacements
    use atrito_internal_forces, only: internal_forces
    use atrito_kinds, only: ip, wp, HUGE_REAL
-   use atrito_model, only: controls_t
    use atrito_outer_loop, only: continue_contact_line
    use atrito_reporter, only: report_progress
    use atrito_scene_data, only: scene_data_t

@@ -12,10 +12,11 @@ module atrito_scene_data
    use atrito_contact_rows, only: contact_rows_t, allow_overlap, build_rows
    use atrito_contact_scales, only: had_t
    use atrito_contact_solution, only: contact_solution_t
+   use atrito_controls, only: METHOD_ANDERSON
    use atrito_held_points, only: straighten_held_points
    use atrito_kinds, only: ip, lp, wp
    use atrito_memory, only: available_memory
-   use atrito_model, only: model_t, nodal_values_t, step_t, METHOD_ANDERSON
+   use atrito_model, only: model_t, nodal_values_t, step_t
    use atrito_nodal_loads, only: nodal_loads
    use atrito_points, only: contact_points_t
    use atrito_reporter, only: reporter_t

@@ -4,9 +4,9 @@ module atrito_sparse_form
    use atrito_constraint_rows, only: constraint_rows_t
    use atrito_contact_form, only: CONTACT_SPARSE
    use atrito_contact_solution, only: contact_solution_t, serves_as_start
+   use atrito_controls, only: controls_t
    use atrito_kinds, only: ip, wp
    use atrito_multiplier_loop, only: solve_by_multipliers
-   use atrito_model, only: controls_t
    use atrito_reporter, only: report_progress
    use atrito_results, only: results_t
    use atrito_scene_data, only: scene_data_t, assemble, drop_assembled

@@ -6,7 +6,7 @@ module atrito_dense_blocks
    use atrito_halting, only: halting_t, suspend_halting, restore_halting
    use atrito_kinds, only: ip, wp
    use atrito_lapack, only: dgemm, dsymv, dtrsm, dtrsv
-   use atrito_multifrontal, only: eliminate
+   use atrito_front, only: eliminate
    implicit none (type, external)
    private
    public :: factor_in_blocks, solve_with_triangle, multiply_symmetric, add_inverse_form

@@ -10,7 +10,6 @@ module atrito_multifrontal
    use atrito_element_store, only: element_store_t, begin_store, add_to_store, move_store, take_own_matrices, &
                                    sum_couplings, sum_diagonals, pack_matrix, unpack_matrix
    use atrito_elimination, only: elimination_t, chain_elimination
-   use atrito_front, only: eliminate
    use atrito_front_factors, only: fronts_t, front_bytes_t, plan_fronts, expect_factors, factor_fronts, held_bytes, &
                                    smallest_ratio, tell_of_memory
    use atrito_front_solves, only: forward, backward

@@ -8,13 +8,13 @@ module atrito_multiplier_loop
                                   last_contact_pair, pairs_of_unknowns, tangential_of
    use atrito_contact_solution, only: contact_solution_t, asks_no_force, let_rest, FREE_MOTION, bound_of_state
    use atrito_contact_system, only: contact_system_t
+   use atrito_controls, only: controls_t
    use atrito_multipliers, only: multiplier_t
    use atrito_undetermined_motions, only: settle_undetermined_motions
    use atrito_kinds, only: ip, wp, HUGE_REAL
    use atrito_multiplier_distance, only: distance_t, measure_distance, measure_bodies, forces_that_are_none, NO_FORCE_AFTER
    use atrito_multiplier_step, only: begin_multipliers, start_closed, take_multiplier_step, refine_step, accept_step, &
                                      take_least_forces, clear_round_off, rho_of
-   use atrito_model, only: controls_t
    use atrito_reporter, only: reporter_t, report_progress
    use atrito_solve_history, only: begin_outer, end_outer
    use atrito_status, only: status_t, set_status, is_ok, STATUS_SINGULAR

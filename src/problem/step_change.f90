@@ -1,7 +1,8 @@
 !> From one step of a history to the next.
 module atrito_step_change
+   use atrito_controls, only: METHOD_ANDERSON
    use atrito_kinds, only: ip, wp
-   use atrito_model, only: model_t, step_t, METHOD_ANDERSON
+   use atrito_model, only: model_t, step_t
    implicit none (type, external)
    private
    public :: begin_from, changes_form

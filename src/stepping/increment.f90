@@ -9,6 +9,7 @@ module atrito_increment
    use atrito_contact_rows, only: bodies_of_row
    use atrito_contact_scales, only: usual_growth, force_round_off, NONE_OF_HAD
    use atrito_contact_solution, only: contact_solution_t
+   use atrito_controls, only: controls_t, METHOD_ANDERSON, METHOD_NEWTON, METHOD_PICARD
    use atrito_dense_form, only: solve_dense_form
    use atrito_displacements, only: contact_forces, add_rigid_motions
    use atrito_extremes, only: find_extremes
@@ -19,7 +20,6 @@ module atrito_increment
    use atrito_kinds, only: ip, wp
    use atrito_linear_limits, only: find_large
    use atrito_mesh, only: is_revolved
-   use atrito_model, only: controls_t, METHOD_ANDERSON, METHOD_NEWTON, METHOD_PICARD
    use atrito_number_range, only: explain_range
    use atrito_outer_loop, only: FREE_MOTION
    use atrito_recovery, only: recover_contact, recover_stress, estimate_error

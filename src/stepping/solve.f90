@@ -3,10 +3,11 @@ module atrito_solve
    use atrito_body_cache, only: body_cache_t
    use atrito_contact_form, only: CONTACT_AUTO, CONTACT_DENSE, CONTACT_SPARSE
    use atrito_contact_solution, only: contact_solution_t
+   use atrito_controls, only: METHOD_ANDERSON
    use atrito_force_sense, only: force_sense_t, tell_forces, watch_forces
    use atrito_increment, only: is_solved, solve_increment
    use atrito_messages, only: add_note
-   use atrito_model, only: model_t, step_t, METHOD_ANDERSON
+   use atrito_model, only: model_t, step_t
    use atrito_number_range, only: is_out_of_range
    use atrito_reporter, only: reporter_t
    use atrito_results, only: results_t, scene_t

@@ -1,5 +1,6 @@
 !> What was understood of a deck, for the listing and for `atrito check`.
 module atrito_model_report
+   use atrito_controls, only: METHOD_NAME
    use atrito_element_table, only: KINDS, kind_of
    use atrito_load_resultants, only: force_t, load_resultants, last_factor
    use atrito_row_tables, only: joined_text
@@ -9,8 +10,8 @@ module atrito_model_report
    use atrito_mesh, only: is_revolved
    use atrito_orthotropy, only: SPATIAL, inverse_of
    use atrito_sets, only: set_count
-   use atrito_model, only: model_t, section_t, step_t, requested_t, increments_t, interaction_t, FORMULATION_NAME, METHOD_NAME, &
-                           FRICTION_NAME, KERNEL_NAME, FRICTION_NONE, FRICTION_NONLOCAL, LOAD_TRACTION, SURFACE_SEGMENTS
+   use atrito_model, only: model_t, section_t, step_t, requested_t, increments_t, interaction_t, FORMULATION_NAME, FRICTION_NAME, &
+                           KERNEL_NAME, FRICTION_NONE, FRICTION_NONLOCAL, LOAD_TRACTION, SURFACE_SEGMENTS
    use atrito_page, only: page_t, add_line, add_blank, add_entry, left, right, number, plural
    implicit none (type, external)
    private

@@ -1,11 +1,12 @@
 !> The closing summary of a run, at most a screen of 80 columns by 24 lines, and what `atrito check` prints.
 module atrito_screen
+   use atrito_controls, only: METHOD_NAME
    use atrito_kinds, only: ip, wp
    use atrito_strings, only: string_t, to_text
    use atrito_messages, only: count_messages, SEVERITY_WARNING, SEVERITY_NOTE
    use atrito_system, only: peak_memory
    use atrito_timers, only: phase_time_t, get_phases
-   use atrito_model, only: model_t, METHOD_NAME
+   use atrito_model, only: model_t
    use atrito_results, only: results_t, history_t, observed_t, scene_t, last_frame
    use atrito_increments, only: list_increments, has_history, increment_name, ending_text
    use atrito_extreme_report, only: add_extremes

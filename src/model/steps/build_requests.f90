@@ -1,5 +1,6 @@
 !> *CONTROLS, and the tables and fields that the step asks for.
 module atrito_build_requests
+   use atrito_controls, only: controls_t, METHOD_PICARD, METHOD_NAME
    use atrito_deck, only: deck_t, card_t, token_t, token_text, option_t, line_item, keyword_name
    use atrito_diagnostics, only: report_error
    use atrito_build_context, only: build_context_t
@@ -9,7 +10,7 @@ module atrito_build_requests
    use atrito_items, only: find_option, has_option, option_integer, option_real, option_text, option_word, &
                            refuse_option
    use atrito_kinds, only: ip, wp
-   use atrito_model, only: controls_t, requested_t, requests_t, step_t, METHOD_PICARD, METHOD_NAME
+   use atrito_model, only: requested_t, requests_t, step_t
    use atrito_references, only: report_unknown
    use atrito_sets, only: set_list_t, find_set, members_of
    use atrito_strings, only: to_text, upper_case

@@ -1,5 +1,6 @@
 !> What a deck means: one model_t, all that the solver and the writers need, no deck text.
 module atrito_model
+   use atrito_controls, only: controls_t
    use atrito_bilateral_rows, only: bilateral_rows_t
    use atrito_cross_section, only: cross_section_t
    use atrito_kinds, only: ip, wp
@@ -17,19 +18,17 @@ module atrito_model
    private
    public :: model_t, step_t, material_t, section_t, surface_t, interaction_t, pair_t, nodal_values_t, element_load_t
    public :: rigid_body_t, instance_t, source_t, cut_t
-   public :: amplitude_t, increments_t, frequencies_t, spring_t, tie_t, controls_t, requests_t, requested_t, parameter_value_t
+   public :: amplitude_t, increments_t, frequencies_t, spring_t, tie_t, requests_t, requested_t, parameter_value_t
    public :: SURFACE_ELEMENTS, SURFACE_SEGMENTS, FORMULATION_STANDARD, FORMULATION_BBAR, FORMULATION_NAME
    public :: FRICTION_NONE, FRICTION_LOCAL, FRICTION_NONLOCAL, KERNEL_POINTS, KERNEL_LINE
    public :: QUADRATURE_AUTO, QUADRATURE_NODAL, QUADRATURE_MORTAR
-   public :: METHOD_ANDERSON, METHOD_PICARD, METHOD_NEWTON, METHOD_NAME, FRICTION_NAME, KERNEL_NAME
+   public :: FRICTION_NAME, KERNEL_NAME
    public :: is_due, rigid_body_name
    public :: LOAD_PRESSURE, LOAD_BODY, LOAD_TRACTION, LOAD_HYDROSTATIC, LOAD_LINEAR, is_on_volume
 
    integer(ip), parameter :: SURFACE_ELEMENTS = 1, SURFACE_SEGMENTS = 2
    character(len=8), parameter :: FORMULATION_NAME(2) = ['STANDARD', 'BBAR    ']
    integer(ip), parameter :: QUADRATURE_AUTO = 0, QUADRATURE_NODAL = 1, QUADRATURE_MORTAR = 2
-   integer(ip), parameter :: METHOD_ANDERSON = 1, METHOD_PICARD = 2, METHOD_NEWTON = 3
-   character(len=8), parameter :: METHOD_NAME(3) = ['ANDERSON', 'PICARD  ', 'NEWTON  ']
    character(len=8), parameter :: FRICTION_NAME(0:2) = ['none    ', 'LOCAL   ', 'NONLOCAL']
    character(len=6), parameter :: KERNEL_NAME(2) = ['POINTS', 'LINE  ']
    integer(ip), parameter :: LOAD_PRESSURE = 1, LOAD_BODY = 2, LOAD_TRACTION = 3, LOAD_HYDROSTATIC = 4, LOAD_LINEAR = 5
@@ -145,18 +144,6 @@ module atrito_model
       !< of LOAD_HYDROSTATIC as they are in value
       integer(ip), allocatable :: amplitude(:)      !< (n) place in model%amplitudes; 0, or not allocated: none
    end type element_load_t
-
-   !> Of the outer iteration. A deck gives the first four.
-   type :: controls_t
-      integer(ip) :: method = METHOD_ANDERSON
-      real(wp) :: tolerance = 1.0e-10_wp            !< of the outer loop
-      integer(ip) :: max_iterations = 100           !< outer iterations
-      real(wp) :: relaxation = 1.0_wp               !< of PICARD, 0 < r <= 1
-      logical :: is_coarse = .false.                !< bound_qp_t%is_coarse: states that round-off turns to and fro
-      real(wp) :: most_entries = huge(1.0_wp)       !< of C to go through, over all linear solves, before it is given up
-      logical :: is_brief = .false.                 !< a shorter increment may do: what takes long is not tried
-      logical :: is_first = .false.                 !< others come later: the dense form makes one attempt alone
-   end type controls_t
 
    !> A curve over time that multiplies loads and displacements: *AMPLITUDE.
    type :: amplitude_t

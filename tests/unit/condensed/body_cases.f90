@@ -9,13 +9,13 @@ module body_cases
    use atrito_contact_problem, only: build_problem
    use atrito_contact_rows, only: contact_rows_t, build_rows
    use atrito_contact_solution, only: contact_solution_t
+   use atrito_controls, only: controls_t, METHOD_ANDERSON
    use atrito_displacements, only: add_rigid_motions, contact_forces, elastic_displacements
    use atrito_element, only: element_stiffness
    use atrito_faces, only: face_list_t, add_face
    use atrito_friction_law, only: friction_law_t, FRICTION_NONLOCAL, KERNEL_POINTS
    use atrito_kinds, only: ip, lp, wp
    use atrito_mesh, only: mesh_t, add_element, add_node, element_coordinates, trim_mesh
-   use atrito_model, only: controls_t, METHOD_ANDERSON
    use atrito_outer_loop, only: solve_contact_line
    use atrito_plane_state, only: elastic_t, PLANE_STRAIN
    use atrito_points, only: contact_points_t

@@ -1,0 +1,23 @@
+!> How the outer loop goes: *CONTROLS of a deck, and what the program adds when it tries again.
+module atrito_controls
+   use atrito_kinds, only: ip, wp
+   implicit none (type, external)
+   private
+   public :: controls_t, METHOD_ANDERSON, METHOD_PICARD, METHOD_NEWTON, METHOD_NAME
+
+   integer(ip), parameter :: METHOD_ANDERSON = 1, METHOD_PICARD = 2, METHOD_NEWTON = 3
+   character(len=8), parameter :: METHOD_NAME(3) = ['ANDERSON', 'PICARD  ', 'NEWTON  ']
+
+   !> Of the outer iteration. A deck gives the first four.
+   type :: controls_t
+      integer(ip) :: method = METHOD_ANDERSON
+      real(wp) :: tolerance = 1.0e-10_wp            !< of the outer loop
+      integer(ip) :: max_iterations = 100           !< outer iterations
+      real(wp) :: relaxation = 1.0_wp               !< of PICARD, 0 < r <= 1
+      logical :: is_coarse = .false.                !< bound_qp_t%is_coarse: states that round-off turns to and fro
+      real(wp) :: most_entries = huge(1.0_wp)       !< of C to go through, over all linear solves, before it is given up
+      logical :: is_brief = .false.                 !< a shorter increment may do: what takes long is not tried
+      logical :: is_first = .false.                 !< others come later: the dense form makes one attempt alone
+   end type controls_t
+
+end module atrito_controls
