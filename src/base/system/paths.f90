@@ -12,7 +12,7 @@ module atrito_paths
 
    !> What keeps a run from writing into a folder (judge_folder).
    integer, parameter :: NOTHING = 0, IS_MISSING = 1, IS_BELOW_A_FILE = 2, NOT_READABLE = 3
-   integer, parameter :: MOST_TRIES = 5
+   integer, parameter :: MOST_TRIES = 100            !< to make a folder that another run removes each time
    integer, parameter :: LONGEST_PATH = 4096
    integer, parameter :: IS_LINK = 3                 !< answer of c_kind_of
    character(len=*), parameter :: OUT_OF_BOUNDS = ': is outside of the folder of output, and --confine was given'
