@@ -1,4 +1,4 @@
-!> An HDF5 file being written: the only module that sees the HDF5 library. src/output/without_hdf5/ has its twin for a build
+!> An HDF5 file being written: the only module that sees the HDF5 library. src/fields/without_hdf5/ has its twin for a build
 !> without it.
 !>
 !> A dataset is begun with its size and filled row by row; rows are collected into chunks, so no second copy of a field is made.

@@ -1,5 +1,5 @@
 !> An HDF5 file of plain lists, written or read whole: what a restart file is made of. Beside atrito_hdf5 the only module that sees
-!> the HDF5 library; src/output/without_hdf5/ has its twin.
+!> the HDF5 library; src/fields/without_hdf5/ has its twin.
 !>
 !> Every list has a checksum (Fletcher's), and so has whatever the library keeps of its own (format of version 1.10), so that a
 !> byte that was changed is found when it is read. The first failure is kept in the file; later calls do nothing.
