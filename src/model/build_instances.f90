@@ -27,7 +27,7 @@ contains
             call read_motion(context%deck%cards(scope%card), context, context%motions(i))
             instance%name = scope%name
             call option_text(context%deck, context%deck%cards(scope%card), 'PART', instance%part, found)
-            instance%first_number = min(scope%shift, huge(scope%shift) - 1) + 1   ! of too many numbers, which are refused, some number
+            instance%first_number = min(scope%shift, huge(scope%shift) - 1) + 1 ! too many are refused
             instance%shift = context%motions(i)%shift
             instance%angle = context%motions(i)%angle
          end associate
