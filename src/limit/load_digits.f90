@@ -12,6 +12,7 @@
 module atrito_load_digits
    use atrito_bodies, only: mode_at
    use atrito_contact_rows, only: vector_of_entry
+   use atrito_dense, only: solve_lu
    use atrito_friction_law, only: FRICTION_NONE
    use atrito_kinds, only: ip, wp
    use atrito_motion_rows, only: motion_rows_t
@@ -127,7 +128,8 @@ contains
       type(scene_data_t), intent(inout) :: data
       real(wp), intent(in) :: work(:)               !< (k) [F]
       real(wp) :: z(2, 3), metric(3, 3), force(3)
-      integer(ip) :: first(data%fem%bodies%n + 1), b, i, n
+      real(wp), allocatable :: small(:, :), own(:)  ! of as many motions as the body has
+      integer(ip) :: first(data%fem%bodies%n + 1), b, i, n, info
 
       first = first_motions(data%fem%bodies)
       do b = 1, data%fem%bodies%n
@@ -141,7 +143,10 @@ contains
                metric = metric + matmul(transpose(z), z)
             end do
             force = 0.0_wp
-            force(:n) = solved(metric(:n, :n), work(first(b):first(b + 1) - 1))
+            small = metric(:n, :n)
+            own = work(first(b):first(b + 1) - 1)
+            call solve_lu(small, own, info)
+            force(:n) = own
             do i = 1, size(nodes, kind=ip)
                data%f(:, nodes(i)) = data%f(:, nodes(i)) - matmul(modes_at(data, b, nodes(i)), force)
             end do
@@ -166,24 +171,5 @@ contains
          end do
       end associate
    end function modes_at
-
-   !> x of A x = b, A symmetric, positive definite and small, by Gauss's elimination.
-   pure function solved(a, b) result(x)
-      real(wp), intent(in) :: a(:, :), b(:)
-      real(wp) :: x(size(b)), u(size(b), size(b))
-      integer(ip) :: i, j
-
-      u = a
-      x = b
-      do i = 1, size(b, kind=ip)
-         do j = i + 1, size(b, kind=ip)
-            x(j) = x(j) - x(i)*(u(j, i)/u(i, i))
-            u(j, i:) = u(j, i:) - u(i, i:)*(u(j, i)/u(i, i))
-         end do
-      end do
-      do i = size(b, kind=ip), 1, -1
-         x(i) = (x(i) - dot_product(u(i, i + 1:), x(i + 1:)))/u(i, i)
-      end do
-   end function solved
 
 end module atrito_load_digits
