@@ -25,7 +25,7 @@ module atrito_certificate
       logical :: solver_missing = .false.        !< undecided because there is no solver of linear programmes
       real(wp), allocatable :: motion(:)         !< (k) IMPOSSIBLE: v, its fastest amplitude one [L]
       real(wp) :: excess = 0.0_wp                !< IMPOSSIBLE: what the loads work on v beyond what the contact can take [F L]
-      real(wp), allocatable :: q(:)              !< (m) POSSIBLE: forces that balance the loads [F]
+      real(wp), allocatable :: q(:)              !< (m) POSSIBLE: forces that balance the loads; else those that come nearest [F]
    end type certificate_t
 
    real(wp), parameter :: NO_LOAD = 1.0e-13_wp    !< of what was added up: round-off
@@ -64,6 +64,7 @@ contains
          if (is_unloaded(rows, groups%of_motion == g)) cycle
          call judge_group(rows, line, groups%of_motion == g, groups%of_point == g, own)
          certificate%solver_missing = certificate%solver_missing .or. own%solver_missing
+         if (allocated(own%q)) certificate%q = certificate%q + own%q
          select case (own%verdict)
          case (BALANCE_IMPOSSIBLE)
             part = own%excess/dot_product(abs(own%motion), rows%work_size)
@@ -73,9 +74,7 @@ contains
                certificate%excess = own%excess
             end if
             certificate%verdict = BALANCE_IMPOSSIBLE
-         case (BALANCE_POSSIBLE)
-            certificate%q = certificate%q + own%q
-         case default
+         case (BALANCE_UNDECIDED)
             if (certificate%verdict == BALANCE_POSSIBLE) certificate%verdict = BALANCE_UNDECIDED
          end select
       end do

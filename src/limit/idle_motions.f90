@@ -72,10 +72,12 @@ contains
       if (allocated(solution%inner%undetermined)) deallocate (solution%inner%undetermined)
       if (size(idle, 2) == 0) return
       solution%inner%undetermined = simplest_motion(idle)
-      ! a closed point without force may open, one without friction slip
+      ! a closed point without force may open, one without friction slip, and slip without friction may turn back
       associate (state => solution%state, n => count(data%line%normal > 0, kind=ip))
          where (state%state(:n) == FREE .and. .not. holds(:n)) state%state(:n) = AT_LOWER
          where (state%state(n + 1:) == FREE .and. .not. holds(n + 1:)) state%state(n + 1:) = FROZEN
+         where (state%state(n + 1:) /= FREE .and. abs(state%q(n + 1:)) <= NO_FORCE*maxval(abs(state%q))) &
+            state%state(n + 1:) = FROZEN
       end associate
       if (size(idle, 2) > MOST_MOTIONS) return
       call measure_motions(data%fem, u, before, solution%state%a, off, metric)
@@ -115,12 +117,7 @@ contains
       real(wp), allocatable :: more(:, :)
       integer(ip) :: i
 
-      largest = 0.0_wp
-      do i = 1, rows%m
-         associate (own => rows%motion(rows%first(i):rows%first(i + 1) - 1))
-            largest(own) = max(largest(own), abs(solution%state%q(i)))
-         end associate
-      end do
+      largest = largest_on_bodies(rows, solution%state%q)
       is_sure = holds
       do i = 1, rows%m
          associate (j => data%line%point(i))
@@ -142,6 +139,27 @@ contains
       holds = is_sure
    end subroutine doubt_small_forces
 
+   !> The largest force on the body of each motion [F].
+   pure function largest_on_bodies(rows, q) result(largest)
+      type(motion_rows_t), intent(in) :: rows
+      real(wp), intent(in) :: q(:)                  !< (m) [F]
+      real(wp) :: largest(rows%k)
+      integer(ip) :: i, k
+
+      largest = 0.0_wp
+      do i = 1, rows%m
+         associate (own => rows%motion(rows%first(i):rows%first(i + 1) - 1))
+            largest(own) = max(largest(own), abs(q(i)))
+         end associate
+      end do
+      do k = 2, rows%k                              ! the motions of a body stand one after the other
+         if (rows%body(k) == rows%body(k - 1)) largest(k) = max(largest(k), largest(k - 1))
+      end do
+      do k = rows%k - 1, 1, -1
+         if (rows%body(k) == rows%body(k + 1)) largest(k) = largest(k + 1)
+      end do
+   end function largest_on_bodies
+
    !> Where no solution was found since a motion went on that the loads drive: takes its work out of the loads, where it is no more
    !> than what the digits of the deck make of them.
    subroutine stop_slow_motion(data, solution, has_changed)
@@ -149,7 +167,6 @@ contains
       type(contact_solution_t), intent(in) :: solution
       logical, intent(out) :: has_changed
       type(motion_rows_t) :: rows
-      logical, allocatable :: holds(:)
 
       has_changed = .false.
       if (.not. (allocated(solution%inner%motion) .and. allocated(solution%state%q))) return
@@ -157,10 +174,9 @@ contains
       call build_motion_rows(data%fem, data%rows, data%line, data%f, rows)
       if (size(solution%inner%motion) /= rows%k .or. size(solution%state%q) /= rows%m) return
       if (.not. any(place_doubt(data) > 0.0_wp)) return
-      allocate (holds(rows%m), source=.true.)
       associate (v => solution%inner%motion)
          if (.not. sum(v**2) > 0.0_wp) return
-         if (.not. is_within_digits(data, rows, v, holds, solution%state%q)) return
+         if (.not. is_within_digits(data, rows, v, solution%state%q)) return
          call take_out(data, v*(dot_product(v, rows%work)/sum(v**2)))
       end associate
       has_changed = .true.
@@ -192,12 +208,7 @@ contains
       has_changed = .false.
       doubt = place_doubt(data)
       if (.not. any(doubt > 0.0_wp)) return
-      largest = 0.0_wp
-      do i = 1, rows%m
-         associate (own => rows%motion(rows%first(i):rows%first(i + 1) - 1))
-            largest(own) = max(largest(own), abs(solution%state%q(i)))
-         end associate
-      end do
+      largest = largest_on_bodies(rows, solution%state%q)
       is_sure = holds
       is_due = .false.
       do i = 1, rows%m
@@ -213,7 +224,7 @@ contains
       call find_idle(rows, is_sure, group, more)
       if (size(more, 2) <= size(idle, 2)) return
       associate (most => matmul(more, matmul(rows%work, more))) ! in which the loads work most
-         if (.not. is_within_digits(data, rows, most, is_sure, solution%state%q)) return
+         if (.not. is_within_digits(data, rows, most, merge(solution%state%q, 0.0_wp, is_sure))) return
          call take_out(data, most)
       end associate
       has_changed = .true.

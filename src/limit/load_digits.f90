@@ -15,7 +15,7 @@ module atrito_load_digits
    use atrito_dense, only: solve_lu
    use atrito_friction_law, only: FRICTION_NONE
    use atrito_kinds, only: ip, wp
-   use atrito_motion_rows, only: motion_rows_t
+   use atrito_motion_rows, only: motion_rows_t, motion_forces
    use atrito_row_entries, only: first_motions
    use atrito_scene_data, only: scene_data_t, reload
    use atrito_sliding_motions, only: printed_grain
@@ -26,7 +26,7 @@ module atrito_load_digits
    real(wp), parameter :: GRAINS = 5.0_wp           !< by which the place of a force may be off
    real(wp), parameter :: EXACT = 1.0e-13_wp        !< grain over coordinates of a deck that is not rounded to digits
    real(wp), parameter :: LATTICE = 10.0_wp         !< length of a point in grains, of nodes that were not rounded
-   real(wp), parameter :: MOST = 1.0e-3_wp          !< a larger part of the forces was meant, whatever the digits
+   real(wp), parameter :: MOST_PART = 1.0e-3_wp     !< a larger part of the forces was meant, whatever the digits
    real(wp), parameter :: ALONG_AXIS = 1.0e-12_wp   !< part of a normal
 
 contains
@@ -44,7 +44,7 @@ contains
          associate (j => data%line%point(i))
             if (j > data%line%n - data%line%n_bilateral) cycle
             if (data%line%law(j)%kind /= FRICTION_NONE) cycle
-            doubt(i) = min(GRAINS*grain/data%rows%reach(j), MOST)
+            doubt(i) = min(GRAINS*grain/data%rows%reach(j), MOST_PART)
          end associate
       end do
    end function place_doubt
@@ -63,13 +63,12 @@ contains
    end function digits_of_deck
 
    !> Whether the loads work no more on a motion than the digits make.
-   logical function is_within_digits(data, rows, v, is_sure, q)
+   logical function is_within_digits(data, rows, v, q)
       type(scene_data_t), intent(in) :: data
       type(motion_rows_t), intent(in) :: rows
       real(wp), intent(in) :: v(:)                  !< (k) its amplitudes
-      logical, intent(in) :: is_sure(:)             !< (m) rows that hold
-      real(wp), intent(in) :: q(:)                  !< (m) their forces [F]
-      real(wp) :: allowed, forces, turn, along
+      real(wp), intent(in) :: q(:)                  !< (m) forces of the rows, 0: of those that do not hold [F]
+      real(wp) :: allowed, most, forces, turn, along, sizes(rows%k)
       integer(ip) :: first(data%fem%bodies%n + 1), b, i, j, k
 
       first = first_motions(data%fem%bodies)
@@ -88,7 +87,6 @@ contains
       end do
       do i = 1, rows%m
          j = data%line%point(i)
-         if (.not. is_sure(i)) cycle
          if (j > data%rows%n - data%rows%n_bilateral) cycle
          if (minval(abs(data%rows%normal(:, j))) <= ALONG_AXIS) cycle
          along = 0.0_wp
@@ -97,7 +95,14 @@ contains
          end do
          allowed = allowed + abs(q(i)*along)/data%rows%reach(j)
       end do
-      allowed = min(GRAINS*digits_of_deck(data)*allowed, MOST*dot_product(abs(v), rows%work_size))
+      sizes = rows%work_size + motion_forces(rows, q, .true.)
+      most = 0.0_wp
+      do b = 1, data%fem%bodies%n                   ! whatever arms the forces on a body have
+         associate (own => sizes(first(b):first(b + 1) - 1))
+            most = most + MOST_PART*maxval([0.0_wp, own])*sum(abs(v(first(b):first(b + 1) - 1)))
+         end associate
+      end do
+      allowed = min(GRAINS*digits_of_deck(data)*allowed, most)
       is_within_digits = abs(dot_product(v, rows%work)) <= allowed
    end function is_within_digits
 

@@ -1,16 +1,15 @@
 !> What it means that no solution was found: there is none, and why; or there may be one, and the last iterate is what there is.
 module atrito_verdict
-   use atrito_assembly, only: fem_t
    use atrito_certificate, only: certificate_t, prove_balance, BALANCE_IMPOSSIBLE, BALANCE_POSSIBLE
    use atrito_clp, only: clp_trouble
-   use atrito_contact_line, only: contact_line_t
-   use atrito_contact_rows, only: contact_rows_t
    use atrito_free_motion, only: free_motion_text
    use atrito_kinds, only: wp
+   use atrito_load_digits, only: is_within_digits, take_out
    use atrito_mechanism, only: mechanism_t, describe_motion
    use atrito_motion_rows, only: motion_rows_t
    use atrito_motion_system, only: build_motion_rows
    use atrito_results, only: pair_scene_t
+   use atrito_scene_data, only: scene_data_t
    use atrito_status, only: status_t, set_status, STATUS_SINGULAR
    implicit none (type, external)
    private
@@ -20,26 +19,34 @@ contains
 
    !> Judges a contact line without solution. status: STATUS_SINGULAR with the whole text where no forces that the contact can take
    !> balance the loads. Else it is OK, and the verdict says more.
-   subroutine judge_balance(fem, held, rows, line, f, f_end, pairs, verdict, status)
-      type(fem_t), intent(in) :: fem
-      logical, intent(in) :: held(:, :)              !< (2, n_nodes)
-      type(contact_rows_t), intent(in) :: rows
-      type(contact_line_t), intent(in) :: line
-      real(wp), intent(in) :: f(:, :)                !< (2, n_nodes) applied forces [F]
-      real(wp), intent(in) :: f_end(:, :)            !< those at the end of the step
+   subroutine judge_balance(data, f_end, pairs, verdict, again, status)
+      type(scene_data_t), intent(inout) :: data
+      real(wp), intent(in) :: f_end(:, :)            !< (2, n_nodes) applied forces at the end of the step [F]
       type(pair_scene_t), intent(in) :: pairs(:)
       character(len=:), allocatable, intent(inout) :: verdict !< why there is no solution
+      logical, intent(inout) :: again                !< in: whether loads may change; out: they have, a proof hung on their digits
       type(status_t), intent(out) :: status
       type(motion_rows_t) :: motions, motions_at_end
       type(certificate_t) :: certificate
       type(mechanism_t) :: mechanism
+      logical :: is_doubtful
 
-      call build_motion_rows(fem, rows, line, f, motions)
-      call prove_balance(motions, line, certificate)
-      if (certificate%verdict == BALANCE_IMPOSSIBLE) then
-         call build_motion_rows(fem, rows, line, f_end, motions_at_end)
-         call describe_motion(fem, rows, line, motions, certificate, mechanism, motions_at_end%work)
-         call set_status(status, STATUS_SINGULAR, free_motion_text(fem, held, rows, line, pairs, mechanism))
+      call build_motion_rows(data%fem, data%rows, data%line, data%f, motions)
+      call prove_balance(motions, data%line, certificate)
+      is_doubtful = .false.
+      if (certificate%verdict == BALANCE_IMPOSSIBLE) &
+         is_doubtful = is_within_digits(data, motions, certificate%motion, certificate%q)
+      again = again .and. is_doubtful
+      if (again) then
+         associate (v => certificate%motion)
+            call take_out(data, v*(dot_product(v, motions%work)/sum(v**2)))
+         end associate
+         return
+      end if
+      if (certificate%verdict == BALANCE_IMPOSSIBLE .and. .not. is_doubtful) then
+         call build_motion_rows(data%fem, data%rows, data%line, f_end, motions_at_end)
+         call describe_motion(data%fem, data%rows, data%line, motions, certificate, mechanism, motions_at_end%work)
+         call set_status(status, STATUS_SINGULAR, free_motion_text(data%fem, data%held, data%rows, data%line, pairs, mechanism))
          return
       end if
       if (.not. allocated(verdict)) verdict = 'no solution was found'

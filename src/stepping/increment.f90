@@ -62,6 +62,7 @@ module atrito_increment
                                                 attempt_t(CONTACT_DENSE, METHOD_PICARD, 10, 0.3_wp)]
    integer, parameter :: BRIEF = 2, QUICK = 3              !< of them where a shorter increment may do, and where points are many:
    integer, parameter :: MOST_PATIENT = 400                !< unknown forces
+   integer, parameter :: MOST_CHANGES = 3                  !< of loads that hang on the digits of the deck
 
 contains
 
@@ -146,14 +147,13 @@ contains
       type(status_t), intent(out) :: status
       real(wp), allocatable :: u(:, :)                      ! without rigid motions, (2, n_nodes) [L]
       logical :: again
+      integer :: change
 
-      again = .true.
-      call solve_form(data, form, controls, store, results, solution, u, again, status)
-      ! the loads have lost what only the digits of the deck make of them
-      if (again) then
-         again = .false.
+      do change = 1, MOST_CHANGES + 1
+         again = change <= MOST_CHANGES
          call solve_form(data, form, controls, store, results, solution, u, again, status)
-      end if
+         if (.not. again) exit                              ! the loads have lost what only the digits of the deck make of them
+      end do
       if (.not. is_ok(status)) return
       call start_phase('recover')
       if (data%is_printed) call begin_early(data, solution, u)
@@ -192,14 +192,10 @@ contains
       if (allocated(data%assembled)) call data%assembled%check_solves(status)   ! whatever came of a solve that failed
       solution%form = form
       call start_phase('iterate')
-      if (may_change .and. .not. solution%converged) call stop_slow_motion(data, solution, again)
-      if (again) then
-         call stop_phase('iterate')
-         return
-      end if
-      call judge_outcome(data, results, solution, status)
+      again = may_change
+      call judge_outcome(data, results, solution, again, status)
       call stop_phase('iterate')
-      if (.not. (is_ok(status) .and. solution%converged)) return
+      if (again .or. .not. (is_ok(status) .and. solution%converged)) return
       call start_phase('recover')
       again = may_change
       call settle_idle_motions(data, u, data%before, solution, again)
@@ -328,13 +324,17 @@ contains
    end function attempt_text
 
    !> Without a solution: whether there can be one. Free motion becomes a proof of it, or a last iterate that did not converge.
-   subroutine judge_outcome(data, results, solution, status)
-      type(scene_data_t), intent(in) :: data
+   subroutine judge_outcome(data, results, solution, again, status)
+      type(scene_data_t), intent(inout) :: data
       type(results_t), intent(in) :: results               !< when, and the pairs
       type(contact_solution_t), intent(inout) :: solution
+      logical, intent(inout) :: again                      !< in: whether loads may change; out: they have
       type(status_t), intent(inout) :: status
       real(wp), allocatable :: f_end(:, :)
-      logical :: moves
+      logical :: moves, may_change
+
+      may_change = again
+      again = .false.
 
       moves = .false.
       if (.not. is_ok(status)) moves = status%text == FREE_MOTION
@@ -344,7 +344,9 @@ contains
                                                'no contact forces that were tried hold the bodies', &
                                                data%line%has_friction))//moving_text(data, solution)
       call forces_at_end(data, moment_t(results%step_time, results%time), f_end)
-      call judge_balance(data%fem, data%held, data%rows, data%line, data%f, f_end, results%scene%pairs, solution%verdict, status)
+      again = may_change
+      call judge_balance(data, f_end, results%scene%pairs, solution%verdict, again, status)
+      if (may_change .and. is_ok(status) .and. .not. again) call stop_slow_motion(data, solution, again)
    end subroutine judge_outcome
 
    !> The body that moved most under the last friction bound, and how.
@@ -364,14 +366,16 @@ contains
 
    !> The same where the loop ended well and the final check did not.
    subroutine judge_failed_check(data, results, status)
-      type(scene_data_t), intent(in) :: data
+      type(scene_data_t), intent(inout) :: data
       type(results_t), intent(inout) :: results
       type(status_t), intent(inout) :: status
       real(wp), allocatable :: f_end(:, :)
+      logical :: again
 
       if (results%law_holds .or. .not. results%converged .or. data%line%n == 0) return
       call forces_at_end(data, moment_t(results%step_time, results%time), f_end)
-      call judge_balance(data%fem, data%held, data%rows, data%line, data%f, f_end, results%scene%pairs, results%verdict, status)
+      again = .false.
+      call judge_balance(data, f_end, results%scene%pairs, results%verdict, again, status)
    end subroutine judge_failed_check
 
    !> What is worth its time where it is printed: sums by joint, stresses and their error, the largest of all, the limits of

@@ -303,7 +303,8 @@ def distributed(x, load):
     for _ in range(2):
         arm = x - load.at
         moment = load.moment - (arm[:, 0]*forces[:, 1] - arm[:, 1]*forces[:, 0]).sum()
-        forces = forces + across*(moment/(away**2).sum())
+        if (away**2).sum() > 0:
+            forces = forces + across*(moment/(away**2).sum())
         forces = forces + (load.force - forces.sum(axis=0))/len(x)
     return forces
 
