@@ -4,7 +4,7 @@ module atrito_restart_recorder
    use atrito_files, only: file_exists, judge_file, protect_input
    use atrito_fingerprint, only: fingerprint_t, take_fingerprint
    use atrito_folder_claim, only: folder_claim_t, claim_folder, release_folder
-   use atrito_kinds, only: lp
+   use atrito_kinds, only: ip, lp, wp
    use atrito_messages, only: message_t, add_message, SEVERITY_WARNING
    use atrito_model, only: model_t
    use atrito_observations, only: observation_names
@@ -18,11 +18,18 @@ module atrito_restart_recorder
    private
    public :: restart_recorder_t, begin_recorder
 
+   !> A file holds all increments that are printed, so the next one takes longer. What takes some time is written as often as it is
+   !> less than a fifth of the processor time of the run; a run that is killed has lost no more than four times that.
+   real(wp), parameter :: SOME_TIME = 0.02_wp        !< [s]
+   real(wp), parameter :: BETWEEN = 4.0_wp           !< processor time between two files over that of writing one
+
    type, extends(recorder_t) :: restart_recorder_t
       private
       character(len=:), allocatable :: folder, name
       character(len=:), allocatable :: deck_path     !< for messages
       type(fingerprint_t) :: fingerprint
+      integer(ip) :: last_step = 0
+      real(wp) :: written = 0.0_wp, took = 0.0_wp    !< processor time when the last file was there, and that it took [s]
       logical :: has_warned = .false.
    contains
       procedure :: record => write_record
@@ -48,6 +55,7 @@ contains
       if (recorder%resumes) recorder%source = command%restart
       if (allocated(command%observe)) recorder%observed = observation_names(command%observe)
       recorder%deck_path = model%deck_path
+      recorder%last_step = size(model%steps, kind=ip)
       ! what is solved by another form or another solver differs in the last digits
       options = '--contact '//trim(command%contact)//', --solver '//trim(command%solver)
       ! what was observed in increments that are not printed is in the file alone
@@ -62,7 +70,7 @@ contains
       call read_restart(command%restart, recorder%fingerprint, recorder%found, recorder%state, status, frames)
    end subroutine begin_recorder
 
-   !> Writes the file anew. A failure is told once, and the run goes on: its tables are not lost with it.
+   !> Writes the file anew, where it is time to. A failure is told once, and the run goes on: its tables are not lost with it.
    subroutine write_record(self, history, state)
       class(restart_recorder_t), intent(inout) :: self
       type(history_t), intent(inout) :: history
@@ -70,10 +78,17 @@ contains
       type(folder_claim_t) :: claim
       type(status_t) :: status
       type(message_t) :: message
+      real(wp) :: began
+      logical :: is_last
 
+      is_last = state%ends_step .and. state%step == self%last_step
+      call cpu_time(began)
+      if (.not. is_last .and. self%took > SOME_TIME .and. began - self%written < BETWEEN*self%took) return
       call claim_folder(self%folder, claim, status)
       if (is_ok(status)) call write_restart(self%folder, self%name, self%fingerprint, history, state, status)
       call release_folder(claim)
+      call cpu_time(self%written)
+      self%took = self%written - began
       if (is_ok(status) .or. self%has_warned) return
       message%severity = SEVERITY_WARNING
       message%id = 'W-RESTART'

@@ -337,6 +337,34 @@ for blocks in 1 $((size/512 - 16)); do
    same whole later
 done
 
+# a long history of large prints does not write all of them again and again, and goes on from what it wrote
+sed -e '/^\*STEP/,$d' block.inp >long.inp
+cat >>long.inp <<'DECK'
+*STEP, INC=1000
+*STATIC
+0.004, 1., 1e-5, 0.004
+*BOUNDARY
+HIGH-TOP, 2, 2, -0.002
+HIGH-LEFT, 1, 1, 0
+*CONTACT PRINT, FREQUENCY=1
+*NODE PRINT, FREQUENCY=1
+U
+*EL PRINT, FREQUENCY=1
+S
+*END STEP
+DECK
+if command -v strace >/dev/null 2>&1 && strace -o calls -e trace=rename true 2>/dev/null; then
+   strace -f -o calls -e trace=rename,renameat,renameat2 "$atrito" long.inp --quiet -o long || fail 'the long history does not end'
+   increments=$(grep -vc '^#' long/history.tab)
+   files=$(grep -c 'long.restart.h5"' calls)
+   [ "$increments" -eq 250 ] || fail "the long history has $increments increments"
+   [ "$files" -ge 2 ] && [ "$files" -le 125 ] || fail "a history of 250 increments wrote $files restart files"
+   expect 0 '' long.inp --quiet --restart long/long.restart.h5 -o again
+   same long again
+else
+   echo 'not tested: how often a restart file is written (no strace)'
+fi
+
 # only a run goes on
 expect 1 '--restart is no option of atrito sweep' sweep block.inp --vary a=1 --restart end.h5
 expect 1 '--restart is no option of atrito check' check block.inp --restart end.h5
