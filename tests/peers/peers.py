@@ -9,6 +9,7 @@ FOLDER of the examples: the test decks of CalculiX. `expected.txt` says what may
 import argparse
 import pathlib
 import re
+import shutil
 import sys
 
 import cards
@@ -19,6 +20,8 @@ import refined
 import results
 
 HERE = pathlib.Path(__file__).resolve().parent
+sys.path.append(str(HERE/"contact"))
+import make_decks
 LIMIT = 1e-4             # of the largest displacement
 CONTACT_LIMIT = 1e-2     # of our own scenes with contact, whose laws the programs integrate differently
 KEEPS_ITS_CALCULIX = ("contact-",)
@@ -124,7 +127,7 @@ def verdict(most, deck, row, expected):
 
 def compare_contact(row, given, keep_ccx):
     """Forces and pressures of a pair, by the program that knows these decks."""
-    command = [sys.executable, str(HERE/"contact"/"compare_contact.py"), str(given.own/f"{row.name}.inp"), "--atrito", str(given.atrito), "--quiet"]
+    command = [sys.executable, str(HERE/"contact"/"compare_contact.py"), str(given.made/f"{row.name}.inp"), "--atrito", str(given.atrito), "--quiet"]
     stored = HERE/"contact"/"ccx"/f"{row.name}.ccx"
     command += ["--stored", str(stored)] if keep_ccx and stored.exists() else ["--ccx", str(given.ccx)]
     code, said, _ = results.run(command, given.work, 600)
@@ -220,13 +223,18 @@ def arguments():
     given = parser.parse_args()
     given.work.mkdir(parents=True, exist_ok=True)
     given.work, given.atrito, given.own = given.work.resolve(), given.atrito.resolve(), given.own.resolve()
+    given.made = given.work/"decks"
+    shutil.rmtree(given.made, ignore_errors=True)
+    if given.own == HERE/"decks":
+        make_decks.main(given.made, [])
     return given
 
 
 def all_rows(given, expected):
     """Rows of the plane decks, theirs and our own; all decks that are not plane; and the texts of those that are."""
     theirs = cards.decks(given.examples)
-    own = {path.stem: path.read_text() for path in sorted(given.own.glob("*.inp"))}
+    paths = sorted([*given.own.glob("*.inp"), *given.made.glob("*.inp")], key=lambda path: path.name)
+    own = {path.stem: path.read_text() for path in paths}
     rest = {name: text for name, text in theirs.items() if not cards.plane(cards.read(text))}
     rows = []
     wanted = given.only.split(",") if given.only else None

@@ -1,4 +1,4 @@
-"""Makes the decks contact-*.inp of ../decks, which atrito and CalculiX read alike.
+"""Makes the decks contact-*.inp, which atrito and CalculiX read alike.
 
     python3 make_decks.py FOLDER [NAME ...]
 
