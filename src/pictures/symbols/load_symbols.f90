@@ -4,6 +4,7 @@
 !> A load that pushes on the body has its tips there, one that pulls begins there. Arrows are as long as the loads are large, within
 !> each kind.
 module atrito_load_symbols
+   use atrito_drawing, only: largest_length
    use atrito_face_symbols, only: put_face_loads
    use atrito_kinds, only: ip, wp
    use atrito_load_resultants, only: force_t, load_resultants, last_factor
@@ -11,7 +12,7 @@ module atrito_load_symbols
    use atrito_model, only: nodal_values_t, LOAD_BODY, LOAD_LINEAR
    use atrito_strings, only: to_text
    use atrito_symbols, only: symbols_t, begin_block, end_block, put_stroke, put_arrow, put_marker, thinned, find_outward, &
-                             end_value, place_of_node, is_section_node, largest_length, arrow_at, ARROW_LOOKS
+                             end_value, place_of_node, is_section_node, arrow_at, ARROW_LOOKS
    implicit none (type, external)
    private
    public :: put_loads, force_text

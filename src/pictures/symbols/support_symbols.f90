@@ -4,12 +4,13 @@
 !> is drawn.
 module atrito_support_symbols
    use atrito_bilateral_rows, only: ROW_SUPPORT
+   use atrito_drawing, only: largest_length
    use atrito_kinds, only: ip, wp
    use atrito_mesh, only: is_revolved
    use atrito_model, only: nodal_values_t
    use atrito_strings, only: to_text
    use atrito_symbols, only: symbols_t, begin_block, end_block, put_entry, put_stroke, put_arrow, thinned, &
-                             find_outward, end_value, place_of_node, is_section_node, largest_length, arrow_at, ARROW_LOOKS
+                             find_outward, end_value, place_of_node, is_section_node, arrow_at, ARROW_LOOKS
    implicit none (type, external)
    private
    public :: put_supports
