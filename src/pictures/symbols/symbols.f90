@@ -18,8 +18,9 @@ module atrito_symbols
    use atrito_strings, only: string_t, append_string, to_text
    implicit none (type, external)
    private
-   public :: symbols_t, begin_symbols, begin_block, end_block, put_entry, put_stroke, put_path, put_arrow, put_marker
-   public :: pixel_of, thinned, find_outward, end_value, place_of_node, is_section_node, arrow_at
+   public :: symbols_t, begin_symbols, begin_block, end_block, put_entry, put_stroke, put_path, put_arrow, put_point
+   public :: pixel_of, thinned, thinned_nodes, places_of, find_outward, end_value, load_factor, place_of_node
+   public :: is_section_node, arrow_at
    public :: ARROW_LOOKS, SLANT
 
    integer, parameter :: DIGITS = 7
@@ -151,23 +152,28 @@ contains
       type(symbols_t), intent(inout) :: symbols
       real(wp), intent(in) :: u(2), from(2), arrow(2)   !< [L]
 
-      call open_block(symbols)
-      call put_place(symbols%plots, [from, u], trimmed_real(arrow(1), DIGITS)//' '//trimmed_real(arrow(2), DIGITS))
-      call widen(symbols, reshape([from, from + arrow], [2, 2]) + symbols%scale*spread(u, 2, 2))
-      call put(symbols%plots, '')
+      call put_point(symbols, u, from, arrow)
+      call widen(symbols, reshape(from + arrow + symbols%scale*u, [2, 1]))
    end subroutine put_arrow
 
-   !> A marker at a place of the undisplaced bodies, which moves with the displacement u; its size is relative to that of the block.
-   subroutine put_marker(symbols, u, place, size_of_marker)
+   !> A point of the undisplaced bodies, which moves with the displacement u, and what stands behind it in its block: of an arrow
+   !> the components [L], of a marker its size, relative to that of the block.
+   subroutine put_point(symbols, u, place, columns)
       type(symbols_t), intent(inout) :: symbols
       real(wp), intent(in) :: u(2), place(2)        !< [L]
-      real(wp), intent(in) :: size_of_marker        !< [-]
+      real(wp), intent(in) :: columns(:)
+      character(len=:), allocatable :: text
+      integer :: i
 
+      text = trimmed_real(columns(1), DIGITS)
+      do i = 2, size(columns)
+         text = text//' '//trimmed_real(columns(i), DIGITS)
+      end do
       call open_block(symbols)
-      call put_place(symbols%plots, [place, u], trimmed_real(size_of_marker, DIGITS))
-      call widen(symbols, reshape(place + symbols%scale*u, [2, 1]))
+      call put_place(symbols%plots, [place, u], text)
       call put(symbols%plots, '')
-   end subroutine put_marker
+      call widen(symbols, reshape(place + symbols%scale*u, [2, 1]))
+   end subroutine put_point
 
    pure subroutine widen(symbols, places)
       type(symbols_t), intent(inout) :: symbols
@@ -179,6 +185,28 @@ contains
          call cover(symbols%window(i), places(i, :))
       end do
    end subroutine widen
+
+   !> Where symbols of some nodes stand.
+   pure function places_of(symbols, nodes) result(places)
+      type(symbols_t), intent(in) :: symbols
+      integer(ip), intent(in) :: nodes(:)
+      real(wp) :: places(2, size(nodes))            !< [L]
+      integer(ip) :: i
+
+      do i = 1, size(nodes, kind=ip)
+         places(:, i) = place_of_node(symbols, nodes(i))
+      end do
+   end function places_of
+
+   !> Some of the nodes, none nearer to another than a spacing.
+   pure function thinned_nodes(symbols, nodes, spacing) result(kept)
+      type(symbols_t), intent(in) :: symbols
+      integer(ip), intent(in) :: nodes(:)
+      real(wp), intent(in) :: spacing               !< [pixels]
+      integer(ip), allocatable :: kept(:)
+
+      kept = pack(nodes, thinned(places_of(symbols, nodes), spacing*symbols%pixel))
+   end function thinned_nodes
 
    !> Which of some places are kept so that none is nearer to another than the spacing. They are gone through in an order that
    !> begins a straight side at one of its ends.
@@ -211,15 +239,12 @@ contains
       real(wp), intent(in) :: places(:, :), spacing
       integer(ip), intent(in) :: i                  !< the place
       integer(ip), intent(in) :: at(2)              !< its cell
-      integer(ip) :: j, k, other
+      integer(ip) :: j, other
 
       is_free = find_id(cells, cell_number(at)) == 0
-      if (.not. is_free) return
-      do k = -2, 2
-         do j = -2, 2
-            other = find_id(cells, cell_number(at + [j, k]))
-            if (other > 0) is_free = is_free .and. norm2(places(:, i) - places(:, other)) >= NEARLY*spacing
-         end do
+      do j = 0, 24
+         other = find_id(cells, cell_number(at + [mod(j, 5_ip), j/5] - 2))
+         if (other > 0) is_free = is_free .and. norm2(places(:, i) - places(:, other)) >= NEARLY*spacing
       end do
    end function is_free
 
@@ -310,12 +335,29 @@ contains
       type(symbols_t), intent(in) :: symbols
       type(nodal_values_t), intent(in) :: list
       integer(ip), intent(in) :: i                  !< place in the list
-      real(wp) :: factor
+
+      value = end_factor(symbols, amplitude_of(list, i))*list%value(i)
+   end function end_value
+
+   !> The factor by which an amplitude multiplies at the end of the step; 1 where it has come to 0, and without one.
+   pure real(wp) function end_factor(symbols, amplitude) result(factor)
+      type(symbols_t), intent(in) :: symbols
+      integer(ip), intent(in) :: amplitude          !< 0: none
 
       factor = 1.0_wp
-      if (amplitude_of(list, i) > 0) factor = last_factor(symbols%model, symbols%step, amplitude_of(list, i))
-      value = list%value(i)
-      if (abs(factor) > 0.0_wp) value = value*factor
-   end function end_value
+      if (amplitude > 0) factor = last_factor(symbols%model, symbols%step, amplitude)
+      if (.not. abs(factor) > 0.0_wp) factor = 1.0_wp
+   end function end_factor
+
+   !> That of a load on an element.
+   pure real(wp) function load_factor(symbols, load) result(factor)
+      type(symbols_t), intent(in) :: symbols
+      integer(ip), intent(in) :: load
+
+      factor = 1.0_wp
+      associate (loads => symbols%model%steps(symbols%step)%element_loads)
+         if (allocated(loads%amplitude)) factor = end_factor(symbols, loads%amplitude(load))
+      end associate
+   end function load_factor
 
 end module atrito_symbols
