@@ -2,15 +2,15 @@
 !>
 !> As with the pictures of a run, a failure is a warning, W-PLOT. Pictures of an earlier check are replaced; those of a run stay.
 module atrito_check_plots
-   use atrito_files, only: file_set_t, begin_files, end_files
+   use atrito_body_plots, only: write_scene_plot
    use atrito_gap_plot, only: write_gap_plot, has_gap_plot
    use atrito_gnuplot, only: draw_written
    use atrito_model, only: model_t
-   use atrito_plot_files, only: check_scripts, plot_folder, remove_plots, PLOTS_OF_CHECK, SCENE_PLOT, SET_PLOT, GAP_PLOT
+   use atrito_plot_files, only: plot_folder, remove_plots, PLOTS_OF_CHECK, SCENE_PLOT, SET_PLOT, GAP_PLOT
+   use atrito_plot_scripts, only: plots_t, begin_plots, end_plots
    use atrito_plot_view, only: plot_view_t
-   use atrito_scene_plot, only: write_scene_plot
    use atrito_set_plot, only: write_set_plot, has_set_plot
-   use atrito_status, only: status_t, is_ok
+   use atrito_status, only: status_t
    use atrito_strings, only: string_t, append_string
    implicit none (type, external)
    private
@@ -49,15 +49,13 @@ contains
       type(plot_view_t), intent(in) :: view
       character(len=*), intent(in) :: folder                !< of the plots
       type(status_t), intent(out) :: status
-      type(file_set_t) :: set
+      type(plots_t) :: plots
 
-      call begin_files(set, folder, status)
-      if (.not. is_ok(status)) return
-      call write_scene_plot(set, model, view, status)
-      if (is_ok(status) .and. has_set_plot(model)) call write_set_plot(set, model, view, status)
-      if (is_ok(status) .and. has_gap_plot(model)) call write_gap_plot(set, model, status)
-      call check_scripts(set, status)
-      call end_files(set, status)
+      call begin_plots(plots, folder)
+      call write_scene_plot(plots, model, view)
+      if (has_set_plot(model)) call write_set_plot(plots, model, view)
+      if (has_gap_plot(model)) call write_gap_plot(plots, model)
+      call end_plots(plots, status)
    end subroutine write_check_scripts
 
 end module atrito_check_plots

@@ -7,24 +7,34 @@ module atrito_overlay_data
    use atrito_plot_text, only: range_t, cover
    implicit none (type, external)
    private
-   public :: overlay_t, overlay_run_t, overlay_pair_t, read_runs, is_logarithmic, N_FIELDS, FIELD_COLUMN, N_QUANTITIES, &
-             LONGEST_LABEL
+   public :: overlay_t, overlay_run_t, overlay_pair_t, read_runs, is_logarithmic, field_t, FIELDS, QUANTITIES, LONGEST_LABEL
    public :: FIELD_PRESSURE, FIELD_WEIGHTED, FIELD_SHEAR, FIELD_SLIP, FIELD_GAP
 
    integer, parameter :: LONGEST_LABEL = 40          !< characters of a run's or a parameter's name
    !> Positive values that span more than this are drawn over a logarithmic axis.
    real(wp), parameter :: LOGARITHMIC = 100.0_wp
-   integer, parameter :: N_FIELDS = 5
-   integer, parameter :: FIELD_PRESSURE = 1, FIELD_WEIGHTED = 2, FIELD_SHEAR = 3, FIELD_SLIP = 4, FIELD_GAP = 5
-   character(len=17), parameter :: FIELD_NAME(N_FIELDS) = &
-                                   [character(len=17) :: 'pressure', 'weighted_pressure', 'shear', 'slip', 'gap']
-   !> Their columns in contact.tab, for gnuplot.
-   integer, parameter :: FIELD_COLUMN(N_FIELDS) = [8, 9, 10, 11, 7]
-   !> Rows of summary.tab that are drawn against a parameter.
-   integer, parameter :: N_QUANTITIES = 4
-   character(len=22), parameter :: QUANTITY_NAME(N_QUANTITIES) = [character(len=22) :: &
-                                                                  'normal_resultant', 'effective_area_percent', &
-                                                                  'max_pressure', 'max_abs_shear']
+   !> A field along s of which a picture has a panel.
+   type :: field_t
+      character(len=17) :: name                     !< of its column in contact.tab
+      character(len=17) :: label
+      character(len=5) :: dimension
+      integer(ip) :: column                         !< its place there
+   end type field_t
+   integer(ip), parameter :: FIELD_PRESSURE = 1, FIELD_WEIGHTED = 2, FIELD_SHEAR = 3, FIELD_SLIP = 4, FIELD_GAP = 5
+   type(field_t), parameter :: FIELDS(5) = [field_t('pressure', 'pressure', 'F/L^2', 8), &
+                                            field_t('weighted_pressure', 'weighted pressure', 'F/L^2', 9), &
+                                            field_t('shear', 'shear', 'F/L^2', 10), field_t('slip', 'slip', 'L', 11), &
+                                            field_t('gap', 'gap', 'L', 7)]
+   !> A row of summary.tab that is drawn against a parameter.
+   type :: quantity_t
+      character(len=22) :: name
+      character(len=16) :: label
+      character(len=5) :: dimension
+   end type quantity_t
+   type(quantity_t), parameter :: QUANTITIES(4) = [quantity_t('normal_resultant', 'normal resultant', 'F'), &
+                                                   quantity_t('effective_area_percent', 'effective area', '%'), &
+                                                   quantity_t('max_pressure', 'max. pressure', 'F/L^2'), &
+                                                   quantity_t('max_abs_shear', 'max. |shear|', 'F/L^2')]
 
    !> A run of a sweep.
    type :: overlay_run_t
@@ -35,13 +45,13 @@ module atrito_overlay_data
       logical :: has_tables = .false.              !< contact.tab can be read
       logical :: not_converged = .false.
       integer(ip) :: step = 1, increment = 1       !< the last of contact.tab, which is drawn
-      real(wp), allocatable :: quantity(:, :)      !< (N_QUANTITIES, pairs): of summary.tab; not allocated: there is none
+      real(wp), allocatable :: quantity(:, :)      !< (size(QUANTITIES), pairs): of summary.tab; not allocated: there is none
    end type overlay_run_t
 
    !> A contact pair over all runs.
    type :: overlay_pair_t
       type(range_t) :: s
-      type(range_t) :: field(N_FIELDS)
+      type(range_t) :: field(size(FIELDS))
       integer(ip) :: most_points = 0
       logical :: has_shear = .false.               !< in one run at least
       logical :: has_weighted = .false.            !< it differs from the pressure in one run at least
@@ -87,7 +97,6 @@ contains
             run%not_converged = table%not_converged
             overlay%is_csv = table%is_csv
             if (len(overlay%title) == 0) overlay%title = heading_of(table%text)
-            call find_last(table, run)
             call cover_run(table, run, overlay%pairs)
             call read_table(table_path(run%path, 'summary'), table, status)
             if (is_ok(status)) call take_quantities(table, run)
@@ -110,60 +119,41 @@ contains
       if (length > 0) heading = trim(text(first:first + length - 1))
    end function heading_of
 
-   !> The last increment of a table.
-   pure subroutine find_last(table, run)
-      type(table_file_t), intent(in) :: table
-      type(overlay_run_t), intent(inout) :: run
-
-      if (table%n_rows == 0 .or. min(find_column(table, 'step'), find_column(table, 'increment')) == 0) return
-      run%step = nint(table%value(find_column(table, 'step'), table%n_rows), ip)
-      run%increment = nint(table%value(find_column(table, 'increment'), table%n_rows), ip)
-   end subroutine find_last
-
-   !> Whether a row is of the increment that is drawn.
-   pure logical function is_shown(table, run, row)
-      type(table_file_t), intent(in) :: table
-      type(overlay_run_t), intent(in) :: run
-      integer(ip), intent(in) :: row
-
-      is_shown = nint(table%value(find_column(table, 'step'), row), ip) == run%step .and. &
-                 nint(table%value(find_column(table, 'increment'), row), ip) == run%increment
-   end function is_shown
-
-   !> Widens the ranges of the pairs by those of a run.
+   !> The last increment of a run, and the ranges of the pairs widened by what they have in it.
    subroutine cover_run(table, run, pairs)
       type(table_file_t), intent(in) :: table
-      type(overlay_run_t), intent(in) :: run
+      type(overlay_run_t), intent(inout) :: run
       type(overlay_pair_t), allocatable, intent(inout) :: pairs(:)
-      integer(ip) :: pair, c(N_FIELDS), c_pair, c_s, row, i, n
+      integer(ip) :: pair, c(size(FIELDS)), at(4), row, i, n
       integer(ip), allocatable :: n_points(:)
 
-      c_pair = find_column(table, 'pair')
-      c_s = find_column(table, 's')
-      do i = 1, N_FIELDS
-         c(i) = find_column(table, trim(FIELD_NAME(i)))
+      at = [find_column(table, 'pair'), find_column(table, 's'), find_column(table, 'step'), find_column(table, 'increment')]
+      if (table%n_rows == 0 .or. minval(at(3:)) == 0) return
+      run%step = nint(table%value(at(3), table%n_rows), ip)
+      run%increment = nint(table%value(at(4), table%n_rows), ip)
+      do i = 1, size(FIELDS, kind=ip)
+         c(i) = find_column(table, trim(FIELDS(i)%name))
       end do
-      if (min(c_pair, c_s, minval(c), find_column(table, 'step'), find_column(table, 'increment')) == 0) return
-      if (table%n_rows == 0) return
-      n = maxval(nint(table%value(c_pair, :), ip))
+      if (min(minval(at), minval(c)) == 0) return
+      n = maxval(nint(table%value(at(1), :), ip))
       if (n > size(pairs)) pairs = [pairs, spread(overlay_pair_t(), 1, n - size(pairs))]
       allocate (n_points(size(pairs)), source=0_ip)
       do row = 1, table%n_rows
-         pair = nint(table%value(c_pair, row), ip)
-         if (pair < 1 .or. .not. is_shown(table, run, row)) cycle
+         pair = nint(table%value(at(1), row), ip)
+         if (pair < 1 .or. any(nint(table%value(at(3:), row), ip) /= [run%step, run%increment])) cycle
          n_points(pair) = n_points(pair) + 1
-         call cover_point(pairs(pair), table%value(c_s, row), table%value(c, row))
+         call cover_point(pairs(pair), table%value(at(2), row), table%value(c, row))
       end do
       pairs%most_points = max(pairs%most_points, n_points)
    end subroutine cover_run
 
    pure subroutine cover_point(pair, s, values)
       type(overlay_pair_t), intent(inout) :: pair
-      real(wp), intent(in) :: s, values(N_FIELDS)
+      real(wp), intent(in) :: s, values(:)          !< values: one a field
       integer :: i
 
       call cover(pair%s, [s])
-      do i = 1, N_FIELDS
+      do i = 1, size(values)
          call cover(pair%field(i), [0.0_wp, values(i)])
       end do
       pair%has_shear = pair%has_shear .or. abs(values(FIELD_SHEAR)) > 0.0_wp
@@ -180,12 +170,12 @@ contains
       c_name = find_column(table, 'quantity')
       c_value = find_column(table, 'value')
       if (min(c_pair, c_name, c_value) == 0 .or. table%n_rows == 0) return
-      allocate (run%quantity(N_QUANTITIES, max(0_ip, maxval(nint(table%value(c_pair, :), ip)))), source=0.0_wp)
+      allocate (run%quantity(size(QUANTITIES), max(0_ip, maxval(nint(table%value(c_pair, :), ip)))), source=0.0_wp)
       do row = 1, table%n_rows
          pair = nint(table%value(c_pair, row), ip)
          if (pair < 1) cycle
-         do i = 1, N_QUANTITIES
-            if (item_text(table, c_name, row) == trim(QUANTITY_NAME(i))) run%quantity(i, pair) = table%value(c_value, row)
+         do i = 1, size(QUANTITIES)
+            if (item_text(table, c_name, row) == QUANTITIES(i)%name) run%quantity(i, pair) = table%value(c_value, row)
          end do
       end do
    end subroutine take_quantities

@@ -1,14 +1,12 @@
 !> The picture of a sweep of one parameter: quantities of summary.tab against it.
 module atrito_overlay_summary
    use atrito_kinds, only: ip, wp
-   use atrito_strings, only: to_text
-   use atrito_status, only: status_t, is_ok
-   use atrito_files, only: file_set_t, text_file_t, put_line, close_text
    use atrito_number_text, only: trimmed_real
-   use atrito_plot_files, only: open_data, OVERLAY_SUMMARY
-   use atrito_plot_text, only: range_t, cover, padded, span, quoted, begin_script, end_script, put_terminal, put_frame, put_panel, &
-                               COLOUR, N_COLOURS
-   use atrito_overlay_data, only: overlay_t, overlay_run_t, is_logarithmic, N_QUANTITIES
+   use atrito_overlay_data, only: overlay_t, overlay_run_t, is_logarithmic, QUANTITIES
+   use atrito_plot_files, only: OVERLAY_SUMMARY
+   use atrito_plot_scripts, only: plots_t, put, begin_data, end_data, begin_script, end_script, put_terminal, put_frame, put_panel
+   use atrito_plot_text, only: range_t, cover, padded, range_of, span, quoted, colour_styles, LF, N_COLOURS
+   use atrito_strings, only: to_text
    implicit none (type, external)
    private
    public :: write_summary_plot
@@ -17,19 +15,36 @@ module atrito_overlay_summary
 
 contains
 
-   !> Writes overlay-summary.dat and overlay-summary.gp into the set of the plots' folder.
-   !>
-   !> status: STATUS_FILE when one could not be written.
-   subroutine write_summary_plot(set, overlay, status)
-      type(file_set_t), intent(inout) :: set
+   !> Writes overlay-summary.dat and overlay-summary.gp.
+   subroutine write_summary_plot(plots, overlay)
+      type(plots_t), intent(inout) :: plots
       type(overlay_t), intent(in) :: overlay
-      type(status_t), intent(out) :: status
       type(overlay_t) :: sorted
+      integer(ip) :: i, n
+      logical :: doubt
 
       sorted = overlay
       sorted%runs = sort_by_value(overlay%runs)
-      call write_summary_data(set, sorted, status)
-      if (is_ok(status)) call write_summary_script(set, sorted, status)
+      call write_data(plots, sorted)
+      associate (runs => sorted%runs, is_one => size(overlay%pairs) == 1)
+         doubt = any(runs%not_converged)
+         n = size(QUANTITIES, kind=ip)
+         if (.not. any([(any(abs(runs(i)%quantity(n, :)) > 0.0_wp), i=1, size(runs))])) n = n - 1   ! no shear
+         call begin_script(plots, OVERLAY_SUMMARY, 'quantities of several runs against the parameter that varies', &
+                           'Columns of overlay-summary.dat: 1 parameter, 2 normal resultant [F], 3 effective area [%],'//LF// &
+                           '# 4 largest pressure [F/L^2], 5 largest shear [F/L^2], 6 is 1 if not converged; a block a pair')
+         call put(plots, 'pairs = '//to_text(size(overlay%pairs, kind=ip))//LF//'heading = '//quoted(overlay%title))
+         call put_frame(plots, n, parameter_range(runs%value), quoted(overlay%parameter))
+         if (is_logarithmic(runs%value)) call put(plots, 'set logscale x; x_format = "10^{%T}"')
+         if (is_one .and. .not. doubt) call put(plots, 'right = 0.95')   ! no legend
+         call put_terminal(plots, '1000,height')
+         call put(plots, 'set multiplot title heading noenhanced'//LF//colour_styles(' lw 1.8 pt 7 ps 0.9*dot'))
+         do i = 1, n
+            call put_quantity(plots, i, runs, .not. is_one, doubt)
+         end do
+      end associate
+      call put(plots, 'unset multiplot')
+      call end_script(plots)
    end subroutine write_summary_plot
 
    !> The runs with a summary, by growing value, so that lines go from left to right.
@@ -48,77 +63,29 @@ contains
       end do
    end function sort_by_value
 
-   subroutine write_summary_data(set, overlay, status)
-      type(file_set_t), intent(inout) :: set
+   subroutine write_data(plots, overlay)
+      type(plots_t), intent(inout) :: plots
       type(overlay_t), intent(in) :: overlay
-      type(status_t), intent(out) :: status
-      type(text_file_t) :: file
       character(len=:), allocatable :: line
       integer(ip) :: pair
       integer :: i, j
 
-      call open_data(set, OVERLAY_SUMMARY, file)
-      call put_line(file, '# a block a pair; columns: '//overlay%parameter// &
-                    '  normal_resultant [F]  effective_area_percent  max_pressure [F/L^2]  max_abs_shear [F/L^2]  '// &
-                    '1 if not converged')
+      call begin_data(plots, OVERLAY_SUMMARY, 'a block a pair; columns: '//overlay%parameter//'  normal_resultant [F]  '// &
+                      'effective_area_percent  max_pressure [F/L^2]  max_abs_shear [F/L^2]  1 if not converged')
       do pair = 1, size(overlay%pairs, kind=ip)
-         call put_line(file, '# pair '//to_text(pair))
+         call put(plots, '# pair '//to_text(pair))
          do i = 1, size(overlay%runs)
             if (pair > size(overlay%runs(i)%quantity, 2)) cycle
             line = trimmed_real(overlay%runs(i)%value, 12)
-            do j = 1, N_QUANTITIES
+            do j = 1, size(QUANTITIES)
                line = line//' '//trimmed_real(overlay%runs(i)%quantity(j, pair), 12)
             end do
-            call put_line(file, line//merge(' 1', ' 0', overlay%runs(i)%not_converged))
+            call put(plots, line//merge(' 1', ' 0', overlay%runs(i)%not_converged))
          end do
-         call put_line(file, '')
-         call put_line(file, '')
+         call put(plots, LF)
       end do
-      call close_text(file, status)
-   end subroutine write_summary_data
-
-   subroutine write_summary_script(set, overlay, status)
-      type(file_set_t), intent(inout) :: set
-      type(overlay_t), intent(in) :: overlay        !< of runs with a summary
-      type(status_t), intent(out) :: status
-      type(text_file_t) :: file
-      integer, allocatable :: shown(:)
-      integer :: i
-
-      shown = shown_quantities(overlay%runs)
-      call begin_script(set, OVERLAY_SUMMARY, 'quantities of several runs against the parameter that varies', file)
-      call put_line(file, '# Columns of overlay-summary.dat: 1 parameter, 2 normal resultant [F], 3 effective area [%],')
-      call put_line(file, '# 4 largest pressure [F/L^2], 5 largest shear [F/L^2], 6 is 1 if not converged; a block a pair')
-      call put_line(file, 'pairs = '//to_text(size(overlay%pairs, kind=ip)))
-      call put_line(file, 'heading = '//quoted(overlay%title))
-      call put_frame(file, size(shown), parameter_range(overlay%runs%value), quoted(overlay%parameter))
-      if (is_logarithmic(overlay%runs%value)) call put_line(file, 'set logscale x; x_format = "10^{%T}"')
-      if (size(overlay%pairs) == 1 .and. .not. any(overlay%runs%not_converged)) call put_line(file, 'right = 0.95')   ! no legend
-      call put_terminal(file, OVERLAY_SUMMARY, '1000,height')
-      call put_line(file, 'set multiplot title heading noenhanced')
-      do i = 1, N_COLOURS
-         call put_line(file, 'set style line '//to_text(int(i, ip))//' lt 1 lw 1.8 pt 7 ps 0.9*dot lc rgb "'//COLOUR(i)//'"')
-      end do
-      do i = 1, size(shown)
-         call put_quantity(file, i, shown(i), overlay)
-      end do
-      call put_line(file, 'unset multiplot')
-      call end_script(file, status)
-   end subroutine write_summary_script
-
-   !> All quantities; the shear only where there is some.
-   pure function shown_quantities(list) result(shown)
-      type(overlay_run_t), intent(in) :: list(:)
-      integer, allocatable :: shown(:)
-      type(range_t) :: range
-      integer :: i
-
-      do i = 1, size(list)
-         call cover(range, list(i)%quantity(N_QUANTITIES, :))
-      end do
-      shown = [(i, i=1, N_QUANTITIES - 1)]
-      if (max(abs(range%low), abs(range%high)) > 0.0_wp .and. range%low <= range%high) shown = [shown, N_QUANTITIES]
-   end function shown_quantities
+      call end_data(plots)
+   end subroutine write_data
 
    pure type(range_t) function parameter_range(values) result(range)
       real(wp), intent(in) :: values(:)
@@ -133,41 +100,30 @@ contains
       end if
    end function parameter_range
 
-   subroutine put_quantity(file, place, quantity, overlay)
-      type(text_file_t), intent(inout) :: file
-      integer, intent(in) :: place, quantity
-      type(overlay_t), intent(in) :: overlay
-      character(len=16), parameter :: LABEL(N_QUANTITIES) = &
-                                      [character(len=16) :: 'normal resultant', 'effective area', 'max. pressure', 'max. |shear|']
-      character(len=5), parameter :: DIMENSION(N_QUANTITIES) = ['F    ', '%    ', 'F/L^2', 'F/L^2']
+   subroutine put_quantity(plots, place, runs, has_pairs, has_doubt)
+      type(plots_t), intent(inout) :: plots
+      integer(ip), intent(in) :: place              !< of the panel, and in QUANTITIES
+      type(overlay_run_t), intent(in) :: runs(:)
+      logical, intent(in) :: has_pairs, has_doubt   !< several; a run did not converge
       character(len=:), allocatable :: line, column
-
-      call put_panel(file, place, trim(LABEL(quantity)), trim(DIMENSION(quantity)), quantity_range(overlay%runs, quantity))
-      column = to_text(int(quantity, ip) + 1_ip)
-      line = 'plot for [i=1:pairs] "overlay-summary.dat" index i-1 using 1:($'//column// &
-             '/unit) with linespoints ls (i-1)%'//to_text(int(N_COLOURS, ip))//'+1'
-      if (place == 1 .and. size(overlay%pairs) > 1) line = line//' title sprintf("pair %d", i)'
-      if (any(overlay%runs%not_converged)) then
-         line = line//', "overlay-summary.dat" using 1:($6 > 0 ? $'//column//'/unit : NaN) with points pt 6 lw 1.5 ps 2*dot '// &
-                'lc rgb "black"'
-         if (place == 1) line = line//' title "not converged"'
-      end if
-      call put_line(file, line)
-   end subroutine put_quantity
-
-   !> The range of a quantity.
-   pure type(range_t) function quantity_range(list, quantity) result(range)
-      type(overlay_run_t), intent(in) :: list(:)
-      integer, intent(in) :: quantity
+      type(range_t) :: range
       real(wp) :: room
       integer :: i
 
-      do i = 1, size(list)
-         call cover(range, list(i)%quantity(quantity, :))
+      do i = 1, size(runs)
+         call cover(range, runs(i)%quantity(place, :))
       end do
-      if (range%low > range%high) return
       room = LEAST_SPAN*max(abs(range%low), abs(range%high))
-      if (span(range) < room) range = range_t(range%low - room, range%high + room)
-   end function quantity_range
+      if (range%low <= range%high .and. span(range) < room) range = range_t(range%low - room, range%high + room)
+      call put_panel(plots, place, trim(QUANTITIES(place)%label), trim(QUANTITIES(place)%dimension), range)
+      column = to_text(place + 1)
+      line = 'plot for [i=1:pairs] "overlay-summary.dat" index i-1 using 1:($'//column// &
+             '/unit) with linespoints ls (i-1)%'//to_text(N_COLOURS)//'+1'
+      if (place == 1 .and. has_pairs) line = line//' title sprintf("pair %d", i)'
+      if (has_doubt) line = line//', "overlay-summary.dat" using 1:($6 > 0 ? $'//column//'/unit : NaN) with points pt 6 lw 1.5 '// &
+                            'ps 2*dot lc rgb "black"'
+      if (place == 1 .and. has_doubt) line = line//' title "not converged"'
+      call put(plots, line)
+   end subroutine put_quantity
 
 end module atrito_overlay_summary

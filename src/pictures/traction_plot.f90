@@ -2,19 +2,16 @@
 module atrito_traction_plot
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use atrito_contact_plot, only: state_of, N_STATES, STATE_WORD, STATE_COLOUR
-   use atrito_files, only: file_set_t, text_file_t, put_line, close_text
+   use atrito_drawing, only: drawing_t, put_place, put_head, put_plane, put_title, add_lines, add_rigid_lines, inner_runs, &
+                             displacement_text, largest_length, MOVED
    use atrito_kinds, only: ip, wp
-   use atrito_mesh_lines, only: drawing_t, put_place, put_frame, add_lines, add_rigid_lines, LINE_INNER
-   use atrito_mesh_plot, only: displacement_text
-   use atrito_model, only: model_t
    use atrito_number_text, only: trimmed_real
-   use atrito_plot_files, only: open_data, TRACTION_PLOT, MESH_PLOT
-   use atrito_plot_text, only: range_t, cover, quoted, picture_title, begin_script, end_script, put_plot, COLOUR
+   use atrito_plot_files, only: TRACTION_PLOT, MESH_PLOT
+   use atrito_plot_scripts, only: plots_t, put, begin_data, end_data, begin_script, end_script, put_plot
+   use atrito_plot_text, only: range_t, cover, COLOUR, LF
    use atrito_results, only: results_t, contact_result_t
-   use atrito_status, only: status_t, is_ok
    use atrito_strings, only: string_t, append_string, to_text
    use atrito_summary, only: pair_count
-   use atrito_write_tables, only: origin_of
    implicit none (type, external)
    private
    public :: has_traction_plot, write_traction_plot, traction, arrow_stride
@@ -47,14 +44,12 @@ contains
 
    pure real(wp) function largest_traction(results) result(largest)
       type(results_t), intent(in) :: results
-      real(wp) :: t(2)
       integer(ip) :: pair, j
 
       largest = 0.0_wp
       do pair = 1, pair_count(results)
          do j = 1, results%contact(pair)%n
-            t = traction(results%contact(pair), j)
-            if (all(ieee_is_finite(t))) largest = max(largest, hypot(t(1), t(2)))
+            largest = max(largest, largest_length(reshape(traction(results%contact(pair), j), [2, 1])))
          end do
       end do
    end function largest_traction
@@ -66,122 +61,80 @@ contains
       stride = (n_points + MOST_ARROWS - 1)/MOST_ARROWS
    end function arrow_stride
 
-   !> By which arrows are shorter so that they do not hide each other.
-   pure real(wp) function shortening(results)
-      type(results_t), intent(in) :: results        !< with points
-
-      shortening = max(SHORTEST, min(1.0_wp, sqrt(MANY/sum(results%contact%n))))
-   end function shortening
-
-   !> Writes tractions.dat and tractions.gp into the set of the plots' folder, which has mesh.dat. status: STATUS_FILE.
-   subroutine write_traction_plot(set, model, results, drawing, status)
-      type(file_set_t), intent(inout) :: set
-      type(model_t), intent(in) :: model
-      type(results_t), intent(in) :: results
-      type(drawing_t), intent(in) :: drawing        !< that of the mesh
-      type(status_t), intent(out) :: status
-      real(wp) :: arrow
+   !> Writes tractions.dat and tractions.gp beside mesh.dat.
+   subroutine write_traction_plot(plots, drawing)
+      type(plots_t), intent(inout) :: plots
+      type(drawing_t), intent(inout) :: drawing     !< that of the mesh; its window has room for the arrows while this is written
+      type(string_t), allocatable :: curves(:)
       type(range_t) :: window(2)
+      character(len=:), allocatable :: fewer
+      real(wp) :: shorter, arrow, largest
+      integer(ip) :: i, n_points
       logical :: has_state(0:N_STATES - 1)
 
-      arrow = LONGEST*shortening(results)*drawing%size/largest_traction(results)
+      n_points = sum(drawing%results%contact%n)
+      largest = largest_traction(drawing%results)
+      shorter = max(SHORTEST, min(1.0_wp, sqrt(MANY/n_points)))     ! so that arrows do not hide each other
+      arrow = LONGEST*shorter*drawing%size/largest
       window = drawing%window
-      call write_data(set, results, drawing%scale, arrow, window, has_state, status)
-      if (is_ok(status)) call write_script(set, model, results, drawing, window, arrow, has_state, status)
+      call write_data(plots, drawing, arrow, arrow_stride(n_points), has_state)
+      call begin_script(plots, TRACTION_PLOT, 'the tractions of the contact upon the slaves', &
+                        'Columns of '//TRACTION_PLOT//'.dat and of '//MESH_PLOT//'.dat: 1 x [L], 2 y [L], 3 u1 [L], 4 u2 [L];'// &
+                        LF//'# 5, 6 traction upon the slave [F/L^2], 7 state (0 open, 1 stick, 2 slip, 3 closed without friction)')
+      call put_head(plots, drawing, 'arrow = '//to_text(arrow, DIGITS)//'   # length of a traction of one; change it here'//LF)
+      call put_plane(plots, drawing)
+      fewer = ''
+      if (arrow_stride(n_points) > 1) fewer = ', one of '//to_text(arrow_stride(n_points))//' points'
+      call put_title(plots, '"\ntractions upon the slaves, up to '//to_text(largest, 4)//' [F/L^2]'//fewer//'; '// &
+                     displacement_text(drawing%scale)//'"')
+      call put(plots, 'head = '//to_text(0.003_wp + 0.005_wp*shorter, 3)//'   # length of the arrows'' heads')
+      allocate (curves(0))
+      call add_lines(MESH_PLOT, inner_runs(drawing), drawing%lines%n_runs - 1, 'lt 1 lw 1.2 lc rgb "#808080"', curves)
+      call add_rigid_lines(MESH_PLOT, drawing, 'lt 1 lw 4 lc rgb "#404040"', .false., curves)
+      do i = 0, N_STATES - 1
+         if (has_state(i)) call append_string(curves, '"'//TRACTION_PLOT//'.dat" using '//MOVED//':($7 == '//to_text(i)// &
+                                              ' ? arrow*$5 : NaN):(arrow*$6) with vectors filled size screen head,18 lt 1'// &
+                                              ' lw 1.2 lc rgb "'//COLOUR(STATE_COLOUR(i))//'" title "'//trim(STATE_WORD(i))//'"')
+      end do
+      call put_plot(plots, curves)
+      call end_script(plots)
+      drawing%window = window
    end subroutine write_traction_plot
 
-   !> Points with their tractions, and what their arrows need of the window.
-   subroutine write_data(set, results, scale, arrow, window, has_state, status)
-      type(file_set_t), intent(inout) :: set
-      type(results_t), intent(in) :: results
-      real(wp), intent(in) :: scale                 !< of the displacements
+   !> Points with their tractions. The window is widened to their arrows.
+   subroutine write_data(plots, drawing, arrow, stride, has_state)
+      type(plots_t), intent(inout) :: plots
+      type(drawing_t), intent(inout) :: drawing
       real(wp), intent(in) :: arrow                 !< length of a traction of one [L]
-      type(range_t), intent(inout) :: window(2)     !< is made so wide that the arrows are in it
+      integer(ip), intent(in) :: stride             !< one of so many points has an arrow
       logical, intent(out) :: has_state(0:)
-      type(status_t), intent(out) :: status
-      type(text_file_t) :: file
       real(wp) :: t(2), tip(2)
       integer(ip) :: pair, j, i, state, n
 
-      call open_data(set, TRACTION_PLOT, file)
-      call put_line(file, '# columns: x [L]  y [L]  u1 [L]  u2 [L]  traction upon the slave along x and y [F/L^2]  state')
+      call begin_data(plots, TRACTION_PLOT, &
+                      'columns: x [L]  y [L]  u1 [L]  u2 [L]  traction upon the slave along x and y [F/L^2]  state')
       has_state = .false.
       n = 0
-      do pair = 1, pair_count(results)
-         associate (contact => results%contact(pair))
+      do pair = 1, pair_count(drawing%results)
+         associate (contact => drawing%results%contact(pair))
             do j = 1, contact%n
                t = traction(contact, j)
                if (.not. all(ieee_is_finite(t))) cycle
                if (all(abs(t) <= 0.0_wp)) cycle
                n = n + 1
-               if (mod(n - 1, arrow_stride(sum(results%contact%n))) > 0) cycle
+               if (mod(n - 1, stride) > 0) cycle
                state = state_of(contact%status(j), contact%has_friction)
                has_state(state) = .true.
-               tip = contact%x(:, j) + scale*contact%u(:, j) + arrow*t
+               tip = contact%x(:, j) + drawing%scale*contact%u(:, j) + arrow*t
                do i = 1, 2
-                  call cover(window(i), tip(i:i))
+                  call cover(drawing%window(i), tip(i:i))
                end do
-               call put_place(file, [contact%x(:, j), contact%u(:, j)], trimmed_real(t(1), DIGITS)//' '// &
+               call put_place(plots, [contact%x(:, j), contact%u(:, j)], trimmed_real(t(1), DIGITS)//' '// &
                               trimmed_real(t(2), DIGITS)//' '//to_text(state))
             end do
          end associate
       end do
-      call close_text(file, status)
+      call end_data(plots)
    end subroutine write_data
-
-   subroutine write_script(set, model, results, drawing, window, arrow, has_state, status)
-      type(file_set_t), intent(inout) :: set
-      type(model_t), intent(in) :: model
-      type(results_t), intent(in) :: results
-      type(drawing_t), intent(in) :: drawing
-      type(range_t), intent(in) :: window(2)
-      real(wp), intent(in) :: arrow
-      logical, intent(in) :: has_state(0:)
-      type(status_t), intent(out) :: status
-      type(text_file_t) :: file
-      character(len=:), allocatable :: fewer
-
-      call begin_script(set, TRACTION_PLOT, 'the tractions of the contact upon the slaves', file)
-      call put_line(file, '# Columns of '//TRACTION_PLOT//'.dat and of '//MESH_PLOT//'.dat: 1 x [L], 2 y [L], 3 u1 [L], 4 u2 [L];')
-      call put_line(file, '# 5, 6 traction upon the slave [F/L^2], 7 state (0 open, 1 stick, 2 slip, 3 closed without friction)')
-      call put_line(file, 'scale = '//to_text(drawing%scale, 15)//'   # of the displacements; change it here')
-      call put_line(file, 'arrow = '//to_text(arrow, DIGITS)//'   # length of a traction of one; change it here')
-      call put_line(file, 'heading = '//quoted(picture_title(origin_of(model, results))))
-      call put_frame(file, TRACTION_PLOT, window, drawing%view)
-      fewer = ''
-      associate (stride => arrow_stride(sum(results%contact%n)))
-         if (stride > 1) fewer = ', one of '//to_text(stride)//' points'
-      end associate
-      call put_line(file, 'set tmargin 4')
-      call put_line(file, 'set label 1 heading."\ntractions upon the slaves, up to '//to_text(largest_traction(results), 4)// &
-                    ' [F/L^2]'//fewer//'; '//displacement_text(drawing%scale)//'" at screen 0.5, screen 1 - 22.0/height center '// &
-                    'noenhanced')
-      call put_line(file, 'head = '//to_text(0.003_wp + 0.005_wp*shortening(results), 3)//'   # length of the arrows'' heads')
-      call put_curves(file, model, drawing, has_state)
-      call end_script(file, status)
-   end subroutine write_script
-
-   !> One plot: outlines, rigid surfaces, and the arrows in the colours of their states.
-   subroutine put_curves(file, model, drawing, has_state)
-      type(text_file_t), intent(inout) :: file
-      type(model_t), intent(in) :: model
-      type(drawing_t), intent(in) :: drawing
-      logical, intent(in) :: has_state(0:)
-      type(string_t), allocatable :: curves(:)
-      integer(ip) :: n_inner, i
-
-      n_inner = count(drawing%lines%kind(:drawing%lines%n_runs) == LINE_INNER, kind=ip)
-      allocate (curves(0))
-      call add_lines(MESH_PLOT, n_inner, drawing%lines%n_runs - 1, 'lt 1 lw 1.2 lc rgb "#808080"', curves)
-      call add_rigid_lines(MESH_PLOT, drawing%lines%n_runs, 'lt 1 lw 4 lc rgb "#404040"', .false., model, curves)
-      curves(1)%s = 'plot '//trim(adjustl(curves(1)%s))
-      do i = 0, N_STATES - 1
-         if (.not. has_state(i)) cycle
-         call append_string(curves, '   "'//TRACTION_PLOT//'.dat" using ($1 + scale*$3):($2 + scale*$4):($7 == '//to_text(i)// &
-                            ' ? arrow*$5 : NaN):(arrow*$6) with vectors filled size screen head,18 lt 1 lw 1.2 lc rgb "'// &
-                            COLOUR(STATE_COLOUR(i))//'" title "'//trim(STATE_WORD(i))//'"')
-      end do
-      call put_plot(file, curves)
-   end subroutine put_curves
 
 end module atrito_traction_plot

@@ -2,27 +2,27 @@
 !>
 !> Comes after the tables, which are complete whatever happens here: every failure is a warning, W-PLOT.
 module atrito_write_plots
-   use atrito_kinds, only: ip
-   use atrito_strings, only: string_t, append_string, to_text
-   use atrito_status, only: status_t, is_ok
-   use atrito_files, only: file_set_t, begin_files, end_files
-   use atrito_timers, only: start_phase, stop_phase
-   use atrito_model, only: model_t
-   use atrito_results, only: results_t, history_t, last_frame
-   use atrito_summary, only: pair_count
-   use atrito_plot_files, only: check_scripts, plot_folder, CONTACT_PLOT, MESH_PLOT, JOINT_PLOT, HISTORY_PLOT, LOOP_PLOT, &
-                                MOTION_PLOT, TRACTION_PLOT
+   use atrito_body_plots, only: draw_mesh, write_mesh_plot
+   use atrito_contact_plot, only: write_contact_plot
    use atrito_contour_fields, only: contour_t, contours_of
    use atrito_contour_plot, only: write_contour_plots
-   use atrito_mesh_lines, only: drawing_t
-   use atrito_mesh_plot, only: draw_mesh, write_mesh_plot
-   use atrito_plot_view, only: plot_view_t
-   use atrito_traction_plot, only: has_traction_plot, write_traction_plot
-   use atrito_contact_plot, only: write_contact_plot
-   use atrito_history_plot, only: has_history_plot, has_loop_plot, write_history_plot, write_loop_plot
-   use atrito_motion_plot, only: has_motion_plot, write_motion_plot
-   use atrito_joint_plot, only: write_joint_plot, has_joint_plot
+   use atrito_drawing, only: drawing_t
    use atrito_gnuplot, only: draw_written
+   use atrito_history_plot, only: has_history_plot, has_loop_plot, write_history_plot, write_loop_plot
+   use atrito_joint_plot, only: write_joint_plot, has_joint_plot
+   use atrito_kinds, only: ip
+   use atrito_model, only: model_t
+   use atrito_motion_plot, only: has_motion_plot, write_motion_plot
+   use atrito_plot_files, only: plot_folder, CONTACT_PLOT, MESH_PLOT, JOINT_PLOT, HISTORY_PLOT, LOOP_PLOT, MOTION_PLOT, &
+                                TRACTION_PLOT
+   use atrito_plot_scripts, only: plots_t, begin_plots, end_plots
+   use atrito_plot_view, only: plot_view_t
+   use atrito_results, only: results_t, history_t, last_frame
+   use atrito_status, only: status_t
+   use atrito_strings, only: string_t, append_string, to_text
+   use atrito_summary, only: pair_count
+   use atrito_timers, only: start_phase, stop_phase
+   use atrito_traction_plot, only: has_traction_plot, write_traction_plot
    implicit none (type, external)
    private
    public :: write_plots, write_plot_scripts, plot_names
@@ -56,16 +56,16 @@ contains
       type(contour_t), allocatable :: contours(:)
       integer(ip) :: i
 
-      call append_string(names, MESH_PLOT)
-      contours = contours_of(history%frames(last_frame(history)))
-      do i = 1, size(contours, kind=ip)
-         call append_string(names, trim(contours(i)%name))
-      end do
-      if (has_traction_plot(history%frames(last_frame(history)))) call append_string(names, TRACTION_PLOT)
-      if (has_history_plot(model, history)) call append_string(names, HISTORY_PLOT)
-      if (has_loop_plot(model, history)) call append_string(names, LOOP_PLOT)
-      if (has_motion_plot(history)) call append_string(names, MOTION_PLOT)
       associate (results => history%frames(last_frame(history)))
+         call append_string(names, MESH_PLOT)
+         contours = contours_of(results)
+         do i = 1, size(contours, kind=ip)
+            call append_string(names, trim(contours(i)%name))
+         end do
+         if (has_traction_plot(results)) call append_string(names, TRACTION_PLOT)
+         if (has_history_plot(model, history)) call append_string(names, HISTORY_PLOT)
+         if (has_loop_plot(model, history)) call append_string(names, LOOP_PLOT)
+         if (has_motion_plot(history)) call append_string(names, MOTION_PLOT)
          if (has_joint_plot(model, results)) call append_string(names, JOINT_PLOT)
          do i = 1, plotted_pairs(model, results)
             if (results%contact(i)%n > 0) call append_string(names, CONTACT_PLOT//to_text(i))
@@ -82,47 +82,35 @@ contains
       if (n > MANY_PAIRS .and. has_joint_plot(model, results)) n = 0
    end function plotted_pairs
 
-   !> Writes scripts and data, which appear together or not at all.
+   !> Writes scripts and data, which appear together or not at all: those of the last frame, over the ends of steps before it, then
+   !> those of a history.
    !>
    !> status: STATUS_FILE
    subroutine write_plot_scripts(model, history, folder, view, status)
-      type(model_t), intent(in) :: model
-      type(history_t), intent(in) :: history
+      type(model_t), intent(in), target :: model
+      type(history_t), intent(in), target :: history
       character(len=*), intent(in) :: folder                !< of the plots
       type(plot_view_t), intent(in) :: view
       type(status_t), intent(out) :: status
-      type(file_set_t) :: set
-
-      call begin_files(set, folder, status)
-      if (.not. is_ok(status)) return
-      call write_frame_scripts(set, model, history, view, status)
-      if (is_ok(status) .and. has_history_plot(model, history)) call write_history_plot(set, model, history, status)
-      if (is_ok(status) .and. has_loop_plot(model, history)) call write_loop_plot(set, model, history, status)
-      if (is_ok(status) .and. has_motion_plot(history)) call write_motion_plot(set, model, history, view, status)
-      call check_scripts(set, status)
-      call end_files(set, status)
-   end subroutine write_plot_scripts
-
-   !> Those of the last frame, over the ends of steps before it.
-   subroutine write_frame_scripts(set, model, history, view, status)
-      type(file_set_t), intent(inout) :: set
-      type(model_t), intent(in) :: model
-      type(history_t), intent(in) :: history
-      type(plot_view_t), intent(in) :: view
-      type(status_t), intent(out) :: status
+      type(plots_t) :: plots
       type(drawing_t) :: drawing
       integer(ip) :: i
 
+      call begin_plots(plots, folder)
       associate (results => history%frames(last_frame(history)))
          call draw_mesh(model, results, view, drawing)
-         call write_mesh_plot(set, model, results, drawing, status)
-         if (is_ok(status)) call write_contour_plots(set, model, results, drawing, status)
-         if (is_ok(status) .and. has_traction_plot(results)) call write_traction_plot(set, model, results, drawing, status)
-         if (is_ok(status) .and. has_joint_plot(model, results)) call write_joint_plot(set, model, results, drawing, status)
+         call write_mesh_plot(plots, drawing)
+         call write_contour_plots(plots, drawing)
+         if (has_traction_plot(results)) call write_traction_plot(plots, drawing)
+         if (has_joint_plot(model, results)) call write_joint_plot(plots, drawing)
          do i = 1, plotted_pairs(model, results)
-            if (is_ok(status) .and. results%contact(i)%n > 0) call write_contact_plot(set, model, history, i, status)
+            if (results%contact(i)%n > 0) call write_contact_plot(plots, model, history, i)
          end do
       end associate
-   end subroutine write_frame_scripts
+      if (has_history_plot(model, history)) call write_history_plot(plots, model, history)
+      if (has_loop_plot(model, history)) call write_loop_plot(plots, model, history)
+      if (has_motion_plot(history)) call write_motion_plot(plots, model, history, view)
+      call end_plots(plots, status)
+   end subroutine write_plot_scripts
 
 end module atrito_write_plots

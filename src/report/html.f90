@@ -123,17 +123,13 @@ contains
       type(fact_t), allocatable, intent(inout) :: facts(:)
       character(len=*), intent(in) :: label, value
       character(len=*), intent(in), optional :: remark
-      type(fact_t), allocatable :: longer(:)
-      integer :: n
+      type(fact_t) :: fact
 
-      n = 0
-      if (allocated(facts)) n = size(facts)
-      allocate (longer(n + 1))
-      if (n > 0) longer(:n) = facts
-      longer(n + 1)%label = label
-      longer(n + 1)%value = value
-      if (present(remark)) longer(n + 1)%remark = remark
-      call move_alloc(longer, facts)
+      fact%label = label
+      fact%value = value
+      if (present(remark)) fact%remark = remark
+      if (.not. allocated(facts)) allocate (facts(0))
+      facts = [facts, fact]
    end subroutine add_fact
 
    !> `<tag>text</tag>`, the text plain.

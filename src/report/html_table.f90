@@ -8,7 +8,7 @@ module atrito_html_table
    use atrito_table_top, only: table_top_t, shown_item, is_rounded
    implicit none (type, external)
    private
-   public :: add_table, begin_rows, end_rows, add_cells, MOST_ROWS, MANY_COLUMNS
+   public :: add_table, begin_rows, end_rows, add_cells, add_named_row, MOST_ROWS, MANY_COLUMNS
 
    integer(ip), parameter :: MOST_ROWS = 20         !< of a table that is longer
    integer, parameter :: MOST_REMARKS = 6           !< more of them are a text of its own, which stands elsewhere
@@ -25,7 +25,6 @@ contains
       type(table_top_t), intent(in) :: top
       integer(ip) :: shown, first
       integer :: i
-      character(len=:), allocatable :: text
 
       call add_element(page, 'h3', name)
       if (len(top%title) > 0) call add_note(page, top%title)
@@ -45,11 +44,11 @@ contains
       else
          call add_upright(page, name, top, shown)
       end if
-      text = ''
-      if (shown < top%n_rows) text = 'The first '//to_text(shown)//' of '//to_text(top%n_rows)//' rows; all are in ' &
-                                     //top%table%name//'.'
-      if (is_rounded(top) .and. shown == top%n_rows) text = 'Numbers are rounded here; all digits are in '//top%table%name//'.'
-      if (len(text) > 0) call add_note(page, text)
+      if (shown < top%n_rows) then
+         call add_note(page, 'The first '//to_text(shown)//' of '//to_text(top%n_rows)//' rows; all are in '//top%table%name//'.')
+      else if (is_rounded(top)) then
+         call add_note(page, 'Numbers are rounded here; all digits are in '//top%table%name//'.')
+      end if
    end subroutine add_table
 
    subroutine add_upright(page, name, top, shown)
@@ -65,7 +64,12 @@ contains
       call begin_rows(page, name, top%table%n_columns > MANY_COLUMNS)
       call add_line(page, '<thead>')
       call add_cells(page, 'th', top%table%columns, words)
-      if (size(top%dimensions) == top%table%n_columns) call add_units(page, top%dimensions, words)
+      if (size(top%dimensions) == top%table%n_columns) then
+         do i = 1, size(cells, kind=ip)
+            cells(i)%s = unit_text(top%dimensions(i)%s)
+         end do
+         call add_cells(page, 'th', cells, words, ' class="unit"')
+      end if
       call add_line(page, '</thead><tbody>')
       do row = 1, shown
          do i = 1, size(cells, kind=ip)
@@ -76,26 +80,13 @@ contains
       call end_rows(page)
    end subroutine add_upright
 
-   subroutine add_units(page, dimensions, words)
-      type(page_t), intent(inout) :: page
-      type(string_t), intent(in) :: dimensions(:)
-      logical, intent(in) :: words(:)
-      type(string_t) :: units(size(dimensions))
-      integer :: i
-
-      do i = 1, size(units)
-         units(i)%s = unit_text(dimensions(i)%s)
-      end do
-      call add_cells(page, 'th', units, words, ' class="unit"')
-   end subroutine add_units
-
    !> `[F/L^2]`, nothing for numbers without a dimension.
    pure function unit_text(dimension) result(text)
       character(len=*), intent(in) :: dimension
       character(len=:), allocatable :: text
 
       text = ''
-      if (dimension /= '-' .and. dimension /= 'mixed') text = '['//dimension//']'
+      if (dimension /= '-' .and. dimension /= 'mixed' .and. len(dimension) > 0) text = '['//dimension//']'
    end function unit_text
 
    !> A line a column of the file: its name, its dimension, its values.
@@ -104,22 +95,37 @@ contains
       character(len=*), intent(in) :: name
       type(table_top_t), intent(in) :: top
       integer(ip), intent(in) :: first, last        !< rows of the file
-      character(len=:), allocatable :: line
+      type(string_t) :: cells(first:last)
+      character(len=:), allocatable :: dimension
       integer(ip) :: row, i
 
       call begin_rows(page, name, .false.)
       call add_line(page, '<tbody>')
       do i = 1, top%table%n_columns
-         line = '<tr><th scope="row">'//html_text(top%table%columns(i)%s)//'</th><td class="unit">'
-         if (size(top%dimensions) == top%table%n_columns) line = line//html_text(unit_text(top%dimensions(i)%s))
-         line = line//'</td>'
+         dimension = ''
+         if (size(top%dimensions) == top%table%n_columns) dimension = top%dimensions(i)%s
          do row = first, last
-            line = line//'<td>'//html_text(shown_item(top, i, row))//'</td>'
+            cells(row)%s = shown_item(top, i, row)
          end do
-         call add_line(page, line//'</tr>')
+         call add_named_row(page, top%table%columns(i)%s, dimension, cells)
       end do
       call end_rows(page)
    end subroutine add_turned
+
+   !> A row of cells behind its name and its dimension.
+   pure subroutine add_named_row(page, name, dimension, cells)
+      type(page_t), intent(inout) :: page
+      character(len=*), intent(in) :: name, dimension
+      type(string_t), intent(in) :: cells(:)
+      character(len=:), allocatable :: line
+      integer :: i
+
+      line = '<tr><th scope="row">'//html_text(name)//'</th><td class="unit">'//html_text(unit_text(dimension))//'</td>'
+      do i = 1, size(cells)
+         line = line//'<td>'//html_text(cells(i)%s)//'</td>'
+      end do
+      call add_line(page, line//'</tr>')
+   end subroutine add_named_row
 
    !> Begins a table in a box of its own that scrolls where the screen is narrow.
    pure subroutine begin_rows(page, name, is_wide)
@@ -146,7 +152,7 @@ contains
       logical, intent(in) :: words(:)
       character(len=*), intent(in), optional :: attributes   !< of the row, with a blank before them
       character(len=:), allocatable :: line, text
-      integer :: i
+      integer :: i, k
 
       line = '<tr>'
       if (present(attributes)) line = '<tr'//attributes//'>'
@@ -154,23 +160,14 @@ contains
          line = line//'<'//tag
          if (words(i)) line = line//' class="word"'
          text = html_text(cells(i)%s)
-         if (tag == 'th') text = breakable(text)
+         if (tag == 'th') then                      ! a name may be broken behind its underscores
+            do k = len(text), 1, -1
+               if (text(k:k) == '_') text = text(:k)//'<wbr>'//text(k + 1:)
+            end do
+         end if
          line = line//'>'//text//'</'//tag//'>'
       end do
       call add_line(page, line//'</tr>')
    end subroutine add_cells
-
-   !> A name may be broken behind its underscores.
-   pure function breakable(name) result(html)
-      character(len=*), intent(in) :: name
-      character(len=:), allocatable :: html
-      integer :: i
-
-      html = ''
-      do i = 1, len(name)
-         html = html//name(i:i)
-         if (name(i:i) == '_') html = html//'<wbr>'
-      end do
-   end function breakable
 
 end module atrito_html_table

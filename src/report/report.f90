@@ -47,16 +47,10 @@ contains
    pure subroutine add_section(sections, section)
       type(page_section_t), allocatable, intent(inout) :: sections(:)
       type(page_section_t), intent(in) :: section
-      type(page_section_t), allocatable :: longer(:)
-      integer :: n
 
       if (section%page%n == 0) return
-      n = 0
-      if (allocated(sections)) n = size(sections)
-      allocate (longer(n + 1))
-      if (n > 0) longer(:n) = sections
-      longer(n + 1) = section
-      call move_alloc(longer, sections)
+      if (.not. allocated(sections)) allocate (sections(0))
+      sections = [sections, section]
    end subroutine add_section
 
 end module atrito_report

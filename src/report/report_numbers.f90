@@ -1,7 +1,7 @@
 !> Key numbers and quantities of a run, from summary and extremes as they stand in the folder.
 module atrito_report_numbers
-   use atrito_html, only: fact_t, add_fact, add_element, add_note, html_text, unbroken
-   use atrito_html_table, only: begin_rows, end_rows
+   use atrito_html, only: fact_t, add_fact, add_element, add_note, unbroken
+   use atrito_html_table, only: begin_rows, end_rows, add_named_row
    use atrito_kinds, only: ip
    use atrito_page, only: page_t, add_line, number
    use atrito_read_table, only: find_column, item_text, ITEM_NAN
@@ -44,27 +44,24 @@ contains
    subroutine add_extremes(top, facts)
       type(table_top_t), intent(in) :: top          !< of extremes, with all rows
       type(fact_t), allocatable, intent(inout) :: facts(:)
-      integer(ip) :: row
+      character(len=:), allocatable :: place
+      integer(ip) :: column, row, x, y
       integer :: i
 
-      if (find_column(top%table, 'quantity') == 0 .or. find_column(top%table, 'value') == 0) return
+      column = find_column(top%table, 'quantity')
+      if (column == 0 .or. find_column(top%table, 'value') == 0) return
+      x = find_column(top%table, 'x')
+      y = find_column(top%table, 'y')
       do i = 1, size(EXTREMES)
-         row = last_row_of(top, trim(EXTREMES(i)))
-         if (row > 0) call add_fact(facts, trim(EXTREME_WORDS(i)), value_of(top, trim(EXTREMES(i)), row), place_of(top, row))
+         do row = top%table%n_rows, 1, -1
+            if (item_text(top%table, column, row) == EXTREMES(i)) exit
+         end do
+         if (row == 0) cycle
+         place = ''
+         if (min(x, y) > 0) place = 'at '//shown_item(top, x, row)//', '//shown_item(top, y, row)
+         call add_fact(facts, trim(EXTREME_WORDS(i)), value_of(top, trim(EXTREMES(i)), row), place)
       end do
    end subroutine add_extremes
-
-   pure integer(ip) function last_row_of(top, quantity) result(row)
-      type(table_top_t), intent(in) :: top
-      character(len=*), intent(in) :: quantity
-      integer(ip) :: column
-
-      column = find_column(top%table, 'quantity')
-      do row = top%table%n_rows, 1, -1
-         if (item_text(top%table, column, row) == quantity) return
-      end do
-      row = 0
-   end function last_row_of
 
    !> A value with its dimension.
    function value_of(top, quantity, row) result(text)
@@ -77,59 +74,35 @@ contains
       if (len(dimension_of(top, quantity)) > 0) text = text//' '//unbroken('['//dimension_of(top, quantity)//']')
    end function value_of
 
-   !> `at 1.5, 0.5`
-   function place_of(top, row) result(text)
-      type(table_top_t), intent(in) :: top
-      integer(ip), intent(in) :: row
-      character(len=:), allocatable :: text
-      integer(ip) :: x, y
-
-      x = find_column(top%table, 'x')
-      y = find_column(top%table, 'y')
-      text = ''
-      if (min(x, y) > 0) text = 'at '//shown_item(top, x, row)//', '//shown_item(top, y, row)
-   end function place_of
-
-   !> What a run was asked to observe, then energies and checks, at the end.
+   !> What a run was asked to observe, which is what not every run may have; then energies and checks, at the end.
    subroutine add_summary_numbers(top, facts)
       type(table_top_t), intent(in) :: top          !< of summary, with all rows
       type(fact_t), allocatable, intent(inout) :: facts(:)
       type(group_t), allocatable :: groups(:)
+      type(string_t), allocatable :: known(:)
       character(len=:), allocatable :: name
-      integer(ip) :: row
+      integer(ip) :: row, quantity, value
       integer :: i
 
       call find_groups(top, .true., groups)
       if (size(groups) == 0) return
+      known = quantity_names()
+      quantity = find_column(top%table, 'quantity')
+      value = find_column(top%table, 'value')
       associate (last => groups(size(groups)))
          do row = last%first, last%last
-            name = item_text(top%table, find_column(top%table, 'quantity'), row)
-            if (.not. is_known(name)) call add_fact(facts, name, value_of(top, name, row))
+            name = item_text(top%table, quantity, row)
+            if (.not. any([(known(i)%s == name, i=1, size(known))])) call add_fact(facts, name, value_of(top, name, row))
          end do
          do i = 1, size(NUMBERS)
             do row = last%first, last%last
-               if (item_text(top%table, find_column(top%table, 'quantity'), row) /= NUMBERS(i)) cycle
-               if (top%table%kind(find_column(top%table, 'value'), row) == ITEM_NAN) cycle
-               call add_fact(facts, trim(NUMBER_WORDS(i)), number(top%table%value(find_column(top%table, 'value'), row), &
-                                                                  NUMBER_DIGITS(i))//' '//unbroken(trim(NUMBER_UNITS(i))))
+               if (item_text(top%table, quantity, row) /= NUMBERS(i) .or. top%table%kind(value, row) == ITEM_NAN) cycle
+               call add_fact(facts, trim(NUMBER_WORDS(i)), number(top%table%value(value, row), NUMBER_DIGITS(i))//' '// &
+                             unbroken(trim(NUMBER_UNITS(i))))
             end do
          end do
       end associate
    end subroutine add_summary_numbers
-
-   !> Whether every run may have this quantity.
-   pure logical function is_known(name)
-      character(len=*), intent(in) :: name
-      type(string_t), allocatable :: names(:)
-      integer :: i
-
-      names = quantity_names()
-      is_known = .true.
-      do i = 1, size(names)
-         if (names(i)%s == name) return
-      end do
-      is_known = .false.
-   end function is_known
 
    !> The quantities of pairs, or of steps, a line each; side by side the pairs, and the ends of the steps.
    subroutine add_quantities(page, top, of_steps)
@@ -137,57 +110,38 @@ contains
       type(table_top_t), intent(in) :: top          !< of summary, with all rows
       logical, intent(in) :: of_steps               !< pair 0
       type(group_t), allocatable :: groups(:)
-      integer(ip) :: row
-      integer :: shown, i
+      type(string_t), allocatable :: cells(:)
+      character(len=:), allocatable :: name
+      integer(ip) :: row, other, quantity, shown, i
 
       call find_groups(top, of_steps, groups)
       if (size(groups) == 0) return
-      shown = min(size(groups), int(MOST_GROUPS))
+      quantity = find_column(top%table, 'quantity')
+      shown = min(size(groups, kind=ip), MOST_GROUPS)
       call begin_rows(page, 'summary', .false.)
       call add_line(page, '<thead><tr><th class="word">quantity</th><th></th>')
       do i = 1, shown
-         call add_element(page, 'th', group_name(groups(i), of_steps))
+         name = 'step '//groups(i)%step
+         if (.not. of_steps) name = 'pair '//groups(i)%pair//', '//name
+         call add_element(page, 'th', name)
       end do
       call add_line(page, '</tr></thead><tbody>')
+      allocate (cells(shown))
       do row = groups(1)%first, groups(1)%last
-         call add_quantity(page, top, groups(:shown), item_text(top%table, find_column(top%table, 'quantity'), row))
+         name = item_text(top%table, quantity, row)
+         do i = 1, shown
+            cells(i)%s = ''
+            do other = groups(i)%first, groups(i)%last
+               if (item_text(top%table, quantity, other) == name) &
+                  cells(i)%s = shown_item(top, find_column(top%table, 'value'), other)
+            end do
+         end do
+         call add_named_row(page, name, dimension_of(top, name), cells)
       end do
       call end_rows(page)
-      if (shown < size(groups)) call add_note(page, 'The first '//to_text(int(shown, ip))//' of '// &
-                                              to_text(size(groups, kind=ip))//'; all are in '//top%table%name//'.')
+      if (shown < size(groups)) call add_note(page, 'The first '//to_text(shown)//' of '//to_text(size(groups, kind=ip))// &
+                                              '; all are in '//top%table%name//'.')
    end subroutine add_quantities
-
-   subroutine add_quantity(page, top, groups, name)
-      type(page_t), intent(inout) :: page
-      type(table_top_t), intent(in) :: top
-      type(group_t), intent(in) :: groups(:)
-      character(len=*), intent(in) :: name
-      character(len=:), allocatable :: line, cell
-      integer(ip) :: row
-      integer :: i
-
-      line = '<tr><th scope="row">'//html_text(name)//'</th><td class="unit">'
-      if (len(dimension_of(top, name)) > 0) line = line//html_text('['//dimension_of(top, name)//']')
-      line = line//'</td>'
-      do i = 1, size(groups)
-         cell = ''
-         do row = groups(i)%first, groups(i)%last
-            if (item_text(top%table, find_column(top%table, 'quantity'), row) /= name) cycle
-            cell = shown_item(top, find_column(top%table, 'value'), row)
-         end do
-         line = line//'<td>'//html_text(cell)//'</td>'
-      end do
-      call add_line(page, line//'</tr>')
-   end subroutine add_quantity
-
-   pure function group_name(group, of_steps) result(name)
-      type(group_t), intent(in) :: group
-      logical, intent(in) :: of_steps
-      character(len=:), allocatable :: name
-
-      name = 'step '//group%step
-      if (.not. of_steps) name = 'pair '//group%pair//', '//name
-   end function group_name
 
    !> The groups at the end of each step; where they would be too many, those at the end of the last step.
    subroutine find_groups(top, of_steps, groups)
@@ -199,12 +153,11 @@ contains
 
       call list_groups(top, of_steps, groups)
       if (size(groups) == 0) return
-      allocate (at_end(size(groups)))
+      allocate (at_end(size(groups)), source=.true.)
       do i = 1, size(groups)
-         at_end(i) = .true.
          do k = i + 1, size(groups)
             if (groups(k)%step /= groups(i)%step) exit
-            if (groups(k)%increment /= groups(i)%increment) at_end(i) = .false.
+            at_end(i) = groups(k)%increment == groups(i)%increment
             if (.not. at_end(i)) exit
          end do
       end do

@@ -118,22 +118,34 @@ contains
       call add_fact(report%facts, 'time', number(seconds(1), 3)//' s', number(seconds(2), 3)//' s of processor')
    end subroutine add_time
 
+   !> A row of a table of runs; the titles before the first one. The column of words stands on the left.
+   subroutine add_run(page, is_first, titles, cells, word)
+      type(page_t), intent(inout) :: page
+      logical, intent(in) :: is_first
+      type(string_t), intent(in) :: titles(:), cells(:)
+      integer, intent(in) :: word                   !< column
+      integer :: k
+
+      if (is_first) then
+         call begin_rows(page, 'runs', size(titles) > MANY_COLUMNS)
+         call add_line(page, '<thead>')
+         call add_cells(page, 'th', titles, [(k == word, k=1, size(titles))])
+         call add_line(page, '</thead><tbody>')
+      end if
+      call add_cells(page, 'td', cells, [(k == word, k=1, size(cells))])
+   end subroutine add_run
+
    subroutine add_runs(page, names, runs)
       type(page_t), intent(inout) :: page
       type(string_t), intent(in) :: names(:)
       type(sweep_run_t), intent(in) :: runs(:)
-      type(string_t), allocatable :: titles(:), columns(:), cells(:)
+      type(string_t), allocatable :: titles(:), cells(:)
       integer :: i, k
 
       titles = names
       call append_string(titles, 'exit')
-      columns = columns_of(runs)
-      titles = [titles, columns]
+      titles = [titles, columns_of(runs)]
       call append_string(titles, 'folder')
-      call begin_rows(page, 'runs', size(titles) > MANY_COLUMNS)
-      call add_line(page, '<thead>')
-      call add_cells(page, 'th', titles, [(k == size(titles), k=1, size(titles))])
-      call add_line(page, '</thead><tbody>')
       do i = 1, min(size(runs), MOST_RUNS)
          cells = runs(i)%texts
          call append_string(cells, to_text(int(runs(i)%code, ip)))
@@ -141,7 +153,7 @@ contains
             call append_string(cells, amount_text(runs(i), titles(k)%s))
          end do
          call append_string(cells, runs(i)%folder)
-         call add_cells(page, 'td', cells, [(k == size(cells), k=1, size(cells))])
+         call add_run(page, i == 1, titles, cells, size(cells))
       end do
       call end_rows(page)
       if (size(runs) > MOST_RUNS) call add_note(page, 'The first '//to_text(int(MOST_RUNS, ip))//' runs; all: table runs.')
@@ -150,40 +162,25 @@ contains
    !> Quantities that any run has: the first ones, and what the runs were asked to observe.
    function columns_of(runs) result(names)
       type(sweep_run_t), intent(in) :: runs(:)
-      type(string_t), allocatable :: names(:)
+      type(string_t), allocatable :: names(:), known(:)
       character(len=:), allocatable :: name
-      type(string_t), allocatable :: known(:)
       integer(ip) :: row
       integer :: i, k
 
       known = quantity_names()
       allocate (names(0))
       do k = 1, size(SHOWN)
-         do i = 1, size(runs)
-            if (len(amount_text(runs(i), trim(SHOWN(k)))) == 0) cycle
-            call append_string(names, trim(SHOWN(k)))
-            exit
-         end do
+         if (any([(len(amount_text(runs(i), trim(SHOWN(k)))) > 0, i=1, size(runs))])) call append_string(names, trim(SHOWN(k)))
       end do
       do i = 1, size(runs)
          if (runs(i)%summary%n_rows == 0) cycle
          do row = last_increment(runs(i)%summary), runs(i)%summary%n_rows
             name = item_text(runs(i)%summary, find_column(runs(i)%summary, 'quantity'), row)
-            if (.not. is_among(name, known) .and. .not. is_among(name, names)) call append_string(names, name)
+            if (.not. any([(known(k)%s == name, k=1, size(known))]) .and. .not. any([(names(k)%s == name, k=1, size(names))])) &
+               call append_string(names, name)
          end do
       end do
    end function columns_of
-
-   pure logical function is_among(name, names)
-      character(len=*), intent(in) :: name
-      type(string_t), intent(in) :: names(:)
-      integer :: i
-
-      is_among = .false.
-      do i = 1, size(names)
-         is_among = is_among .or. names(i)%s == name
-      end do
-   end function is_among
 
    !> A quantity of a run; '' where it has none.
    function amount_text(run, name) result(text)
@@ -226,62 +223,39 @@ contains
    subroutine add_levels(page, study)
       type(page_t), intent(inout) :: page
       type(study_t), intent(in) :: study
-      type(string_t), allocatable :: cells(:)
+      type(string_t), allocatable :: titles(:), cells(:)
       integer :: i, k
 
-      cells = level_titles(study)
-      call begin_rows(page, 'runs', size(cells) > MANY_COLUMNS)
-      call add_line(page, '<thead>')
-      call add_cells(page, 'th', cells, [(k == 1, k=1, size(cells))])
-      call add_line(page, '</thead><tbody>')
-      do i = 1, size(study%rows)
-         cells = level_cells(study, i)
-         call add_cells(page, 'td', cells, [(k == 1, k=1, size(cells))])
+      do k = 1, size(study%rows)
+         titles = [string_t ::]
+         cells = [string_t ::]
+         associate (row => study%rows(k))
+            call add('element', row%element)
+            call add('level', to_text(row%level))
+            call add('exit', to_text(row%code))
+            call add('dofs', to_text(row%n_dofs))
+            do i = 1, size(study%quantities)
+               call add(study%quantities(i)%name, number(row%values(i), DIGITS))
+               call add('error [%]', short_text(100*study%quantities(i)%error(k)))
+               call add('order', short_text(study%quantities(i)%order(k)))
+            end do
+            call add('estimate [%]', short_text(row%estimate))
+            call add('cpu [s]', number(total_seconds(row, PROCESSOR), 3))
+         end associate
+         call add_run(page, k == 1, titles, cells, 1)
       end do
       call end_rows(page)
+
+   contains
+
+      subroutine add(title, text)
+         character(len=*), intent(in) :: title, text
+
+         call append_string(titles, title)
+         call append_string(cells, text)
+      end subroutine add
+
    end subroutine add_levels
-
-   pure function level_titles(study) result(titles)
-      type(study_t), intent(in) :: study
-      type(string_t), allocatable :: titles(:)
-      integer :: i
-
-      allocate (titles(0))
-      call append_string(titles, 'element')
-      call append_string(titles, 'level')
-      call append_string(titles, 'exit')
-      call append_string(titles, 'dofs')
-      do i = 1, size(study%quantities)
-         call append_string(titles, study%quantities(i)%name)
-         call append_string(titles, 'error [%]')
-         call append_string(titles, 'order')
-      end do
-      call append_string(titles, 'estimate [%]')
-      call append_string(titles, 'cpu [s]')
-   end function level_titles
-
-   !> A row of the table of runs.
-   pure function level_cells(study, k) result(cells)
-      type(study_t), intent(in) :: study
-      integer, intent(in) :: k
-      type(string_t), allocatable :: cells(:)
-      integer :: i
-
-      allocate (cells(0))
-      associate (row => study%rows(k))
-         call append_string(cells, row%element)
-         call append_string(cells, to_text(row%level))
-         call append_string(cells, to_text(row%code))
-         call append_string(cells, to_text(row%n_dofs))
-         do i = 1, size(study%quantities)
-            call append_string(cells, number(row%values(i), DIGITS))
-            call append_string(cells, short_text(100*study%quantities(i)%error(k)))
-            call append_string(cells, short_text(study%quantities(i)%order(k)))
-         end do
-         call append_string(cells, short_text(row%estimate))
-         call append_string(cells, number(total_seconds(row, PROCESSOR), 3))
-      end associate
-   end function level_cells
 
    !> A number, nothing where there is none.
    pure function short_text(x) result(text)

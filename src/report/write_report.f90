@@ -11,8 +11,7 @@ module atrito_write_report
    use atrito_report, only: report_t, page_section_t, begin_section, add_section
    use atrito_report_file, only: REPORT_NAME
    use atrito_report_pictures, only: compose_pictures
-   use atrito_report_sections, only: contents_t, read_contents, add_numbers, add_contact, add_steps, add_tables, add_convergence, &
-                                     add_times, add_messages, add_origin, add_versions, add_files, add_listing
+   use atrito_report_sections, only: contents_t, read_contents, add_numbers, add_results, add_messages, add_sources
    use atrito_report_style, only: add_style
    use atrito_status, only: status_t, is_ok
    use atrito_strings, only: to_text
@@ -57,35 +56,36 @@ contains
       type(report_t), intent(in) :: report
       character(len=*), intent(in) :: date
       type(page_t), intent(out) :: page
-      type(page_section_t), allocatable :: before(:), behind(:)
+      type(page_section_t), allocatable :: before(:), behind(:), sections(:)
       type(page_section_t) :: pictures
       type(contents_t) :: contents
-      type(page_t) :: top
+      integer :: i
 
       call read_contents(report, contents)
       call add_numbers(report, contents, before)
-      call add_contact(report, contents, behind)
-      call add_steps(contents, behind)
-      call add_tables(contents, behind)
-      call add_convergence(contents, behind)
-      call add_times(contents, behind)
-      call add_messages(report, behind)
-      call add_origin(report, contents, behind)
-      call add_versions(report, behind)
-      call add_files(report, behind)
-      call add_listing(report, behind)
-      call compose_top(report, date, top)
       call append_sections(before, report%leading)
+      call append_sections(behind, report%sections)
+      call add_results(report, contents, behind)
+      call add_messages(report, behind)
+      call add_sources(report, contents, behind)
+      call compose_top(report, date, page)
       call begin_section(pictures, 'Pictures')
-      call compose_pictures(report%folder, report%pictures, MOST_BYTES - size_of_page(top) - size_of_sections(before) &
-                            - size_of_sections(report%sections) - size_of_sections(behind), pictures%page)
+      call compose_pictures(report%folder, report%pictures, MOST_BYTES - size_of_page(page) - size_of_sections(before) &
+                            - size_of_sections(behind), pictures%page)
       if (size(report%pictures) == 0) call add_element(pictures%page, 'p', 'There are no pictures; the messages tell why.')
       call add_section(before, pictures)
-      call append_sections(before, report%sections)
-      call begin_page(page, 80)
-      call append_page(page, top)
-      call add_menu(page, [before, behind])
-      call add_sections(page, [before, behind])
+      sections = [before, behind]
+      call add_line(page, '<nav aria-label="sections">')
+      do i = 1, size(sections)
+         call add_line(page, '<a href="#s'//to_text(int(i, ip))//'">'//html_text(sections(i)%title)//'</a>')
+      end do
+      call add_line(page, '</nav>')
+      do i = 1, size(sections)
+         call add_line(page, '<section id="s'//to_text(int(i, ip))//'">')
+         call add_element(page, 'h2', sections(i)%title)
+         call append_page(page, sections(i)%page)
+         call add_line(page, '</section>')
+      end do
       call add_line(page, '<footer><p>'//PROGRAM_NAME//' '//PROGRAM_VERSION//', '//html_text(date)//'</p></footer>')
       call add_line(page, '</main></body></html>')
    end subroutine compose_report
@@ -101,7 +101,7 @@ contains
       end do
    end subroutine append_sections
 
-   !> What comes before the sections: title and verdict.
+   !> What comes before the sections: the head, by which nothing is fetched from anywhere and no script is run, title and verdict.
    subroutine compose_top(report, date, page)
       type(report_t), intent(in) :: report
       character(len=*), intent(in) :: date
@@ -119,7 +119,15 @@ contains
          end if
       end if
       title = shortened(title, LONGEST_LINE)
-      call add_head(page, title)
+      call add_line(page, '<!DOCTYPE html>')
+      call add_line(page, '<html lang="en"><head><meta charset="utf-8">')
+      call add_line(page, '<meta name="viewport" content="width=device-width, initial-scale=1">')
+      call add_line(page, '<meta name="generator" content="'//PROGRAM_NAME//' '//PROGRAM_VERSION//'">')
+      call add_line(page, '<meta http-equiv="Content-Security-Policy" content="default-src ''none''; img-src data:; '// &
+                    'style-src ''unsafe-inline''">')
+      call add_element(page, 'title', title)
+      call add_style(page)
+      call add_line(page, '</head><body><main>')
       call add_element(page, 'p', PROGRAM_NAME//' '//PROGRAM_VERSION//', '//report%what//' of '//file_name(report%deck)// &
                        ', '//date, ' class="kind"')
       call add_element(page, 'h1', title)
@@ -134,54 +142,12 @@ contains
       call add_line(page, '</div>')
    end subroutine compose_top
 
-   !> The head: nothing is fetched from anywhere, and no script is run.
-   subroutine add_head(page, title)
-      type(page_t), intent(inout) :: page
-      character(len=*), intent(in) :: title
-
-      call add_line(page, '<!DOCTYPE html>')
-      call add_line(page, '<html lang="en"><head><meta charset="utf-8">')
-      call add_line(page, '<meta name="viewport" content="width=device-width, initial-scale=1">')
-      call add_line(page, '<meta name="generator" content="'//PROGRAM_NAME//' '//PROGRAM_VERSION//'">')
-      call add_line(page, '<meta http-equiv="Content-Security-Policy" content="default-src ''none''; img-src data:; '// &
-                    'style-src ''unsafe-inline''">')
-      call add_element(page, 'title', title)
-      call add_style(page)
-      call add_line(page, '</head><body><main>')
-   end subroutine add_head
-
    pure function file_name(path) result(name)
       character(len=*), intent(in) :: path
       character(len=:), allocatable :: name
 
       name = path(index(path, '/', back=.true.) + 1:)
    end function file_name
-
-   !> Links to the sections.
-   subroutine add_menu(page, sections)
-      type(page_t), intent(inout) :: page
-      type(page_section_t), intent(in) :: sections(:)
-      integer :: i
-
-      call add_line(page, '<nav aria-label="sections">')
-      do i = 1, size(sections)
-         call add_line(page, '<a href="#s'//to_text(int(i, ip))//'">'//html_text(sections(i)%title)//'</a>')
-      end do
-      call add_line(page, '</nav>')
-   end subroutine add_menu
-
-   subroutine add_sections(page, sections)
-      type(page_t), intent(inout) :: page
-      type(page_section_t), intent(in) :: sections(:)
-      integer :: i
-
-      do i = 1, size(sections)
-         call add_line(page, '<section id="s'//to_text(int(i, ip))//'">')
-         call add_element(page, 'h2', sections(i)%title)
-         call append_page(page, sections(i)%page)
-         call add_line(page, '</section>')
-      end do
-   end subroutine add_sections
 
    !> Bytes, with the ends of the lines and what stands round a section.
    pure integer function size_of_sections(sections) result(n)

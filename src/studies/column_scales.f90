@@ -7,40 +7,54 @@ module atrito_column_scales
    private
    public :: kind_of, columns_of_scale, row_scales, summary_scales, moment_scale, is_of_pair, is_number
 
-   !> Columns that have one scale: components of one vector, or vectors that balance each other.
-   character(len=72), parameter :: FAMILIES_OF_BODIES(3) = [character(len=72) :: ' u1 u2 ', &
-                                                              ' loads_fx loads_fy supports_fx supports_fy contact_fx contact_fy ', &
-                                                                                    ' loads_moment supports_moment contact_moment ']
-   character(len=36), parameter :: FAMILIES_OF_HISTORY(2) = [character(len=36) :: ' normal_resultant shear_resultant ', &
-                                                                                                          ' contact_length centre ']
-   character(len=7), parameter :: FAMILIES_OF_RIGID(2) = [' u1 u2 ', ' r1 r2 ']
-   character(len=7), parameter :: FAMILIES_OF_RESULTANTS(1) = [' fx fy ']
-   character(len=23), parameter :: FAMILIES_OF_NODAL_STRESS(1) = [' s11 s22 s33 s12 mises ']
-   character(len=20), parameter :: FAMILIES_OF_JOINTS(3) = [character(len=20) :: ' n t ', ' x y ', ' opening sliding ']
+   !> Tables that are treated in their own way, and the columns by which they are known; one that is several is the last of them.
+   type :: kind_t
+      character(len=12) :: name
+      character(len=15) :: columns(3)               !< blank: any
+   end type kind_t
+   type(kind_t), parameter :: KINDS(11) = [kind_t('summary', ['quantity       ', 'value          ', '               ']), &
+                                           kind_t('extremes', ['quantity       ', 'value          ', 'node_or_element']), &
+                                           kind_t('resultants', ['keyword        ', 'fx             ', '               ']), &
+                                           kind_t('nodal_stress', ['node           ', 'mises          ', '               ']), &
+                                           kind_t('iterations', ['outer          ', 'inner          ', '               ']), &
+                                           kind_t('timing', ['phase          ', 'wall           ', '               ']), &
+                                           kind_t('bodies', ['rotation       ', 'loads_moment   ', '               ']), &
+                                           kind_t('rigid', ['ur             ', 'moment         ', '               ']), &
+                                           kind_t('joints', ['body_1         ', 'opening        ', '               ']), &
+                                           kind_t('sections', ['cut            ', 'v              ', '               ']), &
+                                           kind_t('history', ['dissipation    ', 'elastic_energy ', '               '])]
 
-   character(len=5), parameter :: FAMILIES_OF_SECTIONS(2) = [' n v ', ' x y ']
+   !> Columns of a kind of table that have one scale: components of one vector, or vectors that balance each other.
+   type :: family_t
+      character(len=12) :: kind
+      character(len=72) :: columns
+   end type family_t
+   type(family_t), parameter :: &
+      FAMILIES(14) = [family_t('bodies', ' u1 u2 '), &
+                      family_t('bodies', ' loads_fx loads_fy supports_fx supports_fy contact_fx contact_fy '), &
+                      family_t('bodies', ' loads_moment supports_moment contact_moment '), &
+                      family_t('history', ' normal_resultant shear_resultant '), &
+                      family_t('history', ' contact_length centre '), family_t('rigid', ' u1 u2 '), family_t('rigid', ' r1 r2 '), &
+                      family_t('resultants', ' fx fy '), family_t('nodal_stress', ' s11 s22 s33 s12 mises '), &
+                      family_t('joints', ' n t '), family_t('joints', ' x y '), family_t('joints', ' opening sliding '), &
+                      family_t('sections', ' n v '), family_t('sections', ' x y ')]
 
    real(wp), parameter :: MOST_GROUPS = 100000.0_wp  !< pairs and steps that even a table of few rows can have
 
 contains
 
-   !> Tables that are treated in their own way, known by their columns: a copy may bear any name.
+   !> What a table is, by its columns: a copy may bear any name; `plain` of most.
    pure function kind_of(table) result(kind)
       type(table_file_t), intent(in) :: table
       character(len=:), allocatable :: kind
+      logical :: is_there(3)
+      integer :: i, k
 
       kind = 'plain'
-      if (find_column(table, 'quantity') > 0 .and. find_column(table, 'value') > 0) kind = 'summary'
-      if (kind == 'summary' .and. find_column(table, 'node_or_element') > 0) kind = 'extremes'
-      if (find_column(table, 'keyword') > 0 .and. find_column(table, 'fx') > 0) kind = 'resultants'
-      if (find_column(table, 'node') > 0 .and. find_column(table, 'mises') > 0) kind = 'nodal_stress'
-      if (find_column(table, 'outer') > 0 .and. find_column(table, 'inner') > 0) kind = 'iterations'
-      if (find_column(table, 'phase') > 0 .and. find_column(table, 'wall') > 0) kind = 'timing'
-      if (find_column(table, 'rotation') > 0 .and. find_column(table, 'loads_moment') > 0) kind = 'bodies'
-      if (find_column(table, 'ur') > 0 .and. find_column(table, 'moment') > 0) kind = 'rigid'
-      if (find_column(table, 'body_1') > 0 .and. find_column(table, 'opening') > 0) kind = 'joints'
-      if (find_column(table, 'cut') > 0 .and. find_column(table, 'v') > 0) kind = 'sections'
-      if (find_column(table, 'dissipation') > 0 .and. find_column(table, 'elastic_energy') > 0) kind = 'history'
+      do i = 1, size(KINDS)
+         is_there = [(KINDS(i)%columns(k) == '' .or. find_column(table, trim(KINDS(i)%columns(k))) > 0, k=1, 3)]
+         if (all(is_there)) kind = trim(KINDS(i)%name)
+      end do
    end function kind_of
 
    !> The columns whose largest value is the scale of a column, itself among them.
@@ -48,40 +62,21 @@ contains
       type(table_file_t), intent(in) :: table
       integer(ip), intent(in) :: column
       integer(ip), allocatable :: list(:)
+      character(len=:), allocatable :: kind
+      logical :: is_related(table%n_columns)
       integer(ip) :: i
 
-      select case (kind_of(table))
-      case ('bodies')
-         list = pack([(i, i=1, table%n_columns)], [(are_related(FAMILIES_OF_BODIES, i), i=1, table%n_columns)])
-      case ('rigid')
-         list = pack([(i, i=1, table%n_columns)], [(are_related(FAMILIES_OF_RIGID, i), i=1, table%n_columns)])
-      case ('resultants')
-         list = pack([(i, i=1, table%n_columns)], [(are_related(FAMILIES_OF_RESULTANTS, i), i=1, table%n_columns)])
-      case ('nodal_stress')
-         list = pack([(i, i=1, table%n_columns)], [(are_related(FAMILIES_OF_NODAL_STRESS, i), i=1, table%n_columns)])
-      case ('joints')
-         list = pack([(i, i=1, table%n_columns)], [(are_related(FAMILIES_OF_JOINTS, i), i=1, table%n_columns)])
-      case ('sections')
-         list = pack([(i, i=1, table%n_columns)], [(are_related(FAMILIES_OF_SECTIONS, i), i=1, table%n_columns)])
-      case ('history')
-         list = pack([(i, i=1, table%n_columns)], [(are_related(FAMILIES_OF_HISTORY, i), i=1, table%n_columns)])
-      case default
-         list = [column]
-         ! an increment of the slip has the digits of the slip
-         i = find_column(table, 'slip')
-         if (table%columns(column)%s == 'slip_increment' .and. i > 0) list = [column, i]
-      end select
-
-   contains
-
-      pure logical function are_related(families, other)
-         character(len=*), intent(in) :: families(:)
-         integer(ip), intent(in) :: other           !< a column
-
-         are_related = other == column .or. any(index(families, ' '//table%columns(column)%s//' ') > 0 .and. &
-                                                index(families, ' '//table%columns(other)%s//' ') > 0)
-      end function are_related
-
+      kind = kind_of(table)
+      associate (names => table%columns)
+         do i = 1, table%n_columns
+            is_related(i) = any(FAMILIES%kind == kind .and. index(FAMILIES%columns, ' '//names(column)%s//' ') > 0 .and. &
+                                index(FAMILIES%columns, ' '//names(i)%s//' ') > 0)
+         end do
+         is_related(column) = .true.
+         i = find_column(table, 'slip')             ! an increment of the slip has the digits of the slip
+         if (names(column)%s == 'slip_increment' .and. i > 0) is_related(i) = .true.
+      end associate
+      list = pack([(i, i=1, table%n_columns)], is_related)
    end function columns_of_scale
 
    !> What a moment of joints.tab or history.tab may be as large as: the largest force times the largest coordinate; of sections.tab
@@ -136,23 +131,18 @@ contains
       integer(ip), intent(in) :: columns(:)
       logical, intent(in) :: by_pair
       real(wp) :: scale(table%n_rows)
-      real(wp), allocatable :: largest(:, :)
       integer(ip), allocatable :: pair(:), step(:)
       integer(ip) :: row
 
-      scale = largest_number(table, columns, 1_ip, table%n_rows)
-      if (.not. by_pair) return
+      if (.not. by_pair) then
+         scale = largest_number(table, columns, 1_ip, table%n_rows)
+         return
+      end if
       pair = numbers_of_rows(table, 'pair')
       step = numbers_of_rows(table, merge('step', 'none', kind_of(table) /= 'history'))
       ! no run has steps whose pairs have no rows to speak of
       if (real(maxval([pair, 0_ip]), wp)*maxval([step, 0_ip]) > MOST_GROUPS + 10.0_wp*table%n_rows) step = 0
-      allocate (largest(0:maxval([pair, 0_ip]), 0:maxval([step, 0_ip])), source=0.0_wp)
-      do row = 1, table%n_rows
-         associate (entry => largest(pair(row), step(row)))
-            entry = max(entry, largest_number(table, columns, row, row))
-         end associate
-      end do
-      scale = [(largest(pair(row), step(row)), row=1, table%n_rows)]
+      scale = largest_of_group(pair, step, [(largest_number(table, columns, row, row), row=1, table%n_rows)])
    end function row_scales
 
    !> The scale of each row of a summary: the largest value of its quantity and pair in any increment; of extremes, the largest
@@ -160,21 +150,27 @@ contains
    pure function summary_scales(table) result(scale)
       type(table_file_t), intent(in) :: table
       real(wp) :: scale(table%n_rows)
-      real(wp), allocatable :: largest(:, :)
-      integer(ip), allocatable :: pair(:)
-      integer(ip) :: quantity(table%n_rows), row, value
+      integer(ip) :: row, value
 
-      pair = numbers_of_rows(table, 'pair')
-      quantity = quantities_of_rows(table)
       value = find_column(table, 'value')
-      allocate (largest(maxval([quantity, 0_ip]), 0:maxval([pair, 0_ip])), source=0.0_wp)
-      do row = 1, table%n_rows
-         associate (entry => largest(quantity(row), pair(row)))
-            entry = max(entry, largest_number(table, [value], row, row))
-         end associate
-      end do
-      scale = [(largest(quantity(row), pair(row)), row=1, table%n_rows)]
+      scale = largest_of_group(numbers_of_rows(table, 'pair'), quantities_of_rows(table), &
+                               [(largest_number(table, [value], row, row), row=1, table%n_rows)])
    end function summary_scales
+
+   !> For each row the largest size in its group, that is, of the rows that have its two numbers.
+   pure function largest_of_group(first, second, sizes) result(scale)
+      integer(ip), intent(in) :: first(:), second(:)    !< (rows) numbers, not negative
+      real(wp), intent(in) :: sizes(:)                  !< (rows)
+      real(wp) :: scale(size(sizes))
+      real(wp), allocatable :: largest(:, :)
+      integer(ip) :: row
+
+      allocate (largest(0:maxval([first, 0_ip]), 0:maxval([second, 0_ip])), source=0.0_wp)
+      do row = 1, size(sizes, kind=ip)
+         largest(first(row), second(row)) = max(largest(first(row), second(row)), sizes(row))
+      end do
+      scale = [(largest(first(row), second(row)), row=1, size(sizes, kind=ip))]
+   end function largest_of_group
 
    !> Each different quantity has a number; those of extremes that are of one field have the same.
    pure function quantities_of_rows(table) result(number)

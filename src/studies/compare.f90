@@ -20,6 +20,8 @@ module atrito_compare
    real(wp), parameter :: DEFAULT_RTOL = 1.0e-6_wp, DEFAULT_ATOL = 0.0_wp
    real(wp), parameter :: LARGEST_RESIDUAL = 1.0e-8_wp  !< of the equilibrium; its digits are rounding
    integer, parameter :: MOST_LINES = 20                !< differences printed; the rest is counted
+   !> Tables whose numbers tell of the machine and the way, not of the solution.
+   character(len=*), parameter :: LEFT_OUT(2) = [character(len=10) :: 'timing', 'iterations']
 
    !> A comparison while it goes on.
    type :: comparison_t
@@ -50,22 +52,21 @@ contains
       character(len=*), intent(in) :: a, b
       type(comparison_t), intent(inout) :: comparison
       type(status_t), intent(out) :: status
-      logical :: there(2)
+      logical :: folder(2), there(2)
 
+      folder(1) = is_folder(a)
+      folder(2) = is_folder(b)
       there = are_there(a, b)
       if (.not. any(there)) then
          call set_status(status, STATUS_FILE, a//' and '//b//': neither is there')
-         return
-      end if
-      if (.not. all(there)) then
+      else if (.not. all(there)) then
          call report_missing(comparison, a, b, there)
-      else if (is_folder(a) .neqv. is_folder(b)) then
+      else if (folder(1) .neqv. folder(2)) then
          call set_status(status, STATUS_USAGE, a//' and '//b//': one is a folder, the other a file')
-         return
-      else if (is_folder(a)) then
+      else if (folder(1)) then
          call compare_folders(a, b, comparison, status)
       else
-         call compare_files(a, b, comparison, status)
+         call compare_there(a, b, comparison, status)
       end if
       if (is_ok(status)) call conclude(comparison, status)
    end subroutine compare_paths
@@ -73,13 +74,10 @@ contains
    !> Which of two files or folders are there.
    function are_there(a, b) result(there)
       character(len=*), intent(in) :: a, b
-      logical :: there(2), folder(2)
+      logical :: there(2)
 
-      folder(1) = is_folder(a)
-      folder(2) = is_folder(b)
-      there(1) = file_exists(a)
-      there(2) = file_exists(b)
-      there = there .or. folder
+      there(1) = file_exists(a) .or. is_folder(a)
+      there(2) = file_exists(b) .or. is_folder(b)
    end function are_there
 
    subroutine report_missing(comparison, a, b, there)
@@ -104,12 +102,12 @@ contains
          file_b = table_path(b, trim(TABLE_NAMES(i)))
          there = are_there(file_a, file_b)
          if (.not. any(there)) cycle
-         if (is_left_out(TABLE_NAMES(i))) then
+         if (any(LEFT_OUT == TABLE_NAMES(i))) then
             call append_string(comparison%left_out, trim(TABLE_NAMES(i)))
          else if (.not. all(there)) then
             call report_missing(comparison, file_a, file_b, there)
          else
-            call compare_files(file_a, file_b, comparison, status)
+            call compare_there(file_a, file_b, comparison, status)
             if (.not. is_ok(status)) return
          end if
       end do
@@ -118,14 +116,7 @@ contains
       end if
    end subroutine compare_folders
 
-   !> Their numbers tell of the machine and the way, not of the solution.
-   pure logical function is_left_out(name)
-      character(len=*), intent(in) :: name
-
-      is_left_out = name == 'timing' .or. name == 'iterations'
-   end function is_left_out
-
-   subroutine compare_files(a, b, comparison, status)
+   subroutine compare_there(a, b, comparison, status)
       character(len=*), intent(in) :: a, b
       type(comparison_t), intent(inout) :: comparison
       type(status_t), intent(inout) :: status
@@ -134,12 +125,12 @@ contains
       call read_table(a, table_a, status)
       if (is_ok(status)) call read_table(b, table_b, status)
       if (.not. is_ok(status)) return
-      if (is_left_out(kind_of(table_a)) .and. kind_of(table_a) == kind_of(table_b)) then
+      if (any(LEFT_OUT == kind_of(table_a)) .and. kind_of(table_a) == kind_of(table_b)) then
          call append_string(comparison%left_out, kind_of(table_a))
       else
          call compare_tables(table_a, table_b, comparison)
       end if
-   end subroutine compare_files
+   end subroutine compare_there
 
    !> Compares two tables item by item.
    subroutine compare_tables(a, b, comparison)
@@ -231,7 +222,7 @@ contains
       type(comparison_t), intent(inout) :: comparison
       integer :: kind_a, kind_b
       real(wp) :: half_difference, half_allowed
-      character(len=:), allocatable :: text
+      character(len=:), allocatable :: text, name
 
       comparison%n_values = comparison%n_values + 1
       kind_a = a%kind(at_a(1), at_a(2))
@@ -253,7 +244,9 @@ contains
       else if (kind_a == ITEM_WORD .and. kind_b == ITEM_WORD) then
          if (item_text(a, at_a(1), at_a(2)) == item_text(b, at_b(1), at_b(2))) return
       end if
-      call report(comparison, a%name//', '//row_name(a, at_a(2))//', '//item_name(a, at_a)//': '//text)
+      name = a%columns(at_a(1))%s
+      if (has_quantities(a)) name = item_text(a, find_column(a, 'quantity'), at_a(2))
+      call report(comparison, a%name//', '//row_name(a, at_a(2))//', '//name//': '//text)
    end subroutine compare_items
 
    !> `row 3, pair 1, point 3, s = 1e-1`
@@ -274,19 +267,6 @@ contains
       if (column > 0) text = text//', s = '//item_text(table, column, row)
    end function row_name
 
-   !> The column's name; in a summary the quantity's.
-   pure function item_name(table, at) result(text)
-      type(table_file_t), intent(in) :: table
-      integer(ip), intent(in) :: at(2)              !< [column, row]
-      character(len=:), allocatable :: text
-
-      if (has_quantities(table)) then
-         text = item_text(table, find_column(table, 'quantity'), at(2))
-      else
-         text = table%columns(at(1))%s
-      end if
-   end function item_name
-
    !> A summary, or extremes: their rows have names. Where an extreme is does not count, since another place may be as good.
    pure logical function has_quantities(table) result(has)
       type(table_file_t), intent(in) :: table
@@ -294,15 +274,19 @@ contains
       has = kind_of(table) == 'summary' .or. kind_of(table) == 'extremes'
    end function has_quantities
 
-   !> Rows are matched by their quantity, pair, increment and step.
+   !> Rows are matched by their quantity, pair, increment and step, as far as both have these columns.
    subroutine compare_summaries(a, b, comparison)
       type(table_file_t), intent(in) :: a, b
       type(comparison_t), intent(inout) :: comparison
+      character(len=9), parameter :: NAMES(3) = ['step     ', 'increment', 'pair     ']
       type(string_t), allocatable :: keys(:)
       real(wp) :: scale_a(a%n_rows), scale_b(b%n_rows)
-      integer(ip) :: row, other
+      integer(ip) :: row, other, i
 
-      keys = common_keys(a, b)
+      allocate (keys(0))
+      do i = 1, size(NAMES, kind=ip)
+         if (min(find_column(a, trim(NAMES(i))), find_column(b, trim(NAMES(i)))) > 0) call append_string(keys, trim(NAMES(i)))
+      end do
       scale_a = summary_scales(a)
       scale_b = summary_scales(b)
       do row = 1, a%n_rows
@@ -320,19 +304,6 @@ contains
       end do
    end subroutine compare_summaries
 
-   !> The columns by which rows of both summaries are known, beside the quantity.
-   pure function common_keys(a, b) result(keys)
-      type(table_file_t), intent(in) :: a, b
-      type(string_t), allocatable :: keys(:)
-      character(len=9), parameter :: NAMES(3) = ['step     ', 'increment', 'pair     ']
-      integer :: i
-
-      allocate (keys(0))
-      do i = 1, size(NAMES)
-         if (min(find_column(a, trim(NAMES(i))), find_column(b, trim(NAMES(i)))) > 0) call append_string(keys, trim(NAMES(i)))
-      end do
-   end function common_keys
-
    subroutine compare_quantity(a, b, row_a, row_b, scale, comparison)
       type(table_file_t), intent(in) :: a, b
       integer(ip), intent(in) :: row_a, row_b
@@ -341,26 +312,23 @@ contains
       integer(ip) :: i, j
       logical :: exact
 
-      if (item_text(a, find_column(a, 'quantity'), row_a) == 'equilibrium_residual') then
-         comparison%n_values = comparison%n_values + 1
-         if (.not. is_small(a, row_a) .or. .not. is_small(b, row_b)) then
-            call report(comparison, a%name//', equilibrium_residual: '//item_text(a, find_column(a, 'value'), row_a)//' / '// &
-                        item_text(b, find_column(b, 'value'), row_b)//', must be below '//to_text(LARGEST_RESIDUAL)//' in both')
-         end if
-         return
-      end if
       i = find_column(a, 'value')
       j = find_column(b, 'value')
-      exact = is_integer_column(a, i, row_a, row_a) .or. is_integer_column(b, j, row_b, row_b)
-      call compare_items(a, b, [i, row_a], [j, row_b], scale, exact, comparison)
+      if (item_text(a, find_column(a, 'quantity'), row_a) == 'equilibrium_residual') then
+         comparison%n_values = comparison%n_values + 1
+         if (is_small(a, i, row_a) .and. is_small(b, j, row_b)) return
+         call report(comparison, a%name//', equilibrium_residual: '//item_text(a, i, row_a)//' / '//item_text(b, j, row_b)// &
+                     ', must be below '//to_text(LARGEST_RESIDUAL)//' in both')
+      else
+         exact = is_integer_column(a, i, row_a, row_a) .or. is_integer_column(b, j, row_b, row_b)
+         call compare_items(a, b, [i, row_a], [j, row_b], scale, exact, comparison)
+      end if
    end subroutine compare_quantity
 
-   pure logical function is_small(table, row)
+   pure logical function is_small(table, column, row)
       type(table_file_t), intent(in) :: table
-      integer(ip), intent(in) :: row
-      integer(ip) :: column
+      integer(ip), intent(in) :: column, row
 
-      column = find_column(table, 'value')
       is_small = is_number(table%kind(column, row))
       if (is_small) is_small = abs(table%value(column, row)) < LARGEST_RESIDUAL
    end function is_small

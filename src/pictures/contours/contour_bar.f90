@@ -19,7 +19,7 @@ module atrito_contour_bar
       integer(ip) :: n_bands = 1
       real(wp) :: step = 0.0_wp                     !< of a band
       logical :: is_flat = .false.                  !< the field has one value
-      integer :: exponent = 0                       !< power of ten by which the numbers at the bar are divided
+      integer(ip) :: exponent = 0                       !< power of ten by which the numbers at the bar are divided
    end type bar_t
 
    integer(ip), parameter :: MOST_BANDS = 16

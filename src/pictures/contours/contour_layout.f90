@@ -2,9 +2,9 @@
 !> two lines about the largest and the least.
 module atrito_contour_layout
    use atrito_contour_bar, only: round_step
-   use atrito_files, only: text_file_t, put_line
    use atrito_kinds, only: ip, wp
-   use atrito_plot_text, only: range_t, range_text, span, put_terminal
+   use atrito_plot_scripts, only: plots_t, put, put_terminal
+   use atrito_plot_text, only: range_t, range_text, span, LF
    use atrito_strings, only: to_text
    implicit none (type, external)
    private
@@ -48,27 +48,21 @@ contains
    end function make_layout
 
    !> Ranges, terminal, margins and axes.
-   subroutine put_layout(file, name, layout)
-      type(text_file_t), intent(inout) :: file
-      character(len=*), intent(in) :: name          !< of the picture
+   subroutine put_layout(plots, layout)
+      type(plots_t), intent(inout) :: plots
       type(layout_t), intent(in) :: layout
 
-      call put_line(file, 'set xrange '//range_text(layout%window(1)))
-      call put_line(file, 'set yrange '//range_text(layout%window(2)))
-      call put_line(file, 'width = '//to_text(WIDTH)//'.0; height = '//to_text(layout%height)//'.0   # of the picture in pixels')
-      call put_line(file, 'across(pixels) = pixels/width')
-      call put_line(file, 'up(pixels) = pixels/height')
-      call put_terminal(file, name, 'int(width),int(height)')
-      call put_line(file, 'set lmargin at screen across('//to_text(layout%left)//'); set rmargin at screen across('// &
-                    to_text(layout%left + layout%n(1))//')')
-      call put_line(file, 'set bmargin at screen up('//to_text(layout%bottom)//'); set tmargin at screen up('// &
-                    to_text(layout%bottom + layout%n(2))//')')
-      call put_line(file, 'set clip two')
-      call put_line(file, 'set border lt 1 lw 1 lc rgb "#A0A0A0"')
-      call put_line(file, 'set tics nomirror out scale 0.6 textcolor rgb "black" format "%h"')
-      call put_line(file, 'set xtics '//tics_text(layout, 1)//'; set ytics '//tics_text(layout, 2))
-      call put_line(file, 'unset key')
-      call put_line(file, 'set xlabel "x [L]"; set ylabel "y [L]"')
+      call put(plots, 'set xrange '//range_text(layout%window(1))//LF//'set yrange '//range_text(layout%window(2))//LF// &
+               'width = '//to_text(WIDTH)//'.0; height = '//to_text(layout%height)//'.0   # of the picture in pixels'//LF// &
+               'across(pixels) = pixels/width'//LF//'up(pixels) = pixels/height')
+      call put_terminal(plots, 'int(width),int(height)')
+      call put(plots, 'set lmargin at screen across('//to_text(layout%left)//'); set rmargin at screen across('// &
+               to_text(layout%left + layout%n(1))//')'//LF//'set bmargin at screen up('//to_text(layout%bottom)// &
+               '); set tmargin at screen up('//to_text(layout%bottom + layout%n(2))//')'//LF//'set clip two'//LF// &
+               'set border lt 1 lw 1 lc rgb "#A0A0A0"'//LF// &
+               'set tics nomirror out scale 0.6 textcolor rgb "black" format "%h"'//LF// &
+               'set xtics '//tics_text(layout, 1)//'; set ytics '//tics_text(layout, 2)//LF//'unset key'//LF// &
+               'set xlabel "x [L]"; set ylabel "y [L]"')
    end subroutine put_layout
 
    !> The step of the marks of an axis, so that their numbers do not touch in a narrow window.
@@ -81,22 +75,20 @@ contains
    end function tics_text
 
    !> Place of the bar, and what it is of: above a bar that stands, where long numbers at the bar are not in its way.
-   subroutine put_bar_place(file, layout, what)
-      type(text_file_t), intent(inout) :: file
+   subroutine put_bar_place(plots, layout, what)
+      type(plots_t), intent(inout) :: plots
       type(layout_t), intent(in) :: layout
       character(len=*), intent(in) :: what
 
       if (layout%is_wide) then
-         call put_line(file, 'set colorbox horizontal user origin screen across('//to_text(layout%left)//'), screen up(138)'// &
-                       ' size screen across('//to_text(layout%n(1))//'), screen up(16)')
-         call put_line(file, 'set cblabel "'//what//'"')
+         call put(plots, 'set colorbox horizontal user origin screen across('//to_text(layout%left)//'), screen up(138)'// &
+                  ' size screen across('//to_text(layout%n(1))//'), screen up(16)'//LF//'set cblabel "'//what//'"')
       else
-         call put_line(file, 'set colorbox vertical user origin screen across('//to_text(layout%left + layout%n(1) + 22)// &
-                       '), screen up('//to_text(layout%bottom)//') size screen across(20), screen up('// &
-                       to_text(layout%n(2))//')')
-         call put_line(file, 'set label 2 "'//what//'" at screen across('// &
-                       to_text(min(WIDTH - 10_ip, layout%left + layout%n(1) + 125))//'), screen up('// &
-                       to_text(layout%bottom + layout%n(2) + 14)//') right')
+         call put(plots, 'set colorbox vertical user origin screen across('//to_text(layout%left + layout%n(1) + 22)// &
+                  '), screen up('//to_text(layout%bottom)//') size screen across(20), screen up('//to_text(layout%n(2))//')'//LF// &
+                  'set label 2 "'//what//'" at screen across('// &
+                  to_text(min(WIDTH - 10_ip, layout%left + layout%n(1) + 125))//'), screen up('// &
+                  to_text(layout%bottom + layout%n(2) + 14)//') right')
       end if
    end subroutine put_bar_place
 

@@ -4,11 +4,10 @@ module atrito_face_symbols
    use atrito_face_geometry, only: outward_normal
    use atrito_id_map, only: id_map_t, add_id, find_id
    use atrito_kinds, only: ip, wp
-   use atrito_load_resultants, only: last_factor
    use atrito_mesh, only: face_nodes
    use atrito_model, only: is_on_volume, LOAD_TRACTION, LOAD_HYDROSTATIC
    use atrito_shape_functions, only: face_shape_values
-   use atrito_symbols, only: symbols_t, begin_block, end_block, put_path, put_arrow, thinned, ARROW_LOOKS, SLANT
+   use atrito_symbols, only: symbols_t, begin_block, end_block, put_path, put_arrow, thinned, load_factor, ARROW_LOOKS, SLANT
    implicit none (type, external)
    private
    public :: put_face_loads
@@ -22,9 +21,8 @@ module atrito_face_symbols
    !> The faces with loads.
    type :: loaded_faces_t
       integer(ip) :: n = 0
-      integer(ip), allocatable :: load(:)           !< (n) the first load of each
-      integer(ip), allocatable :: next(:)           !< (loads) the next one on the same face; 0: none
-      real(wp), allocatable :: factor(:)            !< (loads) of its amplitude
+      integer(ip), allocatable :: load(:)           !< (n) the last load of each
+      integer(ip), allocatable :: next(:)           !< (loads) the one before it on the same face; 0: none
       real(wp) :: largest = 0.0_wp                  !< traction on them [F/L^2]
    end type loaded_faces_t
 
@@ -42,24 +40,20 @@ contains
       character(len=*), intent(in) :: legend        !< of the arrows
       type(symbols_t), intent(inout) :: symbols
       type(loaded_faces_t) :: faces
+      real(wp) :: traction(2)
       integer(ip) :: i, k
 
       call list_faces(symbols, faces)
       do i = 1, faces%n
          do k = -1, 1
-            faces%largest = max(faces%largest, size_of(traction_on(symbols, faces, i, real(k, wp))))
+            traction = traction_on(symbols, faces, i, real(k, wp))
+            faces%largest = max(faces%largest, hypot(traction(1), traction(2)))
          end do
       end do
       if (.not. faces%largest > 0.0_wp) return
       call put_lines_of_ends(faces, symbols)
       call put_arrows(faces, legend, symbols)
    end subroutine put_face_loads
-
-   pure real(wp) function size_of(traction)
-      real(wp), intent(in) :: traction(2)
-
-      size_of = hypot(traction(1), traction(2))
-   end function size_of
 
    !> Each face once, with its loads one behind the other.
    subroutine list_faces(symbols, faces)
@@ -71,11 +65,8 @@ contains
 
       associate (loads => symbols%model%steps(symbols%step)%element_loads)
          allocate (faces%load(loads%n), faces%next(loads%n), source=0_ip)
-         allocate (faces%factor(loads%n), source=1.0_wp)
          do i = 1, loads%n
             if (is_on_volume(loads%kind(i))) cycle
-            if (allocated(loads%amplitude)) faces%factor(i) = last_factor(symbols%model, symbols%step, loads%amplitude(i))
-            if (.not. abs(faces%factor(i)) > 0.0_wp) faces%factor(i) = 1.0_wp
             key = MOST_SIDES*(loads%element(i) - 1) + loads%face(i)
             call add_id(known_faces, key, faces%n + 1, known)
             at = find_id(known_faces, key)
@@ -89,12 +80,12 @@ contains
    !> The force per area at a place of a face.
    pure function traction_on(symbols, faces, i, t) result(traction)
       type(symbols_t), intent(in) :: symbols
-      integer(ip), intent(in) :: i
       type(loaded_faces_t), intent(in) :: faces
+      integer(ip), intent(in) :: i
       real(wp), intent(in) :: t                     !< in [-1,1]
       real(wp) :: traction(2)                       !< [F/L^2]
       real(wp), allocatable :: x(:, :)
-      real(wp) :: normal(2), depth
+      real(wp) :: normal(2), depth, factor
       integer(ip) :: k
 
       traction = 0.0_wp
@@ -103,15 +94,16 @@ contains
       k = faces%load(i)
       associate (loads => symbols%model%steps(symbols%step)%element_loads)
          do while (k > 0)
+            factor = load_factor(symbols, k)
             associate (value => loads%value(:, k))
                select case (loads%kind(k))
                case (LOAD_TRACTION)
-                  traction = traction + faces%factor(k)*value(:2)
+                  traction = traction + factor*value(:2)
                case (LOAD_HYDROSTATIC)
                   depth = dot_product(x(2, :), face_shape_values(size(x, 2, kind=ip), t))
-                  traction = traction - faces%factor(k)*value(1)*max(0.0_wp, (depth - value(2))/(value(3) - value(2)))*normal
+                  traction = traction - factor*value(1)*max(0.0_wp, (depth - value(2))/(value(3) - value(2)))*normal
                case default
-                  traction = traction - faces%factor(k)*value(1)*normal
+                  traction = traction - factor*value(1)*normal
                end select
             end associate
             k = faces%next(k)
@@ -130,21 +122,47 @@ contains
       end associate
    end function nodes_of
 
-   !> What is drawn at a place of a face.
-   pure type(spot_t) function spot_on(symbols, faces, i, t) result(spot)
+   !> Equal pieces of a face, none of which is shorter than a length.
+   pure integer(ip) function pieces_of(symbols, nodes, least) result(n)
       type(symbols_t), intent(in) :: symbols
-      integer(ip), intent(in) :: i
+      integer(ip), intent(in) :: nodes(:)           !< of the face
+      real(wp), intent(in) :: least                 !< [pixels]
+
+      associate (x => symbols%model%mesh%x)
+         n = int(min(norm2(x(:, nodes(2)) - x(:, nodes(1)))/(least*symbols%pixel), real(MOST_PIECES, wp)), ip)
+      end associate
+      n = max(1_ip, n)
+   end function pieces_of
+
+   !> What is drawn along a face, at the ends of its pieces.
+   pure function spots_on(symbols, faces, i, least) result(spots)
+      type(symbols_t), intent(in) :: symbols
       type(loaded_faces_t), intent(in) :: faces
-      real(wp), intent(in) :: t
-      real(wp), allocatable :: x(:, :), n(:)
+      integer(ip), intent(in) :: i
+      real(wp), intent(in) :: least                 !< length of a piece [pixels]
+      type(spot_t), allocatable :: spots(:)         !< (pieces + 1)
       integer(ip), allocatable :: nodes(:)
-      real(wp) :: share(2), normal(2), length, along
+      integer(ip) :: k, n
 
       nodes = nodes_of(symbols, faces%load(i))
-      x = symbols%model%mesh%x(:, nodes)
-      normal = outward_normal(x, t)
+      n = pieces_of(symbols, nodes, least)
+      allocate (spots(n + 1))
+      do k = 0, n
+         spots(k + 1) = spot_on(symbols, faces, i, nodes, 2*real(k, wp)/n - 1)
+      end do
+   end function spots_on
+
+   !> What is drawn at a place of a face.
+   pure type(spot_t) function spot_on(symbols, faces, i, nodes, t) result(spot)
+      type(symbols_t), intent(in) :: symbols
+      type(loaded_faces_t), intent(in) :: faces
+      integer(ip), intent(in) :: i, nodes(:)        !< the face and its nodes
+      real(wp), intent(in) :: t
+      real(wp) :: n(size(nodes)), share(2), normal(2), length, along
+
+      normal = outward_normal(symbols%model%mesh%x(:, nodes), t)
       n = face_shape_values(size(nodes, kind=ip), t)
-      spot%place = matmul(x, n)
+      spot%place = matmul(symbols%model%mesh%x(:, nodes), n)
       spot%u = matmul(symbols%u(:, nodes), n)
       share = traction_on(symbols, faces, i, t)/faces%largest
       length = norm2(share)
@@ -165,38 +183,26 @@ contains
    subroutine put_lines_of_ends(faces, symbols)
       type(loaded_faces_t), intent(in) :: faces
       type(symbols_t), intent(inout) :: symbols
-      real(wp) :: ends(2, 0:MOST_PIECES), moves(2, 0:MOST_PIECES)
-      type(spot_t) :: spot
+      real(wp) :: ends(2, MOST_PIECES + 1), moves(2, MOST_PIECES + 1)
+      type(spot_t), allocatable :: spots(:)
+      type(spot_t) :: middle
       integer(ip) :: i, k, n
 
       call begin_block(symbols, 'ends of the loads on faces', '', 'with lines'//LOOKS)
       do i = 1, faces%n
-         spot = spot_on(symbols, faces, i, 0.0_wp)
-         if (spot%is_shear) cycle
-         n = pieces_of(symbols, faces, i, PIECE)
-         do k = 0, n
-            spot = spot_on(symbols, faces, i, 2*real(k, wp)/n - 1)
-            ends(:, k) = spot%from
-            if (all(.not. abs(spot%from - spot%place) > 0.0_wp)) ends(:, k) = spot%place + spot%arrow
-            moves(:, k) = spot%u
+         middle = spot_on(symbols, faces, i, nodes_of(symbols, faces%load(i)), 0.0_wp)
+         if (middle%is_shear) cycle
+         spots = spots_on(symbols, faces, i, PIECE)
+         n = size(spots, kind=ip)
+         do k = 1, n
+            ends(:, k) = spots(k)%from
+            if (all(.not. abs(spots(k)%from - spots(k)%place) > 0.0_wp)) ends(:, k) = spots(k)%place + spots(k)%arrow
+            moves(:, k) = spots(k)%u
          end do
          call put_path(symbols, moves(:, :n), ends(:, :n))
       end do
       call end_block(symbols)
    end subroutine put_lines_of_ends
-
-   !> Equal pieces of a face, none of which is shorter than a length.
-   pure integer(ip) function pieces_of(symbols, faces, i, least) result(n)
-      type(symbols_t), intent(in) :: symbols
-      integer(ip), intent(in) :: i
-      type(loaded_faces_t), intent(in) :: faces
-      real(wp), intent(in) :: least                 !< [pixels]
-      real(wp), allocatable :: x(:, :)
-
-      x = symbols%model%mesh%x(:, nodes_of(symbols, faces%load(i)))
-      n = int(min(norm2(x(:, 2) - x(:, 1))/(least*symbols%pixel), real(MOST_PIECES, wp)), ip)
-      n = max(1_ip, n)
-   end function pieces_of
 
    !> The arrows, so far apart that they can be told from each other.
    subroutine put_arrows(faces, legend, symbols)
@@ -205,18 +211,19 @@ contains
       type(symbols_t), intent(inout) :: symbols
       type(spot_t), allocatable :: spots(:)
       real(wp), allocatable :: places(:, :)
-      integer(ip) :: i, k, n, total
+      integer(ip) :: i, n, first(faces%n + 1)       ! spots of each face
 
-      total = sum([(pieces_of(symbols, faces, i, SPACING) + 1, i=1, faces%n)])
-      allocate (spots(total), places(2, total))
-      total = 0
+      first(1) = 1
       do i = 1, faces%n
-         n = pieces_of(symbols, faces, i, SPACING)
-         do k = 0, n
-            total = total + 1
-            spots(total) = spot_on(symbols, faces, i, 2*real(k, wp)/n - 1)
-            places(:, total) = spots(total)%place
-         end do
+         first(i + 1) = first(i) + pieces_of(symbols, nodes_of(symbols, faces%load(i)), SPACING) + 1
+      end do
+      n = first(faces%n + 1) - 1
+      allocate (spots(n), places(2, n))
+      do i = 1, faces%n
+         spots(first(i):first(i + 1) - 1) = spots_on(symbols, faces, i, SPACING)
+      end do
+      do i = 1, n
+         places(:, i) = spots(i)%place
       end do
       call begin_block(symbols, 'loads on faces', ':5:6', ARROWS//' title "'//legend//'"')
       spots = pack(spots, thinned(places, SPACING*symbols%pixel))

@@ -7,7 +7,7 @@ module atrito_link_symbols
    use atrito_model, only: spring_t
    use atrito_plot_text, only: span
    use atrito_strings, only: to_text
-   use atrito_symbols, only: symbols_t, begin_block, end_block, put_stroke, put_path, put_arrow, put_marker, thinned, &
+   use atrito_symbols, only: symbols_t, begin_block, end_block, put_stroke, put_path, put_arrow, put_point, thinned, &
                              place_of_node, end_value, ARROW_LOOKS
    implicit none (type, external)
    private
@@ -70,34 +70,34 @@ contains
    subroutine put_spring(spring, symbols)
       type(spring_t), intent(in) :: spring
       type(symbols_t), intent(inout) :: symbols
-      real(wp) :: ends(2, 2), moves(2, 2), along(2), shares(COILS + 2), places(2, COILS + 2), us(2, COILS + 2)
+      real(wp) :: ends(2, 2), moves(2, 2), along(2), across(2), share, places(2, COILS + 2), us(2, COILS + 2)
       integer :: k
 
-      along = 0.0_wp
-      along(max(1_ip, spring%dof(1))) = -FREE_SPRING*symbols%pixel
-      ends(:, 1) = symbols%model%mesh%x(:, spring%node(1))
-      moves(:, 1) = symbols%u(:, spring%node(1))
-      ends(:, 2) = ends(:, 1) + along
-      moves(:, 2) = moves(:, 1)
-      if (spring%node(2) > 0) then
-         moves(:, 2) = symbols%u(:, spring%node(2))
-         associate (other => symbols%model%mesh%x(:, spring%node(2)))
-            if (norm2(other - ends(:, 1)) > symbols%pixel) ends(:, 2) = other
-         end associate
-      end if
+      associate (mesh => symbols%model%mesh, other => spring%node(2))
+         along = 0.0_wp
+         along(max(1_ip, spring%dof(1))) = -FREE_SPRING*symbols%pixel
+         ends(:, 1) = mesh%x(:, spring%node(1))
+         ends(:, 2) = ends(:, 1) + along
+         moves = spread(symbols%u(:, spring%node(1)), 2, 2)
+         if (other > 0) then
+            moves(:, 2) = symbols%u(:, other)
+            if (norm2(mesh%x(:, other) - ends(:, 1)) > symbols%pixel) ends(:, 2) = mesh%x(:, other)
+         end if
+      end associate
       along = ends(:, 2) - ends(:, 1)
       along = along/norm2(along)
-      shares = [0.0_wp, [(0.25_wp + 0.5_wp*(k - 1)/(COILS - 1), k=1, COILS)], 1.0_wp]
-      do k = 1, size(shares)
-         places(:, k) = ends(:, 1) + shares(k)*(ends(:, 2) - ends(:, 1))
-         us(:, k) = moves(:, 1) + shares(k)*(moves(:, 2) - moves(:, 1))
-         if (k <= 2 .or. k >= size(shares) - 1) cycle
-         places(:, k) = places(:, k) + (1 - 2*mod(k, 2))*HALF_COIL*symbols%pixel*[-along(2), along(1)]
+      across = symbols%pixel*[-along(2), along(1)]
+      do k = 0, COILS + 1
+         share = 0.25_wp + 0.5_wp*(k - 1)/(COILS - 1)
+         if (k == 0) share = 0.0_wp
+         if (k > COILS) share = 1.0_wp
+         places(:, k + 1) = ends(:, 1) + share*(ends(:, 2) - ends(:, 1))
+         us(:, k + 1) = moves(:, 1) + share*(moves(:, 2) - moves(:, 1))
+         if (k > 1 .and. k < COILS) places(:, k + 1) = places(:, k + 1) + (2*mod(k, 2) - 1)*HALF_COIL*across
       end do
       call put_path(symbols, us, places)
       if (spring%node(2) > 0) return
-      call put_stroke(symbols, moves(:, 1), reshape([ends(:, 2) + HALF_GROUND*symbols%pixel*[-along(2), along(1)], &
-                                                     ends(:, 2) - HALF_GROUND*symbols%pixel*[-along(2), along(1)]], [2, 2]))
+      call put_stroke(symbols, moves(:, 1), reshape([ends(:, 2) + HALF_GROUND*across, ends(:, 2) - HALF_GROUND*across], [2, 2]))
    end subroutine put_spring
 
    !> Dotted lines from the first node of an equation to the others.
@@ -144,7 +144,7 @@ contains
                              ' title "pre-tension section'//section_text(symbols, b)//'"')
             nodes = pack(nodes, thinned(symbols%model%mesh%x(:, nodes), BETWEEN*symbols%pixel))
             do i = 1, size(nodes, kind=ip)
-               call put_marker(symbols, symbols%u(:, nodes(i)), symbols%model%mesh%x(:, nodes(i)), 1.0_wp)
+               call put_point(symbols, symbols%u(:, nodes(i)), symbols%model%mesh%x(:, nodes(i)), [1.0_wp])
             end do
             call end_block(symbols)
             call put_pull(all_rows%vector(:, all_rows%first(rows(1))), nodes, symbols)
@@ -200,7 +200,7 @@ contains
       do i = 1, size(symbols%model%rigid_bodies, kind=ip)
          associate (body => symbols%model%rigid_bodies(i))
             if (body%is_section) cycle
-            call put_marker(symbols, symbols%u(:, body%node), place_of_node(symbols, body%node), 1.0_wp)
+            call put_point(symbols, symbols%u(:, body%node), place_of_node(symbols, body%node), [1.0_wp])
          end associate
       end do
       call end_block(symbols)

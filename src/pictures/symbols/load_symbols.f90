@@ -4,14 +4,15 @@
 !> A load that pushes on the body has its tips there, one that pulls begins there. Arrows are as long as the loads are large, within
 !> each kind.
 module atrito_load_symbols
+   use atrito_drawing, only: largest_length
    use atrito_face_symbols, only: put_face_loads
    use atrito_kinds, only: ip, wp
-   use atrito_load_resultants, only: force_t, load_resultants, last_factor
+   use atrito_load_resultants, only: force_t, load_resultants
    use atrito_mesh, only: mesh_t, side_count
    use atrito_model, only: nodal_values_t, LOAD_BODY, LOAD_LINEAR
    use atrito_strings, only: to_text
-   use atrito_symbols, only: symbols_t, begin_block, end_block, put_stroke, put_arrow, put_marker, thinned, find_outward, &
-                             end_value, place_of_node, is_section_node, largest_length, arrow_at, ARROW_LOOKS
+   use atrito_symbols, only: symbols_t, begin_block, end_block, put_stroke, put_arrow, put_point, thinned, thinned_nodes, &
+                             find_outward, end_value, load_factor, place_of_node, is_section_node, arrow_at, ARROW_LOOKS
    implicit none (type, external)
    private
    public :: put_loads, force_text
@@ -60,7 +61,7 @@ contains
    subroutine put_forces(resultant, symbols)
       character(len=*), intent(in) :: resultant
       type(symbols_t), intent(inout) :: symbols
-      real(wp), allocatable :: force(:, :), outward(:, :), places(:, :)
+      real(wp), allocatable :: force(:, :), outward(:, :)
       real(wp) :: largest, from(2), arrow(2)
       integer(ip), allocatable :: nodes(:)
       integer(ip) :: i
@@ -70,12 +71,8 @@ contains
       call add_forces(symbols, symbols%model%steps(symbols%step)%rigid_loads, force)
       largest = largest_length(force)
       if (.not. largest > 0.0_wp) return
-      nodes = pack([(i, i=1, symbols%model%mesh%n_nodes)], abs(force(1, :)) + abs(force(2, :)) > 0.0_wp)
-      allocate (places(2, size(nodes)))
-      do i = 1, size(nodes, kind=ip)
-         places(:, i) = place_of_node(symbols, nodes(i))
-      end do
-      nodes = pack(nodes, thinned(places, BETWEEN_FORCES*symbols%pixel))
+      nodes = thinned_nodes(symbols, pack([(i, i=1, size(force, 2, kind=ip))], abs(force(1, :)) + abs(force(2, :)) > 0.0_wp), &
+                            BETWEEN_FORCES)
       outward = find_outward(symbols%model%mesh)
       call begin_block(symbols, 'forces at nodes', ':5:6', ARROW_LOOKS//FORCES//' title "forces at nodes, resultant '// &
                        resultant//'"')
@@ -94,11 +91,8 @@ contains
       integer(ip) :: i
 
       do i = 1, list%n
-         if (list%dof(i) > 2) cycle
-         if (is_section_node(symbols%model, list%node(i))) cycle
-         associate (sum_there => force(list%dof(i), list%node(i)))
-            sum_there = sum_there + end_value(symbols, list, i)
-         end associate
+         if (list%dof(i) > 2 .or. is_section_node(symbols%model, list%node(i))) cycle
+         force(list%dof(i), list%node(i)) = force(list%dof(i), list%node(i)) + end_value(symbols, list, i)
       end do
    end subroutine add_forces
 
@@ -136,47 +130,46 @@ contains
       integer(ip), allocatable :: elements(:)
       integer(ip) :: i
 
-      call sum_densities(symbols, density)
-      largest = largest_length(density)
-      if (.not. largest > 0.0_wp) return
-      elements = pack([(i, i=1, symbols%model%mesh%n_elements)], abs(density(1, :)) + abs(density(2, :)) > 0.0_wp)
-      allocate (places(2, size(elements)))
-      do i = 1, size(elements, kind=ip)
-         places(:, i) = mean_of(symbols%model%mesh, symbols%model%mesh%x, elements(i))
-      end do
-      elements = pack(elements, thinned(places, BETWEEN_BODY*symbols%pixel))
-      call begin_block(symbols, 'body loads', ':5:6', ARROW_LOOKS//BODY//' title "body loads, resultant '//resultant//'"')
-      do i = 1, size(elements, kind=ip)
-         share = density(:, elements(i))/largest
-         if (norm2(share) < LEAST_SHARE) share = share*(LEAST_SHARE/norm2(share))
-         arrow = LONGEST_BODY*symbols%pixel*share
-         call put_arrow(symbols, mean_of(symbols%model%mesh, symbols%u, elements(i)), &
-                        mean_of(symbols%model%mesh, symbols%model%mesh%x, elements(i)) - 0.5_wp*arrow, arrow)
-      end do
-      call end_block(symbols)
+      associate (mesh => symbols%model%mesh)
+         call sum_densities(symbols, density)
+         largest = largest_length(density)
+         if (.not. largest > 0.0_wp) return
+         elements = pack([(i, i=1, mesh%n_elements)], abs(density(1, :)) + abs(density(2, :)) > 0.0_wp)
+         allocate (places(2, mesh%n_elements))
+         do i = 1, size(elements, kind=ip)
+            places(:, elements(i)) = mean_of(mesh, mesh%x, elements(i))
+         end do
+         elements = pack(elements, thinned(places(:, elements), BETWEEN_BODY*symbols%pixel))
+         call begin_block(symbols, 'body loads', ':5:6', ARROW_LOOKS//BODY//' title "body loads, resultant '//resultant//'"')
+         do i = 1, size(elements, kind=ip)
+            share = density(:, elements(i))/largest
+            if (norm2(share) < LEAST_SHARE) share = share*(LEAST_SHARE/norm2(share))
+            arrow = LONGEST_BODY*symbols%pixel*share
+            call put_arrow(symbols, mean_of(mesh, symbols%u, elements(i)), places(:, elements(i)) - 0.5_wp*arrow, arrow)
+         end do
+         call end_block(symbols)
+      end associate
    end subroutine put_body_loads
 
    !> The force per volume in the middle of each element.
    subroutine sum_densities(symbols, density)
       type(symbols_t), intent(in) :: symbols
       real(wp), allocatable, intent(out) :: density(:, :)   !< (2, n_elements) [F/L^3]
-      real(wp) :: factor, x(2)
-      integer(ip) :: i
+      real(wp) :: x(2), value(3), factor
+      integer(ip) :: i, e
 
       allocate (density(2, symbols%model%mesh%n_elements), source=0.0_wp)
       associate (loads => symbols%model%steps(symbols%step)%element_loads)
          do i = 1, loads%n
-            factor = 1.0_wp
-            if (allocated(loads%amplitude)) factor = last_factor(symbols%model, symbols%step, loads%amplitude(i))
-            if (.not. abs(factor) > 0.0_wp) factor = 1.0_wp
-            associate (value => loads%value(:, i), there => density(:, loads%element(i)))
-               if (loads%kind(i) == LOAD_BODY) then
-                  there = there + factor*value(:2)
-               else if (loads%kind(i) == LOAD_LINEAR) then
-                  x = mean_of(symbols%model%mesh, symbols%model%mesh%x, loads%element(i))
-                  there = there + factor*[value(1)*x(1) + value(2)*x(2), value(2)*x(1) + value(3)*x(2)]
-               end if
-            end associate
+            e = loads%element(i)
+            value = loads%value(:3, i)
+            factor = load_factor(symbols, i)
+            if (loads%kind(i) == LOAD_BODY) then
+               density(:, e) = density(:, e) + factor*value(:2)
+            else if (loads%kind(i) == LOAD_LINEAR) then
+               x = mean_of(symbols%model%mesh, symbols%model%mesh%x, e)
+               density(:, e) = density(:, e) + factor*[value(1)*x(1) + value(2)*x(2), value(2)*x(1) + value(3)*x(2)]
+            end if
          end do
       end associate
    end subroutine sum_densities
@@ -197,26 +190,26 @@ contains
    subroutine put_temperatures(heating, symbols)
       real(wp), intent(in) :: heating(:)            !< (n_nodes)
       type(symbols_t), intent(inout) :: symbols
+      character(len=*), parameter :: WORD(2) = ['warmer', 'colder'], TINT(2) = ['#70E6550D', '#704292C6']
       real(wp) :: largest
       integer(ip), allocatable :: nodes(:)
-      integer(ip) :: i, way
+      integer(ip) :: i, k
 
       largest = maxval(abs(heating))
       if (.not. largest > 0.0_wp) return
-      do way = 1, -1, -2
-         nodes = pack([(i, i=1, symbols%model%mesh%n_nodes)], way*heating(:symbols%model%mesh%n_nodes) > 0.0_wp)
-         if (size(nodes) == 0) cycle
-         nodes = pack(nodes, thinned(symbols%model%mesh%x(:, nodes), BETWEEN_DISCS*symbols%pixel))
-         call begin_block(symbols, merge('warmer nodes', 'colder nodes', way > 0), ':(dot*$5)', &
-                          'with points pt 7 ps variable lc rgb "'//merge('#70E6550D', '#704292C6', way > 0)//'" title "'// &
-                          trim(merge('warmer by up to', 'colder by up to', way > 0))//' '// &
-                          to_text(maxval(way*heating(:symbols%model%mesh%n_nodes)), 4)//'"')
-         do i = 1, size(nodes, kind=ip)
-            call put_marker(symbols, symbols%u(:, nodes(i)), symbols%model%mesh%x(:, nodes(i)), &
-                            1.8_wp*sqrt(abs(heating(nodes(i)))/largest))
+      associate (mesh => symbols%model%mesh)
+         do k = 1, 2
+            nodes = pack([(i, i=1, mesh%n_nodes)], (3 - 2*k)*heating(:mesh%n_nodes) > 0.0_wp)
+            if (size(nodes) == 0) cycle
+            call begin_block(symbols, WORD(k)//' nodes', ':(dot*$5)', 'with points pt 7 ps variable lc rgb "'//TINT(k)// &
+                             '" title "'//WORD(k)//' by up to '//to_text(maxval(abs(heating(nodes))), 4)//'"')
+            nodes = pack(nodes, thinned(mesh%x(:, nodes), BETWEEN_DISCS*symbols%pixel))
+            do i = 1, size(nodes, kind=ip)
+               call put_point(symbols, symbols%u(:, nodes(i)), mesh%x(:, nodes(i)), [1.8_wp*sqrt(abs(heating(nodes(i)))/largest)])
+            end do
+            call end_block(symbols)
          end do
-         call end_block(symbols)
-      end do
+      end associate
    end subroutine put_temperatures
 
 end module atrito_load_symbols

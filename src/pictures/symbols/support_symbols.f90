@@ -4,21 +4,24 @@
 !> is drawn.
 module atrito_support_symbols
    use atrito_bilateral_rows, only: ROW_SUPPORT
+   use atrito_drawing, only: largest_length
    use atrito_kinds, only: ip, wp
    use atrito_mesh, only: is_revolved
    use atrito_model, only: nodal_values_t
    use atrito_strings, only: to_text
-   use atrito_symbols, only: symbols_t, begin_block, end_block, put_entry, put_stroke, put_arrow, thinned, &
-                             find_outward, end_value, place_of_node, is_section_node, largest_length, arrow_at, ARROW_LOOKS
+   use atrito_symbols, only: symbols_t, begin_block, end_block, put_entry, put_stroke, put_arrow, thinned_nodes, places_of, &
+                             find_outward, end_value, is_section_node, arrow_at, ARROW_LOOKS
    implicit none (type, external)
    private
    public :: put_supports
 
    !> What holds a node: direction 1, direction 2, both.
    integer(ip), parameter :: HELD_1 = 1, HELD_2 = 2, HELD_BOTH = 3
-   !> Lengths in pixels.
+   !> Outlines of the symbols [pixels]: towards the ground from the node, and across.
    real(wp), parameter :: HEIGHT = 11.0_wp, HALF_WIDTH = 6.0_wp, HALF_GROUND = 8.0_wp, GAP = 3.5_wp, HATCH = 4.0_wp
-   real(wp), parameter :: SPACING = 22.0_wp, LONGEST_ARROW = 44.0_wp, HALF_SQUARE = 5.0_wp
+   real(wp), parameter :: TIP(2) = 0.0_wp, TRIANGLE(2, 4) = reshape([TIP, HEIGHT, -HALF_WIDTH, HEIGHT, HALF_WIDTH, TIP], [2, 4])
+   real(wp), parameter :: GROUND(2, 2) = reshape([HEIGHT, -HALF_GROUND, HEIGHT, HALF_GROUND], [2, 2])
+   real(wp), parameter :: SPACING = 22.0_wp, LONGEST_ARROW = 44.0_wp
    real(wp), parameter :: ROUND_OFF = 1.0e-6_wp     !< of the lengths of faces: what is less has no direction
    real(wp), parameter :: NO_SIDE = 0.1_wp          !< a unit normal with less along a direction has no side of it
    real(wp), parameter :: NEAR_AXIS = 1.0e-10_wp    !< of the largest radius
@@ -27,7 +30,8 @@ module atrito_support_symbols
 
    !> Supports of one kind.
    type :: supports_t
-      real(wp), allocatable :: place(:, :), u(:, :) !< (2, n) [L]
+      integer(ip), allocatable :: node(:)
+      real(wp), allocatable :: place(:, :)          !< (2, n) [L]
       real(wp), allocatable :: ground(:, :)         !< (2, n) unit vectors from the body to the ground
    end type supports_t
 
@@ -72,25 +76,28 @@ contains
       end do
    end subroutine take_values
 
-   !> Nodes with both directions held, and squares round reference nodes whose rotation is held.
+   !> Nodes with both directions held.
    subroutine put_fixed(held, outward, symbols)
       logical, intent(in) :: held(:, :)
       real(wp), intent(in) :: outward(:, :)
       type(symbols_t), intent(inout) :: symbols
       type(supports_t) :: fixed
-      integer(ip) :: i
+      integer :: i, k
 
       call find_held(HELD_BOTH, held, outward, symbols, fixed)
-      if (size(fixed%place, 2) == 0) return
+      if (size(fixed%node) == 0) return
       call begin_block(symbols, 'supports in both directions', '', 'with filledcurves closed lc rgb "'//GREY//'"')
-      do i = 1, size(fixed%place, 2, kind=ip)
-         call put_triangle(symbols, fixed, i)
+      do i = 1, size(fixed%node)
+         call put_shape(symbols, fixed, i, TRIANGLE)
       end do
       call end_block(symbols)
       call put_entry(symbols, 'with points pt 9 ps 1.6*dot lc rgb "'//GREY//'"', 'held in both directions')
       call begin_block(symbols, 'their ground', '', LOOKS)
-      do i = 1, size(fixed%place, 2, kind=ip)
-         call put_hatches(symbols, fixed, i)
+      do i = 1, size(fixed%node)
+         call put_shape(symbols, fixed, i, GROUND)
+         do k = -1, 2
+            call put_shape(symbols, fixed, i, reshape([HEIGHT, k*HATCH, HEIGHT + HATCH, k*HATCH - HATCH], [2, 2]))
+         end do
       end do
       call end_block(symbols)
    end subroutine put_fixed
@@ -101,17 +108,17 @@ contains
       real(wp), intent(in) :: outward(:, :)
       type(symbols_t), intent(inout) :: symbols
       type(supports_t) :: rollers(3)
-      integer(ip) :: k, i
+      integer :: k, i
 
       call find_held(HELD_1, held, outward, symbols, rollers(1))
       call find_held(HELD_2, held, outward, symbols, rollers(2))
       call find_inclined(outward, symbols, rollers(3))
-      if (sum([(size(rollers(k)%place, 2), k=1, 3)]) == 0) return
+      if (sum([(size(rollers(k)%node), k=1, 3)]) == 0) return
       call begin_block(symbols, 'supports in one direction', '', LOOKS)
       do k = 1, 3
-         do i = 1, size(rollers(k)%place, 2, kind=ip)
-            call put_triangle(symbols, rollers(k), i)
-            call put_ground(symbols, rollers(k), i, HEIGHT + GAP)
+         do i = 1, size(rollers(k)%node)
+            call put_shape(symbols, rollers(k), i, TRIANGLE)
+            call put_shape(symbols, rollers(k), i, GROUND + spread([GAP, 0.0_wp], 2, 2))
          end do
       end do
       call end_block(symbols)
@@ -127,38 +134,27 @@ contains
       type(supports_t), intent(out) :: supports
       logical :: is_so(size(held, 2))
       real(wp), allocatable :: own(:, :)
-      integer(ip), allocatable :: nodes(:), kept(:)
       integer(ip) :: i
 
       is_so = merge(1, 0, held(1, :)) + merge(2, 0, held(2, :)) == kind
-      nodes = pack([(i, i=1, size(held, 2, kind=ip))], is_so)
-      call place_supports(nodes, symbols, supports, kept)
-      if (size(kept) == 0) return
+      call take_nodes(pack([(i, i=1, size(held, 2, kind=ip))], is_so), symbols, supports)
+      if (size(supports%node) == 0) return
       own = find_outward(symbols%model%mesh, is_so)         ! at a corner that of the side that is held
-      do i = 1, size(kept, kind=ip)
-         supports%ground(:, i) = ground_of(kind, own(:, kept(i)), outward(:, kept(i)))
+      do i = 1, size(supports%node, kind=ip)
+         supports%ground(:, i) = ground_of(kind, own(:, supports%node(i)), outward(:, supports%node(i)))
       end do
    end subroutine find_held
 
-   !> Places of nodes, thinned; kept: those that are left.
-   subroutine place_supports(nodes, symbols, supports, kept)
+   !> Supports at some of the nodes.
+   subroutine take_nodes(nodes, symbols, supports)
       integer(ip), intent(in) :: nodes(:)
       type(symbols_t), intent(in) :: symbols
       type(supports_t), intent(out) :: supports
-      integer(ip), allocatable, intent(out) :: kept(:)
-      real(wp) :: places(2, size(nodes))
-      integer(ip) :: i
 
-      do i = 1, size(nodes, kind=ip)
-         places(:, i) = place_of_node(symbols, nodes(i))
-      end do
-      kept = pack(nodes, thinned(places, SPACING*symbols%pixel))
-      allocate (supports%place(2, size(kept)), supports%u(2, size(kept)), supports%ground(2, size(kept)))
-      do i = 1, size(kept, kind=ip)
-         supports%place(:, i) = place_of_node(symbols, kept(i))
-         supports%u(:, i) = symbols%u(:, kept(i))
-      end do
-   end subroutine place_supports
+      supports%node = thinned_nodes(symbols, nodes, SPACING)
+      supports%place = places_of(symbols, supports%node)
+      allocate (supports%ground(2, size(supports%node)))
+   end subroutine take_nodes
 
    !> The side of a node on which the ground is.
    pure function ground_of(kind, own, general) result(ground)
@@ -191,7 +187,8 @@ contains
       real(wp), intent(in) :: outward(:, :)
       type(symbols_t), intent(in) :: symbols
       type(supports_t), intent(out) :: supports
-      integer(ip), allocatable :: rows(:), nodes(:), kept(:)
+      integer(ip), allocatable :: rows(:), nodes(:)
+      real(wp) :: along(2)
       integer(ip) :: i
 
       associate (all_rows => symbols%model%bilateral)
@@ -199,74 +196,31 @@ contains
          allocate (nodes(0))
          ! not the nodes of the rows: in a row others carry the motion of a reference node
          if (size(rows) > 0) nodes = symbols%model%inclined%node(:size(rows))
-         call place_supports(nodes, symbols, supports, kept)
-         do i = 1, size(kept, kind=ip)
-            associate (row => rows(findloc(nodes, kept(i), dim=1)))
-               associate (along => all_rows%vector(:, all_rows%first(row)))
-                  supports%ground(:, i) = along/norm2(along)
-                  if (dot_product(along, outward(:2, kept(i))) < 0.0_wp) supports%ground(:, i) = -supports%ground(:, i)
-               end associate
-            end associate
+         call take_nodes(nodes, symbols, supports)
+         do i = 1, size(supports%node, kind=ip)
+            along = all_rows%vector(:, all_rows%first(rows(findloc(nodes, supports%node(i), dim=1))))
+            supports%ground(:, i) = along/norm2(along)
+            if (dot_product(along, outward(:2, supports%node(i))) < 0.0_wp) supports%ground(:, i) = -supports%ground(:, i)
          end do
       end associate
    end subroutine find_inclined
 
-   !> A triangle whose tip is at the node.
-   subroutine put_triangle(symbols, supports, i)
+   !> A line through places so many pixels towards the ground and across.
+   subroutine put_shape(symbols, supports, i, shape)
       type(symbols_t), intent(inout) :: symbols
       type(supports_t), intent(in) :: supports
-      integer(ip), intent(in) :: i
-      real(wp) :: corners(2, 4)
-
-      corners(:, 1) = from_node(symbols, supports, i, 0.0_wp, 0.0_wp)
-      corners(:, 2) = from_node(symbols, supports, i, HEIGHT, -HALF_WIDTH)
-      corners(:, 3) = from_node(symbols, supports, i, HEIGHT, HALF_WIDTH)
-      corners(:, 4) = corners(:, 1)
-      call put_stroke(symbols, supports%u(:, i), corners)
-   end subroutine put_triangle
-
-   !> The line of the ground.
-   subroutine put_ground(symbols, supports, i, depth)
-      type(symbols_t), intent(inout) :: symbols
-      type(supports_t), intent(in) :: supports
-      integer(ip), intent(in) :: i
-      real(wp), intent(in) :: depth                 !< below the node [pixels]
-      real(wp) :: ends(2, 2)
-
-      ends(:, 1) = from_node(symbols, supports, i, depth, -HALF_GROUND)
-      ends(:, 2) = from_node(symbols, supports, i, depth, HALF_GROUND)
-      call put_stroke(symbols, supports%u(:, i), ends)
-   end subroutine put_ground
-
-   !> The ground, hatched.
-   subroutine put_hatches(symbols, supports, i)
-      type(symbols_t), intent(inout) :: symbols
-      type(supports_t), intent(in) :: supports
-      integer(ip), intent(in) :: i
-      real(wp) :: ends(2, 2), across
+      integer, intent(in) :: i
+      real(wp), intent(in) :: shape(:, :)           !< (2, n) [pixels]
+      real(wp) :: places(2, size(shape, 2))
       integer :: k
 
-      call put_ground(symbols, supports, i, HEIGHT)
-      do k = -1, 2
-         across = k*HATCH
-         ends(:, 1) = from_node(symbols, supports, i, HEIGHT, across)
-         ends(:, 2) = from_node(symbols, supports, i, HEIGHT + HATCH, across - HATCH)
-         call put_stroke(symbols, supports%u(:, i), ends)
-      end do
-   end subroutine put_hatches
-
-   !> A place so many pixels towards the ground and across.
-   pure function from_node(symbols, supports, i, down, across) result(place)
-      type(symbols_t), intent(in) :: symbols
-      type(supports_t), intent(in) :: supports
-      integer(ip), intent(in) :: i
-      real(wp), intent(in) :: down, across
-      real(wp) :: place(2)
-
       associate (d => supports%ground(:, i))
-         place = supports%place(:, i) + symbols%pixel*(down*d + across*[-d(2), d(1)])
+         do k = 1, size(shape, 2)
+            places(:, k) = supports%place(:, i) + symbols%pixel*(shape(1, k)*d + shape(2, k)*[-d(2), d(1)])
+         end do
       end associate
-   end function from_node
+      call put_stroke(symbols, symbols%u(:, supports%node(i)), places)
+   end subroutine put_shape
 
    !> Arrows along prescribed displacements that are not 0.
    subroutine put_moved(moved, outward, symbols)
@@ -275,19 +229,18 @@ contains
       type(symbols_t), intent(inout) :: symbols
       type(supports_t) :: supports
       real(wp) :: largest, from(2), arrow(2)
-      integer(ip), allocatable :: nodes(:), kept(:)
       integer(ip) :: i
 
       largest = largest_length(moved)
       if (.not. largest > 0.0_wp) return
-      nodes = pack([(i, i=1, size(moved, 2, kind=ip))], abs(moved(1, :)) + abs(moved(2, :)) > 0.0_wp)
-      call place_supports(nodes, symbols, supports, kept)
+      call take_nodes(pack([(i, i=1, size(moved, 2, kind=ip))], abs(moved(1, :)) + abs(moved(2, :)) > 0.0_wp), symbols, supports)
       call begin_block(symbols, 'prescribed displacements', ':5:6', ARROW_LOOKS//MOVED_LOOKS// &
                        ' title "prescribed displacement, up to '//to_text(largest, 4)//' [L]"')
-      do i = 1, size(kept, kind=ip)
-         call arrow_at(supports%place(:, i), moved(:, kept(i))/largest, outward(:2, kept(i)), LONGEST_ARROW*symbols%pixel, &
-                       from, arrow)
-         call put_arrow(symbols, supports%u(:, i), from, arrow)
+      do i = 1, size(supports%node, kind=ip)
+         associate (node => supports%node(i))
+            call arrow_at(supports%place(:, i), moved(:, node)/largest, outward(:2, node), LONGEST_ARROW*symbols%pixel, from, arrow)
+            call put_arrow(symbols, symbols%u(:, node), from, arrow)
+         end associate
       end do
       call end_block(symbols)
    end subroutine put_moved

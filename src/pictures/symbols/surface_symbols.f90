@@ -70,68 +70,48 @@ contains
       type(model_t), intent(in) :: model
       logical, intent(in) :: wanted(:)              !< (surfaces)
       type(strip_t), intent(out) :: strip
-      integer(ip) :: i, k, most
+      real(wp), allocatable :: places(:, :)
+      integer(ip) :: i, k, middle
+      integer :: pass
 
-      most = sum([(pieces_of(model, i), i=1, size(wanted, kind=ip))], mask=wanted)
-      allocate (strip%x(2, 3, most), strip%side(most))
-      do i = 1, size(wanted, kind=ip)
-         if (.not. wanted(i)) cycle
-         if (model%surfaces(i)%kind == SURFACE_SEGMENTS) then
-            call take_rigid(model%surfaces(i), strip)
-         else
-            do k = 1, model%surfaces(i)%faces%n
-               call take_face(model, i, k, strip)
-            end do
-         end if
+      do pass = 1, 2                                ! they are counted, then taken
+         strip%n = 0
+         do i = 1, size(wanted, kind=ip)
+            if (.not. wanted(i)) cycle
+            associate (surface => model%surfaces(i), mesh => model%mesh)
+               if (surface%kind == SURFACE_SEGMENTS) then
+                  if (.not. allocated(surface%points)) cycle
+                  places = rigid_places(surface)
+                  do k = 1, size(places, 2, kind=ip) - 1
+                     call add_piece(strip, pass == 2, 1.0_wp, places(:, k), places(:, k + 1))
+                  end do
+               else
+                  do k = 1, surface%faces%n
+                     associate (e => surface%faces%element(k), face => surface%faces%face(k))
+                        call add_piece(strip, pass == 2, -1.0_wp, mesh%x(:, mesh%nodes(face, e)), &
+                                       mesh%x(:, mesh%nodes(face_end(mesh, e, face), e)))
+                        middle = middle_node(mesh, e, face)
+                     end associate
+                     if (pass == 2 .and. middle > 0) strip%x(:, 2, strip%n) = mesh%x(:, middle)
+                  end do
+               end if
+            end associate
+         end do
+         if (pass == 1) allocate (strip%x(2, 3, strip%n), strip%side(strip%n))
       end do
    end subroutine collect
 
-   pure integer(ip) function pieces_of(model, surface) result(n)
-      type(model_t), intent(in) :: model
-      integer(ip), intent(in) :: surface
-
-      associate (it => model%surfaces(surface))
-         n = it%faces%n
-         if (it%kind /= SURFACE_SEGMENTS) return
-         n = 0
-         if (allocated(it%points)) n = size(rigid_places(it), 2, kind=ip) - 1
-      end associate
-   end function pieces_of
-
-   pure subroutine take_face(model, surface, k, strip)
-      type(model_t), intent(in) :: model
-      integer(ip), intent(in) :: surface, k
+   !> A straight piece with its ends and its middle.
+   pure subroutine add_piece(strip, is_taken, side, a, b)
       type(strip_t), intent(inout) :: strip
-      integer(ip) :: middle
+      logical, intent(in) :: is_taken               !< .false.: it is counted alone
+      real(wp), intent(in) :: side, a(2), b(2)      !< ends [L]
 
       strip%n = strip%n + 1
-      strip%side(strip%n) = -1.0_wp
-      associate (mesh => model%mesh, x => strip%x(:, :, strip%n), e => model%surfaces(surface)%faces%element(k), &
-                 face => model%surfaces(surface)%faces%face(k))
-         x(:, 1) = mesh%x(:, mesh%nodes(face, e))
-         x(:, 3) = mesh%x(:, mesh%nodes(face_end(mesh, e, face), e))
-         x(:, 2) = 0.5_wp*(x(:, 1) + x(:, 3))
-         middle = middle_node(mesh, e, face)
-         if (middle > 0) x(:, 2) = mesh%x(:, middle)
-      end associate
-   end subroutine take_face
-
-   pure subroutine take_rigid(surface, strip)
-      type(surface_t), intent(in) :: surface
-      type(strip_t), intent(inout) :: strip
-      real(wp), allocatable :: places(:, :)
-      integer(ip) :: k
-
-      if (.not. allocated(surface%points)) return
-      places = rigid_places(surface)
-      do k = 1, size(places, 2, kind=ip) - 1
-         strip%n = strip%n + 1
-         strip%side(strip%n) = 1.0_wp
-         strip%x(:, 1, strip%n) = places(:, k)
-         strip%x(:, 2, strip%n) = 0.5_wp*(places(:, k) + places(:, k + 1))
-         strip%x(:, 3, strip%n) = places(:, k + 1)
-      end do
-   end subroutine take_rigid
+      if (.not. is_taken) return
+      strip%side(strip%n) = side
+      strip%x(:, :, strip%n) = reshape([a, 0.5_wp*(a + b), b], [2, 3])
+   end subroutine add_piece
 
    !> A block with the lines, and one with the normals. Rigid surfaces of pairs are drawn as such, and of other surfaces of elements
    !> there are the normals alone.
@@ -172,36 +152,28 @@ contains
       real(wp), intent(in) :: spacing               !< [L]
       type(range_t), intent(in) :: window(2)        !< where the bodies are [L]
       real(wp), allocatable, intent(out) :: ticks(:, :)   !< (4, n) place and unit normal
-      real(wp) :: share(2), t
-      integer(ip) :: i, k, n, total
-      integer :: pass
+      real(wp), allocatable :: share(:, :)          ! of a piece that lies in the window, from and to
+      real(wp) :: length
+      integer(ip), allocatable :: n(:)              ! normals of a piece
+      integer(ip) :: i, k, total
 
-      do pass = 1, 2
-         total = 0
-         do i = 1, strip%n
-            share = share_in(strip%x(:, 1, i), strip%x(:, 3, i), window)
-            if (share(2) < share(1)) cycle
-            n = ticks_of(strip, i, share, spacing)
-            do k = 1, n
-               total = total + 1
-               t = share(1) + (share(2) - share(1))*(k - 0.5_wp)/n
-               if (pass == 2) ticks(:, total) = tick_at(strip, i, t)
-            end do
+      allocate (share(2, strip%n), n(strip%n))
+      n = 0
+      do i = 1, strip%n
+         share(:, i) = share_in(strip%x(:, 1, i), strip%x(:, 3, i), window)
+         length = (share(2, i) - share(1, i))*norm2(strip%x(:, 3, i) - strip%x(:, 1, i))
+         if (share(2, i) >= share(1, i)) n(i) = max(1_ip, int(min(MOST_TICKS, length/spacing), ip))
+      end do
+      allocate (ticks(4, sum(n)))
+      total = 0
+      do i = 1, strip%n
+         do k = 1, n(i)
+            total = total + 1
+            ticks(:, total) = tick_at(strip, i, share(1, i) + (share(2, i) - share(1, i))*(k - 0.5_wp)/n(i))
          end do
-         if (pass == 1) allocate (ticks(4, total))
       end do
       ticks = ticks(:, pack([(i, i=1, total)], thinned(ticks(:2, :), spacing)))
    end subroutine list_ticks
-
-   pure integer(ip) function ticks_of(strip, i, share, spacing) result(n)
-      type(strip_t), intent(in) :: strip
-      integer(ip), intent(in) :: i
-      real(wp), intent(in) :: share(2), spacing
-
-      associate (length => (share(2) - share(1))*norm2(strip%x(:, 3, i) - strip%x(:, 1, i)))
-         n = max(1_ip, int(min(MOST_TICKS, length/spacing), ip))
-      end associate
-   end function ticks_of
 
    !> The place at a share of a piece and its normal.
    pure function tick_at(strip, i, t) result(tick)

@@ -3,24 +3,24 @@
 !> Places go with their displacements, as those of the bodies do, so that a script that draws bodies displaced has the symbols where
 !> the bodies are. Lengths are told in pixels of a picture that is 1000 wide.
 module atrito_symbols
-   use atrito_files, only: file_set_t, text_file_t, put_line, close_text
+   use atrito_drawing, only: drawing_t, put_place, MOVED
    use atrito_id_map, only: id_map_t, add_id, find_id
    use atrito_kinds, only: ip, wp
    use atrito_load_lists, only: amplitude_of
    use atrito_load_resultants, only: last_factor
    use atrito_mesh, only: mesh_t, face_end, middle_node, side_count
-   use atrito_mesh_lines, only: drawing_t, put_place
    use atrito_model, only: model_t, nodal_values_t
    use atrito_number_text, only: trimmed_real
-   use atrito_plot_files, only: open_data, SYMBOLS_OF
+   use atrito_plot_files, only: SYMBOLS_OF
+   use atrito_plot_scripts, only: plots_t, put, begin_data
    use atrito_plot_text, only: range_t, cover, span
    use atrito_sorting, only: sorted_places, order_key
-   use atrito_status, only: status_t
    use atrito_strings, only: string_t, append_string, to_text
    implicit none (type, external)
    private
-   public :: symbols_t, begin_symbols, end_symbols, begin_block, end_block, put_entry, put_stroke, put_path, put_arrow, put_marker
-   public :: pixel_of, thinned, find_outward, end_value, place_of_node, is_section_node, largest_length, arrow_at
+   public :: symbols_t, begin_symbols, begin_block, end_block, put_entry, put_stroke, put_path, put_arrow, put_point
+   public :: pixel_of, thinned, thinned_nodes, places_of, find_outward, end_value, load_factor, place_of_node
+   public :: is_section_node, arrow_at
    public :: ARROW_LOOKS, SLANT
 
    integer, parameter :: DIGITS = 7
@@ -39,7 +39,7 @@ module atrito_symbols
       type(model_t), pointer :: model => null()
       integer(ip) :: step = 0                       !< whose supports and loads they are, as at its end
       real(wp), pointer :: u(:, :) => null()        !< (2, n_nodes) [L]: the symbols go with the nodes
-      type(text_file_t) :: file
+      type(plots_t), pointer :: plots => null()     !< whose file they are written into
       character(len=:), allocatable :: data         !< its name, as a script has it
       real(wp) :: pixel = 1.0_wp                    !< length of one [L]
       real(wp) :: scale = 1.0_wp                    !< of the displacements
@@ -52,36 +52,26 @@ module atrito_symbols
 
 contains
 
-   !> Opens the file. Model and displacements are looked at until it is closed.
-   subroutine begin_symbols(set, picture, model, step, u, drawing, symbols)
-      type(file_set_t), intent(inout) :: set        !< of the plots' folder
+   !> Begins the file. Plots and drawing are used until it ends.
+   subroutine begin_symbols(plots, picture, step, drawing, symbols)
+      type(plots_t), intent(inout), target :: plots
       character(len=*), intent(in) :: picture       !< whose symbols they are, without ending
-      type(model_t), intent(in), target :: model
       integer(ip), intent(in) :: step
-      real(wp), intent(in), target :: u(:, :)       !< (2, n_nodes) [L]
-      type(drawing_t), intent(in) :: drawing        !< of the bodies
+      type(drawing_t), intent(in), target :: drawing    !< of the bodies
       type(symbols_t), intent(out) :: symbols
 
-      symbols%model => model
+      symbols%plots => plots
+      symbols%model => drawing%model
+      symbols%u => drawing%u
       symbols%step = step
-      symbols%u => u
       symbols%pixel = pixel_of(drawing%window)
       symbols%window = drawing%window
       symbols%scale = drawing%scale
       allocate (symbols%curves(0))
       symbols%data = '"'//picture//SYMBOLS_OF//'.dat"'
-      call open_data(set, picture//SYMBOLS_OF, symbols%file)
-      call put_line(symbols%file, '# symbols of supports, loads and surfaces; columns: x [L]  y [L]  u1 [L]  u2 [L], '// &
-                    'and of an arrow its components [L], of a marker its size')
+      call begin_data(plots, picture//SYMBOLS_OF, 'symbols of supports, loads and surfaces; columns: x [L]  y [L]  u1 [L]  '// &
+                      'u2 [L], and of an arrow its components [L], of a marker its size')
    end subroutine begin_symbols
-
-   !> status: STATUS_FILE when the file could not be written.
-   subroutine end_symbols(symbols, status)
-      type(symbols_t), intent(inout) :: symbols
-      type(status_t), intent(out) :: status
-
-      call close_text(symbols%file, status)
-   end subroutine end_symbols
 
    !> Length of a pixel [L] in a picture of a window.
    pure real(wp) function pixel_of(window) result(pixel)
@@ -99,7 +89,7 @@ contains
       character(len=*), intent(in) :: drawn         !< `with ...` and the title
 
       symbols%what = what
-      symbols%drawn = ' using ($1 + scale*$3):($2 + scale*$4)'//columns//' '//drawn
+      symbols%drawn = ' using '//MOVED//columns//' '//drawn
    end subroutine begin_block
 
    !> A block stands in the file from the first thing in it on: gnuplot does not count one that is empty, and would take the next
@@ -108,8 +98,8 @@ contains
       type(symbols_t), intent(inout) :: symbols
 
       if (.not. allocated(symbols%what)) return
-      call put_line(symbols%file, '# block '//to_text(symbols%n_blocks)//': '//symbols%what)
-      call append_string(symbols%curves, '   '//symbols%data//' index '//to_text(symbols%n_blocks)//symbols%drawn)
+      call put(symbols%plots, '# block '//to_text(symbols%n_blocks)//': '//symbols%what)
+      call append_string(symbols%curves, symbols%data//' index '//to_text(symbols%n_blocks)//symbols%drawn)
       symbols%n_blocks = symbols%n_blocks + 1
       deallocate (symbols%what)
    end subroutine open_block
@@ -120,7 +110,7 @@ contains
       character(len=*), intent(in) :: drawn         !< `with points ...`
       character(len=*), intent(in) :: title
 
-      call append_string(symbols%curves, '   NaN '//drawn//' title "'//title//'"')
+      call append_string(symbols%curves, 'NaN '//drawn//' title "'//title//'"')
    end subroutine put_entry
 
    !> Ends a block; one into which nothing was put has left no trace in the file.
@@ -130,7 +120,7 @@ contains
       if (allocated(symbols%what)) then
          deallocate (symbols%what)
       else
-         call put_line(symbols%file, '')
+         call put(symbols%plots, '')
       end if
    end subroutine end_block
 
@@ -151,10 +141,10 @@ contains
 
       call open_block(symbols)
       do i = 1, size(places, 2)
-         call put_place(symbols%file, [places(:, i), u(:, i)])
+         call put_place(symbols%plots, [places(:, i), u(:, i)])
       end do
       call widen(symbols, places + symbols%scale*u)
-      call put_line(symbols%file, '')
+      call put(symbols%plots, '')
    end subroutine put_path
 
    !> An arrow from a place of the undisplaced bodies, which moves with the displacement u.
@@ -162,23 +152,28 @@ contains
       type(symbols_t), intent(inout) :: symbols
       real(wp), intent(in) :: u(2), from(2), arrow(2)   !< [L]
 
-      call open_block(symbols)
-      call put_place(symbols%file, [from, u], trimmed_real(arrow(1), DIGITS)//' '//trimmed_real(arrow(2), DIGITS))
-      call widen(symbols, reshape([from, from + arrow], [2, 2]) + symbols%scale*spread(u, 2, 2))
-      call put_line(symbols%file, '')
+      call put_point(symbols, u, from, arrow)
+      call widen(symbols, reshape(from + arrow + symbols%scale*u, [2, 1]))
    end subroutine put_arrow
 
-   !> A marker at a place of the undisplaced bodies, which moves with the displacement u; its size is relative to that of the block.
-   subroutine put_marker(symbols, u, place, size_of_marker)
+   !> A point of the undisplaced bodies, which moves with the displacement u, and what stands behind it in its block: of an arrow
+   !> the components [L], of a marker its size, relative to that of the block.
+   subroutine put_point(symbols, u, place, columns)
       type(symbols_t), intent(inout) :: symbols
       real(wp), intent(in) :: u(2), place(2)        !< [L]
-      real(wp), intent(in) :: size_of_marker        !< [-]
+      real(wp), intent(in) :: columns(:)
+      character(len=:), allocatable :: text
+      integer :: i
 
+      text = trimmed_real(columns(1), DIGITS)
+      do i = 2, size(columns)
+         text = text//' '//trimmed_real(columns(i), DIGITS)
+      end do
       call open_block(symbols)
-      call put_place(symbols%file, [place, u], trimmed_real(size_of_marker, DIGITS))
+      call put_place(symbols%plots, [place, u], text)
+      call put(symbols%plots, '')
       call widen(symbols, reshape(place + symbols%scale*u, [2, 1]))
-      call put_line(symbols%file, '')
-   end subroutine put_marker
+   end subroutine put_point
 
    pure subroutine widen(symbols, places)
       type(symbols_t), intent(inout) :: symbols
@@ -190,6 +185,28 @@ contains
          call cover(symbols%window(i), places(i, :))
       end do
    end subroutine widen
+
+   !> Where symbols of some nodes stand.
+   pure function places_of(symbols, nodes) result(places)
+      type(symbols_t), intent(in) :: symbols
+      integer(ip), intent(in) :: nodes(:)
+      real(wp) :: places(2, size(nodes))            !< [L]
+      integer(ip) :: i
+
+      do i = 1, size(nodes, kind=ip)
+         places(:, i) = place_of_node(symbols, nodes(i))
+      end do
+   end function places_of
+
+   !> Some of the nodes, none nearer to another than a spacing.
+   pure function thinned_nodes(symbols, nodes, spacing) result(kept)
+      type(symbols_t), intent(in) :: symbols
+      integer(ip), intent(in) :: nodes(:)
+      real(wp), intent(in) :: spacing               !< [pixels]
+      integer(ip), allocatable :: kept(:)
+
+      kept = pack(nodes, thinned(places_of(symbols, nodes), spacing*symbols%pixel))
+   end function thinned_nodes
 
    !> Which of some places are kept so that none is nearer to another than the spacing. They are gone through in an order that
    !> begins a straight side at one of its ends.
@@ -222,15 +239,12 @@ contains
       real(wp), intent(in) :: places(:, :), spacing
       integer(ip), intent(in) :: i                  !< the place
       integer(ip), intent(in) :: at(2)              !< its cell
-      integer(ip) :: j, k, other
+      integer(ip) :: j, other
 
       is_free = find_id(cells, cell_number(at)) == 0
-      if (.not. is_free) return
-      do k = -2, 2
-         do j = -2, 2
-            other = find_id(cells, cell_number(at + [j, k]))
-            if (other > 0) is_free = is_free .and. norm2(places(:, i) - places(:, other)) >= NEARLY*spacing
-         end do
+      do j = 0, 24
+         other = find_id(cells, cell_number(at + [mod(j, 5_ip), j/5] - 2))
+         if (other > 0) is_free = is_free .and. norm2(places(:, i) - places(:, other)) >= NEARLY*spacing
       end do
    end function is_free
 
@@ -316,28 +330,34 @@ contains
       if (dot_product(share, outward) < -SLANT*length*norm2(outward)) from = place - arrow
    end subroutine arrow_at
 
-   !> The largest length of some vectors; 0 where there are none, or none is a number.
-   pure real(wp) function largest_length(vectors) result(largest)
-      real(wp), intent(in) :: vectors(:, :)         !< (2, n)
-      integer(ip) :: i
-
-      largest = 0.0_wp
-      do i = 1, size(vectors, 2, kind=ip)
-         largest = max(largest, hypot(vectors(1, i), vectors(2, i)))
-      end do
-   end function largest_length
-
    !> A prescribed displacement or a force at the end of a step; where its amplitude has come to 0, what that multiplies.
    pure real(wp) function end_value(symbols, list, i) result(value)
       type(symbols_t), intent(in) :: symbols
       type(nodal_values_t), intent(in) :: list
       integer(ip), intent(in) :: i                  !< place in the list
-      real(wp) :: factor
+
+      value = end_factor(symbols, amplitude_of(list, i))*list%value(i)
+   end function end_value
+
+   !> The factor by which an amplitude multiplies at the end of the step; 1 where it has come to 0, and without one.
+   pure real(wp) function end_factor(symbols, amplitude) result(factor)
+      type(symbols_t), intent(in) :: symbols
+      integer(ip), intent(in) :: amplitude          !< 0: none
 
       factor = 1.0_wp
-      if (amplitude_of(list, i) > 0) factor = last_factor(symbols%model, symbols%step, amplitude_of(list, i))
-      value = list%value(i)
-      if (abs(factor) > 0.0_wp) value = value*factor
-   end function end_value
+      if (amplitude > 0) factor = last_factor(symbols%model, symbols%step, amplitude)
+      if (.not. abs(factor) > 0.0_wp) factor = 1.0_wp
+   end function end_factor
+
+   !> That of a load on an element.
+   pure real(wp) function load_factor(symbols, load) result(factor)
+      type(symbols_t), intent(in) :: symbols
+      integer(ip), intent(in) :: load
+
+      factor = 1.0_wp
+      associate (loads => symbols%model%steps(symbols%step)%element_loads)
+         if (allocated(loads%amplitude)) factor = end_factor(symbols, loads%amplitude(load))
+      end associate
+   end function load_factor
 
 end module atrito_symbols

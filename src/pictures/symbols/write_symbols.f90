@@ -1,49 +1,42 @@
 !> All symbols of a step of a scene: <picture>-symbols.dat, and what a script draws of it.
 module atrito_write_symbols
-   use atrito_files, only: file_set_t
-   use atrito_kinds, only: ip, wp
+   use atrito_drawing, only: drawing_t
+   use atrito_kinds, only: ip
    use atrito_link_symbols, only: put_links
    use atrito_load_symbols, only: put_loads
-   use atrito_mesh_lines, only: drawing_t
-   use atrito_model, only: model_t
    use atrito_plot_files, only: SCENE_PLOT
-   use atrito_status, only: status_t
+   use atrito_plot_scripts, only: plots_t, end_data
    use atrito_strings, only: string_t
    use atrito_support_symbols, only: put_supports
    use atrito_surface_symbols, only: put_surfaces
-   use atrito_symbols, only: symbols_t, begin_symbols, end_symbols
+   use atrito_symbols, only: symbols_t, begin_symbols
    implicit none (type, external)
    private
    public :: write_symbols, legend_lines
 
 contains
 
-   !> Writes <picture>-symbols.dat into the set of the plots' folder. The window of the drawing is widened to them.
-   !>
-   !> status: STATUS_FILE when it could not be written.
-   subroutine write_symbols(set, picture, model, step, u, drawing, curves, status)
-      type(file_set_t), intent(inout) :: set
+   !> Writes <picture>-symbols.dat. The window of the drawing is widened to the symbols.
+   subroutine write_symbols(plots, picture, step, drawing, curves)
+      type(plots_t), intent(inout), target :: plots
       character(len=*), intent(in) :: picture       !< without ending; that of a scene has surfaces too, undisplaced
-      type(model_t), intent(in), target :: model
       integer(ip), intent(in) :: step               !< whose supports and loads they are, as at its end
-      real(wp), intent(in), target :: u(:, :)       !< (2, n_nodes) [L]: the symbols go with the nodes
-      type(drawing_t), intent(inout) :: drawing
+      type(drawing_t), intent(inout), target :: drawing
       type(string_t), allocatable, intent(out) :: curves(:)   !< to be drawn over the bodies
-      type(status_t), intent(out) :: status
       type(symbols_t) :: symbols
 
-      call begin_symbols(set, picture, model, step, u, drawing, symbols)
-      if (picture == SCENE_PLOT) call put_surfaces(model, symbols)
+      call begin_symbols(plots, picture, step, drawing, symbols)
+      if (picture == SCENE_PLOT) call put_surfaces(drawing%model, symbols)
       call put_links(symbols)
       call put_supports(symbols)
       call put_loads(symbols)
       drawing%window = symbols%window
       call move_alloc(symbols%curves, curves)
-      call end_symbols(symbols, status)
+      call end_data(plots)
    end subroutine write_symbols
 
    !> Lines of the legend: symbols have long names, so two stand side by side below those of the bodies.
-   pure integer function legend_lines(curves) result(n)
+   pure integer(ip) function legend_lines(curves) result(n)
       type(string_t), intent(in) :: curves(:)
       integer :: i
 

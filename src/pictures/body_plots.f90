@@ -1,0 +1,212 @@
+!> Pictures of the bodies: the scene before anything is solved, the deformed mesh, and a mechanism.
+!>
+!> Only edges are drawn, each body in its colour; of a big mesh only the outlines and the lines between sections, which keeps the
+!> files small.
+module atrito_body_plots
+   use atrito_bodies, only: bodies_t, find_bodies
+   use atrito_body_names, only: name_bodies
+   use atrito_drawing, only: drawing_t, begin_drawing, displace, displacement_scale, largest_length, write_lines, put_head, &
+                             put_plane, put_title, scale_title, put_scene, inner_runs, run_styles, body_style, body_title
+   use atrito_kinds, only: ip, wp
+   use atrito_model, only: model_t, step_t, nodal_values_t
+   use atrito_plot_files, only: MESH_PLOT, SCENE_PLOT, MECHANISM_PLOT
+   use atrito_plot_scripts, only: plots_t, put, begin_script, end_script
+   use atrito_plot_text, only: range_t, quoted, cleaned, picture_title, scene_title, colour_styles, LF
+   use atrito_plot_view, only: plot_view_t, shows_none, warn_of_box
+   use atrito_results, only: results_t
+   use atrito_stability_result, only: stability_t, collapse_t
+   use atrito_strings, only: string_t, to_text
+   use atrito_write_symbols, only: write_symbols, legend_lines
+   use atrito_write_tables, only: origin_of
+   implicit none (type, external)
+   private
+   public :: draw_mesh, write_mesh_plot, write_scene_plot, shown_step, write_mechanism_plot, mechanism_scale, FEW_NODES
+
+   integer(ip), parameter :: MOST_NODES = 10000     !< of a mesh that is drawn with all its edges
+   integer(ip), parameter :: FEW_NODES = 2000       !< of one whose edges are not thin, and are all drawn undeformed, too
+   integer, parameter :: LONGEST_TITLE = 90         !< characters
+   !> Rotations are drawn as the linear part of a turn, which makes a body larger by half their square.
+   real(wp), parameter :: LARGEST_TURN = 0.25_wp
+
+contains
+
+   !> How the scene of a run is drawn. Model and results are looked at as long as the drawing is in use.
+   subroutine draw_mesh(model, results, view, drawing)
+      type(model_t), intent(in), target :: model
+      type(results_t), intent(in), target :: results
+      type(plot_view_t), intent(in) :: view
+      type(drawing_t), intent(out) :: drawing
+      real(wp) :: largest
+
+      call begin_drawing(model, model%mesh%n_nodes > MOST_NODES, view, drawing)
+      drawing%results => results
+      drawing%heading = picture_title(origin_of(model, results))
+      largest = largest_length(results%u)
+      call displace(drawing, results%u, largest, displacement_scale(largest, drawing%size))
+      if (allocated(results%rigid)) drawing%rigid = results%rigid
+   end subroutine draw_mesh
+
+   !> Writes mesh.dat, mesh-symbols.dat and mesh.gp.
+   subroutine write_mesh_plot(plots, drawing)
+      type(plots_t), intent(inout), target :: plots
+      type(drawing_t), intent(inout) :: drawing     !< by draw_mesh; its window has room for the symbols while this is written
+      type(string_t), allocatable :: symbols(:)     ! curves over the bodies
+      type(range_t) :: window(2)
+      integer(ip) :: first
+      logical :: is_big
+
+      window = drawing%window
+      call write_lines(plots, MESH_PLOT, 'edges of the elements as polylines; columns: x [L]  y [L]  u1 [L]  u2 [L]', drawing, &
+                       .true.)
+      call write_symbols(plots, MESH_PLOT, drawing%results%step, drawing, symbols)
+      call begin_script(plots, MESH_PLOT, 'the deformed mesh over the undeformed one', &
+                        'Columns of mesh.dat: 1 x [L], 2 y [L], 3 u1 [L], 4 u2 [L]; a block a body and kind of line')
+      call put_head(plots, drawing, '')
+      call put_plane(plots, drawing, legend_lines(symbols))
+      call put(plots, colour_styles(''))
+      call put_title(plots, scale_title(drawing))
+      is_big = drawing%model%mesh%n_nodes > FEW_NODES
+      first = 0
+      if (is_big) first = inner_runs(drawing)
+      call put_scene(plots, drawing, first, 'undeformed', &
+                     run_styles(drawing, names_of_run(drawing), trim(merge('0.5', '1  ', is_big)), '2.5'), symbols)
+      call end_script(plots)
+      drawing%window = window
+   end subroutine write_mesh_plot
+
+   !> The bodies' names as the results of a run have them.
+   pure function names_of_run(drawing) result(names)
+      type(drawing_t), intent(in) :: drawing
+      type(string_t) :: names(maxval(drawing%lines%body))
+      integer(ip) :: i
+
+      do i = 1, size(names, kind=ip)
+         names(i)%s = 'body '//to_text(i)
+         if (.not. allocated(drawing%results%scene%bodies)) cycle
+         if (i > size(drawing%results%scene%bodies)) cycle
+         if (allocated(drawing%results%scene%bodies(i)%name)) names(i)%s = drawing%results%scene%bodies(i)%name
+      end do
+   end function names_of_run
+
+   !> Writes scene.dat, scene-symbols.dat and scene.gp.
+   subroutine write_scene_plot(plots, model, view)
+      type(plots_t), intent(inout), target :: plots
+      type(model_t), intent(in), target :: model
+      type(plot_view_t), intent(in) :: view
+      type(drawing_t) :: drawing
+      type(string_t), allocatable :: symbols(:), names(:)
+      type(bodies_t) :: bodies
+      character(len=:), allocatable :: title
+      integer(ip) :: i
+
+      call begin_drawing(model, model%mesh%n_nodes > MOST_NODES, view, drawing)
+      if (shows_none(view, drawing%window)) call warn_of_box(view, drawing%window)
+      call write_lines(plots, SCENE_PLOT, 'edges of the elements as polylines; columns: x [L]  y [L], and 0  0', drawing, .true.)
+      call write_symbols(plots, SCENE_PLOT, shown_step(model%steps), drawing, symbols)
+      call begin_script(plots, SCENE_PLOT, 'mesh, supports, loads and surfaces, before anything is solved', &
+                        'Columns of scene.dat and scene-symbols.dat: 1 x [L], 2 y [L], 3 and 4 are 0; '// &
+                        'of arrows 5 and 6 their components [L], of markers 5 their size')
+      call put(plots, 'scale = 0'//LF//'heading = '//quoted(scene_title(model%deck_path, model%heading)))
+      call put_plane(plots, drawing, legend_lines(symbols))
+      call put(plots, colour_styles(''))
+      title = 'before anything is solved'
+      if (size(model%steps) > 1) title = title//': supports and loads of step '//to_text(shown_step(model%steps))//' of '// &
+                                         to_text(size(model%steps, kind=ip))//', at its end'
+      call put_title(plots, '"\n'//title//'"')
+      call find_bodies(model%mesh, bodies)
+      call name_bodies(model, bodies)
+      allocate (names(bodies%n))
+      do i = 1, bodies%n
+         names(i)%s = bodies%list(i)%name
+      end do
+      call put_scene(plots, drawing, drawing%lines%n_runs, '', &
+                     run_styles(drawing, names, merge('0.4', '0.7', model%mesh%n_nodes > FEW_NODES), '2'), symbols)
+      call end_script(plots)
+   end subroutine write_scene_plot
+
+   !> The first step in which something acts; the first one where nothing does.
+   pure integer(ip) function shown_step(steps) result(k)
+      type(step_t), intent(in) :: steps(:)
+
+      do k = 1, size(steps, kind=ip)
+         associate (step => steps(k))
+            if (step%node_loads%n + step%rigid_loads%n + step%element_loads%n > 0) return
+            if (allocated(step%heating) .or. moves(step%prescribed) .or. moves(step%rigid_prescribed)) return
+         end associate
+      end do
+      k = 1
+   end function shown_step
+
+   !> Whether some of the values is not 0.
+   pure logical function moves(list)
+      type(nodal_values_t), intent(in) :: list
+
+      moves = .false.
+      if (list%n > 0) moves = any(abs(list%value(:list%n)) > 0.0_wp)
+   end function moves
+
+   !> Writes mechanism.dat and mechanism.gp: the bodies displaced by their rigid motions, those that move in colour, over where they
+   !> were. The data hold places and motions, so that the script can choose the scale.
+   subroutine write_mechanism_plot(plots, model, limit, title, view)
+      type(plots_t), intent(inout) :: plots
+      type(model_t), intent(in), target :: model    !< at the value that falls
+      type(stability_t), intent(in) :: limit
+      character(len=*), intent(in) :: title
+      type(plot_view_t), intent(in) :: view
+      type(drawing_t) :: drawing
+      type(string_t), allocatable :: styles(:)
+      integer(ip) :: i, place                       ! among those that move, the fastest first; 0: it rests
+
+      call begin_drawing(model, .true., view, drawing)
+      call displace(drawing, limit%collapse%u, 1.0_wp, mechanism_scale(limit%collapse, drawing%size))
+      call take_rigid_motions(limit%collapse, drawing)
+      call write_lines(plots, MECHANISM_PLOT, 'outlines of the bodies as polylines; columns: x [L]  y [L]  u1 [L]  u2 [L], '// &
+                       'the largest u is 1', drawing, .false.)
+      call begin_script(plots, MECHANISM_PLOT, 'the mechanism of a scene at its limit', &
+                        'Columns of mechanism.dat: 1 x [L], 2 y [L], 3 u1 [L], 4 u2 [L]; a block a body')
+      call put(plots, 'scale = '//to_text(drawing%scale, 15)//'   # of the motion; change it here')
+      call put_plane(plots, drawing)
+      call put(plots, 'set style line 10 lt 1 lw 1.5 lc rgb "#404040"'//LF//colour_styles(' lw 2.5')//LF// &
+               'heading = '//quoted(cleaned(title, LONGEST_TITLE))//LF// &
+               'value = '//quoted('mechanism at '//limit%parameter//' = '//to_text(limit%falls, 8)))
+      call put_title(plots, 'sprintf("\n%s, its largest displacement drawn %g [L]", value, scale)')
+      allocate (styles(drawing%lines%n_runs))
+      do i = 1, size(styles, kind=ip)
+         place = findloc(limit%collapse%bodies, drawing%lines%body(i), dim=1, kind=ip)
+         styles(i)%s = 'ls 10'
+         if (place > 0) styles(i)%s = body_style(drawing%lines%body(i))//body_title(limit%collapse%names(place)%s, place)
+      end do
+      call put_scene(plots, drawing, 0_ip, 'undisplaced', styles, [string_t ::])
+      call end_script(plots)
+   end subroutine write_mechanism_plot
+
+   !> The motions of rigid surfaces, which are bodies behind those of elements.
+   pure subroutine take_rigid_motions(collapse, drawing)
+      type(collapse_t), intent(in) :: collapse
+      type(drawing_t), intent(inout) :: drawing
+      integer(ip) :: i, k
+
+      allocate (drawing%rigid(0))
+      if (.not. allocated(drawing%model%rigid_bodies)) return
+      deallocate (drawing%rigid)
+      allocate (drawing%rigid(size(drawing%model%rigid_bodies)))
+      do i = 1, size(collapse%bodies, kind=ip)
+         k = collapse%bodies(i) - maxval(drawing%lines%body)
+         if (k < 1) cycle
+         drawing%rigid(k)%u = collapse%motion(:2, i)
+         drawing%rigid(k)%rotation = collapse%motion(3, i)
+      end do
+   end subroutine take_rigid_motions
+
+   !> The number with which a motion of one is drawn 3 to 8 % of the scene long, or less where bodies would turn much.
+   pure real(wp) function mechanism_scale(collapse, size_of_scene) result(scale)
+      type(collapse_t), intent(in) :: collapse
+      real(wp), intent(in) :: size_of_scene         !< diagonal [L]
+      real(wp) :: turn
+
+      scale = displacement_scale(1.0_wp, size_of_scene)
+      turn = maxval(abs(collapse%motion(3, :)))
+      if (turn*scale > LARGEST_TURN) scale = LARGEST_TURN/turn
+   end function mechanism_scale
+
+end module atrito_body_plots

@@ -1,0 +1,427 @@
+!> Pictures of bodies in the plane: edges of the mesh and rigid surfaces, where they are and where they go.
+!>
+!> Data files hold edges as polylines of place and displacement, so that the script can choose the scale. Each edge is there once.
+module atrito_drawing
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   use atrito_kinds, only: ip, wp
+   use atrito_mesh, only: mesh_t, face_end, middle_node
+   use atrito_mesh_lines, only: mesh_lines_t, collect_lines, rigid_places, LINE_INNER
+   use atrito_model, only: model_t, SURFACE_SEGMENTS
+   use atrito_number_text, only: trimmed_real
+   use atrito_plot_files, only: JOINT_PLOT
+   use atrito_plot_scripts, only: plots_t, put, begin_data, end_data, put_terminal, put_plot
+   use atrito_plot_text, only: range_t, cover, range_text, span, quoted, cleaned, LF, N_COLOURS, TIMES
+   use atrito_plot_view, only: plot_view_t, shown_window
+   use atrito_results, only: results_t, rigid_result_t
+   use atrito_strings, only: string_t, append_string, to_text
+   implicit none (type, external)
+   private
+   public :: drawing_t, begin_drawing, displace, displacement_scale, largest_length
+   public :: write_lines, put_lines, put_rigid_lines, put_place, put_head, put_window, put_axes, put_plane, put_scene
+   public :: add_lines, add_rigid_lines, inner_runs, rigid_lines, put_title, scale_title, displacement_text
+   public :: run_styles, body_style, body_title, MOVED
+
+   integer, parameter :: DIGITS = 7                 !< of the data: a picture has a thousand pixels
+   integer, parameter :: PIECES = 10                !< straight pieces of a curved edge
+   !> An edge whose middle node is off the middle by less than this share of the scene, or of the largest displacement, is straight.
+   real(wp), parameter :: STRAIGHT = 3.0e-4_wp
+   !> The largest displacement is drawn at most this long, as a share of the scene's diagonal.
+   real(wp), parameter :: LARGEST_SHARE = 0.08_wp
+   integer(ip), parameter :: MOST_NAMES = 8         !< bodies in the legend
+   integer, parameter :: LONGEST_NAME = 24          !< characters of a body's name
+   integer(ip), parameter :: LEGEND_LINE = 22       !< pixels
+   !> How a script has a place with its displacement.
+   character(len=*), parameter :: MOVED = '($1 + scale*$3):($2 + scale*$4)'
+   !> What is said of lines of each kind.
+   character(len=*), parameter :: OF_KIND(2) = [character(len=40) :: ', edges inside', ', outline and lines between sections']
+
+   !> A scene with its lines, and how they are displaced.
+   type :: drawing_t
+      type(model_t), pointer :: model => null()
+      type(results_t), pointer :: results => null()     !< of a run: those of its last frame
+      character(len=:), allocatable :: heading          !< first line of the title
+      real(wp), allocatable :: u(:, :)                  !< (2, n_nodes) [L]
+      type(mesh_lines_t) :: lines
+      type(range_t) :: window(2)                        !< what both shapes cover [L]
+      real(wp) :: size = 0.0_wp                         !< diagonal of the undisplaced bodies [L]
+      real(wp) :: largest = 0.0_wp                      !< displacement [L]
+      real(wp) :: scale = 0.0_wp                        !< of the displacements
+      type(plot_view_t) :: view                         !< what is asked of it
+      type(rigid_result_t), allocatable :: rigid(:)     !< motions of the model's rigid bodies; without them they stay
+   end type drawing_t
+
+contains
+
+   !> Collects the lines of a scene; nothing is displaced yet. The model is looked at as long as the drawing is in use.
+   subroutine begin_drawing(model, only_outline, view, drawing)
+      type(model_t), intent(in), target :: model
+      logical, intent(in) :: only_outline
+      type(plot_view_t), intent(in) :: view
+      type(drawing_t), intent(out) :: drawing
+      integer(ip) :: e, i
+
+      drawing%model => model
+      drawing%view = view
+      allocate (drawing%u(2, model%mesh%n_nodes), source=0.0_wp)
+      call collect_lines(model%mesh, model%section_of, only_outline, drawing%lines)
+      do e = 1, model%mesh%n_elements               ! nodes in no element do not count
+         do i = 1, 2
+            call cover(drawing%window(i), model%mesh%x(i, model%mesh%nodes(:model%mesh%shape(e), e)))
+         end do
+      end do
+      drawing%size = hypot(span(drawing%window(1)), span(drawing%window(2)))
+   end subroutine begin_drawing
+
+   !> Displaces the bodies, by the scale that is asked for, else by the one that is chosen, and widens the window to them.
+   pure subroutine displace(drawing, u, largest, chosen_scale)
+      type(drawing_t), intent(inout) :: drawing
+      real(wp), intent(in) :: u(:, :)               !< (2, n_nodes) [L]
+      real(wp), intent(in) :: largest               !< displacement [L]
+      real(wp), intent(in) :: chosen_scale
+      integer :: i
+
+      drawing%u = u
+      drawing%largest = largest
+      drawing%scale = chosen_scale
+      if (allocated(drawing%view%scale)) drawing%scale = drawing%view%scale
+      do i = 1, 2
+         call cover(drawing%window(i), drawing%model%mesh%x(i, :) + drawing%scale*u(i, :))
+      end do
+   end subroutine displace
+
+   !> The number of the series 1, 2, 5, 10, ... with which the largest displacement is drawn 3 to 8 % of the scene long; 1
+   !> where nothing moves.
+   pure real(wp) function displacement_scale(largest, size_of_scene) result(scale)
+      real(wp), intent(in) :: largest               !< displacement [L]
+      real(wp), intent(in) :: size_of_scene         !< diagonal [L]
+      real(wp) :: wanted, power
+
+      scale = 1.0_wp
+      if (largest <= tiny(largest)*1.0e3_wp .or. size_of_scene <= 0.0_wp) return
+      wanted = LARGEST_SHARE*size_of_scene/largest
+      if (.not. ieee_is_finite(wanted)) return
+      power = 10.0_wp**floor(log10(wanted))
+      scale = power
+      if (2.0_wp*power <= wanted) scale = 2.0_wp*power
+      if (5.0_wp*power <= wanted) scale = 5.0_wp*power
+   end function displacement_scale
+
+   !> The largest length of some vectors, those left out that are no numbers; 0 where there are none.
+   pure real(wp) function largest_length(vectors) result(largest)
+      real(wp), intent(in) :: vectors(:, :)         !< (2, n)
+      integer(ip) :: i
+
+      largest = 0.0_wp
+      do i = 1, size(vectors, 2, kind=ip)
+         if (all(ieee_is_finite(vectors(:, i)))) largest = max(largest, hypot(vectors(1, i), vectors(2, i)))
+      end do
+   end function largest_length
+
+   !> Writes <name>.dat: a block a run of edges, then a block a rigid surface of the pairs.
+   subroutine write_lines(plots, name, what, drawing, of_kinds)
+      type(plots_t), intent(inout) :: plots
+      character(len=*), intent(in) :: name
+      character(len=*), intent(in) :: what          !< the file holds
+      type(drawing_t), intent(in) :: drawing
+      logical, intent(in) :: of_kinds               !< inner edges and outlines are told apart
+
+      call begin_data(plots, name, what)
+      call put_lines(plots, drawing, drawing%u, of_kinds)
+      call put_rigid_lines(plots, drawing%model, drawing%rigid)
+      call end_data(plots)
+   end subroutine write_lines
+
+   !> A block a run of edges.
+   subroutine put_lines(plots, drawing, u, of_kinds)
+      type(plots_t), intent(inout) :: plots
+      type(drawing_t), intent(in) :: drawing
+      real(wp), intent(in) :: u(:, :)               !< (2, n_nodes) [L]
+      logical, intent(in) :: of_kinds
+      integer(ip) :: run, i
+
+      associate (lines => drawing%lines)
+         do run = 1, lines%n_runs
+            call put(plots, '# block '//to_text(run - 1)//': body '//to_text(lines%body(run))// &
+                     trim(merge(OF_KIND(lines%kind(run)), repeat(' ', len(OF_KIND)), of_kinds)))
+            do i = lines%first(run), lines%first(run + 1) - 1
+               call put_edge(plots, drawing, u, lines%element(i), lines%face(i))
+            end do
+            call put(plots, '')
+         end do
+      end associate
+   end subroutine put_lines
+
+   !> An edge from corner to corner; a curved one in pieces.
+   subroutine put_edge(plots, drawing, u, element, face)
+      type(plots_t), intent(inout) :: plots
+      type(drawing_t), intent(in) :: drawing
+      real(wp), intent(in) :: u(:, :)
+      integer(ip), intent(in) :: element, face
+      real(wp) :: v(4, 3), off(4), t
+      integer(ip) :: nodes(3)
+      integer :: i, n_pieces
+
+      associate (mesh => drawing%model%mesh)
+         nodes = [mesh%nodes(face, element), mesh%nodes(face_end(mesh, element, face), element), middle_node(mesh, element, face)]
+         do i = 1, 3
+            if (nodes(i) > 0) v(:, i) = [mesh%x(:, nodes(i)), u(:, nodes(i))]
+         end do
+      end associate
+      if (nodes(3) == 0) v(:, 3) = 0.5_wp*(v(:, 1) + v(:, 2))
+      n_pieces = PIECES
+      off = abs(v(:, 3) - 0.5_wp*(v(:, 1) + v(:, 2)))
+      if (all(ieee_is_finite(off))) then
+         if (all(off(1:2) <= STRAIGHT*drawing%size) .and. all(off(3:4) <= STRAIGHT*drawing%largest/LARGEST_SHARE)) n_pieces = 1
+      end if
+      do i = 0, n_pieces
+         t = 2.0_wp*real(i, wp)/real(n_pieces, wp) - 1.0_wp
+         call put_place(plots, matmul(v, [0.5_wp*t*(t - 1.0_wp), 0.5_wp*t*(t + 1.0_wp), 1.0_wp - t*t]))
+      end do
+      call put(plots, '')
+   end subroutine put_edge
+
+   !> A place and its displacement, and more columns.
+   subroutine put_place(plots, v, more)
+      type(plots_t), intent(inout) :: plots
+      real(wp), intent(in) :: v(4)
+      character(len=*), intent(in), optional :: more
+      character(len=:), allocatable :: line
+
+      line = trimmed_real(v(1), DIGITS)//' '//trimmed_real(v(2), DIGITS)//' '//trimmed_real(v(3), DIGITS)//' '// &
+             trimmed_real(v(4), DIGITS)
+      if (present(more)) line = line//' '//more
+      call put(plots, line)
+   end subroutine put_place
+
+   !> A block a rigid surface of the pairs: its places, and the linear part of its motion there.
+   subroutine put_rigid_lines(plots, model, rigid)
+      type(plots_t), intent(inout) :: plots
+      type(model_t), intent(in) :: model
+      type(rigid_result_t), intent(in), optional :: rigid(:)   !< left out: they rest
+      real(wp), allocatable :: x(:, :)
+      real(wp) :: u(2), r(2)
+      integer(ip) :: i, k, body
+
+      do i = 1, size(model%surfaces, kind=ip)
+         if (.not. is_drawn_rigid(model, i)) cycle
+         call put(plots, '# a rigid surface')
+         body = 0
+         if (present(rigid)) body = body_of_surface(model, i)
+         x = rigid_places(model%surfaces(i))
+         do k = 1, size(x, 2, kind=ip)
+            u = 0.0_wp
+            if (body > 0) then
+               r = x(:, k) - model%mesh%x(:, model%rigid_bodies(body)%node)
+               u = rigid(body)%u + rigid(body)%rotation*[-r(2), r(1)]
+            end if
+            call put_place(plots, [x(:, k), u])
+         end do
+         call put(plots, LF)
+      end do
+   end subroutine put_rigid_lines
+
+   !> The rigid body of a surface; 0: it stays where it is.
+   pure integer(ip) function body_of_surface(model, surface) result(body)
+      type(model_t), intent(in) :: model
+      integer(ip), intent(in) :: surface
+
+      body = 0
+      if (allocated(model%rigid_bodies)) body = findloc(model%rigid_bodies%surface, surface, dim=1, kind=ip)
+   end function body_of_surface
+
+   !> A rigid surface that is the master of a pair.
+   pure logical function is_drawn_rigid(model, surface)
+      type(model_t), intent(in) :: model
+      integer(ip), intent(in) :: surface
+
+      is_drawn_rigid = model%surfaces(surface)%kind == SURFACE_SEGMENTS .and. any(model%pairs%master == surface)
+      if (is_drawn_rigid) is_drawn_rigid = allocated(model%surfaces(surface)%points)
+   end function is_drawn_rigid
+
+   !> How many blocks of lines are inner edges, which come first, and how many are rigid surfaces, behind the lines of the bodies.
+   pure integer(ip) function inner_runs(drawing) result(n)
+      type(drawing_t), intent(in) :: drawing
+
+      n = count(drawing%lines%kind(:drawing%lines%n_runs) == LINE_INNER, kind=ip)
+   end function inner_runs
+
+   pure integer(ip) function rigid_lines(model) result(n)
+      type(model_t), intent(in) :: model
+      integer(ip) :: i
+
+      n = count([(is_drawn_rigid(model, i), i=1, size(model%surfaces, kind=ip))], kind=ip)
+   end function rigid_lines
+
+   !> What a script draws by: the scale of the displacements, more, and the first line of the title.
+   subroutine put_head(plots, drawing, more)
+      type(plots_t), intent(inout) :: plots
+      type(drawing_t), intent(in) :: drawing
+      character(len=*), intent(in) :: more          !< lines, each with LF behind it
+
+      call put(plots, 'scale = '//to_text(drawing%scale, 15)//'   # of the displacements; change it here'//LF//more// &
+               'heading = '//quoted(drawing%heading))
+   end subroutine put_head
+
+   !> Ranges, terminal, border and axes of a picture of bodies in the plane.
+   subroutine put_plane(plots, drawing, legend)
+      type(plots_t), intent(inout) :: plots
+      type(drawing_t), intent(in) :: drawing
+      integer(ip), intent(in), optional :: legend   !< its lines, two of which have room anyhow
+
+      call put_window(plots, drawing)
+      if (present(legend)) then
+         if (legend > 2) call put(plots, 'height = height + '//to_text(LEGEND_LINE*(legend - 2)))
+      end if
+      call put_terminal(plots, '1000,height')
+      call put_axes(plots)
+   end subroutine put_plane
+
+   !> Ranges, and the height of the picture for a width of 1000.
+   subroutine put_window(plots, drawing)
+      type(plots_t), intent(inout) :: plots
+      type(drawing_t), intent(in) :: drawing
+      type(range_t) :: shown(2)
+      real(wp) :: ratio
+
+      shown = shown_window(drawing%view, drawing%window)
+      ratio = 1.0_wp
+      if (span(drawing%window(1)) > 0.0_wp) ratio = span(drawing%window(2))/span(drawing%window(1))
+      if (allocated(drawing%view%box)) ratio = span(shown(2))/span(shown(1))
+      call put(plots, 'set xrange '//range_text(shown(1))//LF//'set yrange '//range_text(shown(2))//LF// &
+               'height = '//to_text(nint(160.0_wp + 860.0_wp*min(1.1_wp, max(0.15_wp, ratio)), ip)))
+   end subroutine put_window
+
+   !> Border, marks, legend and the names of the axes of a picture of bodies, and the line styles 8 (undisplaced) and 9 (rigid).
+   subroutine put_axes(plots)
+      type(plots_t), intent(inout) :: plots
+
+      call put(plots, 'set size ratio -1')
+      if (plots%name /= JOINT_PLOT) call put(plots, 'set clip two')
+      call put(plots, 'set border lt 1 lw 1 lc rgb "#A0A0A0"'//LF// &
+               'set tics nomirror out scale 0.6 textcolor rgb "black" format "%h"'//LF// &
+               'set key noautotitle outside bottom center horizontal Left reverse samplen 2 height 0.7'//LF// &
+               'set xlabel "x [L]"'//LF//'set ylabel "y [L]"')
+      if (plots%name == JOINT_PLOT) return
+      call put(plots, 'set style line 8 lt 1 lw 1 lc rgb "#B0B0B0"'//LF//'set style line 9 lt 1 lw 4 lc rgb "#404040"')
+   end subroutine put_axes
+
+   !> The title: a label, for gnuplot measures titles as enhanced text even where they are not, and complains.
+   subroutine put_title(plots, text)
+      type(plots_t), intent(inout) :: plots
+      character(len=*), intent(in) :: text          !< what is put behind the heading, an expression of gnuplot
+
+      call put(plots, 'set tmargin 4'//LF//'set label 1 heading.'//text// &
+               ' at screen 0.5, screen 1 - 22.0/height center noenhanced')
+   end subroutine put_title
+
+   !> What titles say of the displacements.
+   pure function scale_title(drawing) result(text)
+      type(drawing_t), intent(in) :: drawing
+      character(len=:), allocatable :: text
+
+      text = 'sprintf("\ndisplacements drawn %g '//TIMES//', the largest is %g [L]", scale, '//to_text(drawing%largest, 4)//')'
+   end function scale_title
+
+   !> The scale of the displacements in words, for a string in double quotes.
+   pure function displacement_text(scale) result(text)
+      real(wp), intent(in) :: scale
+      character(len=:), allocatable :: text
+
+      text = 'displacements drawn '//to_text(scale)//' '//TIMES
+      if (scale <= 0.0_wp) text = 'undisplaced'
+   end function displacement_text
+
+   !> The plot: where the bodies were (lines of style 8), where they go, each run of edges in its style, and rigid surfaces (9).
+   subroutine put_scene(plots, drawing, first, undisplaced, styles, more)
+      type(plots_t), intent(inout) :: plots
+      type(drawing_t), intent(in) :: drawing
+      integer(ip), intent(in) :: first              !< block that is drawn undisplaced, and those behind it; past the last: none
+      character(len=*), intent(in) :: undisplaced   !< what they are called
+      type(string_t), intent(in) :: styles(:)       !< (runs) of the displaced lines
+      type(string_t), intent(in) :: more(:)         !< curves over them
+      type(string_t), allocatable :: curves(:)
+      integer(ip) :: i, n
+
+      n = size(styles, kind=ip)
+      if (first < n) call append_string(curves, 'for [i='//to_text(first)//':'//to_text(n - 1)//'] "'//plots%name// &
+                                        '.dat" index i using 1:2 with lines ls 8 title i == '//to_text(first)//' ? "'// &
+                                        undisplaced//'" : ""')
+      do i = 1, n
+         call add_lines(plots%name, i - 1, i - 1, styles(i)%s, curves)
+      end do
+      if (first >= n) curves(1)%s = '  '//curves(1)%s
+      call add_rigid_lines(plots%name, drawing, 'ls 9', .true., curves)
+      call put_plot(plots, [curves, more])
+   end subroutine put_scene
+
+   !> Adds the displaced lines of some blocks to the curves of a plot.
+   subroutine add_lines(name, first, last, style, curves)
+      character(len=*), intent(in) :: name          !< of the data file, without .dat
+      integer(ip), intent(in) :: first, last        !< blocks, from 0
+      character(len=*), intent(in) :: style
+      type(string_t), allocatable, intent(inout) :: curves(:)
+      character(len=:), allocatable :: blocks
+
+      blocks = to_text(first)
+      if (last > first) blocks = blocks//':'//to_text(last)
+      call append_string(curves, '"'//name//'.dat" index '//blocks//' using '//MOVED//' with lines '//style)
+   end subroutine add_lines
+
+   !> Adds the rigid surfaces, a block each behind the lines, to the curves of a plot. Those that do not move stay where they are
+   !> whatever the scale.
+   subroutine add_rigid_lines(name, drawing, style, has_title, curves)
+      character(len=*), intent(in) :: name          !< of the data file, without .dat
+      type(drawing_t), intent(in) :: drawing
+      character(len=*), intent(in) :: style
+      logical, intent(in) :: has_title              !< each has its name in the key
+      type(string_t), allocatable, intent(inout) :: curves(:)
+      character(len=:), allocatable :: places, title
+      integer(ip) :: i, n
+
+      n = drawing%lines%n_runs
+      do i = 1, size(drawing%model%surfaces, kind=ip)
+         if (.not. is_drawn_rigid(drawing%model, i)) cycle
+         places = '1:2'
+         if (body_of_surface(drawing%model, i) > 0) places = MOVED
+         title = ''
+         if (has_title) title = ' title '//quoted(cleaned(drawing%model%surfaces(i)%name, LONGEST_NAME)//' (rigid)')//' noenhanced'
+         call append_string(curves, '"'//name//'.dat" index '//to_text(n)//' using '//places//' with lines '//style//title)
+         n = n + 1
+      end do
+   end subroutine add_rigid_lines
+
+   !> How the lines of each run are drawn: in its body's colour, the outlines with its name in the key.
+   pure function run_styles(drawing, names, inner, outer) result(styles)
+      type(drawing_t), intent(in) :: drawing
+      type(string_t), intent(in) :: names(:)        !< of the bodies
+      character(len=*), intent(in) :: inner, outer  !< widths of inner edges and of outlines
+      type(string_t) :: styles(drawing%lines%n_runs)
+      integer(ip) :: i
+
+      do i = 1, size(styles, kind=ip)
+         associate (body => drawing%lines%body(i))
+            styles(i)%s = body_style(body)//' lw '//inner
+            if (drawing%lines%kind(i) /= LINE_INNER) styles(i)%s = body_style(body)//' lw '//outer//body_title(names(body)%s, body)
+         end associate
+      end do
+   end function run_styles
+
+   !> The line style of a body's colour.
+   pure function body_style(body) result(text)
+      integer(ip), intent(in) :: body
+      character(len=:), allocatable :: text
+
+      text = 'ls '//to_text(mod(body - 1, N_COLOURS) + 1)
+   end function body_style
+
+   !> The name of a body for the key; nothing for those that have no room there.
+   pure function body_title(name, place) result(text)
+      character(len=*), intent(in) :: name
+      integer(ip), intent(in) :: place              !< among the bodies
+      character(len=:), allocatable :: text
+
+      text = ''
+      if (place <= MOST_NAMES) text = ' title '//quoted(cleaned(name, LONGEST_NAME))//' noenhanced'
+   end function body_title
+
+end module atrito_drawing
