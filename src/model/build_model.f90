@@ -18,7 +18,7 @@ module atrito_build_model
    use atrito_build_lines, only: is_line_card, read_lines, turn_elements
    use atrito_build_instances, only: build_instances
    use atrito_build_materials, only: build_materials
-   use atrito_build_nodes, only: read_node_card, read_ngen_card, read_nfill_card
+   use atrito_build_nodes, only: read_node_card, read_fill_card
    use atrito_build_rigid_bodies, only: build_rigid_bodies, make_solver_mesh
    use atrito_build_requests, only: build_requests
    use atrito_build_springs, only: build_springs, is_spring_card
@@ -242,10 +242,8 @@ contains
          select case (keyword_name(context%deck%cards(i)))
          case ('NODE')
             call read_node_card(i, context)
-         case ('NGEN')
-            call read_ngen_card(i, context)
-         case ('NFILL')
-            call read_nfill_card(i, context)
+         case ('NGEN', 'NFILL')
+            call read_fill_card(i, context)
          case ('NCOPY')
             call read_ncopy_card(i, context)
          case ('BLOCK')
