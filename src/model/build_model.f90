@@ -13,8 +13,7 @@ module atrito_build_model
    use atrito_build_equations, only: build_equations
    use atrito_build_loads, only: build_loads
    use atrito_build_pretension, only: build_pretension, add_pretension_rows
-   use atrito_build_gmsh, only: read_mesh_nodes
-   use atrito_build_gmsh_elements, only: read_mesh_elements
+   use atrito_build_gmsh, only: read_mesh_nodes, read_mesh_elements
    use atrito_build_lines, only: is_line_card, read_lines, turn_elements
    use atrito_build_instances, only: build_instances
    use atrito_build_materials, only: build_materials

@@ -2,15 +2,14 @@
 module atrito_check_contact
    use atrito_average, only: least_spacing
    use atrito_contact_roles, only: STIFFER
-   use atrito_crack_tips, only: is_crack_tip
    use atrito_deck, only: deck_t, token_t
    use atrito_diagnostics, only: report_error, report_warning, report_note
    use atrito_build_context, only: build_context_t, ids_text, place_text, has_errors, is_invalid
    use atrito_face_geometry, only: has_quarter_node
-   use atrito_faces, only: chain_report_t, face_list_t, face_normal
+   use atrito_faces, only: chain_report_t, face_list_t, face_normal, node_elements_t
    use atrito_incidence, only: list_holders
-   use atrito_kinds, only: ip, lp, wp
-   use atrito_mesh, only: mesh_t, face_nodes
+   use atrito_kinds, only: ip, lp, wp, PI
+   use atrito_mesh, only: mesh_t, face_end, face_nodes, side_count
    use atrito_model, only: model_t, pair_t, interaction_t, SURFACE_SEGMENTS, QUADRATURE_AUTO, FRICTION_NONLOCAL, KERNEL_LINE
    use atrito_number_list, only: number_list_t, add_number, numbers_of
    use atrito_pairing, only: slave_stiffness
@@ -33,6 +32,8 @@ module atrito_check_contact
    end type pairs_context_t
 
    real(wp), parameter :: LINE_SPACINGS = 3.0_wp       !< KERNEL=LINE needs so many spacings within rho
+
+   real(wp), parameter :: FACING = -1.0e-3_wp          !< cosine of normals of faces that see each other (atrito_master)
 
    !> Distance of slave nodes over that of the master's from which on NODAL points are too few: 3 elements on 2 are not.
    real(wp), parameter :: COARSE = 1.6_wp
@@ -83,10 +84,7 @@ contains
 
       is_master = .false.
       is_master(model%pairs%master) = .true.
-      n = 0
-      do i = 1, size(is_master, kind=ip)
-         if (is_master(i)) n = n + model%surfaces(i)%faces%n
-      end do
+      n = sum(pack(model%surfaces%faces%n, is_master))
       allocate (nodes(MOST_FACE_NODES, n), known%surface_of(n), source=0_ip)
       n = 0
       do i = 1, size(is_master, kind=ip)
@@ -106,47 +104,46 @@ contains
    subroutine check_sides(model, context, i, known)
       type(model_t), intent(in) :: model
       type(build_context_t), intent(in) :: context
-      integer(ip), intent(in) :: i
+      integer(ip), intent(in) :: i                     !< the pair
       type(pairs_context_t), intent(inout) :: known
-      integer(ip) :: slave, master, k
 
-      slave = model%pairs(i)%slave
-      master = model%pairs(i)%master
-      if (slave == master) then
-         call report_error(context%deck, context%masters(i), 'E-PAIR', 'slave and master are the same surface', &
-                           expected='two surfaces that face each other', keyword='CONTACT PAIR')
-         return
-      end if
-      k = known%first_of(i)
-      if (k < i) then
-         call report_error(context%deck, context%slaves(i), 'E-TWICE', &
-                           'this pair is given twice, first in '//place_text(context%deck, &
-                                                     context%slaves(k), context%slaves(i)), expected='each pair of surfaces once', &
-                           keyword='CONTACT PAIR')
-         return
-      end if
-      call check_slave(model, context, slave, context%slaves(i), known)
-      call check_master(model, context, master, context%masters(i))
-      if (model%surfaces(slave)%kind /= SURFACE_SEGMENTS .and. model%surfaces(master)%kind /= SURFACE_SEGMENTS) then
-         call check_shared_nodes(context, model, slave, master, context%masters(i), known)
-      end if
+      associate (slave => model%pairs(i)%slave, master => model%pairs(i)%master, first => known%first_of(i))
+         if (slave == master) then
+            call report_error(context%deck, context%masters(i), 'E-PAIR', 'slave and master are the same surface', &
+                              expected='two surfaces that face each other', keyword='CONTACT PAIR')
+         else if (first < i) then
+            call report_error(context%deck, context%slaves(i), 'E-TWICE', 'this pair is given twice, first in '// &
+                              place_text(context%deck, context%slaves(first), context%slaves(i)), &
+                              expected='each pair of surfaces once', keyword='CONTACT PAIR')
+         else
+            call check_slave(model, context, slave, context%slaves(i), known)
+            call check_master(model, context, master, context%masters(i))
+            if (model%surfaces(slave)%kind /= SURFACE_SEGMENTS .and. model%surfaces(master)%kind /= SURFACE_SEGMENTS) then
+               call check_shared_nodes(context, model, slave, master, context%masters(i), known)
+            end if
+         end if
+      end associate
    end subroutine check_sides
 
+   !> A slave is one chain of faces, with the middle nodes of these in their middles: where one lies at a quarter of its face, as at
+   !> the tip of a crack, a node of the face has no part of the surface.
    subroutine check_slave(model, context, i, place, known)
       type(model_t), intent(in) :: model
       type(build_context_t), intent(in) :: context
       integer(ip), intent(in) :: i                     !< the slave's surface
       type(token_t), intent(in) :: place
       type(pairs_context_t), intent(inout) :: known
+      type(number_list_t) :: elements
+      integer(ip) :: k
 
-      associate (surface => model%surfaces(i), report => known%chains(i))
+      associate (surface => model%surfaces(i), faces => model%surfaces(i)%faces, report => known%chains(i), mesh => model%mesh)
          if (is_invalid(context, surface%name)) return
          if (surface%kind == SURFACE_SEGMENTS) then
             call report_error(context%deck, place, 'E-PAIR', 'surface '//surface%name//' is a drawn line and cannot be the slave', &
                               expected='a surface of element faces as slave; the rigid surface is the master', &
                               keyword='CONTACT PAIR')
             return
-         else if (surface%faces%n == 0) then
+         else if (faces%n == 0) then
             call report_no_faces(context%deck, place, surface%name)
             return
          end if
@@ -155,38 +152,24 @@ contains
          if (has_errors()) return            ! the chain may be broken by what was told already
          if (report%branch_node > 0) then
             call report_error(context%deck, place, 'E-CHAIN', 'the slave branches at node '// &
-                              to_text(model%mesh%node_id(report%branch_node)), expected='one connected chain of faces', &
+                              to_text(mesh%node_id(report%branch_node)), expected='one connected chain of faces', &
                               keyword='CONTACT PAIR')
          else if (report%loose_face > 0) then
             call report_error(context%deck, place, 'E-CHAIN', 'the slave is not connected: face S'// &
-                              to_text(surface%faces%face(report%loose_face))//' of element '// &
-                              to_text(model%mesh%element_id(surface%faces%element(report%loose_face)))// &
-                              ' does not continue the others', expected='one connected chain of faces; otherwise a pair for each', &
-                              keyword='CONTACT PAIR')
+                              to_text(faces%face(report%loose_face))//' of element '// &
+                              to_text(mesh%element_id(faces%element(report%loose_face)))//' does not continue the others', &
+                              expected='one connected chain of faces; otherwise a pair for each', keyword='CONTACT PAIR')
          end if
-         call check_middles(context%deck, model%mesh, surface%faces, place)
+         do k = 1, faces%n
+            if (has_quarter_node(mesh%x(:, face_nodes(mesh, faces%element(k), faces%face(k))))) then
+               call add_number(elements, mesh%element_id(faces%element(k)))
+            end if
+         end do
       end associate
+      if (elements%n > 0) call report_error(context%deck, place, 'E-PAIR', 'a slave face of element '// &
+                                            ids_text(numbers_of(elements))//' has its middle node at a quarter of it', &
+                                            expected='middle nodes in the middle of the faces of a slave', keyword='CONTACT PAIR')
    end subroutine check_slave
-
-   !> A slave face whose middle lies at a quarter of it, as at the tip of a crack: a node of it has no part of the surface.
-   subroutine check_middles(deck, mesh, faces, place)
-      type(deck_t), intent(in) :: deck
-      type(mesh_t), intent(in) :: mesh
-      type(face_list_t), intent(in) :: faces
-      type(token_t), intent(in) :: place
-      type(number_list_t) :: elements
-      integer(ip) :: i
-
-      do i = 1, faces%n
-         associate (x => mesh%x(:, face_nodes(mesh, faces%element(i), faces%face(i))))
-            if (has_quarter_node(x)) call add_number(elements, mesh%element_id(faces%element(i)))
-         end associate
-      end do
-      if (elements%n > 0) call report_error(deck, place, 'E-PAIR', 'a slave face of element '//ids_text(numbers_of(elements))// &
-                                            ' has its middle node at a quarter of it', &
-                                            expected='middle nodes in the middle of the faces of a slave', &
-                                            keyword='CONTACT PAIR')
-   end subroutine check_middles
 
    subroutine check_master(model, context, i, place)
       type(model_t), intent(in) :: model
@@ -232,7 +215,9 @@ contains
          do i = 1, faces%n
             nodes = face_nodes(model%mesh, faces%element(i), faces%face(i))
             do k = 1, size(nodes, kind=ip)
-               if (is_on(known, nodes(k), master)) call add_number(shared, nodes(k))
+               associate (at_node => known%face(known%first(nodes(k)):known%first(nodes(k) + 1) - 1))
+                  if (any(known%surface_of(at_node) == master)) call add_number(shared, nodes(k))
+               end associate
             end do
          end do
          if (shared%n == 0) return
@@ -252,17 +237,64 @@ contains
       end if
    end subroutine check_shared_nodes
 
-   !> A node belongs to a master.
-   pure logical function is_on(known, node, master)
-      type(pairs_context_t), intent(in) :: known
-      integer(ip), intent(in) :: node, master
-      integer(ip) :: k
+   !> Whether one face of either side ends at a node, they face each other, and the bodies fill more than half of what is around it.
+   !> The sides of a corner that points outwards are no crack, however sharp it is: between them there is the body.
+   pure logical function is_crack_tip(mesh, around, node, slave, master) result(is_tip)
+      type(mesh_t), intent(in) :: mesh
+      type(node_elements_t), intent(in) :: around
+      integer(ip), intent(in) :: node
+      type(face_list_t), intent(in) :: slave, master
+      integer(ip) :: own, other
 
-      is_on = .false.
-      do k = known%first(node), known%first(node + 1) - 1
-         is_on = is_on .or. known%surface_of(known%face(k)) == master
+      own = only_face_at(mesh, node, slave)
+      other = only_face_at(mesh, node, master)
+      is_tip = own > 0 .and. other > 0
+      if (.not. is_tip) return
+      is_tip = dot_product(face_normal(mesh, slave%element(own), slave%face(own)), &
+                           face_normal(mesh, master%element(other), master%face(other))) <= FACING
+      if (is_tip) is_tip = filled_angle(mesh, around, node) > PI
+   end function is_crack_tip
+
+   !> The one face of a list that begins or ends at a node; 0 where there is none, or more.
+   pure integer(ip) function only_face_at(mesh, node, faces) result(found)
+      type(mesh_t), intent(in) :: mesh
+      integer(ip), intent(in) :: node
+      type(face_list_t), intent(in) :: faces
+      integer(ip) :: i
+
+      found = 0
+      do i = 1, faces%n
+         associate (e => faces%element(i), f => faces%face(i))
+            if (all(mesh%nodes([f, face_end(mesh, e, f)], e) /= node)) cycle
+         end associate
+         if (found > 0) then
+            found = 0
+            return
+         end if
+         found = i
       end do
-   end function is_on
+   end function only_face_at
+
+   !> The angle that the elements round a node take there, by the chords of their sides.
+   pure real(wp) function filled_angle(mesh, around, node) result(angle)
+      type(mesh_t), intent(in) :: mesh
+      type(node_elements_t), intent(in) :: around
+      integer(ip), intent(in) :: node
+      real(wp) :: a(2), b(2)
+      integer(ip) :: i, k, n
+
+      angle = 0.0_wp
+      do i = around%first(node), around%first(node + 1) - 1
+         associate (corners => mesh%nodes(:side_count(mesh, around%list(i)), around%list(i)))
+            n = size(corners, kind=ip)
+            k = findloc(corners, node, dim=1, kind=ip)
+            if (k == 0) cycle                      ! in the middle of a side, which is no corner
+            a = mesh%x(:, corners(mod(k, n) + 1)) - mesh%x(:, node)
+            b = mesh%x(:, corners(mod(k + n - 2, n) + 1)) - mesh%x(:, node)
+            angle = angle + atan2(abs(a(1)*b(2) - a(2)*b(1)), dot_product(a, b))
+         end associate
+      end do
+   end function filled_angle
 
    !> Tells of interactions that no pair has; for models without any error.
    subroutine note_unused_interactions(model, context)

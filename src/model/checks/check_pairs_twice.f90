@@ -4,7 +4,6 @@ module atrito_check_pairs_twice
    use atrito_build_context, only: build_context_t
    use atrito_diagnostics, only: report_warning
    use atrito_element_table, only: MOST_SIDES
-   use atrito_faces, only: face_list_t
    use atrito_kinds, only: ip, lp, wp
    use atrito_mesh, only: face_nodes
    use atrito_model, only: model_t
@@ -94,37 +93,30 @@ contains
       end do
    end subroutine measure_slave
 
+   !> The slave faces of the points; the faces of a master with both ends among the nodes of the points, none of a drawn line.
    pure subroutine list_sides(model, sides)
       type(model_t), intent(in) :: model
       type(sides_t), intent(out) :: sides(:)
-      logical, allocatable :: touched(:)
-      integer(ip) :: i
+      logical, allocatable :: touched(:), is_touched(:)
+      integer(ip) :: i, k
 
       allocate (touched(model%mesh%n_nodes), source=.false.)
       do i = 1, size(model%pairs, kind=ip)
          sides(i)%slave = model%points(i)%faces
          touched(model%points(i)%entry) = .true.
-         call list_touched(model, model%surfaces(model%pairs(i)%master)%faces, touched, sides(i)%master)
+         associate (faces => model%surfaces(model%pairs(i)%master)%faces)
+            allocate (is_touched(faces%n))
+            do k = 1, faces%n
+               associate (nodes => face_nodes(model%mesh, faces%element(k), faces%face(k)))
+                  is_touched(k) = all(touched(nodes(:2)))
+               end associate
+            end do
+            sides(i)%master = pack([(int(faces%element(k), lp)*MOST_SIDES + faces%face(k), k=1, faces%n)], is_touched)
+            deallocate (is_touched)
+         end associate
          touched(model%points(i)%entry) = .false.
       end do
    end subroutine list_sides
-
-   !> The faces of a master with all ends among the nodes of the points; none of a drawn line.
-   pure subroutine list_touched(model, faces, touched, list)
-      type(model_t), intent(in) :: model
-      type(face_list_t), intent(in) :: faces
-      logical, intent(in) :: touched(:)
-      integer(lp), allocatable, intent(out) :: list(:)
-      logical :: is_touched(faces%n)
-      integer(ip) :: k
-
-      do k = 1, faces%n
-         associate (nodes => face_nodes(model%mesh, faces%element(k), faces%face(k)))
-            is_touched(k) = all(touched(nodes(:2)))
-         end associate
-      end do
-      list = pack([(int(faces%element(k), lp)*MOST_SIDES + faces%face(k), k=1, faces%n)], is_touched)
-   end subroutine list_touched
 
    !> For each pair one before it that is the same, or 0. Pairs come together at the slave faces of one of them: of the others that
    !> have such a face the list is short, also where there are thousands.
@@ -137,10 +129,7 @@ contains
       logical, allocatable :: is_slave(:)
       integer(ip) :: i, k, n, first, last
 
-      n = 0
-      do i = 1, size(sides, kind=ip)
-         n = n + size(sides(i)%slave, kind=ip) + size(sides(i)%master, kind=ip)
-      end do
+      n = sum([(size(sides(i)%slave, kind=ip) + size(sides(i)%master, kind=ip), i=1, size(sides, kind=ip))])
       allocate (face(n), pair(n), is_slave(n))
       n = 0
       do i = 1, size(sides, kind=ip)

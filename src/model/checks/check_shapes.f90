@@ -9,6 +9,7 @@ module atrito_check_shapes
    use atrito_messages, only: MOST_ERRORS
    use atrito_shape_functions, only: shape_gradients, shape_values, gauss_point
    use atrito_strings, only: to_text
+   use atrito_turned_elements, only: turned_nodes
    use atrito_threads, only: is_shared, chunk_count, find_chunk
    implicit none (type, external)
    private
@@ -76,55 +77,39 @@ contains
       type(mesh_t), intent(in) :: mesh
       integer(ip), intent(in) :: e, shape, node
       type(token_t), intent(in) :: place
-      character(len=:), allocatable :: name, at_node
+      character(len=:), allocatable :: text, expected
       character(len=43) :: also(3)                     ! what is said of a centre, where there is one
+      integer(ip), allocatable :: nodes(:)
       integer(ip) :: corners
 
       also = [character(len=43) :: ' and centre', ', the centre', ', the centre near the middle of the element']
       corners = SHAPES(mesh%shape(e))%n_corners
       if (mesh%shape(e) <= 2*corners) also = ''
-      name = 'element '//to_text(mesh%element_id(e))
-      at_node = 'node '//to_text(mesh%node_id(mesh%nodes(node, e)))
-      select case (shape)
-      case (SHAPE_TINY)
-         call report_error(deck, place, 'E-SHAPE', name//' is so small that its area is no number of the machine', expected= &
-                           'a unit of length in which elements are at least '//to_text(LEAST_LENGTH)//' across', keyword='ELEMENT')
-      case (SHAPE_CLOCKWISE)
-         call report_error(deck, place, 'E-SHAPE', name//' runs clockwise', expected='corners counter-clockwise, for example '// &
-                           nodes_text(mesh, e, turned(mesh%shape(e))), keyword='ELEMENT')
-      case (SHAPE_DEGENERATE)
-         call report_error(deck, place, 'E-SHAPE', name//' is degenerate: its angle at '//at_node// &
-                           ' is not between 0 and 180 degrees', &
-                           expected=trim(merge('a triangle with an area ', 'a convex quadrilateral  ', corners == 3))// &
-                           ', corners counter-clockwise', keyword='ELEMENT')
-      case (SHAPE_ORDER)
-         call report_error(deck, place, 'E-SHAPE', name//' folds over near '//at_node// &
-                           ': its mid-side nodes'//trim(also(1))//' stand in another order', &
-                           expected='corners counter-clockwise, the middles of sides 1-2, 2-3, '// &
-                           trim(merge('3-1     ', '3-4, 4-1', corners == 3))// &
-                           trim(also(2))//': '// &
-                           nodes_text(mesh, e, nearest_order(mesh%x(:, mesh%nodes(:mesh%shape(e), e)))), keyword='ELEMENT')
-      case (SHAPE_FOLDED)
-         call report_error(deck, place, 'E-SHAPE', name//' folds over: '//at_node//', the '//role_text(mesh, e, node)// &
-                           ', lies too far off', expected='a mid-side node in the middle half of its side'// &
-                           trim(also(3)), keyword='ELEMENT')
-      end select
+      nodes = mesh%nodes(:mesh%shape(e), e)
+      associate (at_node => 'node '//to_text(mesh%node_id(nodes(node))))
+         select case (shape)
+         case (SHAPE_TINY)
+            text = ' is so small that its area is no number of the machine'
+            expected = 'a unit of length in which elements are at least '//to_text(LEAST_LENGTH)//' across'
+         case (SHAPE_CLOCKWISE)
+            text = ' runs clockwise'
+            expected = 'corners counter-clockwise, for example '//nodes_text(mesh, turned_nodes(nodes))
+         case (SHAPE_DEGENERATE)
+            text = ' is degenerate: its angle at '//at_node//' is not between 0 and 180 degrees'
+            expected = trim(merge('a triangle with an area ', 'a convex quadrilateral  ', corners == 3))// &
+                       ', corners counter-clockwise'
+         case (SHAPE_ORDER)
+            text = ' folds over near '//at_node//': its mid-side nodes'//trim(also(1))//' stand in another order'
+            expected = 'corners counter-clockwise, the middles of sides 1-2, 2-3, '// &
+                       trim(merge('3-1     ', '3-4, 4-1', corners == 3))//trim(also(2))//': '// &
+                       nodes_text(mesh, nodes(nearest_order(mesh%x(:, nodes))))
+         case default                                  ! SHAPE_FOLDED
+            text = ' folds over: '//at_node//', the '//role_text(mesh, e, node)//', lies too far off'
+            expected = 'a mid-side node in the middle half of its side'//trim(also(3))
+         end select
+      end associate
+      call report_error(deck, place, 'E-SHAPE', 'element '//to_text(mesh%element_id(e))//text, expected=expected, keyword='ELEMENT')
    end subroutine report_shape
-
-   !> The order of the nodes of a shape that runs the other way round.
-   pure function turned(shape) result(order)
-      integer(ip), intent(in) :: shape
-      integer(ip) :: order(shape)
-
-      if (SHAPES(shape)%n_corners == 3) then
-         order(:3) = [1_ip, 3_ip, 2_ip]
-         if (shape > 3) order(4:) = [6_ip, 5_ip, 4_ip]
-      else
-         order(:4) = [1_ip, 4_ip, 3_ip, 2_ip]
-         if (shape > 4) order(5:8) = [8_ip, 7_ip, 6_ip, 5_ip]
-         if (shape > 8) order(9) = 9
-      end if
-   end function turned
 
    !> What a node of an element of the second degree is.
    pure function role_text(mesh, e, node) result(text)
@@ -140,16 +125,16 @@ contains
              to_text(mesh%node_id(mesh%nodes(face_end(mesh, e, side), e)))
    end function role_text
 
-   !> The nodes of an element in some order.
-   pure function nodes_text(mesh, e, order) result(text)
+   !> Numbers of nodes, with commas between them.
+   pure function nodes_text(mesh, nodes) result(text)
       type(mesh_t), intent(in) :: mesh
-      integer(ip), intent(in) :: e, order(:)
+      integer(ip), intent(in) :: nodes(:)              !< places
       character(len=:), allocatable :: text
       integer(ip) :: k
 
-      text = to_text(mesh%node_id(mesh%nodes(order(1), e)))
-      do k = 2, mesh%shape(e)
-         text = text//', '//to_text(mesh%node_id(mesh%nodes(order(k), e)))
+      text = to_text(mesh%node_id(nodes(1)))
+      do k = 2, size(nodes, kind=ip)
+         text = text//', '//to_text(mesh%node_id(nodes(k)))
       end do
    end function nodes_text
 

@@ -7,7 +7,7 @@ module atrito_build_temperatures
    use atrito_build_loads, only: in_no_element
    use atrito_build_steps, only: open_step
    use atrito_carry_on, only: removes_all
-   use atrito_deck, only: data_line_t, line_item, keyword_name
+   use atrito_deck, only: data_line_t, token_t, line_item, keyword_name
    use atrito_diagnostics, only: report_error, report_note, report_warning
    use atrito_element_table, only: CORNERS_OF, DEGREE_OF
    use atrito_items, only: get_real
@@ -20,7 +20,7 @@ module atrito_build_temperatures
    use atrito_strings, only: to_text
    implicit none (type, external)
    private
-   public :: read_temperatures, refine_temperatures, refine_field, check_temperatures, double_temperatures
+   public :: read_temperatures, refine_temperatures, refine_field, put_value, check_temperatures, double_temperatures
 
    !> Two values of one node are the same when they differ by less than this part of them: expressions are rounded.
    real(wp), parameter :: SAME_VALUE = 1.0e-12_wp
@@ -41,9 +41,12 @@ contains
       type(temperatures_t) :: before, now
       integer(ip) :: k
 
-      call begin_temperatures(context, 'INITIAL CONDITIONS', before)
+      allocate (before%token(context%model%mesh%n_nodes), source=0_ip)
+      allocate (before%value(context%model%mesh%n_nodes), source=0.0_wp)
+      now = before
+      before%keyword = 'INITIAL CONDITIONS'
+      now%keyword = 'TEMPERATURE'
       call read_cards(context, 0_ip, before)
-      call begin_temperatures(context, 'TEMPERATURE', now)
       do k = 1, size(context%model%steps, kind=ip)
          call open_step(context, k)
          call read_step(context, before, now)
@@ -79,16 +82,6 @@ contains
       end associate
    end subroutine read_step
 
-   subroutine begin_temperatures(context, keyword, temperatures)
-      type(build_context_t), intent(in) :: context
-      character(len=*), intent(in) :: keyword
-      type(temperatures_t), intent(out) :: temperatures
-
-      temperatures%keyword = keyword
-      allocate (temperatures%token(context%model%mesh%n_nodes), source=0_ip)
-      allocate (temperatures%value(context%model%mesh%n_nodes), source=0.0_wp)
-   end subroutine begin_temperatures
-
    !> All cards of a step; 0: of the model.
    subroutine read_cards(context, step, temperatures)
       type(build_context_t), intent(in) :: context
@@ -106,70 +99,67 @@ contains
       end do
    end subroutine read_cards
 
-   !> Node or set, temperature.
+   !> Node or set, temperature. What an earlier step has given is replaced.
    subroutine read_line(line, context, temperatures)
       type(data_line_t), intent(in) :: line
       type(build_context_t), intent(in) :: context
       type(temperatures_t), intent(inout) :: temperatures
-      type(number_list_t) :: clashes
-      integer(ip), allocatable :: nodes(:)
+      integer, parameter :: FEW = 6, ALL_DIGITS = 15
+      character(len=:), allocatable :: keyword
+      type(token_t) :: place
+      integer(ip), allocatable :: nodes(:), clashes(:)
+      logical, allocatable :: loose(:)
       real(wp) :: value
-      integer(ip) :: i
+      integer :: digits
       logical :: ok(2)
 
-      call find_nodes(context, context%deck%tokens(line%first_token), nodes, ok(1), trim(temperatures%keyword))
-      call get_real(context%deck, line_item(context%deck, line, 2_ip), 'temperature, a real', value, ok(2), &
-                    keyword=trim(temperatures%keyword))
-      if (.not. all(ok)) return
-      temperatures%last = line%first_token
-      call note_loose(line, context, nodes, trim(temperatures%keyword))
+      keyword = trim(temperatures%keyword)
+      associate (deck => context%deck, node_id => context%model%mesh%node_id)
+         place = line_item(deck, line, 1_ip)
+         call find_nodes(context, deck%tokens(line%first_token), nodes, ok(1), keyword)
+         call get_real(deck, line_item(deck, line, 2_ip), 'temperature, a real', value, ok(2), keyword=keyword)
+         if (.not. all(ok)) return
+         temperatures%last = line%first_token
+         loose = in_no_element(context, nodes)
+         if (any(loose) .and. .not. has_errors()) then
+            call report_note(deck, place, 'N-NODE', 'node '//ids_text(pack(node_id(nodes), loose)) &
+                             //' belongs to no element; the temperature has no effect there', keyword=keyword)
+         end if
+         call put_value(nodes, value, line%first_token, context%open%first_token, temperatures%token, temperatures%value, clashes)
+         if (size(clashes) == 0) return
+         associate (other => temperatures%value(clashes(1)), earlier => deck%tokens(temperatures%token(clashes(1))))
+            digits = merge(ALL_DIGITS, FEW, to_text(value, FEW) == to_text(other, FEW))
+            call report_error(deck, place, 'E-CONFLICT', 'the temperature of node '//ids_text(node_id(clashes))//' is '// &
+                              to_text(value, digits)//' here but '//to_text(other, digits)//' in '// &
+                              place_text(deck, earlier, deck%tokens(line%first_token)), &
+                              expected='one temperature for each node', keyword=keyword)
+         end associate
+      end associate
+   end subroutine read_line
+
+   !> Gives nodes a value. Those to which a line has given another one since some place of the deck keep that.
+   pure subroutine put_value(nodes, value, place, since, token, there, clashes)
+      integer(ip), intent(in) :: nodes(:)
+      real(wp), intent(in) :: value
+      integer(ip), intent(in) :: place, since          !< tokens of the deck: the first of the line, and the first that counts
+      integer(ip), intent(inout) :: token(:)           !< (n_nodes) first of the line that has given a node its value; 0: none
+      real(wp), intent(inout) :: there(:)              !< (n_nodes)
+      integer(ip), allocatable, intent(out) :: clashes(:) !< nodes that have another value
+      type(number_list_t) :: list
+      integer(ip) :: i
+
       do i = 1, size(nodes, kind=ip)
-         associate (token => temperatures%token(nodes(i)), there => temperatures%value(nodes(i)))
-            if (token == 0 .or. token < context%open%first_token) then
-               token = line%first_token
-               there = value
-            else if (abs(there - value) > SAME_VALUE*max(abs(there), abs(value))) then
-               call add_number(clashes, nodes(i))
+         associate (k => nodes(i))
+            if (token(k) == 0 .or. token(k) < since) then
+               token(k) = place
+               there(k) = value
+            else if (abs(there(k) - value) > SAME_VALUE*max(abs(there(k)), abs(value))) then
+               call add_number(list, k)
             end if
          end associate
       end do
-      if (clashes%n > 0) call report_clash(line, context, numbers_of(clashes), value, temperatures)
-   end subroutine read_line
-
-   subroutine note_loose(line, context, nodes, keyword)
-      type(data_line_t), intent(in) :: line
-      type(build_context_t), intent(in) :: context
-      integer(ip), intent(in) :: nodes(:)
-      character(len=*), intent(in) :: keyword
-      logical :: loose(size(nodes))
-
-      loose = in_no_element(context, nodes)
-      if (any(loose) .and. .not. has_errors()) then
-         call report_note(context%deck, line_item(context%deck, line, 1_ip), 'N-NODE', 'node ' &
-                          //ids_text(pack(context%model%mesh%node_id(nodes), loose)) &
-                          //' belongs to no element; the temperature has no effect there', keyword=keyword)
-      end if
-   end subroutine note_loose
-
-   subroutine report_clash(line, context, nodes, value, temperatures)
-      type(data_line_t), intent(in) :: line
-      type(build_context_t), intent(in) :: context
-      integer(ip), intent(in) :: nodes(:)
-      real(wp), intent(in) :: value
-      type(temperatures_t), intent(in) :: temperatures
-      integer, parameter :: FEW = 6, ALL_DIGITS = 15
-      real(wp) :: other
-      integer :: digits
-
-      other = temperatures%value(nodes(1))
-      digits = merge(ALL_DIGITS, FEW, to_text(value, FEW) == to_text(other, FEW))
-      call report_error(context%deck, line_item(context%deck, line, 1_ip), 'E-CONFLICT', 'the temperature of node ' &
-                        //ids_text(context%model%mesh%node_id(nodes))//' is '//to_text(value, digits)//' here but ' &
-                        //to_text(other, digits)//' in '//place_text(context%deck, &
-                                                                     context%deck%tokens(temperatures%token(nodes(1))), &
-                                                                     context%deck%tokens(line%first_token)), &
-                        expected='one temperature for each node', keyword=trim(temperatures%keyword))
-   end subroutine report_clash
+      clashes = numbers_of(list)
+   end subroutine put_value
 
    !> Nodes between two corners that have a temperature, without one of their own: hardly meant.
    subroutine warn_of_middles(context, temperatures)
@@ -252,23 +242,18 @@ contains
    subroutine check_temperatures(context)
       type(build_context_t), intent(inout) :: context
       logical, allocatable :: is_heated(:)             ! of the materials
-      logical :: expands
       integer(ip) :: i, e
 
       if (has_errors()) return
-      associate (model => context%model)
+      associate (model => context%model, steps => context%model%steps)
          allocate (is_heated(size(model%materials)), source=.false.)
-         do i = 1, size(model%steps, kind=ip)
-            ! The materials of elements that grow warmer or colder.
-            if (allocated(model%steps(i)%heating)) then
-               do e = 1, model%mesh%n_elements
-                  if (model%section_of(e) < 1) cycle
-                  if (.not. any(abs(model%steps(i)%heating(model%mesh%nodes(:model%mesh%shape(e), e))) > 0.0_wp)) cycle
-                  is_heated(model%sections(model%section_of(e))%material) = .true.
-               end do
-            end if
+         do i = 1, size(steps, kind=ip)                ! the materials of elements that grow warmer or colder
+            do e = 1, merge(model%mesh%n_elements, 0_ip, allocated(steps(i)%heating))
+               if (model%section_of(e) < 1) cycle
+               if (.not. any(abs(steps(i)%heating(model%mesh%nodes(:model%mesh%shape(e), e))) > 0.0_wp)) cycle
+               is_heated(model%sections(model%section_of(e))%material) = .true.
+            end do
          end do
-         expands = any(is_heated .and. abs(model%materials%expansion) > 0.0_wp)
          do i = 1, size(is_heated, kind=ip)
             if (is_heated(i) .and. .not. model%materials(i)%has_expansion) then
                call report_warning(context%deck, context%materials(i), 'W-EXPANSION', 'elements of material ' &
@@ -276,10 +261,10 @@ contains
                                    //' expand', expected='*EXPANSION in this material, 0 if this is meant', keyword='EXPANSION')
             end if
          end do
-         do i = 1, size(model%steps, kind=ip)
-            if (expands) exit
-            if (allocated(model%steps(i)%heating)) deallocate (model%steps(i)%heating)
-            if (allocated(model%steps(i)%heating_from)) deallocate (model%steps(i)%heating_from)
+         if (any(is_heated .and. abs(model%materials%expansion) > 0.0_wp)) return
+         do i = 1, size(steps, kind=ip)
+            if (allocated(steps(i)%heating)) deallocate (steps(i)%heating)
+            if (allocated(steps(i)%heating_from)) deallocate (steps(i)%heating_from)
          end do
       end associate
    end subroutine check_temperatures

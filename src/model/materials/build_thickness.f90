@@ -3,23 +3,20 @@
 !> The deck's elements interpolate; --refine and --elements change nothing of that field.
 module atrito_build_thickness
    use atrito_build_context, only: build_context_t, place_text, ids_text, has_errors
-   use atrito_build_temperatures, only: refine_field
+   use atrito_build_temperatures, only: put_value, refine_field
    use atrito_deck, only: data_line_t, line_item, keyword_name
    use atrito_diagnostics, only: report_error, report_note
-   use atrito_items, only: get_real
    use atrito_kinds, only: ip, wp
    use atrito_mesh, only: mesh_t
    use atrito_number_list, only: number_list_t, add_number, numbers_of
    use atrito_plane_state, only: TAPERED_STATE, IS_TAPERED
+   use atrito_read_elastic, only: get_positive
    use atrito_references, only: find_nodes
-   use atrito_strings, only: to_text
    implicit none (type, external)
    private
    public :: read_node_thickness, refine_thickness, taper_elements
 
    character(len=*), parameter :: KEYWORD = 'NODAL THICKNESS'
-   !> Two values of one node are the same when they differ by less than this part of them: expressions are rounded.
-   real(wp), parameter :: SAME_VALUE = 1.0e-12_wp
 
 contains
 
@@ -49,39 +46,22 @@ contains
       type(data_line_t), intent(in) :: line
       type(build_context_t), intent(inout) :: context
       integer(ip), intent(inout) :: given(:)
-      character(len=*), parameter :: WHAT = 'thickness, a real > 0 [L]'
-      type(number_list_t) :: clashes
-      integer(ip), allocatable :: nodes(:)
+      integer(ip), allocatable :: nodes(:), clashes(:)
       real(wp) :: value
-      integer(ip) :: i, earlier
       logical :: ok(2)
 
-      call find_nodes(context, context%deck%tokens(line%first_token), nodes, ok(1), KEYWORD)
-      call get_real(context%deck, line_item(context%deck, line, 2_ip), WHAT, value, ok(2), keyword=KEYWORD)
-      if (ok(2) .and. .not. value > 0.0_wp) then
-         ok(2) = .false.
-         call report_error(context%deck, line_item(context%deck, line, 2_ip), 'E-VALUE', 'the thickness '//to_text(value)// &
-                           ' is not positive', expected=WHAT, keyword=KEYWORD)
-      end if
-      if (.not. all(ok)) context%thickness_undetermined = .true.
-      if (.not. all(ok)) return
-      earlier = 0
-      do i = 1, size(nodes, kind=ip)
-         associate (there => context%node_thickness(nodes(i)))
-            if (given(nodes(i)) == 0) then
-               given(nodes(i)) = line%first_token
-               there = value
-            else if (abs(there - value) > SAME_VALUE*max(there, value)) then
-               call add_number(clashes, context%model%mesh%node_id(nodes(i)))
-               if (earlier == 0) earlier = given(nodes(i))
-            end if
-         end associate
-      end do
-      if (clashes%n == 0) return
-      call report_error(context%deck, line_item(context%deck, line, 1_ip), 'E-CONFLICT', 'node '//ids_text(numbers_of(clashes))// &
-                        ' has another thickness in '//place_text(context%deck, context%deck%tokens(earlier), &
-                                                                 context%deck%tokens(line%first_token)), &
-                        expected='one thickness for each node', keyword=KEYWORD)
+      associate (deck => context%deck)
+         call find_nodes(context, deck%tokens(line%first_token), nodes, ok(1), KEYWORD)
+         call get_positive(deck, line_item(deck, line, 2_ip), 'thickness, a real > 0 [L]', 'the thickness ', value, ok(2), KEYWORD)
+         if (.not. all(ok)) context%thickness_undetermined = .true.
+         if (.not. all(ok)) return
+         call put_value(nodes, value, line%first_token, 0_ip, given, context%node_thickness, clashes)
+         if (size(clashes) == 0) return
+         call report_error(deck, line_item(deck, line, 1_ip), 'E-CONFLICT', 'node '// &
+                           ids_text(context%model%mesh%node_id(clashes))//' has another thickness in '// &
+                           place_text(deck, deck%tokens(given(clashes(1))), deck%tokens(line%first_token)), &
+                           expected='one thickness for each node', keyword=KEYWORD)
+      end associate
    end subroutine read_line
 
    !> The same field on the refined mesh.
@@ -95,15 +75,21 @@ contains
       call move_alloc(values, context%node_thickness)
    end subroutine refine_thickness
 
-   !> Elements of sections with NODAL THICKNESS become tapered; each of their nodes must have a thickness.
+   !> Elements of sections with NODAL THICKNESS become tapered; each of their nodes must have a thickness. One that no section asks
+   !> for has no effect.
    subroutine taper_elements(context)
       type(build_context_t), intent(inout) :: context
       type(number_list_t) :: without
       logical, allocatable :: is_told(:)
-      integer(ip) :: e, k, first
+      integer(ip) :: e, i, k, first
 
-      call note_unused(context)
-      if (.not. any(context%model%sections%is_tapered)) return
+      if (.not. any(context%model%sections%is_tapered)) then
+         i = findloc(context%deck%cards(:context%deck%n_cards)%name, KEYWORD, dim=1, kind=ip)
+         if (i > 0 .and. .not. has_errors()) call report_note(context%deck, context%deck%cards(i)%place, 'N-THICKNESS', &
+                                                   'no *SOLID SECTION has NODAL THICKNESS: the thickness of nodes has no effect', &
+                                                              keyword=KEYWORD)
+         return
+      end if
       if (.not. allocated(context%node_thickness)) then
          allocate (context%node_thickness(context%model%mesh%n_nodes), source=0.0_wp)
       end if
@@ -131,19 +117,5 @@ contains
                         ' of elements with NODAL THICKNESS has none', expected='*'//KEYWORD//' with each of their nodes', &
                         keyword=KEYWORD)
    end subroutine taper_elements
-
-   !> Thickness that no section asks for has no effect.
-   subroutine note_unused(context)
-      type(build_context_t), intent(in) :: context
-      integer(ip) :: i
-
-      if (any(context%model%sections%is_tapered) .or. has_errors()) return
-      do i = 1, context%deck%n_cards
-         if (keyword_name(context%deck%cards(i)) /= KEYWORD) cycle
-         call report_note(context%deck, context%deck%cards(i)%place, 'N-THICKNESS', 'no *SOLID SECTION has NODAL THICKNESS:' &
-                          //' the thickness of nodes has no effect', keyword=KEYWORD)
-         return
-      end do
-   end subroutine note_unused
 
 end module atrito_build_thickness

@@ -35,7 +35,10 @@ contains
    !> All lines of the deck, behind its nodes, and the sets that name them.
    subroutine read_lines(context)
       type(build_context_t), intent(inout) :: context
+      character(len=:), allocatable :: name
+      type(token_t) :: place
       integer(ip) :: i
+      logical :: found
 
       do i = 1, context%deck%n_cards
          if (is_line_card(context, context%deck%cards(i))) call read_line_card(i, context)
@@ -44,8 +47,13 @@ contains
       do i = 1, context%deck%n_cards
          if (keyword_name(context%deck%cards(i)) == 'ELSET') call read_line_set(i, context)
       end do
-      do i = 1, context%deck%n_cards
-         if (keyword_name(context%deck%cards(i)) == 'SOLID SECTION') call refuse_section(context%deck%cards(i), context)
+      do i = 1, context%deck%n_cards                   ! lines with a section would be trusses
+         if (keyword_name(context%deck%cards(i)) /= 'SOLID SECTION') cycle
+         call option_text(context%deck, context%deck%cards(i), 'ELSET', name, found, place)
+         if (.not. found .or. find_set(context%lines%sets, name) == 0) cycle
+         call report_error(context%deck, place, 'E-OUTSIDE', 'the elements of set '//name//' would be trusses, which atrito '// &
+                           'has not', expected='elements of the plane; a spring along a line is *SPRING', keyword='SOLID SECTION')
+         call invalidate_name(context, name)
       end do
    end subroutine read_lines
 
@@ -80,7 +88,7 @@ contains
       type(data_line_t), intent(in) :: line
       type(build_context_t), intent(inout) :: context
       logical, intent(out) :: ok
-      integer(ip) :: id, nodes(3), i, n
+      integer(ip) :: id, nodes(3), i
       logical :: good, known
 
       nodes = 0
@@ -90,17 +98,18 @@ contains
          ok = ok .and. good
       end do
       if (.not. ok) return
-      n = context%lines%ids%n
-      call add_id(context%lines%ids, id, n + 1, known)
+      call add_id(context%lines%ids, id, context%lines%ids%n + 1, known)
       ok = .not. known
       if (known) then
          call report_error(context%deck, context%deck%tokens(line%first_token), 'E-TWICE', 'element '//to_text(id)// &
                            ' is given twice', expected='an element number that is free', keyword='ELEMENT')
          return
       end if
-      if (.not. allocated(context%lines%nodes)) allocate (context%lines%nodes(4, 0))
-      if (n == size(context%lines%nodes, 2)) call resize(context%lines%nodes, n, 2*n + 16)
-      context%lines%nodes(:, n + 1) = [nodes(1), merge(nodes(2), nodes(3), nodes(3) == 0), merge(nodes(2), 0_ip, nodes(3) > 0), id]
+      associate (n => context%lines%ids%n)
+         if (.not. allocated(context%lines%nodes)) allocate (context%lines%nodes(4, 16))
+         if (n > size(context%lines%nodes, 2)) call resize(context%lines%nodes, n - 1, 2*n)
+         context%lines%nodes(:, n) = [nodes(1), merge(nodes(2), nodes(3), nodes(3) == 0), merge(nodes(2), 0_ip, nodes(3) > 0), id]
+      end associate
    end subroutine read_line
 
    !> A set of lines is a node set and a curve.
@@ -137,7 +146,7 @@ contains
          do i = card%first_line, card%first_line + card%n_lines - 1
             if (.not. deck%lines(i)%ok) cycle
             if (has_option(deck, card, 'GENERATE')) then
-               call add_numbers(members, line_items_of_range(context, deck%lines(i)))
+               call add_lines_of_range(context, deck%lines(i), members)
                cycle
             end if
             do k = 1, deck%lines(i)%n_tokens
@@ -153,30 +162,27 @@ contains
       type(build_context_t), intent(in) :: context
       type(token_t), intent(in) :: token
       integer(ip), allocatable :: lines(:)
-      character(len=:), allocatable :: text
       integer(ip) :: id, i
       integer :: outcome
 
       allocate (lines(0))
       if (is_empty_token(token)) return
-      text = token_text(context%deck, token)
       if (is_id_token(context%deck, token)) then
-         call read_integer(text, id, outcome)
+         call read_integer(token_text(context%deck, token), id, outcome)
          if (outcome /= NUMBER_OK) return
          i = find_id(context%lines%ids, id)
          if (i > 0) lines = [i]
       else
-         i = find_set(context%lines%sets, text)
+         i = find_set(context%lines%sets, token_text(context%deck, token))
          if (i > 0) lines = members_of(context%lines%sets%sets(i))
       end if
    end function lines_of_item
 
    !> The lines in a range of numbers.
-   function line_items_of_range(context, line) result(lines)
+   subroutine add_lines_of_range(context, line, members)
       type(build_context_t), intent(in) :: context
       type(data_line_t), intent(in) :: line
-      integer(ip), allocatable :: lines(:)
-      type(number_list_t) :: found
+      type(number_list_t), intent(inout) :: members
       integer(ip) :: range(3), k, i
       integer :: outcome
 
@@ -189,10 +195,9 @@ contains
       do i = 1, context%lines%ids%n
          k = context%lines%nodes(4, i)
          if (k < range(1) .or. k > range(2) .or. range(3) < 1) cycle
-         if (modulo(k - range(1), range(3)) == 0) call add_number(found, i)
+         if (modulo(k - range(1), range(3)) == 0) call add_number(members, i)
       end do
-      lines = numbers_of(found)
-   end function line_items_of_range
+   end subroutine add_lines_of_range
 
    !> An item of an *ELSET names lines, and no elements.
    logical function is_line_item(context, token)
@@ -206,34 +211,17 @@ contains
       end if
    end function is_line_item
 
-   !> Lines with a section would be trusses.
-   subroutine refuse_section(card, context)
-      type(card_t), intent(in) :: card
-      type(build_context_t), intent(inout) :: context
-      character(len=:), allocatable :: name
-      type(token_t) :: place
-      logical :: found
-
-      call option_text(context%deck, card, 'ELSET', name, found, place)
-      if (.not. found) return
-      if (find_set(context%lines%sets, name) == 0) return
-      call report_error(context%deck, place, 'E-OUTSIDE', 'the elements of set '//name//' would be trusses, which atrito has not', &
-                        expected='elements of the plane; a spring along a line is *SPRING', keyword='SOLID SECTION')
-      call invalidate_name(context, name)
-   end subroutine refuse_section
-
    !> Beside lines of Gmsh elements may run clockwise, as the surfaces of a drawing do: they are turned, and it is told.
    subroutine turn_elements(context)
       type(build_context_t), intent(inout) :: context
-      integer(ip) :: e, n, turned
+      integer(ip) :: e, turned
 
       if (context%lines%ids%n == 0) return
       turned = 0
       associate (mesh => context%model%mesh)
          do e = 1, mesh%n_elements
             if (signed_area(mesh, e) >= 0.0_wp) cycle
-            n = mesh%shape(e)
-            mesh%nodes(:n, e) = turned_nodes(mesh%nodes(:n, e))
+            mesh%nodes(:mesh%shape(e), e) = turned_nodes(mesh%nodes(:mesh%shape(e), e))
             turned = turned + 1
          end do
       end associate
