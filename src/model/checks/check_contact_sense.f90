@@ -1,25 +1,35 @@
-!> What a deck may well say and hardly means: bodies that overlap before they are loaded, loads on faces that touch.
+!> What a deck may well say and hardly means: bodies that overlap before they are loaded, loads on faces that touch, and pairs that
+!> say the same thing twice: the same faces face each other in both, as slave and master or the other way round. Each pair takes a
+!> part of the pressure then, and a contact that yields (LINEAR) is twice as stiff.
 module atrito_check_contact_sense
    use atrito_build_context, only: build_context_t, ids_text
    use atrito_deck, only: line_item
    use atrito_diagnostics, only: report_warning
    use atrito_element_table, only: MOST_SIDES
    use atrito_faces, only: face_list_t
-   use atrito_kinds, only: ip, wp
+   use atrito_kinds, only: ip, wp, lp
    use atrito_mesh, only: mesh_t, face_nodes
    use atrito_model, only: model_t, element_load_t, is_on_volume
    use atrito_number_list, only: number_list_t, add_number, numbers_of
    use atrito_smooth_normals, only: smooth_surface
-   use atrito_sorting, only: each_once
+   use atrito_sorting, only: each_once, sorted_places
    use atrito_strings, only: to_text
    implicit none (type, external)
    private
-   public :: warn_of_overlap, warn_of_loaded_contact
+   public :: warn_of_overlap, warn_of_loaded_contact, warn_of_pairs_twice
 
    !> Overlap below this part of the largest coordinate is rounding: ten printed digits, and what cutting faces adds to it.
    real(wp), parameter :: ROUNDING = 1.0e-8_wp
    !> Faces of two meshes of one curve overlap by a part of their rise over the chord; below this part of it they fit.
    real(wp), parameter :: FITTING = 0.01_wp
+
+   !> The faces of a pair that have a part in its points, each as one number.
+   type :: sides_t
+      integer(lp), allocatable :: slave(:), master(:)
+   end type sides_t
+
+   !> Moduli and faces that differ by less are alike.
+   real(wp), parameter :: ALIKE = 1.0e-6_wp
 
 contains
 
@@ -162,5 +172,174 @@ contains
          elements%n = 0
       end do
    end subroutine warn_of_loads
+
+   !> The first two pairs that are one, and how many others there are; for models without any error.
+   subroutine warn_of_pairs_twice(model, context)
+      type(model_t), intent(in) :: model
+      type(build_context_t), intent(in) :: context
+      type(sides_t), allocatable :: sides(:)
+      integer(ip) :: twin(size(model%pairs)), i, k
+      character(len=:), allocatable :: text
+
+      if (size(model%pairs) < 2) return
+      allocate (sides(size(model%pairs)))
+      call list_sides(model, sides)
+      call find_twins(model, sides, twin)
+      k = findloc(twin > 0, .true., dim=1, kind=ip)
+      if (k == 0) return
+      i = twin(k)
+      text = pair_text(model, i)//' and '//pair_text(model, k)//': the same faces face each other in both pairs, and each carries' &
+             //' a part of the pressure'
+      if (any(model%interactions([model%pairs(i)%interaction, model%pairs(k)%interaction])%delta > 0.0_wp)) then
+         text = text//'; together they are stiffer than the pressure-overclosure of either'
+      end if
+      if (count(twin > 0) > 1) text = text//'; so it is with '//to_text(count(twin > 0, kind=ip) - 1)//' more pairs'
+      call report_warning(context%deck, context%slaves(k), 'W-TWICE', text, expected=advice(model, sides, i, k), &
+                          keyword='CONTACT PAIR')
+   end subroutine warn_of_pairs_twice
+
+   pure function pair_text(model, i) result(text)
+      type(model_t), intent(in) :: model
+      integer(ip), intent(in) :: i
+      character(len=:), allocatable :: text
+
+      text = model%surfaces(model%pairs(i)%slave)%name//' on '//model%surfaces(model%pairs(i)%master)%name
+   end function pair_text
+
+   !> Of the two pairs the one to keep.
+   function advice(model, sides, i, k) result(text)
+      type(model_t), intent(in) :: model
+      type(sides_t), intent(in) :: sides(:)
+      integer(ip), intent(in) :: i, k
+      character(len=:), allocatable :: text
+      real(wp) :: young(2), length(2)                  ! means of the slaves of i and k [F/L^2], [L]
+
+      call measure_slave(model, sides(i)%slave, young(1), length(1))
+      call measure_slave(model, sides(k)%slave, young(2), length(2))
+      if (abs(young(1) - young(2)) > ALIKE*young(2)) then
+         text = 'one of them, '//pair_text(model, merge(i, k, young(1) < young(2)))//', whose slave is the softer side'
+      else if (abs(length(1) - length(2)) > ALIKE*length(2)) then
+         text = 'one of them, '//pair_text(model, merge(i, k, length(1) < length(2)))//', whose slave is the finer side'
+      else
+         text = 'one of them; either will do'
+      end if
+   end function advice
+
+   pure subroutine measure_slave(model, faces, young, length)
+      type(model_t), intent(in) :: model
+      integer(lp), intent(in) :: faces(:)
+      real(wp), intent(out) :: young                   !< [F/L^2] mean of the faces
+      real(wp), intent(out) :: length                  !< [L] mean of the faces
+      integer(ip) :: i, element
+
+      young = 0.0_wp
+      length = 0.0_wp
+      do i = 1, size(faces, kind=ip)
+         element = int((faces(i) - 1_lp)/MOST_SIDES, ip)
+         associate (nodes => face_nodes(model%mesh, element, int(faces(i) - int(element, lp)*MOST_SIDES, ip)))
+            length = length + norm2(model%mesh%x(:, nodes(2)) - model%mesh%x(:, nodes(1)))/real(size(faces), wp)
+         end associate
+         young = young + model%materials(model%sections(model%section_of(element))%material)%young/real(size(faces), wp)
+      end do
+   end subroutine measure_slave
+
+   !> The slave faces of the points; the faces of a master with both ends among the nodes of the points, none of a drawn line.
+   pure subroutine list_sides(model, sides)
+      type(model_t), intent(in) :: model
+      type(sides_t), intent(out) :: sides(:)
+      logical, allocatable :: touched(:), is_touched(:)
+      integer(ip) :: i, k
+
+      allocate (touched(model%mesh%n_nodes), source=.false.)
+      do i = 1, size(model%pairs, kind=ip)
+         sides(i)%slave = model%points(i)%faces
+         touched(model%points(i)%entry) = .true.
+         associate (faces => model%surfaces(model%pairs(i)%master)%faces)
+            allocate (is_touched(faces%n))
+            do k = 1, faces%n
+               associate (nodes => face_nodes(model%mesh, faces%element(k), faces%face(k)))
+                  is_touched(k) = all(touched(nodes(:2)))
+               end associate
+            end do
+            sides(i)%master = pack([(int(faces%element(k), lp)*MOST_SIDES + faces%face(k), k=1, faces%n)], is_touched)
+            deallocate (is_touched)
+         end associate
+         touched(model%points(i)%entry) = .false.
+      end do
+   end subroutine list_sides
+
+   !> For each pair one before it that is the same, or 0. Pairs come together at the slave faces of one of them: of the others that
+   !> have such a face the list is short, also where there are thousands.
+   subroutine find_twins(model, sides, twin)
+      type(model_t), intent(in) :: model
+      type(sides_t), intent(in) :: sides(:)
+      integer(ip), intent(out) :: twin(:)
+      integer(lp), allocatable :: face(:)
+      integer(ip), allocatable :: pair(:), order(:)
+      logical, allocatable :: is_slave(:)
+      integer(ip) :: i, k, n, first, last
+
+      n = sum([(size(sides(i)%slave, kind=ip) + size(sides(i)%master, kind=ip), i=1, size(sides, kind=ip))])
+      allocate (face(n), pair(n), is_slave(n))
+      n = 0
+      do i = 1, size(sides, kind=ip)
+         associate (s => size(sides(i)%slave, kind=ip), m => size(sides(i)%master, kind=ip))
+            face(n + 1:n + s + m) = [sides(i)%slave, sides(i)%master]
+            pair(n + 1:n + s + m) = i
+            is_slave(n + 1:n + s + m) = [(k <= s, k=1, s + m)]
+            n = n + s + m
+         end associate
+      end do
+      order = sorted_places(face)
+      twin = 0
+      first = 1
+      do last = 1, n
+         if (last < n) then
+            if (face(order(last + 1)) == face(order(last))) cycle
+         end if
+         do k = first, last
+            if (is_slave(order(k))) call compare(model, sides, pair(order(k)), pair(order(first:last)), &
+                                                 is_slave(order(first:last)), twin)
+         end do
+         first = last + 1
+      end do
+   end subroutine find_twins
+
+   !> A pair with others that have one of its slave faces on one side or the other: they are the same where they share faces of the
+   !> other side, too.
+   pure subroutine compare(model, sides, i, others, as_slave, twin)
+      type(model_t), intent(in) :: model
+      type(sides_t), intent(in) :: sides(:)
+      integer(ip), intent(in) :: i, others(:)
+      logical, intent(in) :: as_slave(:)               !< (others)
+      integer(ip), intent(inout) :: twin(:)
+      logical :: is_same
+      integer(ip) :: j
+
+      do j = 1, size(others, kind=ip)
+         associate (k => others(j))
+            if (k == i .or. twin(max(i, k)) > 0) cycle
+            if (.not. as_slave(j)) then
+               is_same = share_a_face(sides(i)%master, sides(k)%slave)
+            else if (model%points(i)%rigid .or. model%points(k)%rigid) then
+               is_same = model%pairs(i)%master == model%pairs(k)%master
+            else
+               is_same = share_a_face(sides(i)%master, sides(k)%master)
+            end if
+            if (is_same) twin(max(i, k)) = min(i, k)
+         end associate
+      end do
+   end subroutine compare
+
+   pure logical function share_a_face(a, b) result(share)
+      integer(lp), intent(in) :: a(:), b(:)
+      integer(ip) :: k
+
+      share = .false.
+      do k = 1, size(a, kind=ip)
+         share = any(b == a(k))
+         if (share) return
+      end do
+   end function share_a_face
 
 end module atrito_check_contact_sense

@@ -1,8 +1,9 @@
-!> *INITIAL CONDITIONS, TYPE=TEMPERATURE and *TEMPERATURE: by how much the nodes grow warmer.
+!> What a deck gives node by node: temperatures (*INITIAL CONDITIONS, TYPE=TEMPERATURE and *TEMPERATURE), by which the nodes grow
+!> warmer, and the thickness (*NODAL THICKNESS), which the elements of sections with NODAL THICKNESS interpolate.
 !>
 !> Nodes that no line names keep their initial temperature, which is 0 where none is given. The deck's elements interpolate what
-!> their nodes have; --refine and --elements change nothing of that field.
-module atrito_build_temperatures
+!> their nodes have; --refine and --elements change nothing of these fields.
+module atrito_node_fields
    use atrito_build_context, only: build_context_t, place_text, ids_text, has_errors
    use atrito_build_loads, only: in_no_element
    use atrito_build_steps, only: open_step
@@ -15,12 +16,14 @@ module atrito_build_temperatures
    use atrito_mesh, only: mesh_t
    use atrito_model, only: step_t
    use atrito_number_list, only: number_list_t, add_number, numbers_of
+   use atrito_plane_state, only: TAPERED_STATE, IS_TAPERED
+   use atrito_read_elastic, only: get_positive
    use atrito_references, only: find_nodes
-   use atrito_refinement, only: map_element
+   use atrito_refinement, only: map_element, refinement_t
    use atrito_strings, only: to_text
    implicit none (type, external)
    private
-   public :: read_temperatures, refine_temperatures, refine_field, put_value, check_temperatures, double_temperatures
+   public :: read_temperatures, read_node_thickness, refine_node_fields, taper_elements, check_temperatures, double_temperatures
 
    !> Two values of one node are the same when they differ by less than this part of them: expressions are rounded.
    real(wp), parameter :: SAME_VALUE = 1.0e-12_wp
@@ -32,6 +35,8 @@ module atrito_build_temperatures
       real(wp), allocatable :: value(:)
       integer(ip) :: last = 0                          !< token of the last line; 0: there is none
    end type temperatures_t
+
+   character(len=*), parameter :: THICKNESS = 'NODAL THICKNESS'
 
 contains
 
@@ -192,22 +197,24 @@ contains
                           expected='a set with the nodes in the middle of sides, too', keyword=trim(temperatures%keyword))
    end subroutine warn_of_middles
 
-   !> The same field on the refined mesh: it goes the way of the coordinates.
-   subroutine refine_temperatures(coarse, context)
+   !> The same fields on the refined mesh: they go the way of the coordinates.
+   subroutine refine_node_fields(coarse, context)
       type(mesh_t), intent(in) :: coarse
       type(build_context_t), intent(inout) :: context
       integer(ip) :: k
 
       do k = 1, size(context%model%steps, kind=ip)
-         call refine_field(coarse, context, context%model%steps(k)%heating)
-         call refine_field(coarse, context, context%model%steps(k)%heating_from)
+         call refine_field(coarse, context%refinement, context%model%mesh%n_nodes, context%model%steps(k)%heating)
+         call refine_field(coarse, context%refinement, context%model%mesh%n_nodes, context%model%steps(k)%heating_from)
       end do
-   end subroutine refine_temperatures
+      call refine_field(coarse, context%refinement, context%model%mesh%n_nodes, context%node_thickness)
+   end subroutine refine_node_fields
 
    !> Values of the deck's nodes, interpolated at the new ones.
-   subroutine refine_field(coarse, context, values)
+   subroutine refine_field(coarse, refinement, n_nodes, values)
       type(mesh_t), intent(in) :: coarse
-      type(build_context_t), intent(in) :: context
+      type(refinement_t), intent(in) :: refinement
+      integer(ip), intent(in) :: n_nodes               !< of the refined mesh
       real(wp), allocatable, intent(inout) :: values(:)  !< of the nodes
       type(mesh_t) :: field                            ! the coarse mesh with temperatures for coordinates
       real(wp), allocatable :: value(:, :)
@@ -218,10 +225,10 @@ contains
       field = coarse
       field%x(1, :coarse%n_nodes) = values
       field%x(2, :coarse%n_nodes) = 0.0_wp
-      allocate (value(2, context%model%mesh%n_nodes), source=0.0_wp)
+      allocate (value(2, n_nodes), source=0.0_wp)
       value(:, :coarse%n_nodes) = field%x(:, :coarse%n_nodes)
       do e = 1, coarse%n_elements
-         call map_element(field, context%refinement, e, value, grid)
+         call map_element(field, refinement, e, value, grid)
       end do
       values = value(1, :)
    end subroutine refine_field
@@ -269,4 +276,92 @@ contains
       end associate
    end subroutine check_temperatures
 
-end module atrito_build_temperatures
+   !> The thickness of the nodes of the deck's mesh, 0 where there is none; unallocated where no card gives any.
+   subroutine read_node_thickness(context)
+      type(build_context_t), intent(inout) :: context
+      integer(ip), allocatable :: given(:)             ! (n_nodes) token of the line that gives it; 0: none
+      integer(ip) :: i, k
+
+      do i = 1, context%deck%n_cards
+         associate (card => context%deck%cards(i))
+            if (keyword_name(card) /= THICKNESS) cycle
+            if (.not. allocated(given)) then
+               allocate (given(context%model%mesh%n_nodes), source=0_ip)
+               allocate (context%node_thickness(context%model%mesh%n_nodes), source=0.0_wp)
+            end if
+            do k = card%first_line, card%first_line + card%n_lines - 1
+               if (context%deck%lines(k)%ok) call read_thickness_line(context%deck%lines(k), context, given)
+            end do
+            context%thickness_undetermined = context%thickness_undetermined .or. .not. card%ok
+         end associate
+      end do
+   end subroutine read_node_thickness
+
+   !> Node or set, thickness.
+   subroutine read_thickness_line(line, context, given)
+      type(data_line_t), intent(in) :: line
+      type(build_context_t), intent(inout) :: context
+      integer(ip), intent(inout) :: given(:)
+      integer(ip), allocatable :: nodes(:), clashes(:)
+      real(wp) :: value
+      logical :: ok(2)
+
+      associate (deck => context%deck)
+         call find_nodes(context, deck%tokens(line%first_token), nodes, ok(1), THICKNESS)
+         call get_positive(deck, line_item(deck, line, 2_ip), 'thickness, a real > 0 [L]', 'the thickness ', value, ok(2), &
+                           THICKNESS)
+         if (.not. all(ok)) context%thickness_undetermined = .true.
+         if (.not. all(ok)) return
+         call put_value(nodes, value, line%first_token, 0_ip, given, context%node_thickness, clashes)
+         if (size(clashes) == 0) return
+         call report_error(deck, line_item(deck, line, 1_ip), 'E-CONFLICT', 'node '// &
+                           ids_text(context%model%mesh%node_id(clashes))//' has another thickness in '// &
+                           place_text(deck, deck%tokens(given(clashes(1))), deck%tokens(line%first_token)), &
+                           expected='one thickness for each node', keyword=THICKNESS)
+      end associate
+   end subroutine read_thickness_line
+
+   !> Elements of sections with NODAL THICKNESS become tapered; each of their nodes must have a thickness. One that no section asks
+   !> for has no effect.
+   subroutine taper_elements(context)
+      type(build_context_t), intent(inout) :: context
+      type(number_list_t) :: without
+      logical, allocatable :: is_told(:)
+      integer(ip) :: e, i, k, first
+
+      if (.not. any(context%model%sections%is_tapered)) then
+         i = findloc(context%deck%cards(:context%deck%n_cards)%name, THICKNESS, dim=1, kind=ip)
+         if (i > 0 .and. .not. has_errors()) call report_note(context%deck, context%deck%cards(i)%place, 'N-THICKNESS', &
+                                                   'no *SOLID SECTION has NODAL THICKNESS: the thickness of nodes has no effect', &
+                                                              keyword=THICKNESS)
+         return
+      end if
+      if (.not. allocated(context%node_thickness)) then
+         allocate (context%node_thickness(context%model%mesh%n_nodes), source=0.0_wp)
+      end if
+      allocate (is_told(context%model%mesh%n_nodes), source=.false.)
+      first = 0
+      associate (mesh => context%model%mesh)
+         do e = 1, mesh%n_elements
+            if (context%model%section_of(e) < 1) cycle
+            if (.not. context%model%sections(context%model%section_of(e))%is_tapered) cycle
+            mesh%state(e) = TAPERED_STATE(mesh%state(e))
+            if (.not. IS_TAPERED(mesh%state(e))) cycle ! a ring
+            do k = 1, mesh%shape(e)
+               associate (node => mesh%nodes(k, e))
+                  if (context%node_thickness(node) > 0.0_wp .or. is_told(node)) cycle
+                  is_told(node) = .true.
+                  if (first == 0) first = context%model%section_of(e)
+                  call add_number(without, mesh%node_id(node))
+               end associate
+            end do
+         end do
+         mesh%thickness = context%node_thickness
+      end associate
+      if (first == 0 .or. context%thickness_undetermined) return
+      call report_error(context%deck, context%sections(first), 'E-THICKNESS', 'node '//ids_text(numbers_of(without))// &
+                        ' of elements with NODAL THICKNESS has none', expected='*'//THICKNESS//' with each of their nodes', &
+                        keyword=THICKNESS)
+   end subroutine taper_elements
+
+end module atrito_node_fields
