@@ -9,7 +9,7 @@ module atrito_faces
    implicit none (type, external)
    private
    public :: face_list_t, node_elements_t, chain_report_t
-   public :: list_node_elements, is_outer_face, outer_faces, order_chain, face_normal, add_face
+   public :: list_node_elements, is_outer_face, outer_faces, order_chain, face_normal, add_face, drop_repeated
 
    !> A list of element faces.
    type :: face_list_t
@@ -110,6 +110,7 @@ contains
       list%face = list%face(order)
    end subroutine order_chain
 
+   !> Faces that are named several times stand in the list once: a pressure would act twice on them.
    pure subroutine drop_repeated(list)
       type(face_list_t), intent(inout) :: list
       type(id_map_t) :: seen(MOST_SIDES)

@@ -7,46 +7,42 @@ module atrito_build_model
    use atrito_build_block, only: read_block_card, place_block_elements
    use atrito_build_contact, only: build_contact
    use atrito_build_copies, only: read_ncopy_card, read_elcopy_card
-   use atrito_build_curves, only: read_curves
    use atrito_build_elements, only: read_element_card, read_elgen_card
    use atrito_build_cuts, only: place_cuts
    use atrito_build_equations, only: build_equations
    use atrito_build_loads, only: build_loads
    use atrito_build_pretension, only: build_pretension, add_pretension_rows
-   use atrito_build_gmsh, only: read_mesh_nodes
-   use atrito_build_gmsh_elements, only: read_mesh_elements
-   use atrito_build_lines, only: is_line_card, read_lines, turn_elements
+   use atrito_build_gmsh, only: read_mesh_nodes, read_mesh_elements
+   use atrito_build_lines, only: is_line_card, read_lines, read_curves, turn_elements
    use atrito_build_instances, only: build_instances
    use atrito_build_materials, only: build_materials
-   use atrito_build_nodes, only: read_node_card, read_ngen_card, read_nfill_card
+   use atrito_build_nodes, only: read_node_card, read_fill_card
    use atrito_build_rigid_bodies, only: build_rigid_bodies, make_solver_mesh
    use atrito_build_requests, only: build_requests
    use atrito_build_springs, only: build_springs, is_spring_card
    use atrito_build_steps, only: build_steps, open_step
    use atrito_build_sets, only: try_set_card, read_set_card
    use atrito_build_supports, only: build_supports
-   use atrito_build_temperatures, only: read_temperatures, check_temperatures
-   use atrito_build_thickness, only: read_node_thickness
    use atrito_build_ties, only: read_ties, check_ties, build_ties
    use atrito_build_surfaces, only: build_surfaces
    use atrito_check_contact, only: check_surfaces_of_pairs, check_points_of_pairs, note_unused_interactions
-   use atrito_check_contact_sense, only: warn_of_overlap, warn_of_loaded_contact
-   use atrito_check_pairs_twice, only: warn_of_pairs_twice
+   use atrito_check_contact_sense, only: warn_of_overlap, warn_of_loaded_contact, warn_of_pairs_twice
    use atrito_check_mesh, only: check_mesh
-   use atrito_clearance, only: clearance_t, read_clearances, set_clearances
+   use atrito_clearance, only: clearance_t, interference_t, read_clearances, read_interferences, set_clearances, &
+                               set_interferences
    use atrito_contact_roles, only: choose_roles
    use atrito_contact_rules, only: contact_rules_t, read_contact_rules
    use atrito_deck, only: deck_t, token_text, line_item, keyword_name
    use atrito_build_context, only: build_context_t, prepare_context, has_errors
    use atrito_faces, only: chain_report_t, list_node_elements
    use atrito_found_contact, only: find_contact
-   use atrito_interference, only: interference_t, read_interferences, set_interferences
    use atrito_kinds, only: ip, lp
    use atrito_local_axes, only: read_local_axes
    use atrito_memory, only: available_memory
    use atrito_mesh, only: trim_mesh
    use atrito_messages, only: message_mark_t, mark_messages, forget_messages
    use atrito_model, only: model_t
+   use atrito_node_fields, only: read_temperatures, read_node_thickness, check_temperatures
    use atrito_pairing, only: order_slaves, pair_all
    use atrito_plane_state, only: FULL_STATE
    use atrito_points, only: contact_points_t
@@ -242,10 +238,8 @@ contains
          select case (keyword_name(context%deck%cards(i)))
          case ('NODE')
             call read_node_card(i, context)
-         case ('NGEN')
-            call read_ngen_card(i, context)
-         case ('NFILL')
-            call read_nfill_card(i, context)
+         case ('NGEN', 'NFILL')
+            call read_fill_card(i, context)
          case ('NCOPY')
             call read_ncopy_card(i, context)
          case ('BLOCK')

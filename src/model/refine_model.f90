@@ -1,8 +1,6 @@
 !> --refine and --elements: the mesh of a deck and its sets, refined or made of other elements. Surfaces, loads and supports are
 !> read afterwards and follow them.
 module atrito_refine_model
-   use atrito_build_temperatures, only: refine_temperatures
-   use atrito_build_thickness, only: refine_thickness
    use atrito_deck, only: token_t
    use atrito_diagnostics, only: report_deck_error
    use atrito_build_context, only: build_context_t, note_place
@@ -11,6 +9,7 @@ module atrito_refine_model
    use atrito_kinds, only: ip, lp
    use atrito_mesh, only: mesh_t
    use atrito_model_memory, only: fits_memory, most_nodes
+   use atrito_node_fields, only: refine_node_fields
    use atrito_refine_arcs, only: place_on_arcs
    use atrito_refined_members, only: fine_nodes, fine_elements
    use atrito_refinement, only: refine_mesh, count_fine_nodes
@@ -50,8 +49,7 @@ contains
       coarse = context%model%mesh
       call refine_mesh(coarse, context%around, pieces, shape, context%model%mesh, context%refinement)
       call place_on_arcs(coarse, context)
-      call refine_temperatures(coarse, context)
-      call refine_thickness(coarse, context)
+      call refine_node_fields(coarse, context)
       context%model%levels = levels
       do i = 1, set_count(context%model%node_sets)
          associate (set => context%model%node_sets%sets(i))

@@ -2,19 +2,17 @@
 module atrito_check_contact
    use atrito_average, only: least_spacing
    use atrito_contact_roles, only: STIFFER
-   use atrito_crack_tips, only: is_crack_tip
    use atrito_deck, only: deck_t, token_t
    use atrito_diagnostics, only: report_error, report_warning, report_note
    use atrito_build_context, only: build_context_t, ids_text, place_text, has_errors, is_invalid
    use atrito_face_geometry, only: has_quarter_node
-   use atrito_faces, only: chain_report_t, face_list_t, face_normal
+   use atrito_faces, only: chain_report_t, face_list_t, face_normal, node_elements_t
    use atrito_incidence, only: list_holders
-   use atrito_kinds, only: ip, lp, wp
-   use atrito_mesh, only: mesh_t, face_nodes
-   use atrito_model, only: model_t, pair_t, interaction_t, SURFACE_SEGMENTS, QUADRATURE_AUTO, FRICTION_NONLOCAL, KERNEL_LINE
+   use atrito_kinds, only: ip, lp, wp, PI
+   use atrito_mesh, only: mesh_t, face_end, face_nodes, side_count
+   use atrito_model, only: model_t, pair_t, SURFACE_SEGMENTS, QUADRATURE_AUTO, FRICTION_NONLOCAL, KERNEL_LINE
    use atrito_number_list, only: number_list_t, add_number, numbers_of
    use atrito_pairing, only: slave_stiffness
-   use atrito_points, only: contact_points_t
    use atrito_sorting, only: sorted_places, each_once
    use atrito_strings, only: to_text
    implicit none (type, external)
@@ -34,6 +32,8 @@ module atrito_check_contact
 
    real(wp), parameter :: LINE_SPACINGS = 3.0_wp       !< KERNEL=LINE needs so many spacings within rho
 
+   real(wp), parameter :: FACING = -1.0e-3_wp          !< cosine of normals of faces that see each other (atrito_master)
+
    !> Distance of slave nodes over that of the master's from which on NODAL points are too few: 3 elements on 2 are not.
    real(wp), parameter :: COARSE = 1.6_wp
 
@@ -52,7 +52,22 @@ contains
       allocate (known%is_judged(size(model%surfaces)), source=.false.)
       call list_masters(model, known)
       do i = 1, size(model%pairs, kind=ip)
-         call check_sides(model, context, i, known)
+         associate (slave => model%pairs(i)%slave, master => model%pairs(i)%master, first => known%first_of(i))
+            if (slave == master) then
+               call report_error(context%deck, context%masters(i), 'E-PAIR', 'slave and master are the same surface', &
+                                 expected='two surfaces that face each other', keyword='CONTACT PAIR')
+            else if (first < i) then
+               call report_error(context%deck, context%slaves(i), 'E-TWICE', 'this pair is given twice, first in '// &
+                                 place_text(context%deck, context%slaves(first), context%slaves(i)), &
+                                 expected='each pair of surfaces once', keyword='CONTACT PAIR')
+            else
+               call check_slave(model, context, slave, context%slaves(i), known)
+               call check_master(model, context, master, context%masters(i))
+               if (model%surfaces(slave)%kind /= SURFACE_SEGMENTS .and. model%surfaces(master)%kind /= SURFACE_SEGMENTS) then
+                  call check_shared_nodes(context, model, slave, master, context%masters(i), known)
+               end if
+            end if
+         end associate
       end do
    end subroutine check_surfaces_of_pairs
 
@@ -83,10 +98,7 @@ contains
 
       is_master = .false.
       is_master(model%pairs%master) = .true.
-      n = 0
-      do i = 1, size(is_master, kind=ip)
-         if (is_master(i)) n = n + model%surfaces(i)%faces%n
-      end do
+      n = sum(pack(model%surfaces%faces%n, is_master))
       allocate (nodes(MOST_FACE_NODES, n), known%surface_of(n), source=0_ip)
       n = 0
       do i = 1, size(is_master, kind=ip)
@@ -103,50 +115,25 @@ contains
       call list_holders(model%mesh%n_nodes, nodes, known%first, known%face)
    end subroutine list_masters
 
-   subroutine check_sides(model, context, i, known)
-      type(model_t), intent(in) :: model
-      type(build_context_t), intent(in) :: context
-      integer(ip), intent(in) :: i
-      type(pairs_context_t), intent(inout) :: known
-      integer(ip) :: slave, master, k
-
-      slave = model%pairs(i)%slave
-      master = model%pairs(i)%master
-      if (slave == master) then
-         call report_error(context%deck, context%masters(i), 'E-PAIR', 'slave and master are the same surface', &
-                           expected='two surfaces that face each other', keyword='CONTACT PAIR')
-         return
-      end if
-      k = known%first_of(i)
-      if (k < i) then
-         call report_error(context%deck, context%slaves(i), 'E-TWICE', &
-                           'this pair is given twice, first in '//place_text(context%deck, &
-                                                     context%slaves(k), context%slaves(i)), expected='each pair of surfaces once', &
-                           keyword='CONTACT PAIR')
-         return
-      end if
-      call check_slave(model, context, slave, context%slaves(i), known)
-      call check_master(model, context, master, context%masters(i))
-      if (model%surfaces(slave)%kind /= SURFACE_SEGMENTS .and. model%surfaces(master)%kind /= SURFACE_SEGMENTS) then
-         call check_shared_nodes(context, model, slave, master, context%masters(i), known)
-      end if
-   end subroutine check_sides
-
+   !> A slave is one chain of faces, with the middle nodes of these in their middles: where one lies at a quarter of its face, as at
+   !> the tip of a crack, a node of the face has no part of the surface.
    subroutine check_slave(model, context, i, place, known)
       type(model_t), intent(in) :: model
       type(build_context_t), intent(in) :: context
       integer(ip), intent(in) :: i                     !< the slave's surface
       type(token_t), intent(in) :: place
       type(pairs_context_t), intent(inout) :: known
+      type(number_list_t) :: elements
+      integer(ip) :: k
 
-      associate (surface => model%surfaces(i), report => known%chains(i))
+      associate (surface => model%surfaces(i), faces => model%surfaces(i)%faces, report => known%chains(i), mesh => model%mesh)
          if (is_invalid(context, surface%name)) return
          if (surface%kind == SURFACE_SEGMENTS) then
             call report_error(context%deck, place, 'E-PAIR', 'surface '//surface%name//' is a drawn line and cannot be the slave', &
                               expected='a surface of element faces as slave; the rigid surface is the master', &
                               keyword='CONTACT PAIR')
             return
-         else if (surface%faces%n == 0) then
+         else if (faces%n == 0) then
             call report_no_faces(context%deck, place, surface%name)
             return
          end if
@@ -155,38 +142,24 @@ contains
          if (has_errors()) return            ! the chain may be broken by what was told already
          if (report%branch_node > 0) then
             call report_error(context%deck, place, 'E-CHAIN', 'the slave branches at node '// &
-                              to_text(model%mesh%node_id(report%branch_node)), expected='one connected chain of faces', &
+                              to_text(mesh%node_id(report%branch_node)), expected='one connected chain of faces', &
                               keyword='CONTACT PAIR')
          else if (report%loose_face > 0) then
             call report_error(context%deck, place, 'E-CHAIN', 'the slave is not connected: face S'// &
-                              to_text(surface%faces%face(report%loose_face))//' of element '// &
-                              to_text(model%mesh%element_id(surface%faces%element(report%loose_face)))// &
-                              ' does not continue the others', expected='one connected chain of faces; otherwise a pair for each', &
-                              keyword='CONTACT PAIR')
+                              to_text(faces%face(report%loose_face))//' of element '// &
+                              to_text(mesh%element_id(faces%element(report%loose_face)))//' does not continue the others', &
+                              expected='one connected chain of faces; otherwise a pair for each', keyword='CONTACT PAIR')
          end if
-         call check_middles(context%deck, model%mesh, surface%faces, place)
+         do k = 1, faces%n
+            if (has_quarter_node(mesh%x(:, face_nodes(mesh, faces%element(k), faces%face(k))))) then
+               call add_number(elements, mesh%element_id(faces%element(k)))
+            end if
+         end do
       end associate
+      if (elements%n > 0) call report_error(context%deck, place, 'E-PAIR', 'a slave face of element '// &
+                                            ids_text(numbers_of(elements))//' has its middle node at a quarter of it', &
+                                            expected='middle nodes in the middle of the faces of a slave', keyword='CONTACT PAIR')
    end subroutine check_slave
-
-   !> A slave face whose middle lies at a quarter of it, as at the tip of a crack: a node of it has no part of the surface.
-   subroutine check_middles(deck, mesh, faces, place)
-      type(deck_t), intent(in) :: deck
-      type(mesh_t), intent(in) :: mesh
-      type(face_list_t), intent(in) :: faces
-      type(token_t), intent(in) :: place
-      type(number_list_t) :: elements
-      integer(ip) :: i
-
-      do i = 1, faces%n
-         associate (x => mesh%x(:, face_nodes(mesh, faces%element(i), faces%face(i))))
-            if (has_quarter_node(x)) call add_number(elements, mesh%element_id(faces%element(i)))
-         end associate
-      end do
-      if (elements%n > 0) call report_error(deck, place, 'E-PAIR', 'a slave face of element '//ids_text(numbers_of(elements))// &
-                                            ' has its middle node at a quarter of it', &
-                                            expected='middle nodes in the middle of the faces of a slave', &
-                                            keyword='CONTACT PAIR')
-   end subroutine check_middles
 
    subroutine check_master(model, context, i, place)
       type(model_t), intent(in) :: model
@@ -232,7 +205,9 @@ contains
          do i = 1, faces%n
             nodes = face_nodes(model%mesh, faces%element(i), faces%face(i))
             do k = 1, size(nodes, kind=ip)
-               if (is_on(known, nodes(k), master)) call add_number(shared, nodes(k))
+               associate (at_node => known%face(known%first(nodes(k)):known%first(nodes(k) + 1) - 1))
+                  if (any(known%surface_of(at_node) == master)) call add_number(shared, nodes(k))
+               end associate
             end do
          end do
          if (shared%n == 0) return
@@ -252,17 +227,64 @@ contains
       end if
    end subroutine check_shared_nodes
 
-   !> A node belongs to a master.
-   pure logical function is_on(known, node, master)
-      type(pairs_context_t), intent(in) :: known
-      integer(ip), intent(in) :: node, master
-      integer(ip) :: k
+   !> Whether one face of either side ends at a node, they face each other, and the bodies fill more than half of what is around it.
+   !> The sides of a corner that points outwards are no crack, however sharp it is: between them there is the body.
+   pure logical function is_crack_tip(mesh, around, node, slave, master) result(is_tip)
+      type(mesh_t), intent(in) :: mesh
+      type(node_elements_t), intent(in) :: around
+      integer(ip), intent(in) :: node
+      type(face_list_t), intent(in) :: slave, master
+      integer(ip) :: own, other
 
-      is_on = .false.
-      do k = known%first(node), known%first(node + 1) - 1
-         is_on = is_on .or. known%surface_of(known%face(k)) == master
+      own = only_face_at(mesh, node, slave)
+      other = only_face_at(mesh, node, master)
+      is_tip = own > 0 .and. other > 0
+      if (.not. is_tip) return
+      is_tip = dot_product(face_normal(mesh, slave%element(own), slave%face(own)), &
+                           face_normal(mesh, master%element(other), master%face(other))) <= FACING
+      if (is_tip) is_tip = filled_angle(mesh, around, node) > PI
+   end function is_crack_tip
+
+   !> The one face of a list that begins or ends at a node; 0 where there is none, or more.
+   pure integer(ip) function only_face_at(mesh, node, faces) result(found)
+      type(mesh_t), intent(in) :: mesh
+      integer(ip), intent(in) :: node
+      type(face_list_t), intent(in) :: faces
+      integer(ip) :: i
+
+      found = 0
+      do i = 1, faces%n
+         associate (e => faces%element(i), f => faces%face(i))
+            if (all(mesh%nodes([f, face_end(mesh, e, f)], e) /= node)) cycle
+         end associate
+         if (found > 0) then
+            found = 0
+            return
+         end if
+         found = i
       end do
-   end function is_on
+   end function only_face_at
+
+   !> The angle that the elements round a node take there, by the chords of their sides.
+   pure real(wp) function filled_angle(mesh, around, node) result(angle)
+      type(mesh_t), intent(in) :: mesh
+      type(node_elements_t), intent(in) :: around
+      integer(ip), intent(in) :: node
+      real(wp) :: a(2), b(2)
+      integer(ip) :: i, k, n
+
+      angle = 0.0_wp
+      do i = around%first(node), around%first(node + 1) - 1
+         associate (corners => mesh%nodes(:side_count(mesh, around%list(i)), around%list(i)))
+            n = size(corners, kind=ip)
+            k = findloc(corners, node, dim=1, kind=ip)
+            if (k == 0) cycle                      ! in the middle of a side, which is no corner
+            a = mesh%x(:, corners(mod(k, n) + 1)) - mesh%x(:, node)
+            b = mesh%x(:, corners(mod(k + n - 2, n) + 1)) - mesh%x(:, node)
+            angle = angle + atan2(abs(a(1)*b(2) - a(2)*b(1)), dot_product(a, b))
+         end associate
+      end do
+   end function filled_angle
 
    !> Tells of interactions that no pair has; for models without any error.
    subroutine note_unused_interactions(model, context)
@@ -289,97 +311,92 @@ contains
 
       is_judged = .false.
       do i = 1, size(model%pairs, kind=ip)
-         if (model%points(i)%n == 0 .and. model%points(i)%n_left_out < model%points(i)%n_faces) then
-           call report_error(context%deck, context%slaves(i), 'E-PAIR', 'the slave has no other nodes than the tips of the crack', &
-                              expected='a slave of several faces, or the other surface as the slave', keyword='CONTACT PAIR')
-         else if (model%points(i)%n == 0) then
-            call report_blind(context%deck, model%mesh, model%surfaces(model%pairs(i)%slave)%faces, context%slaves(i), &
-                              model%points(i)%n_seeing)
+         if (model%points(i)%n == 0) then
+            call report_blind(context, model, i)
          else
-            call judge_points(context, model, i, model%points(i), is_judged(model%pairs(i)%interaction))
+            call judge_points(context, model, i)
+            if (.not. is_judged(model%pairs(i)%interaction)) call judge_radius(context, model, i, &
+                                                                               is_judged(model%pairs(i)%interaction))
          end if
       end do
    end subroutine check_points_of_pairs
 
-   !> No face of the slave finds the master.
-   subroutine report_blind(deck, mesh, slave, place, n_seeing)
-      type(deck_t), intent(in) :: deck
-      type(mesh_t), intent(in) :: mesh
-      type(face_list_t), intent(in) :: slave
-      type(token_t), intent(in) :: place
-      integer(ip), intent(in) :: n_seeing              !< faces that see it with a part of them
-      real(wp) :: normal(2)
-
-      if (n_seeing > 0) then
-         call report_error(deck, place, 'E-PAIR', 'no face of the slave finds the master with all of its nodes: the master '// &
-                           'ends in front of '//to_text(n_seeing)//trim(merge(' face ', ' faces', n_seeing == 1)), &
-                           expected='a slave with finer faces, or the other surface as the slave', keyword='CONTACT PAIR')
-         return
-      end if
-      normal = face_normal(mesh, slave%element(1), slave%face(1))
-      call report_error(deck, place, 'E-PAIR', 'no point of the slave finds the master: the outward normal of the slave''s '// &
-                        'first face is ('//to_text(normal(1), 3)//', '//to_text(normal(2), 3)// &
-                        '), and along the normals there is no surface that faces the other way', &
-                        expected='a master in front of the slave, its own normal pointing back; a drawn line faces the side '// &
-                        'at its left', keyword='CONTACT PAIR')
-   end subroutine report_blind
-
-   subroutine judge_points(context, model, i, points, is_judged)
+   !> No face of the slave finds the master, or none has a node that is no tip of a crack.
+   subroutine report_blind(context, model, i)
       type(build_context_t), intent(in) :: context
       type(model_t), intent(in) :: model
       integer(ip), intent(in) :: i                     !< the pair
-      type(contact_points_t), intent(in) :: points
-      logical, intent(inout) :: is_judged              !< of the interaction
+      character(len=:), allocatable :: text, expected
+      real(wp) :: normal(2)
 
-      if (points%n_left_out > 0) call report_note(context%deck, context%slaves(i), 'N-LEFT-OUT', &
-                                                  to_text(points%n_left_out)//' of '// &
-               to_text(points%n_faces)//' faces of the slave are left out: a point of them finds no master', keyword='CONTACT PAIR')
-      if (points%is_mortar .and. model%pairs(i)%quadrature == QUADRATURE_AUTO) then
-         call report_note(context%deck, context%slaves(i), 'N-MORTAR', 'the nodes of the two sides '//of_pair(model, i)// &
-                          'do not match: QUADRATURE=MORTAR', keyword='CONTACT PAIR')
-      end if
-      if (points%coarseness > COARSE .and. .not. points%is_mortar) then
-         call report_warning(context%deck, context%slaves(i), 'W-COARSE-SLAVE', 'at node ' &
-                             //to_text(model%mesh%node_id(points%coarse_node))//' the nodes of the slave '//of_pair(model, i)// &
-                             'lie '//to_text(points%coarseness, 2)//' times as far apart as those of the master, and with '// &
-                             'QUADRATURE=NODAL nothing keeps the master out between them', &
-                             expected='QUADRATURE=MORTAR'//trim(merge(', or the finer side as slave', repeat(' ', 28), &
+      associate (points => model%points(i), faces => model%surfaces(model%pairs(i)%slave)%faces)
+         if (points%n_left_out < points%n_faces) then
+            text = 'the slave has no other nodes than the tips of the crack'
+            expected = 'a slave of several faces, or the other surface as the slave'
+         else if (points%n_seeing > 0) then
+            text = 'no face of the slave finds the master with all of its nodes: the master ends in front of '// &
+                   to_text(points%n_seeing)//trim(merge(' face ', ' faces', points%n_seeing == 1))
+            expected = 'a slave with finer faces, or the other surface as the slave'
+         else
+            normal = face_normal(model%mesh, faces%element(1), faces%face(1))
+            text = 'no point of the slave finds the master: the outward normal of the slave''s first face is ('// &
+                   to_text(normal(1), 3)//', '//to_text(normal(2), 3)// &
+                   '), and along the normals there is no surface that faces the other way'
+            expected = 'a master in front of the slave, its own normal pointing back; a drawn line faces the side at its left'
+         end if
+      end associate
+      call report_error(context%deck, context%slaves(i), 'E-PAIR', text, expected=expected, keyword='CONTACT PAIR')
+   end subroutine report_blind
+
+   subroutine judge_points(context, model, i)
+      type(build_context_t), intent(in) :: context
+      type(model_t), intent(in) :: model
+      integer(ip), intent(in) :: i                     !< the pair
+      character(len=:), allocatable :: sides           ! of a pair that the deck does not give
+
+      sides = ''
+      associate (points => model%points(i), pair => model%pairs(i), place => context%slaves(i))
+         if (pair%outline > 0) sides = 'of '//model%surfaces(pair%slave)%name//' on '//model%surfaces(pair%master)%name//' '
+         if (points%n_left_out > 0) call report_note(context%deck, place, 'N-LEFT-OUT', to_text(points%n_left_out)//' of '// &
+                                                     to_text(points%n_faces)//' faces of the slave are left out: a point of '// &
+                                                     'them finds no master', keyword='CONTACT PAIR')
+         if (points%is_mortar .and. pair%quadrature == QUADRATURE_AUTO) then
+            call report_note(context%deck, place, 'N-MORTAR', 'the nodes of the two sides '//sides// &
+                             'do not match: QUADRATURE=MORTAR', keyword='CONTACT PAIR')
+         end if
+         if (points%coarseness > COARSE .and. .not. points%is_mortar) then
+            call report_warning(context%deck, place, 'W-COARSE-SLAVE', 'at node ' &
+                                //to_text(model%mesh%node_id(points%coarse_node))//' the nodes of the slave '//sides// &
+                                'lie '//to_text(points%coarseness, 2)//' times as far apart as those of the master, and with '// &
+                                'QUADRATURE=NODAL nothing keeps the master out between them', &
+                                expected='QUADRATURE=MORTAR'//trim(merge(', or the finer side as slave', repeat(' ', 28), &
                                                                slave_stiffness(model, i)*STIFFER > 1.0_wp)), keyword='CONTACT PAIR')
-      end if
-      if (.not. is_judged) call judge_radius(context%deck, context%interactions(model%pairs(i)%interaction), &
-                                             model%interactions(model%pairs(i)%interaction), least_spacing(points%x), is_judged)
+         end if
+      end associate
    end subroutine judge_points
 
-   !> What a pair is called that the deck does not give; '' for one that it gives.
-   pure function of_pair(model, i) result(text)
-      type(model_t), intent(in) :: model
-      integer(ip), intent(in) :: i
-      character(len=:), allocatable :: text
-
-      text = ''
-      if (model%pairs(i)%outline > 0) text = 'of '//model%surfaces(model%pairs(i)%slave)%name//' on '// &
-                                             model%surfaces(model%pairs(i)%master)%name//' '
-   end function of_pair
-
    !> The radius of the average against the distance of the points.
-   subroutine judge_radius(deck, place, interaction, spacing, is_told)
-      type(deck_t), intent(in) :: deck
-      type(token_t), intent(in) :: place
-      type(interaction_t), intent(in) :: interaction
-      real(wp), intent(in) :: spacing
+   subroutine judge_radius(context, model, i, is_told)
+      type(build_context_t), intent(in) :: context
+      type(model_t), intent(in) :: model
+      integer(ip), intent(in) :: i                     !< the pair
       logical, intent(inout) :: is_told
+      real(wp) :: spacing
 
-      if (interaction%friction /= FRICTION_NONLOCAL .or. .not. interaction%rho > 0.0_wp) return
-      if (interaction%rho < spacing) then
-         call report_note(deck, place, 'N-RADIUS', 'rho = '//to_text(interaction%rho)//' is less than the least distance of '// &
-                          'contact points, '//to_text(spacing)//': the average leaves the pressure as it is', keyword='FRICTION')
-         is_told = .true.
-      else if (interaction%kernel == KERNEL_LINE .and. interaction%rho < LINE_SPACINGS*spacing) then
-         call report_warning(deck, place, 'W-RADIUS', 'rho = '//to_text(interaction%rho)//' is less than three distances of '// &
-                             'contact points, '//to_text(spacing)//': with KERNEL=LINE a uniform pressure does not stay uniform', &
-                             expected='rho >= '//to_text(LINE_SPACINGS*spacing)//' [L], or KERNEL=POINTS', keyword='FRICTION')
-         is_told = .true.
-      end if
+      associate (law => model%interactions(model%pairs(i)%interaction), place => context%interactions(model%pairs(i)%interaction))
+         if (law%friction /= FRICTION_NONLOCAL .or. .not. law%rho > 0.0_wp) return
+         spacing = least_spacing(model%points(i)%x)
+         is_told = law%rho < spacing .or. (law%kernel == KERNEL_LINE .and. law%rho < LINE_SPACINGS*spacing)
+         if (law%rho < spacing) then
+            call report_note(context%deck, place, 'N-RADIUS', 'rho = '//to_text(law%rho)//' is less than the least distance of '// &
+                             'contact points, '//to_text(spacing)//': the average leaves the pressure as it is', keyword='FRICTION')
+         else if (is_told) then
+            call report_warning(context%deck, place, 'W-RADIUS', 'rho = '//to_text(law%rho)//' is less than three distances of '// &
+                                'contact points, '//to_text(spacing)//': with KERNEL=LINE a uniform pressure does not stay '// &
+                                'uniform', expected='rho >= '//to_text(LINE_SPACINGS*spacing)//' [L], or KERNEL=POINTS', &
+                                keyword='FRICTION')
+         end if
+      end associate
    end subroutine judge_radius
 
 end module atrito_check_contact

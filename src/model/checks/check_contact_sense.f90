@@ -1,24 +1,35 @@
-!> What a deck may well say and hardly means: bodies that overlap before they are loaded, loads on faces that touch.
+!> What a deck may well say and hardly means: bodies that overlap before they are loaded, loads on faces that touch, and pairs that
+!> say the same thing twice: the same faces face each other in both, as slave and master or the other way round. Each pair takes a
+!> part of the pressure then, and a contact that yields (LINEAR) is twice as stiff.
 module atrito_check_contact_sense
    use atrito_build_context, only: build_context_t, ids_text
    use atrito_deck, only: line_item
    use atrito_diagnostics, only: report_warning
+   use atrito_element_table, only: MOST_SIDES
    use atrito_faces, only: face_list_t
-   use atrito_kinds, only: ip, wp
+   use atrito_kinds, only: ip, wp, lp
    use atrito_mesh, only: mesh_t, face_nodes
    use atrito_model, only: model_t, element_load_t, is_on_volume
    use atrito_number_list, only: number_list_t, add_number, numbers_of
    use atrito_smooth_normals, only: smooth_surface
-   use atrito_sorting, only: each_once
+   use atrito_sorting, only: each_once, sorted_places
    use atrito_strings, only: to_text
    implicit none (type, external)
    private
-   public :: warn_of_overlap, warn_of_loaded_contact
+   public :: warn_of_overlap, warn_of_loaded_contact, warn_of_pairs_twice
 
    !> Overlap below this part of the largest coordinate is rounding: ten printed digits, and what cutting faces adds to it.
    real(wp), parameter :: ROUNDING = 1.0e-8_wp
    !> Faces of two meshes of one curve overlap by a part of their rise over the chord; below this part of it they fit.
    real(wp), parameter :: FITTING = 0.01_wp
+
+   !> The faces of a pair that have a part in its points, each as one number.
+   type :: sides_t
+      integer(lp), allocatable :: slave(:), master(:)
+   end type sides_t
+
+   !> Moduli and faces that differ by less are alike.
+   real(wp), parameter :: ALIKE = 1.0e-6_wp
 
 contains
 
@@ -43,7 +54,9 @@ contains
          if (model%points(i)%n == 0 .or. model%pairs(i)%gap_is_given .or. model%pairs(i)%is_resolved) cycle
          overlap = -minval(model%points(i)%gap)
          if (overlap <= slack) cycle
-         if (overlap <= slack + FITTING*largest_rise(model, i)) cycle
+         associate (slave => model%surfaces(model%pairs(i)%slave)%faces, master => model%surfaces(model%pairs(i)%master)%faces)
+            if (overlap <= slack + FITTING*max(rise_of(model%mesh, slave), rise_of(model%mesh, master))) cycle
+         end associate
          n = n + 1
          if (overlap <= largest) cycle
          largest = overlap
@@ -64,15 +77,7 @@ contains
       end associate
    end subroutine warn_of_overlap
 
-   !> How far the curves that both sides of a pair stand for rise over the chords of their faces at most [L].
-   pure real(wp) function largest_rise(model, i) result(rise)
-      type(model_t), intent(in) :: model
-      integer(ip), intent(in) :: i                     !< the pair
-
-      rise = max(rise_of(model%mesh, model%surfaces(model%pairs(i)%slave)%faces), &
-                 rise_of(model%mesh, model%surfaces(model%pairs(i)%master)%faces))
-   end function largest_rise
-
+   !> How far the curve that faces stand for rises over their chords at most [L].
    pure real(wp) function rise_of(mesh, faces) result(rise)
       type(mesh_t), intent(in) :: mesh
       type(face_list_t), intent(in) :: faces           !< none of a drawn surface
@@ -93,6 +98,7 @@ contains
    subroutine warn_of_loaded_contact(model, context)
       type(model_t), intent(in) :: model
       type(build_context_t), intent(in) :: context
+      integer(ip), allocatable :: pair_at(:, :)        ! of find_contact_faces; not listed before it is wanted
       integer(ip) :: i, told
 
       if (size(model%pairs) == 0) return
@@ -100,136 +106,240 @@ contains
       do i = 1, size(model%steps, kind=ip)
          associate (loads => model%steps(i)%element_loads)
             if (loads%n == 0) cycle
-            if (any(.not. is_on_volume(loads%kind) .and. loads%line > told)) call warn_of_loads(model, context, loads, told)
+            if (any(.not. is_on_volume(loads%kind) .and. loads%line > told)) then
+               if (.not. allocated(pair_at)) call find_contact_faces(model, pair_at)
+               call warn_of_loads(model, context, loads, pair_at, told)
+            end if
             told = max(told, maxval(loads%line))
          end associate
       end do
    end subroutine warn_of_loaded_contact
 
+   !> For each face of an element the last pair in whose points both ends of the face have a part: of a master longer than its slave
+   !> the faces that face nothing do not count.
+   pure subroutine find_contact_faces(model, pair_at)
+      type(model_t), intent(in) :: model
+      integer(ip), allocatable, intent(out) :: pair_at(:, :) !< (MOST_SIDES, n_elements); 0: none
+      logical, allocatable :: touched(:)
+      integer(ip) :: i, k, side
+
+      allocate (pair_at(MOST_SIDES, model%mesh%n_elements), source=0_ip)
+      allocate (touched(model%mesh%n_nodes), source=.false.)
+      do i = 1, size(model%pairs, kind=ip)
+         touched(model%points(i)%entry) = .true.
+         do side = 1, 2
+            associate (faces => model%surfaces(merge(model%pairs(i)%slave, model%pairs(i)%master, side == 1))%faces)
+               do k = 1, faces%n
+                  associate (nodes => face_nodes(model%mesh, faces%element(k), faces%face(k)))
+                     if (all(touched(nodes(:2)))) pair_at(faces%face(k), faces%element(k)) = i
+                  end associate
+               end do
+            end associate
+         end do
+         touched(model%points(i)%entry) = .false.
+      end do
+   end subroutine find_contact_faces
+
    !> The loads of a step; those that are carried on have been told of.
-   subroutine warn_of_loads(model, context, loads, told)
+   subroutine warn_of_loads(model, context, loads, pair_at, told)
       type(model_t), intent(in) :: model
       type(build_context_t), intent(in) :: context
       type(element_load_t), intent(in) :: loads
+      integer(ip), intent(in) :: pair_at(:, :)         !< as of find_contact_faces
       integer(ip), intent(in) :: told                  !< last line of the steps before
-      integer(ip), allocatable :: pair_of(:)           ! of each load; 0: not on a contact face
-      type(number_list_t) :: elements
-      integer(ip) :: first, i, last
+      type(number_list_t) :: elements                  ! of a line of the deck: those with loads on faces of pairs
+      integer(ip) :: i, at, pair
 
-      call find_loaded_contact(model, loads, pair_of)
-      first = 1
-      do while (first <= loads%n)
-         last = first
-         do while (last < loads%n)
-            if (loads%line(last + 1) /= loads%line(first)) exit
-            last = last + 1
-         end do
+      pair = 0
+      do i = 1, loads%n
+         if (.not. is_on_volume(loads%kind(i))) then
+            at = pair_at(loads%face(i), loads%element(i))
+            if (at > 0) call add_number(elements, model%mesh%element_id(loads%element(i)))
+            pair = max(pair, at)
+         end if
+         if (i < loads%n) then
+            if (loads%line(i + 1) == loads%line(i)) cycle
+         end if
+         if (pair > 0 .and. loads%line(i) > told) then
+            associate (place => line_item(context%deck, context%deck%lines(loads%line(i)), 1_ip), p => model%pairs(pair))
+               call report_warning(context%deck, place, 'W-LOADED-CONTACT', 'the load acts on faces of the contact pair ' &
+                                   //model%surfaces(p%slave)%name//' / '//model%surfaces(p%master)%name//', at element ' &
+                                   //ids_text(each_once(numbers_of(elements)))//': it acts there besides the contact pressure', &
+                                   expected='faces that nothing touches', keyword='DSLOAD')
+            end associate
+         end if
+         pair = 0
          elements%n = 0
-         do i = first, last
-            if (pair_of(i) > 0) call add_number(elements, model%mesh%element_id(loads%element(i)))
-         end do
-         if (elements%n > 0 .and. loads%line(first) > told) call report_loaded(model, context, loads%line(first), &
-                                                                               maxval(pair_of(first:last)), elements)
-         first = last + 1
       end do
    end subroutine warn_of_loads
 
-   subroutine report_loaded(model, context, line, pair, elements)
+   !> The first two pairs that are one, and how many others there are; for models without any error.
+   subroutine warn_of_pairs_twice(model, context)
       type(model_t), intent(in) :: model
       type(build_context_t), intent(in) :: context
-      integer(ip), intent(in) :: line, pair            !< of the deck; one that the load acts on
-      type(number_list_t), intent(in) :: elements      !< the user's numbers
+      type(sides_t), allocatable :: sides(:)
+      integer(ip) :: twin(size(model%pairs)), i, k
+      character(len=:), allocatable :: text
 
-      associate (place => line_item(context%deck, context%deck%lines(line), 1_ip), p => model%pairs(pair))
-         call report_warning(context%deck, place, 'W-LOADED-CONTACT', 'the load acts on faces of the contact pair ' &
-                             //model%surfaces(p%slave)%name//' / '//model%surfaces(p%master)%name//', at element ' &
-                             //ids_text(each_once(numbers_of(elements)))//': it acts there besides the contact pressure', &
-                             expected='faces that nothing touches', keyword='DSLOAD')
-      end associate
-   end subroutine report_loaded
+      if (size(model%pairs) < 2) return
+      allocate (sides(size(model%pairs)))
+      call list_sides(model, sides)
+      call find_twins(model, sides, twin)
+      k = findloc(twin > 0, .true., dim=1, kind=ip)
+      if (k == 0) return
+      i = twin(k)
+      text = pair_text(model, i)//' and '//pair_text(model, k)//': the same faces face each other in both pairs, and each carries' &
+             //' a part of the pressure'
+      if (any(model%interactions([model%pairs(i)%interaction, model%pairs(k)%interaction])%delta > 0.0_wp)) then
+         text = text//'; together they are stiffer than the pressure-overclosure of either'
+      end if
+      if (count(twin > 0) > 1) text = text//'; so it is with '//to_text(count(twin > 0, kind=ip) - 1)//' more pairs'
+      call report_warning(context%deck, context%slaves(k), 'W-TWICE', text, expected=advice(model, sides, i, k), &
+                          keyword='CONTACT PAIR')
+   end subroutine warn_of_pairs_twice
 
-   !> For each load the pair of whose slave or master it loads a face that has contact points.
-   subroutine find_loaded_contact(model, loads, pair_of)
+   pure function pair_text(model, i) result(text)
       type(model_t), intent(in) :: model
-      type(element_load_t), intent(in) :: loads
-      integer(ip), allocatable, intent(out) :: pair_of(:)
-      type(number_list_t) :: loads_on(size(model%surfaces))
-      integer(ip), allocatable :: first(:), load(:)
-      logical, allocatable :: touched(:), is_listed(:)
-      integer(ip) :: i, s, side
+      integer(ip), intent(in) :: i
+      character(len=:), allocatable :: text
 
-      allocate (pair_of(loads%n), source=0_ip)
-      allocate (touched(model%mesh%n_nodes), is_listed(size(model%surfaces)), source=.false.)
-      call list_loads(model, loads, first, load)
+      text = model%surfaces(model%pairs(i)%slave)%name//' on '//model%surfaces(model%pairs(i)%master)%name
+   end function pair_text
+
+   !> Of the two pairs the one to keep.
+   function advice(model, sides, i, k) result(text)
+      type(model_t), intent(in) :: model
+      type(sides_t), intent(in) :: sides(:)
+      integer(ip), intent(in) :: i, k
+      character(len=:), allocatable :: text
+      real(wp) :: young(2), length(2)                  ! means of the slaves of i and k [F/L^2], [L]
+
+      call measure_slave(model, sides(i)%slave, young(1), length(1))
+      call measure_slave(model, sides(k)%slave, young(2), length(2))
+      if (abs(young(1) - young(2)) > ALIKE*young(2)) then
+         text = 'one of them, '//pair_text(model, merge(i, k, young(1) < young(2)))//', whose slave is the softer side'
+      else if (abs(length(1) - length(2)) > ALIKE*length(2)) then
+         text = 'one of them, '//pair_text(model, merge(i, k, length(1) < length(2)))//', whose slave is the finer side'
+      else
+         text = 'one of them; either will do'
+      end if
+   end function advice
+
+   pure subroutine measure_slave(model, faces, young, length)
+      type(model_t), intent(in) :: model
+      integer(lp), intent(in) :: faces(:)
+      real(wp), intent(out) :: young                   !< [F/L^2] mean of the faces
+      real(wp), intent(out) :: length                  !< [L] mean of the faces
+      integer(ip) :: i, element
+
+      young = 0.0_wp
+      length = 0.0_wp
+      do i = 1, size(faces, kind=ip)
+         element = int((faces(i) - 1_lp)/MOST_SIDES, ip)
+         associate (nodes => face_nodes(model%mesh, element, int(faces(i) - int(element, lp)*MOST_SIDES, ip)))
+            length = length + norm2(model%mesh%x(:, nodes(2)) - model%mesh%x(:, nodes(1)))/real(size(faces), wp)
+         end associate
+         young = young + model%materials(model%sections(model%section_of(element))%material)%young/real(size(faces), wp)
+      end do
+   end subroutine measure_slave
+
+   !> The slave faces of the points; the faces of a master with both ends among the nodes of the points, none of a drawn line.
+   pure subroutine list_sides(model, sides)
+      type(model_t), intent(in) :: model
+      type(sides_t), intent(out) :: sides(:)
+      logical, allocatable :: touched(:), is_touched(:)
+      integer(ip) :: i, k
+
+      allocate (touched(model%mesh%n_nodes), source=.false.)
       do i = 1, size(model%pairs, kind=ip)
-         do side = 1, 2
-            s = merge(model%pairs(i)%slave, model%pairs(i)%master, side == 1)
-            if (.not. is_listed(s)) call list_loads_on(model%surfaces(s)%faces, loads, first, load, loads_on(s))
-            is_listed(s) = .true.
-            if (loads_on(s)%n > 0) call mark_loads(model, i, loads, numbers_of(loads_on(s)), &
-                                                   touched, pair_of)
-         end do
+         sides(i)%slave = model%points(i)%faces
+         touched(model%points(i)%entry) = .true.
+         associate (faces => model%surfaces(model%pairs(i)%master)%faces)
+            allocate (is_touched(faces%n))
+            do k = 1, faces%n
+               associate (nodes => face_nodes(model%mesh, faces%element(k), faces%face(k)))
+                  is_touched(k) = all(touched(nodes(:2)))
+               end associate
+            end do
+            sides(i)%master = pack([(int(faces%element(k), lp)*MOST_SIDES + faces%face(k), k=1, faces%n)], is_touched)
+            deallocate (is_touched)
+         end associate
+         touched(model%points(i)%entry) = .false.
       end do
-   end subroutine find_loaded_contact
+   end subroutine list_sides
 
-   !> The loads on the faces of each element: load(first(e):first(e + 1) - 1).
-   pure subroutine list_loads(model, loads, first, load)
+   !> For each pair one before it that is the same, or 0. Pairs come together at the slave faces of one of them: of the others that
+   !> have such a face the list is short, also where there are thousands.
+   subroutine find_twins(model, sides, twin)
       type(model_t), intent(in) :: model
-      type(element_load_t), intent(in) :: loads
-      integer(ip), allocatable, intent(out) :: first(:), load(:)
-      integer(ip), allocatable :: next(:)
-      integer(ip) :: e, i
+      type(sides_t), intent(in) :: sides(:)
+      integer(ip), intent(out) :: twin(:)
+      integer(lp), allocatable :: face(:)
+      integer(ip), allocatable :: pair(:), order(:)
+      logical, allocatable :: is_slave(:)
+      integer(ip) :: i, k, n, first, last
 
-      allocate (first(model%mesh%n_elements + 1), source=0_ip)
-      do i = 1, loads%n
-         if (.not. is_on_volume(loads%kind(i))) first(loads%element(i) + 1) = first(loads%element(i) + 1) + 1
+      n = sum([(size(sides(i)%slave, kind=ip) + size(sides(i)%master, kind=ip), i=1, size(sides, kind=ip))])
+      allocate (face(n), pair(n), is_slave(n))
+      n = 0
+      do i = 1, size(sides, kind=ip)
+         associate (s => size(sides(i)%slave, kind=ip), m => size(sides(i)%master, kind=ip))
+            face(n + 1:n + s + m) = [sides(i)%slave, sides(i)%master]
+            pair(n + 1:n + s + m) = i
+            is_slave(n + 1:n + s + m) = [(k <= s, k=1, s + m)]
+            n = n + s + m
+         end associate
       end do
-      first(1) = 1
-      do e = 1, model%mesh%n_elements
-         first(e + 1) = first(e + 1) + first(e)
-      end do
-      next = first
-      allocate (load(first(model%mesh%n_elements + 1) - 1))
-      do i = 1, loads%n
-         if (is_on_volume(loads%kind(i))) cycle
-         load(next(loads%element(i))) = i
-         next(loads%element(i)) = next(loads%element(i)) + 1
-      end do
-   end subroutine list_loads
-
-   !> The loads on the faces of a surface.
-   pure subroutine list_loads_on(faces, loads, first, load, list)
-      type(face_list_t), intent(in) :: faces
-      type(element_load_t), intent(in) :: loads
-      integer(ip), intent(in) :: first(:), load(:)
-      type(number_list_t), intent(inout) :: list
-      integer(ip) :: k, l
-
-      do k = 1, faces%n
-         do l = first(faces%element(k)), first(faces%element(k) + 1) - 1
-            if (loads%face(load(l)) == faces%face(k)) call add_number(list, load(l))
+      order = sorted_places(face)
+      twin = 0
+      first = 1
+      do last = 1, n
+         if (last < n) then
+            if (face(order(last + 1)) == face(order(last))) cycle
+         end if
+         do k = first, last
+            if (is_slave(order(k))) call compare(model, sides, pair(order(k)), pair(order(first:last)), &
+                                                 is_slave(order(first:last)), twin)
          end do
+         first = last + 1
       end do
-   end subroutine list_loads_on
+   end subroutine find_twins
 
-   !> Marks the loads on faces whose two ends have a part in the pair's points: of a master longer than its slave those that face
-   !> nothing do not count.
-   pure subroutine mark_loads(model, i, loads, listed, touched, pair_of)
+   !> A pair with others that have one of its slave faces on one side or the other: they are the same where they share faces of the
+   !> other side, too.
+   pure subroutine compare(model, sides, i, others, as_slave, twin)
       type(model_t), intent(in) :: model
-      integer(ip), intent(in) :: i                     !< the pair
-      type(element_load_t), intent(in) :: loads
-      integer(ip), intent(in) :: listed(:)             !< of the loads
-      logical, intent(inout) :: touched(:)             !< (nodes) false, as on return
-      integer(ip), intent(inout) :: pair_of(:)
-      integer(ip), allocatable :: nodes(:)
+      type(sides_t), intent(in) :: sides(:)
+      integer(ip), intent(in) :: i, others(:)
+      logical, intent(in) :: as_slave(:)               !< (others)
+      integer(ip), intent(inout) :: twin(:)
+      logical :: is_same
+      integer(ip) :: j
+
+      do j = 1, size(others, kind=ip)
+         associate (k => others(j))
+            if (k == i .or. twin(max(i, k)) > 0) cycle
+            if (.not. as_slave(j)) then
+               is_same = share_a_face(sides(i)%master, sides(k)%slave)
+            else if (model%points(i)%rigid .or. model%points(k)%rigid) then
+               is_same = model%pairs(i)%master == model%pairs(k)%master
+            else
+               is_same = share_a_face(sides(i)%master, sides(k)%master)
+            end if
+            if (is_same) twin(max(i, k)) = min(i, k)
+         end associate
+      end do
+   end subroutine compare
+
+   pure logical function share_a_face(a, b) result(share)
+      integer(lp), intent(in) :: a(:), b(:)
       integer(ip) :: k
 
-      touched(model%points(i)%entry) = .true.
-      do k = 1, size(listed, kind=ip)
-         nodes = face_nodes(model%mesh, loads%element(listed(k)), loads%face(listed(k)))
-         if (all(touched(nodes(:2)))) pair_of(listed(k)) = i
+      share = .false.
+      do k = 1, size(a, kind=ip)
+         share = any(b == a(k))
+         if (share) return
       end do
-      touched(model%points(i)%entry) = .false.
-   end subroutine mark_loads
+   end function share_a_face
 
 end module atrito_check_contact_sense

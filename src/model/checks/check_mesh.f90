@@ -45,20 +45,14 @@ contains
    subroutine check_sections(model, context)
       type(model_t), intent(in) :: model
       type(build_context_t), intent(in) :: context
-      type(number_list_t) :: without
-      type(token_t) :: place
-      integer(ip) :: e, first
+      integer(ip), allocatable :: without(:)
+      integer(ip) :: e
 
       if (context%sections_undetermined .and. has_errors()) return
-      first = 0
-      do e = 1, model%mesh%n_elements
-         if (model%section_of(e) /= 0) cycle
-         if (first == 0) first = e
-         call add_number(without, model%mesh%element_id(e))
-      end do
-      if (first == 0) return
-      place = place_token(context%deck, context%elements%place(first))
-      call report_error(context%deck, place, 'E-SECTION', 'no *SOLID SECTION for element '//ids_text(numbers_of(without)), &
+      without = pack([(e, e=1, model%mesh%n_elements)], model%section_of == 0)
+      if (size(without) == 0) return
+      call report_error(context%deck, place_token(context%deck, context%elements%place(without(1))), 'E-SECTION', &
+                        'no *SOLID SECTION for element '//ids_text(model%mesh%element_id(without)), &
                         expected='one *SOLID SECTION for each element', keyword='SOLID SECTION')
    end subroutine check_sections
 
@@ -111,26 +105,31 @@ contains
       logical, intent(in) :: locks, triangles, oscillates !< STANDARD elements with four nodes; with three; with six and more
       type(token_t), intent(in) :: place
       integer(ip), intent(in) :: state                 !< place in STATES
-      character(len=:), allocatable :: there
+      character(len=:), allocatable :: there, what, instead
 
       there = ' in '//trim(STATES(state)%name)
-      if (STATES(state)%has_hoop) there = ' in '//trim(STATES(state)%name)//' elements'
+      if (STATES(state)%has_hoop) there = there//' elements'
       if (poisson >= 0.5_wp) then
          call report_error(deck, place, 'E-VALUE', 'mu = '//to_text(poisson, 15)//there, &
                            expected="Poisson's ratio mu, plane strain -1 < mu < 0.5, plane stress -1 < mu <= 0.5 [-]", &
                            keyword='ELASTIC')
-      else if (poisson >= LOCKING_RATIO .and. triangles) then
-         call report_warning(deck, place, 'W-LOCKING', 'nearly incompressible: triangles with three nodes are much too stiff'// &
-                             there, expected='elements with four nodes and FORMULATION=BBAR of *SOLID SECTION, '// &
-                             'or mu < 0.49 [-]', keyword='ELASTIC')
-      else if (poisson >= LOCKING_RATIO .and. locks) then
-         call report_warning(deck, place, 'W-LOCKING', 'nearly incompressible: fully integrated Q1 elements are much too stiff'// &
-                             there, expected='FORMULATION=BBAR of *SOLID SECTION, or mu < 0.49 [-]', keyword='ELASTIC')
-      else if (poisson >= LOCKING_RATIO .and. oscillates) then
-         call report_warning(deck, place, 'W-LOCKING', 'nearly incompressible:'//there//' the pressures of elements with '// &
-                             'six, eight or nine nodes oscillate, in contact too', expected='elements with four nodes and '// &
-                             'FORMULATION=BBAR, or mu < 0.49 [-]', keyword='ELASTIC')
+         return
       end if
+      if (poisson < LOCKING_RATIO) return
+      instead = 'elements with four nodes and FORMULATION=BBAR'
+      if (triangles) then
+         what = ' triangles with three nodes are much too stiff'//there
+         instead = instead//' of *SOLID SECTION'
+      else if (locks) then
+         what = ' fully integrated Q1 elements are much too stiff'//there
+         instead = 'FORMULATION=BBAR of *SOLID SECTION'
+      else if (oscillates) then
+         what = there//' the pressures of elements with six, eight or nine nodes oscillate, in contact too'
+      else
+         return
+      end if
+      call report_warning(deck, place, 'W-LOCKING', 'nearly incompressible:'//what, expected=instead//', or mu < 0.49 [-]', &
+                          keyword='ELASTIC')
    end subroutine check_strained
 
    !> BBAR is for four nodes where nothing gives way across the plane; elsewhere it changes nothing, told once a section.
@@ -160,19 +159,17 @@ contains
    subroutine note_loose_nodes(model, context)
       type(model_t), intent(in) :: model
       type(build_context_t), intent(in) :: context
-      type(number_list_t) :: loose
-      integer(ip) :: i, first
+      integer(ip), allocatable :: loose(:)
+      integer(ip) :: i
 
-      first = 0
-      do i = 1, model%mesh%n_nodes
-         if (context%around%first(i + 1) > context%around%first(i)) cycle
-         if (find_id(context%rigid_bodies, i) > 0) cycle
-         if (first == 0) first = i
-         call add_number(loose, model%mesh%node_id(i))
-      end do
-      if (first == 0 .or. has_errors()) return
-      call report_note(context%deck, place_token(context%deck, context%nodes%place(first)), 'N-NODE', 'node '// &
-                       ids_text(numbers_of(loose))//' belongs to no element and has no unknowns', keyword='NODE')
+      if (has_errors()) return
+      associate (first => context%around%first, n => model%mesh%n_nodes)
+         loose = pack([(i, i=1, n)], first(2:n + 1) == first(:n))
+      end associate
+      loose = pack(loose, [(find_id(context%rigid_bodies, loose(i)) == 0, i=1, size(loose, kind=ip))])
+      if (size(loose) == 0) return
+      call report_note(context%deck, place_token(context%deck, context%nodes%place(loose(1))), 'N-NODE', 'node '// &
+                       ids_text(model%mesh%node_id(loose))//' belongs to no element and has no unknowns', keyword='NODE')
    end subroutine note_loose_nodes
 
    !> Elements that have an edge in common have all nodes of it in common: four-node beside nine-node elements, or large ones of
@@ -182,21 +179,18 @@ contains
       type(model_t), intent(in) :: model
       type(build_context_t), intent(in) :: context
       logical, allocatable :: misfit(:)
-      type(number_list_t) :: ids
-      integer(ip) :: e, first
+      integer(ip), allocatable :: found(:)
+      integer(ip) :: e
 
       if (all(DEGREE_OF(model%mesh%shape(:model%mesh%n_elements)) == 1)) return
       allocate (misfit(model%mesh%n_elements), source=.false.)
       do e = 1, model%mesh%n_elements
          if (SHAPES(model%mesh%shape(e))%degree > 1) call compare_neighbours(model%mesh, context, e, misfit)
       end do
-      first = findloc(misfit, .true., dim=1, kind=ip)
-      if (first == 0) return
-      do e = first, model%mesh%n_elements
-         if (misfit(e)) call add_number(ids, model%mesh%element_id(e))
-      end do
-      call report_error(context%deck, place_token(context%deck, context%elements%place(first)), 'E-EDGE', 'element '// &
-                        ids_text(numbers_of(ids))//' and a neighbour share nodes of an edge, but not all of them', &
+      found = pack([(e, e=1, model%mesh%n_elements)], misfit)
+      if (size(found) == 0) return
+      call report_error(context%deck, place_token(context%deck, context%elements%place(found(1))), 'E-EDGE', 'element '// &
+                        ids_text(model%mesh%element_id(found))//' and a neighbour share nodes of an edge, but not all of them', &
                         expected='elements of one order and size on both sides of an edge (CPE3 and CPE4, or CPE6, CPE8 and '// &
                         'CPE9; so CPS), or no common nodes and a *CONTACT PAIR', keyword='ELEMENT')
    end subroutine check_edges

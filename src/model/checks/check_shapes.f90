@@ -9,6 +9,7 @@ module atrito_check_shapes
    use atrito_messages, only: MOST_ERRORS
    use atrito_shape_functions, only: shape_gradients, shape_values, gauss_point
    use atrito_strings, only: to_text
+   use atrito_turned_elements, only: turned_nodes
    use atrito_threads, only: is_shared, chunk_count, find_chunk
    implicit none (type, external)
    private
@@ -34,11 +35,14 @@ contains
       logical, allocatable :: good(:)                  !< (runs of elements)
       integer(ip) :: run, first, last, e, shape, node, n
 
-      allocate (good(chunk_count(mesh%n_elements)))
-      !$omp parallel do default(none) private(first, last) shared(mesh, good) if(is_shared(mesh%n_elements))
+      allocate (good(chunk_count(mesh%n_elements)), source=.true.)
+      !$omp parallel do default(none) private(first, last, e, shape, node) shared(mesh, good) if(is_shared(mesh%n_elements))
       do run = 1, size(good, kind=ip)
          call find_chunk(run, mesh%n_elements, first, last)
-         good(run) = all_good(mesh, first, last)
+         do e = first, last
+            call judge_shape(mesh, e, shape, node)
+            if (shape /= SHAPE_GOOD) good(run) = .false.
+         end do
       end do
       !$omp end parallel do
       n = 0
@@ -57,99 +61,59 @@ contains
                            ' further elements are clockwise or degenerate', expected='corners counter-clockwise', keyword='ELEMENT')
    end subroutine check_shapes
 
-   !> Whether some elements, one after the other, all have a good shape.
-   pure logical function all_good(mesh, first, last)
-      type(mesh_t), intent(in) :: mesh
-      integer(ip), intent(in) :: first, last
-      integer(ip) :: e, shape, node
-
-      all_good = .false.
-      do e = first, last
-         call judge_shape(mesh, e, shape, node)
-         if (shape /= SHAPE_GOOD) return
-      end do
-      all_good = .true.
-   end function all_good
-
    subroutine report_shape(deck, mesh, e, shape, node, place)
       type(deck_t), intent(in) :: deck
       type(mesh_t), intent(in) :: mesh
       integer(ip), intent(in) :: e, shape, node
       type(token_t), intent(in) :: place
-      character(len=:), allocatable :: name, at_node
+      character(len=:), allocatable :: text, expected
       character(len=43) :: also(3)                     ! what is said of a centre, where there is one
-      integer(ip) :: corners
+      integer(ip), allocatable :: nodes(:)
+      integer(ip) :: corners, side
 
       also = [character(len=43) :: ' and centre', ', the centre', ', the centre near the middle of the element']
       corners = SHAPES(mesh%shape(e))%n_corners
       if (mesh%shape(e) <= 2*corners) also = ''
-      name = 'element '//to_text(mesh%element_id(e))
-      at_node = 'node '//to_text(mesh%node_id(mesh%nodes(node, e)))
-      select case (shape)
-      case (SHAPE_TINY)
-         call report_error(deck, place, 'E-SHAPE', name//' is so small that its area is no number of the machine', expected= &
-                           'a unit of length in which elements are at least '//to_text(LEAST_LENGTH)//' across', keyword='ELEMENT')
-      case (SHAPE_CLOCKWISE)
-         call report_error(deck, place, 'E-SHAPE', name//' runs clockwise', expected='corners counter-clockwise, for example '// &
-                           nodes_text(mesh, e, turned(mesh%shape(e))), keyword='ELEMENT')
-      case (SHAPE_DEGENERATE)
-         call report_error(deck, place, 'E-SHAPE', name//' is degenerate: its angle at '//at_node// &
-                           ' is not between 0 and 180 degrees', &
-                           expected=trim(merge('a triangle with an area ', 'a convex quadrilateral  ', corners == 3))// &
-                           ', corners counter-clockwise', keyword='ELEMENT')
-      case (SHAPE_ORDER)
-         call report_error(deck, place, 'E-SHAPE', name//' folds over near '//at_node// &
-                           ': its mid-side nodes'//trim(also(1))//' stand in another order', &
-                           expected='corners counter-clockwise, the middles of sides 1-2, 2-3, '// &
-                           trim(merge('3-1     ', '3-4, 4-1', corners == 3))// &
-                           trim(also(2))//': '// &
-                           nodes_text(mesh, e, nearest_order(mesh%x(:, mesh%nodes(:mesh%shape(e), e)))), keyword='ELEMENT')
-      case (SHAPE_FOLDED)
-         call report_error(deck, place, 'E-SHAPE', name//' folds over: '//at_node//', the '//role_text(mesh, e, node)// &
-                           ', lies too far off', expected='a mid-side node in the middle half of its side'// &
-                           trim(also(3)), keyword='ELEMENT')
-      end select
+      nodes = mesh%nodes(:mesh%shape(e), e)
+      associate (at_node => 'node '//to_text(mesh%node_id(nodes(node))))
+         select case (shape)
+         case (SHAPE_TINY)
+            text = ' is so small that its area is no number of the machine'
+            expected = 'a unit of length in which elements are at least '//to_text(LEAST_LENGTH)//' across'
+         case (SHAPE_CLOCKWISE)
+            text = ' runs clockwise'
+            expected = 'corners counter-clockwise, for example '//nodes_text(mesh, turned_nodes(nodes))
+         case (SHAPE_DEGENERATE)
+            text = ' is degenerate: its angle at '//at_node//' is not between 0 and 180 degrees'
+            expected = trim(merge('a triangle with an area ', 'a convex quadrilateral  ', corners == 3))// &
+                       ', corners counter-clockwise'
+         case (SHAPE_ORDER)
+            text = ' folds over near '//at_node//': its mid-side nodes'//trim(also(1))//' stand in another order'
+            expected = 'corners counter-clockwise, the middles of sides 1-2, 2-3, '// &
+                       trim(merge('3-1     ', '3-4, 4-1', corners == 3))//trim(also(2))//': '// &
+                       nodes_text(mesh, nodes(nearest_order(mesh%x(:, nodes))))
+         case default                                  ! SHAPE_FOLDED
+            text = ' folds over: '//at_node//', the centre, lies too far off'
+            side = node - corners
+            if (side <= corners) text = ' folds over: '//at_node//', the middle of the side from node '// &
+                                        to_text(mesh%node_id(nodes(side)))//' to node '// &
+                                        to_text(mesh%node_id(mesh%nodes(face_end(mesh, e, side), e)))//', lies too far off'
+            expected = 'a mid-side node in the middle half of its side'//trim(also(3))
+         end select
+      end associate
+      call report_error(deck, place, 'E-SHAPE', 'element '//to_text(mesh%element_id(e))//text, expected=expected, keyword='ELEMENT')
    end subroutine report_shape
 
-   !> The order of the nodes of a shape that runs the other way round.
-   pure function turned(shape) result(order)
-      integer(ip), intent(in) :: shape
-      integer(ip) :: order(shape)
-
-      if (SHAPES(shape)%n_corners == 3) then
-         order(:3) = [1_ip, 3_ip, 2_ip]
-         if (shape > 3) order(4:) = [6_ip, 5_ip, 4_ip]
-      else
-         order(:4) = [1_ip, 4_ip, 3_ip, 2_ip]
-         if (shape > 4) order(5:8) = [8_ip, 7_ip, 6_ip, 5_ip]
-         if (shape > 8) order(9) = 9
-      end if
-   end function turned
-
-   !> What a node of an element of the second degree is.
-   pure function role_text(mesh, e, node) result(text)
+   !> Numbers of nodes, with commas between them.
+   pure function nodes_text(mesh, nodes) result(text)
       type(mesh_t), intent(in) :: mesh
-      integer(ip), intent(in) :: e, node               !< no corner
-      character(len=:), allocatable :: text
-      integer(ip) :: side
-
-      text = 'centre'
-      side = node - SHAPES(mesh%shape(e))%n_corners
-      if (side > SHAPES(mesh%shape(e))%n_corners) return
-      text = 'middle of the side from node '//to_text(mesh%node_id(mesh%nodes(side, e)))//' to node '// &
-             to_text(mesh%node_id(mesh%nodes(face_end(mesh, e, side), e)))
-   end function role_text
-
-   !> The nodes of an element in some order.
-   pure function nodes_text(mesh, e, order) result(text)
-      type(mesh_t), intent(in) :: mesh
-      integer(ip), intent(in) :: e, order(:)
+      integer(ip), intent(in) :: nodes(:)              !< places
       character(len=:), allocatable :: text
       integer(ip) :: k
 
-      text = to_text(mesh%node_id(mesh%nodes(order(1), e)))
-      do k = 2, mesh%shape(e)
-         text = text//', '//to_text(mesh%node_id(mesh%nodes(order(k), e)))
+      text = to_text(mesh%node_id(nodes(1)))
+      do k = 2, size(nodes, kind=ip)
+         text = text//', '//to_text(mesh%node_id(nodes(k)))
       end do
    end function nodes_text
 
@@ -220,51 +184,37 @@ contains
       real(wp), intent(in) :: x(:, :)                  !< (2, nodes) [L]
       integer(ip), intent(out) :: shape                !< SHAPE_*
       integer(ip), intent(out) :: node                 !< the worst one
+      real(wp), parameter :: SHARE = 1.0e-6_wp         !< of the element: mid-sides and centre are where those of straight sides are
       real(wp) :: away(2, size(x, 2))
-      integer(ip) :: k, order(size(x, 2)), corners
+      integer(ip) :: k, corners
 
       corners = SHAPES(size(x, 2))%n_corners
-      shape = SHAPE_GOOD
-      node = 0
-      if (has_straight_sides(x)) then
-         call judge_corners(x(:, :corners), shape, node)
-         if (shape == SHAPE_GOOD) return
-      end if
-      shape = SHAPE_GOOD
-      call find_fold(x, node)
-      if (node == 0) return
-      order = nearest_order(x)
-      call judge_corners(x(:, :corners), shape, k)
-      if (shape /= SHAPE_GOOD) then
-         node = k
-         return
-      end if
-      call find_fold(x(:, order), k)
-      if (k == 0) then
-         shape = SHAPE_ORDER
-         return
-      end if
-      shape = SHAPE_FOLDED
       away = x - straight_places(x)
-      away(:, :corners) = 0.0_wp
-      node = maxloc(norm2(away/maxval(abs(away)), dim=1), dim=1, kind=ip)
-   end subroutine judge_second_degree
-
-   !> Whether mid-sides and centre are where those of straight sides are: then the corners say all of the element.
-   pure logical function has_straight_sides(x) result(straight)
-      real(wp), intent(in) :: x(:, :)                  !< (2, nodes) [L]
-      real(wp), parameter :: SHARE = 1.0e-6_wp         !< of the element
-
-      associate (corners => x(:, :SHAPES(size(x, 2))%n_corners))
-         straight = all(abs(x - straight_places(x)) <= SHARE*maxval(maxval(corners, dim=2) - minval(corners, dim=2)))
+      call judge_corners(x(:, :corners), shape, k)
+      node = k
+      associate (longest => maxval(maxval(x(:, :corners), dim=2) - minval(x(:, :corners), dim=2)))
+         if (shape == SHAPE_GOOD .and. all(abs(away) <= SHARE*longest)) return    ! then the corners say all of the element
       end associate
-   end function has_straight_sides
+      call find_fold(x, node)
+      if (node == 0) then
+         shape = SHAPE_GOOD
+      else if (shape /= SHAPE_GOOD) then
+         node = k
+      else
+         shape = SHAPE_ORDER
+         call find_fold(x(:, nearest_order(x)), k)
+         if (k == 0) return
+         shape = SHAPE_FOLDED
+         away(:, :corners) = 0.0_wp
+         node = maxloc(norm2(away/maxval(abs(away)), dim=1), dim=1, kind=ip)
+      end if
+   end subroutine judge_second_degree
 
    !> The node at or next to which the Jacobian is least and too small; 0: it is good everywhere.
    pure subroutine find_fold(x, node)
       real(wp), intent(in) :: x(:, :)                  !< (2, nodes) [L]
       integer(ip), intent(out) :: node
-      real(wp) :: y(2, size(x, 2)), least, jacobian, xi(2), weight, limit
+      real(wp) :: y(2, size(x, 2)), j(2, 2), least, jacobian, xi(2), weight, limit
       integer(ip) :: k, n
 
       n = size(x, 2, kind=ip)
@@ -280,20 +230,13 @@ contains
             call gauss_point(n, k - n, xi, weight)
             limit = FLAT
          end if
-         jacobian = jacobian_at(y, xi)
+         j = matmul(y, shape_gradients(n, xi))
+         jacobian = j(1, 1)*j(2, 2) - j(1, 2)*j(2, 1)
          if (jacobian >= min(least, limit)) cycle
          least = jacobian
          node = minloc(norm2(SHAPES(n)%place(:, :n) - spread(xi, 2, n), dim=1), dim=1, kind=ip)
       end do
    end subroutine find_fold
-
-   pure real(wp) function jacobian_at(x, xi) result(jacobian)
-      real(wp), intent(in) :: x(:, :), xi(2)
-      real(wp) :: j(2, 2)
-
-      j = matmul(x, shape_gradients(size(x, 2, kind=ip), xi))
-      jacobian = j(1, 1)*j(2, 2) - j(1, 2)*j(2, 1)
-   end function jacobian_at
 
    !> Places of the nodes in the element with the same corners and straight sides.
    pure function straight_places(x) result(straight)

@@ -11,7 +11,7 @@ module atrito_build_pretension
    use atrito_bilateral_rows, only: add_row, ROW_SECTION
    use atrito_build_context, only: build_context_t, note_place, section_cut_t
    use atrito_build_rigid_bodies, only: carriers_of, is_reference, append_rigid_body, cut_rigid_bodies
-   use atrito_build_temperatures, only: double_temperatures
+   use atrito_node_fields, only: double_temperatures
    use atrito_deck, only: card_t, token_t, line_item, keyword_name
    use atrito_diagnostics, only: report_error, report_warning
    use atrito_faces, only: add_face, face_list_t, list_node_elements

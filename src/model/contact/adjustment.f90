@@ -27,13 +27,6 @@ module atrito_adjustment
    !> A foot this near to a node of the master, in parts of the way to it, is that node.
    real(wp), parameter :: AT_NODE = 0.05_wp
 
-   !> The nodes of a slave; the length is 0 at other nodes.
-   type :: slave_nodes_t
-      real(wp), allocatable :: normal(:, :)            !< (2, n_nodes)
-      real(wp), allocatable :: length(:)               !< [L]
-      real(wp), allocatable :: turn(:)                 !< sine of the angle by which the normal is in doubt
-   end type slave_nodes_t
-
    !> The nodes of a pair that have been moved onto its master, or were there.
    type :: adjusted_t
       logical, allocatable :: node(:)                  !< (n_nodes); not allocated: none
@@ -85,75 +78,68 @@ contains
       type(build_context_t), intent(inout) :: context
       type(adjusted_t), intent(inout) :: adjusted
       type(master_t) :: master
-      type(slave_nodes_t) :: slave
-      real(wp), allocatable :: foot(:, :)
+      type(sight_t) :: sight
+      real(wp), dimension(2, context%model%mesh%n_nodes) :: normal, foot
+      real(wp), dimension(context%model%mesh%n_nodes) :: length, turn
       logical, allocatable :: is_member(:)
       integer(ip) :: k, n_blind
 
-      associate (model => context%model, pair => context%model%pairs(i))
-         allocate (adjusted%node(model%mesh%n_nodes), is_member(model%mesh%n_nodes), source=.false.)
+      associate (model => context%model, mesh => context%model%mesh, pair => context%model%pairs(i))
+         allocate (adjusted%node(mesh%n_nodes), is_member(mesh%n_nodes), source=.false.)
          if (pair%adjust_set > 0) is_member(members_of(model%node_sets%sets(pair%adjust_set))) = .true.
          call make_master(model, pair%master, master)
-         call list_nodes(model%mesh, model%surfaces(pair%slave)%faces, slave)
-         foot = model%mesh%x(:, :model%mesh%n_nodes)
+         call measure_nodes(mesh, model%surfaces(pair%slave)%faces, normal, length, turn)
+         foot = mesh%x(:, :mesh%n_nodes)
          n_blind = 0
-         do k = 1, model%mesh%n_nodes
-            if (.not. slave%length(k) > 0.0_wp .or. (pair%adjust_set > 0 .and. .not. is_member(k))) cycle
-            call look_at_master(model%mesh%x(:, k), slave, k, master, foot(:, k), adjusted%node(k))
-            if (.not. adjusted%node(k)) n_blind = n_blind + 1
+         do k = 1, mesh%n_nodes
+            if (.not. length(k) > 0.0_wp .or. (pair%adjust_set > 0 .and. .not. is_member(k))) cycle
+            sight = look_along(mesh%x(:, k), normal(:, k), 2*length(k), master)
+            if (sight%piece == 0) sight = look_at_end(mesh%x(:, k), normal(:, k), 2*length(k), turn(k), master)
+            adjusted%node(k) = sight%piece > 0
+            if (adjusted%node(k)) then
+               foot(:, k) = foot_of(mesh%x(:, k), normal(:, k), 2*length(k), master)
+            else
+               n_blind = n_blind + 1
+            end if
             if (pair%adjust_set > 0) cycle
             ! overlaps, however deep, and gaps up to the value
-            if (dot_product(foot(:, k) - model%mesh%x(:, k), slave%normal(:, k)) > pair%adjust) adjusted%node(k) = .false.
+            if (dot_product(foot(:, k) - mesh%x(:, k), normal(:, k)) > pair%adjust) adjusted%node(k) = .false.
          end do
-         call tell_moves(context, i, adjusted%node, norm2(foot - model%mesh%x(:, :model%mesh%n_nodes), dim=1), &
+         call tell_moves(context, i, adjusted%node, norm2(foot - mesh%x(:, :mesh%n_nodes), dim=1), &
                          merge(n_blind, 0_ip, pair%adjust_set > 0))
-         do k = 1, model%mesh%n_nodes
-            if (adjusted%node(k)) model%mesh%x(:, k) = foot(:, k)
+         do k = 1, mesh%n_nodes
+            if (adjusted%node(k)) mesh%x(:, k) = foot(:, k)
          end do
       end associate
    end subroutine adjust_pair
 
    !> Normals and lengths at the nodes of a slave, as of its NODAL points, whether their faces find the master whole or not.
-   pure subroutine list_nodes(mesh, faces, slave)
+   pure subroutine measure_nodes(mesh, faces, normal, length, turn)
       type(mesh_t), intent(in) :: mesh
       type(face_list_t), intent(in) :: faces           !< in order
-      type(slave_nodes_t), intent(out) :: slave
+      real(wp), intent(out) :: normal(:, :)            !< (2, n_nodes)
+      real(wp), intent(out) :: length(:)               !< (n_nodes) [L]; 0: none of the slave
+      real(wp), intent(out) :: turn(:)                 !< (n_nodes) sine of the angle by which the normal is in doubt
       type(nodal_rule_t) :: rule
       integer(ip) :: i, k
 
-      allocate (slave%normal(2, mesh%n_nodes), slave%length(mesh%n_nodes), slave%turn(mesh%n_nodes), source=0.0_wp)
+      normal = 0.0_wp
+      length = 0.0_wp
+      turn = 0.0_wp
       do i = 1, faces%n
          rule = nodal_rule(mesh, faces%element(i), faces%face(i))
          do k = 1, rule%n
             associate (node => rule%node(k))
-               slave%normal(:, node) = slave%normal(:, node) + rule%weight(k)*rule%normal(:, k)
-               slave%length(node) = slave%length(node) + rule%weight(k)
-               slave%turn(node) = max(slave%turn(node), turn_at(mesh, faces, i, rule))
+               normal(:, node) = normal(:, node) + rule%weight(k)*rule%normal(:, k)
+               length(node) = length(node) + rule%weight(k)
+               turn(node) = max(turn(node), turn_at(mesh, faces, i, rule))
             end associate
          end do
       end do
       do i = 1, mesh%n_nodes
-         if (slave%length(i) > 0.0_wp) slave%normal(:, i) = slave%normal(:, i)/norm2(slave%normal(:, i))
+         if (length(i) > 0.0_wp) normal(:, i) = normal(:, i)/norm2(normal(:, i))
       end do
-   end subroutine list_nodes
-
-   !> The foot of a node, if it sees the master.
-   pure subroutine look_at_master(x, slave, node, master, foot, sees)
-      real(wp), intent(in) :: x(2)
-      type(slave_nodes_t), intent(in) :: slave
-      integer(ip), intent(in) :: node
-      type(master_t), intent(in) :: master
-      real(wp), intent(inout) :: foot(2)
-      logical, intent(out) :: sees
-      type(sight_t) :: sight
-      real(wp) :: reach
-
-      reach = 2*slave%length(node)
-      sight = look_along(x, slave%normal(:, node), reach, master)
-      if (sight%piece == 0) sight = look_at_end(x, slave%normal(:, node), reach, slave%turn(node), master)
-      sees = sight%piece > 0
-      if (sees) foot = foot_of(x, slave%normal(:, node), reach, master)
-   end subroutine look_at_master
+   end subroutine measure_nodes
 
    !> The place of the master that is nearest to a node: along the slave's normal first, then along the master's where that leads
    !> to. Next to a node of the master it is that node, so that the ends of both sides stay together.

@@ -1,11 +1,11 @@
 !> *SURFACE INTERACTION with *SURFACE BEHAVIOR and *FRICTION, and *CONTACT PAIR.
 module atrito_build_contact
-   use atrito_deck, only: deck_t, card_t, token_t, option_t, count_lines, line_item, is_empty_token, keyword_name
+   use atrito_deck, only: deck_t, card_t, token_t, count_lines, line_item, is_empty_token, keyword_name
    use atrito_adjustment, only: read_adjustment
    use atrito_contact_rules, only: quadrature_of
    use atrito_diagnostics, only: report_error, report_note
    use atrito_build_context, only: build_context_t, keep_token, define_name, count_cards
-   use atrito_items, only: get_real, find_option, has_option, option_text, option_word
+   use atrito_items, only: get_real, has_option, option_text, option_word
    use atrito_kinds, only: ip, wp
    use atrito_model, only: interaction_t, pair_t, QUADRATURE_AUTO, QUADRATURE_NODAL, &
                            FRICTION_NONE, FRICTION_LOCAL, FRICTION_NONLOCAL, KERNEL_LINE
@@ -22,58 +22,51 @@ contains
    subroutine build_contact(context)
       type(build_context_t), intent(inout) :: context
       logical :: given(2)                              ! *SURFACE BEHAVIOR, *FRICTION of the current interaction
+      character(len=:), allocatable :: name
       integer(ip) :: i, current, n_pairs
 
       allocate (context%model%interactions(count_cards(context%deck, 'SURFACE INTERACTION')), &
                 context%model%pairs(count_lines(context%deck, 'CONTACT PAIR')))
       current = 0
       given = .false.
-      do i = 1, context%deck%n_cards
-         select case (keyword_name(context%deck%cards(i)))
-         case ('SURFACE INTERACTION')
-            call read_interaction_card(context%deck%cards(i), context, current)
-            given = .false.
-         case ('SURFACE BEHAVIOR')
-            if (current > 0) call read_behavior_card(context%deck, context%deck%cards(i), context%model%interactions(current), &
-                                                     given(1))
-         case ('FRICTION')
-            if (current > 0) call read_friction_card(context%deck, context%deck%cards(i), context%model%interactions(current), &
-                                                     given(2))
-         end select
-      end do
-      context%model%interactions = context%model%interactions(:context%interaction_names%n)
       n_pairs = 0
       do i = 1, context%deck%n_cards
-         if (keyword_name(context%deck%cards(i)) == 'CONTACT PAIR') call read_pair_card(context%deck%cards(i), context, &
-                                                                                        n_pairs)
+         associate (deck => context%deck, card => context%deck%cards(i), interactions => context%model%interactions)
+            select case (keyword_name(card))
+            case ('SURFACE INTERACTION')
+               call define_name(deck, card, 'surface interaction', context%interaction_names, context%interactions, name, current)
+               if (current > 0) interactions(current)%name = name
+               given = .false.
+            case ('SURFACE BEHAVIOR')
+               if (current > 0) call read_behavior_card(deck, card, interactions(current), given(1))
+            case ('FRICTION')
+               if (current > 0) call read_friction_card(deck, card, interactions(current), given(2))
+            end select
+         end associate
+      end do
+      context%model%interactions = context%model%interactions(:context%interaction_names%n)
+      do i = 1, context%deck%n_cards
+         if (keyword_name(context%deck%cards(i)) == 'CONTACT PAIR') call read_pair_card(context%deck%cards(i), context, n_pairs)
       end do
       context%model%pairs = context%model%pairs(:n_pairs)
    end subroutine build_contact
 
-   subroutine read_interaction_card(card, context, current)
-      type(card_t), intent(in) :: card
-      type(build_context_t), intent(inout) :: context
-      integer(ip), intent(out) :: current              !< the interaction that has begun; 0: none
-      character(len=:), allocatable :: name
-
-      call define_name(context%deck, card, 'surface interaction', context%interaction_names, context%interactions, name, current)
-      if (current > 0) context%model%interactions(current) = interaction_t(name=name)
-   end subroutine read_interaction_card
-
-   !> A keyword that an interaction has at most once.
-   logical function is_first(deck, card, name, given)
+   !> The data line of a card that an interaction has at most once; a second card is reported, unless it stands in a wrong place,
+   !> which the reader has reported. has_line: there is one to be read.
+   subroutine take_once(deck, card, name, given, has_line)
       type(deck_t), intent(in) :: deck
       type(card_t), intent(in) :: card
       character(len=*), intent(in) :: name             !< of the interaction
       logical, intent(inout) :: given
+      logical, intent(out) :: has_line
 
-      is_first = .not. given
+      has_line = .not. given .and. card%n_lines > 0
+      if (has_line) has_line = deck%lines(card%first_line)%ok
+      if (given .and. card%ok) call report_error(deck, card%place, 'E-TWICE', 'surface interaction '//name//' has two *'// &
+                                                 keyword_name(card), expected='one *'//keyword_name(card)// &
+                                                 ' a surface interaction', keyword=keyword_name(card))
       given = .true.
-      ! one that stands in a wrong place is reported by the reader
-      if (is_first .or. .not. card%ok) return
-      call report_error(deck, card%place, 'E-TWICE', 'surface interaction '//name//' has two *'//keyword_name(card), &
-                        expected='one *'//keyword_name(card)//' a surface interaction', keyword=keyword_name(card))
-   end function is_first
+   end subroutine take_once
 
    subroutine read_behavior_card(deck, card, interaction, given)
       type(deck_t), intent(in) :: deck
@@ -83,36 +76,32 @@ contains
       real(wp) :: slope
       logical :: ok
 
-      if (.not. is_first(deck, card, interaction%name, given)) return
-      if (card%n_lines == 0) return
-      associate (line => deck%lines(card%first_line))
-         if (.not. line%ok) return
+      call take_once(deck, card, interaction%name, given, ok)
+      if (.not. ok) return
+      associate (item => line_item(deck, deck%lines(card%first_line), 1_ip))
          select case (option_word(deck, card, 'PRESSURE-OVERCLOSURE'))
          case ('LINEAR')
-            call get_value(deck, card, line_item(deck, line, 1_ip), 'slope, a real > 0 [F/L^3]', slope, ok, positive=.true.)
+            call get_value(deck, card, item, 'slope, a real > 0 [F/L^3]', .true., slope, ok)
             if (ok) interaction%delta = 1.0_wp/slope
          case ('PENALTY')
-            call get_value(deck, card, line_item(deck, line, 1_ip), 'delta, a real >= 0 [L^3/F]', interaction%delta, ok)
+            call get_value(deck, card, item, 'delta, a real >= 0 [L^3/F]', .false., interaction%delta, ok)
          end select
       end associate
    end subroutine read_behavior_card
 
    !> A value that is not negative, or positive. Its reciprocal must be a number, too.
-   subroutine get_value(deck, card, token, what, value, ok, positive)
+   subroutine get_value(deck, card, token, what, is_positive, value, ok)
       type(deck_t), intent(in) :: deck
       type(card_t), intent(in) :: card
       type(token_t), intent(in) :: token
       character(len=*), intent(in) :: what
+      logical, intent(in) :: is_positive
       real(wp), intent(out) :: value
       logical, intent(out) :: ok
-      logical, intent(in), optional :: positive
-      logical :: may_be_zero
 
       call get_real(deck, token, what, value, ok, keyword=keyword_name(card))
-      if (.not. ok) return
-      may_be_zero = .not. present(positive)
-      if (may_be_zero .and. .not. abs(value) > 0.0_wp) return
-      ok = value > 1.0_wp/huge(1.0_wp)
+      if (.not. ok .or. value > 1.0_wp/huge(1.0_wp)) return
+      ok = .not. (is_positive .or. abs(value) > 0.0_wp)
       if (.not. ok) call report_error(deck, token, 'E-VALUE', to_text(value)//' is out of range', expected=what, &
                                       keyword=keyword_name(card))
    end subroutine get_value
@@ -122,29 +111,26 @@ contains
       type(card_t), intent(in) :: card
       type(interaction_t), intent(inout) :: interaction
       logical, intent(inout) :: given
+      type(token_t) :: items(3)
+      integer(ip) :: k
       logical :: ok
 
-      if (.not. is_first(deck, card, interaction%name, given)) return
-      if (card%n_lines == 0) return
-      associate (line => deck%lines(card%first_line))
-         if (.not. line%ok) return
-         call get_value(deck, card, line_item(deck, line, 1_ip), 'coefficient of friction nu, a real >= 0 [-]', &
-                        interaction%nu, ok)
-         if (has_option(deck, card, 'NONLOCAL')) then
-            interaction%friction = FRICTION_NONLOCAL
-            call get_value(deck, card, line_item(deck, line, 2_ip), 'slip eps, a real >= 0 [L]', interaction%eps, ok)
-            call get_value(deck, card, line_item(deck, line, 3_ip), 'radius rho, a real >= 0 [L]', interaction%rho, ok)
-            if (option_word(deck, card, 'KERNEL') == 'LINE') interaction%kernel = KERNEL_LINE
-            interaction%is_incremental = option_word(deck, card, 'SLIP') == 'INCREMENTAL'
-         else
-            interaction%is_incremental = option_word(deck, card, 'SLIP') /= 'TOTAL'
-            interaction%friction = FRICTION_LOCAL
-            if (.not. is_empty_token(line_item(deck, line, 2_ip))) then
-               call get_value(deck, card, line_item(deck, line, 2_ip), 'stick slope, a real > 0 [F/L^3]', &
-                              interaction%stick_slope, ok, positive=.true.)
-            end if
-         end if
-      end associate
+      call take_once(deck, card, interaction%name, given, ok)
+      if (.not. ok) return
+      items = [(line_item(deck, deck%lines(card%first_line), k), k=1, 3)]
+      call get_value(deck, card, items(1), 'coefficient of friction nu, a real >= 0 [-]', .false., interaction%nu, ok)
+      if (has_option(deck, card, 'NONLOCAL')) then
+         interaction%friction = FRICTION_NONLOCAL
+         call get_value(deck, card, items(2), 'slip eps, a real >= 0 [L]', .false., interaction%eps, ok)
+         call get_value(deck, card, items(3), 'radius rho, a real >= 0 [L]', .false., interaction%rho, ok)
+         if (option_word(deck, card, 'KERNEL') == 'LINE') interaction%kernel = KERNEL_LINE
+         interaction%is_incremental = option_word(deck, card, 'SLIP') == 'INCREMENTAL'
+      else
+         interaction%friction = FRICTION_LOCAL
+         interaction%is_incremental = option_word(deck, card, 'SLIP') /= 'TOTAL'
+         if (.not. is_empty_token(items(2))) call get_value(deck, card, items(2), 'stick slope, a real > 0 [F/L^3]', .true., &
+                                                            interaction%stick_slope, ok)
+      end if
       ! without a coefficient there are no tangential unknowns at all
       if (.not. interaction%nu > 0.0_wp) interaction%friction = FRICTION_NONE
    end subroutine read_friction_card
@@ -155,7 +141,7 @@ contains
       type(build_context_t), intent(inout) :: context
       integer(ip), intent(inout) :: n_pairs            !< that there are
       type(pair_t) :: pair
-      type(token_t) :: place
+      type(token_t) :: place, slave, master
       character(len=:), allocatable :: name
       integer(ip) :: i
       logical :: found
@@ -167,15 +153,19 @@ contains
       call read_quadrature(context%deck, card, pair%quadrature)
       call read_adjustment(context, card, pair)
       do i = card%first_line, card%first_line + card%n_lines - 1
-         if (.not. context%deck%lines(i)%ok) cycle
-         call find_surface(context, line_item(context%deck, context%deck%lines(i), 1_ip), pair%slave, 'CONTACT PAIR')
-         call find_surface(context, line_item(context%deck, context%deck%lines(i), 2_ip), pair%master, 'CONTACT PAIR')
+         associate (line => context%deck%lines(i))
+            if (.not. line%ok) cycle
+            slave = line_item(context%deck, line, 1_ip)
+            master = line_item(context%deck, line, 2_ip)
+         end associate
+         call find_surface(context, slave, pair%slave, 'CONTACT PAIR')
+         call find_surface(context, master, pair%master, 'CONTACT PAIR')
          context%pairs_undetermined = context%pairs_undetermined .or. pair%interaction == 0
          if (min(pair%interaction, pair%slave, pair%master) == 0) cycle
          n_pairs = n_pairs + 1
          context%model%pairs(n_pairs) = pair
-         call keep_token(context%slaves, n_pairs, line_item(context%deck, context%deck%lines(i), 1_ip))
-         call keep_token(context%masters, n_pairs, line_item(context%deck, context%deck%lines(i), 2_ip))
+         call keep_token(context%slaves, n_pairs, slave)
+         call keep_token(context%masters, n_pairs, master)
       end do
    end subroutine read_pair_card
 
@@ -185,23 +175,22 @@ contains
       type(card_t), intent(in) :: card
       integer(ip), intent(out) :: quadrature
       character(len=:), allocatable :: word
-      type(option_t) :: option
+      type(token_t) :: place
       integer(ip) :: by_type
       logical :: found
 
       quadrature = quadrature_of(option_word(deck, card, 'QUADRATURE'))
-      word = option_word(deck, card, 'TYPE')
-      by_type = quadrature_of(word)
+      by_type = quadrature_of(option_word(deck, card, 'TYPE'))
       if (by_type == QUADRATURE_AUTO) return
-      call find_option(deck, card, 'TYPE', option, found)
+      call option_text(deck, card, 'TYPE', word, found, place)
+      word = 'TYPE='//option_word(deck, card, 'TYPE')
       if (quadrature == QUADRATURE_AUTO) then
-         call report_note(deck, option%value, 'N-QUADRATURE', 'TYPE='//word//' means QUADRATURE=' &
+         call report_note(deck, place, 'N-QUADRATURE', word//' means QUADRATURE=' &
                           //merge('NODAL ', 'MORTAR', by_type == QUADRATURE_NODAL), keyword='CONTACT PAIR')
          quadrature = by_type
       else if (quadrature /= by_type) then
-         call report_error(deck, option%value, 'E-QUADRATURE', 'TYPE='//word//' and QUADRATURE=' &
-                           //option_word(deck, card, 'QUADRATURE')//' are different things', &
-                           expected='one of them', keyword='CONTACT PAIR')
+         call report_error(deck, place, 'E-QUADRATURE', word//' and QUADRATURE='//option_word(deck, card, 'QUADRATURE')// &
+                           ' are different things', expected='one of them', keyword='CONTACT PAIR')
       end if
    end subroutine read_quadrature
 

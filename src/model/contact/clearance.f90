@@ -1,11 +1,13 @@
-!> *CLEARANCE: initial gaps that are given, whatever the coordinates say; negative ones are a press fit.
+!> Initial gaps that the deck gives, whatever the coordinates say (*CLEARANCE; negative ones are a press fit), and initial overlaps
+!> that are resolved over a step, not at once (*CONTACT INTERFERENCE, SHRINK): until the step the whole overlap is allowed, so that
+!> contact does not feel it; over the step what is allowed goes to 0.
 module atrito_clearance
    use atrito_build_context, only: build_context_t, count_cards, place_text
-   use atrito_deck, only: card_t, data_line_t, token_t, line_item, keyword_name
-   use atrito_diagnostics, only: report_error
+   use atrito_deck, only: card_t, data_line_t, token_t, line_item, keyword_name, option_t
+   use atrito_diagnostics, only: report_error, report_note
    use atrito_growth, only: make_room
    use atrito_id_map, only: id_map_t, add_id, find_id
-   use atrito_items, only: get_real, has_option, option_real, option_text
+   use atrito_items, only: get_real, has_option, option_real, option_text, find_option, get_name
    use atrito_kinds, only: ip, wp
    use atrito_mesh, only: face_nodes
    use atrito_number_list, only: number_list_t, add_numbers, numbers_of
@@ -14,10 +16,10 @@ module atrito_clearance
    use atrito_references, only: find_nodes
    use atrito_refined_members, only: edge_value
    use atrito_refinement, only: refinement_t, edge_place, is_refined
-   use atrito_strings, only: string_t
+   use atrito_strings, only: string_t, to_text
    implicit none (type, external)
    private
-   public :: clearance_t, read_clearances, set_clearances
+   public :: clearance_t, read_clearances, set_clearances, interference_t, read_interferences, set_interferences
 
    character(len=*), parameter :: WHAT = 'initial gap, a real, negative for an overlap [L]'
 
@@ -31,22 +33,29 @@ module atrito_clearance
       real(wp), allocatable :: values(:)               !< of the nodes [L]
    end type clearance_t
 
+   character(len=*), parameter :: SHRINK_KEYWORD = 'CONTACT INTERFERENCE'
+
+   !> What a line says.
+   type :: interference_t
+      integer(ip) :: pair = 0                          !< place in model%pairs
+      integer(ip) :: step = 0                          !< that resolves the overlap
+      type(token_t) :: place
+   end type interference_t
+
 contains
 
    !> All *CLEARANCE of a deck. The surfaces of its pairs are known.
    subroutine read_clearances(context, list)
       type(build_context_t), intent(inout) :: context
       type(clearance_t), allocatable, intent(out) :: list(:)
-      type(clearance_t), allocatable :: longest(:)
       type(clearance_t) :: one
       type(pair_index_t) :: pairs
       integer(ip), allocatable :: of_pair(:)           ! place in the list; 0: none so far
       integer(ip) :: i, k, n
       logical :: ok
 
-      n = count_cards(context%deck, 'CLEARANCE')
-      allocate (list(n))
-      if (n == 0) return
+      allocate (list(count_cards(context%deck, 'CLEARANCE')))
+      if (size(list) == 0) return
       call index_pairs(context, pairs)
       allocate (of_pair(size(context%model%pairs)), source=0_ip)
       n = 0
@@ -66,42 +75,49 @@ contains
          of_pair(one%pair) = n
          context%model%pairs(one%pair)%gap_is_given = .true.
       end do
-      if (n == size(list)) return
-      longest = list(:n)
-      call move_alloc(longest, list)
+      list = list(:n)
    end subroutine read_clearances
 
+   !> The pair of the surfaces SLAVE and MASTER, and its gaps.
    subroutine read_card(card, context, pairs, one, ok)
       type(card_t), intent(in) :: card
       type(build_context_t), intent(in) :: context
       type(pair_index_t), intent(in) :: pairs
       type(clearance_t), intent(out) :: one
       logical, intent(out) :: ok
+      type(string_t) :: names(2)
+      type(token_t) :: places(2)
       type(number_list_t) :: nodes
       type(id_map_t) :: of_slave
       real(wp), allocatable :: values(:)
-      integer(ip) :: i
-      logical :: has_table
+      integer(ip), allocatable :: on_face(:)
+      integer(ip) :: i, k
+      logical :: has_table, found(2), known
 
-      call find_pair_of_card(card, context, pairs, one)
+      call option_text(context%deck, card, 'SLAVE', names(1)%s, found(1), places(1))
+      call option_text(context%deck, card, 'MASTER', names(2)%s, found(2), places(2))
+      one%place = places(1)
+      if (all(found)) call find_pair(context, pairs, names, places, 'SLAVE='//names(2)%s//', MASTER='//names(1)%s, 'CLEARANCE', &
+                                     one%pair)
       has_table = has_option(context%deck, card, 'TABULAR')
       call option_real(context%deck, card, 'VALUE', WHAT, one%value, one%is_uniform)
       ok = card%ok
       if (ok .and. (has_table .eqv. one%is_uniform)) then
          ok = .false.
-         call report_error(context%deck, card%place, 'E-CONFLICT', '*CLEARANCE with '//trim(merge('both VALUE and TABULAR      ', &
-                                                                                      'neither VALUE nor TABULAR   ', has_table)), &
+         call report_error(context%deck, card%place, 'E-CONFLICT', '*CLEARANCE with '//trim(merge('both VALUE and TABULAR   ', &
+                                                                                      'neither VALUE nor TABULAR', has_table)), &
                            expected='VALUE=, or TABULAR and data lines node, gap', keyword='CLEARANCE')
       end if
-      if (.not. ok .or. one%pair == 0) then
-         ok = .false.
-         return
-      end if
+      ok = ok .and. one%pair > 0
+      if (.not. ok) return
       allocate (one%node(0), one%values(0))
       if (one%is_uniform) return
       associate (faces => context%model%surfaces(context%model%pairs(one%pair)%slave)%faces)
          do i = 1, faces%n
-            call list_nodes(face_nodes(context%model%mesh, faces%element(i), faces%face(i)), of_slave)
+            on_face = face_nodes(context%model%mesh, faces%element(i), faces%face(i))
+            do k = 1, size(on_face, kind=ip)
+               call add_id(of_slave, on_face(k), 1_ip, known)
+            end do
          end do
       end associate
       do i = card%first_line, card%first_line + card%n_lines - 1
@@ -110,23 +126,6 @@ contains
       one%node = numbers_of(nodes)
       if (nodes%n > 0) one%values = values(:nodes%n)
    end subroutine read_card
-
-   !> The pair of the surfaces MASTER and SLAVE.
-   subroutine find_pair_of_card(card, context, pairs, one)
-      type(card_t), intent(in) :: card
-      type(build_context_t), intent(in) :: context
-      type(pair_index_t), intent(in) :: pairs
-      type(clearance_t), intent(inout) :: one
-      type(string_t) :: names(2)
-      type(token_t) :: places(2)
-      logical :: found(2)
-
-      call option_text(context%deck, card, 'SLAVE', names(1)%s, found(1), places(1))
-      call option_text(context%deck, card, 'MASTER', names(2)%s, found(2), places(2))
-      if (.not. all(found)) return
-      one%place = places(1)
-      call find_pair(context, pairs, names, places, 'SLAVE='//names(2)%s//', MASTER='//names(1)%s, 'CLEARANCE', one%pair)
-   end subroutine find_pair_of_card
 
    !> node or set, gap.
    subroutine read_line(line, context, of_slave, all_nodes, values, ok)
@@ -157,17 +156,6 @@ contains
       values(all_nodes%n + 1:all_nodes%n + size(nodes)) = gap
       call add_numbers(all_nodes, nodes)
    end subroutine read_line
-
-   pure subroutine list_nodes(nodes, map)
-      integer(ip), intent(in) :: nodes(:)
-      type(id_map_t), intent(inout) :: map             !< it holds them in the end
-      logical :: known
-      integer(ip) :: i
-
-      do i = 1, size(nodes, kind=ip)
-         call add_id(map, nodes(i), 1_ip, known)
-      end do
-   end subroutine list_nodes
 
    !> Gives the points of the pairs their gaps.
    subroutine set_clearances(list, n_nodes, refinement, points)
@@ -244,5 +232,108 @@ contains
          points%gap(j) = total/weight
       end do
    end subroutine set_by_nodes
+
+   !> All lines of a deck. The surfaces of its pairs are known.
+   subroutine read_interferences(context, list)
+      type(build_context_t), intent(inout) :: context
+      type(interference_t), allocatable, intent(out) :: list(:)
+      type(interference_t) :: one
+      type(pair_index_t) :: pairs
+      integer(ip), allocatable :: of_pair(:)           ! place in the list; 0: none so far
+      integer(ip) :: i, k, n, twin
+
+      allocate (list(size(context%model%pairs)))       ! a pair is resolved once
+      allocate (of_pair(size(list)), source=0_ip)
+      call index_pairs(context, pairs)
+      n = 0
+      do i = 1, context%deck%n_cards
+         associate (card => context%deck%cards(i))
+            if (keyword_name(card) /= SHRINK_KEYWORD .or. .not. card%ok) cycle
+            if (.not. has_shrink(context, card)) cycle
+            do k = card%first_line, card%first_line + card%n_lines - 1
+               if (.not. context%deck%lines(k)%ok) cycle
+               call read_names(context, pairs, context%deck%lines(k), one)
+               if (one%pair == 0) cycle
+               twin = of_pair(one%pair)
+               if (twin > 0) then
+                  call report_error(context%deck, one%place, 'E-TWICE', 'the overlap of this pair is resolved already, in '// &
+                                    place_text(context%deck, list(twin)%place, one%place), expected='each pair in one step', &
+                                    keyword=SHRINK_KEYWORD)
+                  cycle
+               end if
+               n = n + 1
+               one%step = card%step
+               list(n) = one
+               of_pair(one%pair) = n
+               context%model%pairs(one%pair)%is_resolved = .true.
+            end do
+         end associate
+      end do
+      list = list(:n)
+   end subroutine read_interferences
+
+   !> Allowed interferences that are given are not built.
+   logical function has_shrink(context, card)
+      type(build_context_t), intent(in) :: context
+      type(card_t), intent(in) :: card
+      type(option_t) :: option
+      logical :: found
+
+      has_shrink = has_option(context%deck, card, 'SHRINK')
+      call find_option(context%deck, card, 'AMPLITUDE', option, found)
+      if (.not. has_shrink) then
+         call report_error(context%deck, card%place, 'E-NOT-BUILT', 'an interference that is given is not built', &
+                           expected='SHRINK, which resolves the initial overlap over the step; *CLEARANCE, VALUE= gives it', &
+                           keyword=SHRINK_KEYWORD)
+      else if (found) then
+         has_shrink = .false.
+         call report_error(context%deck, option%name, 'E-CONFLICT', 'SHRINK resolves the overlap linearly over the step', &
+                           expected='SHRINK without AMPLITUDE', keyword=SHRINK_KEYWORD)
+      end if
+   end function has_shrink
+
+   !> slave, master.
+   subroutine read_names(context, pairs, line, one)
+      type(build_context_t), intent(in) :: context
+      type(pair_index_t), intent(in) :: pairs
+      type(data_line_t), intent(in) :: line
+      type(interference_t), intent(out) :: one
+      type(string_t) :: names(2)
+      type(token_t) :: places(2)
+      integer(ip) :: i
+      logical :: ok(2)
+
+      do i = 1, 2
+         places(i) = line_item(context%deck, line, i)
+         call get_name(context%deck, places(i), 'name of a surface', names(i)%s, ok(i), SHRINK_KEYWORD)
+      end do
+      one%place = places(1)
+      if (all(ok)) call find_pair(context, pairs, names, places, names(2)%s//', '//names(1)%s, SHRINK_KEYWORD, one%pair)
+   end subroutine read_names
+
+   !> Gives the steps what they allow; the points of the pairs are known.
+   subroutine set_interferences(list, context)
+      type(interference_t), intent(in) :: list(:)
+      type(build_context_t), intent(inout) :: context
+      integer(ip) :: i, k
+
+      if (size(list) == 0) return
+      associate (model => context%model)
+         do k = 1, size(model%steps, kind=ip)
+            allocate (model%steps(k)%overlap(size(model%pairs)), model%steps(k)%overlap_from(size(model%pairs)), source=0.0_wp)
+            do i = 1, size(list, kind=ip)
+               if (k < list(i)%step) model%steps(k)%overlap(list(i)%pair) = 1.0_wp
+               if (k <= list(i)%step) model%steps(k)%overlap_from(list(i)%pair) = 1.0_wp
+            end do
+         end do
+      end associate
+      do i = 1, size(list, kind=ip)
+         associate (gap => context%model%points(list(i)%pair)%gap)
+            if (.not. any(gap < 0.0_wp)) call report_note(context%deck, list(i)%place, 'N-NO-OVERLAP', &
+                                                          'this pair has no initial overlap; its least gap is '// &
+                                                          to_text(minval(gap), 4)//' [L]', keyword=SHRINK_KEYWORD)
+         end associate
+      end do
+   end subroutine set_interferences
 
 end module atrito_clearance

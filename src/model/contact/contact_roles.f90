@@ -28,19 +28,35 @@ contains
    subroutine choose_roles(clearances, context)
       type(clearance_t), intent(in) :: clearances(:)
       type(build_context_t), intent(inout) :: context
+      type(chain_report_t) :: report
+      character(len=:), allocatable :: text
       real(wp) :: stiffness, fineness
-      integer(ip) :: i
+      integer(ip) :: i, former
 
       do i = 1, size(context%model%pairs, kind=ip)
          stiffness = slave_stiffness(context%model, i)
          if (stiffness < STIFFER) cycle
          fineness = slave_fineness(context%model, i)
          if (stiffness*(fineness - 1) < FINER) cycle
-         if (can_exchange(context%model, i, clearances)) then
-            call exchange(context, i, stiffness, fineness)
-         else
-            call warn(context, i, stiffness, fineness)
-         end if
+         associate (surfaces => context%model%surfaces, pair => context%model%pairs(i))
+            text = 'the slave '//surfaces(pair%slave)%name//' is '//to_text(stiffness, 2)//' times as stiff as '// &
+                   surfaces(pair%master)%name//' and '//to_text(fineness, 2)//' times as fine: '
+            if (can_exchange(context%model, i, clearances)) then
+               call report_note(context%deck, context%slaves(i), 'N-ROLES', text//'the softer side carries the pressures, '// &
+                                surfaces(pair%master)%name//' is the slave', keyword='CONTACT PAIR')
+               pair%is_exchanged = .true.
+               former = pair%slave
+               pair%slave = pair%master
+               pair%master = former
+               call order_chain(context%model%mesh, surfaces(pair%slave)%faces, report)
+            else
+               call report_warning(context%deck, context%slaves(i), 'W-STIFF-SLAVE', text// &
+                                   'pressures on it may alternate from node to node', &
+                                   expected=surfaces(pair%master)%name//', the softer side, as slave'// &
+                                   trim(merge(', with QUADRATURE=MORTAR', repeat(' ', 24), pair%quadrature == QUADRATURE_NODAL)), &
+                                   keyword='CONTACT PAIR')
+            end if
+         end associate
       end do
    end subroutine choose_roles
 
@@ -49,28 +65,20 @@ contains
       type(model_t), intent(in) :: model
       integer(ip), intent(in) :: i                     !< the pair
       type(contact_points_t), allocatable :: points(:)
-      logical :: is_faced(model%mesh%n_nodes)
+      logical, dimension(model%mesh%n_nodes) :: is_faced, is_on_master
+      integer(ip) :: k
 
-      associate (pair => model%pairs(i))
+      is_faced = .false.
+      is_on_master = .false.
+      associate (pair => model%pairs(i), faces => model%surfaces(model%pairs(i)%master)%faces)
          call pair_surfaces(model, [pair%slave], [pair%master], [pair%quadrature], points)
-         is_faced = .false.
          if (points(1)%n > 0) is_faced(points(1)%entry) = .true.
-         is_faced = is_faced .and. is_on(model, model%surfaces(pair%master)%faces)
-         fineness = real(points(1)%n - 1, wp)/max(count(is_faced) - 1, 1)
+         do k = 1, faces%n
+            is_on_master(face_nodes(model%mesh, faces%element(k), faces%face(k))) = .true.
+         end do
       end associate
+      fineness = real(points(1)%n - 1, wp)/max(count(is_faced .and. is_on_master) - 1, 1)
    end function slave_fineness
-
-   pure function is_on(model, faces)
-      type(model_t), intent(in) :: model
-      type(face_list_t), intent(in) :: faces
-      logical :: is_on(model%mesh%n_nodes)             !< the nodes of the faces
-      integer(ip) :: i
-
-      is_on = .false.
-      do i = 1, faces%n
-         is_on(face_nodes(model%mesh, faces%element(i), faces%face(i))) = .true.
-      end do
-   end function is_on
 
    !> The master can be the slave, and nothing else in the deck hangs on who it is.
    logical function can_exchange(model, i, clearances) result(can)
@@ -106,51 +114,5 @@ contains
          if (allocated(model%ties)) n_uses = n_uses + count(model%ties%slave == surface .or. model%ties%master == surface, kind=ip)
       end function n_uses
    end function can_exchange
-
-   subroutine exchange(context, i, stiffness, fineness)
-      type(build_context_t), intent(inout) :: context
-      integer(ip), intent(in) :: i
-      real(wp), intent(in) :: stiffness, fineness
-      type(chain_report_t) :: report
-      integer(ip) :: former
-
-      associate (model => context%model, pair => context%model%pairs(i))
-         call report_note(context%deck, context%slaves(i), 'N-ROLES', side(context, i, stiffness, fineness)// &
-                          ': the softer side carries the pressures, '//model%surfaces(pair%master)%name//' is the slave', &
-                          keyword='CONTACT PAIR')
-         pair%is_exchanged = .true.
-         former = pair%slave
-         pair%slave = pair%master
-         pair%master = former
-         call order_chain(model%mesh, model%surfaces(pair%slave)%faces, report)
-      end associate
-   end subroutine exchange
-
-   subroutine warn(context, i, stiffness, fineness)
-      type(build_context_t), intent(in) :: context
-      integer(ip), intent(in) :: i
-      real(wp), intent(in) :: stiffness, fineness
-
-      associate (pair => context%model%pairs(i))
-         call report_warning(context%deck, context%slaves(i), 'W-STIFF-SLAVE', side(context, i, stiffness, fineness)// &
-                             ': pressures on it may alternate from node to node', expected= &
-                             context%model%surfaces(pair%master)%name//', the softer side, as slave'// &
-                             trim(merge(', with QUADRATURE=MORTAR', repeat(' ', 24), pair%quadrature == QUADRATURE_NODAL)), &
-                             keyword='CONTACT PAIR')
-      end associate
-   end subroutine warn
-
-   !> `the slave A is 200 times as stiff as B and 1.7 times as fine`
-   pure function side(context, i, stiffness, fineness) result(text)
-      type(build_context_t), intent(in) :: context
-      integer(ip), intent(in) :: i
-      real(wp), intent(in) :: stiffness, fineness
-      character(len=:), allocatable :: text
-
-      associate (surfaces => context%model%surfaces, pair => context%model%pairs(i))
-         text = 'the slave '//surfaces(pair%slave)%name//' is '//to_text(stiffness, 2)//' times as stiff as '// &
-                surfaces(pair%master)%name//' and '//to_text(fineness, 2)//' times as fine'
-      end associate
-   end function side
 
 end module atrito_contact_roles

@@ -1,15 +1,15 @@
 !> *CONTACT and what belongs to it: which surfaces may touch, and by which law.
 module atrito_contact_rules
-   use atrito_deck, only: deck_t, card_t, data_line_t, token_t, option_t, token_text, line_item, is_empty_token, keyword_name
+   use atrito_deck, only: deck_t, card_t, token_t, token_text, line_item, is_empty_token, keyword_name
    use atrito_diagnostics, only: report_error
    use atrito_build_context, only: build_context_t, place_text, has_errors
-   use atrito_growth, only: resize
-   use atrito_items, only: find_option, has_option, option_real, option_word
+   use atrito_items, only: has_option, option_real, option_text, option_word
    use atrito_kinds, only: ip, lp, wp
-   use atrito_model, only: model_t, SURFACE_SEGMENTS, QUADRATURE_AUTO, QUADRATURE_NODAL, QUADRATURE_MORTAR
+   use atrito_model, only: SURFACE_SEGMENTS, QUADRATURE_AUTO, QUADRATURE_NODAL, QUADRATURE_MORTAR
    use atrito_name_list, only: find_name
+   use atrito_number_list, only: number_list_t, add_number, numbers_of
    use atrito_references, only: report_unknown
-   use atrito_sorting, only: sorted_places
+   use atrito_sorting, only: first_at_least, sorted_places
    use atrito_strings, only: to_text
    implicit none (type, external)
    private
@@ -20,11 +20,10 @@ module atrito_contact_rules
 
    !> Pairs of surfaces, and a number for each.
    type :: rule_list_t
-      integer(ip) :: n = 0
-      integer(ip), allocatable :: surface(:, :)      !< (2, n) places in the model's list, or ANY_BODY
-      integer(ip), allocatable :: value(:)           !< (n)
-      integer(lp), allocatable :: key(:)             !< (n) sorted: of the surfaces
-      integer(ip), allocatable :: order(:)           !< (n) the rules by their keys; of equal ones the last is the last
+      type(number_list_t) :: a, b                    !< surfaces: places in the model's list, or ANY_BODY
+      type(number_list_t) :: value
+      integer(lp), allocatable :: key(:)             !< sorted: of the surfaces
+      integer(ip), allocatable :: order(:)           !< the rules by their keys; of equal ones the last is the last
    end type rule_list_t
 
    type :: contact_rules_t
@@ -58,7 +57,7 @@ contains
             call read_lines(context%deck%cards(i), context, rules%assigned)
          end select
       end do
-      if (.not. rules%given .or. rules%included%n > 0 .or. has_errors()) return
+      if (.not. rules%given .or. rules%included%a%n > 0 .or. has_errors()) return
       call report_error(context%deck, rules%place, 'E-MISSING', '*CONTACT includes nothing', &
                         expected='*CONTACT INCLUSIONS, ALL EXTERIOR, or lines of surfaces', keyword='CONTACT INCLUSIONS')
    end subroutine read_contact_rules
@@ -68,7 +67,8 @@ contains
       type(card_t), intent(in) :: card
       type(contact_rules_t), intent(inout) :: rules
       character(len=*), parameter :: WHAT = 'farthest distance of faces that may touch, a real > 0 [L]'
-      type(option_t) :: option
+      character(len=:), allocatable :: text
+      type(token_t) :: place
       logical :: found
 
       if (rules%given) then
@@ -82,8 +82,8 @@ contains
       rules%quadrature = quadrature_of(option_word(deck, card, 'QUADRATURE'))
       call option_real(deck, card, 'DISTANCE', WHAT, rules%distance, found)
       if (.not. found .or. rules%distance > 0.0_wp) return
-      call find_option(deck, card, 'DISTANCE', option, found)
-      call report_error(deck, option%value, 'E-VALUE', 'DISTANCE = '//to_text(rules%distance), expected=WHAT, keyword='CONTACT')
+      call option_text(deck, card, 'DISTANCE', text, found, place)
+      call report_error(deck, place, 'E-VALUE', 'DISTANCE = '//to_text(rules%distance), expected=WHAT, keyword='CONTACT')
    end subroutine read_contact_card
 
    !> By the words of QUADRATURE, and of TYPE in other programs; QUADRATURE_AUTO where there is none.
@@ -100,30 +100,42 @@ contains
       end select
    end function quadrature_of
 
-   !> Lines of two surfaces, and of an interaction where one belongs.
+   !> Lines of two surfaces, and of an interaction where one belongs. Two rigid surfaces cannot touch each other.
    subroutine read_lines(card, context, rules)
       type(card_t), intent(in) :: card
       type(build_context_t), intent(in) :: context
       type(rule_list_t), intent(inout) :: rules
-      integer(ip) :: i, surface(2), value
-      logical :: ok(3)
+      type(token_t) :: items(3)
+      integer(ip) :: i, k, surface(2), value
+      logical :: ok(3), is_rigid(2)
 
       do i = card%first_line, card%first_line + card%n_lines - 1
          if (.not. context%deck%lines(i)%ok) cycle
-         associate (line => context%deck%lines(i))
-            call find_surface(card, line_item(context%deck, line, 1_ip), context, ANY_BODY, surface(1), ok(1))
-            call find_surface(card, line_item(context%deck, line, 2_ip), context, surface(1), surface(2), ok(2))
-            value = 1
-            ok(3) = .true.
-            if (keyword_name(card) == 'CONTACT PROPERTY ASSIGNMENT') then
-               call find_interaction(line_item(context%deck, line, 3_ip), context, value, ok(3))
-            end if
-            if (all(ok(:2))) ok(1) = has_body(context%deck, card, line, context%model, surface)
-            if (all(ok)) call add_rule(rules, surface(1), surface(2), value)
-         end associate
+         items = [(line_item(context%deck, context%deck%lines(i), k), k=1, 3)]
+         call find_surface(card, items(1), context, ANY_BODY, surface(1), ok(1))
+         call find_surface(card, items(2), context, surface(1), surface(2), ok(2))
+         value = 1
+         if (keyword_name(card) == 'CONTACT PROPERTY ASSIGNMENT') then
+            value = find_name(context%interaction_names, token_text(context%deck, items(3)))
+            if (value == 0) call report_unknown(context, items(3), 'surface interaction', 'E-INTERACTION', &
+                                                context%interaction_names, keyword_name(card))
+         end if
+         ok(3) = value > 0
+         if (all(ok(:2))) then
+            do k = 1, 2
+               is_rigid(k) = surface(k) /= ANY_BODY
+               if (is_rigid(k)) is_rigid(k) = context%model%surfaces(surface(k))%kind == SURFACE_SEGMENTS
+            end do
+            ok(1) = .not. all(is_rigid)
+            if (.not. ok(1)) call report_error(context%deck, items(1), 'E-PAIR', 'rigid surfaces do not touch each other', &
+                                               expected='a surface of elements, or an empty item, and a rigid surface', &
+                                               keyword=keyword_name(card))
+         end if
+         if (all(ok)) call add_rule(rules, surface(1), surface(2), value)
       end do
    end subroutine read_lines
 
+   !> The surface that an item names; where the item is empty, another one.
    subroutine find_surface(card, token, context, default, surface, ok)
       type(card_t), intent(in) :: card
       type(token_t), intent(in) :: token
@@ -150,69 +162,27 @@ contains
       end if
    end subroutine find_surface
 
-   !> Two rigid surfaces cannot touch each other.
-   logical function has_body(deck, card, line, model, surface)
-      type(deck_t), intent(in) :: deck
-      type(card_t), intent(in) :: card
-      type(data_line_t), intent(in) :: line
-      type(model_t), intent(in) :: model
-      integer(ip), intent(in) :: surface(2)
-      integer(ip) :: i
-
-      has_body = .false.
-      do i = 1, 2
-         if (surface(i) == ANY_BODY) then
-            has_body = .true.
-         else
-            has_body = has_body .or. model%surfaces(surface(i))%kind /= SURFACE_SEGMENTS
-         end if
-      end do
-      if (.not. has_body) call report_error(deck, line_item(deck, line, 1_ip), 'E-PAIR', 'rigid surfaces do not touch each other', &
-                                            expected='a surface of elements, or an empty item, and a rigid surface', &
-                                            keyword=keyword_name(card))
-   end function has_body
-
-   subroutine find_interaction(token, context, interaction, ok)
-      type(token_t), intent(in) :: token
-      type(build_context_t), intent(in) :: context
-      integer(ip), intent(out) :: interaction
-      logical, intent(out) :: ok
-
-      interaction = find_name(context%interaction_names, token_text(context%deck, token))
-      ok = interaction > 0
-      if (.not. ok) call report_unknown(context, token, 'surface interaction', 'E-INTERACTION', context%interaction_names, &
-                                        'CONTACT PROPERTY ASSIGNMENT')
-   end subroutine find_interaction
-
    !> Adds a rule to those that there are.
    pure subroutine add_rule(rules, a, b, value)
       type(rule_list_t), intent(inout) :: rules
       integer(ip), intent(in) :: a, b, value
 
-      if (.not. allocated(rules%value)) allocate (rules%surface(2, 16), rules%value(16))
-      if (rules%n == size(rules%value)) then
-         call resize(rules%surface, rules%n, 2*rules%n)
-         call resize(rules%value, rules%n, 2*rules%n)
-      end if
-      rules%n = rules%n + 1
-      rules%surface(:, rules%n) = [a, b]
-      rules%value(rules%n) = value
+      call add_number(rules%a, a)
+      call add_number(rules%b, b)
+      call add_number(rules%value, value)
    end subroutine add_rule
 
    !> To be called before last_rule.
    pure subroutine sort_rules(rules)
       type(rule_list_t), intent(inout) :: rules
-      integer(lp) :: key(rules%n)
-      integer(ip) :: i
+      integer(lp), allocatable :: key(:)
 
-      do i = 1, rules%n
-         key(i) = key_of(rules%surface(1, i), rules%surface(2, i))
-      end do
+      key = key_of(numbers_of(rules%a), numbers_of(rules%b))
       rules%order = sorted_places(key)
       rules%key = key(rules%order)
    end subroutine sort_rules
 
-   pure integer(lp) function key_of(a, b)
+   elemental integer(lp) function key_of(a, b)
       integer(ip), intent(in) :: a, b
 
       key_of = int(min(a, b), lp)*(int(huge(a), lp) + 1_lp) + int(max(a, b), lp)
@@ -222,36 +192,18 @@ contains
    pure integer(ip) function last_rule(rules, a, b) result(last)
       type(rule_list_t), intent(in) :: rules         !< sorted
       integer(ip), intent(in) :: a(:), b(:)          !< surfaces, ANY_BODY one of them for a body
-      integer(ip) :: i, k
+      integer(lp) :: key
+      integer(ip) :: i, k, found
 
       last = 0
-      if (rules%n == 0) return
       do i = 1, size(a, kind=ip)
          do k = 1, size(b, kind=ip)
-            last = max(last, find_rule(rules, key_of(a(i), b(k))))
+            key = key_of(a(i), b(k))
+            found = first_at_least(rules%key, key + 1) - 1   ! the last one that is not greater
+            if (found == 0) cycle
+            if (rules%key(found) == key) last = max(last, rules%order(found))
          end do
       end do
    end function last_rule
-
-   !> The last rule of a key; 0: none.
-   pure integer(ip) function find_rule(rules, key) result(rule)
-      type(rule_list_t), intent(in) :: rules
-      integer(lp), intent(in) :: key
-      integer(ip) :: low, high, middle
-
-      low = 0
-      high = rules%n + 1
-      do while (high - low > 1)
-         middle = (low + high)/2
-         if (rules%key(middle) > key) then
-            high = middle
-         else
-            low = middle
-         end if
-      end do
-      rule = 0
-      if (low == 0) return
-      if (rules%key(low) == key) rule = rules%order(low)
-   end function find_rule
 
 end module atrito_contact_rules

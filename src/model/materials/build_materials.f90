@@ -1,17 +1,15 @@
-!> *MATERIAL with *ELASTIC, *DENSITY and *EXPANSION, and *SOLID SECTION.
+!> *MATERIAL with *ELASTIC, *DENSITY and *EXPANSION, *ORIENTATION, and *SOLID SECTION.
 module atrito_build_materials
-   use atrito_deck, only: deck_t, card_t, data_line_t, token_t, token_text, line_item, keyword_name, is_empty_token
-   use atrito_diagnostics, only: report_error, report_note
    use atrito_build_context, only: build_context_t, place_text, keep_token, define_name, count_cards, ids_text, has_errors
-   use atrito_build_orientations, only: build_orientations
-   use atrito_build_thickness, only: taper_elements
-   use atrito_items, only: get_real, has_option, option_text, option_word
-   use atrito_kinds, only: ip, wp
+   use atrito_deck, only: deck_t, card_t, token_t, line_item, keyword_name, is_empty_token, data_line_t
+   use atrito_diagnostics, only: report_error, report_note
+   use atrito_items, only: get_real, has_option, option_text, option_word, get_integer
+   use atrito_kinds, only: ip, wp, PI
    use atrito_model, only: material_t, section_t, FORMULATION_BBAR
    use atrito_motion, only: turned
+   use atrito_node_fields, only: taper_elements
    use atrito_name_list, only: find_name
-   use atrito_number_list, only: number_list_t, add_number, numbers_of
-   use atrito_read_elastic, only: read_elastic_card, check_constant
+   use atrito_read_elastic, only: read_elastic_card, get_positive, check_comma, check_constant
    use atrito_references, only: report_unknown
    use atrito_sets, only: find_set, members_of
    use atrito_strings, only: to_text
@@ -21,6 +19,8 @@ module atrito_build_materials
 
    !> In model%section_of while the model is built: the element has a section, which is faulty.
    integer(ip), parameter :: SECTION_INVALID = -1
+
+   character(len=*), parameter :: KEYWORD = 'ORIENTATION'
 
 contains
 
@@ -92,28 +92,10 @@ contains
          call get_real(deck, line_item(deck, line, 1_ip), WHAT, material%density, ok, keyword='DENSITY')
          if (ok .and. material%density < 0.0_wp) call report_error(deck, line_item(deck, line, 1_ip), 'E-VALUE', &
                                         'the density '//to_text(material%density)//' is negative', expected=WHAT, keyword='DENSITY')
+         if (ok) ok = check_comma(deck, line, 1_ip, 'mass per volume [F T^2/L^4]; a temperature behind it as 20.', 'DENSITY')
       end associate
-      if (ok) call check_decimal_comma(deck, deck%lines(card%first_line), ok)
       if (ok) call check_constant(deck, card, [material%density], 'densities', ok)
    end subroutine read_density_card
-
-   !> `2,5` is a decimal comma, `7850, 20` and `7.85e-9,20` have a temperature.
-   subroutine check_decimal_comma(deck, line, ok)
-      type(deck_t), intent(in) :: deck
-      type(data_line_t), intent(in) :: line
-      logical, intent(inout) :: ok
-      type(token_t) :: density, temperature
-      character(len=*), parameter :: DIGITS = '0123456789'
-
-      if (line%n_tokens < 2) return
-      density = line_item(deck, line, 1_ip)
-      temperature = line_item(deck, line, 2_ip)
-      if (temperature%first /= density%last + 2 .or. is_empty_token(temperature)) return
-      if (verify(token_text(deck, density)//token_text(deck, temperature), DIGITS) > 0) return
-      ok = .false.
-      call report_error(deck, temperature, 'E-ITEMS', '2 items, where 1 belongs', &
-                        expected='mass per volume [F T^2/L^4]; a temperature behind it as 20.', keyword='DENSITY')
-   end subroutine check_decimal_comma
 
    subroutine read_expansion_card(deck, card, material)
       type(deck_t), intent(in) :: deck
@@ -139,35 +121,34 @@ contains
       type(build_context_t), intent(inout) :: context
       integer(ip), intent(inout) :: n_sections         !< that there are
       type(section_t) :: section
-      type(token_t) :: place
+      type(token_t) :: place, elset
       character(len=:), allocatable :: material
       integer(ip) :: i_set, number
       logical :: named, ok
 
-      call option_text(context%deck, card, 'ELSET', section%elset, named, place)
-      i_set = find_set(context%model%element_sets, section%elset)
-      if (named .and. i_set == 0) call report_unknown(context, place, 'element set', 'E-SET', context%model%element_sets%names, &
-                                                      'SOLID SECTION')
-      ok = i_set > 0 .and. card%ok
-      if (option_word(context%deck, card, 'FORMULATION') == 'BBAR') section%formulation = FORMULATION_BBAR
-      call read_thickness(context%deck, card, section%thickness, ok)
-      call take_nodal_thickness(context%deck, card, section)
-      if (i_set == 0) context%sections_undetermined = .true.
-
-      call option_text(context%deck, card, 'MATERIAL', material, named, place)
-      section%material = find_name(context%material_names, material)
-      if (named .and. section%material == 0) call report_unknown(context, place, 'material', 'E-MATERIAL', context%material_names, &
-                                                                 'SOLID SECTION')
-      ok = ok .and. section%material > 0
-      call take_orientation(card, context, section, ok)
-      number = SECTION_INVALID
-      if (ok) then
-         n_sections = n_sections + 1
-         context%model%sections(n_sections) = section
-         call keep_token(context%sections, n_sections, card%place)
-         number = n_sections
-      end if
-      if (i_set > 0) call assign_section(card, context, members_of(context%model%element_sets%sets(i_set)), number)
+      associate (deck => context%deck, sets => context%model%element_sets)
+         call option_text(deck, card, 'ELSET', section%elset, named, elset)
+         i_set = find_set(sets, section%elset)
+         if (named .and. i_set == 0) call report_unknown(context, elset, 'element set', 'E-SET', sets%names, 'SOLID SECTION')
+         ok = i_set > 0 .and. card%ok
+         if (i_set == 0) context%sections_undetermined = .true.
+         if (option_word(deck, card, 'FORMULATION') == 'BBAR') section%formulation = FORMULATION_BBAR
+         call read_thickness(deck, card, section, ok)
+         call option_text(deck, card, 'MATERIAL', material, named, place)
+         section%material = find_name(context%material_names, material)
+         if (named .and. section%material == 0) call report_unknown(context, place, 'material', 'E-MATERIAL', &
+                                                                    context%material_names, 'SOLID SECTION')
+         ok = ok .and. section%material > 0
+         call take_orientation(card, context, section, ok)
+         number = SECTION_INVALID
+         if (ok) then
+            n_sections = n_sections + 1
+            context%model%sections(n_sections) = section
+            call keep_token(context%sections, n_sections, card%place)
+            number = n_sections
+         end if
+         if (i_set > 0) call assign_section(card%place, elset, section%elset, context, members_of(sets%sets(i_set)), number)
+      end associate
    end subroutine read_section_card
 
    !> The axes of the material, where it has any.
@@ -205,68 +186,150 @@ contains
                         expected='FORMULATION=STANDARD for an orthotropic material', keyword='SOLID SECTION')
    end subroutine take_orientation
 
-   subroutine read_thickness(deck, card, thickness, ok)
-      type(deck_t), intent(in) :: deck
-      type(card_t), intent(in) :: card
-      real(wp), intent(inout) :: thickness
-      logical, intent(inout) :: ok
-      character(len=*), parameter :: WHAT = 'thickness, a real > 0 [L]'
-      logical :: good
-
-      if (card%n_lines == 0) return
-      associate (line => deck%lines(card%first_line))
-         good = line%ok
-         if (good) call get_real(deck, line_item(deck, line, 1_ip), WHAT, thickness, good, 1.0_wp, 'SOLID SECTION')
-         if (good .and. thickness <= 0.0_wp) then
-            good = .false.
-            call report_error(deck, line_item(deck, line, 1_ip), 'E-VALUE', 'the thickness '//to_text(thickness)// &
-                              ' is not positive', expected=WHAT, keyword='SOLID SECTION')
-         end if
-         ok = ok .and. good
-      end associate
-   end subroutine read_thickness
-
-   !> Where the nodes have the thickness, a line with another has no effect.
-   subroutine take_nodal_thickness(deck, card, section)
+   !> The thickness in a data line. Where the nodes have it, a line with another has no effect.
+   subroutine read_thickness(deck, card, section, ok)
       type(deck_t), intent(in) :: deck
       type(card_t), intent(in) :: card
       type(section_t), intent(inout) :: section
+      logical, intent(inout) :: ok                     !< the section has been understood so far
+      logical :: good
 
+      if (card%n_lines > 0) then
+         associate (line => deck%lines(card%first_line))
+            good = line%ok
+            if (good .and. .not. is_empty_token(line_item(deck, line, 1_ip))) then
+               call get_positive(deck, line_item(deck, line, 1_ip), 'thickness, a real > 0 [L]', 'the thickness ', &
+                                 section%thickness, good, 'SOLID SECTION')
+            end if
+            ok = ok .and. good
+         end associate
+      end if
       section%is_tapered = has_option(deck, card, 'NODAL THICKNESS')
       if (.not. section%is_tapered) return
-      if (abs(section%thickness - 1) > 0.0_wp) then
-         call report_note(deck, card%place, 'N-THICKNESS', 'the thickness '//to_text(section%thickness) &
-                          //' of the section has no effect: that of the nodes counts', keyword='SOLID SECTION')
-      end if
+      if (abs(section%thickness - 1) > 0.0_wp) call report_note(deck, card%place, 'N-THICKNESS', 'the thickness '// &
+                                                                to_text(section%thickness)//' of the section has no effect: '// &
+                                                                'that of the nodes counts', keyword='SOLID SECTION')
       section%thickness = 1.0_wp
-   end subroutine take_nodal_thickness
+   end subroutine read_thickness
 
    !> Gives elements their section; those that have one already are an error, told in one message.
-   subroutine assign_section(card, context, elements, number)
-      type(card_t), intent(in) :: card
+   subroutine assign_section(card, place, elset, context, elements, number)
+      type(token_t), intent(in) :: card, place         !< of the section, and of its set
+      character(len=*), intent(in) :: elset
       type(build_context_t), intent(in) :: context
       integer(ip), intent(in) :: elements(:), number
-      type(number_list_t) :: twice
-      type(token_t) :: place, earlier
-      character(len=:), allocatable :: elset
-      integer(ip) :: i, first
-      logical :: found
+      integer(ip), allocatable :: twice(:)
+      type(token_t) :: earlier
 
-      first = 0
-      do i = 1, size(elements, kind=ip)
-         if (context%model%section_of(elements(i)) /= 0) then
-            call add_number(twice, context%model%mesh%element_id(elements(i)))
-            first = max(first, context%model%section_of(elements(i)))
-         end if
-         context%model%section_of(elements(i)) = number
-      end do
-      if (twice%n == 0) return
-      call option_text(context%deck, card, 'ELSET', elset, found, place)
-      earlier = card%place
-      if (first > 0) earlier = context%sections(first)
-      call report_error(context%deck, place, 'E-SECTION', 'element '//ids_text(numbers_of(twice))//' of set '//elset// &
-                        ' has a section already, from '//place_text(context%deck, earlier, place), &
-                        expected='one *SOLID SECTION for each element', keyword='SOLID SECTION')
+      twice = pack(elements, context%model%section_of(elements) /= 0)
+      if (size(twice) > 0) then
+         earlier = card
+         associate (first => maxval(context%model%section_of(twice)))
+            if (first > 0) earlier = context%sections(first)
+         end associate
+         call report_error(context%deck, place, 'E-SECTION', 'element '//ids_text(context%model%mesh%element_id(twice))// &
+                           ' of set '//elset//' has a section already, from '//place_text(context%deck, earlier, place), &
+                           expected='one *SOLID SECTION for each element', keyword='SOLID SECTION')
+      end if
+      context%model%section_of(elements) = number
    end subroutine assign_section
+
+   !> All *ORIENTATION cards: context%orientation_axis, 0 where a card is faulty.
+   subroutine build_orientations(context)
+      type(build_context_t), intent(inout) :: context
+      character(len=:), allocatable :: name
+      real(wp) :: axis(2)
+      integer(ip) :: i, place
+
+      allocate (context%orientation_axis(2, count_cards(context%deck, KEYWORD)), source=0.0_wp)
+      if (size(context%orientation_axis) == 0) return
+      do i = 1, context%deck%n_cards
+         if (keyword_name(context%deck%cards(i)) /= KEYWORD) cycle
+         call define_name(context%deck, context%deck%cards(i), 'orientation', context%orientation_names, context%orientations, &
+                          name, place)
+         if (place == 0) cycle
+         call read_axis(context%deck%cards(i), context%deck, axis)
+         context%orientation_axis(:, place) = axis
+      end do
+   end subroutine build_orientations
+
+   !> The direction of the first axis; 0: it is faulty.
+   subroutine read_axis(card, deck, axis)
+      type(card_t), intent(in) :: card
+      type(deck_t), intent(in) :: deck
+      real(wp), intent(out) :: axis(2)
+      real(wp) :: a(3), b(3), turn
+      logical :: ok
+
+      axis = 0.0_wp
+      if (card%n_lines == 0 .or. .not. card%ok) return
+      if (.not. all(deck%lines(card%first_line:card%first_line + card%n_lines - 1)%ok)) return
+      call read_points(deck%lines(card%first_line), deck, a, b, ok)
+      if (.not. ok) return
+      turn = 0.0_wp
+      if (card%n_lines > 1) call read_turn(deck%lines(card%first_line + 1), deck, turn, ok)
+      if (.not. ok) return
+      a = a/norm2(a)
+      turn = sign(turn, turn*(a(1)*b(2) - a(2)*b(1)))   ! round the third axis, which points to the viewer or away
+      axis = [cosine(turn)*a(1) - cosine(90 - turn)*a(2), cosine(90 - turn)*a(1) + cosine(turn)*a(2)]
+   end subroutine read_axis
+
+   !> Of an angle in degrees, exact at multiples of 90.
+   pure real(wp) function cosine(angle)
+      real(wp), intent(in) :: angle
+
+      cosine = cos(angle*(PI/180))
+      if (.not. abs(modulo(angle, 90.0_wp)) > 0.0_wp) cosine = anint(cosine)
+   end function cosine
+
+   !> Two points in the plane that span it.
+   subroutine read_points(line, deck, a, b, ok)
+      type(data_line_t), intent(in) :: line
+      type(deck_t), intent(in) :: deck
+      real(wp), intent(out) :: a(3), b(3)
+      logical, intent(out) :: ok
+      character(len=*), parameter :: WHAT = 'coordinate, a real [L]'
+      real(wp), parameter :: FLAT = 1.0e-10_wp         ! what rounding leaves of 0
+      logical :: good(6)
+      integer(ip) :: i
+
+      do i = 1, 3
+         call get_real(deck, line_item(deck, line, i), WHAT, a(i), good(i), keyword=KEYWORD)
+         call get_real(deck, line_item(deck, line, i + 3), WHAT, b(i), good(i + 3), keyword=KEYWORD)
+      end do
+      ok = all(good)
+      if (.not. ok) return
+      if (abs(a(3)) <= FLAT*maxval(abs(a(:2)))) a(3) = 0.0_wp
+      if (abs(b(3)) <= FLAT*maxval(abs(b(:2)))) b(3) = 0.0_wp
+      ok = .not. (abs(a(3)) > 0.0_wp .or. abs(b(3)) > 0.0_wp)
+      if (.not. ok) then
+         call report_error(deck, line_item(deck, line, merge(3_ip, 6_ip, abs(a(3)) > 0.0_wp)), 'E-VALUE', &
+                           'the scene is plane: these axes leave it', expected='za = zb = 0', keyword=KEYWORD)
+         return
+      end if
+      if (maxval(abs(a)) > 0.0_wp) a = a/maxval(abs(a))
+      if (maxval(abs(b)) > 0.0_wp) b = b/maxval(abs(b))
+      ok = abs(a(1)*b(2) - a(2)*b(1)) > 1.0e-12_wp*norm2(a)*norm2(b)
+      if (.not. ok) call report_error(deck, line_item(deck, line, 4_ip), 'E-VALUE', 'the points give no two axes', &
+                                      expected='points a and b in two directions from the origin', keyword=KEYWORD)
+   end subroutine read_points
+
+   !> A rotation about one of the axes, the third one here.
+   subroutine read_turn(line, deck, turn, ok)
+      type(data_line_t), intent(in) :: line
+      type(deck_t), intent(in) :: deck
+      real(wp), intent(out) :: turn                    !< [degrees]
+      logical, intent(out) :: ok
+      integer(ip) :: about
+      logical :: good(2)
+
+      call get_integer(deck, line_item(deck, line, 1_ip), 'local axis, 1, 2 or 3', about, good(1), keyword=KEYWORD)
+      call get_real(deck, line_item(deck, line, 2_ip), 'angle, a real in degrees', turn, good(2), 0.0_wp, KEYWORD)
+      ok = all(good)
+      if (.not. ok .or. about == 3 .or. .not. abs(turn) > 0.0_wp) return
+      ok = .false.
+      call report_error(deck, line_item(deck, line, 1_ip), 'E-VALUE', 'the scene is plane: this rotation leaves it', &
+                        expected='3, the axis across the plane', keyword=KEYWORD)
+   end subroutine read_turn
 
 end module atrito_build_materials

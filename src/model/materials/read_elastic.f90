@@ -1,7 +1,7 @@
 !> *ELASTIC: E and mu, engineering constants or stiffnesses of an orthotropic material.
 module atrito_read_elastic
    use atrito_build_context, only: build_context_t
-   use atrito_deck, only: card_t, deck_t, data_line_t, token_t, token_text, line_item
+   use atrito_deck, only: card_t, deck_t, data_line_t, token_t, token_text, line_item, is_empty_token
    use atrito_diagnostics, only: report_error
    use atrito_items, only: get_real, option_word
    use atrito_kinds, only: ip, wp
@@ -10,13 +10,11 @@ module atrito_read_elastic
    use atrito_strings, only: to_text
    implicit none (type, external)
    private
-   public :: read_elastic_card, check_constant
+   public :: read_elastic_card, get_positive, check_comma, check_constant
 
    character(len=*), parameter :: KEYWORD = 'ELASTIC'
    character(len=*), parameter :: WHAT_E = "Young's modulus E, a real > 0 [F/L^2]", &
-                                  WHAT_MU = "Poisson's ratio mu, plane strain -1 < mu < 0.5, plane stress -1 < mu <= 0.5 [-]", &
-                                  WHAT_CONSTANT = 'elastic constant, a real [F/L^2]', WHAT_RATIO = "Poisson's ratio, a real [-]", &
-                                  WHAT_MODULUS = 'modulus, a real > 0 [F/L^2]'
+                                  WHAT_MU = "Poisson's ratio mu, plane strain -1 < mu < 0.5, plane stress -1 < mu <= 0.5 [-]"
 
    integer(ip), parameter :: N_CONSTANTS = 9           !< of an orthotropic material, the last one on the second line
    integer(ip), parameter :: N_FIRST = 8
@@ -60,40 +58,52 @@ contains
       all_ok = .false.
       associate (line => deck%lines(card%first_line))
          if (.not. line%ok) return
-         call get_real(deck, line_item(deck, line, 1_ip), WHAT_E, material%young, ok(1), keyword=KEYWORD)
+         call get_positive(deck, line_item(deck, line, 1_ip), WHAT_E, 'E = ', material%young, ok(1), KEYWORD)
          call get_real(deck, line_item(deck, line, 2_ip), WHAT_MU, material%poisson, ok(2), keyword=KEYWORD)
-         if (ok(1) .and. material%young <= 0.0_wp) then
-            ok(1) = .false.
-            call report_error(deck, line_item(deck, line, 1_ip), 'E-VALUE', 'E = '//to_text(material%young)// &
-                              ' is not positive', expected=WHAT_E, keyword=KEYWORD)
-         end if
          if (ok(2) .and. (material%poisson <= -1.0_wp .or. material%poisson > 0.5_wp)) then
             ok(2) = .false.
             call report_error(deck, line_item(deck, line, 2_ip), 'E-VALUE', 'mu = '//to_text(material%poisson, 15)// &
                               ' is out of range', expected=WHAT_MU, keyword=KEYWORD)
          end if
+         all_ok = all(ok)
+         if (all_ok) all_ok = token_text(deck, line_item(deck, line, 2_ip)) /= '0' .or. &
+                              check_comma(deck, line, 2_ip, 'E [F/L^2], mu [-]; a temperature behind mu = 0 as 0., 20.', KEYWORD)
       end associate
-      all_ok = all(ok)
-      if (all_ok) call check_comma(deck, deck%lines(card%first_line), all_ok)
       if (all_ok) call check_constant(deck, card, [material%young, material%poisson], 'E and mu', all_ok)
    end subroutine read_isotropic
 
-   !> `1000, 0,3` is a decimal comma, and no temperature behind mu = 0.
-   subroutine check_comma(deck, line, ok)
+   !> A real that must be positive.
+   subroutine get_positive(deck, token, what, name, value, ok, keyword)
+      type(deck_t), intent(in) :: deck
+      type(token_t), intent(in) :: token
+      character(len=*), intent(in) :: what, name       !< what is expected, and what stands before the value in a message
+      real(wp), intent(out) :: value
+      logical, intent(out) :: ok
+      character(len=*), intent(in) :: keyword
+
+      call get_real(deck, token, what, value, ok, keyword=keyword)
+      if (.not. ok .or. value > 0.0_wp) return
+      ok = .false.
+      call report_error(deck, token, 'E-VALUE', name//to_text(value)//' is not positive', expected=what, keyword=keyword)
+   end subroutine get_positive
+
+   !> Of a line of n values: `2,5` is a decimal comma, `7850, 20` and `7.85e-9,20` have a temperature. False: the first, reported.
+   logical function check_comma(deck, line, n, expected, keyword) result(ok)
       type(deck_t), intent(in) :: deck
       type(data_line_t), intent(in) :: line
-      logical, intent(inout) :: ok
-      type(token_t) :: ratio, temperature
+      integer(ip), intent(in) :: n                     !< values of a line
+      character(len=*), intent(in) :: expected, keyword
+      type(token_t) :: value, next
 
-      if (line%n_tokens < 3) return
-      ratio = line_item(deck, line, 2_ip)
-      temperature = line_item(deck, line, 3_ip)
-      if (token_text(deck, ratio) /= '0' .or. temperature%column /= ratio%column + 2) return
-      if (verify(token_text(deck, temperature), '0123456789') > 0) return
-      ok = .false.
-      call report_error(deck, temperature, 'E-ITEMS', '3 items, where 2 belong', &
-                        expected='E [F/L^2], mu [-]; a temperature behind mu = 0 as 0., 20.', keyword=KEYWORD)
-   end subroutine check_comma
+      ok = .true.
+      if (line%n_tokens <= n) return
+      value = line_item(deck, line, n)
+      next = line_item(deck, line, n + 1)
+      ok = next%first /= value%last + 2 .or. is_empty_token(next) .or. &
+           verify(token_text(deck, value)//token_text(deck, next), '0123456789') > 0
+      if (.not. ok) call report_error(deck, next, 'E-ITEMS', to_text(n + 1)//' items, where '//to_text(n)//' belong'// &
+                                      trim(merge('s', ' ', n == 1)), expected=expected, keyword=keyword)
+   end function check_comma
 
    !> Lines for further temperatures say the same.
    subroutine check_constant(deck, card, values, what, ok)
@@ -129,7 +139,7 @@ contains
       type(deck_t), intent(in) :: deck
       logical, intent(out) :: ok
       real(wp) :: values(N_CONSTANTS), s(SPATIAL, SPATIAL)
-      type(token_t) :: first
+      character(len=:), allocatable :: wanted
       logical :: is_engineering
 
       is_engineering = option_word(deck, card, 'TYPE') == 'ENGINEERING CONSTANTS'
@@ -137,15 +147,18 @@ contains
       if (card%n_lines < 2) return
       call read_constants(card, deck, is_engineering, values, ok)
       if (.not. ok) return
-      first = line_item(deck, deck%lines(card%first_line), 1_ip)
       if (is_engineering) then
          s = compliance_of_constants(values(1:3), values(4:6), values(7))
+         wanted = 'nu12^2 < E1/E2, nu13^2 < E1/E3, nu23^2 < E2/E3, '// &
+                  'nu12 nu21 + nu13 nu31 + nu23 nu32 + 2 nu21 nu32 nu13 < 1, where nu21 = nu12 E2/E1 ...'
       else
          s = stiffness_of_constants(values)
+         wanted = 'a positive definite matrix D1111, D1122, D1133; D1122, D2222, D2233; D1133, D2233, D3333, and D1212 > 0'
       end if
       ok = is_positive_definite(s)
       if (.not. ok) then
-         call report_indefinite(deck, first, is_engineering)
+         call report_error(deck, line_item(deck, deck%lines(card%first_line), 1_ip), 'E-VALUE', &
+                           'these constants give some strains no energy', expected=wanted, keyword=KEYWORD)
          return
       end if
       material%is_orthotropic = .true.
@@ -156,45 +169,28 @@ contains
       material%poisson = 0.0_wp
    end subroutine read_orthotropic
 
-   subroutine report_indefinite(deck, first, is_engineering)
-      type(deck_t), intent(in) :: deck
-      type(token_t), intent(in) :: first
-      logical, intent(in) :: is_engineering
-      character(len=:), allocatable :: wanted
-
-      if (is_engineering) then
-         wanted = 'nu12^2 < E1/E2, nu13^2 < E1/E3, nu23^2 < E2/E3, '// &
-                  'nu12 nu21 + nu13 nu31 + nu23 nu32 + 2 nu21 nu32 nu13 < 1, where nu21 = nu12 E2/E1 ...'
-      else
-         wanted = 'a positive definite matrix D1111, D1122, D1133; D1122, D2222, D2233; D1133, D2233, D3333, and D1212 > 0'
-      end if
-      call report_error(deck, first, 'E-VALUE', 'these constants give some strains no energy', expected=wanted, keyword=KEYWORD)
-   end subroutine report_indefinite
-
    subroutine read_constants(card, deck, is_engineering, values, ok)
       type(card_t), intent(in) :: card
       type(deck_t), intent(in) :: deck
       logical, intent(in) :: is_engineering
       real(wp), intent(out) :: values(N_CONSTANTS)
       logical, intent(out) :: ok
-      character(len=:), allocatable :: what
       type(token_t) :: item
       integer(ip) :: i
-      logical :: is_ratio, good
+      logical :: good
 
       ok = all(deck%lines(card%first_line:card%first_line + 1)%ok)
       if (.not. ok) return
       do i = 1, N_CONSTANTS
          item = line_item(deck, deck%lines(card%first_line + merge(0_ip, 1_ip, i <= N_FIRST)), merge(i, i - N_FIRST, i <= N_FIRST))
-         is_ratio = is_engineering .and. i > 3 .and. i < 7
-         what = WHAT_CONSTANT
-         if (is_engineering) what = trim(merge(WHAT_RATIO, WHAT_MODULUS, is_ratio))
-         call get_real(deck, item, what, values(i), good, keyword=KEYWORD)
+         if (.not. is_engineering) then
+            call get_real(deck, item, 'elastic constant, a real [F/L^2]', values(i), good, keyword=KEYWORD)
+         else if (i > 3 .and. i < 7) then
+            call get_real(deck, item, "Poisson's ratio, a real [-]", values(i), good, keyword=KEYWORD)
+         else
+            call get_positive(deck, item, 'modulus, a real > 0 [F/L^2]', 'the modulus ', values(i), good, KEYWORD)
+         end if
          ok = ok .and. good
-         if (.not. (good .and. is_engineering) .or. is_ratio .or. values(i) > 0.0_wp) cycle
-         ok = .false.
-         call report_error(deck, item, 'E-VALUE', 'the modulus '//to_text(values(i))//' is not positive', &
-                           expected=WHAT_MODULUS, keyword=KEYWORD)
       end do
    end subroutine read_constants
 
@@ -204,16 +200,10 @@ contains
       real(wp) :: c(SPATIAL, SPATIAL)
 
       c = 0.0_wp
-      c(1, 1) = values(1)
-      c(1, 2) = values(2)
-      c(2, 2) = values(3)
-      c(1, 3) = values(4)
-      c(2, 3) = values(5)
-      c(3, 3) = values(6)
+      c(:3, 1) = values([1, 2, 4])
+      c(:3, 2) = values([2, 3, 5])
+      c(:3, 3) = values([4, 5, 6])
       c(4, 4) = values(7)
-      c(2, 1) = c(1, 2)
-      c(3, 1) = c(1, 3)
-      c(3, 2) = c(2, 3)
    end function stiffness_of_constants
 
 end module atrito_read_elastic

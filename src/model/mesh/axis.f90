@@ -1,6 +1,7 @@
 !> What axisymmetric elements ask of a scene: radii that are not negative, one state, no thickness; the axis stays where it is.
 module atrito_axis
    use atrito_build_context, only: build_context_t, place_token, ids_text, has_errors
+   use atrito_deck, only: token_t
    use atrito_diagnostics, only: report_error, report_note
    use atrito_kinds, only: ip, wp
    use atrito_load_lists, only: add_nodal_value, trim_nodal_values
@@ -22,80 +23,85 @@ contains
    subroutine hold_axis(context)
       type(build_context_t), intent(inout) :: context
       type(number_list_t) :: held, moved
-      integer(ip), allocatable :: nodes(:)
-      integer(ip) :: i, element
-
-      call find_axis(context, nodes, element)
-      if (element == 0) return
-      do i = 1, size(nodes, kind=ip)
-         associate (entry => context%dof_entry(1, nodes(i)), id => context%model%mesh%node_id(nodes(i)), &
-                    supports => context%open%supports)
-            if (entry == 0) then
-               call add_number(held, id)
-               call add_nodal_value(supports, nodes(i), 1_ip, 0.0_wp)
-               entry = supports%n
-            else if (abs(supports%value(entry)) > 0.0_wp) then
-               ! what is carried on has been told
-               if (context%dof_token(1, nodes(i)) >= context%open%first_token) call add_number(moved, id)
-            end if
-         end associate
-      end do
-      call trim_nodal_values(context%open%supports)
-      if (moved%n > 0) call report_error(context%deck, place_token(context%deck, context%elements%place(element)), 'E-AXIS', &
-                                         'u1 of node '//ids_text(numbers_of(moved))// &
-                                         ' on the axis x1 = 0 is prescribed, not as 0', &
-                                         expected='u1 = 0 [L] on the axis, or no *BOUNDARY there', keyword='BOUNDARY')
-      if (held%n > 0 .and. .not. has_errors()) then
-         call report_note(context%deck, place_token(context%deck, context%elements%place(element)), 'N-AXIS', &
-                          'u1 of node '//ids_text(numbers_of(held))//' on the axis x1 = 0 is held at 0', keyword='ELEMENT')
-      end if
-   end subroutine hold_axis
-
-   !> The nodes of axisymmetric elements on the axis, rising, and the first of these elements.
-   subroutine find_axis(context, nodes, element)
-      type(build_context_t), intent(in) :: context
-      integer(ip), allocatable, intent(out) :: nodes(:)
-      integer(ip), intent(out) :: element              !< 0: there are none
+      type(token_t) :: place
       logical, allocatable :: on_axis(:)
       real(wp) :: nearly
-      integer(ip) :: e, k, i
+      integer(ip) :: first, e, k, i
 
-      allocate (nodes(0))
-      associate (mesh => context%model%mesh)
-         element = first_of_kind(context%model, .true.)
-         if (element == 0) return
+      first = first_of_kind(context%model, .true.)
+      if (first == 0) return
+      place = place_token(context%deck, context%elements%place(first))
+      associate (mesh => context%model%mesh, supports => context%open%supports)
          nearly = NEAR_AXIS*maxval(mesh%x(1, :mesh%n_nodes))
          allocate (on_axis(mesh%n_nodes), source=.false.)
-         do e = element, mesh%n_elements
+         do e = first, mesh%n_elements
             if (.not. STATES(mesh%state(e))%has_hoop) cycle
             do k = 1, mesh%shape(e)
                if (abs(mesh%x(1, mesh%nodes(k, e))) <= nearly) on_axis(mesh%nodes(k, e)) = .true.
             end do
          end do
-         nodes = pack([(i, i=1, mesh%n_nodes)], on_axis)
+         do i = 1, mesh%n_nodes
+            if (.not. on_axis(i)) cycle
+            associate (entry => context%dof_entry(1, i))
+               if (entry == 0) then
+                  call add_number(held, mesh%node_id(i))
+                  call add_nodal_value(supports, i, 1_ip, 0.0_wp)
+                  entry = supports%n
+               else if (abs(supports%value(entry)) > 0.0_wp) then
+                  ! what is carried on has been told
+                  if (context%dof_token(1, i) >= context%open%first_token) call add_number(moved, mesh%node_id(i))
+               end if
+            end associate
+         end do
+         call trim_nodal_values(supports)
       end associate
-   end subroutine find_axis
+      if (moved%n > 0) call report_error(context%deck, place, 'E-AXIS', 'u1 of node '//ids_text(numbers_of(moved))// &
+                                         ' on the axis x1 = 0 is prescribed, not as 0', &
+                                         expected='u1 = 0 [L] on the axis, or no *BOUNDARY there', keyword='BOUNDARY')
+      if (held%n > 0 .and. .not. has_errors()) call report_note(context%deck, place, 'N-AXIS', 'u1 of node '// &
+                                                                ids_text(numbers_of(held))// &
+                                                                ' on the axis x1 = 0 is held at 0', keyword='ELEMENT')
+   end subroutine hold_axis
 
-   !> Reports what no axisymmetric scene can have.
+   !> Reports what no axisymmetric scene can have: other elements, nodes beyond the axis. Loads and forces are those of the full
+   !> circle; a thickness, which preprocessors write, has no effect.
    subroutine check_axis(model, context)
       type(model_t), intent(inout) :: model
       type(build_context_t), intent(in) :: context
-      integer(ip) :: first
+      character(len=:), allocatable :: amount
+      integer(ip), allocatable :: beyond(:)
+      real(wp) :: nearly
+      integer(ip) :: first, i
 
       if (first_of_kind(model, .true.) == 0) return
-      associate (state => model%mesh%state)
-         first = first_of_kind(model,.not. STATES(state(1))%has_hoop)
+      associate (mesh => model%mesh, deck => context%deck)
+         first = first_of_kind(model,.not. STATES(mesh%state(1))%has_hoop)
          if (first > 0) then
-            call report_error(context%deck, place_token(context%deck, context%elements%place(first)), 'E-STATE', 'element '// &
-                              to_text(model%mesh%element_id(first))//' is '//trim(STATES(state(first))%name)//', element '// &
-                              to_text(model%mesh%element_id(1))//' is '//trim(STATES(state(1))%name)// &
+            call report_error(deck, place_token(deck, context%elements%place(first)), 'E-STATE', 'element '// &
+                              to_text(mesh%element_id(first))//' is '//trim(STATES(mesh%state(first))%name)//', element '// &
+                              to_text(mesh%element_id(1))//' is '//trim(STATES(mesh%state(1))%name)// &
                               ': a scene is a plane or the section of a body of revolution', &
                               expected='CAX elements alone, or none', keyword='ELEMENT')
             return
          end if
+         nearly = NEAR_AXIS*maxval(abs(mesh%x(1, :mesh%n_nodes)))
+         beyond = pack([(i, i=1, mesh%n_nodes)], mesh%x(1, :mesh%n_nodes) < -nearly .and. &
+                       context%around%first(2:mesh%n_nodes + 1) > context%around%first(:mesh%n_nodes))
+         if (size(beyond) > 0) call report_error(deck, place_token(deck, context%nodes%place(beyond(1))), 'E-AXIS', 'node '// &
+                                                 ids_text(mesh%node_id(beyond))//' of axisymmetric elements has x < 0', &
+                                                 expected='x >= 0 [L]: x is the radius, y the axis', keyword='NODE')
       end associate
-      call check_radii(model, context)
-      call drop_thickness(model, context)
+      do i = 1, size(model%sections, kind=ip)
+         associate (section => model%sections(i))
+            if (abs(section%thickness - 1) <= 0.0_wp .and. .not. section%is_tapered) cycle
+            amount = to_text(section%thickness)
+            if (section%is_tapered) amount = 'of the nodes'
+            call report_note(context%deck, context%sections(i), 'N-THICKNESS', 'the thickness '//amount// &
+                             ' of axisymmetric elements has no effect: they reach round the full circle', keyword='SOLID SECTION')
+            section%thickness = 1.0_wp
+            section%is_tapered = .false.
+         end associate
+      end do
    end subroutine check_axis
 
    !> The first element that is axisymmetric or not; 0: there is none.
@@ -109,45 +115,5 @@ contains
       end do
       e = 0
    end function first_of_kind
-
-   !> No node lies beyond the axis.
-   subroutine check_radii(model, context)
-      type(model_t), intent(in) :: model
-      type(build_context_t), intent(in) :: context
-      type(number_list_t) :: beyond
-      real(wp) :: nearly
-      integer(ip) :: i, first
-
-      nearly = NEAR_AXIS*maxval(abs(model%mesh%x(1, :model%mesh%n_nodes)))
-      first = 0
-      do i = 1, model%mesh%n_nodes
-         if (model%mesh%x(1, i) >= -nearly .or. context%around%first(i + 1) == context%around%first(i)) cycle
-         if (first == 0) first = i
-         call add_number(beyond, model%mesh%node_id(i))
-      end do
-      if (first == 0) return
-      call report_error(context%deck, place_token(context%deck, context%nodes%place(first)), 'E-AXIS', 'node '// &
-                        ids_text(numbers_of(beyond))//' of axisymmetric elements has x < 0', &
-                        expected='x >= 0 [L]: x is the radius, y the axis', keyword='NODE')
-   end subroutine check_radii
-
-   !> Loads and forces are those of the full circle; a thickness, which preprocessors write, says nothing.
-   subroutine drop_thickness(model, context)
-      type(model_t), intent(inout) :: model
-      type(build_context_t), intent(in) :: context
-      character(len=:), allocatable :: amount
-      integer(ip) :: i
-
-      do i = 1, size(model%sections, kind=ip)
-         if (abs(model%sections(i)%thickness - 1) <= 0.0_wp .and. .not. model%sections(i)%is_tapered) cycle
-         amount = to_text(model%sections(i)%thickness)
-         if (model%sections(i)%is_tapered) amount = 'of the nodes'
-         call report_note(context%deck, context%sections(i), 'N-THICKNESS', 'the thickness '//amount// &
-                          ' of axisymmetric elements has no effect: they reach round '// &
-                          'the full circle', keyword='SOLID SECTION')
-         model%sections(i)%thickness = 1.0_wp
-         model%sections(i)%is_tapered = .false.
-      end do
-   end subroutine drop_thickness
 
 end module atrito_axis

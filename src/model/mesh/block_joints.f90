@@ -45,7 +45,12 @@ contains
       reach = MERGE_TOLERANCE*norm2(block%high - block%low)
       names = merge_names(context%deck, context%deck%cards(i_card))
       if (size(names) == 0) return
-      call note_blocks(context)
+      do k = context%joined%n + 1, context%n_blocks    ! blocks that are new since the last MERGE
+         associate (new => context%blocks(k))
+            call add_joined_block(context%joined, new%name, new%low, new%high)
+            if (new%joined_to > 0) call join_blocks(context%joined, new%joined_to, k)
+         end associate
+      end do
       allocate (named(0))
       do i = 1, size(names, kind=ip)
          call share_with(names(i), x, context, block, named, good)
@@ -70,19 +75,6 @@ contains
       end do
    end subroutine share_nodes
 
-   !> Takes the blocks that are new among those that MERGE may join.
-   pure subroutine note_blocks(context)
-      type(build_context_t), intent(inout) :: context
-      integer(ip) :: b
-
-      do b = context%joined%n + 1, context%n_blocks
-         associate (block => context%blocks(b))
-            call add_joined_block(context%joined, block%name, block%low, block%high)
-            if (block%joined_to > 0) call join_blocks(context%joined, block%joined_to, b)
-         end associate
-      end do
-   end subroutine note_blocks
-
    !> The value of MERGE= and the items of MERGE lines.
    function merge_names(deck, card) result(names)
       type(deck_t), intent(in) :: deck
@@ -104,16 +96,17 @@ contains
       end do
    end function merge_names
 
+   !> Shares the nodes of the block with those of a node set that lie in the same places.
    subroutine share_with(place, x, context, block, named, ok)
-      type(token_t), intent(in) :: place               !< of the name
+      type(token_t), intent(in) :: place               !< of the name of the set
       real(wp), intent(in) :: x(:, :)
       type(build_context_t), intent(in) :: context
       type(block_t), intent(inout) :: block
       integer(ip), allocatable, intent(inout) :: named(:) !< blocks so far whose name was given
       logical, intent(out) :: ok
       character(len=:), allocatable :: other
-      integer(ip), allocatable :: outline(:), match(:), members(:), shared(:, :), own(:)
-      integer(ip) :: i_set, k, n, width
+      integer(ip), allocatable :: outline(:), match(:), members(:), shared(:, :), flat(:), own(:)
+      integer(ip) :: i_set, i, n
 
       other = token_text(context%deck, place)
       i_set = find_set(context%model%node_sets, other)
@@ -122,14 +115,13 @@ contains
          call report_unknown(context, place, 'earlier node set', 'E-SET', context%model%node_sets%names, 'BLOCK')
          return
       end if
-      width = size(block%nodes, 1, kind=ip)
-      outline = outline_of(width, size(block%nodes, 2, kind=ip))
-      allocate (shared, source=0*block%nodes)
+      outline = outline_of(block%nodes)
       members = members_of(context%model%node_sets%sets(i_set))
-      match = match_points(x(:, outline), context%model%mesh%x(:, members), MERGE_TOLERANCE*shortest_edge(x, width))
-      do k = 1, size(outline, kind=ip)
-         if (match(k) > 0) shared(1 + modulo(outline(k) - 1, width), 1 + (outline(k) - 1)/width) = members(match(k))
-      end do
+      match = match_points(x(:, outline), context%model%mesh%x(:, members), &
+                           MERGE_TOLERANCE*shortest_edge(x, size(block%nodes, 1, kind=ip)))
+      allocate (flat(size(block%nodes)), source=0_ip)
+      flat(pack(outline, match > 0)) = members(pack(match, match > 0))
+      shared = reshape(flat, shape(block%nodes))
       n = count(shared > 0 .and. block%nodes > 0 .and. block%nodes /= shared, kind=ip)
       if (n > 0) call report_warning(context%deck, place, 'W-BLOCK', to_text(n)//' nodes of this block lie on nodes of '//other// &
                                      ' and of an earlier name that are not shared by these', &
@@ -145,7 +137,11 @@ contains
       n = size(own, kind=ip)
       if (n > 0) ok = are_joined(place, context, block, shared, context%blocks(own(n)))
       named = [named, own]
-      if (ok) call warn_of_hanging_nodes(context%deck, place, shared)
+      if (.not. ok) return
+      n = sum([(count_between(side_nodes(shared, i)), i=1, size(BLOCK_SIDES, kind=ip))])
+      if (n > 0) call report_warning(context%deck, place, 'W-BLOCK', to_text(n)//' nodes of this block lie between shared '// &
+                                     'nodes but on none of the other block: they leave a crack', &
+                                     expected='as many elements on both sides, with the same grading', keyword='BLOCK')
    end subroutine share_with
 
    !> Sides of both blocks that run from the same corner to the same corner are one side: the same curve, and as many elements on
@@ -160,10 +156,10 @@ contains
 
       are_joined = .true.
       do i = 1, size(BLOCK_SIDES, kind=ip)
-         own = side_of(shared, i)
+         own = side_nodes(shared, i)
          n = size(own, kind=ip)
          do k = 1, merge(size(BLOCK_SIDES, kind=ip), 0_ip, min(own(1), own(n)) > 0)
-            theirs = side_nodes(other, k)
+            theirs = side_nodes(other%nodes, k)
             m = size(theirs, kind=ip)
             if (.not. (own(1) == theirs(1) .and. own(n) == theirs(m) .or. own(1) == theirs(m) .and. own(n) == theirs(1))) cycle
             if (block%order /= other%order .or. (n == m .and. all(own > 0))) cycle
@@ -179,16 +175,14 @@ contains
       type(block_t), intent(in) :: block, other
       integer(ip), intent(in) :: i, k                  !< sides of the two
       character(len=:), allocatable :: own, theirs, text, expected
-      real(wp) :: ends(2, 2)
       integer(ip) :: n, m
 
       own = block%name//trim(BLOCK_SIDES(i))
       theirs = other%name//trim(BLOCK_SIDES(k))
-      n = (size(side_of(block%nodes, i), kind=ip) - 1)/block%order
-      m = (size(side_nodes(other, k), kind=ip) - 1)/other%order
-      ends = reshape([side_point(block%map, i, 0.0_wp), side_point(block%map, i, 1.0_wp)], [2, 2])
+      n = (size(side_nodes(block%nodes, i), kind=ip) - 1)/block%order
+      m = (size(side_nodes(other%nodes, k), kind=ip) - 1)/other%order
       if (norm2(side_point(block%map, i, 0.5_wp) - side_point(other%map, k, 0.5_wp)) > &
-          SAME_CURVE*norm2(ends(:, 2) - ends(:, 1))) then
+          SAME_CURVE*norm2(side_point(block%map, i, 1.0_wp) - side_point(block%map, i, 0.0_wp))) then
          text = own//' and '//theirs//' join the same corners by different curves'
          expected = 'the same ARC for both sides, or none'
       else if (n /= m) then
@@ -201,14 +195,16 @@ contains
       call report_error(deck, place, 'E-BLOCK', text, expected=expected, keyword='BLOCK')
    end subroutine report_side
 
-   pure function outline_of(width, height) result(outline)
-      integer(ip), intent(in) :: width, height         !< nodes
-      integer(ip) :: outline(2*(width + height) - 4)
-      integer(ip) :: i, n
+   !> Places of the nodes on the outline of a grid, counted row by row.
+   pure function outline_of(grid) result(outline)
+      integer(ip), intent(in) :: grid(:, :)
+      integer(ip) :: outline(2*(size(grid, 1) + size(grid, 2)) - 4)
+      integer(ip) :: i
 
-      n = width*height
-      outline = [(i, i=1, width), (i, i=n - width + 1, n), &
-                 (1 + i*width, i=1, height - 2), ((i + 1)*width, i=1, height - 2)]
+      associate (n => size(grid, kind=ip), width => size(grid, 1, kind=ip), height => size(grid, 2, kind=ip))
+         outline = [(i, i=1, width), (i, i=n - width + 1, n), &
+                    (1 + i*width, i=1, height - 2), ((i + 1)*width, i=1, height - 2)]
+      end associate
    end function outline_of
 
    pure real(wp) function shortest_edge(x, width) result(shortest)
@@ -223,27 +219,15 @@ contains
       end do
    end function shortest_edge
 
-   subroutine warn_of_hanging_nodes(deck, place, nodes)
-      type(deck_t), intent(in) :: deck
-      type(token_t), intent(in) :: place
-      integer(ip), intent(in) :: nodes(:, :)           !< shared with one other
-      integer(ip) :: i, n
-
-      n = sum([(between(side_of(nodes, i)), i=1, size(BLOCK_SIDES))])
-      if (n > 0) call report_warning(deck, place, 'W-BLOCK', to_text(n)//' nodes of this block lie between shared nodes but '// &
-                                     'on none of the other block: they leave a crack', &
-                                     expected='as many elements on both sides, with the same grading', keyword='BLOCK')
-   end subroutine warn_of_hanging_nodes
-
-   pure integer(ip) function between(side) result(n)
+   !> Nodes of a side that are not shared, between the first and the last that are.
+   pure integer(ip) function count_between(side) result(n)
       integer(ip), intent(in) :: side(:)               !< 0: not shared
-      integer(ip) :: first, last
+      integer(ip) :: first
 
       first = findloc(side > 0, .true., dim=1, kind=ip)
-      last = findloc(side > 0, .true., dim=1, kind=ip, back=.true.)
       n = 0
-      if (first > 0) n = count(side(first:last) == 0, kind=ip)
-   end function between
+      if (first > 0) n = count(side(first:findloc(side > 0, .true., dim=1, back=.true.)) == 0, kind=ip)
+   end function count_between
 
    !> Nodes that lie on those of a block of the same body that is not named are apart from them.
    subroutine warn_of_crack(place, own, x, context, other, nodes)
@@ -253,16 +237,15 @@ contains
       type(build_context_t), intent(in) :: context
       type(block_t), intent(in) :: other
       integer(ip), intent(in) :: nodes(:, :)           !< of the block; 0: not shared
-      integer(ip), allocatable :: outline(:), theirs(:), match(:)
-      integer(ip) :: i, n, width
+      integer(ip), allocatable :: outline(:), theirs(:)
+      integer(ip) :: i, n
 
-      width = size(nodes, 1, kind=ip)
-      outline = outline_of(width, size(nodes, 2, kind=ip))
-      outline = pack(outline, [(nodes(1 + modulo(outline(i) - 1, width), 1 + (outline(i) - 1)/width) == 0, &
-                                i=1, size(outline, kind=ip))])
-      theirs = [(side_nodes(other, i), i=1, size(BLOCK_SIDES, kind=ip))]
-      match = match_points(x(:, outline), context%model%mesh%x(:, theirs), MERGE_TOLERANCE*shortest_edge(x, width))
-      n = count(match > 0, kind=ip)
+      outline = outline_of(nodes)
+      theirs = pack(nodes, .true.)
+      outline = pack(outline, theirs(outline) == 0)
+      theirs = [(side_nodes(other%nodes, i), i=1, size(BLOCK_SIDES, kind=ip))]
+      n = count(match_points(x(:, outline), context%model%mesh%x(:, theirs), &
+                             MERGE_TOLERANCE*shortest_edge(x, size(nodes, 1, kind=ip))) > 0, kind=ip)
       if (n == 0) return
       if (is_joint(context%deck, own, other%name)) return
       call report_warning(context%deck, place, 'W-BLOCK', to_text(n)//' nodes of this block lie on nodes of '// &
@@ -300,16 +283,9 @@ contains
    end function is_side
 
    !> The nodes of a side of a block, in the direction in which its map travels it.
-   pure function side_nodes(block, side) result(nodes)
-      type(block_t), intent(in) :: block
+   pure function side_nodes(grid, side) result(nodes)
+      integer(ip), intent(in) :: grid(:, :)            !< nodes of the block
       integer(ip), intent(in) :: side                  !< 1..4, as in BLOCK_SIDES
-      integer(ip), allocatable :: nodes(:)
-
-      nodes = side_of(block%nodes, side)
-   end function side_nodes
-
-   pure function side_of(grid, side) result(nodes)
-      integer(ip), intent(in) :: grid(:, :), side
       integer(ip), allocatable :: nodes(:)
 
       select case (side)
@@ -322,6 +298,6 @@ contains
       case default
          nodes = grid(1, :)
       end select
-   end function side_of
+   end function side_nodes
 
 end module atrito_block_joints

@@ -4,19 +4,19 @@
 !> those of *SURFACE; a context keeps the block in between.
 module atrito_build_block
    use atrito_block, only: graded_lines, block_nodes, curved_nodes
-   use atrito_block_copies, only: copy_offset, name_copy
    use atrito_block_joints, only: share_nodes, side_nodes
    use atrito_block_map, only: has_arcs
-   use atrito_block_spec, only: block_spec_t, read_block_spec, count_nodes, CORNERS
+   use atrito_block_spec, only: block_spec_t, copies_t, read_block_spec, count_nodes, copy_offset
+   use atrito_build_context, only: build_context_t, block_t, BLOCK_SIDES, add_context_block, note_places, invalidate_block
    use atrito_build_nodes, only: put_node_set
    use atrito_diagnostics, only: report_error
-   use atrito_build_context, only: build_context_t, block_t, BLOCK_SIDES, add_context_block, note_places, invalidate_block
    use atrito_items, only: option_text
    use atrito_kinds, only: ip, lp, wp
    use atrito_mesh, only: add_nodes, add_block, reserve_mesh, is_hollow, elements_of_square
    use atrito_model_memory, only: fits_memory
    use atrito_number_list, only: number_list_t, add_numbers, numbers_of
    use atrito_sets, only: grow_set
+   use atrito_strings, only: to_text
    implicit none (type, external)
    private
    public :: read_block_card, place_block_elements
@@ -30,41 +30,34 @@ contains
       type(build_context_t), intent(inout) :: context
       type(block_spec_t) :: spec
       character(len=:), allocatable :: name
+      integer(lp) :: n_copies
+      integer(ip) :: i, j
       logical :: ok, named
 
       call option_text(context%deck, context%deck%cards(i_card), 'ELSET', name, named)
       call read_block_spec(context%deck, context%deck%cards(i_card), spec, ok)
       ok = ok .and. named
+      n_copies = product(int(spec%copies%n, lp))
       if (ok) ok = fits_memory(context%deck%cards(i_card)%place, context, count_nodes(spec), product(int(spec%n, lp))* &
-                               product(int(spec%copies%n, lp))*elements_of_square(spec%shape), 'BLOCK', spec%shape, &
-                               product(int(spec%copies%n, lp)))
-      if (ok) call place_copies(i_card, spec, name, context, ok)
-      if (.not. ok) call invalidate_block(context, name)
-   end subroutine read_block_card
-
-   subroutine place_copies(i_card, spec, name, context, ok)
-      integer(ip), intent(in) :: i_card
-      type(block_spec_t), intent(in) :: spec
-      character(len=*), intent(in) :: name             !< of the *BLOCK
-      type(build_context_t), intent(inout) :: context
-      logical, intent(out) :: ok
-      integer(ip) :: i, j
-
-      ok = .true.
-      do j = 1, spec%copies%n(2)
+                               n_copies*elements_of_square(spec%shape), 'BLOCK', spec%shape, n_copies)
+      do j = 1, merge(spec%copies%n(2), 0_ip, ok)
          do i = 1, spec%copies%n(1)
             if (ok) call place_copy(i_card, spec, name, i, j, context, ok)
          end do
       end do
-      if (ok .and. spec%copies%given) call put_array_sets(i_card, name, context)
-   end subroutine place_copies
+      if (.not. ok) then
+         call invalidate_block(context, name)
+      else if (spec%copies%given) then
+         call put_array_sets(i_card, name, context)
+      end if
+   end subroutine read_block_card
 
+   !> One of the copies: its nodes, its node sets, and the block that the context keeps.
    subroutine place_copy(i_card, spec, name, i, j, context, ok)
       integer(ip), intent(in) :: i_card
       type(block_spec_t), intent(in) :: spec
-      integer(ip) :: l
       character(len=*), intent(in) :: name             !< of the *BLOCK
-      integer(ip), intent(in) :: i, j
+      integer(ip), intent(in) :: i, j                  !< column and row
       type(build_context_t), intent(inout) :: context
       logical, intent(out) :: ok
       type(block_spec_t) :: shifted
@@ -72,20 +65,25 @@ contains
       integer(ip) :: k
 
       shifted = spec
-      do k = 1, CORNERS
+      do k = 1, size(BLOCK_SIDES, kind=ip)             ! as many corners
          shifted%map%corners(:, k) = spec%map%corners(:, k) + copy_offset(spec%copies, i, j)
          shifted%map%centre(:, k) = spec%map%centre(:, k) + copy_offset(spec%copies, i, j)
       end do
-      call name_copy(spec%copies, name, i, j, block)
+      block%name = name
+      if (spec%copies%given) then
+         block%name = name//'-'//to_text(i)//'-'//to_text(j)
+         block%array = name
+         block%at_side = [j == 1, i == spec%copies%n(1), j == spec%copies%n(2), i == 1]
+      end if
       block%card = i_card
       block%state = spec%state
       block%order = spec%order
       block%shape = spec%shape
       call place_block_nodes(i_card, shifted, context, block, ok)
       if (.not. ok) return
-      call put_node_set(context, block%card, block%name, pack(block%nodes, block%nodes > 0))
-      do l = 1, size(BLOCK_SIDES, kind=ip)
-         call put_node_set(context, block%card, block%name//trim(BLOCK_SIDES(l)), side_nodes(block, l))
+      call put_node_set(context, i_card, block%name, pack(block%nodes, block%nodes > 0))
+      do k = 1, size(BLOCK_SIDES, kind=ip)
+         call put_node_set(context, i_card, block%name//trim(BLOCK_SIDES(k)), side_nodes(block%nodes, k))
       end do
       call add_context_block(context, block)
       context%elements_to_come = context%elements_to_come + count_elements(block)
@@ -104,8 +102,8 @@ contains
       allocate (x(2, (n(1) + 1)*(n(2) + 1)))
       block%map = spec%map
       allocate (block%along(0:n(1)), block%across(0:n(2)))
-      block%along(:) = node_lines(lines_of(spec%n(1), spec%grade(1), spec%along), spec%order)
-      block%across(:) = node_lines(lines_of(spec%n(2), spec%grade(2), spec%across), spec%order)
+      block%along(:) = node_lines(spec%n(1), spec%order, spec%grade(1), spec%along)
+      block%across(:) = node_lines(spec%n(2), spec%order, spec%grade(2), spec%across)
       if (has_arcs(spec%map)) then
          call curved_nodes(block%map, block%along, block%across, x)
       else
@@ -126,16 +124,25 @@ contains
             block%nodes(i, j) = context%model%mesh%n_nodes + n_new
          end do
       end do
-      ok = context%nodes%greatest <= huge(1_ip) - n_new
-      if (ok .and. n_new > 0) then
-         call add_nodes(context%model%mesh, context%nodes%greatest + 1, x(:, :n_new))
-         call note_places(context%nodes%place, context%model%mesh%n_nodes - n_new + 1, context%model%mesh%n_nodes, -i_card)
-         context%nodes%greatest = context%nodes%greatest + n_new
-      else if (.not. ok) then
-         call report_error(context%deck, context%deck%cards(i_card)%place, 'E-ID', &
-                           'the node numbers of the block, which follow the greatest '//'so far, are too large', keyword='BLOCK')
-      end if
+      ok = are_numbers_left(i_card, 'node', context%nodes%greatest, n_new, context)
+      if (.not. ok .or. n_new == 0) return
+      call add_nodes(context%model%mesh, context%nodes%greatest + 1, x(:, :n_new))
+      call note_places(context%nodes%place, context%model%mesh%n_nodes - n_new + 1, context%model%mesh%n_nodes, -i_card)
+      context%nodes%greatest = context%nodes%greatest + n_new
    end subroutine place_block_nodes
+
+   !> So many numbers behind the greatest are in the range of an integer.
+   logical function are_numbers_left(i_card, noun, greatest, n, context) result(are_left)
+      integer(ip), intent(in) :: i_card
+      character(len=*), intent(in) :: noun             !< 'node' or 'element'
+      integer(ip), intent(in) :: greatest, n
+      type(build_context_t), intent(in) :: context
+
+      are_left = greatest <= huge(1_ip) - n
+      if (.not. are_left) call report_error(context%deck, context%deck%cards(i_card)%place, 'E-ID', 'the '//noun// &
+                                            ' numbers of the block, which follow the greatest so far, are too large', &
+                                            keyword='BLOCK')
+   end function are_numbers_left
 
    !> The middle of each square of 3 x 3 nodes, which becomes that of the side that its two triangles share: where the map of the
    !> block has it, less what a square of straight sides is off its diagonal there. Triangles with a bent side have less accurate
@@ -152,100 +159,88 @@ contains
       end do
    end subroutine straighten_diagonals
 
-   pure function node_lines(lines, order) result(t)
-      real(wp), intent(in) :: lines(0:)                !< of the elements, 0..1
+   !> Places of the nodes along a direction, 0..1: those of the element lines and, of order 2, the middles between them.
+   pure function node_lines(n, order, grade, breaks) result(t)
+      integer(ip), intent(in) :: n                     !< elements
       integer(ip), intent(in) :: order                 !< 1 or 2
-      real(wp), allocatable :: t(:)
-      integer(ip) :: n
+      real(wp), intent(in) :: grade                    !< last over first length, where there are no break points
+      real(wp), allocatable, intent(in) :: breaks(:)   !< the inner lines
+      real(wp) :: t(0:order*n), lines(0:n)
 
-      n = ubound(lines, 1, kind=ip)
-      allocate (t(0:order*n))
+      if (allocated(breaks)) then
+         lines = [0.0_wp, breaks, 1.0_wp]
+      else
+         lines = graded_lines(n, grade)
+      end if
       t(0::order) = lines
       if (order == 2) t(1::2) = 0.5_wp*(lines(:n - 1) + lines(1:))
    end function node_lines
 
-   pure function lines_of(n, grade, breaks) result(t)
-      integer(ip), intent(in) :: n
-      real(wp), intent(in) :: grade
-      real(wp), allocatable, intent(in) :: breaks(:)
-      real(wp) :: t(0:n)
-
-      if (allocated(breaks)) then
-         t = [0.0_wp, breaks, 1.0_wp]
-      else
-         t = graded_lines(n, grade)
-      end if
-   end function lines_of
-
+   !> The node sets of all copies together.
    subroutine put_array_sets(i_card, name, context)
       integer(ip), intent(in) :: i_card
       character(len=*), intent(in) :: name             !< of the *BLOCK
       type(build_context_t), intent(inout) :: context
-      type(number_list_t) :: at_side(size(BLOCK_SIDES))
-      integer(ip) :: b, k, first
+      type(number_list_t) :: at_side
+      integer(ip) :: b, k
 
-      first = context%blocks(context%block_of_card(i_card))%nodes(0, 0)
-      call put_node_set(context, i_card, name, [(k, k=first, context%model%mesh%n_nodes)])
-      do b = context%block_of_card(i_card), context%n_blocks
+      associate (first => context%block_of_card(i_card))
+         call put_node_set(context, i_card, name, [(k, k=context%blocks(first)%nodes(0, 0), context%model%mesh%n_nodes)])
          do k = 1, size(BLOCK_SIDES, kind=ip)
-            if (context%blocks(b)%at_side(k)) call add_numbers(at_side(k), side_nodes(context%blocks(b), k))
+            at_side%n = 0
+            do b = first, context%n_blocks
+               if (context%blocks(b)%at_side(k)) call add_numbers(at_side, side_nodes(context%blocks(b)%nodes, k))
+            end do
+            call put_node_set(context, i_card, name//trim(BLOCK_SIDES(k)), numbers_of(at_side))
          end do
-      end do
-      do k = 1, size(BLOCK_SIDES, kind=ip)
-         call put_node_set(context, i_card, name//trim(BLOCK_SIDES(k)), numbers_of(at_side(k)))
-      end do
+      end associate
    end subroutine put_array_sets
 
-   !> Makes the elements of a *BLOCK card, whose nodes are there, with their sets and surfaces.
+   !> Makes the elements of a *BLOCK card, whose nodes are there, with their sets.
    subroutine place_block_elements(i_card, context)
       integer(ip), intent(in) :: i_card
       type(build_context_t), intent(inout) :: context
-      integer(ip) :: b, k, first
+      integer(ip) :: b, first
 
       first = context%model%mesh%n_elements + 1
       b = context%block_of_card(i_card)
       if (b == 0) return
       do
-         call place_elements_of(b, context)
-         if (b == context%n_blocks) exit
+         associate (block => context%blocks(b))
+            block%first_element = context%model%mesh%n_elements + 1
+            block%n_elements = count_elements(block)
+            if (are_numbers_left(i_card, 'element', context%elements%greatest, block%n_elements, context)) then
+               call reserve_mesh(context%model%mesh, 0_ip, context%elements_to_come)   ! with those of the blocks that follow
+               call add_block(context%model%mesh, context%elements%greatest + 1, block%state, block%shape, block%nodes)
+               call note_places(context%elements%place, block%first_element, context%model%mesh%n_elements, -i_card)
+               context%elements%greatest = context%elements%greatest + block%n_elements
+            end if
+            context%elements_to_come = context%elements_to_come - block%n_elements
+            call put_elements(block%name, block%first_element)
+            if (b == context%n_blocks) exit
+         end associate
          if (context%blocks(b + 1)%card /= i_card) exit
          b = b + 1
       end do
-      if (allocated(context%blocks(b)%array)) call grow_set(context%model%element_sets, context%blocks(b)%array, [(k, k=first, &
-                                                                                                    context%model%mesh%n_elements)])
+      if (allocated(context%blocks(b)%array)) call put_elements(context%blocks(b)%array, first)
+
+   contains
+
+      !> All elements from a first one on, into a set.
+      subroutine put_elements(name, first)
+         character(len=*), intent(in) :: name
+         integer(ip), intent(in) :: first
+         integer(ip) :: k
+
+         call grow_set(context%model%element_sets, name, [(k, k=first, context%model%mesh%n_elements)])
+      end subroutine put_elements
+
    end subroutine place_block_elements
-
-   subroutine place_elements_of(b, context)
-      integer(ip), intent(in) :: b                     !< place in context%blocks
-      type(build_context_t), intent(inout) :: context
-      integer(ip) :: k, n
-      logical :: ok
-
-      associate (block => context%blocks(b), i_card => context%blocks(b)%card)
-         n = count_elements(block)
-         block%first_element = context%model%mesh%n_elements + 1
-         block%n_elements = n
-         ok = context%elements%greatest <= huge(1_ip) - n
-         if (ok) then
-            call reserve_mesh(context%model%mesh, 0_ip, context%elements_to_come)   ! with those of the blocks that follow
-            call add_block(context%model%mesh, context%elements%greatest + 1, block%state, block%shape, block%nodes)
-            call note_places(context%elements%place, block%first_element, context%model%mesh%n_elements, -i_card)
-            context%elements%greatest = context%elements%greatest + n
-         else
-            call report_error(context%deck, context%deck%cards(i_card)%place, 'E-ID', &
-                              'the element numbers of the block, which follow the '//'greatest so far, are too large', &
-                              keyword='BLOCK')
-         end if
-         context%elements_to_come = context%elements_to_come - n
-         call grow_set(context%model%element_sets, block%name, [(k, k=block%first_element, context%model%mesh%n_elements)])
-      end associate
-   end subroutine place_elements_of
 
    pure integer(ip) function count_elements(block) result(n)
       type(block_t), intent(in) :: block
 
-      n = elements_of_square(block%shape)*(ubound(block%nodes, 1, kind=ip)/block%order)*(ubound(block%nodes, 2, &
-                                                                                                kind=ip)/block%order)
+      n = elements_of_square(block%shape)*product((int(shape(block%nodes), ip) - 1)/block%order)
    end function count_elements
 
 end module atrito_build_block

@@ -8,7 +8,6 @@ module atrito_build_elements
    use atrito_items, only: get_integer, option_text, option_word
    use atrito_kinds, only: ip, lp, wp
    use atrito_mesh, only: add_element, find_element, find_node
-   use atrito_model, only: model_t
    use atrito_model_memory, only: fits_memory
    use atrito_number_list, only: number_list_t, add_number, add_numbers, numbers_of
    use atrito_plain_numbers, only: read_plain_elements, SLICE
@@ -42,10 +41,11 @@ contains
       state = KINDS(max(kind, 1_ip))%state
    end subroutine read_element_type
 
-   !> *ELEMENT: number, nodes.
+   !> *ELEMENT: number, nodes. Membranes are taken as plane stress, which is noted once.
    subroutine read_element_card(i_card, context)
       integer(ip), intent(in) :: i_card                !< place in deck%cards
       type(build_context_t), intent(inout) :: context
+      character(len=:), allocatable :: name
       integer(ip) :: i, first, n_nodes, state
       logical :: ok
 
@@ -53,13 +53,18 @@ contains
       associate (card => context%deck%cards(i_card))
          call read_element_type(context%deck, card, n_nodes, state, ok)
          if (ok) ok = fits_memory(card%place, context, 0_lp, int(card%n_lines, lp), 'ELEMENT', n_nodes)
-         if (ok) call note_membrane(card, context)
+         name = option_word(context%deck, card, 'TYPE')
+         if (ok .and. is_membrane(name) .and. .not. context%membranes_told) then
+            context%membranes_told = .true.
+            call report_note(context%deck, card%place, 'N-MEMBRANE', 'membranes are taken as plane stress: '//name//' as CPS'// &
+                             name(4:), keyword='ELEMENT')
+         end if
          do i = card%first_line, card%first_line + card%n_lines - 1
             if (.not. ok) call spoil_number(context%deck, context%deck%lines(i), context%elements)
          end do
          if (ok) call read_element_lines(card%first_line, card%first_line + card%n_lines - 1, n_nodes, state, context)
-         call put_named_set(context%deck, card, context%model, [(i, i=first, context%model%mesh%n_elements)])
       end associate
+      call put_named_set(i_card, context, [(i, i=first, context%model%mesh%n_elements)])
    end subroutine read_element_card
 
    subroutine read_element_lines(first, last, n_nodes, state, context)
@@ -89,19 +94,6 @@ contains
       end do
    end subroutine read_element_lines
 
-   !> Membranes are taken as plane stress, which is told once.
-   subroutine note_membrane(card, context)
-      type(card_t), intent(in) :: card
-      type(build_context_t), intent(inout) :: context
-      character(len=:), allocatable :: name
-
-      name = option_word(context%deck, card, 'TYPE')
-      if (.not. is_membrane(name) .or. context%membranes_told) return
-      context%membranes_told = .true.
-      call report_note(context%deck, card%place, 'N-MEMBRANE', 'membranes are taken as plane stress: '//name//' as CPS'//name(4:), &
-                       keyword='ELEMENT')
-   end subroutine note_membrane
-
    subroutine read_element_line(line, n_nodes, state, context, good)
       type(data_line_t), intent(in) :: line
       integer(ip), intent(in) :: n_nodes, state
@@ -113,24 +105,15 @@ contains
       call get_id(context%deck, context%deck%tokens(line%first_token), 'element number', id, good, 'ELEMENT')
       do i = 1, n_nodes
          call find_one_node(context, line_item(context%deck, line, i + 1), nodes(i), ok, 'ELEMENT')
+         if (ok .and. any(nodes(:i - 1) == nodes(i))) then
+            ok = .false.
+            call report_error(context%deck, line_item(context%deck, line, i + 1), 'E-SHAPE', 'the element has this node twice', &
+                              expected='different nodes, corners counter-clockwise', keyword='ELEMENT')
+         end if
          good = good .and. ok
-         if (ok) good = is_new_corner(context%deck, line, nodes(:i)) .and. good
       end do
       if (good) call place_element(context, id, state, nodes, line%first_token, good, 'ELEMENT')
    end subroutine read_element_line
-
-   !> The last of an element's nodes so far is none of the earlier ones.
-   logical function is_new_corner(deck, line, nodes)
-      type(deck_t), intent(in) :: deck
-      type(data_line_t), intent(in) :: line
-      integer(ip), intent(in) :: nodes(:)              !< places
-      integer(ip) :: n
-
-      n = size(nodes, kind=ip)
-      is_new_corner = all(nodes(:n - 1) /= nodes(n))
-      if (.not. is_new_corner) call report_error(deck, line_item(deck, line, n + 1), 'E-SHAPE', &
-                        'the element has this node twice', expected='different nodes, corners counter-clockwise', keyword='ELEMENT')
-   end function is_new_corner
 
    !> Adds an element and keeps where it comes from; a number given twice is an error.
    subroutine place_element(context, id, state, nodes, place, ok, keyword)
@@ -152,16 +135,15 @@ contains
    end subroutine place_element
 
    !> The set that ELSET= of a card names.
-   subroutine put_named_set(deck, card, model, members)
-      type(deck_t), intent(in) :: deck
-      type(card_t), intent(in) :: card
-      type(model_t), intent(inout) :: model
+   subroutine put_named_set(i_card, context, members)
+      integer(ip), intent(in) :: i_card
+      type(build_context_t), intent(inout) :: context
       integer(ip), intent(in) :: members(:)
       character(len=:), allocatable :: name
       logical :: found
 
-      call option_text(deck, card, 'ELSET', name, found)
-      if (found .and. len(name) > 0) call grow_set(model%element_sets, name, members)
+      call option_text(context%deck, context%deck%cards(i_card), 'ELSET', name, found)
+      if (found .and. len(name) > 0) call grow_set(context%model%element_sets, name, members)
    end subroutine put_named_set
 
    !> *ELGEN: rows, and rows of rows, of copies of an element.
@@ -170,25 +152,26 @@ contains
       type(build_context_t), intent(inout) :: context
       type(number_list_t) :: members
       type(repeat_t) :: repeats(3)
+      integer(lp) :: n
       integer(ip) :: i, k, master, first_new
       logical :: ok
 
-      associate (card => context%deck%cards(i_card))
+      associate (deck => context%deck, card => context%deck%cards(i_card))
          do i = card%first_line, card%first_line + card%n_lines - 1
-            if (.not. context%deck%lines(i)%ok) cycle
-            call find_one_element(context, line_item(context%deck, context%deck%lines(i), 1_ip), master, ok, 'ELGEN')
+            if (.not. deck%lines(i)%ok) cycle
+            call find_one_element(context, line_item(deck, deck%lines(i), 1_ip), master, ok, 'ELGEN')
+            if (ok) call read_repeats(deck, deck%lines(i), repeats, ok)
             if (.not. ok) cycle
-            call read_repeats(context%deck, context%deck%lines(i), repeats, ok)
-            if (ok) ok = fits_memory(context%deck%tokens(context%deck%lines(i)%first_token), context, 0_lp, &
-                                     copies(repeats), 'ELGEN')
-            if (.not. ok) cycle
+            ! the product of three integers may be larger than any of them can be
+            n = int(min(product(real(repeats%n, wp)), real(huge(1_ip), wp)), lp)
+            if (.not. fits_memory(deck%tokens(deck%lines(i)%first_token), context, 0_lp, n, 'ELGEN')) cycle
             first_new = context%model%mesh%n_elements + 1
-            call copy_element(context%deck%lines(i), context, master, repeats)
+            call copy_element(deck%lines(i), context, master, repeats)
             call add_number(members, master)
             call add_numbers(members, [(k, k=first_new, context%model%mesh%n_elements)])
          end do
-         call put_named_set(context%deck, card, context%model, numbers_of(members))
       end associate
+      call put_named_set(i_card, context, numbers_of(members))
    end subroutine read_elgen_card
 
    subroutine read_repeats(deck, line, repeats, ok)
@@ -196,6 +179,7 @@ contains
       type(data_line_t), intent(in) :: line
       type(repeat_t), intent(out) :: repeats(3)
       logical, intent(out) :: ok
+      character(len=*), parameter :: WHAT = 'number of elements, the first included'
       integer(ip) :: k, column
       logical :: good(3)
 
@@ -203,26 +187,18 @@ contains
       do k = 1, 3
          column = 3*k - 1
          if (column > line%n_tokens) exit
-         call get_integer(deck, line_item(deck, line, column), 'number of elements, the first included', repeats(k)%n, good(1), &
-                          1_ip, 'ELGEN')
-         call get_integer(deck, line_item(deck, line, column + 1), 'increment of the node numbers', repeats(k)%node_step, &
-                          good(2), 1_ip, 'ELGEN')
-         call get_integer(deck, line_item(deck, line, column + 2), 'increment of the element numbers', &
-                          repeats(k)%element_step, good(3), 1_ip, 'ELGEN')
-         ok = ok .and. all(good)
-         if (.not. good(1) .or. repeats(k)%n > 0) cycle
-         ok = .false.
-         call report_error(deck, line_item(deck, line, column), 'E-VALUE', to_text(repeats(k)%n)//' elements', &
-                           expected='number of elements, the first included: 1 or more', keyword='ELGEN')
+         associate (one => repeats(k))
+            call get_integer(deck, line_item(deck, line, column), WHAT, one%n, good(1), 1_ip, 'ELGEN')
+            call get_integer(deck, line_item(deck, line, column + 1), 'increment of the node numbers', one%node_step, &
+                             good(2), 1_ip, 'ELGEN')
+            call get_integer(deck, line_item(deck, line, column + 2), 'increment of the element numbers', one%element_step, &
+                             good(3), 1_ip, 'ELGEN')
+            if (good(1) .and. one%n <= 0) call report_error(deck, line_item(deck, line, column), 'E-VALUE', &
+                                       to_text(one%n)//' elements', expected=WHAT//': 1 or more', keyword='ELGEN')
+            ok = ok .and. all(good) .and. one%n > 0
+         end associate
       end do
    end subroutine read_repeats
-
-   !> How many there will be; the product of three integers may be larger than any of them can be.
-   pure integer(lp) function copies(repeats)
-      type(repeat_t), intent(in) :: repeats(3)
-
-      copies = int(min(product(real(repeats%n, wp)), real(huge(1_ip), wp)), lp)
-   end function copies
 
    !> Stops at the first copy that cannot be made: the others would fail for the same reason.
    subroutine copy_element(line, context, master, repeats)
@@ -268,7 +244,10 @@ contains
          if (.not. ok) exit
       end do
       if (.not. ok) then
-         if (is_invalid_node(context, ids(i)) .or. is_undetermined(context, 'node')) return
+         if (ids(i) > 0_lp .and. ids(i) <= int(huge(1_ip), lp) .and. has_errors()) then
+            if (find_id(context%nodes%invalid, int(ids(i), ip)) > 0) return
+         end if
+         if (is_undetermined(context, 'node')) return
          call report_error(context%deck, token, 'E-NODE', 'node '//to_text(ids(i))//' of the generated element '//to_text(id)// &
                            ' does not exist', expected='copies whose nodes all exist', keyword=keyword)
       else if (id < 1_lp .or. id > int(huge(1_ip), lp)) then
@@ -280,13 +259,5 @@ contains
          call place_element(context, int(id, ip), context%model%mesh%state(master), nodes, place, ok, keyword)
       end if
    end subroutine copy_element_once
-
-   logical function is_invalid_node(context, id)
-      type(build_context_t), intent(in) :: context
-      integer(lp), intent(in) :: id
-
-      is_invalid_node = has_errors() .and. id > 0_lp .and. id <= int(huge(1_ip), lp)
-      if (is_invalid_node) is_invalid_node = find_id(context%nodes%invalid, int(id, ip)) > 0
-   end function is_invalid_node
 
 end module atrito_build_elements

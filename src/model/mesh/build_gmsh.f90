@@ -1,56 +1,52 @@
-!> *INCLUDE, TYPE=GMSH: nodes, node sets and curves of a mesh of Gmsh; its elements are made by atrito_build_gmsh_elements.
+!> *INCLUDE, TYPE=GMSH: nodes, elements, sets and curves of a mesh of Gmsh.
 !>
 !> Nodes and elements keep their numbers, unless one of them is taken: then all of the file follow the greatest by a power of ten.
-!> Nodes that neither an element of the plane nor a physical point has are left out.
+!> Nodes that neither an element of the plane nor a physical point has are left out. The elements are made behind all nodes of the
+!> deck.
 module atrito_build_gmsh
    use atrito_build_context, only: build_context_t, note_places, note_undetermined_mesh, ids_text
    use atrito_build_nodes, only: put_node_set
    use atrito_curves, only: add_curve
    use atrito_diagnostics, only: report_error, report_note
+   use atrito_element_table, only: CORNERS_OF, MOST_NODES
    use atrito_gmsh_mesh, only: gmsh_mesh_t, group_name, part_name
    use atrito_id_map, only: id_map_t, add_id, find_id
+   use atrito_incidence, only: list_holders
+   use atrito_items, only: has_option, option_word
    use atrito_kinds, only: ip, lp
-   use atrito_mesh, only: add_node, reserve_mesh
+   use atrito_mesh, only: add_element, add_node, find_node, reserve_mesh
    use atrito_model_memory, only: fits_memory
-   use atrito_number_list, only: number_list_t, add_number, numbers_of
+   use atrito_plane_state, only: PLANE_STRAIN, PLANE_STRESS, AXISYMMETRIC
+   use atrito_sets, only: grow_set
    use atrito_strings, only: to_text
+   use atrito_turned_elements, only: turned_nodes, is_clockwise
    implicit none (type, external)
    private
-   public :: read_mesh_nodes, mesh_of_card, find_shift, refuse
-
-   !> A file between the pass over nodes and that over elements.
-   type :: work_t
-      integer(ip) :: card = 0
-      integer(ip), allocatable :: node(:)              !< place in the mesh of each node of the file; 0: left out
-      type(id_map_t) :: map                            !< from the file's numbers to the file's nodes
-      integer(ip), allocatable :: first(:), list(:)    !< elements of the file by their parts
-   end type work_t
+   public :: read_mesh_nodes, read_mesh_elements
 
 contains
 
-   !> The nodes of the mesh that a card names, and its node sets.
+   !> The nodes of the mesh that a card names, its node sets, and the lines of its curves.
    subroutine read_mesh_nodes(i_card, context)
       integer(ip), intent(in) :: i_card                !< place in deck%cards
       type(build_context_t), intent(inout) :: context
-      type(work_t) :: work
+      integer(ip), allocatable :: node(:)              ! place in the mesh of each node of the file; 0: left out
+      type(id_map_t) :: map                            ! from the file's numbers to the file's nodes
       integer(ip) :: i, shift
       logical :: ok
 
       i = mesh_of_card(i_card, context)
       if (i == 0) return
-      work%card = i_card
       associate (mesh => context%deck%meshes(i))
-         call number_nodes(mesh, work, context, ok)
-         if (ok) call choose_nodes(mesh, work, context, ok)
+         call choose_nodes(mesh, context, map, node, ok)
          if (ok) ok = fits_memory(context%deck%cards(i_card)%place, context, int(mesh%n_nodes, lp), int(mesh%n_elements, lp), &
                                   'INCLUDE')
-         if (ok) call find_shift(mesh%node_id, context%model%mesh%node_map, context%nodes%greatest, 'node', i_card, context, &
+         if (ok) call find_shift(mesh%node_id, context%model%mesh%node_map, context%nodes%greatest, 'node', mesh, context, &
                                  shift, ok)
          if (.not. ok) return
          context%mesh_shift(i) = shift
-         call place_nodes(mesh, work, shift, context)
-         call list_by_part(mesh, work)
-         call put_sets(mesh, work, context)
+         call place_nodes(mesh, shift, node, context)
+         call put_sets(mesh, map, node, context)
       end associate
    end subroutine read_mesh_nodes
 
@@ -65,111 +61,91 @@ contains
    end function mesh_of_card
 
    !> Reports an error of an included mesh at its *INCLUDE. The mesh is undetermined then: what names its nodes is not reported.
-   subroutine refuse(i_card, context, id, text, expected)
-      integer(ip), intent(in) :: i_card
+   subroutine refuse(mesh, context, id, text, expected)
+      type(gmsh_mesh_t), intent(in) :: mesh
       type(build_context_t), intent(inout) :: context
       character(len=*), intent(in) :: id, text, expected
 
-      call report_error(context%deck, context%deck%cards(i_card)%place, id, text, expected=expected, keyword='INCLUDE')
+      call report_error(context%deck, context%deck%cards(mesh%card)%place, id, text, expected=expected, keyword='INCLUDE')
       call note_undetermined_mesh(context)
    end subroutine refuse
 
-   !> The file's own numbers, each once.
-   subroutine number_nodes(mesh, work, context, ok)
+   !> Marks the nodes that elements of the plane and physical points have. The file's own numbers stand there once each.
+   subroutine choose_nodes(mesh, context, map, node, ok)
       type(gmsh_mesh_t), intent(in) :: mesh
-      type(work_t), intent(inout) :: work
       type(build_context_t), intent(inout) :: context
+      type(id_map_t), intent(out) :: map               !< from the file's numbers to the file's nodes
+      integer(ip), allocatable, intent(out) :: node(:) !< 1: chosen; 0: not
       logical, intent(out) :: ok
-      integer(ip) :: i
-      logical :: known
+      integer(ip) :: e, k, i
+      logical :: chooses, known
 
       ok = .true.
       do i = 1, mesh%n_nodes
-         call add_id(work%map, mesh%node_id(i), i, known)
+         call add_id(map, mesh%node_id(i), i, known)
          if (.not. known) cycle
          ok = .false.
-         call refuse(work%card, context, 'E-TWICE', 'node '//to_text(mesh%node_id(i))//' stands twice in '//mesh%file, &
-                     'each node once')
+         call refuse(mesh, context, 'E-TWICE', 'node '//to_text(mesh%node_id(i))//' stands twice in '//mesh%file, 'each node once')
          return
       end do
-   end subroutine number_nodes
-
-   !> Marks the nodes that elements of the plane and physical points have.
-   subroutine choose_nodes(mesh, work, context, ok)
-      type(gmsh_mesh_t), intent(in) :: mesh
-      type(work_t), intent(inout) :: work
-      type(build_context_t), intent(inout) :: context
-      logical, intent(out) :: ok
-      integer(ip) :: e, k, i
-      logical :: chooses, has_plane
-
-      ok = .true.
-      has_plane = .false.
-      allocate (work%node(mesh%n_nodes), source=0_ip)
+      allocate (node(mesh%n_nodes), source=0_ip)
       do e = 1, mesh%n_elements
          associate (part => mesh%parts(mesh%part(e)))
-            has_plane = has_plane .or. part%dim == 2
             chooses = part%dim == 2
             if (part%dim == 0) chooses = size(part%groups) > 0
          end associate
          do k = 1, mesh%shape(e)
-            i = find_id(work%map, mesh%nodes(k, e))
+            i = find_id(map, mesh%nodes(k, e))
             ok = i > 0
-            if (.not. ok) exit
-            if (chooses) work%node(i) = 1
+            if (.not. ok) then
+               call refuse(mesh, context, 'E-NODE', 'element '//to_text(mesh%element_id(e))//' of '//mesh%file//' has node '// &
+                           to_text(mesh%nodes(k, e))//', which is not there', 'nodes that stand in $Nodes')
+               return
+            end if
+            if (chooses) node(i) = 1
          end do
-         if (.not. ok) exit
       end do
-      if (.not. ok) then
-         call refuse(work%card, context, 'E-NODE', 'element '//to_text(mesh%element_id(e))//' of '//mesh%file//' has node '// &
-                     to_text(mesh%nodes(k, e))//', which is not there', 'nodes that stand in $Nodes')
-      else if (.not. has_plane) then
-         ok = .false.
-         call refuse(work%card, context, 'E-GMSH', mesh%file//' has no element of the plane', &
-                     'triangles or quadrilaterals, of a physical surface or of a drawing without physical groups')
-      end if
+      ok = any(mesh%parts(mesh%part)%dim == 2)
+      if (.not. ok) call refuse(mesh, context, 'E-GMSH', mesh%file//' has no element of the plane', &
+                                'triangles or quadrilaterals, of a physical surface or of a drawing without physical groups')
    end subroutine choose_nodes
 
    !> Adds the chosen nodes to the mesh.
-   subroutine place_nodes(mesh, work, shift, context)
+   subroutine place_nodes(mesh, shift, node, context)
       type(gmsh_mesh_t), intent(in) :: mesh
-      type(work_t), intent(inout) :: work
       integer(ip), intent(in) :: shift                 !< of the numbers
+      integer(ip), intent(inout) :: node(:)            !< in: as of choose_nodes; out: places in the mesh, 0: left out
       type(build_context_t), intent(inout) :: context
-      type(number_list_t) :: left_out
       integer(ip) :: i, before
       logical :: known
 
       before = context%model%mesh%n_nodes
       call reserve_mesh(context%model%mesh, mesh%n_nodes, 0_ip)
       do i = 1, mesh%n_nodes
-         if (work%node(i) == 0) then
-            call add_number(left_out, mesh%node_id(i))
-            cycle
-         end if
+         if (node(i) == 0) cycle
          call add_node(context%model%mesh, mesh%node_id(i) + shift, mesh%x(:, i), known)
-         work%node(i) = context%model%mesh%n_nodes
+         node(i) = context%model%mesh%n_nodes
          context%nodes%greatest = max(context%nodes%greatest, mesh%node_id(i) + shift)
       end do
-      call note_places(context%nodes%place, before + 1, context%model%mesh%n_nodes, -work%card)
-      if (left_out%n > 0) then
-         call report_note(context%deck, context%deck%cards(work%card)%place, 'N-NODE', 'node '//ids_text(numbers_of(left_out))// &
-                          ' of '//mesh%file//' belongs to no element and is left out', &
+      call note_places(context%nodes%place, before + 1, context%model%mesh%n_nodes, -mesh%card)
+      if (any(node == 0)) then
+         call report_note(context%deck, context%deck%cards(mesh%card)%place, 'N-NODE', 'node '// &
+                          ids_text(pack(mesh%node_id(:mesh%n_nodes), node == 0))//' of '//mesh%file// &
+                          ' belongs to no element and is left out', &
                           expected='a physical point, where such a node is meant', keyword='INCLUDE')
       end if
    end subroutine place_nodes
 
    !> What is added to the numbers of a file, so that none is there already.
-   subroutine find_shift(ids, taken, greatest, noun, i_card, context, shift, ok)
+   subroutine find_shift(ids, taken, greatest, noun, mesh, context, shift, ok)
       integer(ip), intent(in) :: ids(:)
       type(id_map_t), intent(in) :: taken
       integer(ip), intent(in) :: greatest              !< number that is taken
-      character(len=*), intent(in) :: noun
-      integer(ip), intent(in) :: i_card
+      character(len=*), intent(in) :: noun             !< 'node' or 'element'
+      type(gmsh_mesh_t), intent(in) :: mesh
       type(build_context_t), intent(inout) :: context
       integer(ip), intent(out) :: shift
       logical, intent(out) :: ok
-      character(len=:), allocatable :: file
       integer(lp) :: power
       integer(ip) :: i
 
@@ -180,59 +156,36 @@ contains
          if (find_id(taken, ids(i)) > 0) exit
       end do
       if (i > size(ids)) return
-      file = context%deck%meshes(mesh_of_card(i_card, context))%file
       power = 1000_lp
       do while (power <= int(greatest, lp))
          power = 10_lp*power
       end do
       ok = power + int(maxval(ids), lp) <= int(huge(1_ip), lp)
       if (.not. ok) then
-         call refuse(i_card, context, 'E-ID', 'the numbers of the '//noun//'s of '//file//' would be too large behind '// &
+         call refuse(mesh, context, 'E-ID', 'the numbers of the '//noun//'s of '//mesh%file//' would be too large behind '// &
                      to_text(greatest), 'smaller '//noun//' numbers')
          return
       end if
       shift = int(power, ip)
-      call report_note(context%deck, context%deck%cards(i_card)%place, 'N-NUMBERS', noun//' '//to_text(ids(i))//' of '// &
-                       file//' is taken: '//to_text(shift)//' is added to all '//noun//' numbers of the file')
+      call report_note(context%deck, context%deck%cards(mesh%card)%place, 'N-NUMBERS', noun//' '//to_text(ids(i))//' of '// &
+                       mesh%file//' is taken: '//to_text(shift)//' is added to all '//noun//' numbers of the file')
    end subroutine find_shift
 
-   !> The elements of each part, in their order.
-   pure subroutine list_by_part(mesh, work)
-      type(gmsh_mesh_t), intent(in) :: mesh
-      type(work_t), intent(inout) :: work
-      integer(ip) :: e, p
-      integer(ip), allocatable :: next(:)
-
-      allocate (work%first(mesh%n_parts + 1), work%list(mesh%n_elements))
-      work%first = 0
-      do e = 1, mesh%n_elements
-         work%first(mesh%part(e) + 1) = work%first(mesh%part(e) + 1) + 1
-      end do
-      work%first(1) = 1
-      do p = 1, mesh%n_parts
-         work%first(p + 1) = work%first(p + 1) + work%first(p)
-      end do
-      next = work%first(:mesh%n_parts)
-      do e = 1, mesh%n_elements
-         p = mesh%part(e)
-         work%list(next(p)) = e
-         next(p) = next(p) + 1
-      end do
-   end subroutine list_by_part
-
    !> Node sets of all entities and physical groups, and the lines of curves.
-   subroutine put_sets(mesh, work, context)
+   subroutine put_sets(mesh, map, node, context)
       type(gmsh_mesh_t), intent(in) :: mesh
-      type(work_t), intent(in) :: work
+      type(id_map_t), intent(in) :: map                !< from the file's numbers to the file's nodes
+      integer(ip), intent(in) :: node(:)               !< places of the file's nodes in the mesh
       type(build_context_t), intent(inout) :: context
-      integer(ip), allocatable :: stamp(:), nodes(:), ends(:, :)
+      integer(ip), allocatable :: stamp(:), first(:), list(:), nodes(:), ends(:, :)
       integer(ip) :: p, g
       character(len=:), allocatable :: name
 
+      call list_holders(mesh%n_parts, reshape(mesh%part, [1_ip, mesh%n_elements]), first, list)
       allocate (stamp(mesh%n_nodes), source=0_ip)
       do p = 1, mesh%n_parts
-         if (work%first(p + 1) == work%first(p)) cycle
-         call take_part(mesh, work, p, stamp, nodes, ends)
+         if (first(p + 1) == first(p)) cycle
+         call take_part(mesh, map, node, list(first(p):first(p + 1) - 1), p, stamp, nodes, ends)
          if (size(nodes) == 0) cycle
          do g = 0, size(mesh%parts(p)%groups, kind=ip)
             if (g == 0) then
@@ -240,42 +193,201 @@ contains
             else
                name = group_name(mesh, mesh%parts(p)%dim, mesh%parts(p)%groups(g))
             end if
-            call put_node_set(context, work%card, name, nodes)
-            if (mesh%parts(p)%dim == 1) call add_curve(context%curves, name, work%card, ends)
+            call put_node_set(context, mesh%card, name, nodes)
+            if (mesh%parts(p)%dim == 1) call add_curve(context%curves, name, mesh%card, ends)
          end do
       end do
    end subroutine put_sets
 
    !> The nodes of a part, each once, and the ends of its lines; places in the mesh.
-   subroutine take_part(mesh, work, p, stamp, nodes, ends)
+   subroutine take_part(mesh, map, node, elements, p, stamp, nodes, ends)
       type(gmsh_mesh_t), intent(in) :: mesh
-      type(work_t), intent(in) :: work
-      integer(ip), intent(in) :: p
+      type(id_map_t), intent(in) :: map
+      integer(ip), intent(in) :: node(:)
+      integer(ip), intent(in) :: elements(:), p        !< of the part, and the part itself
       integer(ip), intent(inout) :: stamp(:)           !< of each node of the file the last part that took it
       integer(ip), allocatable, intent(out) :: nodes(:), ends(:, :)
-      integer(ip) :: i, k, e, node, n, n_lines
+      integer(ip) :: i, k, n, n_lines
+      integer(ip) :: own(MOST_NODES)                   ! the file's nodes of an element
 
-      associate (list => work%list(work%first(p):work%first(p + 1) - 1))
-         allocate (nodes(sum(mesh%shape(list))), ends(2, size(list)))
-         n = 0
-         n_lines = 0
-         do i = 1, size(list, kind=ip)
-            e = list(i)
-            do k = 1, mesh%shape(e)
-               node = find_id(work%map, mesh%nodes(k, e))
-               if (stamp(node) == p .or. work%node(node) == 0) cycle
-               stamp(node) = p
-               n = n + 1
-               nodes(n) = work%node(node)
-            end do
-            if (mesh%parts(p)%dim /= 1) cycle
-            n_lines = n_lines + 1
-            ends(:, n_lines) = work%node([find_id(work%map, mesh%nodes(1, e)), find_id(work%map, mesh%nodes(2, e))])
-            if (any(ends(:, n_lines) == 0)) n_lines = n_lines - 1
+      allocate (nodes(sum(mesh%shape(elements))), ends(2, size(elements)))
+      n = 0
+      n_lines = 0
+      do i = 1, size(elements, kind=ip)
+         do k = 1, mesh%shape(elements(i))
+            own(k) = find_id(map, mesh%nodes(k, elements(i)))
+            if (stamp(own(k)) == p .or. node(own(k)) == 0) cycle
+            stamp(own(k)) = p
+            n = n + 1
+            nodes(n) = node(own(k))
          end do
-      end associate
+         if (mesh%parts(p)%dim /= 1) cycle
+         if (any(node(own(:2)) == 0)) cycle
+         n_lines = n_lines + 1
+         ends(:, n_lines) = node(own(:2))
+      end do
       nodes = nodes(:n)
       ends = ends(:, :n_lines)
    end subroutine take_part
+
+   !> The elements of the mesh that a card names, and its element sets.
+   subroutine read_mesh_elements(i_card, context)
+      integer(ip), intent(in) :: i_card                !< place in deck%cards
+      type(build_context_t), intent(inout) :: context
+      integer(ip), allocatable :: first(:)             ! of each element of the file the first with its nodes; 0: not of the plane
+      integer(ip), allocatable :: place(:)             ! of each element of the file in the mesh
+      integer(ip) :: i, shift
+      logical :: ok
+
+      i = mesh_of_card(i_card, context)
+      if (i == 0) return
+      if (context%mesh_shift(i) < 0) return            ! its nodes were refused
+      associate (mesh => context%deck%meshes(i))
+         call find_plane_elements(mesh, first)
+         call find_shift(pack(mesh%element_id, first > 0), context%model%mesh%element_map, &
+                         context%elements%greatest, 'element', mesh, context, shift, ok)
+         if (ok) call place_elements(mesh, [context%mesh_shift(i), shift], first, context, place, ok)
+         if (.not. ok) return
+         if (.not. has_option(context%deck, context%deck%cards(i_card), 'ELEMENTS')) then
+            call report_note(context%deck, context%deck%cards(i_card)%place, 'N-GMSH', 'the elements of '//mesh%file// &
+                             ' are taken as plane stress', expected='ELEMENTS=CPS, CPE (plane strain) or CAX (axisymmetric)', &
+                             keyword='INCLUDE')
+         end if
+         call put_element_sets(mesh, place, context)
+      end associate
+   end subroutine read_mesh_elements
+
+   !> Of each element of the file the first that has its nodes: itself, but for format 2.2, which has an element once for each of
+   !> its groups. 0: it is a point or a line.
+   subroutine find_plane_elements(mesh, first)
+      type(gmsh_mesh_t), intent(in) :: mesh
+      integer(ip), allocatable, intent(out) :: first(:)
+      logical :: is_shared(mesh%n_parts)               ! the entity of the part is that of others, too
+      type(id_map_t) :: seen                           ! entities
+      integer(ip) :: p, e
+      logical :: known
+
+      is_shared = .false.
+      do p = 1, mesh%n_parts
+         if (mesh%parts(p)%dim /= 2 .or. mesh%parts(p)%tag < 1) cycle
+         call add_id(seen, mesh%parts(p)%tag, p, known)
+         is_shared(p) = known
+         if (known) is_shared(find_id(seen, mesh%parts(p)%tag)) = .true.
+      end do
+      first = [(merge(e, 0_ip, mesh%parts(mesh%part(e))%dim == 2), e=1, mesh%n_elements)]
+      if (any(is_shared)) call find_twins(mesh, is_shared, first)
+   end subroutine find_plane_elements
+
+   !> Elements of the same corners, of which each list by the least of their corners has few.
+   subroutine find_twins(mesh, is_shared, first)
+      type(gmsh_mesh_t), intent(in) :: mesh
+      logical, intent(in) :: is_shared(:)              !< of each part
+      integer(ip), intent(inout) :: first(:)
+      integer(ip), allocatable :: next(:)
+      type(id_map_t) :: last                           ! of each node the first element in its list
+      integer(ip) :: e, other, least, n
+      logical :: known
+
+      allocate (next(mesh%n_elements), source=0_ip)
+      do e = 1, mesh%n_elements
+         if (.not. is_shared(mesh%part(e))) cycle
+         n = CORNERS_OF(mesh%shape(e))
+         least = minval(mesh%nodes(:n, e))
+         call add_id(last, least, e, known)
+         if (.not. known) cycle
+         other = find_id(last, least)
+         do
+            if (mesh%shape(other) == mesh%shape(e) .and. has_same(mesh%nodes(:n, other), mesh%nodes(:n, e))) first(e) = other
+            if (first(e) == other .or. next(other) == 0) exit
+            other = next(other)
+         end do
+         if (first(e) /= other) next(other) = e
+      end do
+   end subroutine find_twins
+
+   pure logical function has_same(a, b)
+      integer(ip), intent(in) :: a(:), b(:)
+      integer(ip) :: i
+
+      has_same = all([(any(a == b(i)), i=1, size(b))])
+   end function has_same
+
+   !> Adds the elements, in the plane state that ELEMENTS= of the card names.
+   subroutine place_elements(mesh, shift, first, context, place, ok)
+      type(gmsh_mesh_t), intent(in) :: mesh
+      integer(ip), intent(in) :: shift(2)              !< of the numbers of nodes and elements
+      integer(ip), intent(in) :: first(:)              !< as of find_plane_elements
+      type(build_context_t), intent(inout) :: context
+      integer(ip), allocatable, intent(out) :: place(:)
+      logical, intent(out) :: ok
+      integer(ip) :: e, before, state
+
+      ok = .true.
+      state = PLANE_STRESS
+      if (option_word(context%deck, context%deck%cards(mesh%card), 'ELEMENTS') == 'CPE') state = PLANE_STRAIN
+      if (option_word(context%deck, context%deck%cards(mesh%card), 'ELEMENTS') == 'CAX') state = AXISYMMETRIC
+      before = context%model%mesh%n_elements
+      allocate (place(mesh%n_elements), source=0_ip)
+      call reserve_mesh(context%model%mesh, 0_ip, count(first > 0, kind=ip))
+      do e = 1, mesh%n_elements
+         if (first(e) == e) then
+            call place_one(mesh, e, shift, state, context, ok)
+            if (.not. ok) exit
+            place(e) = context%model%mesh%n_elements
+         else if (first(e) > 0) then
+            place(e) = place(first(e))
+         end if
+      end do
+      call note_places(context%elements%place, before + 1, context%model%mesh%n_elements, -mesh%card)
+   end subroutine place_elements
+
+   !> Adds an element, counter-clockwise.
+   subroutine place_one(mesh, e, shift, state, context, ok)
+      type(gmsh_mesh_t), intent(in) :: mesh
+      integer(ip), intent(in) :: e, shift(2), state
+      type(build_context_t), intent(inout) :: context
+      logical, intent(out) :: ok
+      integer(ip) :: nodes(MOST_NODES), k, n
+      logical :: known
+
+      n = mesh%shape(e)
+      ok = .true.
+      do k = 1, n
+         nodes(k) = find_node(context%model%mesh, mesh%nodes(k, e) + shift(1))
+         ok = ok .and. all(nodes(:k - 1) /= nodes(k))
+      end do
+      if (.not. ok) then
+         call refuse(mesh, context, 'E-SHAPE', 'element '//to_text(mesh%element_id(e))//' of '//mesh%file// &
+                     ' has a node twice', 'different nodes')
+         return
+      end if
+      if (is_clockwise(context%model%mesh%x(:, nodes(:CORNERS_OF(n))))) nodes(:n) = turned_nodes(nodes(:n))
+      call add_element(context%model%mesh, mesh%element_id(e) + shift(2), state, nodes(:n), known)
+      ok = .not. known
+      context%elements%greatest = max(context%elements%greatest, mesh%element_id(e) + shift(2))
+      if (known) call refuse(mesh, context, 'E-TWICE', 'element '//to_text(mesh%element_id(e))//' stands twice in '// &
+                             mesh%file, 'each element once')
+   end subroutine place_one
+
+   !> Element sets of the surfaces of the drawing and their physical groups.
+   subroutine put_element_sets(mesh, place, context)
+      type(gmsh_mesh_t), intent(in) :: mesh
+      integer(ip), intent(in) :: place(:)
+      type(build_context_t), intent(inout) :: context
+      integer(ip), allocatable :: sets(:, :), members(:), from(:)
+      integer(ip) :: p, g
+
+      sets = reshape(merge(mesh%part, 0_ip, place > 0), [1_ip, mesh%n_elements])
+      call list_holders(mesh%n_parts, sets, from, members)
+      do p = 1, mesh%n_parts
+         if (from(p + 1) == from(p)) cycle
+         associate (places => place(members(from(p):from(p + 1) - 1)))
+            call grow_set(context%model%element_sets, part_name(mesh%parts(p)), places)
+            do g = 1, size(mesh%parts(p)%groups, kind=ip)
+               call grow_set(context%model%element_sets, group_name(mesh, 2_ip, mesh%parts(p)%groups(g)), places)
+            end do
+         end associate
+      end do
+   end subroutine put_element_sets
 
 end module atrito_build_gmsh

@@ -1,25 +1,33 @@
-!> Line elements (T3D2, T3D3), as Gmsh writes the curves of a drawing into an Abaqus file. They have no stiffness here: the nodes of
-!> an element set of lines are a node set, and the faces that lie on them a surface, of the same name.
+!> Lines that carry names, and surfaces that follow from nodes.
+!>
+!> Line elements (T3D2, T3D3), as Gmsh writes the curves of a drawing into an Abaqus file, have no stiffness here: the nodes of an
+!> element set of lines are a node set, and the faces that lie on them a surface, of the same name. So it is with the curves of a
+!> mesh of Gmsh. *SURFACE, TYPE=NODE has the faces between its nodes. All these faces are found in the mesh of the deck, before it
+!> is refined.
 module atrito_build_lines
-   use atrito_build_context, only: build_context_t, spoil_number, invalidate_name
+   use atrito_build_context, only: build_context_t, spoil_number, invalidate_name, keep_token, ids_text, has_errors
    use atrito_build_nodes, only: put_node_set
-   use atrito_curves, only: add_curve
+   use atrito_curves, only: add_curve, find_curve_faces, find_node_faces, nodes_of_no_face
    use atrito_deck, only: card_t, data_line_t, token_t, token_text, line_item, is_id_token, is_empty_token, keyword_name
    use atrito_diagnostics, only: report_error, report_note
+   use atrito_faces, only: add_face, drop_repeated, face_list_t
    use atrito_growth, only: resize
    use atrito_id_map, only: add_id, find_id
    use atrito_items, only: has_option, option_text, option_word
    use atrito_kinds, only: ip, wp
    use atrito_mesh, only: signed_area
+   use atrito_model, only: surface_t
+   use atrito_name_list, only: name_list_t, add_name, find_name, has_name
    use atrito_number_list, only: number_list_t, add_number, add_numbers, numbers_of
    use atrito_numbers, only: read_integer, NUMBER_OK
-   use atrito_references, only: get_id, find_one_node
+   use atrito_references, only: get_id, find_one_node, find_nodes
+   use atrito_refined_members, only: fine_elements, is_on_side
    use atrito_sets, only: find_set, grow_set, members_of
    use atrito_strings, only: to_text
    use atrito_turned_elements, only: turned_nodes
    implicit none (type, external)
    private
-   public :: is_line_card, read_lines, is_line_item, turn_elements
+   public :: is_line_card, read_lines, is_line_item, turn_elements, read_curves, put_curve_surfaces, take_node_surface, add_surface
 
 contains
 
@@ -35,7 +43,10 @@ contains
    !> All lines of the deck, behind its nodes, and the sets that name them.
    subroutine read_lines(context)
       type(build_context_t), intent(inout) :: context
+      character(len=:), allocatable :: name
+      type(token_t) :: place
       integer(ip) :: i
+      logical :: found
 
       do i = 1, context%deck%n_cards
          if (is_line_card(context, context%deck%cards(i))) call read_line_card(i, context)
@@ -44,8 +55,13 @@ contains
       do i = 1, context%deck%n_cards
          if (keyword_name(context%deck%cards(i)) == 'ELSET') call read_line_set(i, context)
       end do
-      do i = 1, context%deck%n_cards
-         if (keyword_name(context%deck%cards(i)) == 'SOLID SECTION') call refuse_section(context%deck%cards(i), context)
+      do i = 1, context%deck%n_cards                   ! lines with a section would be trusses
+         if (keyword_name(context%deck%cards(i)) /= 'SOLID SECTION') cycle
+         call option_text(context%deck, context%deck%cards(i), 'ELSET', name, found, place)
+         if (.not. found .or. find_set(context%lines%sets, name) == 0) cycle
+         call report_error(context%deck, place, 'E-OUTSIDE', 'the elements of set '//name//' would be trusses, which atrito '// &
+                           'has not', expected='elements of the plane; a spring along a line is *SPRING', keyword='SOLID SECTION')
+         call invalidate_name(context, name)
       end do
    end subroutine read_lines
 
@@ -80,7 +96,7 @@ contains
       type(data_line_t), intent(in) :: line
       type(build_context_t), intent(inout) :: context
       logical, intent(out) :: ok
-      integer(ip) :: id, nodes(3), i, n
+      integer(ip) :: id, nodes(3), i
       logical :: good, known
 
       nodes = 0
@@ -90,17 +106,18 @@ contains
          ok = ok .and. good
       end do
       if (.not. ok) return
-      n = context%lines%ids%n
-      call add_id(context%lines%ids, id, n + 1, known)
+      call add_id(context%lines%ids, id, context%lines%ids%n + 1, known)
       ok = .not. known
       if (known) then
          call report_error(context%deck, context%deck%tokens(line%first_token), 'E-TWICE', 'element '//to_text(id)// &
                            ' is given twice', expected='an element number that is free', keyword='ELEMENT')
          return
       end if
-      if (.not. allocated(context%lines%nodes)) allocate (context%lines%nodes(4, 0))
-      if (n == size(context%lines%nodes, 2)) call resize(context%lines%nodes, n, 2*n + 16)
-      context%lines%nodes(:, n + 1) = [nodes(1), merge(nodes(2), nodes(3), nodes(3) == 0), merge(nodes(2), 0_ip, nodes(3) > 0), id]
+      associate (n => context%lines%ids%n)
+         if (.not. allocated(context%lines%nodes)) allocate (context%lines%nodes(4, 16))
+         if (n > size(context%lines%nodes, 2)) call resize(context%lines%nodes, n - 1, 2*n)
+         context%lines%nodes(:, n) = [nodes(1), merge(nodes(2), nodes(3), nodes(3) == 0), merge(nodes(2), 0_ip, nodes(3) > 0), id]
+      end associate
    end subroutine read_line
 
    !> A set of lines is a node set and a curve.
@@ -137,7 +154,7 @@ contains
          do i = card%first_line, card%first_line + card%n_lines - 1
             if (.not. deck%lines(i)%ok) cycle
             if (has_option(deck, card, 'GENERATE')) then
-               call add_numbers(members, line_items_of_range(context, deck%lines(i)))
+               call add_lines_of_range(context, deck%lines(i), members)
                cycle
             end if
             do k = 1, deck%lines(i)%n_tokens
@@ -153,30 +170,27 @@ contains
       type(build_context_t), intent(in) :: context
       type(token_t), intent(in) :: token
       integer(ip), allocatable :: lines(:)
-      character(len=:), allocatable :: text
       integer(ip) :: id, i
       integer :: outcome
 
       allocate (lines(0))
       if (is_empty_token(token)) return
-      text = token_text(context%deck, token)
       if (is_id_token(context%deck, token)) then
-         call read_integer(text, id, outcome)
+         call read_integer(token_text(context%deck, token), id, outcome)
          if (outcome /= NUMBER_OK) return
          i = find_id(context%lines%ids, id)
          if (i > 0) lines = [i]
       else
-         i = find_set(context%lines%sets, text)
+         i = find_set(context%lines%sets, token_text(context%deck, token))
          if (i > 0) lines = members_of(context%lines%sets%sets(i))
       end if
    end function lines_of_item
 
    !> The lines in a range of numbers.
-   function line_items_of_range(context, line) result(lines)
+   subroutine add_lines_of_range(context, line, members)
       type(build_context_t), intent(in) :: context
       type(data_line_t), intent(in) :: line
-      integer(ip), allocatable :: lines(:)
-      type(number_list_t) :: found
+      type(number_list_t), intent(inout) :: members
       integer(ip) :: range(3), k, i
       integer :: outcome
 
@@ -189,10 +203,9 @@ contains
       do i = 1, context%lines%ids%n
          k = context%lines%nodes(4, i)
          if (k < range(1) .or. k > range(2) .or. range(3) < 1) cycle
-         if (modulo(k - range(1), range(3)) == 0) call add_number(found, i)
+         if (modulo(k - range(1), range(3)) == 0) call add_number(members, i)
       end do
-      lines = numbers_of(found)
-   end function line_items_of_range
+   end subroutine add_lines_of_range
 
    !> An item of an *ELSET names lines, and no elements.
    logical function is_line_item(context, token)
@@ -206,34 +219,17 @@ contains
       end if
    end function is_line_item
 
-   !> Lines with a section would be trusses.
-   subroutine refuse_section(card, context)
-      type(card_t), intent(in) :: card
-      type(build_context_t), intent(inout) :: context
-      character(len=:), allocatable :: name
-      type(token_t) :: place
-      logical :: found
-
-      call option_text(context%deck, card, 'ELSET', name, found, place)
-      if (.not. found) return
-      if (find_set(context%lines%sets, name) == 0) return
-      call report_error(context%deck, place, 'E-OUTSIDE', 'the elements of set '//name//' would be trusses, which atrito has not', &
-                        expected='elements of the plane; a spring along a line is *SPRING', keyword='SOLID SECTION')
-      call invalidate_name(context, name)
-   end subroutine refuse_section
-
    !> Beside lines of Gmsh elements may run clockwise, as the surfaces of a drawing do: they are turned, and it is told.
    subroutine turn_elements(context)
       type(build_context_t), intent(inout) :: context
-      integer(ip) :: e, n, turned
+      integer(ip) :: e, turned
 
       if (context%lines%ids%n == 0) return
       turned = 0
       associate (mesh => context%model%mesh)
          do e = 1, mesh%n_elements
             if (signed_area(mesh, e) >= 0.0_wp) cycle
-            n = mesh%shape(e)
-            mesh%nodes(:n, e) = turned_nodes(mesh%nodes(:n, e))
+            mesh%nodes(:mesh%shape(e), e) = turned_nodes(mesh%nodes(:mesh%shape(e), e))
             turned = turned + 1
          end do
       end associate
@@ -244,5 +240,132 @@ contains
       call report_note(context%deck, context%deck%cards(e)%place, 'N-TURNED', to_text(turned)//' elements ran clockwise and '// &
                        'are turned, and so are their faces S1, S2, ...', keyword='ELEMENT')
    end subroutine turn_elements
+
+   !> The faces on the outline that lie on curves, or between the nodes of a *SURFACE, TYPE=NODE.
+   subroutine read_curves(context)
+      type(build_context_t), intent(inout) :: context
+      integer(ip) :: i
+
+      do i = 1, context%curves%n
+         call find_curve_faces(context%model%mesh, context%around, context%curves%list(i))
+      end do
+      do i = 1, context%deck%n_cards
+         if (keyword_name(context%deck%cards(i)) /= 'SURFACE') cycle
+         if (context%deck%cards(i)%ok .and. option_word(context%deck, context%deck%cards(i), 'TYPE') == 'NODE') then
+            call read_node_surface(i, context)
+         end if
+      end do
+   end subroutine read_curves
+
+   !> *SURFACE, TYPE=NODE. There are faces, and each node is on one of them.
+   subroutine read_node_surface(i_card, context)
+      integer(ip), intent(in) :: i_card
+      type(build_context_t), intent(inout) :: context
+      type(number_list_t) :: list
+      integer(ip), allocatable :: members(:), none(:, :), loose(:)
+      character(len=:), allocatable :: name
+      integer(ip) :: i
+      logical :: found, good, ok
+
+      allocate (none(2, 0))
+      ok = .true.
+      associate (deck => context%deck, card => context%deck%cards(i_card), mesh => context%model%mesh)
+         call option_text(deck, card, 'NAME', name, found)
+         if (.not. found) return
+         do i = card%first_line, card%first_line + card%n_lines - 1
+            good = deck%lines(i)%ok
+            if (good) call find_nodes(context, line_item(deck, deck%lines(i), 1_ip), members, good, 'SURFACE')
+            if (good) call add_numbers(list, members)
+            ok = ok .and. good
+         end do
+         if (.not. ok .or. find_name(context%node_surfaces%names, name) > 0) return   ! read_surface_card reports a second one
+         call add_curve(context%node_surfaces, name, i_card, none)
+         associate (surface => context%node_surfaces%list(context%node_surfaces%n), nodes => numbers_of(list))
+            call find_node_faces(mesh, context%around, nodes, surface%faces)
+            call drop_repeated(surface%faces)
+            loose = nodes_of_no_face(mesh, nodes, surface%faces)
+            if (surface%faces%n == 0) then
+               call report_error(deck, card%place, 'E-FACE', 'no outer face has all its nodes in surface '//name, &
+                                 expected='the nodes of faces on the outline of a body, those in their middles too', &
+                                 keyword='SURFACE')
+            else if (size(loose) > 0 .and. .not. has_errors()) then
+               call report_note(deck, card%place, 'N-SURFACE', 'node '//ids_text(mesh%node_id(loose))//' of surface '//name// &
+                                ' is on none of its faces', keyword='SURFACE')
+            end if
+         end associate
+      end associate
+   end subroutine read_node_surface
+
+   !> The faces of a *SURFACE, TYPE=NODE.
+   subroutine take_node_surface(name, context, faces, ok)
+      character(len=*), intent(in) :: name
+      type(build_context_t), intent(in) :: context
+      type(face_list_t), intent(inout) :: faces
+      logical, intent(out) :: ok
+      integer(ip) :: i
+
+      i = find_name(context%node_surfaces%names, name)
+      ok = i > 0
+      if (.not. ok) return
+      call put_fine_faces(context%node_surfaces%list(i)%faces, context, faces)
+      ok = faces%n > 0
+   end subroutine take_node_surface
+
+   !> Makes surfaces of the curves of a Gmsh mesh that neither a *SURFACE nor a *BLOCK of the deck defines already. A curve inside
+   !> the mesh has none.
+   subroutine put_curve_surfaces(context)
+      type(build_context_t), intent(inout) :: context
+      type(name_list_t) :: of_deck                     ! names of the deck's own surfaces
+      type(surface_t) :: surface
+      integer(ip) :: i
+      character(len=:), allocatable :: name
+      logical :: found
+
+      do i = 1, merge(context%deck%n_cards, 0_ip, context%curves%n > 0)
+         if (keyword_name(context%deck%cards(i)) /= 'SURFACE') cycle
+         call option_text(context%deck, context%deck%cards(i), 'NAME', name, found)
+         if (found) call add_name(of_deck, name)
+      end do
+      do i = 1, context%curves%n
+         associate (curve => context%curves%list(i), place => context%deck%cards(context%curves%list(i)%card)%place)
+            if (curve%faces%n == 0 .or. has_name(context%surface_names, curve%name) .or. has_name(of_deck, curve%name)) cycle
+            surface%name = curve%name
+            surface%faces = face_list_t()
+            call put_fine_faces(curve%faces, context, surface%faces)
+            call drop_repeated(surface%faces)
+            call add_surface(context, surface, place)
+            if (curve%n_inside > 0) call report_note(context%deck, place, 'N-SURFACE', to_text(curve%n_inside)//' of '// &
+                                                     to_text(curve%n)//' lines of '//curve%name// &
+                                                     ' are on no outline: its surface has the others')
+         end associate
+      end do
+   end subroutine put_curve_surfaces
+
+   !> The faces of the present mesh that lie on some of the deck's.
+   subroutine put_fine_faces(coarse, context, faces)
+      type(face_list_t), intent(in) :: coarse
+      type(build_context_t), intent(in) :: context
+      type(face_list_t), intent(inout) :: faces
+      integer(ip), allocatable :: pieces(:)
+      integer(ip) :: i, k
+
+      do i = 1, coarse%n
+         pieces = fine_elements(context%refinement, coarse%element(i:i))
+         do k = 1, size(pieces, kind=ip)
+            if (is_on_side(context%refinement, pieces(k), coarse%face(i))) call add_face(faces, pieces(k), coarse%face(i))
+         end do
+      end do
+   end subroutine put_fine_faces
+
+   !> Adds a surface, under its name, to those of the model.
+   subroutine add_surface(context, surface, place)
+      type(build_context_t), intent(inout) :: context
+      type(surface_t), intent(in) :: surface
+      type(token_t), intent(in) :: place               !< where it is defined
+
+      call add_name(context%surface_names, surface%name)
+      context%model%surfaces(context%surface_names%n) = surface
+      call keep_token(context%surfaces, context%surface_names%n, place)
+   end subroutine add_surface
 
 end module atrito_build_lines

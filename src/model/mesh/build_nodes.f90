@@ -9,7 +9,7 @@ module atrito_build_nodes
    use atrito_mesh, only: add_node, find_node
    use atrito_model_memory, only: fits_memory, most_nodes
    use atrito_motion, only: moved
-   use atrito_number_list, only: number_list_t, add_number, add_numbers, numbers_of
+   use atrito_number_list, only: number_list_t, add_numbers, numbers_of
    use atrito_numbers, only: read_real, NUMBER_OK
    use atrito_plain_numbers, only: read_plain_nodes, SLICE
    use atrito_references, only: get_id, find_nodes, find_one_node
@@ -18,7 +18,9 @@ module atrito_build_nodes
    use atrito_strings, only: to_text
    implicit none (type, external)
    private
-   public :: read_node_card, read_ngen_card, read_nfill_card, place_node, put_node_set
+   public :: read_node_card, read_fill_card, place_node, put_node_set
+
+   character(len=*), parameter :: WHAT_STEP = 'increment of the numbers, an integer'
 
    !> A z up to this part of the scene is what preprocessors leave of a rotation.
    real(wp), parameter :: FLAT = 1.0e-10_wp
@@ -77,14 +79,15 @@ contains
       integer(ip), intent(in) :: id
       real(wp), intent(in) :: x(2)                     !< as it stands there [L]
       integer(ip), intent(in) :: token                 !< of the deck: its number
-      real(wp) :: place(2)
       logical :: ok
 
-      place = x
       associate (scope => context%deck%tokens(token)%scope)
-         if (scope > 0) place = moved(context%motions(scope), x)
+         if (scope > 0) then
+            call place_node(context, id, moved(context%motions(scope), x), token, ok, 'NODE')
+         else
+            call place_node(context, id, x, token, ok, 'NODE')
+         end if
       end associate
-      call place_node(context, id, place, token, ok, 'NODE')
    end subroutine place_moved_node
 
    subroutine read_node_line(line, context)
@@ -95,40 +98,38 @@ contains
       logical :: ok(4)
 
       ok = line%ok
-      if (line%ok) then
-         call get_id(context%deck, context%deck%tokens(line%first_token), 'node number', id, ok(1), 'NODE')
-         call get_coordinate(context%deck, line_item(context%deck, line, 2_ip), 'x, a real [L]', x(1), ok(2), 'NODE', 0.0_wp)
-         call get_coordinate(context%deck, line_item(context%deck, line, 3_ip), 'y, a real [L]', x(2), ok(3), 'NODE', 0.0_wp)
-         if (line%n_tokens > 3) then
-            call get_real(context%deck, line_item(context%deck, line, 4_ip), 'z [L], which is 0 in the plane', z, ok(4), 0.0_wp, &
-                          'NODE')
+      associate (deck => context%deck)
+         if (line%ok) then
+            call get_id(deck, deck%tokens(line%first_token), 'node number', id, ok(1), 'NODE')
+            call get_coordinate(deck, line_item(deck, line, 2_ip), 'x, a real [L]', x(1), ok(2), 'NODE', 0.0_wp)
+            call get_coordinate(deck, line_item(deck, line, 3_ip), 'y, a real [L]', x(2), ok(3), 'NODE', 0.0_wp)
+            z = 0.0_wp
+            if (line%n_tokens > 3) call get_real(deck, line_item(deck, line, 4_ip), 'z [L], which is 0 in the plane', z, ok(4), &
+                                                 0.0_wp, 'NODE')
             if (ok(4) .and. abs(z) > 0.0_wp) then
-               if (context%spread < 0.0_wp) context%spread = spread_of_nodes(context%deck)
+               if (context%spread < 0.0_wp) context%spread = spread_of_nodes(deck)
                ok(4) = abs(z) <= FLAT*context%spread
-               if (.not. ok(4)) call report_error(context%deck, line_item(context%deck, line, 4_ip), 'E-VALUE', &
-                                                  'the scene is plane: z is not 0', expected='z = 0 [L], or no third coordinate', &
-                                                  keyword='NODE')
+               if (.not. ok(4)) call report_error(deck, line_item(deck, line, 4_ip), 'E-VALUE', 'the scene is plane: z is not 0', &
+                                                  expected='z = 0 [L], or no third coordinate', keyword='NODE')
             end if
          end if
-      end if
-      if (all(ok)) then
-         call place_moved_node(context, id, x, line%first_token)
-      else
-         call spoil_number(context%deck, line, context%nodes)
-      end if
+         if (all(ok)) then
+            call place_moved_node(context, id, x, line%first_token)
+         else
+            call spoil_number(deck, line, context%nodes)
+         end if
+      end associate
    end subroutine read_node_line
 
    !> The longer side of the box round all lines of *NODE, as they stand there; what is no plain number has no part in it.
    pure real(wp) function spread_of_nodes(deck) result(spread)
       type(deck_t), intent(in) :: deck
       real(wp) :: low(2), high(2), x
-      logical :: is_there(2)
       integer(ip) :: i, axis, k
       integer :: outcome
 
-      low = 0.0_wp
-      high = 0.0_wp
-      is_there = .false.
+      low = 0.25_wp*huge(1.0_wp)
+      high = -low
       do i = 1, deck%n_cards
          if (keyword_name(deck%cards(i)) /= 'NODE') cycle
          do k = deck%cards(i)%first_line, deck%cards(i)%first_line + deck%cards(i)%n_lines - 1
@@ -137,15 +138,12 @@ contains
                   call read_real(deck%sources(token%source)%text(token%first:token%last), x, outcome)
                end associate
                if (outcome /= NUMBER_OK .or. .not. is_coordinate(x)) cycle
-               if (.not. is_there(axis)) low(axis) = x
-               if (.not. is_there(axis)) high(axis) = x
-               is_there(axis) = .true.
                low(axis) = min(low(axis), x)
                high(axis) = max(high(axis), x)
             end do
          end do
       end do
-      spread = maxval(high - low)
+      spread = maxval(max(high - low, 0.0_wp))
    end function spread_of_nodes
 
    !> Adds a node and keeps where it comes from; a number given twice is an error.
@@ -189,6 +187,130 @@ contains
       if (set_count(context%model%node_sets) > n) call note_place(context%set_card, n + 1, i_card)
    end subroutine put_node_ranges
 
+   !> *NGEN and *NFILL: nodes between two nodes, or between those of two sets, line by line. A set NSET= has all of them.
+   subroutine read_fill_card(i_card, context)
+      integer(ip), intent(in) :: i_card
+      type(build_context_t), intent(inout) :: context
+      type(number_list_t) :: members
+      integer(ip), allocatable :: from(:), to(:)
+      integer(ip) :: i, k, n, step, first_new
+      logical :: ok
+
+      associate (card => context%deck%cards(i_card))
+         do i = card%first_line, card%first_line + card%n_lines - 1
+            if (.not. context%deck%lines(i)%ok) cycle
+            if (keyword_name(card) == 'NGEN') then
+               call read_ngen_line(context%deck%lines(i), context, from, to, n, step, ok)
+            else
+               call read_nfill_line(context%deck%lines(i), context, from, to, n, step, ok)
+            end if
+            if (.not. ok) cycle
+            first_new = context%model%mesh%n_nodes + 1
+            call fill_lines(context, from, to, n, step, context%deck%lines(i)%first_token, keyword_name(card))
+            call add_numbers(members, from)
+            call add_numbers(members, [(k, k=first_new, context%model%mesh%n_nodes)])
+            call add_numbers(members, to)
+         end do
+      end associate
+      call put_named_set(i_card, context, numbers_of(members))
+   end subroutine read_fill_card
+
+   !> First node, last node, increment of the numbers, which leads from the first to the last.
+   subroutine read_ngen_line(line, context, from, to, n, step, ok)
+      type(data_line_t), intent(in) :: line
+      type(build_context_t), intent(inout) :: context
+      integer(ip), allocatable, intent(out) :: from(:), to(:)   !< places of the two nodes
+      integer(ip), intent(out) :: n                    !< intervals between them
+      integer(ip), intent(out) :: step                 !< of the numbers, from interval to interval
+      logical, intent(out) :: ok
+      integer(ip) :: apart
+      logical :: good(3)
+
+      allocate (from(1), to(1))
+      call find_one_node(context, context%deck%tokens(line%first_token), from(1), good(1), 'NGEN')
+      call find_one_node(context, line_item(context%deck, line, 2_ip), to(1), good(2), 'NGEN')
+      call get_integer(context%deck, line_item(context%deck, line, 3_ip), WHAT_STEP, step, good(3), 1_ip, 'NGEN')
+      ok = all(good)
+      if (.not. ok) return
+      associate (first => context%model%mesh%node_id(from(1)), last => context%model%mesh%node_id(to(1)))
+         apart = last - first
+         n = 0
+         if (step /= 0) n = apart/step
+         ok = n > 0 .and. n*step == apart .and. int(n, lp) <= most_nodes()
+         if (.not. ok) call report_error(context%deck, line_item(context%deck, line, merge(3_ip, 2_ip, line%n_tokens > 2)), &
+                                         'E-VALUE', 'steps of '//to_text(step)//' do not lead from node '//to_text(first)// &
+                                         ' to node '//to_text(last), expected='an increment that divides '//to_text(apart), &
+                                         keyword='NGEN')
+      end associate
+      if (ok) ok = fits_memory(context%deck%tokens(line%first_token), context, int(n, lp), 0_lp, 'NGEN')
+   end subroutine read_ngen_line
+
+   !> Two sets of as many nodes, number of intervals, increment of the numbers, which stay positive and in the range of an integer.
+   subroutine read_nfill_line(line, context, from, to, n, step, ok)
+      type(data_line_t), intent(in) :: line
+      type(build_context_t), intent(inout) :: context
+      integer(ip), allocatable, intent(out) :: from(:), to(:)   !< places, node by node
+      integer(ip), intent(out) :: n, step              !< as of read_ngen_line
+      logical, intent(out) :: ok
+      character(len=*), parameter :: WHAT = 'number of intervals, a positive integer'
+      integer(lp) :: reach
+      logical :: good(4)
+
+      associate (deck => context%deck)
+         call find_nodes(context, deck%tokens(line%first_token), from, good(1), 'NFILL')
+         call find_nodes(context, line_item(deck, line, 2_ip), to, good(2), 'NFILL')
+         call get_integer(deck, line_item(deck, line, 3_ip), WHAT, n, good(3), keyword='NFILL')
+         call get_integer(deck, line_item(deck, line, 4_ip), WHAT_STEP, step, good(4), 1_ip, 'NFILL')
+         ok = all(good)
+         if (good(3) .and. n < 1) then
+            ok = .false.
+            call report_error(deck, line_item(deck, line, 3_ip), 'E-VALUE', to_text(n)//' intervals', expected=WHAT, &
+                              keyword='NFILL')
+         end if
+         if (all(good(:2)) .and. size(from) /= size(to)) then
+            ok = .false.
+            call report_error(deck, line_item(deck, line, 2_ip), 'E-SET', 'the two sets have '//to_text(size(from, kind=ip))// &
+                              ' and '//to_text(size(to, kind=ip))//' nodes', expected='two node sets of as many nodes', &
+                              keyword='NFILL')
+         end if
+         if (.not. ok) return
+         reach = int(n - 1, lp)*int(step, lp)
+         if (n > 1 .and. size(from) > 0) then
+            associate (ids => context%model%mesh%node_id(from))
+               ok = minval(ids) + reach > 0_lp .and. maxval(ids) + reach <= int(huge(1_ip), lp) .and. step /= 0 &
+                    .and. int(n, lp)*size(ids, kind=lp) <= most_nodes()
+            end associate
+         end if
+         if (.not. ok) call report_error(deck, line_item(deck, line, 3_ip), 'E-VALUE', to_text(n)//' intervals in steps of '// &
+                                         to_text(step)//' lead to node numbers that cannot be', &
+                                         expected='positive node numbers, at most '//to_text(most_nodes())//' nodes', &
+                                         keyword='NFILL')
+      end associate
+      if (ok) ok = fits_memory(context%deck%tokens(line%first_token), context, int(n - 1, lp)*size(from, kind=lp), 0_lp, &
+                               'NFILL')
+   end subroutine read_nfill_line
+
+   !> Nodes between each two, equally spaced, numbered by `step` from the first of the two.
+   subroutine fill_lines(context, from, to, n, step, place, keyword)
+      type(build_context_t), intent(inout) :: context
+      integer(ip), intent(in) :: from(:), to(:)        !< places
+      integer(ip), intent(in) :: n                     !< intervals
+      integer(ip), intent(in) :: step, place
+      character(len=*), intent(in) :: keyword
+      real(wp) :: t, x(2)
+      integer(ip) :: i, k
+      logical :: ok
+
+      do i = 1, size(from, kind=ip)
+         do k = 1, n - 1
+            t = real(k, wp)/real(n, wp)
+            x = (1 - t)*context%model%mesh%x(:, from(i)) + t*context%model%mesh%x(:, to(i))
+            call place_node(context, context%model%mesh%node_id(from(i)) + k*step, x, place, ok, keyword)
+            if (.not. ok) return
+         end do
+      end do
+   end subroutine fill_lines
+
    !> The set that NSET= of a card names.
    subroutine put_named_set(i_card, context, members)
       integer(ip), intent(in) :: i_card
@@ -200,183 +322,5 @@ contains
       call option_text(context%deck, context%deck%cards(i_card), 'NSET', name, found)
       if (found .and. len(name) > 0) call put_node_set(context, i_card, name, members)
    end subroutine put_named_set
-
-   !> *NGEN: nodes on the straight line between two nodes, equally spaced.
-   subroutine read_ngen_card(i_card, context)
-      integer(ip), intent(in) :: i_card
-      type(build_context_t), intent(inout) :: context
-      type(number_list_t) :: members
-      integer(ip) :: i, ends(2), step, first_new, k
-      logical :: ok
-
-      associate (card => context%deck%cards(i_card))
-         do i = card%first_line, card%first_line + card%n_lines - 1
-            call read_ngen_line(context%deck%lines(i), context, ends, step, ok)
-            if (.not. ok) cycle
-            first_new = context%model%mesh%n_nodes + 1
-            call fill_line(context, ends, step, context%deck%lines(i)%first_token)
-            call add_number(members, ends(1))
-            call add_numbers(members, [(k, k=first_new, context%model%mesh%n_nodes)])
-            call add_number(members, ends(2))
-         end do
-      end associate
-      call put_named_set(i_card, context, numbers_of(members))
-   end subroutine read_ngen_card
-
-   subroutine read_ngen_line(line, context, ends, step, ok)
-      type(data_line_t), intent(in) :: line
-      type(build_context_t), intent(inout) :: context
-      integer(ip), intent(out) :: ends(2)              !< places of the two nodes
-      integer(ip), intent(out) :: step                 !< from number to number
-      logical, intent(out) :: ok
-      logical :: good(3)
-
-      good = line%ok
-      if (line%ok) then
-         call find_one_node(context, context%deck%tokens(line%first_token), ends(1), good(1), 'NGEN')
-         call find_one_node(context, line_item(context%deck, line, 2_ip), ends(2), good(2), 'NGEN')
-         call get_integer(context%deck, line_item(context%deck, line, 3_ip), 'increment of the numbers, an integer', step, &
-                          good(3), &
-                          1_ip, 'NGEN')
-         if (all(good)) good(3) = is_step(context%deck, line, context%model%mesh%node_id(ends), step)
-         if (all(good)) then
-            associate (ids => context%model%mesh%node_id(ends))
-               good(3) = fits_memory(context%deck%tokens(line%first_token), context, int((ids(2) - ids(1))/step, lp), &
-                                     0_lp, 'NGEN')
-            end associate
-         end if
-      end if
-      ok = all(good)
-   end subroutine read_ngen_line
-
-   !> The increment leads from the first number to the last.
-   logical function is_step(deck, line, ids, step)
-      type(deck_t), intent(in) :: deck
-      type(data_line_t), intent(in) :: line
-      integer(ip), intent(in) :: ids(2), step
-
-      is_step = step /= 0
-      if (is_step) is_step = modulo(ids(2) - ids(1), step) == 0 .and. (ids(2) - ids(1))/step > 0 &
-                             .and. int((ids(2) - ids(1))/step, lp) <= most_nodes()
-      if (is_step) return
-      call report_error(deck, line_item(deck, line, merge(3_ip, 2_ip, line%n_tokens > 2)), 'E-VALUE', 'steps of '// &
-                        to_text(step)//' do not lead from node '//to_text(ids(1))//' to node '//to_text(ids(2)), &
-                        expected='an increment that divides '//to_text(ids(2) - ids(1)), keyword='NGEN')
-   end function is_step
-
-   !> Nodes between two nodes, equally spaced, numbered by `step` from the first.
-   subroutine fill_line(context, ends, step, place)
-      type(build_context_t), intent(inout) :: context
-      integer(ip), intent(in) :: ends(2), step, place
-      real(wp) :: a(2), b(2), t
-      integer(ip) :: i, n, first_id
-      logical :: ok
-
-      first_id = context%model%mesh%node_id(ends(1))
-      n = (context%model%mesh%node_id(ends(2)) - first_id)/step
-      a = context%model%mesh%x(:, ends(1))
-      b = context%model%mesh%x(:, ends(2))
-      do i = 1, n - 1
-         t = real(i, wp)/real(n, wp)
-         call place_node(context, first_id + i*step, (1 - t)*a + t*b, place, ok, 'NGEN')
-         if (.not. ok) return
-      end do
-   end subroutine fill_line
-
-   !> *NFILL: nodes between those of two sets, line by line.
-   subroutine read_nfill_card(i_card, context)
-      integer(ip), intent(in) :: i_card
-      type(build_context_t), intent(inout) :: context
-      type(number_list_t) :: members
-      integer(ip), allocatable :: from(:), to(:)
-      integer(ip) :: i, k, n, step, first_new
-      logical :: ok
-
-      associate (card => context%deck%cards(i_card))
-         do i = card%first_line, card%first_line + card%n_lines - 1
-            call read_nfill_line(context%deck%lines(i), context, from, to, n, step, ok)
-            if (.not. ok) cycle
-            first_new = context%model%mesh%n_nodes + 1
-            call fill_lines(context, from, to, n, step, context%deck%lines(i)%first_token)
-            call add_numbers(members, from)
-            call add_numbers(members, [(k, k=first_new, context%model%mesh%n_nodes)])
-            call add_numbers(members, to)
-         end do
-      end associate
-      call put_named_set(i_card, context, numbers_of(members))
-   end subroutine read_nfill_card
-
-   subroutine read_nfill_line(line, context, from, to, n, step, ok)
-      type(data_line_t), intent(in) :: line
-      type(build_context_t), intent(inout) :: context
-      integer(ip), allocatable, intent(out) :: from(:), to(:)   !< places, node by node
-      integer(ip), intent(out) :: n                    !< intervals between them
-      integer(ip), intent(out) :: step                 !< of the numbers, from interval to interval
-      logical, intent(out) :: ok
-      logical :: good(4)
-
-      good = line%ok
-      if (line%ok) then
-         call find_nodes(context, context%deck%tokens(line%first_token), from, good(1), 'NFILL')
-         call find_nodes(context, line_item(context%deck, line, 2_ip), to, good(2), 'NFILL')
-         call get_integer(context%deck, line_item(context%deck, line, 3_ip), 'number of intervals, a positive integer', n, &
-                          good(3), &
-                          keyword='NFILL')
-         call get_integer(context%deck, line_item(context%deck, line, 4_ip), 'increment of the numbers, an integer', step, &
-                          good(4), &
-                          1_ip, 'NFILL')
-         if (good(3) .and. n < 1) then
-            good(3) = .false.
-            call report_error(context%deck, line_item(context%deck, line, 3_ip), 'E-VALUE', to_text(n)//' intervals', &
-                              expected='number of intervals, a positive integer', keyword='NFILL')
-         end if
-         if (all(good(:2))) then
-            good(1) = size(from) == size(to)
-            if (.not. good(1)) call report_error(context%deck, line_item(context%deck, line, 2_ip), 'E-SET', &
-                                                 'the two sets have '// &
-                                                 to_text(size(from, kind=ip))//' and '//to_text(size(to, kind=ip))//' nodes', &
-                                                 expected='two node sets of as many nodes', keyword='NFILL')
-         end if
-      end if
-      ok = all(good)
-      if (ok) ok = numbers_fit(context%deck, line, context%model%mesh%node_id(from), n, step)
-      if (ok) ok = fits_memory(context%deck%tokens(line%first_token), context, int(n - 1, lp)*size(from, kind=lp), 0_lp, &
-                               'NFILL')
-   end subroutine read_nfill_line
-
-   !> The numbers of the nodes between stay positive and in the range of an integer.
-   logical function numbers_fit(deck, line, ids, n, step)
-      type(deck_t), intent(in) :: deck
-      type(data_line_t), intent(in) :: line
-      integer(ip), intent(in) :: ids(:), n, step
-      integer(lp) :: reach
-
-      reach = int(n - 1, lp)*int(step, lp)
-      numbers_fit = n == 1 .or. size(ids) == 0
-      if (.not. numbers_fit) numbers_fit = minval(ids) + reach > 0_lp .and. maxval(ids) + reach <= int(huge(1_ip), lp) &
-                                           .and. step /= 0 .and. int(n, lp)*size(ids, kind=lp) <= most_nodes()
-      if (numbers_fit) return
-      call report_error(deck, line_item(deck, line, 3_ip), 'E-VALUE', to_text(n)//' intervals in steps of '//to_text(step)// &
-                        ' lead to node numbers that cannot be', expected='positive node numbers, at most '// &
-                        to_text(most_nodes())//' nodes', keyword='NFILL')
-   end function numbers_fit
-
-   subroutine fill_lines(context, from, to, n, step, place)
-      type(build_context_t), intent(inout) :: context
-      integer(ip), intent(in) :: from(:), to(:), n, step, place
-      real(wp) :: t, x(2)
-      integer(ip) :: i, k, id
-      logical :: ok
-
-      do i = 1, size(from, kind=ip)
-         do k = 1, n - 1
-            t = real(k, wp)/real(n, wp)
-            x = (1 - t)*context%model%mesh%x(:, from(i)) + t*context%model%mesh%x(:, to(i))
-            id = context%model%mesh%node_id(from(i)) + k*step
-            call place_node(context, id, x, place, ok, 'NFILL')
-            if (.not. ok) return
-         end do
-      end do
-   end subroutine fill_lines
 
 end module atrito_build_nodes

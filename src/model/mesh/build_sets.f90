@@ -14,7 +14,7 @@ module atrito_build_sets
    use atrito_ranges, only: ranges_t, add_range, add_numbers, add_ranges, count_numbers
    use atrito_references, only: get_id, find_nodes, find_elements
    use atrito_sets, only: set_list_t, find_set, grow_set
-   use atrito_strings, only: to_text
+   use atrito_strings, only: to_text, upper_case
    implicit none (type, external)
    private
    public :: try_set_card, read_set_card
@@ -28,11 +28,15 @@ contains
       type(build_context_t), intent(inout) :: context
       logical :: known
 
-      associate (deck => context%deck, card => context%deck%cards(i_card))
-         if (keyword_name(card) == 'NSET') then
-            known = members_are_known(deck, card, context%model%mesh%node_map, context%model%node_sets)
+      associate (deck => context%deck, card => context%deck%cards(i_card), model => context%model)
+         if (has_option(deck, card, 'GENERATE') .and. keyword_name(card) == 'NSET') then
+            known = ranges_are_known(deck, card, model%mesh%node_map)
+         else if (has_option(deck, card, 'GENERATE')) then
+            known = ranges_are_known(deck, card, model%mesh%element_map)
+         else if (keyword_name(card) == 'NSET') then
+            known = items_are_known(deck, card, model%mesh%node_map, model%node_sets)
          else
-            known = members_are_known(deck, card, context%model%mesh%element_map, context%model%element_sets)
+            known = items_are_known(deck, card, model%mesh%element_map, model%element_sets)
          end if
       end associate
       if (.not. known) return
@@ -40,23 +44,10 @@ contains
       context%card_done(i_card) = .true.
    end subroutine try_set_card
 
-   pure logical function members_are_known(deck, card, map, sets) result(known)
-      type(deck_t), intent(in) :: deck
-      type(card_t), intent(in) :: card
-      type(id_map_t), intent(in) :: map                !< of the numbers there are
-      type(set_list_t), intent(in) :: sets
-
-      if (has_option(deck, card, 'GENERATE')) then
-         known = ranges_are_known(deck, card, map)
-      else
-         known = items_are_known(deck, card, map, sets)
-      end if
-   end function members_are_known
-
    pure logical function items_are_known(deck, card, map, sets) result(known)
       type(deck_t), intent(in) :: deck
       type(card_t), intent(in) :: card
-      type(id_map_t), intent(in) :: map
+      type(id_map_t), intent(in) :: map                !< of the numbers there are
       type(set_list_t), intent(in) :: sets
       integer(ip) :: i, t, id
       integer :: outcome
@@ -111,95 +102,80 @@ contains
       type(build_context_t), intent(inout) :: context
       type(ranges_t) :: members
       type(id_map_t) :: none
-      character(len=:), allocatable :: name, keyword
+      character(len=:), allocatable :: name
       integer(ip) :: i
-      logical :: found
+      logical :: found, is_of_nodes
 
-      associate (card => context%deck%cards(i_card))
-         keyword = keyword_name(card)
-         call option_text(context%deck, card, keyword, name, found)
+      associate (card => context%deck%cards(i_card), model => context%model)
+         is_of_nodes = keyword_name(card) == 'NSET'
+         call option_text(context%deck, card, keyword_name(card), name, found)
          if (.not. found) return
          do i = card%first_line, card%first_line + card%n_lines - 1
-            if (.not. context%deck%lines(i)%ok) cycle
-            if (.not. has_option(context%deck, card, 'GENERATE')) then
-               call read_items(context%deck%lines(i), i_card, context, members)
-            else if (keyword == 'NSET') then
-               call read_range(context%deck, context%deck%lines(i), context%model%mesh%node_map, context%nodes%invalid, none, &
-                               'node', members)
-            else
-               call read_range(context%deck, context%deck%lines(i), context%model%mesh%element_map, context%elements%invalid, &
-                               context%lines%ids, 'element', members)
-            end if
+            associate (line => context%deck%lines(i))
+               if (.not. line%ok) cycle
+               if (.not. has_option(context%deck, card, 'GENERATE')) then
+                  if (is_of_nodes) call read_items(line, i_card, model%node_sets, context, members)
+                  if (.not. is_of_nodes) call read_items(line, i_card, model%element_sets, context, members)
+               else if (is_of_nodes) then
+                  call read_range(context%deck, line, model%mesh%node_map, context%nodes%invalid, none, 'node', members)
+               else
+                  call read_range(context%deck, line, model%mesh%element_map, context%elements%invalid, context%lines%ids, &
+                                  'element', members)
+               end if
+            end associate
          end do
       end associate
-      if (keyword == 'NSET') then
+      if (is_of_nodes) then
          call put_node_set(context, i_card, name, members)
       else if (count_numbers(members) > 0 .or. find_set(context%lines%sets, name) == 0) then
          call grow_set(context%model%element_sets, name, members)
       end if
    end subroutine read_set_card
 
-   subroutine read_items(line, i_card, context, members)
+   !> A line of numbers and names of sets, whose members are taken over as they are. A node set in a list must be an earlier one: it
+   !> could not be complete otherwise.
+   subroutine read_items(line, i_card, sets, context, members)
       type(data_line_t), intent(in) :: line
       integer(ip), intent(in) :: i_card
+      type(set_list_t), intent(in) :: sets             !< the node sets or the element sets of the model
       type(build_context_t), intent(inout) :: context
       type(ranges_t), intent(inout) :: members
       type(token_t) :: token
       integer(ip), allocatable :: found(:)
+      type(card_t) :: maker                            ! of the node set
       integer(ip) :: i, i_set
-      logical :: ok
+      logical :: ok, is_of_nodes, is_later
 
+      is_of_nodes = keyword_name(context%deck%cards(i_card)) == 'NSET'
       do i = 1, line%n_tokens
          token = line_item(context%deck, line, i)
-         if (keyword_name(context%deck%cards(i_card)) == 'NSET') then
-            i_set = set_of_item(context, token, context%model%node_sets)
-            if (i_set > 0) then
-               if (is_earlier(token, i_card, context)) call add_ranges(members, context%model%node_sets%sets(i_set)%members)
-               cycle
-            end if
-            call find_nodes(context, token, found, ok, 'NSET')
-         else if (is_line_item(context, token)) then
-            cycle                                      ! read_lines has it
-         else
-            i_set = set_of_item(context, token, context%model%element_sets)
-            if (i_set > 0) then
-               call add_ranges(members, context%model%element_sets%sets(i_set)%members)
-               cycle
-            end if
-            call find_elements(context, token, found, ok, 'ELSET')
-            if (.not. ok) context%sections_undetermined = .true.
+         if (.not. is_of_nodes) then
+            if (is_line_item(context, token)) cycle    ! read_lines has it
          end if
-         if (ok) call add_numbers(members, found)
+         i_set = 0
+         if (.not. is_id_token(context%deck, token)) i_set = find_set(sets, token_text(context%deck, token))
+         is_later = .false.
+         if (is_of_nodes .and. i_set > 0) then
+            maker = context%deck%cards(context%set_card(i_set))
+            is_later = keyword_name(maker) == 'NSET' .and. context%set_card(i_set) >= i_card
+         end if
+         if (i_set == 0) then
+            if (is_of_nodes) then
+               call find_nodes(context, token, found, ok, 'NSET')
+            else
+               call find_elements(context, token, found, ok, 'ELSET')
+               if (.not. ok) context%sections_undetermined = .true.
+            end if
+            if (ok) call add_numbers(members, found)
+         else if (is_later) then
+            call report_error(context%deck, token, 'E-SET', 'node set '//token_text(context%deck, token)// &
+                              ' is defined later, in '//place_text(context%deck, maker%place, token), &
+                              expected='a node set that is defined above', keyword='NSET')
+         else
+            call add_ranges(members, sets%sets(i_set)%members)
+         end if
       end do
    end subroutine read_items
-
-   !> The set that an item names, whose members are taken over as they are; 0: there is none, or it is a number.
-   pure integer(ip) function set_of_item(context, token, sets) result(i)
-      type(build_context_t), intent(in) :: context
-      type(token_t), intent(in) :: token
-      type(set_list_t), intent(in) :: sets
-
-      i = 0
-      if (.not. is_id_token(context%deck, token)) i = find_set(sets, token_text(context%deck, token))
-   end function set_of_item
-
-   !> A set in a list must be an earlier one: it could not be complete otherwise.
-   logical function is_earlier(token, i_card, context)
-      type(token_t), intent(in) :: token
-      integer(ip), intent(in) :: i_card
-      type(build_context_t), intent(in) :: context
-      integer(ip) :: i
-
-      is_earlier = .true.
-      if (is_id_token(context%deck, token)) return
-      i = find_set(context%model%node_sets, token_text(context%deck, token))
-      if (keyword_name(context%deck%cards(context%set_card(i))) /= 'NSET') return
-      is_earlier = context%set_card(i) < i_card
-      if (.not. is_earlier) call report_error(context%deck, token, 'E-SET', 'node set '//token_text(context%deck, token)// &
-                                 ' is defined later, in '//place_text(context%deck, context%deck%cards(context%set_card(i))%place, &
-                                                                                   token), &
-                                              expected='a node set that is defined above', keyword='NSET')
-   end function is_earlier
 
    !> A line of GENERATE: first number, last number, increment.
    subroutine read_range(deck, line, map, invalid, others, noun, members)
@@ -209,13 +185,14 @@ contains
       type(id_map_t), intent(in) :: others             !< numbers that are passed over
       character(len=*), intent(in) :: noun             !< 'node' or 'element'
       type(ranges_t), intent(inout) :: members
-      character(len=:), allocatable :: keyword
+      character(len=:), allocatable :: keyword, id
       type(number_list_t) :: missing
       type(token_t) :: token
       integer(ip) :: first, last, step, k
       logical :: ok(3)
 
       keyword = trim(merge('NSET ', 'ELSET', noun == 'node'))
+      id = 'E-'//upper_case(noun)
       token = line_item(deck, line, 1_ip)
       call get_id(deck, token, 'first '//noun//' number', first, ok(1), keyword)
       call get_id(deck, line_item(deck, line, 2_ip), 'last '//noun//' number', last, ok(2), keyword)
@@ -223,8 +200,8 @@ contains
       if (.not. all(ok)) return
       if (.not. is_range(deck, line, first, last, step, keyword)) return
       if ((last - first)/step >= map%n + invalid%n + others%n) then
-         call report_error(deck, line_item(deck, line, 1_ip), 'E-'//trim(merge('NODE   ', 'ELEMENT', noun == 'node')), &
-                           'there are only '//to_text(map%n)//' '//noun//'s', expected='numbers that all exist', keyword=keyword)
+         call report_error(deck, token, id, 'there are only '//to_text(map%n)//' '//noun//'s', expected='numbers that all exist', &
+                           keyword=keyword)
          return
       end if
       if (step == 1 .and. is_whole_sequence(map, first, last)) then
@@ -241,9 +218,8 @@ contains
          end if
       end do
       if (missing%n == 0) return
-      call report_error(deck, line_item(deck, line, 1_ip), 'E-'//trim(merge('NODE   ', 'ELEMENT', noun == 'node')), &
-                        'no such '//noun//' in this range: '//ids_text(numbers_of(missing) - scope_shift(deck, token))// &
-                        scope_text(deck, token), &
+      call report_error(deck, token, id, 'no such '//noun//' in this range: '//ids_text(numbers_of(missing) - &
+                                                      scope_shift(deck, token))//scope_text(deck, token), &
                         expected='numbers that all exist', keyword=keyword)
    end subroutine read_range
 

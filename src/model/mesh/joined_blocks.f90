@@ -1,10 +1,10 @@
 !> The blocks of a deck so far: those of a name, which of them MERGE has made one body, and which lie where a box lies. Each is
 !> found without a look at all blocks, since a deck may have them by the thousand, each merged with the one before.
 module atrito_joined_blocks
-   use atrito_growth, only: make_room
    use atrito_id_map, only: id_map_t, add_id, find_id
    use atrito_kinds, only: ip, lp, wp
    use atrito_name_list, only: name_list_t, add_name, find_name
+   use atrito_number_list, only: number_list_t, add_number, numbers_of
    use atrito_sorting, only: each_once
    implicit none (type, external)
    private
@@ -15,17 +15,15 @@ module atrito_joined_blocks
    type :: joined_blocks_t
       integer(ip) :: n = 0
       type(name_list_t), private :: names
-      integer(ip), allocatable, private :: last_of(:)      !< (n) of each name, by its first block: the last block that has it
-      integer(ip), allocatable, private :: before(:)       !< (n) the block before that has the same name; 0: none
-      integer(ip), allocatable, private :: parent(:)       !< (n) another block of its body; itself: the one that stands for all
-      integer(ip), allocatable, private :: in_body(:)      !< (n) blocks of the body, of the one that stands for all
+      type(number_list_t), private :: last_of              !< (n) of each name, by its first block: the last block that has it
+      type(number_list_t), private :: before               !< (n) the block before that has the same name; 0: none
+      type(number_list_t), private :: parent               !< (n) another block of its body; itself: the one that stands for all
+      type(number_list_t), private :: in_body              !< (n) blocks of the body, of the one that stands for all
       type(id_map_t), private :: squares                   !< by a hash
-      integer(ip), allocatable, private :: head(:)         !< of each square the last entry
-      integer(ip), private :: n_entries = 0
-      integer(ip), allocatable, private :: block(:), next(:) !< (n_entries) a block in a square, and another entry of the square
-      integer(ip), private :: n_grids = 0
-      integer(ip), allocatable, private :: grid(:)         !< (n_grids) exponents of the sides of their squares
-      integer(ip), allocatable, private :: filled(:)       !< (n_grids) entries in each
+      type(number_list_t), private :: head                 !< of each square the last entry
+      type(number_list_t), private :: block, next          !< (entries) a block in a square, and another entry of the square
+      type(number_list_t), private :: grid                 !< (grids) exponents of the sides of their squares
+      type(number_list_t), private :: filled               !< (grids) entries in each
    end type joined_blocks_t
 
    !> Squares are not smaller than this part of the coordinates, as a power of two: their numbers stay within 64 bits.
@@ -40,18 +38,14 @@ contains
       real(wp), intent(in) :: low(2), high(2)              !< the box round it [L]
       integer(ip) :: first
 
-      call make_room(blocks%last_of, blocks%n, blocks%n + 1)
-      call make_room(blocks%before, blocks%n, blocks%n + 1)
-      call make_room(blocks%parent, blocks%n, blocks%n + 1)
-      call make_room(blocks%in_body, blocks%n, blocks%n + 1)
       blocks%n = blocks%n + 1
       call add_name(blocks%names, name)
       first = find_name(blocks%names, name)
-      blocks%before(blocks%n) = 0
-      if (first < blocks%n) blocks%before(blocks%n) = blocks%last_of(first)
-      blocks%last_of(first) = blocks%n
-      blocks%parent(blocks%n) = blocks%n
-      blocks%in_body(blocks%n) = 1
+      call add_number(blocks%last_of, blocks%n)
+      call add_number(blocks%before, merge(0_ip, blocks%last_of%values(first), first == blocks%n))
+      blocks%last_of%values(first) = blocks%n
+      call add_number(blocks%parent, blocks%n)
+      call add_number(blocks%in_body, 1_ip)
       call enter_box(blocks, low, high)
    end subroutine add_joined_block
 
@@ -60,20 +54,17 @@ contains
       type(joined_blocks_t), intent(in) :: blocks
       character(len=*), intent(in) :: name
       integer(ip), allocatable :: list(:)
-      integer(ip) :: b, first, n
+      type(number_list_t) :: falling
+      integer(ip) :: b
 
-      allocate (list(0))
-      first = find_name(blocks%names, name)
-      if (first == 0) return
-      n = 0
-      b = blocks%last_of(first)
+      b = find_name(blocks%names, name)
+      if (b > 0) b = blocks%last_of%values(b)
       do while (b > 0)
-         call make_room(list, n, n + 1)
-         n = n + 1
-         list(n) = b
-         b = blocks%before(b)
+         call add_number(falling, b)
+         b = blocks%before%values(b)
       end do
-      list = list(n:1:-1)
+      list = numbers_of(falling)
+      list = list(size(list):1:-1)
    end function blocks_named
 
    !> Makes the bodies of two blocks one. The larger one stands for both, so the way to it is short.
@@ -85,12 +76,12 @@ contains
       large = body_of(blocks, a)
       small = body_of(blocks, b)
       if (large == small) return
-      if (blocks%in_body(large) < blocks%in_body(small)) then
+      if (blocks%in_body%values(large) < blocks%in_body%values(small)) then
          large = small
          small = body_of(blocks, a)
       end if
-      blocks%parent(small) = large
-      blocks%in_body(large) = blocks%in_body(large) + blocks%in_body(small)
+      blocks%parent%values(small) = large
+      blocks%in_body%values(large) = blocks%in_body%values(large) + blocks%in_body%values(small)
    end subroutine join_blocks
 
    !> Whether two blocks are of one body.
@@ -106,8 +97,8 @@ contains
       integer(ip), intent(in) :: b
 
       body = b
-      do while (blocks%parent(body) /= body)
-         body = blocks%parent(body)
+      do while (blocks%parent%values(body) /= body)
+         body = blocks%parent%values(body)
       end do
    end function body_of
 
@@ -116,33 +107,31 @@ contains
       type(joined_blocks_t), intent(in) :: blocks
       real(wp), intent(in) :: low(2), high(2)              !< [L]
       integer(ip), allocatable :: near(:)
+      type(number_list_t) :: found
       integer(lp) :: first(2), n(2), i, j
-      integer(ip) :: g, k, slot, entry
+      integer(ip) :: g, slot, entry
 
-      allocate (near(0))
-      k = 0
-      do g = 1, blocks%n_grids
-         call find_squares(low, high, blocks%grid(g), first, n)
-         if (n(1) > blocks%filled(g) .or. n(2) > blocks%filled(g)/max(1_lp, n(1))) then
+      do g = 1, blocks%grid%n
+         first = square_of(low, blocks%grid%values(g))    ! the squares over which the box goes
+         n = square_of(high, blocks%grid%values(g)) - first + 1_lp
+         if (n(1) > blocks%filled%values(g) .or. n(2) > blocks%filled%values(g)/max(1_lp, n(1))) then
             ! more squares than there are blocks
-            near = [(k, k=1, blocks%n)]
+            near = [(entry, entry=1, blocks%n)]
             return
          end if
          do j = first(2), first(2) + n(2) - 1
             do i = first(1), first(1) + n(1) - 1
-               slot = find_id(blocks%squares, square_hash(blocks%grid(g), i, j))
+               slot = find_id(blocks%squares, square_hash(blocks%grid%values(g), i, j))
                if (slot == 0) cycle
-               entry = blocks%head(slot)
+               entry = blocks%head%values(slot)
                do while (entry > 0)
-                  call make_room(near, k, k + 1)
-                  k = k + 1
-                  near(k) = blocks%block(entry)
-                  entry = blocks%next(entry)
+                  call add_number(found, blocks%block%values(entry))
+                  entry = blocks%next%values(entry)
                end do
             end do
          end do
       end do
-      near = each_once(near(:k))
+      near = each_once(numbers_of(found))
    end function blocks_near
 
    !> Puts the box of the last block into the squares of its grid.
@@ -155,51 +144,35 @@ contains
 
       side = max(exponent(max(maxval(high - low), tiny(1.0_wp))), exponent(max(maxval(abs([low, high])), tiny(1.0_wp))) - FINEST)
       g = 0
-      if (blocks%n_grids > 0) g = findloc(blocks%grid(:blocks%n_grids), side, dim=1, kind=ip)
+      if (blocks%grid%n > 0) g = findloc(blocks%grid%values(:blocks%grid%n), side, dim=1, kind=ip)
       if (g == 0) then
-         call make_room(blocks%grid, blocks%n_grids, blocks%n_grids + 1)
-         call make_room(blocks%filled, blocks%n_grids, blocks%n_grids + 1)
-         blocks%n_grids = blocks%n_grids + 1
-         g = blocks%n_grids
-         blocks%grid(g) = side
-         blocks%filled(g) = 0
+         call add_number(blocks%grid, side)
+         call add_number(blocks%filled, 0_ip)
+         g = blocks%grid%n
       end if
-      call find_squares(low, high, side, first, n)
+      first = square_of(low, side)
+      n = square_of(high, side) - first + 1_lp
       do j = first(2), first(2) + n(2) - 1
          do i = first(1), first(1) + n(1) - 1
             hash = square_hash(side, i, j)
             slot = find_id(blocks%squares, hash)
             if (slot == 0) then
-               slot = blocks%squares%n + 1
-               call make_room(blocks%head, slot - 1, slot)
+               call add_number(blocks%head, 0_ip)
+               slot = blocks%head%n
                call add_id(blocks%squares, hash, slot, known)
-               blocks%head(slot) = 0
             end if
-            call make_room(blocks%block, blocks%n_entries, blocks%n_entries + 1)
-            call make_room(blocks%next, blocks%n_entries, blocks%n_entries + 1)
-            blocks%n_entries = blocks%n_entries + 1
-            blocks%block(blocks%n_entries) = blocks%n
-            blocks%next(blocks%n_entries) = blocks%head(slot)
-            blocks%head(slot) = blocks%n_entries
-            blocks%filled(g) = blocks%filled(g) + 1
+            call add_number(blocks%block, blocks%n)
+            call add_number(blocks%next, blocks%head%values(slot))
+            blocks%head%values(slot) = blocks%block%n
+            blocks%filled%values(g) = blocks%filled%values(g) + 1
          end do
       end do
    end subroutine enter_box
 
-   !> The squares over which a box goes: the first ones, and how many along x and y.
-   pure subroutine find_squares(low, high, side, first, n)
-      real(wp), intent(in) :: low(2), high(2)
-      integer(ip), intent(in) :: side                      !< of a square, as a power of two
-      integer(lp), intent(out) :: first(2), n(2)
-
-      first = square_of(low, side)
-      n = square_of(high, side) - first + 1_lp
-   end subroutine find_squares
-
    !> Number of the square along an axis. Those far beyond all that a grid has are one.
    pure elemental integer(lp) function square_of(x, side) result(square)
       real(wp), intent(in) :: x
-      integer(ip), intent(in) :: side
+      integer(ip), intent(in) :: side                      !< of a square, as a power of two
 
       if (abs(x) > 0.0_wp .and. exponent(x) - side > FINEST + 2) then
          square = int(sign(2.0_wp**(FINEST + 3), x), lp)

@@ -1,14 +1,17 @@
-!> Equations that a deck gives node by node along a side: --refine and --elements make nodes between, which have none.
+!> Equations on a refined mesh. Those that a deck gives node by node along a side have none at the nodes that --refine and
+!> --elements make between; of those between two sets the nodes are put into corresponding orders, since the new nodes of a set
+!> stand edge by edge, and edges run either way.
 module atrito_refined_equations
    use atrito_build_context, only: build_context_t
    use atrito_deck, only: keyword_name
    use atrito_diagnostics, only: report_note
    use atrito_kinds, only: ip
-   use atrito_refinement, only: is_refined
+   use atrito_number_list, only: number_list_t, add_number, numbers_of
+   use atrito_refinement, only: is_refined, refinement_t
    use atrito_strings, only: to_text
    implicit none (type, external)
    private
-   public :: note_free_sides
+   public :: note_free_sides, order_like
 
    integer(ip), parameter :: PLANE_DOFS = 2
 
@@ -53,5 +56,95 @@ contains
                           'equations name sets they have', keyword='EQUATION')
       end associate
    end subroutine tell
+
+   !> Puts the nodes of `other` into the order of those of `set`: the nodes of the deck correspond as they stand, new ones between
+   !> two of them to those between their partners. ok: .false. where there are none.
+   pure subroutine order_like(refinement, set, other, ok)
+      type(refinement_t), intent(in) :: refinement
+      integer(ip), intent(in) :: set(:)
+      integer(ip), intent(inout) :: other(:)           !< as many
+      logical, intent(out) :: ok
+      integer(ip), allocatable :: edges(:)
+      integer(ip) :: partner(size(set)), ends(2), i, k, edge, before
+
+      associate (n => count(set <= refinement%n_nodes, kind=ip))
+         ok = n == count(other <= refinement%n_nodes)
+         if (.not. ok) return
+         edges = edges_of(refinement, other(n + 1:))
+         partner(:n) = other(:n)
+         edge = 0
+         do i = n + 1, size(set, kind=ip)
+            edge = edge_of(refinement, set(i))
+            ok = edge > 0
+            if (.not. ok) return
+            do k = 1, 2
+               ends(k) = findloc(set(:n), refinement%edge_node(k, edge), dim=1, kind=ip)
+            end do
+            ok = all(ends > 0)
+            if (.not. ok) return
+            before = set(i) - refinement%edge_first(edge)
+            partner(i) = node_between(refinement, edges, other(ends), before)
+            ok = partner(i) > 0
+            if (.not. ok) return
+         end do
+      end associate
+      other = partner
+   end subroutine order_like
+
+   !> The new node of an edge between two nodes, so many after the first of them; 0 where there is no such edge.
+   pure integer(ip) function node_between(refinement, edges, ends, before) result(node)
+      type(refinement_t), intent(in) :: refinement
+      integer(ip), intent(in) :: edges(:), ends(2), before
+      integer(ip) :: i
+
+      node = 0
+      do i = 1, size(edges, kind=ip)
+         associate (own => refinement%edge_node(:2, edges(i)))
+            if (all(own == ends)) node = refinement%edge_first(edges(i)) + before
+            if (all(own == ends([2, 1]))) node = refinement%edge_first(edges(i) + 1) - 1 - before
+         end associate
+         if (node > 0) exit
+      end do
+      if (node == 0) return
+      if (node < refinement%edge_first(edges(i)) .or. node >= refinement%edge_first(edges(i) + 1)) node = 0
+   end function node_between
+
+   !> The edges of some new nodes, each once; nodes of an edge stand together.
+   pure function edges_of(refinement, nodes) result(edges)
+      type(refinement_t), intent(in) :: refinement
+      integer(ip), intent(in) :: nodes(:)
+      integer(ip), allocatable :: edges(:)
+      type(number_list_t) :: list
+      integer(ip) :: i, edge, last
+
+      last = 0
+      do i = 1, size(nodes, kind=ip)
+         edge = edge_of(refinement, nodes(i))
+         if (edge > 0 .and. edge /= last) call add_number(list, edge)
+         last = edge
+      end do
+      edges = numbers_of(list)
+   end function edges_of
+
+   !> The edge that a new node lies on; 0: none.
+   pure integer(ip) function edge_of(refinement, node) result(edge)
+      type(refinement_t), intent(in) :: refinement
+      integer(ip), intent(in) :: node
+      integer(ip) :: low, high, middle
+
+      edge = 0
+      if (node >= refinement%edge_first(refinement%n_edges + 1) .or. node < refinement%edge_first(1)) return
+      low = 1
+      high = refinement%n_edges
+      do while (low < high)
+         middle = (low + high + 1)/2
+         if (refinement%edge_first(middle) <= node) then
+            low = middle
+         else
+            high = middle - 1
+         end if
+      end do
+      edge = low
+   end function edge_of
 
 end module atrito_refined_equations
