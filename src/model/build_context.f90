@@ -4,7 +4,7 @@
 !> One mistake, one message: whoever refers to a thing whose definition was faulty is passed over in silence. Silence is allowed
 !> only once an error has been told, so a deck is never accepted with something left out.
 module atrito_build_context
-   use atrito_build_parts, only: open_step_t, references_t, carried_t, replaced_t, numbered_t, block_t, section_cut_t, &
+   use atrito_build_parts, only: open_step_t, inherited_t, replaced_t, numbered_t, block_t, section_cut_t, &
                                  BLOCK_SIDES, LOOSE_HELD, LOOSE_RELEASED, LOOSE_MOVES
    use atrito_curves, only: curve_list_t, line_list_t
    use atrito_deck, only: deck_t, card_t, token_t, data_line_t, token_text, is_empty_token, keyword_name, scope_shift, &
@@ -26,7 +26,7 @@ module atrito_build_context
    implicit none (type, external)
    private
    public :: LOOSE_HELD, LOOSE_RELEASED, LOOSE_MOVES
-   public :: build_context_t, open_step_t, references_t, carried_t, replaced_t, numbered_t, block_t, section_cut_t
+   public :: build_context_t, open_step_t, inherited_t, replaced_t, numbered_t, block_t, section_cut_t
    public :: BLOCK_SIDES
    public :: prepare_context, add_context_block, note_undetermined_mesh
    public :: invalidate_block, invalidate_name, spoil_number, is_invalid, is_undetermined, has_errors, has_lost_elements
@@ -82,9 +82,8 @@ module atrito_build_context
       logical :: pairs_undetermined = .false.                !< a *CONTACT PAIR could not be understood
       logical :: rigid_undetermined = .false.                !< a *RIGID BODY names another surface than it should
       integer(ip), allocatable :: loose_held(:, :)     !< (3, n_nodes) LOOSE_*: supports of nodes of no element; third: rotations
-      integer(ip), allocatable :: dof_entry(:, :)      !< (2, n_nodes): place in open%supports; 0: free
+      integer(ip), allocatable :: dof_entry(:, :)      !< (3, n_nodes): place in open%supports; 0: free; third: rotations
       real(wp), allocatable :: axes(:, :, :)           !< (2, dof, n_nodes) local axes; 0: along x and y; not allocated: nowhere
-      integer(ip), allocatable :: dof_token(:, :)      !< (2, n_nodes): token of the line that prescribes it
    end type build_context_t
 
    integer(ip), parameter :: MOST_IDS = 8              !< numbers told in a message

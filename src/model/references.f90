@@ -16,7 +16,8 @@ module atrito_references
    use atrito_strings, only: to_text, upper_case
    implicit none (type, external)
    private
-   public :: get_id, find_nodes, find_elements, find_one_node, find_one_element, find_surface, check_faces, report_unknown
+   public :: get_id, find_nodes, find_elements, find_one_node, find_one_element, find_surface, check_faces, &
+             in_no_element, report_unknown
 
 contains
 
@@ -252,6 +253,15 @@ contains
       call report_error(context%deck, token, 'E-FACE', 'element '//ids_text(numbers_of(without))//' has no face '//to_text(face), &
                         expected='a face that each of the elements has: triangles have 1-2, 2-3 and 3-1', keyword=keyword)
    end subroutine check_faces
+
+   !> The nodes of a list that belong to no element.
+   pure function in_no_element(context, nodes) result(loose)
+      type(build_context_t), intent(in) :: context
+      integer(ip), intent(in) :: nodes(:)              !< places
+      logical :: loose(size(nodes))
+
+      loose = context%around%first(nodes + 1) == context%around%first(nodes)
+   end function in_no_element
 
    pure function article(noun) result(text)
       character(len=*), intent(in) :: noun

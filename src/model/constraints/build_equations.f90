@@ -7,7 +7,7 @@ module atrito_build_equations
    use atrito_diagnostics, only: report_error, report_note
    use atrito_items, only: get_integer, get_real
    use atrito_kinds, only: ip, wp
-   use atrito_load_lists, only: add_nodal_value, trim_nodal_values
+   use atrito_load_lists, only: add_nodal_value
    use atrito_references, only: find_nodes
    use atrito_refinement, only: is_refined
    use atrito_row_dofs, only: check_row_dof, check_row_nodes, row_terms, TERMS_A_DOF, WHAT_DOF
@@ -58,7 +58,6 @@ contains
             end do
          end associate
       end do
-      call trim_nodal_values(context%model%equations)
    end subroutine build_equations
 
    !> One equation: a line with the number of its terms, and the lines of these. k: first line, and on return the one behind.

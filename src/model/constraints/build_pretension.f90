@@ -6,7 +6,7 @@
 !> d the first dof of the section's node. A force F there does the work F d: it pulls both sides towards each other. d > 0 is an
 !> overlap of the undeformed sides: the body is the shorter by it.
 !>
-!> The node is a rigid body that moves along 1 alone, so that it is prescribed, loaded, released and carried on as such.
+!> The node is a rigid body that moves along 1 alone, so that it is prescribed, loaded, released and inherited as such.
 module atrito_build_pretension
    use atrito_bilateral_rows, only: add_row, ROW_SECTION
    use atrito_build_context, only: build_context_t, note_place, section_cut_t

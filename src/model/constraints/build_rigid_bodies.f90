@@ -6,6 +6,8 @@ module atrito_build_rigid_bodies
    use atrito_id_map, only: add_id, find_id
    use atrito_items, only: has_option, option_text
    use atrito_kinds, only: ip, wp
+   use atrito_local_axes, only: has_local_axes
+   use atrito_mesh, only: is_revolved
    use atrito_model, only: model_t, rigid_body_name, rigid_body_t, SURFACE_SEGMENTS
    use atrito_name_list, only: find_name
    use atrito_number_list, only: number_list_t, add_numbers, numbers_of
@@ -14,7 +16,7 @@ module atrito_build_rigid_bodies
    use atrito_strings, only: to_text
    implicit none (type, external)
    private
-   public :: build_rigid_bodies, read_tied_nodes, is_reference, rigid_body_of, append_rigid_body, cut_rigid_bodies, &
+   public :: build_rigid_bodies, read_tied_nodes, can_move, is_reference, rigid_body_of, append_rigid_body, cut_rigid_bodies, &
              make_solver_mesh, carriers_of, ROTATION_DOF, CARRIERS
 
    integer(ip), parameter :: ROTATION_DOF = 6_ip
@@ -208,6 +210,34 @@ contains
 
       body = find_id(context%rigid_bodies, node)
    end function rigid_body_of
+
+   !> Whether a reference node can be displaced or loaded there: not along a radius nor about the axis of bodies of revolution, nor
+   !> along axes of its own where it moves along one axis alone.
+   logical function can_move(context, place, node, dof, value, keyword) result(can)
+      type(build_context_t), intent(in) :: context
+      type(token_t), intent(in) :: place            !< of the line
+      integer(ip), intent(in) :: node, dof
+      real(wp), intent(in) :: value
+      character(len=*), intent(in) :: keyword
+      logical :: is_section
+
+      is_section = context%model%rigid_bodies(rigid_body_of(context, node))%is_section
+      can = .not. (has_local_axes(context, node) .and. (is_revolved(context%model%mesh) .or. is_section))
+      if (.not. can) then
+         call report_error(context%deck, place, 'E-NODE', 'reference node '//to_text(context%model%mesh%node_id(node)) &
+                           //' moves along one axis alone, and has local axes', expected='a node without *TRANSFORM', &
+                           keyword=keyword)
+      else if (is_section) then
+         can = dof == 1 .or. abs(value) <= 0.0_wp
+         if (.not. can) call report_error(context%deck, place, 'E-DOF', 'the node of a pre-tension section has no dof ' &
+                                          //to_text(dof), expected='dof 1: what the sides approach by, or the force', &
+                                          keyword=keyword)
+      else if (is_revolved(context%model%mesh) .and. dof /= 2 .and. abs(value) > 0.0_wp) then
+         can = .false.
+         call report_error(context%deck, place, 'E-DOF', 'a rigid surface round an axis moves along it alone, not by dof ' &
+                           //to_text(dof), expected='dof 2 of a reference node beside CAX elements', keyword=keyword)
+      end if
+   end function can_move
 
    !> Appends a rigid body; where there is no room the list doubles, and is cut to size in the end.
    pure subroutine append_rigid_body(context, body)

@@ -4,9 +4,7 @@
 !> their nodes have; --refine and --elements change nothing of that field.
 module atrito_build_temperatures
    use atrito_build_context, only: build_context_t, place_text, ids_text, has_errors
-   use atrito_build_loads, only: in_no_element
    use atrito_build_steps, only: open_step
-   use atrito_carry_on, only: removes_all
    use atrito_deck, only: data_line_t, line_item, keyword_name
    use atrito_diagnostics, only: report_error, report_note, report_warning
    use atrito_element_table, only: CORNERS_OF, DEGREE_OF
@@ -15,7 +13,8 @@ module atrito_build_temperatures
    use atrito_mesh, only: mesh_t
    use atrito_model, only: step_t
    use atrito_number_list, only: number_list_t, add_number, numbers_of
-   use atrito_references, only: find_nodes
+   use atrito_propagation, only: removes_all
+   use atrito_references, only: find_nodes, in_no_element
    use atrito_refinement, only: map_element
    use atrito_strings, only: to_text
    implicit none (type, external)

@@ -126,7 +126,7 @@ contains
       requests%cuts(context%open%cut_names%n) = n + 1
    end subroutine add_cut
 
-   !> Takes back the room that the cuts of a step have to grow; those that are carried on have none.
+   !> Takes back the room that the cuts of a step have to grow; those that are inherited have none.
    pure subroutine cut_requests_to_size(context, requests)
       type(build_context_t), intent(in) :: context
       type(requests_t), intent(inout) :: requests

@@ -5,7 +5,7 @@ module atrito_build_requests
    use atrito_diagnostics, only: report_error
    use atrito_build_context, only: build_context_t
    use atrito_build_cuts, only: read_cut_card, cut_requests_to_size
-   use atrito_carry_on, only: is_of_step
+   use atrito_propagation, only: is_of_step
    use atrito_foreign_words, only: variable_of_component
    use atrito_items, only: find_option, has_option, option_integer, option_real, option_text, option_word, &
                            refuse_option

@@ -2,18 +2,18 @@
 !>
 !> The loads that contact can balance are a convex set: between two that can be balanced all can. So where loads go linearly from
 !> one time to the next only these times need to be asked about: the end of a step, and the points of the amplitudes that it uses.
-module atrito_turning_times
+module atrito_load_breakpoints
    use atrito_amplitudes, only: time_before
    use atrito_kinds, only: ip, wp
    use atrito_model, only: amplitude_t, model_t
    implicit none (type, external)
    private
-   public :: turning_times
+   public :: load_breakpoints
 
 contains
 
    !> Ascending, the end of the step the last. A step of one increment has its end alone: nothing is solved before.
-   pure function turning_times(model, k) result(times)
+   pure function load_breakpoints(model, k) result(times)
       type(model_t), intent(in) :: model
       integer(ip), intent(in) :: k                  !< the step
       real(wp), allocatable :: times(:)             !< of the step
@@ -34,7 +34,7 @@ contains
             if (is_used(i)) call add_points(model%amplitudes(i), began, step%increments%initial, times)
          end do
       end associate
-   end function turning_times
+   end function load_breakpoints
 
    pure subroutine mark(amplitude, is_used)
       integer(ip), allocatable, intent(in) :: amplitude(:)
@@ -71,4 +71,4 @@ contains
       times = [pack(times, times < time), time, pack(times, times > time)]
    end subroutine add_time
 
-end module atrito_turning_times
+end module atrito_load_breakpoints
