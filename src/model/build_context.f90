@@ -22,7 +22,7 @@ module atrito_build_context
    use atrito_name_list, only: name_list_t, add_name, find_name, has_name
    use atrito_numbers, only: read_integer, NUMBER_OK
    use atrito_refinement, only: refinement_t
-   use atrito_strings, only: same_name, to_text
+   use atrito_strings, only: lower_case, same_name, to_text
    implicit none (type, external)
    private
    public :: LOOSE_HELD, LOOSE_RELEASED, LOOSE_MOVES
@@ -139,14 +139,8 @@ contains
       type(build_context_t), intent(inout) :: context
 
       select case (keyword_name(card))
-      case ('MATERIAL')
-         if (is_nameless(context%deck, card, 'NAME')) call note_undetermined(context, 'material')
-      case ('AMPLITUDE')
-         if (is_nameless(context%deck, card, 'NAME')) call note_undetermined(context, 'amplitude')
-      case ('SURFACE INTERACTION')
-         if (is_nameless(context%deck, card, 'NAME')) call note_undetermined(context, 'surface interaction')
-      case ('SURFACE')
-         if (is_nameless(context%deck, card, 'NAME')) call note_undetermined(context, 'surface')
+      case ('MATERIAL', 'AMPLITUDE', 'SURFACE INTERACTION', 'SURFACE')
+         if (is_nameless(context%deck, card, 'NAME')) call note_undetermined(context, lower_case(keyword_name(card)))
       case ('NSET')
          if (is_nameless(context%deck, card, 'NSET')) call note_undetermined(context, 'node set')
       case ('ELSET')
@@ -161,14 +155,13 @@ contains
    !> Nodes, elements, sets and surfaces of a mesh; a deck in parts without an instance has none.
    subroutine note_undetermined_mesh(context)
       type(build_context_t), intent(inout) :: context
+      character(len=19), parameter :: NOUNS(7) = [character(len=19) :: 'node set', 'earlier node set', 'element set', &
+                                                  'earlier element set', 'surface', 'node', 'element']
+      integer :: i
 
-      call note_undetermined(context, 'node set')
-      call note_undetermined(context, 'earlier node set')
-      call note_undetermined(context, 'element set')
-      call note_undetermined(context, 'earlier element set')
-      call note_undetermined(context, 'surface')
-      call note_undetermined(context, 'node')
-      call note_undetermined(context, 'element')
+      do i = 1, size(NOUNS)
+         call note_undetermined(context, trim(NOUNS(i)))
+      end do
    end subroutine note_undetermined_mesh
 
    !> A file that could not be read may have defined anything.
@@ -189,7 +182,7 @@ contains
       type(card_t), intent(in) :: card
       character(len=*), intent(in) :: option
       character(len=:), allocatable :: name
-      integer :: i
+      integer :: i, k
 
       is_nameless = .true.
       if (.not. allocated(card%options)) return
@@ -197,19 +190,12 @@ contains
          if (.not. card%options(i)%has_value) cycle
          if (same_name(token_text(deck, card%options(i)%name), option)) then
             name = token_text(deck, card%options(i)%value)
-            is_nameless = len(name) == 0 .or. has_control(name)
+            is_nameless = len(name) == 0 .or. any([(iachar(name(k:k)) < iachar(' '), k=1, len(name))])
             return
          end if
          if (card%options(i)%spec == 0) is_nameless = .false.
       end do
    end function is_nameless
-
-   pure logical function has_control(name)
-      character(len=*), intent(in) :: name
-      integer :: i
-
-      has_control = any([(iachar(name(i:i)) < iachar(' '), i=1, len(name))])
-   end function has_control
 
    subroutine invalidate_options(card, context)
       type(card_t), intent(in) :: card

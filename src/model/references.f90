@@ -1,11 +1,11 @@
 !> What the items of a deck refer to: nodes and elements by their numbers or the names of their sets; and the message for what is
 !> not there.
 module atrito_references
-   use atrito_deck, only: deck_t, token_t, token_text, is_id_token, scope_shift, scope_text
+   use atrito_deck, only: card_t, deck_t, token_t, token_text, is_id_token, keyword_name, scope_shift, scope_text
    use atrito_diagnostics, only: report_error
    use atrito_build_context, only: build_context_t, numbered_t, is_invalid, is_undetermined, has_errors, ids_text
    use atrito_id_map, only: find_id
-   use atrito_items, only: get_integer, get_name
+   use atrito_items, only: get_integer, get_name, option_text
    use atrito_kinds, only: ip
    use atrito_mesh, only: find_node, find_element, side_count
    use atrito_name_list, only: name_list_t, find_name
@@ -16,8 +16,8 @@ module atrito_references
    use atrito_strings, only: to_text, upper_case
    implicit none (type, external)
    private
-   public :: get_id, find_nodes, find_elements, find_one_node, find_one_element, find_surface, check_faces, &
-             in_no_element, report_unknown
+   public :: get_id, find_nodes, find_elements, find_one_node, find_one_element, find_set_option, find_surface, &
+             check_faces, in_no_element, report_unknown
 
 contains
 
@@ -197,6 +197,26 @@ contains
          call report_unknown(context, token, noun//' set', 'E-SET', list%names, keyword)
       end if
    end subroutine find_members
+
+   !> The set that an option of a card names; 0: the option is not given.
+   subroutine find_set_option(context, card, option, noun, sets, set, ok)
+      type(build_context_t), intent(in) :: context
+      type(card_t), intent(in) :: card
+      character(len=*), intent(in) :: option           !< NSET or ELSET
+      character(len=*), intent(in) :: noun             !< 'node set' or 'element set'
+      type(set_list_t), intent(in) :: sets
+      integer(ip), intent(out) :: set                  !< place
+      logical, intent(out) :: ok                       !< false: an unknown set, which is reported
+      character(len=:), allocatable :: name
+      type(token_t) :: place
+      logical :: found
+
+      set = 0
+      call option_text(context%deck, card, option, name, found, place)
+      if (found) set = find_set(sets, name)
+      ok = set > 0 .or. .not. found
+      if (.not. ok) call report_unknown(context, place, noun, 'E-SET', sets%names, keyword_name(card))
+   end subroutine find_set_option
 
    !> An unknown name, unless an earlier error explains it.
    subroutine report_unknown(context, token, noun, id, known, keyword)

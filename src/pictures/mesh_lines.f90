@@ -8,7 +8,7 @@ module atrito_mesh_lines
    use atrito_faces, only: node_elements_t, list_node_elements
    use atrito_files, only: file_set_t, text_file_t, put_line, close_text
    use atrito_kinds, only: ip, wp
-   use atrito_mesh, only: mesh_t, face_end, has_side, side_count, middle_node
+   use atrito_mesh, only: mesh_t, face_end, side_between, side_count, middle_node
    use atrito_model, only: model_t, surface_t, SURFACE_SEGMENTS
    use atrito_number_text, only: trimmed_real
    use atrito_plot_text, only: range_t, cover, range_text, span, quoted, cleaned, put_terminal, put_plot, N_COLOURS
@@ -130,7 +130,7 @@ contains
             a = mesh%nodes(face, e)
             b = mesh%nodes(face_end(mesh, e, face), e)
             do i = around%first(a), around%first(a + 1) - 1
-               if (has_side(mesh, around%list(i), b, a)) neighbour(face, e) = around%list(i)
+               if (side_between(mesh, around%list(i), b, a) > 0) neighbour(face, e) = around%list(i)
             end do
          end do
       end do

@@ -7,8 +7,9 @@ module atrito_build_springs
    use atrito_deck, only: deck_t, card_t, data_line_t, token_t, line_item, keyword_name
    use atrito_diagnostics, only: report_error
    use atrito_id_map, only: id_map_t, add_id, find_id
+   use atrito_incidence, only: list_holders
    use atrito_items, only: get_integer, get_real, option_text, option_word
-   use atrito_kinds, only: ip, lp, wp
+   use atrito_kinds, only: ip, wp
    use atrito_local_axes, only: dof_direction, has_local_axes
    use atrito_mesh, only: find_element
    use atrito_model, only: spring_t
@@ -16,7 +17,6 @@ module atrito_build_springs
    use atrito_references, only: get_id, find_one_node, report_unknown
    use atrito_refinement, only: is_refined
    use atrito_row_dofs, only: arm_of, check_row_dof, check_row_nodes, has_no_unknowns, row_node, row_terms, TERMS_A_DOF, WHAT_DOF
-   use atrito_sorting, only: first_at_least, sorted_places
    use atrito_strings, only: string_t, to_text
    implicit none (type, external)
    private
@@ -53,25 +53,18 @@ contains
       type(reading_t) :: reading
       type(string_t), allocatable :: names(:)
       integer(ip) :: i, k, n
-      integer(lp), allocatable :: sets(:)
 
       n = 0
       do i = 1, context%deck%n_cards
          if (is_spring_card(context, context%deck%cards(i))) n = n + context%deck%cards(i)%n_lines
       end do
-      allocate (context%model%springs(n), reading%place(n))
-      allocate (reading%set(n), source=0_ip)
-      allocate (reading%is_axial(n), source=.false.)
+      allocate (context%model%springs(n), reading%place(n), reading%set(n), reading%is_axial(n))
       do i = 1, context%deck%n_cards
          if (.not. is_spring_card(context, context%deck%cards(i))) cycle
          call read_elements(context%deck%cards(i), context, reading)
       end do
       context%model%springs = context%model%springs(:reading%n)
-      ! Lists the springs of each set.
-      sets = int(reading%set(:reading%n), lp)
-      reading%sorted = sorted_places(sets)
-      sets = sets(reading%sorted)
-      reading%first = [(first_at_least(sets, int(k, lp)), k=1, reading%sets%n + 1)]
+      call list_holders(reading%sets%n, reshape(reading%set(:reading%n), [1_ip, reading%n]), reading%first, reading%sorted)
       reading%weight = row_weight(context%model)
       names = names_of(reading%sets)
       allocate (reading%given(reading%sets%n), source=.false.)
@@ -83,11 +76,10 @@ contains
          if (any(cards%name == '' .and. .not. cards%is_ignored) .and. has_errors()) return
       end associate
       do k = 1, reading%sets%n
-         if (reading%given(k)) cycle
          i = reading%first(k)
-         if (reading%first(k + 1) > i) call report_error(context%deck, reading%place(reading%sorted(i)), 'E-SPRING', &
-                                                         'the springs of '//names(k)%s//' have no *SPRING', &
-                                                         expected='*SPRING, ELSET='//names(k)%s, keyword='SPRING')
+         if (reading%given(k) .or. reading%first(k + 1) == i) cycle
+         call report_error(context%deck, reading%place(reading%sorted(i)), 'E-SPRING', 'the springs of '//names(k)%s// &
+                           ' have no *SPRING', expected='*SPRING, ELSET='//names(k)%s, keyword='SPRING')
       end do
    end subroutine build_springs
 
@@ -97,7 +89,7 @@ contains
       type(build_context_t), intent(inout) :: context
       type(reading_t), intent(inout) :: reading
       character(len=:), allocatable :: name
-      integer(ip) :: i, set, n_ends, before
+      integer(ip) :: i, set, n_ends
       logical :: found
 
       call option_text(context%deck, card, 'ELSET', name, found)
@@ -112,11 +104,10 @@ contains
          set = reading%sets%n
       end if
       n_ends = merge(1_ip, 2_ip, option_word(context%deck, card, 'TYPE') == 'SPRING1')
-      before = reading%n
+      reading%is_axial(reading%n + 1:) = option_word(context%deck, card, 'TYPE') == 'SPRINGA'
       do i = card%first_line, card%first_line + card%n_lines - 1
          if (context%deck%lines(i)%ok) call read_element_line(context%deck%lines(i), n_ends, set, context, reading)
       end do
-      reading%is_axial(before + 1:reading%n) = option_word(context%deck, card, 'TYPE') == 'SPRINGA'
    end subroutine read_elements
 
    subroutine read_element_line(line, n_ends, set, context, reading)
@@ -183,10 +174,9 @@ contains
       if (reading%given(set)) then
          call report_error(context%deck, place, 'E-TWICE', 'the springs of '//name//' have a *SPRING already', &
                            expected='one *SPRING for each set', keyword='SPRING')
+         return
       end if
-      ok = .not. reading%given(set)
       reading%given(set) = .true.
-      if (.not. ok) return
       places = reading%sorted(reading%first(set):reading%first(set + 1) - 1)
       if (any(reading%is_axial(places))) then
          call read_axial(card, context, stiffness, ok)
@@ -236,9 +226,8 @@ contains
       type(build_context_t), intent(in) :: context
       integer(ip), intent(in) :: places(:), i
       integer(ip), allocatable :: nodes(:)
-      integer(ip) :: k
 
-      nodes = [(context%model%springs(places(k))%node(i), k=1, size(places, kind=ip))]
+      nodes = context%model%springs(places)%node(i)
       nodes = pack(nodes, nodes > 0)
       nodes = pack(nodes,.not. has_no_unknowns(context, nodes))
    end function moving_ends
@@ -249,10 +238,8 @@ contains
       type(token_t), intent(in) :: place
       integer(ip), intent(in) :: places(:), dof(2)
       logical, intent(out) :: ok
-      integer(ip) :: k
 
-      ok = (dof(1) == ROTATION_DOF) .eqv. (dof(2) == ROTATION_DOF)
-      ok = ok .or. .not. any([(context%model%springs(places(k))%node(2) > 0, k=1, size(places, kind=ip))])
+      ok = ((dof(1) == ROTATION_DOF) .eqv. (dof(2) == ROTATION_DOF)) .or. all(context%model%springs(places)%node(2) == 0)
       if (.not. ok) call report_error(context%deck, place, 'E-DOF', 'one end moves, the other one turns', &
                                       expected='two dofs of one kind', keyword='SPRING')
    end subroutine check_kinds

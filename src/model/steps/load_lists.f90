@@ -2,11 +2,11 @@
 module atrito_load_lists
    use atrito_growth, only: make_room
    use atrito_kinds, only: ip, wp
-   use atrito_model, only: nodal_values_t, element_load_t
+   use atrito_model, only: nodal_values_t, element_load_t, LOAD_HYDROSTATIC
    implicit none (type, external)
    private
    public :: condition_t, condition_list_t, add_condition, add_part, nodal_values_of, element_loads_of
-   public :: add_nodal_value, amplitude_of, dof_slot, SLOTS
+   public :: add_nodal_value, amplitude_of, dof_slot, scaled, SLOTS
 
    integer(ip), parameter :: SLOTS = 3                 !< dofs that a node can have: two displacements, a rotation
 
@@ -38,6 +38,16 @@ contains
 
       dof_slot = min(dof, SLOTS)
    end function dof_slot
+
+   !> A value times a factor: the levels of a hydrostatic pressure stay where they are.
+   pure function scaled(kind, value, factor) result(product)
+      integer(ip), intent(in) :: kind                  !< LOAD_*; 0: at a node
+      real(wp), intent(in) :: value(3), factor         !< as element_load_t has it
+      real(wp) :: product(3)
+
+      product = value*factor
+      if (kind == LOAD_HYDROSTATIC) product(2:) = value(2:)
+   end function scaled
 
    !> Appends a condition.
    pure subroutine add_condition(conditions, condition)

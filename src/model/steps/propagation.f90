@@ -9,7 +9,7 @@ module atrito_propagation
    use atrito_id_map, only: id_map_t, add_id
    use atrito_items, only: has_option, option_text, option_word
    use atrito_kinds, only: ip, wp
-   use atrito_load_lists, only: condition_t, condition_list_t, add_condition
+   use atrito_load_lists, only: condition_t, condition_list_t, add_condition, scaled
    use atrito_model, only: LOAD_HYDROSTATIC
    implicit none (type, external)
    private
@@ -76,8 +76,9 @@ contains
       associate (amplitudes => context%model%amplitudes, steps => context%model%steps, k => context%open%number)
          do i = 1, conditions%n
             condition = conditions%list(i)
-            condition%from = scaled(condition, factor_at(amplitudes, condition%amplitude, steps(k - 1)%increments%period, &
-                                                         time_before(steps, k)))
+            condition%from = scaled(condition%kind, condition%value, &
+                                    factor_at(amplitudes, condition%amplitude, steps(k - 1)%increments%period, &
+                                              time_before(steps, k)))
             goes_on = condition%amplitude > 0
             if (goes_on) goes_on = amplitudes(condition%amplitude)%is_total_time
             if (.not. goes_on) then
@@ -92,16 +93,6 @@ contains
       conditions%n = n
    end subroutine propagate
 
-   !> Its value times a factor: the levels of a hydrostatic pressure stay where they are.
-   pure function scaled(condition, factor) result(product)
-      type(condition_t), intent(in) :: condition
-      real(wp), intent(in) :: factor
-      real(wp) :: product(3)
-
-      product = condition%value*factor
-      if (condition%kind == LOAD_HYDROSTATIC) product(2:) = condition%value(2:)
-   end function scaled
-
    pure logical function is_nothing(condition)
       type(condition_t), intent(in) :: condition
 
@@ -112,7 +103,7 @@ contains
    pure subroutine set_to_zero(load)
       type(condition_t), intent(inout) :: load
 
-      load%value = scaled(load, 0.0_wp)
+      load%value = scaled(load%kind, load%value, 0.0_wp)
       load%amplitude = 0
    end subroutine set_to_zero
 

@@ -1,5 +1,6 @@
 !> What a line of *DLOAD or *DSLOAD says of a load on faces: pressure, traction along a direction, hydrostatic pressure.
 module atrito_read_face_load
+   use atrito_coordinates, only: get_reals
    use atrito_deck, only: data_line_t, line_item
    use atrito_diagnostics, only: report_error
    use atrito_build_context, only: build_context_t
@@ -107,16 +108,11 @@ contains
       logical, intent(out) :: ok
       character(len=:), allocatable :: wanted
       real(wp) :: d(3)
-      integer(ip) :: i
-      logical :: good(3)
 
       direction = 0.0_wp
       wanted = 'direction of '//what//', two components, not both 0 [-]'
       if (what == 'gravity') wanted = 'direction of gravity, gx, gy, not both 0 [-]'
-      do i = 1, 3
-         call get_real(context%deck, line_item(context%deck, line, 3 + i), wanted, d(i), good(i), 0.0_wp, keyword)
-      end do
-      ok = all(good)
+      call get_reals(context%deck, line, 4_ip, wanted, d, ok, keyword, spread(0.0_wp, 1, 3))
       if (.not. ok) return
       if (abs(d(3)) <= FLAT*maxval(abs(d(:2)))) d(3) = 0.0_wp ! what a cosine of 90 degrees leaves
       ok = .not. abs(d(3)) > 0.0_wp .and. maxval(abs(d)) > 0.0_wp

@@ -4,10 +4,11 @@
 !> lies in it. An oblique axis would push out of the plane.
 module atrito_read_spin
    use atrito_build_context, only: build_context_t
+   use atrito_coordinates, only: get_reals
    use atrito_deck, only: data_line_t, line_item
    use atrito_diagnostics, only: report_error
-   use atrito_items, only: get_real
    use atrito_kinds, only: ip, wp
+   use atrito_read_face_load, only: magnitude_of
    implicit none (type, external)
    private
    public :: read_spin
@@ -31,9 +32,12 @@ contains
 
       way = 0.0_wp
       there = 0.0_wp
-      call check_square(line, context, square, ok)
-      call read_vector(line, context, FIRST, WHAT_POINT, point, good(1))
-      call read_vector(line, context, AXIS, WHAT_AXIS, a, good(2))
+      ok = square >= 0.0_wp
+      if (.not. ok) call report_error(context%deck, line_item(context%deck, line, 3_ip), 'E-VALUE', &
+                                      'the square of an angular velocity is negative', expected=magnitude_of('CENTRIF'), &
+                                      keyword='DLOAD')
+      call get_reals(context%deck, line, FIRST, WHAT_POINT, point, good(1), 'DLOAD', spread(0.0_wp, 1, 3))
+      call get_reals(context%deck, line, AXIS, WHAT_AXIS, a, good(2), 'DLOAD', spread(0.0_wp, 1, 3))
       ok = ok .and. all(good)
       if (.not. ok) return
       if (maxval(abs(a)) > 0.0_wp) a = a/maxval(abs(a))
@@ -49,35 +53,6 @@ contains
       end if
       there = -[way(1)*point(1) + way(2)*point(2), way(2)*point(1) + way(3)*point(2)]
    end subroutine read_spin
-
-   !> A square is not negative.
-   subroutine check_square(line, context, square, ok)
-      type(data_line_t), intent(in) :: line
-      type(build_context_t), intent(in) :: context
-      real(wp), intent(in) :: square                   !< [1/T^2]
-      logical, intent(out) :: ok
-      character(len=*), parameter :: WHAT = 'square of the angular velocity, a real >= 0 [1/T^2]'
-
-      ok = square >= 0.0_wp
-      if (.not. ok) call report_error(context%deck, line_item(context%deck, line, 3_ip), 'E-VALUE', &
-                                      'the square of an angular velocity is negative', expected=WHAT, keyword='DLOAD')
-   end subroutine check_square
-
-   subroutine read_vector(line, context, first, what, v, ok)
-      type(data_line_t), intent(in) :: line
-      type(build_context_t), intent(in) :: context
-      integer(ip), intent(in) :: first                 !< item
-      character(len=*), intent(in) :: what
-      real(wp), intent(out) :: v(3)
-      logical, intent(out) :: ok
-      logical :: good(3)
-      integer(ip) :: i
-
-      do i = 1, 3
-         call get_real(context%deck, line_item(context%deck, line, first + i - 1), what, v(i), good(i), 0.0_wp, 'DLOAD')
-      end do
-      ok = all(good)
-   end subroutine read_vector
 
    subroutine check_axis(line, context, is_ring, point, a, ok)
       type(data_line_t), intent(in) :: line
