@@ -20,7 +20,7 @@ module atrito_balance_probe
    use atrito_status, only: status_t, is_ok
    use atrito_step_loads, only: moment_t
    use atrito_strings, only: to_text
-   use atrito_load_breakpoints, only: load_breakpoints
+   use atrito_amplitudes, only: load_breakpoints
    implicit none (type, external)
    private
    public :: probe_balance

@@ -225,7 +225,11 @@ contains
          end do
       end associate
       do i = 1, side_count(mesh, element)
-         call map_edge(mesh, refinement, refinement%face_edge(i, element), x)
+         associate (edge => refinement%face_edge(i, element), node => refinement%edge_node(:, refinement%face_edge(i, element)))
+            do k = refinement%edge_first(edge), refinement%edge_first(edge + 1) - 1
+               x(:, k) = along(mesh, node(1), node(2), node(3), edge_place(refinement, edge, k))
+            end do
+         end associate
       end do
    end subroutine map_element
 
@@ -261,20 +265,6 @@ contains
          end if
       end associate
    end function centre_of
-
-   pure subroutine map_edge(mesh, refinement, edge, x)
-      type(mesh_t), intent(in) :: mesh
-      type(refinement_t), intent(in) :: refinement
-      integer(ip), intent(in) :: edge
-      real(wp), intent(inout) :: x(:, :)
-      integer(ip) :: k
-
-      associate (node => refinement%edge_node(:, edge))
-         do k = refinement%edge_first(edge), refinement%edge_first(edge + 1) - 1
-            x(:, k) = along(mesh, node(1), node(2), node(3), edge_place(refinement, edge, k))
-         end do
-      end associate
-   end subroutine map_edge
 
    !> Place 0..1 of a new node on its coarse edge, from the edge's first node.
    pure real(wp) function edge_place(refinement, edge, node) result(t)

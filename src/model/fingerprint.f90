@@ -8,7 +8,7 @@ module atrito_fingerprint
    use atrito_digest, only: digest_t, add_to, add_allocated, digest_text
    use atrito_kinds, only: ip
    use atrito_mesh, only: mesh_t
-   use atrito_model, only: model_t, step_t, nodal_values_t, element_load_t, requested_t, amplitude_t
+   use atrito_model, only: model_t, step_t, nodal_values_t, element_load_t, requested_t
    use atrito_points, only: contact_points_t
    use atrito_strings, only: to_text
    implicit none (type, external)
@@ -270,21 +270,16 @@ contains
          if (used(i) > 0) then
             if (number(used(i)) == 0) then
                number(used(i)) = maxval(number) + 1_ip
-               call add_amplitude(digest, model%amplitudes(used(i)))
+               associate (amplitude => model%amplitudes(used(i)))
+                  call add_allocated(digest, amplitude%time)
+                  call add_allocated(digest, amplitude%value)
+                  call add_to(digest, [amplitude%is_total_time, amplitude%is_smooth])
+               end associate
             end if
          end if
          call add_to(digest, number(used(i)))
       end do
    end subroutine add_amplitudes
-
-   pure subroutine add_amplitude(digest, amplitude)
-      type(digest_t), intent(inout) :: digest
-      type(amplitude_t), intent(in) :: amplitude
-
-      call add_allocated(digest, amplitude%time)
-      call add_allocated(digest, amplitude%value)
-      call add_to(digest, [amplitude%is_total_time, amplitude%is_smooth])
-   end subroutine add_amplitude
 
    !> How the step goes through its time.
    pure subroutine add_way(digest, step)

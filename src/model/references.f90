@@ -17,7 +17,7 @@ module atrito_references
    implicit none (type, external)
    private
    public :: get_id, find_nodes, find_elements, find_one_node, find_one_element, find_set_option, find_surface, &
-             check_faces, in_no_element, report_unknown
+             check_faces, element_of_deck, in_no_element, report_unknown
 
 contains
 
@@ -109,14 +109,22 @@ contains
       element = 0
       call get_id(context%deck, token, 'element number', id, ok, keyword)
       if (.not. ok) return
-      if (is_refined(context%refinement)) then
-         element = find_id(context%deck_elements, id)
-      else
-         element = find_element(context%model%mesh, id)
-      end if
+      element = element_of_deck(context, id)
       ok = element > 0
       if (.not. ok) call report_missing(context, token, context%elements, 'element', id, context%model%mesh%n_elements, keyword)
    end subroutine find_one_element
+
+   !> The place of an element in the mesh of the deck by its number; 0: there is none.
+   pure integer(ip) function element_of_deck(context, id)
+      type(build_context_t), intent(in) :: context
+      integer(ip), intent(in) :: id
+
+      if (is_refined(context%refinement)) then
+         element_of_deck = find_id(context%deck_elements, id)
+      else
+         element_of_deck = find_element(context%model%mesh, id)
+      end if
+   end function element_of_deck
 
    !> A number that no node or element has, unless an earlier error explains it.
    subroutine report_missing(context, token, numbered, noun, id, n, keyword)

@@ -73,7 +73,8 @@ contains
       place = line_item(context%deck, context%deck%lines(k), 1_ip)
       call read_count(context, context%deck%lines(k), n, ok)
       if (.not. ok) return
-      allocate (terms(min(n, terms_behind(context, k, last, n))))
+      ! what is announced may be any number
+      allocate (terms(min(n, sum(context%deck%lines(k + 1:k + min(n, last - k))%n_tokens)/ITEMS_A_TERM)))
       filled = 0
       do while (filled < n)
          k = k + 1
@@ -90,19 +91,6 @@ contains
       end do
       k = k + 1
    end subroutine read_terms
-
-   !> How many terms the lines behind line k have, as far as they are asked for: what is announced may be any number.
-   pure integer(ip) function terms_behind(context, k, last, wanted) result(n)
-      type(build_context_t), intent(in) :: context
-      integer(ip), intent(in) :: k, last, wanted
-      integer(ip) :: line
-
-      n = 0
-      do line = k + 1, last
-         n = n + item_count(context, context%deck%lines(line))/ITEMS_A_TERM
-         if (n >= wanted) return
-      end do
-   end function terms_behind
 
    !> The line with the number of terms.
    subroutine read_count(context, line, n, ok)

@@ -143,7 +143,14 @@ contains
       integer(ip) :: i, before
 
       call find_cut(context%model%mesh, context%around, faces, changes)
-      call check_cut(context, place, faces, changes, ok)
+      ok = changes%outer_face == 0 .and. changes%tip == 0
+      if (changes%outer_face > 0) then
+         call refuse(context, place, 'face '//to_text(faces%face(changes%outer_face))//' of element ' &
+                     //to_text(context%model%mesh%element_id(faces%element(changes%outer_face)))//' lies on the outline')
+      else if (changes%tip > 0) then
+         call refuse(context, place, 'the faces do not part the elements round node ' &
+                     //to_text(context%model%mesh%node_id(changes%tip)))
+      end if
       if (.not. ok) return
       do i = 1, faces%n
          call add_face(context%cut_faces, faces%element(i), faces%face(i))
@@ -162,23 +169,6 @@ contains
       if (allocated(context%node_thickness)) context%node_thickness = [context%node_thickness, context%node_thickness(cut%other)]
       context%around = list_node_elements(context%model%mesh)
    end subroutine cut_along
-
-   subroutine check_cut(context, place, faces, changes, ok)
-      type(build_context_t), intent(in) :: context
-      type(token_t), intent(in) :: place
-      type(face_list_t), intent(in) :: faces
-      type(mesh_cut_t), intent(in) :: changes
-      logical, intent(out) :: ok
-
-      ok = changes%outer_face == 0 .and. changes%tip == 0
-      if (changes%outer_face > 0) then
-         call refuse(context, place, 'face '//to_text(faces%face(changes%outer_face))//' of element ' &
-                     //to_text(context%model%mesh%element_id(faces%element(changes%outer_face)))//' lies on the outline')
-      else if (changes%tip > 0) then
-         call refuse(context, place, 'the faces do not part the elements round node ' &
-                     //to_text(context%model%mesh%node_id(changes%tip)))
-      end if
-   end subroutine check_cut
 
    subroutine refuse(context, place, what)
       type(build_context_t), intent(in) :: context

@@ -42,6 +42,7 @@ contains
       type(build_context_t), intent(inout) :: context
       type(by_number_t) :: numbered
       type(condition_list_t) :: before
+      integer(ip) :: i, entry
 
       if (context%open%number == 1) then
          allocate (context%dof_entry(SLOTS, context%model%mesh%n_nodes), &
@@ -58,23 +59,15 @@ contains
          where (context%loose_held == LOOSE_HELD) context%loose_held = LOOSE_RELEASED
       end if
       call read_cards(context, context%open%number, numbered)
-      call begin_where_it_was(before, context)
-      if (before%n > 0) call note_released(before, context)
-   end subroutine build_supports
-
-   !> A displacement that is given anew by OP=NEW begins with what it has come to; that of a reference node with 0.
-   pure subroutine begin_where_it_was(before, context)
-      type(condition_list_t), intent(in) :: before     !< with `from`, of this step
-      type(build_context_t), intent(inout) :: context
-      integer(ip) :: i, entry
-
       do i = 1, before%n
          associate (old => before%list(i))
+            ! a displacement that is given anew by OP=NEW begins with what it has come to, that of a reference node with 0
             entry = context%dof_entry(dof_slot(old%dof), old%place)
             if (entry > 0 .and. .not. is_reference(context, old%place)) context%open%supports%list(entry)%from = old%from
          end associate
       end do
-   end subroutine begin_where_it_was
+      if (before%n > 0) call note_released(before, context)
+   end subroutine build_supports
 
    !> What stands before the first *STEP holds in every step, until OP=NEW lets go of it: that is told.
    subroutine note_released(before, context)
@@ -154,8 +147,12 @@ contains
       do dof = 1, LAST_DOF
          if (held(dof) .and. (dof <= PLANE_DOFS .or. dof == ROTATION_DOF)) call prescribe(nodes, dof, values, context)
       end do
-      if (size(nodes) == 1 .and. is_refined(context%refinement)) call take_number(context%open%line, nodes(1), held(:PLANE_DOFS), &
-                                                                                  values(1), numbered)
+      if (size(nodes) /= 1 .or. .not. is_refined(context%refinement)) return
+      where (held(:PLANE_DOFS))
+         numbered%line(:, nodes(1)) = context%open%line
+         numbered%value(:, nodes(1)) = values(1)
+      end where
+      numbered%n = numbered%n + 1
    end subroutine read_line
 
    !> Node or set, first dof[, last dof]: what lines without a word begin with.
@@ -245,19 +242,6 @@ contains
       end if
       numbered%n = 0
    end subroutine begin_numbers
-
-   pure subroutine take_number(line, node, held, value, numbered)
-      integer(ip), intent(in) :: line, node
-      logical, intent(in) :: held(PLANE_DOFS)          !< dofs
-      real(wp), intent(in) :: value
-      type(by_number_t), intent(inout) :: numbered
-
-      where (held)
-         numbered%line(:, node) = line
-         numbered%value(:, node) = value
-      end where
-      numbered%n = numbered%n + 1
-   end subroutine take_number
 
    !> An edge of the outline all of whose nodes a card prescribes one by one is prescribed between them, too.
    subroutine hold_edges(context, numbered)

@@ -16,8 +16,7 @@ module atrito_build_loads
    use atrito_numbers, only: read_integer
    use atrito_plane_state, only: STATES
    use atrito_propagation, only: is_of_step, removes_all, propagate, list_inherited, apply_condition, set_to_zero
-   use atrito_read_face_load, only: read_face_load, read_direction, has_no_rest, magnitude_of
-   use atrito_read_spin, only: read_spin
+   use atrito_read_load, only: read_face_load, read_direction, read_spin, has_no_rest, magnitude_of
    use atrito_references, only: find_nodes, find_elements, find_surface, check_faces
    use atrito_refined_members, only: is_on_side
    use atrito_refinement, only: is_refined

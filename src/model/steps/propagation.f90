@@ -131,6 +131,7 @@ contains
       type(inherited_t), intent(inout) :: inherited
       type(condition_list_t), intent(inout) :: loads
       type(replaced_t), intent(inout) :: replaced      !< the line of each load that ends, and that of this one
+      real(wp) :: from(3)
       integer(ip) :: i, place, before
 
       place = 0
@@ -158,20 +159,11 @@ contains
       if (place == 0) then
          call add_condition(loads, load)
       else
-         call replace_condition(loads%list(place), load)
+         from = loads%list(place)%from                 ! what the old one had come to is where the new one begins
+         loads%list(place) = load
+         loads%list(place)%from = from
       end if
    end subroutine apply_condition
-
-   !> What a condition had come to before the step is where the one in its place begins.
-   pure subroutine replace_condition(condition, new)
-      type(condition_t), intent(inout) :: condition
-      type(condition_t), intent(in) :: new
-      real(wp) :: from(3)
-
-      from = condition%from
-      condition = new
-      condition%from = from
-   end subroutine replace_condition
 
    !> Each line that ends is told once of each line that takes its place.
    pure subroutine note_replaced(old, new, replaced)
