@@ -20,7 +20,7 @@ module atrito_balance_probe
    use atrito_status, only: status_t, is_ok
    use atrito_step_loads, only: moment_t
    use atrito_strings, only: to_text
-   use atrito_turning_times, only: turning_times
+   use atrito_amplitudes, only: load_breakpoints
    implicit none (type, external)
    private
    public :: probe_balance
@@ -45,7 +45,7 @@ contains
       excess = 0.0_wp
       began = 0.0_wp
       do k = 1, size(model%steps, kind=ip)
-         times = turning_times(model, k)
+         times = load_breakpoints(model, k)
          call begin_step(model, k, data, times, status)
          if (.not. is_ok(status)) return
          do i = 1, size(times)

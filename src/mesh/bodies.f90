@@ -159,16 +159,25 @@ contains
       end associate
    end subroutine number_equations
 
-   !> (A list of all nodes of the mesh for each body would make thousands of bodies slow: `local` is one for all of them.)
+   !> Orders a body by the graph of its nodes, which are numbered by their places in body%nodes. (A list of all nodes of the mesh
+   !> for each body would make thousands of bodies slow: `local` is one for all of them.)
    subroutine order_by_profile(mesh, contact_nodes, body, local)
       type(mesh_t), intent(in) :: mesh
       integer(ip), intent(in) :: contact_nodes(:)
       type(body_t), intent(inout) :: body
       integer(ip), intent(inout) :: local(:)        !< (n_nodes) used for the nodes of the body: their places
-      integer(ip), allocatable :: order(:)
+      integer(ip), allocatable :: connectivity(:, :), order(:)
       type(graph_t) :: graph
+      integer(ip) :: i
 
-      call body_graph(mesh, body, local, graph)
+      local(body%nodes) = [(i, i=1, size(body%nodes, kind=ip))]
+      allocate (connectivity(maxval(mesh%shape(body%elements)), size(body%elements)), source=0_ip)
+      do i = 1, size(body%elements, kind=ip)
+         associate (nodes => mesh%nodes(:mesh%shape(body%elements(i)), body%elements(i)))
+            connectivity(:size(nodes), i) = local(nodes)
+         end associate
+      end do
+      call build_graph(size(body%nodes, kind=ip), connectivity, graph)
       allocate (order(size(body%nodes)))
       call order_contact_last(graph, local(contact_nodes), order, connected=.true.)
       body%nodes = body%nodes(order)
@@ -192,24 +201,6 @@ contains
       nodes(n + 1:) = last
    end subroutine put_last
 
-   !> The graph of a body's nodes, numbered by their places in body%nodes.
-   subroutine body_graph(mesh, body, local, graph)
-      type(mesh_t), intent(in) :: mesh
-      type(body_t), intent(in) :: body
-      integer(ip), intent(inout) :: local(:)        !< (n_nodes) place of a node in body%nodes, for those that are there
-      type(graph_t), intent(out) :: graph
-      integer(ip), allocatable :: connectivity(:, :)
-      integer(ip) :: i
-
-      local(body%nodes) = [(i, i=1, size(body%nodes, kind=ip))]
-      allocate (connectivity(maxval(mesh%shape(body%elements)), size(body%elements)))
-      do i = 1, size(body%elements, kind=ip)
-         connectivity(:, i) = 0
-         connectivity(:mesh%shape(body%elements(i)), i) = local(mesh%nodes(:mesh%shape(body%elements(i)), body%elements(i)))
-      end do
-      call build_graph(size(body%nodes, kind=ip), connectivity, graph)
-   end subroutine body_graph
-
    !> The order of elimination of the sparse solver: nested dissection of the nodes, the retained equations last.
    subroutine order_by_dissection(mesh, bodies, i_body, elimination)
       type(mesh_t), intent(in) :: mesh
@@ -226,7 +217,7 @@ contains
          elimination%parent = parts%parent(:parts%n)
          !$omp parallel do default(none) shared(parts, bodies, elimination) if(is_shared(parts%n))
          do p = 1, parts%n
-            elimination%last(p) = count_equations(bodies, parts%order(first_node(parts, p):parts%last(p)))
+            elimination%last(p) = count(bodies%equation(:, parts%order(first_node(parts, p):parts%last(p))) > 0, kind=ip)
          end do
          !$omp end parallel do
          do p = 2, parts%n
@@ -251,17 +242,6 @@ contains
       first_node = 1
       if (p > 1) first_node = parts%last(p - 1) + 1
    end function first_node
-
-   pure integer(ip) function count_equations(bodies, nodes) result(n)
-      type(bodies_t), intent(in) :: bodies
-      integer(ip), intent(in) :: nodes(:)
-      integer(ip) :: i
-
-      n = 0
-      do i = 1, size(nodes, kind=ip)
-         n = n + count(bodies%equation(:, nodes(i)) > 0, kind=ip)
-      end do
-   end function count_equations
 
    !> The places of the equations of some nodes, the last of which is given.
    pure subroutine place_part(bodies, nodes, last, place)
@@ -306,7 +286,7 @@ contains
       type(body_t), intent(inout) :: body
       logical, intent(in) :: held(:, :)             !< (2, n_nodes)
       real(wp), allocatable :: rows(:, :)
-      real(wp) :: unit_mode(3)
+      real(wp), parameter :: UNIT(3, 3) = reshape([1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 1.0_wp], [3, 3])
       integer(ip) :: i, j, dof, k, n_held, info
       logical :: moves(3)
 
@@ -327,9 +307,7 @@ contains
             if (.not. held(dof, body%nodes(i))) cycle
             k = k + 1
             do j = 1, 3
-               unit_mode = 0.0_wp
-               unit_mode(j) = 1.0_wp
-               rows(k, j) = mode_at(body, unit_mode, mesh%x(:, body%nodes(i)), dof)
+               rows(k, j) = mode_at(body, UNIT(:, j), mesh%x(:, body%nodes(i)), dof)
             end do
          end do
       end do

@@ -134,15 +134,10 @@ contains
          associate (node => mesh%nodes(k, e))
             if (is_known(node)) cycle
             is_known(node) = .true.
-            behind = .false.
-            ahead = .false.
-            do i = around%first(node), around%first(node + 1) - 1
-               if (is_ahead(mesh, section%line, around%list(i))) then
-                  ahead = .true.
-               else
-                  behind = .true.
-               end if
-            end do
+            associate (sides => [(is_ahead(mesh, section%line, around%list(i)), i=around%first(node), around%first(node + 1) - 1)])
+               ahead = any(sides)
+               behind = .not. all(sides)
+            end associate
             height = height_over(section%line, mesh%x(:, node))
             counted = merge(1.0_wp, 0.0_wp,.not. ahead)
             part = merge(1.0_wp, 0.0_wp, height < 0.0_wp)

@@ -173,14 +173,13 @@ contains
       end do
       near = slack_of(mesh, e)
       if (minval(height(:n_nodes)) > near .or. maxval(height(:n_nodes)) < -near) return
-      piece%element = e
       if (minval(height(:n_nodes)) < -near .and. maxval(height(:n_nodes)) > near) then
+         piece%element = e
          piece%is_split = .true.
          call span_of_split(mesh, line, nodes(:n_nodes), height(:n_nodes), piece%from, piece%to)
          call add_piece(piece, list, n)
       else
-         call look_at_sides(mesh, around, line, e, near, list, n)
-         call look_at_nodes(mesh, around, line, e, near, list, n)
+         call look_beside(mesh, around, line, e, abs(height(:n_nodes)) <= near, list, n)
       end if
    end subroutine look_at_element
 
@@ -206,75 +205,39 @@ contains
       end do
    end subroutine span_of_split
 
-   !> The sides on the line of an element that lies beside it.
-   pure subroutine look_at_sides(mesh, around, line, e, near, list, n)
+   !> What the line has of an element that lies beside it: sides on the line, and corners on the line where elements lie on the
+   !> other side, too.
+   pure subroutine look_beside(mesh, around, line, e, is_on, list, n)
       type(mesh_t), intent(in) :: mesh
       type(node_elements_t), intent(in) :: around
       type(cut_line_t), intent(in) :: line
       integer(ip), intent(in) :: e
-      real(wp), intent(in) :: near                  !< [L]
+      logical, intent(in) :: is_on(:)               !< the nodes on its sides, in their order: they are on the line
       type(piece_t), allocatable, intent(inout) :: list(:)
       integer(ip), intent(inout) :: n
-      type(piece_t) :: piece
       real(wp) :: place(2)
-      integer(ip) :: side
+      integer(ip) :: side, stride, kind, i
+      logical :: ahead
 
-      piece%element = e
-      do side = 1, side_count(mesh, e)
-         associate (first => mesh%nodes(side, e), last => mesh%nodes(face_end(mesh, e, side), e), &
-                    middle => middle_node(mesh, e, side))
-            if (.not. (is_on(first) .and. is_on(last))) cycle
-            if (middle > 0) then
-               if (.not. is_on(middle)) cycle
-            end if
-            place = [place_along(line, mesh%x(:, first)), place_along(line, mesh%x(:, last))]
-         end associate
-         piece%face = side
-         piece%from = minval(place)
-         piece%to = maxval(place)
-         piece%kind = INSIDE
-         if (is_outer_face(mesh, around, e, side)) piece%kind = merge(EDGE_AHEAD, EDGE_BEHIND, is_ahead(mesh, line, e))
-         call add_piece(piece, list, n)
-      end do
-
-   contains
-
-      pure logical function is_on(node)
-         integer(ip), intent(in) :: node
-
-         is_on = abs(height_over(line, mesh%x(:, node))) <= near
-      end function is_on
-
-   end subroutine look_at_sides
-
-   !> The nodes on the line of an element that lies beside it, where elements lie on the other side, too.
-   pure subroutine look_at_nodes(mesh, around, line, e, near, list, n)
-      type(mesh_t), intent(in) :: mesh
-      type(node_elements_t), intent(in) :: around
-      type(cut_line_t), intent(in) :: line
-      integer(ip), intent(in) :: e
-      real(wp), intent(in) :: near                  !< [L]
-      type(piece_t), allocatable, intent(inout) :: list(:)
-      integer(ip), intent(inout) :: n
-      type(piece_t) :: piece
-      integer(ip) :: k, i
-      logical :: ahead, has_other
-
-      piece%element = e
       ahead = is_ahead(mesh, line, e)
-      do k = 1, side_count(mesh, e)
-         associate (node => mesh%nodes(k, e))
-            if (abs(height_over(line, mesh%x(:, node))) > near) cycle
-            has_other = .false.
-            do i = around%first(node), around%first(node + 1) - 1
-               if (is_ahead(mesh, line, around%list(i)) .neqv. ahead) has_other = .true.
-            end do
-            piece%from = place_along(line, mesh%x(:, node))
-         end associate
-         piece%to = piece%from
-         if (has_other) call add_piece(piece, list, n)
+      stride = size(is_on, kind=ip)/side_count(mesh, e)   ! from a corner to the next
+      do side = 1, side_count(mesh, e)
+         if (.not. all(is_on(stride*(side - 1) + 1:stride*side)) .or. .not. is_on(mod(stride*side, size(is_on)) + 1)) cycle
+         place = [place_along(line, mesh%x(:, mesh%nodes(side, e))), &
+                  place_along(line, mesh%x(:, mesh%nodes(face_end(mesh, e, side), e)))]
+         kind = INSIDE
+         if (is_outer_face(mesh, around, e, side)) kind = merge(EDGE_AHEAD, EDGE_BEHIND, ahead)
+         call add_piece(piece_t(kind=kind, element=e, face=side, from=minval(place), to=maxval(place)), list, n)
       end do
-   end subroutine look_at_nodes
+      do side = 1, side_count(mesh, e)
+         associate (node => mesh%nodes(side, e))
+            if (.not. is_on(stride*(side - 1) + 1)) cycle
+            if (all([(is_ahead(mesh, line, around%list(i)) .eqv. ahead, i=around%first(node), around%first(node + 1) - 1)])) cycle
+            place = place_along(line, mesh%x(:, node))
+         end associate
+         call add_piece(piece_t(element=e, from=place(1), to=place(1)), list, n)
+      end do
+   end subroutine look_beside
 
    pure subroutine add_piece(piece, list, n)
       type(piece_t), intent(in) :: piece

@@ -5,11 +5,11 @@ module atrito_faces
    use atrito_id_map, only: id_map_t, add_id, find_id
    use atrito_incidence, only: list_holders
    use atrito_kinds, only: ip, wp
-   use atrito_mesh, only: mesh_t, side_count, face_end, opposite_face_count
+   use atrito_mesh, only: mesh_t, face_end, middle_node, side_between, side_count
    implicit none (type, external)
    private
    public :: face_list_t, node_elements_t, chain_report_t
-   public :: list_node_elements, is_outer_face, outer_faces, order_chain, face_normal, add_face, drop_repeated
+   public :: list_node_elements, find_across, is_outer_face, outer_faces, order_chain, face_normal, add_face, drop_repeated
 
    !> A list of element faces.
    type :: face_list_t
@@ -38,15 +38,34 @@ contains
       call list_holders(mesh%n_nodes, mesh%nodes(:, :mesh%n_elements), around%first, around%list)
    end function list_node_elements
 
+   !> The element that shares a face, and which of its faces that is; 0: none. It joins the same corners the other way round, by the
+   !> same middle, which tells two curved faces that close a circle.
+   pure subroutine find_across(mesh, around, element, face, other, other_face)
+      type(mesh_t), intent(in) :: mesh
+      type(node_elements_t), intent(in) :: around
+      integer(ip), intent(in) :: element, face     !< face 1..4
+      integer(ip), intent(out) :: other, other_face
+      integer(ip) :: k
+
+      associate (first => mesh%nodes(face, element), last => mesh%nodes(face_end(mesh, element, face), element))
+         do k = around%first(first), around%first(first + 1) - 1
+            other = around%list(k)
+            other_face = side_between(mesh, other, last, first, middle_node(mesh, element, face))
+            if (other_face > 0) return
+         end do
+      end associate
+      other = 0
+   end subroutine find_across
+
    !> True when no other element shares the face.
    pure logical function is_outer_face(mesh, around, element, face)
       type(mesh_t), intent(in) :: mesh
       type(node_elements_t), intent(in) :: around
       integer(ip), intent(in) :: element, face     !< face 1..4
-      integer(ip) :: node
+      integer(ip) :: other, other_face
 
-      node = mesh%nodes(face, element)
-      is_outer_face = opposite_face_count(mesh, element, face, around%list(around%first(node):around%first(node + 1) - 1)) == 0
+      call find_across(mesh, around, element, face, other, other_face)
+      is_outer_face = other == 0
    end function is_outer_face
 
    !> All outer faces of some elements.

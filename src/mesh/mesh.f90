@@ -11,7 +11,7 @@ module atrito_mesh
    private
    public :: mesh_t, reserve_mesh, add_node, add_nodes, add_element, add_block, find_node, find_element, trim_mesh
    public :: face_nodes, face_end
-   public :: opposite_face_count, has_side, nodes_of_square, is_hollow, elements_of_square
+   public :: side_between, nodes_of_square, is_hollow, elements_of_square
    public :: side_count, middle_node, element_coordinates, signed_area, is_revolved, depth_places
 
    type :: mesh_t
@@ -247,37 +247,19 @@ contains
       end associate
    end function middle_node
 
-   !> How many of the elements' faces join the same two corners the other way round, by the same middle (1 inside the mesh, 0 on its
-   !> outline). The middle tells two curved faces that close a circle.
-   pure integer(ip) function opposite_face_count(mesh, element, face, elements_of_node) result(n)
-      type(mesh_t), intent(in) :: mesh
-      integer(ip), intent(in) :: element, face
-      integer(ip), intent(in) :: elements_of_node(:) !< the elements at the face's first node
-      integer(ip) :: i, a, b
-
-      a = mesh%nodes(face, element)
-      b = mesh%nodes(face_end(mesh, element, face), element)
-      n = 0
-      do i = 1, size(elements_of_node, kind=ip)
-         if (has_side(mesh, elements_of_node(i), b, a, middle_node(mesh, element, face))) n = n + 1
-      end do
-   end function opposite_face_count
-
-   !> Whether an element has a side from one corner to another, with this node in its middle (0: none).
-   pure logical function has_side(mesh, element, from, to, middle)
+   !> The side of an element from one corner to another, with this node in its middle (0: none); 0: the element has none.
+   pure integer(ip) function side_between(mesh, element, from, to, middle) result(side)
       type(mesh_t), intent(in) :: mesh
       integer(ip), intent(in) :: element, from, to
       integer(ip), intent(in), optional :: middle   !< default: any or none
-      integer(ip) :: side
 
-      has_side = .false.
       do side = 1, side_count(mesh, element)
          if (mesh%nodes(side, element) /= from .or. mesh%nodes(face_end(mesh, element, side), element) /= to) cycle
-         has_side = .true.
-         if (present(middle)) has_side = middle_node(mesh, element, side) == middle
-         if (has_side) return
+         if (.not. present(middle)) return
+         if (middle_node(mesh, element, side) == middle) return
       end do
-   end function has_side
+      side = 0
+   end function side_between
 
    !> The nodes of an element from their square of 2 x 2 or 3 x 3: corners counter-clockwise, mid-sides, centre.
    pure function nodes_of_square(shape, square) result(nodes)

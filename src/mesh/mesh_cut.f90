@@ -1,7 +1,7 @@
 !> Cutting a mesh along faces inside it: the nodes of the faces are doubled, and the elements on the side of the faces' own elements
 !> get the new ones.
 module atrito_mesh_cut
-   use atrito_faces, only: face_list_t, node_elements_t
+   use atrito_faces, only: face_list_t, find_across, node_elements_t
    use atrito_kinds, only: ip
    use atrito_mesh, only: mesh_t, add_nodes, face_end, middle_node, side_count, trim_mesh
    use atrito_sorting, only: each_once
@@ -46,28 +46,6 @@ contains
          if (cut%tip > 0) return
       end do
    end subroutine find_cut
-
-   !> The element that shares a face, and which of its faces that is; 0: none.
-   pure subroutine find_across(mesh, around, element, face, other, other_face)
-      type(mesh_t), intent(in) :: mesh
-      type(node_elements_t), intent(in) :: around
-      integer(ip), intent(in) :: element, face
-      integer(ip), intent(out) :: other, other_face
-      integer(ip) :: k
-
-      associate (a => mesh%nodes(face, element), b => mesh%nodes(face_end(mesh, element, face), element), &
-                 middle => middle_node(mesh, element, face))
-         do k = around%first(a), around%first(a + 1) - 1
-            other = around%list(k)
-            do other_face = 1, side_count(mesh, other)
-               if (mesh%nodes(other_face, other) == b .and. mesh%nodes(face_end(mesh, other, other_face), other) == a &
-                   .and. middle_node(mesh, other, other_face) == middle) return
-            end do
-         end do
-      end associate
-      other = 0
-      other_face = 0
-   end subroutine find_across
 
    !> The elements round a node on the side of the faces' own ones: from these on over all faces that are not cut.
    pure subroutine part_node(mesh, around, faces, place, cut)

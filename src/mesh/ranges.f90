@@ -81,15 +81,18 @@ contains
    pure function numbers_in(ranges) result(numbers)
       type(ranges_t), intent(in) :: ranges
       integer(ip), allocatable :: numbers(:)
-      type(ranges_t) :: cleaned
+      type(ranges_t) :: runs
+      integer(ip) :: i, k, n
 
-      if (ranges%n_clean < ranges%n) then
-         cleaned = ranges
-         call clean(cleaned)
-         numbers = numbers_of_runs(cleaned)
-      else
-         numbers = numbers_of_runs(ranges)
-      end if
+      runs = cleaned(ranges)
+      allocate (numbers(count_numbers(runs)))
+      n = 0
+      do i = 1, runs%n
+         do k = runs%first(i), runs%last(i)
+            n = n + 1
+            numbers(n) = k
+         end do
+      end do
    end function numbers_in
 
    !> Those numbers that stand in a rising list, too: of a few of them nobody goes through all.
@@ -97,57 +100,30 @@ contains
       type(ranges_t), intent(in) :: ranges
       integer(ip), intent(in) :: some(:)                 !< rising
       integer(ip), allocatable :: numbers(:)
-      type(ranges_t) :: cleaned, found
+      type(ranges_t) :: runs, found
       integer(lp) :: key(size(some))
       integer(ip) :: i, k
 
       key = some
-      cleaned = ranges
-      if (cleaned%n_clean < cleaned%n) call clean(cleaned)
-      do i = 1, cleaned%n
-         do k = first_at_least(key, int(cleaned%first(i), lp)), size(some, kind=ip)
-            if (some(k) > cleaned%last(i)) exit
+      runs = cleaned(ranges)
+      do i = 1, runs%n
+         do k = first_at_least(key, int(runs%first(i), lp)), size(some, kind=ip)
+            if (some(k) > runs%last(i)) exit
             call add_range(found, some(k), some(k))
          end do
       end do
       numbers = numbers_in(found)
    end function numbers_among
 
-   pure function numbers_of_runs(ranges) result(numbers)
-      type(ranges_t), intent(in) :: ranges               !< clean
-      integer(ip), allocatable :: numbers(:)
-      integer(ip) :: i, k, n
-
-      allocate (numbers(count_of_runs(ranges)))
-      n = 0
-      do i = 1, ranges%n
-         do k = ranges%first(i), ranges%last(i)
-            n = n + 1
-            numbers(n) = k
-         end do
-      end do
-   end function numbers_of_runs
-
    !> How many numbers there are.
    pure integer(ip) function count_numbers(ranges) result(n)
       type(ranges_t), intent(in) :: ranges
-      type(ranges_t) :: cleaned
+      type(ranges_t) :: runs
 
-      if (ranges%n_clean < ranges%n) then
-         cleaned = ranges
-         call clean(cleaned)
-         n = count_of_runs(cleaned)
-      else
-         n = count_of_runs(ranges)
-      end if
-   end function count_numbers
-
-   pure integer(ip) function count_of_runs(ranges) result(n)
-      type(ranges_t), intent(in) :: ranges               !< clean
-
+      runs = cleaned(ranges)
       n = 0
-      if (ranges%n > 0) n = sum(ranges%last(:ranges%n) - ranges%first(:ranges%n) + 1)
-   end function count_of_runs
+      if (runs%n > 0) n = sum(runs%last(:runs%n) - runs%first(:runs%n) + 1)
+   end function count_numbers
 
    !> The number that came first; 0 of an empty list.
    pure integer(ip) function first_number(ranges) result(number)
@@ -156,6 +132,14 @@ contains
       number = 0
       if (ranges%n > 0) number = ranges%first(1)
    end function first_number
+
+   !> The same list, in which no number stands twice.
+   pure type(ranges_t) function cleaned(ranges)
+      type(ranges_t), intent(in) :: ranges
+
+      cleaned = ranges
+      if (cleaned%n_clean < cleaned%n) call clean(cleaned)
+   end function cleaned
 
    !> Leaves of each run what no earlier one has, and joins runs that go on with each other.
    pure subroutine clean(ranges)

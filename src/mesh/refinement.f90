@@ -3,7 +3,7 @@
 !> edges follow, then those inside elements.
 module atrito_refinement
    use atrito_element_table, only: SHAPES, DEGREE_OF, CORNERS_OF, MOST_NODES, MOST_SIDES
-   use atrito_faces, only: node_elements_t
+   use atrito_faces, only: find_across, node_elements_t
    use atrito_id_map, only: add_id
    use atrito_kinds, only: ip, lp, wp
    use atrito_mesh, only: mesh_t, side_count, face_end, middle_node, nodes_of_square, is_hollow, element_coordinates
@@ -112,7 +112,7 @@ contains
             refinement%face_edge(face, e) = n
             refinement%edge_node(:, n) = [mesh%nodes(face, e), mesh%nodes(face_end(mesh, e, face), e), middle_node(mesh, e, face)]
             refinement%edge_element(1, n) = e
-            call find_neighbour(mesh, around, e, face, other, other_face)
+            call find_across(mesh, around, e, face, other, other_face)
             if (other == 0) cycle
             refinement%face_edge(other_face, other) = n
             refinement%edge_element(2, n) = other
@@ -122,27 +122,6 @@ contains
       refinement%edge_node = refinement%edge_node(:, :n)
       refinement%edge_element = refinement%edge_element(:, :n)
    end subroutine list_edges
-
-   !> The element of the same order on the other side of a face; 0 when there is none.
-   pure subroutine find_neighbour(mesh, around, element, face, other, other_face)
-      type(mesh_t), intent(in) :: mesh
-      type(node_elements_t), intent(in) :: around
-      integer(ip), intent(in) :: element, face
-      integer(ip), intent(out) :: other, other_face
-      integer(ip) :: k, a, b
-
-      a = mesh%nodes(face, element)
-      b = mesh%nodes(face_end(mesh, element, face), element)
-      do k = around%first(a), around%first(a + 1) - 1
-         other = around%list(k)
-         if (DEGREE_OF(mesh%shape(other)) /= DEGREE_OF(mesh%shape(element))) cycle
-         do other_face = 1, side_count(mesh, other)
-            if (mesh%nodes(other_face, other) == b .and. mesh%nodes(face_end(mesh, other, other_face), other) == a) return
-         end do
-      end do
-      other = 0
-      other_face = 0
-   end subroutine find_neighbour
 
    pure subroutine number_nodes(mesh, refinement)
       type(mesh_t), intent(in) :: mesh
@@ -230,31 +209,27 @@ contains
          call map_triangle(mesh, element, grid, x)
          n = -1
       end if
-      associate (nodes => mesh%nodes(:, element))
+      associate (nodes => mesh%nodes(:, element), degree => DEGREE_OF(mesh%shape(element)))
          do j = 0, n
             t = real(j, wp)/real(n, wp)
-            if (SHAPES(mesh%shape(element))%degree == 1) then
-               line(:, 1) = along(mesh%x(:, nodes(1)), mesh%x(:, nodes(4)), t)
-               line(:, 2) = along(mesh%x(:, nodes(2)), mesh%x(:, nodes(3)), t)
-            else
-               line(:, 1) = along(mesh%x(:, nodes(1)), mesh%x(:, nodes(4)), t, mesh%x(:, nodes(8)))
-               line(:, 2) = along(mesh%x(:, nodes(2)), mesh%x(:, nodes(3)), t, mesh%x(:, nodes(6)))
-               line(:, 3) = along(mesh%x(:, nodes(5)), mesh%x(:, nodes(7)), t, centre_of(mesh, element))
-            end if
+            line(:, 1) = along(mesh, nodes(1), nodes(4), nodes(8), t)
+            line(:, 2) = along(mesh, nodes(2), nodes(3), nodes(6), t)
+            if (degree > 1) line(:, 3) = parabola(mesh%x(:, nodes(5)), mesh%x(:, nodes(7)), centre_of(mesh, element), t)
             do i = 0, n
                k = grid(i, j)
                if (k <= mesh%n_nodes) cycle
                s = real(i, wp)/real(n, wp)
-               if (SHAPES(mesh%shape(element))%degree == 1) then
-                  x(:, k) = along(line(:, 1), line(:, 2), s)
-               else
-                  x(:, k) = along(line(:, 1), line(:, 2), s, line(:, 3))
-               end if
+               x(:, k) = line(:, 1) + s*(line(:, 2) - line(:, 1))
+               if (degree > 1) x(:, k) = parabola(line(:, 1), line(:, 2), line(:, 3), s)
             end do
          end do
       end associate
       do i = 1, side_count(mesh, element)
-         call map_edge(mesh, refinement, refinement%face_edge(i, element), x)
+         associate (edge => refinement%face_edge(i, element), node => refinement%edge_node(:, refinement%face_edge(i, element)))
+            do k = refinement%edge_first(edge), refinement%edge_first(edge + 1) - 1
+               x(:, k) = along(mesh, node(1), node(2), node(3), edge_place(refinement, edge, k))
+            end do
+         end associate
       end do
    end subroutine map_element
 
@@ -291,24 +266,6 @@ contains
       end associate
    end function centre_of
 
-   pure subroutine map_edge(mesh, refinement, edge, x)
-      type(mesh_t), intent(in) :: mesh
-      type(refinement_t), intent(in) :: refinement
-      integer(ip), intent(in) :: edge
-      real(wp), intent(inout) :: x(:, :)
-      integer(ip) :: k
-
-      associate (node => refinement%edge_node(:, edge))
-         do k = refinement%edge_first(edge), refinement%edge_first(edge + 1) - 1
-            if (node(3) == 0) then
-               x(:, k) = along(mesh%x(:, node(1)), mesh%x(:, node(2)), edge_place(refinement, edge, k))
-            else
-               x(:, k) = along(mesh%x(:, node(1)), mesh%x(:, node(2)), edge_place(refinement, edge, k), mesh%x(:, node(3)))
-            end if
-         end do
-      end associate
-   end subroutine map_edge
-
    !> Place 0..1 of a new node on its coarse edge, from the edge's first node.
    pure real(wp) function edge_place(refinement, edge, node) result(t)
       type(refinement_t), intent(in) :: refinement
@@ -321,15 +278,27 @@ contains
       t = real(position, wp)/real(intervals, wp)
    end function edge_place
 
-   !> The point t = 0..1 of the straight line from a to b, or of the parabola through a, middle and b.
-   pure function along(a, b, t, middle) result(x)
-      real(wp), intent(in) :: a(2), b(2), t
-      real(wp), intent(in), optional :: middle(2)
+   !> The point t = 0..1 of the straight line between two nodes, or of the parabola through a third one in their middle; 0: none.
+   pure function along(mesh, first, last, middle, t) result(x)
+      type(mesh_t), intent(in) :: mesh
+      integer(ip), intent(in) :: first, last, middle
+      real(wp), intent(in) :: t
+      real(wp) :: x(2)
+
+      if (middle > 0) then
+         x = parabola(mesh%x(:, first), mesh%x(:, last), mesh%x(:, middle), t)
+      else
+         x = mesh%x(:, first) + t*(mesh%x(:, last) - mesh%x(:, first))
+      end if
+   end function along
+
+   pure function parabola(a, b, middle, t) result(x)
+      real(wp), intent(in) :: a(2), b(2), middle(2), t
       real(wp) :: x(2)
 
       x = a + t*(b - a)
-      if (present(middle)) x = x + 4*t*(1 - t)*((middle - a) - 0.5_wp*(b - a))
-   end function along
+      x = x + 4*t*(1 - t)*((middle - a) - 0.5_wp*(b - a))
+   end function parabola
 
    !> The places of all nodes of a refined element, from node 1 along its sides 1-2 and 1-4, (0:n, 0:n); of a triangle 1-2 and 1-3.
    pure subroutine fill_grid(mesh, refinement, element, grid)

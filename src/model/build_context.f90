@@ -4,7 +4,7 @@
 !> One mistake, one message: whoever refers to a thing whose definition was faulty is passed over in silence. Silence is allowed
 !> only once an error has been told, so a deck is never accepted with something left out.
 module atrito_build_context
-   use atrito_build_parts, only: open_step_t, references_t, carried_t, replaced_t, numbered_t, block_t, section_cut_t, &
+   use atrito_build_parts, only: open_step_t, inherited_t, replaced_t, numbered_t, block_t, section_cut_t, &
                                  BLOCK_SIDES, LOOSE_HELD, LOOSE_RELEASED, LOOSE_MOVES
    use atrito_curves, only: curve_list_t, line_list_t
    use atrito_deck, only: deck_t, card_t, token_t, data_line_t, token_text, is_empty_token, keyword_name, scope_shift, &
@@ -22,11 +22,11 @@ module atrito_build_context
    use atrito_name_list, only: name_list_t, add_name, find_name, has_name
    use atrito_numbers, only: read_integer, NUMBER_OK
    use atrito_refinement, only: refinement_t
-   use atrito_strings, only: same_name, to_text
+   use atrito_strings, only: lower_case, same_name, to_text
    implicit none (type, external)
    private
    public :: LOOSE_HELD, LOOSE_RELEASED, LOOSE_MOVES
-   public :: build_context_t, open_step_t, references_t, carried_t, replaced_t, numbered_t, block_t, section_cut_t
+   public :: build_context_t, open_step_t, inherited_t, replaced_t, numbered_t, block_t, section_cut_t
    public :: BLOCK_SIDES
    public :: prepare_context, add_context_block, note_undetermined_mesh
    public :: invalidate_block, invalidate_name, spoil_number, is_invalid, is_undetermined, has_errors, has_lost_elements
@@ -82,9 +82,8 @@ module atrito_build_context
       logical :: pairs_undetermined = .false.                !< a *CONTACT PAIR could not be understood
       logical :: rigid_undetermined = .false.                !< a *RIGID BODY names another surface than it should
       integer(ip), allocatable :: loose_held(:, :)     !< (3, n_nodes) LOOSE_*: supports of nodes of no element; third: rotations
-      integer(ip), allocatable :: dof_entry(:, :)      !< (2, n_nodes): place in open%supports; 0: free
+      integer(ip), allocatable :: dof_entry(:, :)      !< (3, n_nodes): place in open%supports; 0: free; third: rotations
       real(wp), allocatable :: axes(:, :, :)           !< (2, dof, n_nodes) local axes; 0: along x and y; not allocated: nowhere
-      integer(ip), allocatable :: dof_token(:, :)      !< (2, n_nodes): token of the line that prescribes it
    end type build_context_t
 
    integer(ip), parameter :: MOST_IDS = 8              !< numbers told in a message
@@ -140,14 +139,8 @@ contains
       type(build_context_t), intent(inout) :: context
 
       select case (keyword_name(card))
-      case ('MATERIAL')
-         if (is_nameless(context%deck, card, 'NAME')) call note_undetermined(context, 'material')
-      case ('AMPLITUDE')
-         if (is_nameless(context%deck, card, 'NAME')) call note_undetermined(context, 'amplitude')
-      case ('SURFACE INTERACTION')
-         if (is_nameless(context%deck, card, 'NAME')) call note_undetermined(context, 'surface interaction')
-      case ('SURFACE')
-         if (is_nameless(context%deck, card, 'NAME')) call note_undetermined(context, 'surface')
+      case ('MATERIAL', 'AMPLITUDE', 'SURFACE INTERACTION', 'SURFACE')
+         if (is_nameless(context%deck, card, 'NAME')) call note_undetermined(context, lower_case(keyword_name(card)))
       case ('NSET')
          if (is_nameless(context%deck, card, 'NSET')) call note_undetermined(context, 'node set')
       case ('ELSET')
@@ -162,14 +155,13 @@ contains
    !> Nodes, elements, sets and surfaces of a mesh; a deck in parts without an instance has none.
    subroutine note_undetermined_mesh(context)
       type(build_context_t), intent(inout) :: context
+      character(len=19), parameter :: NOUNS(7) = [character(len=19) :: 'node set', 'earlier node set', 'element set', &
+                                                  'earlier element set', 'surface', 'node', 'element']
+      integer :: i
 
-      call note_undetermined(context, 'node set')
-      call note_undetermined(context, 'earlier node set')
-      call note_undetermined(context, 'element set')
-      call note_undetermined(context, 'earlier element set')
-      call note_undetermined(context, 'surface')
-      call note_undetermined(context, 'node')
-      call note_undetermined(context, 'element')
+      do i = 1, size(NOUNS)
+         call note_undetermined(context, trim(NOUNS(i)))
+      end do
    end subroutine note_undetermined_mesh
 
    !> A file that could not be read may have defined anything.
@@ -190,7 +182,7 @@ contains
       type(card_t), intent(in) :: card
       character(len=*), intent(in) :: option
       character(len=:), allocatable :: name
-      integer :: i
+      integer :: i, k
 
       is_nameless = .true.
       if (.not. allocated(card%options)) return
@@ -198,19 +190,12 @@ contains
          if (.not. card%options(i)%has_value) cycle
          if (same_name(token_text(deck, card%options(i)%name), option)) then
             name = token_text(deck, card%options(i)%value)
-            is_nameless = len(name) == 0 .or. has_control(name)
+            is_nameless = len(name) == 0 .or. any([(iachar(name(k:k)) < iachar(' '), k=1, len(name))])
             return
          end if
          if (card%options(i)%spec == 0) is_nameless = .false.
       end do
    end function is_nameless
-
-   pure logical function has_control(name)
-      character(len=*), intent(in) :: name
-      integer :: i
-
-      has_control = any([(iachar(name(i:i)) < iachar(' '), i=1, len(name))])
-   end function has_control
 
    subroutine invalidate_options(card, context)
       type(card_t), intent(in) :: card

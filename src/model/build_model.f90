@@ -32,7 +32,7 @@ module atrito_build_model
                                set_interferences
    use atrito_contact_roles, only: choose_roles
    use atrito_contact_rules, only: contact_rules_t, read_contact_rules
-   use atrito_deck, only: deck_t, token_text, line_item, keyword_name
+   use atrito_deck, only: deck_t, count_lines, token_text, line_item, keyword_name
    use atrito_build_context, only: build_context_t, prepare_context, has_errors
    use atrito_faces, only: chain_report_t, list_node_elements
    use atrito_found_contact, only: find_contact
@@ -77,11 +77,8 @@ contains
       integer(lp) :: limit
       integer(ip) :: depth, kind, own
 
-      if (present(memory)) then
-         limit = memory
-      else
-         limit = available_memory()
-      end if
+      limit = available_memory()
+      if (present(memory)) limit = memory
       depth = 0
       if (present(levels)) depth = levels
       kind = 0
@@ -201,11 +198,7 @@ contains
 
       model%deck_path = deck%path
       model%deck_name = deck_name(deck%path)
-      n = 0
-      do i = 1, deck%n_cards
-         if (keyword_name(deck%cards(i)) == 'HEADING') n = n + deck%cards(i)%n_lines
-      end do
-      allocate (model%heading(n))
+      allocate (model%heading(count_lines(deck, 'HEADING')))
       n = 0
       do i = 1, deck%n_cards
          if (keyword_name(deck%cards(i)) /= 'HEADING') cycle
@@ -251,11 +244,19 @@ contains
          end select
       end do
       call read_lines(context)
-      do i = 1, context%deck%n_cards
-         if (keyword_name(context%deck%cards(i)) /= 'NSET' .or. context%card_done(i)) cycle
-         call read_set_card(i, context)
-      end do
+      call read_sets(context, 'NSET')
    end subroutine build_nodes
+
+   !> The cards of sets that have not been read yet.
+   subroutine read_sets(context, keyword)
+      type(build_context_t), intent(inout) :: context
+      character(len=*), intent(in) :: keyword          !< NSET or ELSET
+      integer(ip) :: i
+
+      do i = 1, context%deck%n_cards
+         if (keyword_name(context%deck%cards(i)) == keyword .and. .not. context%card_done(i)) call read_set_card(i, context)
+      end do
+   end subroutine read_sets
 
    !> Elements, and the element sets.
    subroutine build_elements(context)
@@ -278,10 +279,7 @@ contains
          end select
       end do
       call turn_elements(context)
-      do i = 1, context%deck%n_cards
-         if (keyword_name(context%deck%cards(i)) /= 'ELSET' .or. context%card_done(i)) cycle
-         call read_set_card(i, context)
-      end do
+      call read_sets(context, 'ELSET')
    end subroutine build_elements
 
 end module atrito_build_model

@@ -3,11 +3,11 @@ module atrito_build_parts
    use atrito_block_map, only: block_map_t
    use atrito_id_map, only: id_map_t
    use atrito_kinds, only: ip, wp
-   use atrito_model, only: nodal_values_t
+   use atrito_load_lists, only: condition_list_t
    use atrito_name_list, only: name_list_t
    implicit none (type, external)
    private
-   public :: open_step_t, references_t, carried_t, replaced_t, numbered_t, block_t, section_cut_t, BLOCK_SIDES
+   public :: open_step_t, inherited_t, replaced_t, numbered_t, block_t, section_cut_t, BLOCK_SIDES
    public :: LOOSE_HELD, LOOSE_RELEASED, LOOSE_MOVES
 
    !> Ends of the names that a *BLOCK gives to its sides, in the order of the faces S1..S4.
@@ -46,21 +46,12 @@ module atrito_build_parts
       integer(ip), allocatable :: place(:)             !< of each, by its place in the mesh; > 0: token; < 0: card
    end type numbered_t
 
-   !> Loads that a step has from the one before, in lists by the dof or the element on which they act.
-   type :: carried_t
+   !> The loads that a step inherits, in lists by the dof or the element on which they act.
+   type :: inherited_t
       integer(ip) :: n = 0                             !< the first of the step's loads
-      integer(ip), allocatable :: head(:)              !< of each dof or element the last of these; 0: none
+      integer(ip), allocatable :: head(:)              !< of each dof or element the first of these; 0: none
       integer(ip), allocatable :: next(:)              !< (n)
-      integer(ip), allocatable :: label(:)             !< (n) of loads on elements: place in the labels of the deck
-      logical, allocatable :: is_given(:)              !< (n) a line of the step has taken its place
-   end type carried_t
-
-   !> What is prescribed and applied at the reference nodes of rigid surfaces.
-   type :: references_t
-      type(nodal_values_t) :: prescribed, loads
-      integer(ip), allocatable :: token(:)             !< first of the line that prescribes each
-      type(carried_t) :: old_loads
-   end type references_t
+   end type inherited_t
 
    !> Lines of earlier steps whose loads end, and the lines that take their place.
    type :: replaced_t
@@ -75,15 +66,14 @@ module atrito_build_parts
       integer(ip) :: number = 1
       integer(ip) :: first_card = 1, last_card = 0     !< of the deck: its cards are among these (is_of_step)
       type(name_list_t) :: cut_names                   !< of its *SECTION PRINT so far
-      integer(ip) :: first_token = 0                   !< of its lines: what stands before it has been carried on
+      integer(ip) :: first_token = 0                   !< of its lines: what stands before it is inherited
       integer(ip) :: line = 0                          !< of the deck, that is being read
-      integer(ip) :: label = 0                         !< of its load, place in the labels of the deck
       integer(ip) :: amplitude = 0                     !< that the card being read names
       integer(ip) :: source = 0                        !< of the line being read, place in the model's sources
-      type(nodal_values_t) :: supports, forces         !< along the dofs of the deck, which may be local axes
-      type(carried_t) :: old_forces, old_loads
+      type(condition_list_t) :: supports, forces       !< at nodes, along the dofs of the deck, which may be local axes
+      type(condition_list_t) :: loads                  !< on elements
+      type(inherited_t) :: old_forces, old_loads
       type(replaced_t) :: replaced
-      type(references_t) :: references
    end type open_step_t
 
    !> A dof of a node of no element: held at 0 so far, no longer, or moved or held later than in the first step; 0: free.

@@ -8,7 +8,7 @@ module atrito_fingerprint
    use atrito_digest, only: digest_t, add_to, add_allocated, digest_text
    use atrito_kinds, only: ip
    use atrito_mesh, only: mesh_t
-   use atrito_model, only: model_t, step_t, nodal_values_t, element_load_t, requested_t, amplitude_t
+   use atrito_model, only: model_t, step_t, nodal_values_t, element_load_t, requested_t
    use atrito_points, only: contact_points_t
    use atrito_strings, only: to_text
    implicit none (type, external)
@@ -28,6 +28,8 @@ module atrito_fingerprint
       integer(ip) :: n_steps = 0
    end type fingerprint_t
 
+   integer(ip), parameter :: SCENE_PARTS = 7, STEP_PARTS = 5
+
 contains
 
    !> The fingerprint of a model and of the options of a run, part by part.
@@ -38,42 +40,34 @@ contains
       type(digest_t) :: of_options
       integer(ip) :: i
 
-      fingerprint%n_steps = size(model%steps, kind=ip)
-      allocate (fingerprint%parts(0))
-      call add_part(fingerprint, 'mesh', to_text(model%mesh%n_nodes)//' nodes, '//to_text(model%mesh%n_elements)//' elements', &
-                    digest_of_mesh(model%mesh), 0_ip)
-      call add_part(fingerprint, 'sections and materials', to_text(size(model%materials, kind=ip))//' materials', &
-                    digest_of_materials(model), 0_ip)
-      call add_part(fingerprint, 'surfaces', to_text(size(model%surfaces, kind=ip))//' surfaces', digest_of_surfaces(model), 0_ip)
-      call add_part(fingerprint, 'surface interactions', to_text(size(model%interactions, kind=ip))//' interactions', &
-                    digest_of_interactions(model), 0_ip)
-      call add_part(fingerprint, 'contact pairs', to_text(size(model%pairs, kind=ip))//' pairs', digest_of_pairs(model), 0_ip)
-      call add_part(fingerprint, 'ties, equations and springs', to_text(model%bilateral%n)//' rows', &
-                    digest_of_rows(model%bilateral), 0_ip)
       call add_to(of_options, options)
-      call add_part(fingerprint, 'options', options, of_options, 0_ip)
-      do i = 1, size(model%steps, kind=ip)
-         call add_step(fingerprint, model, i)
-      end do
+      fingerprint%n_steps = size(model%steps, kind=ip)
+      allocate (fingerprint%parts(SCENE_PARTS + STEP_PARTS*fingerprint%n_steps))
+      associate (parts => fingerprint%parts)
+         parts(1) = make_part('mesh', to_text(model%mesh%n_nodes)//' nodes, '//to_text(model%mesh%n_elements)//' elements', &
+                              digest_of_mesh(model%mesh))
+         parts(2) = make_part('sections and materials', to_text(size(model%materials, kind=ip))//' materials', &
+                              digest_of_materials(model))
+         parts(3) = make_part('surfaces', to_text(size(model%surfaces, kind=ip))//' surfaces', digest_of_surfaces(model))
+         parts(4) = make_part('surface interactions', to_text(size(model%interactions, kind=ip))//' interactions', &
+                         digest_of_interactions(model))
+         parts(5) = make_part('contact pairs', to_text(size(model%pairs, kind=ip))//' pairs', digest_of_pairs(model))
+         parts(6) = make_part('ties, equations and springs', to_text(model%bilateral%n)//' rows', digest_of_rows(model%bilateral))
+         parts(7) = make_part('options', options, of_options)
+         do i = 1, fingerprint%n_steps
+            parts(SCENE_PARTS + STEP_PARTS*(i - 1) + 1:SCENE_PARTS + STEP_PARTS*i) = parts_of_step(model, i)
+         end do
+      end associate
    end subroutine take_fingerprint
 
-   subroutine add_part(fingerprint, name, words, digest, step)
-      type(fingerprint_t), intent(inout) :: fingerprint
-      character(len=*), intent(in) :: name, words
+   pure type(part_t) function make_part(name, size_of, digest) result(part)
+      character(len=*), intent(in) :: name, size_of
       type(digest_t), intent(in) :: digest
-      integer(ip), intent(in) :: step
-      type(part_t), allocatable :: more(:)
-      integer :: n
 
-      n = size(fingerprint%parts)
-      allocate (more(n + 1))
-      more(:n) = fingerprint%parts
-      more(n + 1)%name = name
-      more(n + 1)%size = words
-      more(n + 1)%digest = digest_text(digest)
-      more(n + 1)%step = step
-      call move_alloc(more, fingerprint%parts)
-   end subroutine add_part
+      part%name = name
+      part%size = size_of
+      part%digest = digest_text(digest)
+   end function make_part
 
    pure function digest_of_mesh(mesh) result(digest)
       type(mesh_t), intent(in) :: mesh
@@ -203,13 +197,13 @@ contains
    end function digest_of_rows
 
    !> The parts of a step.
-   subroutine add_step(fingerprint, model, i)
-      type(fingerprint_t), intent(inout) :: fingerprint
+   pure function parts_of_step(model, i) result(parts)
       type(model_t), intent(in) :: model
       integer(ip), intent(in) :: i
+      type(part_t) :: parts(STEP_PARTS)
       type(digest_t) :: supports, loads, overlaps, way, requests
 
-      associate (step => model%steps(i))
+      associate (step => model%steps(i), of_step => ' of step '//to_text(i))
          call add_nodal_values(supports, model, step%prescribed)
          if (step%rigid_prescribed%n > 0) call add_nodal_values(supports, model, step%rigid_prescribed)
          call add_to(supports, step%at_once)
@@ -223,17 +217,16 @@ contains
          call add_allocated(overlaps, step%overlap_from)
          call add_way(way, step)
          call add_requests(requests, model, step)
+         parts(1) = make_part('prescribed displacements'//of_step, to_text(step%prescribed%n + step%rigid_prescribed%n)// &
+                              ' values', supports)
+         parts(2) = make_part('loads'//of_step, to_text(step%node_loads%n + step%rigid_loads%n)//' on nodes, '// &
+                              to_text(step%element_loads%n)//' on elements', loads)
+         parts(3) = make_part('*CONTACT INTERFERENCE'//of_step, '', overlaps)
+         parts(4) = make_part('*STATIC or *CONTROLS'//of_step, '', way)
+         parts(5) = make_part('what is printed in step '//to_text(i), '', requests)
       end associate
-      associate (step => model%steps(i))
-         call add_part(fingerprint, 'prescribed displacements of step '//to_text(i), &
-                       to_text(step%prescribed%n + step%rigid_prescribed%n)//' values', supports, i)
-         call add_part(fingerprint, 'loads of step '//to_text(i), to_text(step%node_loads%n + step%rigid_loads%n)// &
-                       ' on nodes, '//to_text(step%element_loads%n)//' on elements', loads, i)
-      end associate
-      call add_part(fingerprint, '*CONTACT INTERFERENCE of step '//to_text(i), '', overlaps, i)
-      call add_part(fingerprint, '*STATIC or *CONTROLS of step '//to_text(i), '', way, i)
-      call add_part(fingerprint, 'what is printed in step '//to_text(i), '', requests, i)
-   end subroutine add_step
+      parts%step = i
+   end function parts_of_step
 
    pure subroutine add_nodal_values(digest, model, values)
       type(digest_t), intent(inout) :: digest
@@ -277,21 +270,16 @@ contains
          if (used(i) > 0) then
             if (number(used(i)) == 0) then
                number(used(i)) = maxval(number) + 1_ip
-               call add_amplitude(digest, model%amplitudes(used(i)))
+               associate (amplitude => model%amplitudes(used(i)))
+                  call add_allocated(digest, amplitude%time)
+                  call add_allocated(digest, amplitude%value)
+                  call add_to(digest, [amplitude%is_total_time, amplitude%is_smooth])
+               end associate
             end if
          end if
          call add_to(digest, number(used(i)))
       end do
    end subroutine add_amplitudes
-
-   pure subroutine add_amplitude(digest, amplitude)
-      type(digest_t), intent(inout) :: digest
-      type(amplitude_t), intent(in) :: amplitude
-
-      call add_allocated(digest, amplitude%time)
-      call add_allocated(digest, amplitude%value)
-      call add_to(digest, [amplitude%is_total_time, amplitude%is_smooth])
-   end subroutine add_amplitude
 
    !> How the step goes through its time.
    pure subroutine add_way(digest, step)

@@ -1,11 +1,11 @@
 !> What the items of a deck refer to: nodes and elements by their numbers or the names of their sets; and the message for what is
 !> not there.
 module atrito_references
-   use atrito_deck, only: deck_t, token_t, token_text, is_id_token, scope_shift, scope_text
+   use atrito_deck, only: card_t, deck_t, token_t, token_text, is_id_token, keyword_name, scope_shift, scope_text
    use atrito_diagnostics, only: report_error
    use atrito_build_context, only: build_context_t, numbered_t, is_invalid, is_undetermined, has_errors, ids_text
    use atrito_id_map, only: find_id
-   use atrito_items, only: get_integer, get_name
+   use atrito_items, only: get_integer, get_name, option_text
    use atrito_kinds, only: ip
    use atrito_mesh, only: find_node, find_element, side_count
    use atrito_name_list, only: name_list_t, find_name
@@ -16,7 +16,8 @@ module atrito_references
    use atrito_strings, only: to_text, upper_case
    implicit none (type, external)
    private
-   public :: get_id, find_nodes, find_elements, find_one_node, find_one_element, find_surface, check_faces, report_unknown
+   public :: get_id, find_nodes, find_elements, find_one_node, find_one_element, find_set_option, find_surface, &
+             check_faces, element_of_deck, in_no_element, report_unknown
 
 contains
 
@@ -108,14 +109,22 @@ contains
       element = 0
       call get_id(context%deck, token, 'element number', id, ok, keyword)
       if (.not. ok) return
-      if (is_refined(context%refinement)) then
-         element = find_id(context%deck_elements, id)
-      else
-         element = find_element(context%model%mesh, id)
-      end if
+      element = element_of_deck(context, id)
       ok = element > 0
       if (.not. ok) call report_missing(context, token, context%elements, 'element', id, context%model%mesh%n_elements, keyword)
    end subroutine find_one_element
+
+   !> The place of an element in the mesh of the deck by its number; 0: there is none.
+   pure integer(ip) function element_of_deck(context, id)
+      type(build_context_t), intent(in) :: context
+      integer(ip), intent(in) :: id
+
+      if (is_refined(context%refinement)) then
+         element_of_deck = find_id(context%deck_elements, id)
+      else
+         element_of_deck = find_element(context%model%mesh, id)
+      end if
+   end function element_of_deck
 
    !> A number that no node or element has, unless an earlier error explains it.
    subroutine report_missing(context, token, numbered, noun, id, n, keyword)
@@ -197,6 +206,26 @@ contains
       end if
    end subroutine find_members
 
+   !> The set that an option of a card names; 0: the option is not given.
+   subroutine find_set_option(context, card, option, noun, sets, set, ok)
+      type(build_context_t), intent(in) :: context
+      type(card_t), intent(in) :: card
+      character(len=*), intent(in) :: option           !< NSET or ELSET
+      character(len=*), intent(in) :: noun             !< 'node set' or 'element set'
+      type(set_list_t), intent(in) :: sets
+      integer(ip), intent(out) :: set                  !< place
+      logical, intent(out) :: ok                       !< false: an unknown set, which is reported
+      character(len=:), allocatable :: name
+      type(token_t) :: place
+      logical :: found
+
+      set = 0
+      call option_text(context%deck, card, option, name, found, place)
+      if (found) set = find_set(sets, name)
+      ok = set > 0 .or. .not. found
+      if (.not. ok) call report_unknown(context, place, noun, 'E-SET', sets%names, keyword_name(card))
+   end subroutine find_set_option
+
    !> An unknown name, unless an earlier error explains it.
    subroutine report_unknown(context, token, noun, id, known, keyword)
       type(build_context_t), intent(in) :: context
@@ -252,6 +281,15 @@ contains
       call report_error(context%deck, token, 'E-FACE', 'element '//ids_text(numbers_of(without))//' has no face '//to_text(face), &
                         expected='a face that each of the elements has: triangles have 1-2, 2-3 and 3-1', keyword=keyword)
    end subroutine check_faces
+
+   !> The nodes of a list that belong to no element.
+   pure function in_no_element(context, nodes) result(loose)
+      type(build_context_t), intent(in) :: context
+      integer(ip), intent(in) :: nodes(:)              !< places
+      logical :: loose(size(nodes))
+
+      loose = context%around%first(nodes + 1) == context%around%first(nodes)
+   end function in_no_element
 
    pure function article(noun) result(text)
       character(len=*), intent(in) :: noun

@@ -4,7 +4,7 @@ module atrito_mesh_lines
    use atrito_bodies, only: bodies_t, find_bodies
    use atrito_faces, only: node_elements_t, list_node_elements
    use atrito_kinds, only: ip, wp
-   use atrito_mesh, only: mesh_t, face_end, has_side, side_count
+   use atrito_mesh, only: mesh_t, face_end, side_between, side_count
    use atrito_model, only: surface_t
    implicit none (type, external)
    private
@@ -76,7 +76,7 @@ contains
             kind_of(face, e) = LINE_OUTER
             do i = around%first(a), around%first(a + 1) - 1
                beyond = around%list(i)
-               if (.not. has_side(mesh, beyond, b, a)) cycle
+               if (side_between(mesh, beyond, b, a) == 0) cycle
                kind_of(face, e) = merge(LINE_INNER, LINE_OUTER, section_of(beyond) == section_of(e))
                if (beyond < e) kind_of(face, e) = 0
             end do

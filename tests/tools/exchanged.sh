@@ -8,7 +8,8 @@ here=$(cd "$(dirname "$0")" && pwd)
 
 # type, file, procedures (* all), variable, components that are left out
 cat >"$work/rules" <<'RULES'
-results_t          fields/exchange_results.f90 exchange_results results
+frame_numbers_t    fields/exchange_results.f90 exchange_results results
+results_t          fields/exchange_results.f90 exchange_results results frame_numbers_t
 contact_result_t   fields/exchange_results.f90 exchange_contact contact
 unsettled_t        fields/exchange_results.f90 exchange_unsettled point
 body_motion_t      fields/exchange_results.f90 exchange_motion body
@@ -51,7 +52,7 @@ bilateral_rows_t   model/fingerprint.f90 digest_of_rows rows n_groups
 step_t             model/fingerprint.f90 * step title,began
 nodal_values_t     model/fingerprint.f90 add_nodal_values values source
 element_load_t     model/fingerprint.f90 add_element_loads loads line,source
-amplitude_t        model/fingerprint.f90 add_amplitude amplitude name
+amplitude_t        model/fingerprint.f90 add_amplitudes amplitude name
 increments_t       model/fingerprint.f90 add_way way
 controls_t         model/fingerprint.f90 add_way controls is_brief,is_first
 requests_t         model/fingerprint.f90 add_requests requests
@@ -77,7 +78,7 @@ must_find() { # must_find FILE SED-COMMAND TEXT
    cmp -s "$src/$1" "$work/copy/$1" && fail "$1: $2 changes nothing"
    judge "$work/copy" | grep -qF -- "$3" || fail "not found: $3"
 }
-must_find model/types/results.f90 's/^      logical :: law_holds = .*/&\n      real(wp), allocatable :: wear(:), worn(:)/' 'results_t: worn'
+must_find model/types/results.f90 's/^      logical :: law_holds = .*/&\n      real(wp), allocatable :: wear(:), worn(:)/' 'frame_numbers_t: worn'
 must_find fields/exchange_results.f90 '/contact%slip_increment/d' 'contact_result_t: slip_increment'
 must_find model/types/results.f90 's/^      type(scene_t) :: scene/&\n      type(ending_t) :: ending/' 'ending_t has no rule'
 must_find stepping/history.f90 '/run%condition = state%condition/d' 'run_t: condition'

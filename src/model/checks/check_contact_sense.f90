@@ -140,7 +140,7 @@ contains
       end do
    end subroutine find_contact_faces
 
-   !> The loads of a step; those that are carried on have been told of.
+   !> The loads of a step; those that are inherited have been told of.
    subroutine warn_of_loads(model, context, loads, pair_at, told)
       type(model_t), intent(in) :: model
       type(build_context_t), intent(in) :: context

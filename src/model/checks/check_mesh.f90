@@ -7,7 +7,7 @@ module atrito_check_mesh
    use atrito_element_table, only: SHAPES, DEGREE_OF, can_average
    use atrito_id_map, only: find_id
    use atrito_kinds, only: ip, wp
-   use atrito_mesh, only: mesh_t, side_count, face_end, has_side, middle_node
+   use atrito_mesh, only: mesh_t, side_between, side_count, face_end, middle_node
    use atrito_model, only: model_t, FORMULATION_STANDARD, FORMULATION_BBAR
    use atrito_number_list, only: number_list_t, add_number, numbers_of
    use atrito_plane_state, only: STATES, IS_REDUCED
@@ -210,12 +210,12 @@ contains
             middle = middle_node(mesh, element, face)
             do k = first(middle), first(middle + 1) - 1
                other = context%around%list(k)
-               if (other == element .or. has_side(mesh, other, b, a, middle)) cycle
+               if (other == element .or. side_between(mesh, other, b, a, middle) > 0) cycle
                misfit(max(element, other)) = .true.
             end do
             do k = first(a), first(a + 1) - 1
                other = context%around%list(k)
-               if (.not. has_side(mesh, other, b, a) .or. has_side(mesh, other, b, a, middle)) cycle
+               if (side_between(mesh, other, b, a) == 0 .or. side_between(mesh, other, b, a, middle) > 0) cycle
                misfit(max(element, other)) = .true.
             end do
          end associate

@@ -7,7 +7,7 @@ module atrito_build_equations
    use atrito_diagnostics, only: report_error, report_note
    use atrito_items, only: get_integer, get_real
    use atrito_kinds, only: ip, wp
-   use atrito_load_lists, only: add_nodal_value, trim_nodal_values
+   use atrito_load_lists, only: add_nodal_value
    use atrito_references, only: find_nodes
    use atrito_refinement, only: is_refined
    use atrito_row_dofs, only: check_row_dof, check_row_nodes, row_terms, TERMS_A_DOF, WHAT_DOF
@@ -36,7 +36,7 @@ contains
       type(build_context_t), intent(inout) :: context
       type(term_t), allocatable :: terms(:)
       type(token_t) :: place
-      integer(ip) :: i, k, last, group
+      integer(ip) :: i, j, k, last, group
       real(wp) :: weight
       logical :: ok
 
@@ -51,14 +51,13 @@ contains
                place = line_item(context%deck, context%deck%lines(k), 1_ip)
                call read_terms(context, last, k, terms, ok)
                if (.not. ok) exit                     ! where the next one begins is not known
-               terms = terms_in_plane(terms)
+               terms = terms(pack([(j, j=1, size(terms, kind=ip))], terms%dof /= NO_DOF))
                if (size(terms) == 0) cycle
                call order_sets(context, place, terms, ok)
                if (ok) call add_equations(context, place, terms, group, weight)
             end do
          end associate
       end do
-      call trim_nodal_values(context%model%equations)
    end subroutine build_equations
 
    !> One equation: a line with the number of its terms, and the lines of these. k: first line, and on return the one behind.
@@ -74,7 +73,8 @@ contains
       place = line_item(context%deck, context%deck%lines(k), 1_ip)
       call read_count(context, context%deck%lines(k), n, ok)
       if (.not. ok) return
-      allocate (terms(min(n, terms_behind(context, k, last, n))))
+      ! what is announced may be any number
+      allocate (terms(min(n, sum(context%deck%lines(k + 1:k + min(n, last - k))%n_tokens)/ITEMS_A_TERM)))
       filled = 0
       do while (filled < n)
          k = k + 1
@@ -91,19 +91,6 @@ contains
       end do
       k = k + 1
    end subroutine read_terms
-
-   !> How many terms the lines behind line k have, as far as they are asked for: what is announced may be any number.
-   pure integer(ip) function terms_behind(context, k, last, wanted) result(n)
-      type(build_context_t), intent(in) :: context
-      integer(ip), intent(in) :: k, last, wanted
-      integer(ip) :: line
-
-      n = 0
-      do line = k + 1, last
-         n = n + item_count(context, context%deck%lines(line))/ITEMS_A_TERM
-         if (n >= wanted) return
-      end do
-   end function terms_behind
 
    !> The line with the number of terms.
    subroutine read_count(context, line, n, ok)
@@ -161,7 +148,7 @@ contains
       type(data_line_t), intent(in) :: line
       type(term_t), intent(inout) :: terms(:)
       logical, intent(out) :: ok
-      type(token_t) :: place
+      type(token_t) :: place, dof_place
       logical :: good(3)
       integer(ip) :: i
 
@@ -169,19 +156,18 @@ contains
       do i = 1, size(terms, kind=ip)
          associate (item => ITEMS_A_TERM*(i - 1))
             place = line_item(context%deck, line, item + 1)
+            dof_place = line_item(context%deck, line, item + 2)
             call find_nodes(context, place, terms(i)%nodes, good(1), KEYWORD)
-            call get_integer(context%deck, line_item(context%deck, line, item + 2), WHAT_DOF, terms(i)%dof, good(2), &
-                             keyword=KEYWORD)
+            call get_integer(context%deck, dof_place, WHAT_DOF, terms(i)%dof, good(2), keyword=KEYWORD)
             call get_real(context%deck, line_item(context%deck, line, item + 3), 'coefficient, a real', terms(i)%coefficient, &
                           good(3), keyword=KEYWORD)
             if (all(good) .and. is_out_of_plane(context, terms(i))) then
-               call report_note(context%deck, line_item(context%deck, line, item + 2), 'N-DOF', 'the dofs 3 to 6 do not exist '// &
-                                'in the plane; this term is 0', keyword=KEYWORD)
+               call report_note(context%deck, dof_place, 'N-DOF', 'the dofs 3 to 6 do not exist in the plane; this term is 0', &
+                                keyword=KEYWORD)
                terms(i)%dof = NO_DOF
                cycle
             end if
-            if (good(2)) call check_row_dof(context, line_item(context%deck, line, item + 2), terms(i)%nodes, terms(i)%dof, &
-                                            KEYWORD, good(2))
+            if (good(2)) call check_row_dof(context, dof_place, terms(i)%nodes, terms(i)%dof, KEYWORD, good(2))
          end associate
          if (good(1)) call check_row_nodes(context, place, terms(i)%nodes, 'nodes of elements', KEYWORD, good(1))
          ok = ok .and. all(good)
@@ -198,21 +184,6 @@ contains
       if (term%dof /= LAST_DOF .or. .not. allocated(context%model%rigid_bodies)) return
       is_out_of_plane = size(context%model%rigid_bodies) == 0
    end function is_out_of_plane
-
-   !> The terms whose dofs there are.
-   pure function terms_in_plane(terms) result(list)
-      type(term_t), intent(in) :: terms(:)
-      type(term_t), allocatable :: list(:)
-      integer(ip) :: i, n
-
-      allocate (list(count(terms%dof /= NO_DOF)))
-      n = 0
-      do i = 1, size(terms, kind=ip)
-         if (terms(i)%dof == NO_DOF) cycle
-         n = n + 1
-         list(n) = terms(i)
-      end do
-   end function terms_in_plane
 
    !> On a refined mesh the nodes of sets are put into the order of those of the first.
    subroutine order_sets(context, place, terms, ok)

@@ -6,22 +6,22 @@
 !> d the first dof of the section's node. A force F there does the work F d: it pulls both sides towards each other. d > 0 is an
 !> overlap of the undeformed sides: the body is the shorter by it.
 !>
-!> The node is a rigid body that moves along 1 alone, so that it is prescribed, loaded, released and carried on as such.
+!> The node is a rigid body that moves along 1 alone, so that it is prescribed, loaded, released and inherited as such.
 module atrito_build_pretension
    use atrito_bilateral_rows, only: add_row, ROW_SECTION
    use atrito_build_context, only: build_context_t, note_place, section_cut_t
-   use atrito_build_rigid_bodies, only: carriers_of, is_reference, append_rigid_body, cut_rigid_bodies
-   use atrito_node_fields, only: double_temperatures
+   use atrito_build_rigid_bodies, only: append_rigid_body, carriers_of, find_free_node, is_reference
+   use atrito_coordinates, only: get_reals
    use atrito_deck, only: card_t, token_t, line_item, keyword_name
    use atrito_diagnostics, only: report_error, report_warning
    use atrito_faces, only: add_face, face_list_t, list_node_elements
-   use atrito_items, only: get_real, option_text
+   use atrito_items, only: option_text
    use atrito_kinds, only: ip, wp
    use atrito_mesh, only: face_end
    use atrito_mesh_cut, only: cut_mesh, find_cut, mesh_cut_t
    use atrito_model, only: rigid_body_t, SURFACE_ELEMENTS
-   use atrito_name_list, only: find_name
-   use atrito_references, only: find_nodes, report_unknown
+   use atrito_node_fields, only: double_temperatures
+   use atrito_references, only: find_surface
    use atrito_strings, only: to_text
    use atrito_turn_supports, only: row_weight
    implicit none (type, external)
@@ -41,28 +41,32 @@ contains
       do i = 1, context%deck%n_cards
          if (keyword_name(context%deck%cards(i)) == KEYWORD) call read_card(context%deck%cards(i), context)
       end do
-      call cut_rigid_bodies(context)
+      context%model%rigid_bodies = context%model%rigid_bodies(:context%rigid_bodies%n)
    end subroutine build_pretension
 
    subroutine read_card(card, context)
       type(card_t), intent(in) :: card
       type(build_context_t), intent(inout) :: context
       type(section_cut_t) :: cut
-      type(token_t) :: place
+      type(token_t) :: place, node_place
       character(len=:), allocatable :: name
       integer(ip) :: surface, node
+      character(len=*), parameter :: WHAT_NODE = 'a node of no element, of this section alone'
       real(wp) :: outward(2)
       logical :: found, ok
 
       call option_text(context%deck, card, 'SURFACE', name, found, place)
       if (.not. (found .and. card%ok)) return
-      surface = find_name(context%surface_names, name)
-      if (surface == 0) then
-         call report_unknown(context, place, 'surface', 'E-SURFACE', context%surface_names, KEYWORD)
+      call find_surface(context, place, surface, KEYWORD)
+      if (surface == 0) return
+      call find_free_node(card, context, 'NODE', WHAT_NODE, node, node_place)
+      if (node == 0) return
+      if (is_reference(context, node)) then
+         call report_error(context%deck, node_place, 'E-NODE', 'node '//to_text(context%model%mesh%node_id(node)) &
+                           //' is that of another section, or of a rigid surface', &
+                           expected=WHAT_NODE, keyword=KEYWORD)
          return
       end if
-      call find_section_node(card, context, node, ok)
-      if (.not. ok) return
       if (context%model%surfaces(surface)%kind /= SURFACE_ELEMENTS .or. context%model%surfaces(surface)%faces%n == 0) then
          call refuse(context, place, 'surface '//name//' has no faces of elements')
          return
@@ -77,47 +81,6 @@ contains
          context%cuts = [context%cuts, cut]
       end associate
    end subroutine read_card
-
-   !> NODE=: one node of no element that is no reference node.
-   subroutine find_section_node(card, context, node, ok)
-      type(card_t), intent(in) :: card
-      type(build_context_t), intent(in) :: context
-      integer(ip), intent(out) :: node
-      logical, intent(out) :: ok
-      type(token_t) :: place
-      character(len=:), allocatable :: name
-      integer(ip), allocatable :: nodes(:)
-
-      node = 0
-      call option_text(context%deck, card, 'NODE', name, ok, place)
-      if (.not. ok) return
-      call find_nodes(context, place, nodes, ok, KEYWORD)
-      if (.not. ok) return
-      ok = size(nodes) == 1
-      if (.not. ok) then
-         call refuse_node('set '//name//' has '//to_text(size(nodes, kind=ip))//' nodes')
-         return
-      end if
-      node = nodes(1)
-      ok = context%around%first(node + 1) == context%around%first(node)
-      if (.not. ok) then
-         call refuse_node('node '//to_text(context%model%mesh%node_id(node))//' belongs to an element')
-         return
-      end if
-      ok = .not. is_reference(context, node)
-      if (.not. ok) call refuse_node('node '//to_text(context%model%mesh%node_id(node)) &
-                                     //' is that of another section, or of a rigid surface')
-
-   contains
-
-      subroutine refuse_node(what)
-         character(len=*), intent(in) :: what
-
-         call report_error(context%deck, place, 'E-NODE', what, expected='a node of no element, of this section alone', &
-                           keyword=KEYWORD)
-      end subroutine refuse_node
-
-   end subroutine find_section_node
 
    !> The sum of the faces' outward normals by their lengths [L]: of a cut that is straight its normal by its length.
    pure function outward_normal(context, faces) result(normal)
@@ -147,18 +110,12 @@ contains
       character(len=*), parameter :: WHAT = 'component of the normal, a real'
       type(token_t) :: place
       real(wp) :: given(3)
-      logical :: good(3)
-      integer(ip) :: i
 
       ok = card%n_lines > 0 .or. norm2(outward) > 0.0_wp
       normal = outward/max(norm2(outward), tiny(1.0_wp))
       if (.not. ok) call refuse(context, card%place, 'the faces have no normal in the mean')
       if (card%n_lines == 0) return
-      do i = 1, 3
-         call get_real(context%deck, line_item(context%deck, context%deck%lines(card%first_line), i), WHAT, given(i), good(i), &
-                       0.0_wp, KEYWORD)
-      end do
-      ok = all(good)
+      call get_reals(context%deck, context%deck%lines(card%first_line), 1_ip, WHAT, given, ok, KEYWORD, spread(0.0_wp, 1, 3))
       if (.not. ok) return
       place = line_item(context%deck, context%deck%lines(card%first_line), 1_ip)
       ok = norm2(given(:2)) > 0.0_wp .and. abs(given(3)) <= 0.0_wp
@@ -186,7 +143,14 @@ contains
       integer(ip) :: i, before
 
       call find_cut(context%model%mesh, context%around, faces, changes)
-      call check_cut(context, place, faces, changes, ok)
+      ok = changes%outer_face == 0 .and. changes%tip == 0
+      if (changes%outer_face > 0) then
+         call refuse(context, place, 'face '//to_text(faces%face(changes%outer_face))//' of element ' &
+                     //to_text(context%model%mesh%element_id(faces%element(changes%outer_face)))//' lies on the outline')
+      else if (changes%tip > 0) then
+         call refuse(context, place, 'the faces do not part the elements round node ' &
+                     //to_text(context%model%mesh%node_id(changes%tip)))
+      end if
       if (.not. ok) return
       do i = 1, faces%n
          call add_face(context%cut_faces, faces%element(i), faces%face(i))
@@ -205,23 +169,6 @@ contains
       if (allocated(context%node_thickness)) context%node_thickness = [context%node_thickness, context%node_thickness(cut%other)]
       context%around = list_node_elements(context%model%mesh)
    end subroutine cut_along
-
-   subroutine check_cut(context, place, faces, changes, ok)
-      type(build_context_t), intent(in) :: context
-      type(token_t), intent(in) :: place
-      type(face_list_t), intent(in) :: faces
-      type(mesh_cut_t), intent(in) :: changes
-      logical, intent(out) :: ok
-
-      ok = changes%outer_face == 0 .and. changes%tip == 0
-      if (changes%outer_face > 0) then
-         call refuse(context, place, 'face '//to_text(faces%face(changes%outer_face))//' of element ' &
-                     //to_text(context%model%mesh%element_id(faces%element(changes%outer_face)))//' lies on the outline')
-      else if (changes%tip > 0) then
-         call refuse(context, place, 'the faces do not part the elements round node ' &
-                     //to_text(context%model%mesh%node_id(changes%tip)))
-      end if
-   end subroutine check_cut
 
    subroutine refuse(context, place, what)
       type(build_context_t), intent(in) :: context

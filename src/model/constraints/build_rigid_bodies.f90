@@ -1,20 +1,21 @@
 !> *RIGID BODY: rigid surfaces, those that move with a reference node, and nodes of elements that do.
 module atrito_build_rigid_bodies
-   use atrito_build_context, only: build_context_t
+   use atrito_build_context, only: build_context_t, count_cards
    use atrito_deck, only: card_t, token_t, keyword_name
    use atrito_diagnostics, only: report_error
    use atrito_id_map, only: add_id, find_id
    use atrito_items, only: has_option, option_text
    use atrito_kinds, only: ip, wp
+   use atrito_local_axes, only: has_local_axes
+   use atrito_mesh, only: is_revolved
    use atrito_model, only: model_t, rigid_body_name, rigid_body_t, SURFACE_SEGMENTS
-   use atrito_name_list, only: find_name
    use atrito_number_list, only: number_list_t, add_numbers, numbers_of
-   use atrito_references, only: find_elements, find_nodes, report_unknown
+   use atrito_references, only: find_elements, find_nodes, find_surface, in_no_element
    use atrito_sorting, only: each_once
    use atrito_strings, only: to_text
    implicit none (type, external)
    private
-   public :: build_rigid_bodies, read_tied_nodes, is_reference, rigid_body_of, append_rigid_body, cut_rigid_bodies, &
+   public :: build_rigid_bodies, read_tied_nodes, can_move, is_reference, rigid_body_of, append_rigid_body, find_free_node, &
              make_solver_mesh, carriers_of, ROTATION_DOF, CARRIERS
 
    integer(ip), parameter :: ROTATION_DOF = 6_ip
@@ -30,11 +31,12 @@ contains
       type(build_context_t), intent(inout) :: context
       integer(ip) :: i
 
-      allocate (context%model%rigid_bodies(0))
+      ! with room for the sections' nodes, too
+      allocate (context%model%rigid_bodies(count_cards(context%deck, 'RIGID BODY') + count_cards(context%deck, &
+                                                                                                'PRE-TENSION SECTION')))
       do i = 1, context%deck%n_cards
          if (keyword_name(context%deck%cards(i)) == 'RIGID BODY') call read_card(context%deck%cards(i), context)
       end do
-      call cut_rigid_bodies(context)
    end subroutine build_rigid_bodies
 
    !> A drawn surface, nodes, or both.
@@ -58,16 +60,15 @@ contains
          end if
          return
       end if
-      surface = find_name(context%surface_names, name)
-      if (surface == 0) then
-         call report_unknown(context, place, 'surface', 'E-SURFACE', context%surface_names, 'RIGID BODY')
-      else if (context%model%surfaces(surface)%kind /= SURFACE_SEGMENTS) then
+      call find_surface(context, place, surface, 'RIGID BODY')
+      if (surface > 0) then
+         if (context%model%surfaces(surface)%kind == SURFACE_SEGMENTS) then
+            context%model%surfaces(surface)%is_rigid_body = .true.
+            call read_reference(card, surface, context)
+            return
+         end if
          call report_error(context%deck, place, 'E-SURFACE', 'surface '//name//' is made of element faces', &
                            expected='a surface of TYPE=SEGMENTS', keyword='RIGID BODY')
-      else
-         context%model%surfaces(surface)%is_rigid_body = .true.
-         call read_reference(card, surface, context)
-         return
       end if
       context%rigid_undetermined = .true.
    end subroutine read_card
@@ -79,36 +80,56 @@ contains
       type(build_context_t), intent(inout) :: context
       type(rigid_body_t) :: body
       type(token_t) :: place
-      character(len=:), allocatable :: name, wrong
-      integer(ip), allocatable :: nodes(:), tied(:)
+      character(len=*), parameter :: WHAT = 'a node of no element that is the reference of this surface alone'
+      character(len=:), allocatable :: wrong
+      integer(ip), allocatable :: tied(:)
       logical :: ok
 
       call read_tied_nodes(card, context, body%name, tied, ok)
       if (.not. (ok .and. card%ok)) return
-      call option_text(context%deck, card, 'REF NODE', name, ok, place)
-      if (.not. ok) then
+      if (.not. has_option(context%deck, card, 'REF NODE')) then
          if (allocated(body%name)) call report_error(context%deck, card%place, 'E-OPTION-MISSING', &
                                                      'nodes of a rigid body need REF NODE=, with which they move', &
                                                      expected='*RIGID BODY, REF NODE=number, TIE NSET=name', keyword='RIGID BODY')
          return
       end if
-      call find_nodes(context, place, nodes, ok, 'RIGID BODY')
-      if (.not. ok) return
-      if (size(nodes) /= 1) then
-         wrong = 'set '//name//' has '//to_text(size(nodes, kind=ip))//' nodes'
-      else
-         wrong = what_is_wrong(context, surface, nodes(1))
-      end if
+      call find_free_node(card, context, 'REF NODE', WHAT, body%node, place)
+      if (body%node == 0) return
+      wrong = what_is_wrong(context, surface, body%node)
       if (len(wrong) > 0) then
-         call report_error(context%deck, place, 'E-NODE', wrong, &
-                           expected='a node of no element that is the reference of this surface alone', keyword='RIGID BODY')
+         call report_error(context%deck, place, 'E-NODE', wrong, expected=WHAT, keyword='RIGID BODY')
          return
       end if
       body%surface = surface
-      body%node = nodes(1)
-      body%size = reach_of(context, surface, tied, context%model%mesh%x(:, nodes(1)))
+      body%size = reach_of(context, surface, tied, context%model%mesh%x(:, body%node))
       call append_rigid_body(context, body)
    end subroutine read_reference
+
+   !> The one node that an option names; it belongs to no element.
+   subroutine find_free_node(card, context, option, expected, node, place)
+      type(card_t), intent(in) :: card
+      type(build_context_t), intent(in) :: context
+      character(len=*), intent(in) :: option, expected !< what node it should be, for messages
+      integer(ip), intent(out) :: node                 !< place; 0: there is none, which is reported
+      type(token_t), intent(out) :: place              !< of the option's value
+      character(len=:), allocatable :: name, wrong
+      integer(ip), allocatable :: nodes(:)
+      logical :: ok
+
+      node = 0
+      call option_text(context%deck, card, option, name, ok, place)
+      if (ok) call find_nodes(context, place, nodes, ok, keyword_name(card))
+      if (.not. ok) return
+      wrong = ''
+      if (size(nodes) /= 1) then
+         wrong = 'set '//name//' has '//to_text(size(nodes, kind=ip))//' nodes'
+      else if (.not. all(in_no_element(context, nodes))) then
+         wrong = 'node '//to_text(context%model%mesh%node_id(nodes(1)))//' belongs to an element'
+      else
+         node = nodes(1)
+      end if
+      if (node == 0) call report_error(context%deck, place, 'E-NODE', wrong, expected=expected, keyword=keyword_name(card))
+   end subroutine find_free_node
 
    !> The nodes of elements that a card names, each once. The name is that of the first option; not allocated: there is none.
    subroutine read_tied_nodes(card, context, name, nodes, ok)
@@ -144,7 +165,7 @@ contains
          end if
       end do
       nodes = each_once(numbers_of(found_nodes))
-      nodes = pack(nodes, context%around%first(nodes + 1) > context%around%first(nodes))
+      nodes = pack(nodes,.not. in_no_element(context, nodes))
       if (.not. ok .or. .not. allocated(name) .or. size(nodes) > 0) return
       ok = .false.
       call report_error(context%deck, card%place, 'E-NODE', 'no node of '//name//' belongs to an element', &
@@ -158,14 +179,11 @@ contains
       character(len=:), allocatable :: wrong
 
       wrong = ''
-      associate (id => 'node '//to_text(context%model%mesh%node_id(node)), &
-                 others => context%model%rigid_bodies(:context%rigid_bodies%n))
-         if (context%around%first(node + 1) > context%around%first(node)) then
-            wrong = id//' belongs to an element'
-         else if (rigid_body_of(context, node) > 0) then
-            wrong = id//' is the reference node of '//trim(merge('surface', 'set    ', &
-                                                                 others(rigid_body_of(context, node))%surface > 0))//' ' &
-                    //rigid_body_name(context%model, rigid_body_of(context, node))
+      associate (others => context%model%rigid_bodies(:context%rigid_bodies%n))
+         if (rigid_body_of(context, node) > 0) then
+            wrong = 'node '//to_text(context%model%mesh%node_id(node))//' is the reference node of '// &
+                    trim(merge('surface', 'set    ', others(rigid_body_of(context, node))%surface > 0))//' '// &
+                    rigid_body_name(context%model, rigid_body_of(context, node))
          else if (surface > 0 .and. any(others%surface == surface)) then
             wrong = 'surface '//context%model%surfaces(surface)%name//' has the reference node ' &
                     //to_text(context%model%mesh%node_id(others(findloc(others%surface, surface, dim=1))%node))
@@ -209,30 +227,45 @@ contains
       body = find_id(context%rigid_bodies, node)
    end function rigid_body_of
 
-   !> Appends a rigid body; where there is no room the list doubles, and is cut to size in the end.
+   !> Whether a reference node can be displaced or loaded there: not along a radius nor about the axis of bodies of revolution, nor
+   !> along axes of its own where it moves along one axis alone.
+   logical function can_move(context, place, node, dof, value, keyword) result(can)
+      type(build_context_t), intent(in) :: context
+      type(token_t), intent(in) :: place            !< of the line
+      integer(ip), intent(in) :: node, dof
+      real(wp), intent(in) :: value
+      character(len=*), intent(in) :: keyword
+      logical :: is_section
+
+      is_section = context%model%rigid_bodies(rigid_body_of(context, node))%is_section
+      can = .not. (has_local_axes(context, node) .and. (is_revolved(context%model%mesh) .or. is_section))
+      if (.not. can) then
+         call report_error(context%deck, place, 'E-NODE', 'reference node '//to_text(context%model%mesh%node_id(node)) &
+                           //' moves along one axis alone, and has local axes', expected='a node without *TRANSFORM', &
+                           keyword=keyword)
+      else if (is_section) then
+         can = dof == 1 .or. abs(value) <= 0.0_wp
+         if (.not. can) call report_error(context%deck, place, 'E-DOF', 'the node of a pre-tension section has no dof ' &
+                                          //to_text(dof), expected='dof 1: what the sides approach by, or the force', &
+                                          keyword=keyword)
+      else if (is_revolved(context%model%mesh) .and. dof /= 2 .and. abs(value) > 0.0_wp) then
+         can = .false.
+         call report_error(context%deck, place, 'E-DOF', 'a rigid surface round an axis moves along it alone, not by dof ' &
+                           //to_text(dof), expected='dof 2 of a reference node beside CAX elements', keyword=keyword)
+      end if
+   end function can_move
+
+   !> Appends a rigid body; the list has room for all.
    pure subroutine append_rigid_body(context, body)
       type(build_context_t), intent(inout) :: context
       type(rigid_body_t), intent(in) :: body
-      type(rigid_body_t), allocatable :: longer(:)
       logical :: known
-      integer(ip) :: n
 
-      n = context%rigid_bodies%n
-      if (n == size(context%model%rigid_bodies)) then
-         allocate (longer(max(1_ip, 2*n)))
-         longer(:n) = context%model%rigid_bodies
-         call move_alloc(longer, context%model%rigid_bodies)
-      end if
-      context%model%rigid_bodies(n + 1) = body
-      call add_id(context%rigid_bodies, body%node, n + 1, known)
+      associate (n => context%rigid_bodies%n)
+         context%model%rigid_bodies(n + 1) = body
+         call add_id(context%rigid_bodies, body%node, n + 1, known)
+      end associate
    end subroutine append_rigid_body
-
-   !> Gives back the room that the list of rigid bodies keeps for growing.
-   pure subroutine cut_rigid_bodies(context)
-      type(build_context_t), intent(inout) :: context
-
-      context%model%rigid_bodies = context%model%rigid_bodies(:context%rigid_bodies%n)
-   end subroutine cut_rigid_bodies
 
    !> The nodes that carry the motion of a rigid body: at its reference node, and at its size from that along 1 and along 2.
    pure function carriers_of(model, i) result(nodes)

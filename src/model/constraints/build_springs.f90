@@ -4,19 +4,17 @@ module atrito_build_springs
    use atrito_build_context, only: build_context_t, has_errors, LOOSE_HELD
    use atrito_build_rigid_bodies, only: ROTATION_DOF
    use atrito_turn_supports, only: row_weight
-   use atrito_deck, only: deck_t, card_t, data_line_t, token_t, line_item, keyword_name
+   use atrito_deck, only: card_t, data_line_t, token_t, line_item, keyword_name
    use atrito_diagnostics, only: report_error
-   use atrito_id_map, only: id_map_t, add_id, find_id
+   use atrito_id_map, only: id_map_t, add_id
+   use atrito_incidence, only: list_holders
    use atrito_items, only: get_integer, get_real, option_text, option_word
-   use atrito_kinds, only: ip, lp, wp
+   use atrito_kinds, only: ip, wp
    use atrito_local_axes, only: dof_direction, has_local_axes
-   use atrito_mesh, only: find_element
    use atrito_model, only: spring_t
    use atrito_name_list, only: name_list_t, add_name, find_name, names_of
-   use atrito_references, only: get_id, find_one_node, report_unknown
-   use atrito_refinement, only: is_refined
+   use atrito_references, only: element_of_deck, find_one_node, get_id, report_unknown
    use atrito_row_dofs, only: arm_of, check_row_dof, check_row_nodes, has_no_unknowns, row_node, row_terms, TERMS_A_DOF, WHAT_DOF
-   use atrito_sorting, only: first_at_least, sorted_places
    use atrito_strings, only: string_t, to_text
    implicit none (type, external)
    private
@@ -53,25 +51,18 @@ contains
       type(reading_t) :: reading
       type(string_t), allocatable :: names(:)
       integer(ip) :: i, k, n
-      integer(lp), allocatable :: sets(:)
 
       n = 0
       do i = 1, context%deck%n_cards
          if (is_spring_card(context, context%deck%cards(i))) n = n + context%deck%cards(i)%n_lines
       end do
-      allocate (context%model%springs(n), reading%place(n))
-      allocate (reading%set(n), source=0_ip)
-      allocate (reading%is_axial(n), source=.false.)
+      allocate (context%model%springs(n), reading%place(n), reading%set(n), reading%is_axial(n))
       do i = 1, context%deck%n_cards
          if (.not. is_spring_card(context, context%deck%cards(i))) cycle
          call read_elements(context%deck%cards(i), context, reading)
       end do
       context%model%springs = context%model%springs(:reading%n)
-      ! Lists the springs of each set.
-      sets = int(reading%set(:reading%n), lp)
-      reading%sorted = sorted_places(sets)
-      sets = sets(reading%sorted)
-      reading%first = [(first_at_least(sets, int(k, lp)), k=1, reading%sets%n + 1)]
+      call list_holders(reading%sets%n, reshape(reading%set(:reading%n), [1_ip, reading%n]), reading%first, reading%sorted)
       reading%weight = row_weight(context%model)
       names = names_of(reading%sets)
       allocate (reading%given(reading%sets%n), source=.false.)
@@ -83,11 +74,10 @@ contains
          if (any(cards%name == '' .and. .not. cards%is_ignored) .and. has_errors()) return
       end associate
       do k = 1, reading%sets%n
-         if (reading%given(k)) cycle
          i = reading%first(k)
-         if (reading%first(k + 1) > i) call report_error(context%deck, reading%place(reading%sorted(i)), 'E-SPRING', &
-                                                         'the springs of '//names(k)%s//' have no *SPRING', &
-                                                         expected='*SPRING, ELSET='//names(k)%s, keyword='SPRING')
+         if (reading%given(k) .or. reading%first(k + 1) == i) cycle
+         call report_error(context%deck, reading%place(reading%sorted(i)), 'E-SPRING', 'the springs of '//names(k)%s// &
+                           ' have no *SPRING', expected='*SPRING, ELSET='//names(k)%s, keyword='SPRING')
       end do
    end subroutine build_springs
 
@@ -97,7 +87,7 @@ contains
       type(build_context_t), intent(inout) :: context
       type(reading_t), intent(inout) :: reading
       character(len=:), allocatable :: name
-      integer(ip) :: i, set, n_ends, before
+      integer(ip) :: i, set, n_ends
       logical :: found
 
       call option_text(context%deck, card, 'ELSET', name, found)
@@ -112,11 +102,10 @@ contains
          set = reading%sets%n
       end if
       n_ends = merge(1_ip, 2_ip, option_word(context%deck, card, 'TYPE') == 'SPRING1')
-      before = reading%n
+      reading%is_axial(reading%n + 1:) = option_word(context%deck, card, 'TYPE') == 'SPRINGA'
       do i = card%first_line, card%first_line + card%n_lines - 1
          if (context%deck%lines(i)%ok) call read_element_line(context%deck%lines(i), n_ends, set, context, reading)
       end do
-      reading%is_axial(before + 1:reading%n) = option_word(context%deck, card, 'TYPE') == 'SPRINGA'
    end subroutine read_elements
 
    subroutine read_element_line(line, n_ends, set, context, reading)
@@ -138,12 +127,7 @@ contains
          ok = ok .and. good
       end do
       if (.not. ok) return
-      ! A number that an element of the deck has.
-      if (is_refined(context%refinement)) then
-         known = find_id(context%deck_elements, spring%id) > 0
-      else
-         known = find_element(context%model%mesh, spring%id) > 0
-      end if
+      known = element_of_deck(context, spring%id) > 0
       if (.not. known) call add_id(reading%ids, spring%id, reading%n + 1, known)
       if (known) then
          call report_error(context%deck, place, 'E-TWICE', 'element '//to_text(spring%id)//' is defined twice', &
@@ -183,107 +167,80 @@ contains
       if (reading%given(set)) then
          call report_error(context%deck, place, 'E-TWICE', 'the springs of '//name//' have a *SPRING already', &
                            expected='one *SPRING for each set', keyword='SPRING')
+         return
       end if
-      ok = .not. reading%given(set)
       reading%given(set) = .true.
-      if (.not. ok) return
       places = reading%sorted(reading%first(set):reading%first(set + 1) - 1)
-      if (any(reading%is_axial(places))) then
-         call read_axial(card, context, stiffness, ok)
-         dof = 0
-         if (.not. all(reading%is_axial(places))) then
-            ok = .false.
-            call report_error(context%deck, place, 'E-SPRING', 'the springs of '//name//' are SPRINGA and others', &
-                              expected='a set for each type', keyword='SPRING')
-         end if
-      else
-         call read_constants(card, context, places, dof, stiffness, ok)
+      call read_constants(card, context, places, any(reading%is_axial(places)), dof, stiffness, ok)
+      if (any(reading%is_axial(places)) .and. .not. all(reading%is_axial(places))) then
+         ok = .false.
+         call report_error(context%deck, place, 'E-SPRING', 'the springs of '//name//' are SPRINGA and others', &
+                           expected='a set for each type', keyword='SPRING')
       end if
       if (ok) call add_springs(context, places, reading%place, dof, stiffness, reading%weight)
    end subroutine read_spring_card
 
-   subroutine read_constants(card, context, places, dof, stiffness, ok)
+   !> Dofs, and below them the stiffness. Of SPRINGA the last line has the stiffness; one before it says nothing.
+   subroutine read_constants(card, context, places, is_axial, dof, stiffness, ok)
       type(card_t), intent(in) :: card
       type(build_context_t), intent(in) :: context
       integer(ip), intent(in) :: places(:)             !< of the springs
+      logical, intent(in) :: is_axial                  !< SPRINGA
       integer(ip), intent(out) :: dof(2)
       real(wp), intent(out) :: stiffness               !< [F/L]; of dof 6 [F L]
       logical, intent(out) :: ok
-      logical :: good(3)
-      integer(ip) :: i
+      character(len=*), parameter :: WHAT = 'stiffness, a real > 0 [F/L]'
+      type(token_t) :: place
+      logical :: good
 
-      ok = .false.
-      if (card%ok .and. card%n_lines < 2) call report_error(context%deck, card%place, 'E-LINES', '*SPRING needs 2 data lines', &
-                                                            expected='dofs, and below them the stiffness', keyword='SPRING')
-      if (card%n_lines < 2 .or. .not. card%ok) return
-      associate (deck => context%deck, line => context%deck%lines(card%first_line))
-         if (.not. (line%ok .and. deck%lines(card%first_line + 1)%ok)) return
-         call get_integer(deck, line_item(deck, line, 1_ip), WHAT_DOF, dof(1), good(1), keyword='SPRING')
-         call get_integer(deck, line_item(deck, line, 2_ip), WHAT_DOF, dof(2), good(2), dof(1), 'SPRING')
-         do i = 1, 2
-            if (good(i)) call check_row_dof(context, line_item(deck, line, i), moving_ends(context, places, i), dof(i), 'SPRING', &
-                                            good(i))
-            if (.not. good(i) .and. dof(2) == dof(1)) exit
-         end do
-         if (all(good(:2))) call check_kinds(context, line_item(deck, line, 2_ip), places, dof, good(2))
-         call read_stiffness(deck, line_item(deck, deck%lines(card%first_line + 1), 1_ip), stiffness, good(3))
+      dof = 0
+      ok = card%ok .and. card%n_lines > merge(0, 1, is_axial)
+      if (card%ok .and. .not. (ok .or. is_axial)) call report_error(context%deck, card%place, 'E-LINES', &
+                                                                    '*SPRING needs 2 data lines', keyword='SPRING', &
+                                                                    expected='dofs, and below them the stiffness')
+      if (.not. ok) return
+      associate (deck => context%deck, first => context%deck%lines(card%first_line), &
+                 last => context%deck%lines(card%first_line + merge(card%n_lines - 1_ip, 1_ip, is_axial)))
+         ok = last%ok .and. (first%ok .or. is_axial)
+         if (.not. ok) return
+         if (.not. is_axial) call read_dofs(first, context, places, dof, ok)
+         place = line_item(deck, last, 1_ip)
+         call get_real(deck, place, WHAT, stiffness, good, keyword='SPRING')
+         ok = ok .and. good
+         if (.not. good .or. (stiffness > 1.0_wp/huge(1.0_wp) .and. 1.0_wp/stiffness > 0.0_wp)) return
+         ok = .false.
+         call report_error(deck, place, 'E-VALUE', to_text(stiffness)//' is out of range', expected=WHAT, keyword='SPRING')
       end associate
-      ok = all(good)
    end subroutine read_constants
 
-   !> The first or the second ends of springs, but for the ground.
-   pure function moving_ends(context, places, i) result(nodes)
+   !> The dofs of both ends: two displacements, or two rotations. The second is the first where it is left out.
+   subroutine read_dofs(line, context, places, dof, ok)
+      type(data_line_t), intent(in) :: line
       type(build_context_t), intent(in) :: context
-      integer(ip), intent(in) :: places(:), i
+      integer(ip), intent(in) :: places(:)             !< of the springs
+      integer(ip), intent(out) :: dof(2)
+      logical, intent(out) :: ok
       integer(ip), allocatable :: nodes(:)
-      integer(ip) :: k
+      type(token_t) :: item(2)
+      logical :: good(2)
+      integer(ip) :: i
 
-      nodes = [(context%model%springs(places(k))%node(i), k=1, size(places, kind=ip))]
-      nodes = pack(nodes, nodes > 0)
-      nodes = pack(nodes,.not. has_no_unknowns(context, nodes))
-   end function moving_ends
-
-   !> A spring holds two displacements together, or two rotations.
-   subroutine check_kinds(context, place, places, dof, ok)
-      type(build_context_t), intent(in) :: context
-      type(token_t), intent(in) :: place
-      integer(ip), intent(in) :: places(:), dof(2)
-      logical, intent(out) :: ok
-      integer(ip) :: k
-
-      ok = (dof(1) == ROTATION_DOF) .eqv. (dof(2) == ROTATION_DOF)
-      ok = ok .or. .not. any([(context%model%springs(places(k))%node(2) > 0, k=1, size(places, kind=ip))])
-      if (.not. ok) call report_error(context%deck, place, 'E-DOF', 'one end moves, the other one turns', &
+      item = [line_item(context%deck, line, 1_ip), line_item(context%deck, line, 2_ip)]
+      call get_integer(context%deck, item(1), WHAT_DOF, dof(1), good(1), keyword='SPRING')
+      call get_integer(context%deck, item(2), WHAT_DOF, dof(2), good(2), dof(1), 'SPRING')
+      do i = 1, 2
+         nodes = context%model%springs(places)%node(i)
+         nodes = pack(nodes, nodes > 0)
+         nodes = pack(nodes,.not. has_no_unknowns(context, nodes)) ! the ground has any dof
+         if (good(i)) call check_row_dof(context, item(i), nodes, dof(i), 'SPRING', good(i))
+         if (.not. good(i) .and. dof(2) == dof(1)) exit
+      end do
+      ok = all(good)
+      if (.not. ok .or. ((dof(1) == ROTATION_DOF) .eqv. (dof(2) == ROTATION_DOF))) return
+      ok = all(context%model%springs(places)%node(2) == 0)
+      if (.not. ok) call report_error(context%deck, item(2), 'E-DOF', 'one end moves, the other one turns', &
                                       expected='two dofs of one kind', keyword='SPRING')
-   end subroutine check_kinds
-
-   !> Of SPRINGA the last line has the stiffness; one before it says nothing.
-   subroutine read_axial(card, context, stiffness, ok)
-      type(card_t), intent(in) :: card
-      type(build_context_t), intent(in) :: context
-      real(wp), intent(out) :: stiffness               !< [F/L]
-      logical, intent(out) :: ok
-
-      ok = card%ok .and. card%n_lines > 0
-      if (.not. ok) return
-      associate (line => context%deck%lines(card%first_line + card%n_lines - 1))
-         ok = line%ok
-         if (ok) call read_stiffness(context%deck, line_item(context%deck, line, 1_ip), stiffness, ok)
-      end associate
-   end subroutine read_axial
-
-   subroutine read_stiffness(deck, place, stiffness, ok)
-      type(deck_t), intent(in) :: deck
-      type(token_t), intent(in) :: place
-      real(wp), intent(out) :: stiffness
-      logical, intent(out) :: ok
-      character(len=*), parameter :: WHAT = 'stiffness, a real > 0 [F/L]'
-
-      call get_real(deck, place, WHAT, stiffness, ok, keyword='SPRING')
-      if (.not. ok .or. (stiffness > 1.0_wp/huge(1.0_wp) .and. 1.0_wp/stiffness > 0.0_wp)) return
-      ok = .false.
-      call report_error(deck, place, 'E-VALUE', to_text(stiffness)//' is out of range', expected=WHAT, keyword='SPRING')
-   end subroutine read_stiffness
+   end subroutine read_dofs
 
    !> Rows of the springs at some places. The first end gets the direction, the second one the opposite; along SPRINGA both point
    !> outwards, so that the force is a tension. An end that is the ground has no part in the row.

@@ -1,23 +1,20 @@
 !> *BOUNDARY: prescribed displacements.
 module atrito_build_supports
    use atrito_build_amplitudes, only: take_amplitude, refuse_step_options
-   use atrito_build_loads, only: in_no_element
-   use atrito_build_rigid_bodies, only: is_reference, ROTATION_DOF
-   use atrito_carry_on, only: carry_values, removes_all
+   use atrito_build_rigid_bodies, only: can_move, is_reference, ROTATION_DOF
    use atrito_deck, only: deck_t, data_line_t, token_t, line_item, keyword_name, is_empty_token, LEVEL_MODEL
    use atrito_diagnostics, only: report_error, report_note
-   use atrito_build_context, only: build_context_t, references_t, place_text, ids_text, has_errors, LOOSE_HELD, &
-                                   LOOSE_RELEASED, LOOSE_MOVES
+   use atrito_build_context, only: build_context_t, place_text, ids_text, has_errors, LOOSE_HELD, LOOSE_RELEASED, LOOSE_MOVES
    use atrito_items, only: get_integer, get_real, has_option
    use atrito_kinds, only: ip, wp
-   use atrito_load_lists, only: add_nodal_value, replace_nodal_value, replace_source, trim_nodal_values, amplitude_of
-   use atrito_model, only: nodal_values_t
+   use atrito_load_lists, only: condition_t, condition_list_t, add_condition, dof_slot, SLOTS
    use atrito_parameters, only: evaluate_function
-   use atrito_references, only: find_nodes
+   use atrito_propagation, only: is_inherited, propagate, removes_all
+   use atrito_references, only: find_nodes, in_no_element
    use atrito_refined_members, only: edge_value
    use atrito_refinement, only: edge_place, is_refined
    use atrito_number_list, only: number_list_t, add_number, numbers_of
-   use atrito_rigid_motions, only: prescribe_reference, is_prescribed
+   use atrito_row_dofs, only: has_no_unknowns, WHAT_DOF, AT_REFERENCE
    use atrito_sources, only: open_source
    use atrito_strings, only: to_text
    use atrito_support_words, only: is_support_word, find_dofs_of_word
@@ -25,109 +22,73 @@ module atrito_build_supports
    private
    public :: build_supports
 
-   integer(ip), parameter :: PLANE_DOFS = 2, LAST_DOF = 6, LOOSE_DOFS = 3
-   character(len=*), parameter :: WHAT_DOF = 'degree of freedom: 1 (x) or 2 (y)'
+   integer(ip), parameter :: PLANE_DOFS = 2, LAST_DOF = 6
 
    !> Two values of one dof are the same when they differ by less than this part of the values: expressions are rounded.
    real(wp), parameter :: SAME_VALUE = 1.0e-12_wp
 
    !> A refined mesh: what the lines of a card prescribe at single nodes, one after the other along an edge.
    type :: by_number_t
-      integer(ip), allocatable :: token(:, :)          !< (2, nodes of the deck): first of the line; 0: not prescribed
+      integer(ip), allocatable :: line(:, :)           !< (2, nodes of the deck); 0: not prescribed
       real(wp), allocatable :: value(:, :)             !< [L]
-      integer(ip) :: n = 0
+      integer(ip) :: n = 0                             !< lines
    end type by_number_t
 
 contains
 
    !> All prescribed displacements of a step, along the dofs of the deck: those of the model, which are there before the first,
-   !> those that are carried on, and its own.
+   !> those that are inherited, and its own.
    subroutine build_supports(context)
       type(build_context_t), intent(inout) :: context
       type(by_number_t) :: numbered
-      type(nodal_values_t) :: before
-      type(references_t) :: motions_before
+      type(condition_list_t) :: before
+      integer(ip) :: i, entry
 
       if (context%open%number == 1) then
-         allocate (context%dof_entry(PLANE_DOFS, context%model%mesh%n_nodes), &
-                   context%dof_token(PLANE_DOFS, context%model%mesh%n_nodes), &
-                   context%loose_held(LOOSE_DOFS, context%model%mesh%n_nodes), source=0_ip)
+         allocate (context%dof_entry(SLOTS, context%model%mesh%n_nodes), &
+                   context%loose_held(SLOTS, context%model%mesh%n_nodes), source=0_ip)
          call read_cards(context, 0_ip, numbered)
       else
-         call carry_values(context, context%open%supports, keeps_zeros=.true.)
-         call carry_values(context, context%open%references%prescribed, keeps_zeros=.true.)
+         call propagate(context, context%open%supports, keeps_zeros=.true.)
       end if
       where (context%loose_held == LOOSE_RELEASED) context%loose_held = LOOSE_MOVES
       if (removes_all(context, 'BOUNDARY')) then
          before = context%open%supports
-         motions_before = context%open%references
-         call release_all(context)
+         context%open%supports%n = 0
+         context%dof_entry = 0
          where (context%loose_held == LOOSE_HELD) context%loose_held = LOOSE_RELEASED
       end if
       call read_cards(context, context%open%number, numbered)
-      if (allocated(before%from)) call begin_where_it_was(before, context)
-      if (before%n + motions_before%prescribed%n > 0) call note_released(before, motions_before, context)
+      do i = 1, before%n
+         associate (old => before%list(i))
+            ! a displacement that is given anew by OP=NEW begins with what it has come to, that of a reference node with 0
+            entry = context%dof_entry(dof_slot(old%dof), old%place)
+            if (entry > 0 .and. .not. is_reference(context, old%place)) context%open%supports%list(entry)%from = old%from
+         end associate
+      end do
+      if (before%n > 0) call note_released(before, context)
    end subroutine build_supports
 
-   !> A displacement that is given anew by OP=NEW begins with what it has come to.
-   pure subroutine begin_where_it_was(before, context)
-      type(nodal_values_t), intent(in) :: before       !< with `from`, of this step
-      type(build_context_t), intent(inout) :: context
-      integer(ip) :: i, entry
-
-      associate (supports => context%open%supports)
-         if (.not. allocated(supports%from)) allocate (supports%from(size(supports%value)), source=0.0_wp)
-         do i = 1, before%n
-            entry = context%dof_entry(before%dof(i), before%node(i))
-            if (entry > 0) supports%from(entry) = before%from(i)
-         end do
-      end associate
-      call trim_nodal_values(context%open%supports)
-   end subroutine begin_where_it_was
-
-   !> OP=NEW lets go of those of the model, too.
-   pure subroutine release_all(context)
-      type(build_context_t), intent(inout) :: context
-      integer(ip) :: i
-
-      associate (supports => context%open%supports)
-         do i = 1, supports%n
-            context%dof_entry(supports%dof(i), supports%node(i)) = 0
-         end do
-         supports%n = 0
-      end associate
-      context%open%references%prescribed%n = 0
-   end subroutine release_all
-
    !> What stands before the first *STEP holds in every step, until OP=NEW lets go of it: that is told.
-   subroutine note_released(before, motions_before, context)
-      type(nodal_values_t), intent(in) :: before
-      type(references_t), intent(in) :: motions_before
+   subroutine note_released(before, context)
+      type(condition_list_t), intent(in) :: before
       type(build_context_t), intent(in) :: context
       type(number_list_t) :: released
       type(token_t) :: place
       integer(ip) :: i, of_model
 
-      of_model = 0                                     ! last token of the lines of the model
+      of_model = 0                                     ! last line of the model
       do i = context%deck%n_cards, 1, -1
          associate (card => context%deck%cards(i))
             if (keyword_name(card) /= 'BOUNDARY') cycle
             if (card%step == context%open%number) place = card%place
-            if (card%step > 0 .or. card%n_lines == 0) cycle
-            of_model = max(of_model, context%deck%lines(card%first_line + card%n_lines - 1)%first_token)
+            if (card%step == 0) of_model = max(of_model, card%first_line + card%n_lines - 1)
          end associate
       end do
       do i = 1, before%n
-         if (context%dof_entry(before%dof(i), before%node(i)) > 0) cycle
-         associate (token => context%dof_token(before%dof(i), before%node(i)))
-            if (token > 0 .and. token <= of_model) call add_number(released, context%model%mesh%node_id(before%node(i)))
-         end associate
-      end do
-      do i = 1, motions_before%prescribed%n
-         if (motions_before%token(i) > of_model) cycle
-         associate (node => motions_before%prescribed%node(i))
-            if (is_prescribed(context, node, motions_before%prescribed%dof(i))) cycle
-            call add_number(released, context%model%mesh%node_id(node))
+         associate (old => before%list(i))
+            if (context%dof_entry(dof_slot(old%dof), old%place) > 0 .or. old%line == 0 .or. old%line > of_model) cycle
+            call add_number(released, context%model%mesh%node_id(old%place))
          end associate
       end do
       if (released%n > 0 .and. .not. has_errors()) call report_note(context%deck, place, 'N-RELEASED', &
@@ -150,80 +111,51 @@ contains
             call begin_numbers(context, numbered)
             do k = card%first_line, card%first_line + card%n_lines - 1
                if (.not. context%deck%lines(k)%ok) cycle
+               context%open%line = k
                call open_source(context, 'BOUNDARY', context%deck%tokens(context%deck%lines(k)%first_token))
-               if (has_option(context%deck, card, 'FUNCTION')) then
-                  call read_function_line(context%deck%lines(k), card%level == LEVEL_MODEL .and. card%ok, context, &
-                                          numbered)
-               else
-                  call read_line(context%deck%lines(k), card%level == LEVEL_MODEL .and. card%ok, context, numbered)
-               end if
+               call read_line(context%deck%lines(k), has_option(context%deck, card, 'FUNCTION'), &
+                              card%level == LEVEL_MODEL .and. card%ok, context, numbered)
             end do
             call hold_edges(context, numbered)
          end associate
       end do
-      call trim_nodal_values(context%open%supports)
    end subroutine read_cards
 
-   !> Node or set, and a word in the place of the dofs, or first dof[, last dof[, value]].
-   subroutine read_line(line, in_model, context, numbered)
+   !> Node or set, and a word in the place of the dofs, or first dof[, last dof[, value]], or these and a function of x and y.
+   subroutine read_line(line, is_function, in_model, context, numbered)
       type(data_line_t), intent(in) :: line
+      logical, intent(in) :: is_function
       logical, intent(in) :: in_model                  !< before *STEP
       type(build_context_t), intent(inout) :: context
       type(by_number_t), intent(inout) :: numbered
       integer(ip), allocatable :: nodes(:)
-      real(wp) :: value
-      integer(ip) :: first, last, dof, i
-      logical :: ok(4), turns
+      real(wp), allocatable :: values(:)               ! of the nodes
+      integer(ip) :: dof
+      logical :: held(LAST_DOF), ok
 
-      if (is_support_word(context%deck, line)) then
-         call read_word_line(line, context, numbered)
-         return
+      if (is_function) then
+         call read_function_line(line, in_model, context, nodes, held, values, ok)
+      else if (is_support_word(context%deck, line)) then
+         call find_dofs_of_word(context%deck, line, held, ok)
+         if (ok) call find_nodes(context, context%deck%tokens(line%first_token), nodes, ok, 'BOUNDARY')
+         if (ok) values = spread(0.0_wp, 1, size(nodes))
+      else
+         call read_value_line(line, in_model, context, nodes, held, values, ok)
       end if
-      call read_place(line, context, nodes, first, last, ok(:3))
-      call get_real(context%deck, line_item(context%deck, line, 4_ip), 'displacement, a real [L]', value, ok(4), 0.0_wp, 'BOUNDARY')
-      if (.not. all(ok(2:))) return
-      if (in_model .and. abs(value) > 0.0_wp) then
-         ok(4) = .false.
-         call report_error(context%deck, line_item(context%deck, line, 4_ip), 'E-VALUE', &
-                           'a displacement other than 0 before *STEP', &
-                           expected='0 [L] here; other values in the step', keyword='BOUNDARY')
-      end if
-      turns = size(nodes) > 0 .and. all(is_reference(context, nodes))
-      if (.not. are_dofs(context%deck, line, first, last, value, turns)) return
-      if (.not. all(ok)) return
+      if (.not. ok) return
       call note_loose(line, context, nodes)
-      do dof = first, min(last, PLANE_DOFS)
-         call prescribe(line, nodes, dof, [(value, i=1, size(nodes, kind=ip))], context)
+      do dof = 1, LAST_DOF
+         if (held(dof) .and. (dof <= PLANE_DOFS .or. dof == ROTATION_DOF)) call prescribe(nodes, dof, values, context)
       end do
-      if (last == ROTATION_DOF) call turn(line, nodes, [(value, i=1, size(nodes, kind=ip))], context)
-      if (size(nodes) == 1 .and. is_refined(context%refinement)) call take_number(line, nodes(1), first, last, value, numbered)
+      if (size(nodes) /= 1 .or. .not. is_refined(context%refinement)) return
+      where (held(:PLANE_DOFS))
+         numbered%line(:, nodes(1)) = context%open%line
+         numbered%value(:, nodes(1)) = values(1)
+      end where
+      numbered%n = numbered%n + 1
    end subroutine read_line
 
-   !> Node or set, and a word for some dofs.
-   subroutine read_word_line(line, context, numbered)
-      type(data_line_t), intent(in) :: line
-      type(build_context_t), intent(inout) :: context
-      type(by_number_t), intent(inout) :: numbered
-      integer(ip), allocatable :: nodes(:)
-      real(wp), allocatable :: zeros(:)
-      integer(ip) :: dof
-      logical :: held(ROTATION_DOF), ok
-
-      call find_dofs_of_word(context%deck, line, held, ok)
-      if (.not. ok) return
-      call find_nodes(context, context%deck%tokens(line%first_token), nodes, ok, 'BOUNDARY')
-      if (.not. ok) return
-      allocate (zeros(size(nodes)), source=0.0_wp)
-      call note_loose(line, context, nodes)
-      do dof = 1, PLANE_DOFS
-         if (.not. held(dof)) cycle
-         call prescribe(line, nodes, dof, zeros, context)
-         if (size(nodes) == 1 .and. is_refined(context%refinement)) call take_number(line, nodes(1), dof, dof, 0.0_wp, numbered)
-      end do
-      if (held(ROTATION_DOF)) call turn(line, nodes, zeros, context)
-   end subroutine read_word_line
-
-   !> Node or set, first dof[, last dof]: what both kinds of line begin with.
+   !> Node or set, first dof[, last dof]: what lines without a word begin with.
    subroutine read_place(line, context, nodes, first, last, ok)
       type(data_line_t), intent(in) :: line
       type(build_context_t), intent(in) :: context
@@ -236,16 +168,49 @@ contains
       call get_integer(context%deck, line_item(context%deck, line, 3_ip), 'last '//WHAT_DOF, last, ok(3), first, 'BOUNDARY')
    end subroutine read_place
 
-   !> Node or set, first dof[, last dof], expression in x and y.
-   subroutine read_function_line(line, in_model, context, numbered)
+   !> Node or set, first dof[, last dof[, value]].
+   subroutine read_value_line(line, in_model, context, nodes, held, values, is_ok)
       type(data_line_t), intent(in) :: line
       logical, intent(in) :: in_model                  !< before *STEP
-      type(build_context_t), intent(inout) :: context
-      type(by_number_t), intent(inout) :: numbered
+      type(build_context_t), intent(in) :: context
+      integer(ip), allocatable, intent(out) :: nodes(:)
+      logical, intent(out) :: held(LAST_DOF)           !< dofs
+      real(wp), allocatable, intent(out) :: values(:)
+      logical, intent(out) :: is_ok
+      real(wp) :: value
+      integer(ip) :: first, last
+      logical :: ok(4), turns
+
+      is_ok = .false.
+      call read_place(line, context, nodes, first, last, ok(:3))
+      call get_real(context%deck, line_item(context%deck, line, 4_ip), 'displacement, a real [L]', value, ok(4), 0.0_wp, 'BOUNDARY')
+      if (.not. all(ok(2:))) return
+      if (in_model .and. abs(value) > 0.0_wp) then
+         ok(4) = .false.
+         call report_error(context%deck, line_item(context%deck, line, 4_ip), 'E-VALUE', &
+                           'a displacement other than 0 before *STEP', &
+                           expected='0 [L] here; other values in the step', keyword='BOUNDARY')
+      end if
+      turns = size(nodes) > 0 .and. all(is_reference(context, nodes))
+      is_ok = are_dofs(context%deck, line, first, last, value, turns) .and. all(ok)
+      if (.not. is_ok) return
+      held = .false.
+      held(first:last) = .true.
+      held(ROTATION_DOF) = last == ROTATION_DOF
+      values = spread(value, 1, size(nodes))
+   end subroutine read_value_line
+
+   !> Node or set, first dof[, last dof], expression in x and y.
+   subroutine read_function_line(line, in_model, context, nodes, held, values, is_ok)
+      type(data_line_t), intent(in) :: line
+      logical, intent(in) :: in_model                  !< before *STEP
+      type(build_context_t), intent(in) :: context
+      integer(ip), allocatable, intent(out) :: nodes(:)
+      logical, intent(out) :: held(LAST_DOF)           !< dofs
+      real(wp), allocatable, intent(out) :: values(:)
+      logical, intent(out) :: is_ok
       type(token_t) :: expression
-      integer(ip), allocatable :: nodes(:)
-      real(wp), allocatable :: values(:)
-      integer(ip) :: first, last, dof
+      integer(ip) :: first, last
       logical :: ok(4)
 
       call read_place(line, context, nodes, first, last, ok(:3))
@@ -259,12 +224,9 @@ contains
       if (all(ok(2:3))) ok(2) = are_dofs(context%deck, line, first, last, 1.0_wp, .false.)
       allocate (values(size(nodes)))
       if (ok(4)) call evaluate_function(context%deck, expression, context%model%mesh%x(:, nodes), values, ok(4), 'BOUNDARY')
-      if (.not. all(ok)) return
-      call note_loose(line, context, nodes)
-      do dof = first, last
-         call prescribe(line, nodes, dof, values, context)
-      end do
-      if (size(nodes) == 1 .and. is_refined(context%refinement)) call take_number(line, nodes(1), first, last, values(1), numbered)
+      is_ok = all(ok)
+      held = .false.
+      if (is_ok) held(first:last) = .true.
    end subroutine read_function_line
 
    pure subroutine begin_numbers(context, numbered)
@@ -272,34 +234,19 @@ contains
       type(by_number_t), intent(inout) :: numbered
 
       if (.not. is_refined(context%refinement)) return
-      if (.not. allocated(numbered%token)) then
-         allocate (numbered%token(PLANE_DOFS, context%refinement%n_nodes), source=0_ip)
+      if (.not. allocated(numbered%line)) then
+         allocate (numbered%line(PLANE_DOFS, context%refinement%n_nodes), source=0_ip)
          allocate (numbered%value(PLANE_DOFS, context%refinement%n_nodes), source=0.0_wp)
       else if (numbered%n > 0) then
-         numbered%token = 0
+         numbered%line = 0
       end if
       numbered%n = 0
    end subroutine begin_numbers
-
-   pure subroutine take_number(line, node, first, last, value, numbered)
-      type(data_line_t), intent(in) :: line
-      integer(ip), intent(in) :: node, first, last
-      real(wp), intent(in) :: value
-      type(by_number_t), intent(inout) :: numbered
-      integer(ip) :: dof
-
-      do dof = first, min(last, PLANE_DOFS)
-         numbered%token(dof, node) = line%first_token
-         numbered%value(dof, node) = value
-      end do
-      numbered%n = numbered%n + 1
-   end subroutine take_number
 
    !> An edge of the outline all of whose nodes a card prescribes one by one is prescribed between them, too.
    subroutine hold_edges(context, numbered)
       type(build_context_t), intent(inout) :: context
       type(by_number_t), intent(in) :: numbered
-      type(data_line_t) :: line
       integer(ip) :: edge, dof, k, n
 
       if (numbered%n < 2) return
@@ -308,15 +255,15 @@ contains
             if (fine%edge_element(2, edge) > 0) cycle
             n = merge(3_ip, 2_ip, fine%edge_node(3, edge) > 0)
             do dof = 1, PLANE_DOFS
-               if (any(numbered%token(dof, fine%edge_node(:n, edge)) == 0)) cycle
-               line%first_token = numbered%token(dof, fine%edge_node(1, edge))
-               line%n_tokens = 1
-               call open_source(context, 'BOUNDARY', context%deck%tokens(line%first_token))
-               do k = fine%edge_first(edge), fine%edge_first(edge + 1) - 1
-                  call prescribe(line, [k], dof, [edge_value(numbered%value(dof, fine%edge_node(:n, edge)), edge_place(fine, edge, &
-                                                                                                                       k))], &
-                                 context)
-               end do
+               associate (nodes => fine%edge_node(:n, edge))
+                  if (any(numbered%line(dof, nodes) == 0)) cycle
+                  context%open%line = numbered%line(dof, nodes(1))
+                  call open_source(context, 'BOUNDARY', &
+                                   context%deck%tokens(context%deck%lines(context%open%line)%first_token))
+                  do k = fine%edge_first(edge), fine%edge_first(edge + 1) - 1
+                     call prescribe([k], dof, [edge_value(numbered%value(dof, nodes), edge_place(fine, edge, k))], context)
+                  end do
+               end associate
             end do
          end do
       end associate
@@ -334,7 +281,7 @@ contains
 
       are_dofs = .false.
       expected = WHAT_DOF
-      if (turns .or. last == ROTATION_DOF) expected = WHAT_DOF//'; of the reference node of a *RIGID BODY also 6'
+      if (turns .or. last == ROTATION_DOF) expected = WHAT_DOF//AT_REFERENCE
       item = merge(2_ip, 3_ip, first < 1 .or. first > LAST_DOF .or. is_empty_token(line_item(deck, line, 3_ip)))
       if (turns .and. first >= 1 .and. first < ROTATION_DOF .and. last > PLANE_DOFS .and. last <= LAST_DOF .and. &
           abs(value) > 0.0_wp) then
@@ -360,42 +307,12 @@ contains
       integer(ip), intent(in) :: nodes(:)
       logical :: loose(size(nodes))
 
-      loose = in_no_element(context, nodes) .and. .not. is_reference(context, nodes)
+      loose = has_no_unknowns(context, nodes)
       if (.not. any(loose) .or. has_errors()) return
       call report_note(context%deck, line_item(context%deck, line, 1_ip), 'N-NODE', 'node '// &
                        ids_text(pack(context%model%mesh%node_id(nodes), loose))// &
                        ' belongs to no element; the support has no effect there but on springs', keyword='BOUNDARY')
    end subroutine note_loose
-
-   !> Prescribes a dof of those of some nodes that are reference nodes.
-   subroutine prescribe_references(line, nodes, dof, value, context)
-      type(data_line_t), intent(in) :: line
-      integer(ip), intent(in) :: nodes(:), dof
-      real(wp), intent(in) :: value(:)                 !< of each node [L], or [-]
-      type(build_context_t), intent(inout) :: context
-      integer(ip) :: i
-
-      if (size(context%model%rigid_bodies) == 0) return
-      do i = 1, size(nodes, kind=ip)
-         if (is_reference(context, nodes(i))) call prescribe_reference(context, line%first_token, nodes(i), dof, value(i))
-      end do
-   end subroutine prescribe_references
-
-   !> Prescribes the rotation of reference nodes; that of the ground, for springs.
-   subroutine turn(line, nodes, value, context)
-      type(data_line_t), intent(in) :: line
-      integer(ip), intent(in) :: nodes(:)
-      real(wp), intent(in) :: value(:)                 !< of each node [-]
-      type(build_context_t), intent(inout) :: context
-      logical :: loose(size(nodes))
-      integer(ip) :: i
-
-      call prescribe_references(line, nodes, ROTATION_DOF, value, context)
-      loose = in_no_element(context, nodes)
-      do i = 1, size(nodes, kind=ip)
-         if (loose(i)) call hold_loose(context, nodes(i), LOOSE_DOFS, value(i))
-      end do
-   end subroutine turn
 
    !> A node of no element that is held at 0 in all steps is the ground, for springs.
    pure subroutine hold_loose(context, node, dof, value)
@@ -403,7 +320,7 @@ contains
       integer(ip), intent(in) :: node, dof
       real(wp), intent(in) :: value
 
-      associate (held => context%loose_held(dof, node))
+      associate (held => context%loose_held(dof_slot(dof), node))
          if (abs(value) > 0.0_wp .or. (held == 0 .and. context%open%number > 1)) then
             held = LOOSE_MOVES
          else if (held /= LOOSE_MOVES) then
@@ -412,45 +329,56 @@ contains
       end associate
    end subroutine hold_loose
 
-   !> Prescribes a dof of some nodes. A value that differs from an earlier one is an error, told once a line.
-   subroutine prescribe(line, nodes, dof, value, context)
-      type(data_line_t), intent(in) :: line
-      integer(ip), intent(in) :: nodes(:), dof
-      real(wp), intent(in) :: value(:)                 !< of each node [L]
+   !> Prescribes a dof of some nodes; a line of a later step takes the place of an earlier one. A value that differs from an earlier
+   !> one of the step is an error, told once a line.
+   subroutine prescribe(nodes, dof, value, context)
+      integer(ip), intent(in) :: nodes(:), dof         !< dof 1, 2, or 6: the rotation of reference nodes
+      real(wp), intent(in) :: value(:)                 !< of each node [L], or [-]
       type(build_context_t), intent(inout) :: context
       type(number_list_t) :: clashes, curves
+      type(condition_t) :: new
       real(wp) :: first_value, scale
       logical :: loose(size(nodes))
       integer(ip) :: i, entry
 
-      call prescribe_references(line, nodes, dof, value, context)
-      loose = in_no_element(context, nodes)
-      scale = 0.0_wp
-      if (size(nodes) > 0) scale = maxval(abs(value))
-      do i = 1, size(nodes, kind=ip)
-         if (loose(i)) then
-            call hold_loose(context, nodes(i), dof, value(i))
-            cycle
-         end if
-         entry = context%dof_entry(dof, nodes(i))
-         if (entry > 0) call replace_source(context%open%supports, entry, context%open%source)
-         if (entry == 0) then
-            call add_nodal_value(context%open%supports, nodes(i), dof, value(i), amplitude=context%open%amplitude, &
-                                 source=context%open%source)
-            context%dof_entry(dof, nodes(i)) = context%open%supports%n
-            context%dof_token(dof, nodes(i)) = line%first_token
-         else if (context%dof_token(dof, nodes(i)) < context%open%first_token) then
-            call replace_nodal_value(context%open%supports, entry, value(i), context%open%amplitude)
-            context%dof_token(dof, nodes(i)) = line%first_token
-         else if (.not. is_same(context%open%supports%value(entry), value(i), scale)) then
-            if (clashes%n == 0) first_value = value(i)
-            call add_number(clashes, nodes(i))
-         else if (abs(value(i)) > 0.0_wp .and. amplitude_of(context%open%supports, entry) /= context%open%amplitude) then
-            call add_number(curves, nodes(i))
-         end if
-      end do
-      if (clashes%n > 0) call report_clash(line, context, numbers_of(clashes), dof, first_value)
-      if (curves%n > 0) call report_curves(line, context, numbers_of(curves), dof)
+      associate (open => context%open, place => context%deck%tokens(context%deck%lines(context%open%line)%first_token))
+         new = condition_t(dof=dof, line=open%line, amplitude=open%amplitude, source=open%source)
+         loose = in_no_element(context, nodes)
+         scale = 0.0_wp
+         if (size(nodes) > 0) scale = maxval(abs(value))
+         do i = 1, size(nodes, kind=ip)
+            if (loose(i)) call hold_loose(context, nodes(i), dof, value(i))
+            if (is_reference(context, nodes(i))) then
+               if (.not. can_move(context, place, nodes(i), dof, value(i), 'BOUNDARY')) cycle
+            else if (loose(i) .or. dof == ROTATION_DOF) then
+               cycle
+            end if
+            entry = context%dof_entry(dof_slot(dof), nodes(i))
+            if (entry == 0) then
+               new%place = nodes(i)
+               new%value(1) = value(i)
+               call add_condition(open%supports, new)
+               context%dof_entry(dof_slot(dof), nodes(i)) = open%supports%n
+               cycle
+            end if
+            associate (old => open%supports%list(entry))
+               old%source = open%source
+               if (is_inherited(context, old)) then
+                  old%value(1) = value(i)
+                  old%amplitude = open%amplitude
+                  old%line = open%line
+               else if (.not. is_same(old%value(1), value(i), scale)) then
+                  if (clashes%n == 0) first_value = value(i)
+                  call add_number(clashes, nodes(i))
+               else if (abs(value(i)) > 0.0_wp .and. old%amplitude /= open%amplitude) then
+                  call add_number(curves, nodes(i))
+               end if
+            end associate
+         end do
+      end associate
+      if (clashes%n > 0) call report_clash(context, numbers_of(clashes), dof, first_value)
+      if (curves%n > 0) call report_conflict(context, numbers_of(curves), dof, 'has another amplitude here than', &
+                                             'one AMPLITUDE= for each dof in a step')
    end subroutine prescribe
 
    !> Equal but for round-off: 0.3 x and 0.1 x + 0.2 at x = 1.
@@ -461,37 +389,35 @@ contains
       is_same = abs(earlier - value) <= SAME_VALUE*max(abs(earlier), scale)
    end function is_same
 
-   subroutine report_clash(line, context, nodes, dof, value)
-      type(data_line_t), intent(in) :: line
+   !> Two values of one dof, with as many digits as tell them apart.
+   subroutine report_clash(context, nodes, dof, value)
       type(build_context_t), intent(in) :: context
       integer(ip), intent(in) :: nodes(:), dof
       real(wp), intent(in) :: value
       integer, parameter :: FEW = 6, ALL_DIGITS = 15
-      type(token_t) :: earlier
       real(wp) :: other
       integer :: digits
 
-      earlier = context%deck%tokens(context%dof_token(dof, nodes(1)))
-      other = context%open%supports%value(context%dof_entry(dof, nodes(1)))
+      other = context%open%supports%list(context%dof_entry(dof_slot(dof), nodes(1)))%value(1)
       digits = merge(ALL_DIGITS, FEW, to_text(value, FEW) == to_text(other, FEW))
-      call report_error(context%deck, line_item(context%deck, line, 1_ip), 'E-CONFLICT', 'dof '//to_text(dof)//' of node '// &
-                        ids_text(context%model%mesh%node_id(nodes))//' is '//to_text(value, digits)//' here but '//to_text(other, &
-                                                                                digits)//' in '//place_text(context%deck, earlier, &
-                                                                                           context%deck%tokens(line%first_token)), &
-                        expected='one value for each dof in a step [L]', keyword='BOUNDARY')
+      call report_conflict(context, nodes, dof, 'is '//to_text(value, digits)//' here but '//to_text(other, digits), &
+                           'one value for each dof in a step [L]')
    end subroutine report_clash
 
-   !> One displacement with two amplitudes.
-   subroutine report_curves(line, context, nodes, dof)
-      type(data_line_t), intent(in) :: line
+   !> The line that is being read says other things of a dof of some nodes than an earlier line of the step.
+   subroutine report_conflict(context, nodes, dof, what, expected)
       type(build_context_t), intent(in) :: context
       integer(ip), intent(in) :: nodes(:), dof
+      character(len=*), intent(in) :: what, expected
+      integer(ip) :: earlier
 
-      call report_error(context%deck, line_item(context%deck, line, 1_ip), 'E-CONFLICT', 'dof '//to_text(dof)//' of node '// &
-                        ids_text(context%model%mesh%node_id(nodes))//' has another amplitude here than in '// &
-                        place_text(context%deck, context%deck%tokens(context%dof_token(dof, nodes(1))), &
-                                   context%deck%tokens(line%first_token)), expected='one AMPLITUDE= for each dof in a step', &
-                        keyword='BOUNDARY')
-   end subroutine report_curves
+      earlier = context%open%supports%list(context%dof_entry(dof_slot(dof), nodes(1)))%line
+      associate (deck => context%deck, line => context%deck%lines(context%open%line))
+         call report_error(deck, deck%tokens(line%first_token), 'E-CONFLICT', 'dof '//to_text(dof)//' of node '// &
+                           ids_text(context%model%mesh%node_id(nodes))//' '//what//' in '// &
+                           place_text(deck, deck%tokens(deck%lines(earlier)%first_token), deck%tokens(line%first_token)), &
+                           expected=expected, keyword='BOUNDARY')
+      end associate
+   end subroutine report_conflict
 
 end module atrito_build_supports

@@ -3,7 +3,7 @@ module atrito_build_ties
    use atrito_bilateral_rows, only: add_row, ROW_TIE
    use atrito_build_context, only: build_context_t, ids_text, is_invalid, has_errors
    use atrito_check_shapes, only: check_shapes
-   use atrito_deck, only: card_t, option_t, token_t, line_item, keyword_name
+   use atrito_deck, only: card_t, option_t, token_t, count_lines, line_item, keyword_name
    use atrito_diagnostics, only: report_error, report_note, report_warning
    use atrito_faces, only: face_list_t, chain_report_t
    use atrito_items, only: find_option, option_text, option_real, option_word
@@ -21,6 +21,7 @@ module atrito_build_ties
    public :: read_ties, check_ties, build_ties
 
    character(len=*), parameter :: KEYWORD = 'TIE'
+   character(len=*), parameter :: IN_FRONT = 'a master in front of the slave, its outward normal pointing back'
    real(wp), parameter :: USUAL_TOLERANCE = 0.05_wp   !< of the mean face of the master
 
 contains
@@ -30,10 +31,7 @@ contains
       type(build_context_t), intent(inout) :: context
       integer(ip) :: i, n
 
-      n = 0
-      do i = 1, context%deck%n_cards
-         if (keyword_name(context%deck%cards(i)) == KEYWORD) n = n + context%deck%cards(i)%n_lines
-      end do
+      n = count_lines(context%deck, KEYWORD)
       allocate (context%model%ties(n), context%ties(n))
       n = 0
       do i = 1, context%deck%n_cards
@@ -47,6 +45,8 @@ contains
       type(card_t), intent(in) :: card
       type(build_context_t), intent(inout) :: context
       integer(ip), intent(inout) :: n                  !< ties so far
+      character(len=*), parameter :: WHAT = 'tolerance of the position, a real >= 0 [L]'
+      type(option_t) :: option
       type(tie_t) :: tie
       logical :: found
       integer(ip) :: i
@@ -60,8 +60,13 @@ contains
       case ('SURFACE TO SURFACE')
          tie%quadrature = QUADRATURE_MORTAR
       end select
-      call read_tolerance(card, context, tie%tolerance, found)
-      if (.not. found) return
+      call option_real(context%deck, card, 'POSITION TOLERANCE', WHAT, tie%tolerance, found)
+      if (found .and. tie%tolerance < 0.0_wp) then
+         call find_option(context%deck, card, 'POSITION TOLERANCE', option, found)
+         call report_error(context%deck, option%value, 'E-VALUE', 'POSITION TOLERANCE='//to_text(tie%tolerance)//' is negative', &
+                           expected=WHAT, keyword=KEYWORD)
+         return
+      end if
       do i = card%first_line, card%first_line + card%n_lines - 1
          if (.not. context%deck%lines(i)%ok) cycle
          call find_surface(context, line_item(context%deck, context%deck%lines(i), 1_ip), tie%slave, KEYWORD)
@@ -72,27 +77,6 @@ contains
          context%ties(n) = line_item(context%deck, context%deck%lines(i), 1_ip)
       end do
    end subroutine read_tie_card
-
-   !> -1 where it is left out.
-   subroutine read_tolerance(card, context, tolerance, ok)
-      type(card_t), intent(in) :: card
-      type(build_context_t), intent(in) :: context
-      real(wp), intent(out) :: tolerance               !< [L]
-      logical, intent(out) :: ok
-      character(len=*), parameter :: WHAT = 'tolerance of the position, a real >= 0 [L]'
-      type(option_t) :: option
-      logical :: found
-
-      tolerance = -1.0_wp
-      ok = .true.
-      call option_real(context%deck, card, 'POSITION TOLERANCE', WHAT, tolerance, found)
-      if (.not. found) return
-      ok = tolerance >= 0.0_wp
-      if (ok) return
-      call find_option(context%deck, card, 'POSITION TOLERANCE', option, found)
-      call report_error(context%deck, option%value, 'E-VALUE', 'POSITION TOLERANCE='//to_text(tolerance)//' is negative', &
-                        expected=WHAT, keyword=KEYWORD)
-   end subroutine read_tolerance
 
    !> What can be told of each tie without looking for its points.
    subroutine check_ties(context, chains)
@@ -191,7 +175,10 @@ contains
       end if
       moved = .false.
       do i = 1, size(points, kind=ip)
-         if (from_behind(i)) call warn_of_overlap(context, i)
+         ! sides that look the same way lie one over the other with their bodies
+         if (from_behind(i)) call report_warning(context%deck, context%ties(i), 'W-TIE', 'the surfaces of tie '// &
+                                                 context%model%ties(i)%name//' look the same way: their bodies lie over each '// &
+                                                 'other, and are tied there', expected=IN_FRONT, keyword=KEYWORD)
          call judge_points(context, i, points(i))
          if (context%model%ties(i)%adjusts) call adjust_nodes(context, i, points(i), moved)
       end do
@@ -213,16 +200,6 @@ contains
 
       call pair_surfaces(model, model%ties%slave, model%ties%master, model%ties%quadrature, points, from_behind)
    end subroutine pair_ties
-
-   !> Sides that look the same way lie one over the other with their bodies.
-   subroutine warn_of_overlap(context, i)
-      type(build_context_t), intent(in) :: context
-      integer(ip), intent(in) :: i                     !< the tie
-
-      call report_warning(context%deck, context%ties(i), 'W-TIE', 'the surfaces of tie '//context%model%ties(i)%name// &
-                          ' look the same way: their bodies lie over each other, and are tied there', &
-                          expected='a master in front of the slave, its outward normal pointing back', keyword=KEYWORD)
-   end subroutine warn_of_overlap
 
    !> Those that are left out: a part of the mean length of the master's faces.
    pure subroutine set_tolerances(model)
@@ -268,7 +245,7 @@ contains
       context%model%ties(i)%n_far = far
       if (points%n == 0) then
          call refuse(context, context%ties(i), 'the surfaces of tie '//name//' do not face each other', &
-                     'a master in front of the slave, its outward normal pointing back')
+                     IN_FRONT)
       else if (far == points%n) then
          call refuse(context, context%ties(i), 'no node of the slave lies within the tolerance of the master: the least '// &
                      'distance is '//to_text(minval(abs(points%gap)), 4), 'POSITION TOLERANCE='// &

@@ -1,6 +1,7 @@
 !> *TRANSFORM: local axes of nodes, along which supports, forces and equations are given.
 module atrito_local_axes
    use atrito_build_context, only: build_context_t, ids_text
+   use atrito_coordinates, only: get_reals
    use atrito_deck, only: card_t, token_t, line_item, keyword_name
    use atrito_diagnostics, only: report_error
    use atrito_items, only: get_real, option_text, option_word
@@ -66,18 +67,17 @@ contains
       real(wp), intent(out) :: a(2), b(2)            !< [L]
       logical, intent(out) :: ok
       character(len=*), parameter :: WHAT = 'coordinate, a real [L]'
-      real(wp) :: z(2)
-      logical :: good(6)
+      real(wp) :: other(3), z(2)
+      logical :: good(2)
 
       associate (line => context%deck%lines(card%first_line), deck => context%deck)
-         call get_real(deck, line_item(deck, line, 1_ip), WHAT, a(1), good(1), keyword='TRANSFORM')
-         call get_real(deck, line_item(deck, line, 2_ip), WHAT, a(2), good(2), keyword='TRANSFORM')
-         call get_real(deck, line_item(deck, line, 3_ip), WHAT, z(1), good(3), 0.0_wp, 'TRANSFORM')
-         call get_real(deck, line_item(deck, line, 4_ip), WHAT, b(1), good(4), a(1), 'TRANSFORM')
-         call get_real(deck, line_item(deck, line, 5_ip), WHAT, b(2), good(5), a(2), 'TRANSFORM')
-         call get_real(deck, line_item(deck, line, 6_ip), WHAT, z(2), good(6), 0.0_wp, 'TRANSFORM')
+         call get_reals(deck, line, 1_ip, WHAT, a, good(1), 'TRANSFORM')
+         call get_real(deck, line_item(deck, line, 3_ip), WHAT, z(1), good(2), 0.0_wp, 'TRANSFORM')
+         call get_reals(deck, line, 4_ip, WHAT, other, ok, 'TRANSFORM', [a, 0.0_wp])
       end associate
-      ok = all(good)
+      b = other(:2)
+      z(2) = other(3)
+      ok = ok .and. all(good)
       if (ok) call check_plane(card, context, b - a, z, ok)
       if (.not. ok .or. card%scope == 0) return
       associate (motion => context%motions(card%scope))

@@ -2,17 +2,17 @@
 !> motion.
 module atrito_row_dofs
    use atrito_build_context, only: build_context_t, has_lost_elements, ids_text
-   use atrito_build_loads, only: in_no_element
    use atrito_build_rigid_bodies, only: carriers_of, is_reference, rigid_body_of, ROTATION_DOF
    use atrito_deck, only: token_t
    use atrito_diagnostics, only: report_error
    use atrito_kinds, only: ip, wp
    use atrito_local_axes, only: dof_direction
    use atrito_mesh, only: is_revolved
+   use atrito_references, only: in_no_element
    use atrito_strings, only: to_text
    implicit none (type, external)
    private
-   public :: check_row_nodes, check_row_dof, has_no_unknowns, row_node, row_terms, arm_of, TERMS_A_DOF, WHAT_DOF
+   public :: check_row_nodes, check_row_dof, has_no_unknowns, row_node, row_terms, arm_of, TERMS_A_DOF, WHAT_DOF, AT_REFERENCE
 
    !> A rotation is a difference of two displacements.
    integer(ip), parameter :: TERMS_A_DOF = 2

@@ -5,9 +5,7 @@
 !> their nodes have; --refine and --elements change nothing of these fields.
 module atrito_node_fields
    use atrito_build_context, only: build_context_t, place_text, ids_text, has_errors
-   use atrito_build_loads, only: in_no_element
    use atrito_build_steps, only: open_step
-   use atrito_carry_on, only: removes_all
    use atrito_deck, only: data_line_t, token_t, line_item, keyword_name
    use atrito_diagnostics, only: report_error, report_note, report_warning
    use atrito_element_table, only: CORNERS_OF, DEGREE_OF
@@ -17,8 +15,9 @@ module atrito_node_fields
    use atrito_model, only: step_t
    use atrito_number_list, only: number_list_t, add_number, numbers_of
    use atrito_plane_state, only: TAPERED_STATE, IS_TAPERED
+   use atrito_propagation, only: removes_all
    use atrito_read_elastic, only: get_positive
-   use atrito_references, only: find_nodes
+   use atrito_references, only: find_nodes, in_no_element
    use atrito_refinement, only: map_element, refinement_t
    use atrito_strings, only: to_text
    implicit none (type, external)

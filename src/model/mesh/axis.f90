@@ -4,10 +4,11 @@ module atrito_axis
    use atrito_deck, only: token_t
    use atrito_diagnostics, only: report_error, report_note
    use atrito_kinds, only: ip, wp
-   use atrito_load_lists, only: add_nodal_value, trim_nodal_values
+   use atrito_load_lists, only: condition_t, add_condition
    use atrito_model, only: model_t
    use atrito_number_list, only: number_list_t, add_number, numbers_of
    use atrito_plane_state, only: STATES
+   use atrito_propagation, only: is_inherited
    use atrito_strings, only: to_text
    implicit none (type, external)
    private
@@ -45,15 +46,14 @@ contains
             associate (entry => context%dof_entry(1, i))
                if (entry == 0) then
                   call add_number(held, mesh%node_id(i))
-                  call add_nodal_value(supports, i, 1_ip, 0.0_wp)
+                  call add_condition(supports, condition_t(place=i, dof=1_ip))
                   entry = supports%n
-               else if (abs(supports%value(entry)) > 0.0_wp) then
-                  ! what is carried on has been told
-                  if (context%dof_token(1, i) >= context%open%first_token) call add_number(moved, mesh%node_id(i))
+               else if (abs(supports%list(entry)%value(1)) > 0.0_wp) then
+                  ! what is inherited has been told
+                  if (.not. is_inherited(context, supports%list(entry))) call add_number(moved, mesh%node_id(i))
                end if
             end associate
          end do
-         call trim_nodal_values(supports)
       end associate
       if (moved%n > 0) call report_error(context%deck, place, 'E-AXIS', 'u1 of node '//ids_text(numbers_of(moved))// &
                                          ' on the axis x1 = 0 is prescribed, not as 0', &

@@ -3,7 +3,6 @@ module atrito_build_amplitudes
    use atrito_build_context, only: build_context_t, count_cards, define_name, invalidate_name
    use atrito_deck, only: deck_t, card_t, data_line_t, token_t, option_t, line_item, keyword_name
    use atrito_diagnostics, only: report_error
-   use atrito_growth, only: make_room, resize
    use atrito_items, only: find_option, get_real, option_text, option_word
    use atrito_kinds, only: ip, wp
    use atrito_model, only: amplitude_t
@@ -51,6 +50,7 @@ contains
 
       ok = card%ok
       n = 0
+      allocate (amplitude%time(MOST_ITEMS/2*card%n_lines), amplitude%value(MOST_ITEMS/2*card%n_lines))
       amplitude%is_total_time = option_word(deck, card, 'TIME') == 'TOTAL TIME'
       amplitude%is_smooth = option_word(deck, card, 'DEFINITION') == 'SMOOTH STEP'
       is_table = amplitude%is_smooth .or. option_word(deck, card, 'DEFINITION') == 'TABULAR'
@@ -59,11 +59,11 @@ contains
          if (good) call read_pairs(deck, deck%lines(k), n, amplitude, good)
          ok = ok .and. good
       end do
-      call resize(amplitude%time, n, max(n, 1_ip))
-      call resize(amplitude%value, n, max(n, 1_ip))
+      amplitude%time = amplitude%time(:n)
+      amplitude%value = amplitude%value(:n)
       if (n > 0) return
-      amplitude%time = 0.0_wp                          ! of a faulty card
-      amplitude%value = 1.0_wp
+      amplitude%time = [0.0_wp]                        ! of a faulty card
+      amplitude%value = [1.0_wp]
    end subroutine read_curve
 
    !> The pairs of a line, behind the n that there are.
@@ -86,34 +86,31 @@ contains
       do i = 1, line%n_tokens, 2
          call get_real(deck, line_item(deck, line, i), WHAT_TIME, time, good(1), keyword='AMPLITUDE')
          call get_real(deck, line_item(deck, line, i + 1), 'value, a real [-]', value, good(2), keyword='AMPLITUDE')
-         if (good(1)) call check_time(deck, line_item(deck, line, i), time, n, amplitude, good(1))
+         if (good(1)) call check_time(deck, line_item(deck, line, i), time, amplitude%time(:n), good(1))
          ok = ok .and. all(good)
          if (.not. all(good)) cycle
-         call make_room(amplitude%time, n, n + 1)
-         call make_room(amplitude%value, n, n + 1)
          n = n + 1
          amplitude%time(n) = time
          amplitude%value(n) = value
       end do
    end subroutine read_pairs
 
-   subroutine check_time(deck, token, time, n, amplitude, ok)
+   !> A time is not negative, and comes after those that there are.
+   subroutine check_time(deck, token, time, earlier, ok)
       type(deck_t), intent(in) :: deck
       type(token_t), intent(in) :: token
-      real(wp), intent(in) :: time
-      integer(ip), intent(in) :: n                     !< times that there are
-      type(amplitude_t), intent(in) :: amplitude
+      real(wp), intent(in) :: time, earlier(:)
       logical, intent(out) :: ok
+      character(len=:), allocatable :: wrong
 
       ok = time >= 0.0_wp
-      if (.not. ok) then
-         call report_error(deck, token, 'E-VALUE', 'the time '//to_text(time)//' is less than 0', expected=WHAT_TIME, &
-                           keyword='AMPLITUDE')
-      else if (n > 0) then
-         ok = time > amplitude%time(n)
-         if (.not. ok) call report_error(deck, token, 'E-VALUE', 'the time '//to_text(time)//' does not come after '// &
-                                         to_text(amplitude%time(n)), expected=WHAT_TIME, keyword='AMPLITUDE')
+      wrong = ' is less than 0'
+      if (ok .and. size(earlier) > 0) then
+         ok = time > earlier(size(earlier))
+         wrong = ' does not come after '//to_text(earlier(size(earlier)))
       end if
+      if (.not. ok) call report_error(deck, token, 'E-VALUE', 'the time '//to_text(time)//wrong, expected=WHAT_TIME, &
+                                      keyword='AMPLITUDE')
    end subroutine check_time
 
    !> The amplitude that a card names becomes that of its lines; 0 where it is unknown, which is told.

@@ -2,23 +2,22 @@
 module atrito_build_cuts
    use atrito_bodies, only: bodies_t, find_bodies
    use atrito_body_names, only: name_bodies
-   use atrito_build_context, only: build_context_t, keep_token, place_text
+   use atrito_build_context, only: build_context_t, place_text
    use atrito_cross_section, only: find_cross_section
    use atrito_crossings, only: crossing_t, point_at, INSIDE
-   use atrito_deck, only: card_t, data_line_t, token_t, line_item
+   use atrito_deck, only: card_t, count_lines, data_line_t, token_t, line_item
    use atrito_diagnostics, only: report_error, report_note, report_warning
    use atrito_faces, only: list_node_elements
-   use atrito_growth, only: make_room
    use atrito_items, only: get_real, has_option, option_text
    use atrito_kinds, only: ip, wp
    use atrito_model, only: cut_t, requests_t
    use atrito_name_list, only: add_name, find_name
-   use atrito_references, only: report_unknown
-   use atrito_sets, only: find_set, members_of
+   use atrito_references, only: find_set_option
+   use atrito_sets, only: members_of
    use atrito_strings, only: to_text
    implicit none (type, external)
    private
-   public :: read_cut_card, cut_requests_to_size, place_cuts
+   public :: read_cut_card, place_cuts
 
    character(len=*), parameter :: KEYWORD = 'SECTION PRINT'
    character(len=2), parameter :: ITEMS(4) = ['x1', 'y1', 'x2', 'y2']
@@ -40,46 +39,25 @@ contains
       if (has_option(context%deck, card, 'SURFACE')) return
       call option_text(context%deck, card, 'NAME', name, found, place)
       if (.not. (card%ok .and. found)) return
-      call find_elset(context, card, cut%elset, ok)
+      call find_set_option(context, card, 'ELSET', 'element set', context%model%element_sets, cut%elset, ok)
       if (.not. ok) return
       do i = 1, card%n_lines
          associate (line => context%deck%lines(card%first_line + i - 1))
             if (.not. line%ok) cycle
             cut%name = name
             if (card%n_lines > 1) cut%name = name//'-'//to_text(i)
-            ! A step has one cut of a name.
             j = find_name(context%open%cut_names, cut%name)
-            ok = j == 0
-            if (.not. ok) then
+            if (j > 0) then
                call report_error(context%deck, place, 'E-TWICE', 'cut '//cut%name//' is defined already in this step, in '// &
                                  place_text(context%deck, context%cut_lines(requests%cuts(j)), place), &
                                  expected='another NAME=, or all lines in one card', keyword=KEYWORD)
+               return
             end if
-            if (.not. ok) return
             call read_line(context, line, cut%ends, ok)
             if (ok) call add_cut(context, cut, line_item(context%deck, line, 1_ip), requests)
          end associate
       end do
    end subroutine read_cut_card
-
-   !> The set that chooses crossings; 0: none is given.
-   subroutine find_elset(context, card, elset, ok)
-      type(build_context_t), intent(in) :: context
-      type(card_t), intent(in) :: card
-      integer(ip), intent(out) :: elset
-      logical, intent(out) :: ok
-      character(len=:), allocatable :: name
-      type(token_t) :: place
-      logical :: found
-
-      elset = 0
-      call option_text(context%deck, card, 'ELSET', name, found, place)
-      ok = .true.
-      if (.not. found) return
-      elset = find_set(context%model%element_sets, name)
-      ok = elset > 0
-      if (.not. ok) call report_unknown(context, place, 'element set', 'E-SET', context%model%element_sets%names, KEYWORD)
-   end subroutine find_elset
 
    !> x1, y1, x2, y2
    subroutine read_line(context, line, ends, ok)
@@ -88,8 +66,8 @@ contains
       real(wp), intent(out) :: ends(2, 2)
       logical, intent(out) :: ok
       real(wp) :: x(4)
-      integer(ip) :: k
       logical :: good(4)
+      integer(ip) :: k
 
       do k = 1, 4
          call get_real(context%deck, line_item(context%deck, line, k), ITEMS(k)//', a real [L]', x(k), good(k), keyword=KEYWORD)
@@ -103,36 +81,23 @@ contains
                         expected='x1, y1, x2, y2: two points of a line through a body [L]', keyword=KEYWORD)
    end subroutine read_line
 
+   !> Appends a cut; there is room for one of each line.
    subroutine add_cut(context, cut, place, requests)
       type(build_context_t), intent(inout) :: context
       type(cut_t), intent(in) :: cut
       type(token_t), intent(in) :: place
       type(requests_t), intent(inout) :: requests
-      type(cut_t), allocatable :: longer(:)
-      integer(ip) :: n
 
-      n = context%n_cuts
-      if (.not. allocated(context%model%cuts)) allocate (context%model%cuts(0), context%cut_lines(0))
-      if (n == size(context%model%cuts)) then
-         allocate (longer(max(1_ip, 2*n)))
-         longer(:n) = context%model%cuts
-         call move_alloc(longer, context%model%cuts)
+      if (.not. allocated(context%model%cuts)) then
+         allocate (context%model%cuts(count_lines(context%deck, KEYWORD)), context%cut_lines(count_lines(context%deck, KEYWORD)))
       end if
-      context%model%cuts(n + 1) = cut
-      context%n_cuts = n + 1
-      call keep_token(context%cut_lines, n + 1, place)
-      call make_room(requests%cuts, context%open%cut_names%n, context%open%cut_names%n + 1)
+      context%n_cuts = context%n_cuts + 1
+      context%model%cuts(context%n_cuts) = cut
+      context%cut_lines(context%n_cuts) = place
       call add_name(context%open%cut_names, cut%name)
-      requests%cuts(context%open%cut_names%n) = n + 1
+      if (.not. allocated(requests%cuts)) allocate (requests%cuts(0))
+      requests%cuts = [requests%cuts, context%n_cuts]
    end subroutine add_cut
-
-   !> Takes back the room that the cuts of a step have to grow; those that are carried on have none.
-   pure subroutine cut_requests_to_size(context, requests)
-      type(build_context_t), intent(in) :: context
-      type(requests_t), intent(inout) :: requests
-
-      if (context%open%cut_names%n > 0) requests%cuts = requests%cuts(:context%open%cut_names%n)
-   end subroutine cut_requests_to_size
 
    !> Finds where the cuts go through the bodies. The mesh is complete.
    subroutine place_cuts(context)

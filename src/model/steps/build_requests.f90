@@ -1,18 +1,17 @@
 !> *CONTROLS, and the tables and fields that the step asks for.
 module atrito_build_requests
    use atrito_controls, only: controls_t, METHOD_PICARD, METHOD_NAME
-   use atrito_deck, only: deck_t, card_t, token_t, token_text, option_t, line_item, keyword_name
+   use atrito_deck, only: deck_t, card_t, token_text, option_t, line_item, keyword_name
    use atrito_diagnostics, only: report_error
    use atrito_build_context, only: build_context_t
-   use atrito_build_cuts, only: read_cut_card, cut_requests_to_size
-   use atrito_carry_on, only: is_of_step
+   use atrito_build_cuts, only: read_cut_card
+   use atrito_propagation, only: is_of_step
    use atrito_foreign_words, only: variable_of_component
-   use atrito_items, only: find_option, has_option, option_integer, option_real, option_text, option_word, &
-                           refuse_option
+   use atrito_items, only: find_option, has_option, option_integer, option_real, option_word, refuse_option
    use atrito_kinds, only: ip, wp
    use atrito_model, only: requested_t, requests_t, step_t
-   use atrito_references, only: report_unknown
-   use atrito_sets, only: set_list_t, find_set, members_of
+   use atrito_references, only: find_set_option
+   use atrito_sets, only: set_list_t, members_of
    use atrito_strings, only: to_text, upper_case
    implicit none (type, external)
    private
@@ -41,7 +40,6 @@ contains
          do i = context%open%first_card, context%open%last_card
             if (is_of_step(context, i)) call read_card(context, context%deck%cards(i), steps(k))
          end do
-         call cut_requests_to_size(context, steps(k)%requests)
          call check_relaxation(context, steps(k)%controls)
       end associate
    end subroutine build_requests
@@ -133,55 +131,47 @@ contains
       type(requests_t), intent(inout) :: requests
       integer(ip) :: i
 
-      do i = context%open%first_card, context%open%last_card
-         if (.not. is_of_step(context, i)) cycle
-         select case (keyword_name(context%deck%cards(i)))
-         case ('NODE PRINT')
-            call forget_nodes(requests%requested_t)
-            requests%every%nodes = 0
-            requests%every%reactions = 0
-         case ('NODE FILE')
-            call forget_nodes(requests%fields)
-            requests%every%fields = 0
-         case ('EL PRINT')
-            call forget_stress(requests%requested_t)
-            requests%every%stress = 0
-            requests%nodal_stress = .false.
-            if (allocated(requests%node_s)) deallocate (requests%node_s)
-            requests%every%nodal_stress = 0
-         case ('EL FILE')
-            call forget_stress(requests%fields)
-            requests%every%fields = 0
-         case ('CONTACT FILE')
-            requests%every%fields = 0
-         case ('CONTACT PRINT')
-            requests%every%contact = 0
-         case ('BODY PRINT')
-            requests%every%bodies = 0
-         case ('JOINT PRINT')
-            requests%every%joints = 0
-         case ('SECTION PRINT')
-            if (allocated(requests%cuts)) deallocate (requests%cuts)
-            requests%every%sections = 0
-         end select
-      end do
+      associate (every => requests%every, fields => requests%fields)
+         do i = context%open%first_card, context%open%last_card
+            if (.not. is_of_step(context, i)) cycle
+            select case (keyword_name(context%deck%cards(i)))
+            case ('NODE PRINT')
+               call forget(requests%nodes, requests%node_u, every%nodes)
+               call forget(requests%reactions, requests%node_rf, every%reactions)
+            case ('NODE FILE')
+               call forget(fields%nodes, fields%node_u, every%fields)
+               call forget(fields%reactions, fields%node_rf, every%fields)
+            case ('EL PRINT')
+               call forget(requests%stress, requests%element_s, every%stress)
+               call forget(requests%nodal_stress, requests%node_s, every%nodal_stress)
+            case ('EL FILE')
+               call forget(fields%stress, fields%element_s, every%fields)
+            case ('CONTACT FILE')
+               every%fields = 0
+            case ('CONTACT PRINT')
+               every%contact = 0
+            case ('BODY PRINT')
+               every%bodies = 0
+            case ('JOINT PRINT')
+               every%joints = 0
+            case ('SECTION PRINT')
+               if (allocated(requests%cuts)) deallocate (requests%cuts)
+               every%sections = 0
+            end select
+         end do
+      end associate
    end subroutine forget_replaced
 
-   pure subroutine forget_nodes(requested)
-      type(requested_t), intent(inout) :: requested
+   !> A field is not asked for, and at no frequency.
+   pure subroutine forget(wanted, mask, every)
+      logical, intent(out) :: wanted
+      logical, allocatable, intent(inout) :: mask(:)
+      integer(ip), intent(out) :: every
 
-      requested%nodes = .false.
-      requested%reactions = .false.
-      if (allocated(requested%node_u)) deallocate (requested%node_u)
-      if (allocated(requested%node_rf)) deallocate (requested%node_rf)
-   end subroutine forget_nodes
-
-   pure subroutine forget_stress(requested)
-      type(requested_t), intent(inout) :: requested
-
-      requested%stress = .false.
-      if (allocated(requested%element_s)) deallocate (requested%element_s)
-   end subroutine forget_stress
+      wanted = .false.
+      if (allocated(mask)) deallocate (mask)
+      every = 0
+   end subroutine forget
 
    subroutine read_controls_card(deck, card, controls)
       type(deck_t), intent(in) :: deck
@@ -301,22 +291,11 @@ contains
       type(build_context_t), intent(in) :: context
       logical, allocatable, intent(out) :: chosen(:)
       logical, intent(out) :: ok
-      character(len=:), allocatable :: name
-      type(token_t) :: place
-      integer(ip) :: i
-      logical :: found
+      integer(ip) :: set
 
-      call option_text(context%deck, card, option, name, found, place)
-      allocate (chosen(n), source=.not. found)
-      ok = .true.
-      if (.not. found) return
-      i = find_set(sets, name)
-      ok = i > 0
-      if (ok) then
-         chosen(members_of(sets%sets(i))) = .true.
-      else
-         call report_unknown(context, place, noun, 'E-SET', sets%names, keyword_name(card))
-      end if
+      call find_set_option(context, card, option, noun, sets, set, ok)
+      allocate (chosen(n), source=set == 0)
+      if (set > 0) chosen(members_of(sets%sets(set))) = .true.
    end subroutine choose_members
 
    !> One of the card's items is this variable, or a component of it.

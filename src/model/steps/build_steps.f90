@@ -31,11 +31,14 @@ contains
    subroutine build_steps(context)
       type(build_context_t), intent(inout) :: context
       integer(ip), allocatable :: static_card(:)       ! of each step; 0: outside of steps
-      integer(ip) :: i
+      type(option_t) :: option
+      integer(ip) :: i, n
+      logical :: found
 
-      allocate (static_card(0:max(1_ip, maxval(context%deck%cards(:context%deck%n_cards)%step))), source=0_ip)
-      allocate (context%model%steps(max(1_ip, maxval(context%deck%cards(:context%deck%n_cards)%step))))
-      do i = 1, size(context%model%steps, kind=ip)
+      n = max(1_ip, maxval(context%deck%cards(:context%deck%n_cards)%step))
+      allocate (static_card(0:n), source=0_ip)
+      allocate (context%model%steps(n))
+      do i = 1, n
          context%model%steps(i)%title = ''
       end do
       do i = 1, context%deck%n_cards
@@ -44,7 +47,9 @@ contains
             case ('STEP')
                call read_step_card(context%deck, card, step)
                call read_nlgeom(context%deck, card, context%model)
-               call check_perturbation(context%deck, card, size(context%model%steps, kind=ip))
+               call find_option(context%deck, card, 'PERTURBATION', option, found)
+               if (found .and. n > 1) call report_outside(context%deck, option%name, 'PERTURBATION in one of several steps', &
+                                                          LINEAR_STEP)
             case ('STATIC')
                call read_static_card(context%deck, i, static_card(card%step), step%increments)
             case ('RESTART')
@@ -52,7 +57,7 @@ contains
             end select
          end associate
       end do
-      do i = 2, size(context%model%steps, kind=ip)
+      do i = 2, n
          context%model%steps(i)%began = time_before(context%model%steps, i)
       end do
    end subroutine build_steps
@@ -89,18 +94,6 @@ contains
                                                  'ones; at the end W-LARGE tells where that matters, or N-SMALL that it does not', &
                                                  keyword='STEP')
    end subroutine read_nlgeom
-
-   !> A step alone has no state that it could be a perturbation of.
-   subroutine check_perturbation(deck, card, n_steps)
-      type(deck_t), intent(in) :: deck
-      type(card_t), intent(in) :: card
-      integer(ip), intent(in) :: n_steps
-      type(option_t) :: option
-      logical :: found
-
-      call find_option(deck, card, 'PERTURBATION', option, found)
-      if (found .and. n_steps > 1) call report_outside(deck, option%name, 'PERTURBATION in one of several steps', LINEAR_STEP)
-   end subroutine check_perturbation
 
    !> A whole line, its commas, too.
    pure function line_text(deck, line) result(text)

@@ -2,7 +2,7 @@
 !> keep both.
 module atrito_replaced_loads
    use atrito_build_context, only: build_context_t, place_text
-   use atrito_carry_on, only: is_of_step
+   use atrito_propagation, only: is_of_step
    use atrito_deck, only: line_item, token_text, keyword_name
    use atrito_diagnostics, only: report_warning
    use atrito_items, only: get_real

@@ -6,7 +6,8 @@
 module atrito_step_loads
    use atrito_amplitudes, only: factor_at
    use atrito_kinds, only: ip, wp
-   use atrito_model, only: element_load_t, model_t, nodal_values_t, step_t, LOAD_HYDROSTATIC, LOAD_LINEAR
+   use atrito_load_lists, only: scaled
+   use atrito_model, only: element_load_t, model_t, nodal_values_t, step_t, LOAD_HYDROSTATIC
    implicit none (type, external)
    private
    public :: moment_t, is_end, share_at, act_at, list_bases, base_of, base_factors, BASE_BEGIN, BASE_END
@@ -55,14 +56,20 @@ contains
       type(step_t), intent(in) :: step
       type(moment_t), intent(in) :: moment
       type(step_t), intent(out) :: now              !< with nothing else of the step
+      real(wp), allocatable :: factor(:)            ! of each amplitude
       real(wp) :: share
+      integer :: a
 
       share = share_at(step, moment)
-      call values_at(model, step%prescribed, moment, share, now%prescribed)
-      call values_at(model, step%node_loads, moment, share, now%node_loads)
-      call values_at(model, step%rigid_prescribed, moment, share, now%rigid_prescribed)
-      call values_at(model, step%rigid_loads, moment, share, now%rigid_loads)
-      call element_loads_at(model, step%element_loads, moment, share, now%element_loads)
+      factor = [real(wp) ::]
+      if (allocated(model%amplitudes)) then
+         factor = [(factor_at(model%amplitudes, int(a, ip), moment%step_time, moment%time), a=1, size(model%amplitudes))]
+      end if
+      call values_at(step%prescribed, factor, share, now%prescribed)
+      call values_at(step%node_loads, factor, share, now%node_loads)
+      call values_at(step%rigid_prescribed, factor, share, now%rigid_prescribed)
+      call values_at(step%rigid_loads, factor, share, now%rigid_loads)
+      call element_loads_at(step%element_loads, factor, share, now%element_loads)
       if (.not. allocated(step%heating)) return
       now%heating = step%heating
       if (share == 1.0_wp) return
@@ -80,14 +87,31 @@ contains
       if (share < 1.0_wp) between = from + share*(to - from)
    end function between
 
-   pure subroutine values_at(model, values, moment, share, now)
-      type(model_t), intent(in) :: model
+   pure subroutine values_at(values, factor, share, now)
       type(nodal_values_t), intent(in) :: values
-      type(moment_t), intent(in) :: moment
+      real(wp), intent(in) :: factor(:)             !< of each amplitude
       real(wp), intent(in) :: share
       type(nodal_values_t), intent(out) :: now
       real(wp) :: from
       integer(ip) :: i, a
+
+      call take_values(values, now)
+      from = 0.0_wp
+      do i = 1, values%n
+         a = amplitude_of(values%amplitude, i)
+         if (a > 0) then
+            now%value(i) = values%value(i)*factor(a)
+         else
+            if (allocated(values%from)) from = values%from(i)
+            now%value(i) = between(from, values%value(i), share)
+         end if
+      end do
+   end subroutine values_at
+
+   !> The values of the end of a step alone.
+   pure subroutine take_values(values, now)
+      type(nodal_values_t), intent(in) :: values
+      type(nodal_values_t), intent(out) :: now
 
       now%n = values%n
       if (values%n == 0) return
@@ -95,17 +119,7 @@ contains
       now%dof = values%dof
       now%value = values%value
       if (allocated(values%source)) now%source = values%source
-      do i = 1, values%n
-         a = amplitude_of(values%amplitude, i)
-         if (a > 0) then
-            now%value(i) = values%value(i)*factor_of(model, a, moment)
-         else
-            from = 0.0_wp
-            if (allocated(values%from)) from = values%from(i)
-            now%value(i) = between(from, values%value(i), share)
-         end if
-      end do
-   end subroutine values_at
+   end subroutine take_values
 
    pure integer(ip) function amplitude_of(amplitude, i) result(a)
       integer(ip), allocatable, intent(in) :: amplitude(:)
@@ -115,52 +129,32 @@ contains
       if (allocated(amplitude)) a = amplitude(i)
    end function amplitude_of
 
-   pure real(wp) function factor_of(model, a, moment) result(factor)
-      type(model_t), intent(in) :: model
-      integer(ip), intent(in) :: a                  !< amplitude
-      type(moment_t), intent(in) :: moment
-
-      factor = factor_at(model%amplitudes, a, moment%step_time, moment%time)
-   end function factor_of
-
-   pure subroutine element_loads_at(model, loads, moment, share, now)
-      type(model_t), intent(in) :: model
+   pure subroutine element_loads_at(loads, factor, share, now)
       type(element_load_t), intent(in) :: loads
-      type(moment_t), intent(in) :: moment
+      real(wp), intent(in) :: factor(:)             !< of each amplitude
       real(wp), intent(in) :: share
       type(element_load_t), intent(out) :: now
+      real(wp) :: from(3)
       integer(ip) :: i, a
 
       if (loads%n == 0) return
       call take_loads(loads, loads%value, [(i, i=1, loads%n)], now)
+      from = 0.0_wp
       do i = 1, loads%n
          a = amplitude_of(loads%amplitude, i)
-         associate (value => now%value(:, i))
+         associate (value => now%value(:, i), kind => loads%kind(i))
             if (a > 0) then
-               value(scaled(loads%kind(i))) = value(scaled(loads%kind(i)))*factor_of(model, a, moment)
-            else if (share < 1.0_wp) then
-               if (loads%kind(i) == LOAD_HYDROSTATIC) then
-                  value(1) = share*value(1)
-               else if (allocated(loads%from)) then
-                  value = between(loads%from(:, i), value, share)
-               else
-                  value = share*value
-               end if
+               value = scaled(kind, value, factor(a))
+            else if (kind == LOAD_HYDROSTATIC) then
+               value = scaled(kind, value, share)
+            else
+               if (allocated(loads%from)) from = loads%from(:, i)
+               value = between(from, value, share)
             end if
          end associate
       end do
       if (share < 1.0_wp .and. allocated(loads%from)) call add_levels_that_go(loads, share, now)
    end subroutine element_loads_at
-
-   !> The entries of a load's value that an amplitude multiplies: of a hydrostatic pressure not its levels.
-   pure function scaled(kind) result(entries)
-      integer(ip), intent(in) :: kind
-      integer(ip), allocatable :: entries(:)
-
-      entries = [1_ip, 2_ip]
-      if (kind == LOAD_HYDROSTATIC) entries = [1_ip]
-      if (kind == LOAD_LINEAR) entries = [1_ip, 2_ip, 3_ip]
-   end function scaled
 
    !> Some loads, with their values.
    pure subroutine take_loads(loads, value, wanted, now)
@@ -239,7 +233,7 @@ contains
          case (BASE_END)
             factor(i) = share_at(step, moment)
          case default
-            factor(i) = factor_of(model, bases(i), moment)
+            factor(i) = factor_at(model%amplitudes, bases(i), moment%step_time, moment%time)
          end select
       end do
    end function base_factors
@@ -258,13 +252,11 @@ contains
             call take_loads(loads, loads%value, [(i, i=1, loads%n)], now%element_loads)
             do i = 1, loads%n
                associate (value => now%element_loads%value(:, i))
-                  if (is_of_base(loads%amplitude, i, base)) then
-                     if (base == BASE_BEGIN) then
-                        value(scaled(loads%kind(i))) = 0.0_wp
-                        if (allocated(loads%from)) value = loads%from(:, i)
-                     end if
-                  else
-                     value(scaled(loads%kind(i))) = 0.0_wp
+                  if (base == BASE_BEGIN .or. .not. is_of_base(loads%amplitude, i, base)) then
+                     value = scaled(loads%kind(i), value, 0.0_wp)
+                  end if
+                  if (base == BASE_BEGIN .and. allocated(loads%from) .and. is_of_base(loads%amplitude, i, base)) then
+                     value = loads%from(:, i)
                   end if
                end associate
             end do
@@ -283,11 +275,8 @@ contains
       type(nodal_values_t), intent(out) :: now
       integer(ip) :: i
 
-      now%n = values%n
+      call take_values(values, now)
       if (values%n == 0) return
-      now%node = values%node
-      now%dof = values%dof
-      now%value = values%value
       if (base == BASE_BEGIN) then
          now%value = 0.0_wp
          if (allocated(values%from)) now%value = values%from

@@ -1,18 +1,41 @@
-!> Coordinates of a deck.
+!> Coordinates of a deck, and other rows of reals.
 module atrito_coordinates
-   use atrito_deck, only: deck_t, token_t
+   use atrito_deck, only: data_line_t, deck_t, line_item, token_t
    use atrito_diagnostics, only: report_error
    use atrito_items, only: get_real
-   use atrito_kinds, only: wp
+   use atrito_kinds, only: ip, wp
    use atrito_strings, only: to_text
    implicit none (type, external)
    private
-   public :: get_coordinate, is_coordinate
+   public :: get_coordinate, get_reals, is_coordinate
 
    !> Areas and their squares must be numbers, too.
    real(wp), parameter :: LARGEST_COORDINATE = 1.0e60_wp
 
 contains
+
+   !> The reals that some items of a line are, one after the other.
+   subroutine get_reals(deck, line, first, what, values, ok, keyword, defaults)
+      type(deck_t), intent(in) :: deck
+      type(data_line_t), intent(in) :: line
+      integer(ip), intent(in) :: first                 !< item
+      character(len=*), intent(in) :: what             !< each is, e.g. 'coordinate, a real [L]'
+      real(wp), intent(out) :: values(:)               !< as many as there are items
+      logical, intent(out) :: ok                       !< all of them are reals; what is not is reported
+      character(len=*), intent(in) :: keyword
+      real(wp), intent(in), optional :: defaults(:)    !< of empty items
+      logical :: good(size(values))
+      integer(ip) :: i
+
+      do i = 1, size(values, kind=ip)
+         if (present(defaults)) then
+            call get_real(deck, line_item(deck, line, first + i - 1), what, values(i), good(i), defaults(i), keyword)
+         else
+            call get_real(deck, line_item(deck, line, first + i - 1), what, values(i), good(i), keyword=keyword)
+         end if
+      end do
+      ok = all(good)
+   end subroutine get_reals
 
    !> The coordinate that an item is.
    subroutine get_coordinate(deck, token, what, x, ok, keyword, default)

@@ -4,7 +4,7 @@ module atrito_curves
    use atrito_kinds, only: ip
    use atrito_growth, only: resize
    use atrito_id_map, only: id_map_t
-   use atrito_mesh, only: mesh_t, face_nodes, side_count, face_end, middle_node
+   use atrito_mesh, only: mesh_t, face_nodes, side_between, side_count, face_end, middle_node
    use atrito_name_list, only: name_list_t, add_name, find_name
    use atrito_sets, only: set_list_t
    implicit none (type, external)
@@ -96,18 +96,16 @@ contains
       type(node_elements_t), intent(in) :: around
       integer(ip), intent(in) :: ends(2)
       integer(ip), intent(out) :: place(2), n_sides
-      integer(ip) :: k, e, side, corners(2)
+      integer(ip) :: k, e, side
 
       place = 0
       n_sides = 0
       do k = around%first(ends(1)), around%first(ends(1) + 1) - 1
          e = around%list(k)
-         do side = 1, side_count(mesh, e)
-            corners = [mesh%nodes(side, e), mesh%nodes(face_end(mesh, e, side), e)]
-            if (any(corners /= ends) .and. any(corners /= ends([2, 1]))) cycle
-            place = [e, side]
-            n_sides = n_sides + 1
-         end do
+         side = max(side_between(mesh, e, ends(1), ends(2)), side_between(mesh, e, ends(2), ends(1)))
+         if (side == 0) cycle
+         place = [e, side]
+         n_sides = n_sides + 1
       end do
    end subroutine find_side
 

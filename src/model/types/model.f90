@@ -203,7 +203,7 @@ module atrito_model
       real(wp) :: angle = 0.0_wp                    !< [degrees]
    end type instance_t
 
-   !> A step of the history: all that acts in it, what was carried on from earlier steps too, and what it asks for. From the
+   !> A step of the history: all that acts in it, what it inherits from earlier steps too, and what it asks for. From the
    !> beginning of the step to its end values go linearly with the time, or at once; those with an amplitude follow it.
    type :: step_t
       character(len=:), allocatable :: title        !< as the deck has it; '' without one

@@ -55,7 +55,13 @@ contains
       n_elements = new_elements + int(context%model%mesh%n_elements, lp)
       n_corners = MOST_NODES_OF_ELEMENT*new_elements
       if (present(element_nodes)) n_corners = element_nodes*new_elements
-      n_corners = n_corners + count_corners(context, int(huge(1_ip), lp) - n_corners)
+      associate (mesh => context%model%mesh)
+         n_corners = n_corners + int(MOST_NODES_OF_ELEMENT, lp)*int(mesh%n_elements, lp)
+         ! they are fewer, and are counted where that many would be too many
+         if (n_corners > int(huge(1_ip), lp) .and. mesh%n_elements > 0) then
+            n_corners = n_corners - sum(int(MOST_NODES_OF_ELEMENT - mesh%shape(:mesh%n_elements), lp))
+         end if
+      end associate
       n_blocks = context%n_blocks
       if (present(new_blocks)) n_blocks = n_blocks + new_blocks
       bytes = mesh_bytes(n_nodes, n_elements) + BLOCK_BYTES*max(n_blocks - 1, 0_lp)
@@ -74,16 +80,5 @@ contains
       call report_error(context%deck, place, 'E-VALUE', what//'is more than there are numbers for', expected='at most '// &
                         to_text(MOST_OF_NUMBERS)//' nodes, and '//to_text(huge(1_ip))//' nodes of elements', keyword=keyword)
    end function fits_memory
-
-   !> The nodes of the elements that are there, one behind the other; more than they are where even that is below a bound.
-   pure integer(lp) function count_corners(context, bound) result(n)
-      type(build_context_t), intent(in) :: context
-      integer(lp), intent(in) :: bound
-
-      associate (mesh => context%model%mesh)
-         n = int(MOST_NODES_OF_ELEMENT, lp)*int(mesh%n_elements, lp)
-         if (n > max(bound, 0_lp)) n = sum(int(mesh%shape(:mesh%n_elements), lp))
-      end associate
-   end function count_corners
 
 end module atrito_model_memory

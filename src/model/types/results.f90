@@ -161,13 +161,25 @@ module atrito_results
       real(wp) :: value = 0.0_wp                    !< nan: it is not defined
    end type observed_t
 
-   !> An increment of a history, or a run of one.
-   type :: results_t
+   !> The numbers of an increment.
+   type :: frame_numbers_t
       integer(ip) :: step = 1, increment = 1
       real(wp) :: time = 1.0_wp, step_time = 1.0_wp !< of the history, of the step
       logical :: ends_step = .true.
       logical :: converged = .false.
       logical :: law_holds = .false.                !< outcome of the final check
+      real(wp) :: error_estimate = 0.0_wp           !< of the stresses, in the energy norm, relative [%]; Zienkiewicz and Zhu
+      integer(ip) :: outer_iterations = 0, linear_solves = 0, factorisations = 0
+      real(wp) :: contraction = 0.0_wp              !< measured rate of the outer loop; 0 unknown
+      real(wp) :: contraction_estimate = 0.0_wp     !< of the Picard map from its matrix; from 1 on there may be several solutions
+      real(wp) :: equilibrium_residual = 0.0_wp
+      real(wp) :: strain_energy = 0.0_wp, external_work = 0.0_wp   !< [F L]
+      type(extreme_t) :: large_strain, large_rotation, large_slip  !< where they pass what a linear theory knows; 0: they do not
+      type(balance_t) :: balance
+   end type frame_numbers_t
+
+   !> An increment of a history, or a run of one.
+   type, extends(frame_numbers_t) :: results_t
       character(len=:), allocatable :: verdict      !< in words: why not converged, or what the check found
       type(scene_t) :: scene
       real(wp), allocatable :: u(:, :)              !< (2, n_nodes) [L]
@@ -181,18 +193,10 @@ module atrito_results
       real(wp), allocatable :: stress_x(:, :)       !< (2, n_stress) [L]
       real(wp), allocatable :: stress(:, :)         !< (5, n_stress): s11 s22 s33 s12 mises [F/L^2]
       real(wp), allocatable :: nodal_stress(:, :)   !< (5, n_nodes): s11 s22 s33 s12 mises recovered at the nodes [F/L^2]
-      real(wp) :: error_estimate = 0.0_wp           !< of the stresses, in the energy norm, relative [%]; Zienkiewicz and Zhu
       real(wp), allocatable :: element_error(:)     !< (n_elements) shares of the estimate, the root of the sum of their squares [%]
       type(iteration_t), allocatable :: iterations(:)
-      integer(ip) :: outer_iterations = 0, linear_solves = 0, factorisations = 0
       type(unsettled_t), allocatable :: unsettled(:)    !< of a run that did not converge, the most restless first
-      real(wp) :: contraction = 0.0_wp              !< measured rate of the outer loop; 0 unknown
-      real(wp) :: contraction_estimate = 0.0_wp     !< of the Picard map from its matrix; from 1 on there may be several solutions
-      real(wp) :: equilibrium_residual = 0.0_wp
-      real(wp) :: strain_energy = 0.0_wp, external_work = 0.0_wp   !< [F L]
       type(extreme_t), allocatable :: extremes(:)   !< rows of extremes.tab
-      type(extreme_t) :: large_strain, large_rotation, large_slip  !< where they pass what a linear theory knows; 0: they do not
-      type(balance_t) :: balance
       type(body_motion_t), allocatable :: bodies(:) !< when asked for
       type(rigid_result_t), allocatable :: rigid(:) !< rigid surfaces with a reference node; not allocated: there are none
       type(joint_t), allocatable :: joints(:)       !< by pair, then along s
@@ -292,31 +296,13 @@ contains
       history%n_stored = i
    end subroutine put_aside
 
+   !> Leaves the numbers of a frame alone.
    pure subroutine drop_fields(frame)
       type(results_t), intent(inout) :: frame
+      type(results_t) :: numbers
 
-      frame%scene = scene_t()
-      if (allocated(frame%verdict)) deallocate (frame%verdict)
-      if (allocated(frame%u)) deallocate (frame%u)
-      if (allocated(frame%prescribed)) deallocate (frame%prescribed)
-      if (allocated(frame%reaction)) deallocate (frame%reaction)
-      if (allocated(frame%contact)) deallocate (frame%contact)
-      if (allocated(frame%row_x)) deallocate (frame%row_x)
-      if (allocated(frame%row_force)) deallocate (frame%row_force)
-      if (allocated(frame%stress_element)) deallocate (frame%stress_element)
-      if (allocated(frame%stress_point)) deallocate (frame%stress_point)
-      if (allocated(frame%stress_x)) deallocate (frame%stress_x)
-      if (allocated(frame%stress)) deallocate (frame%stress)
-      if (allocated(frame%nodal_stress)) deallocate (frame%nodal_stress)
-      if (allocated(frame%element_error)) deallocate (frame%element_error)
-      if (allocated(frame%iterations)) deallocate (frame%iterations)
-      if (allocated(frame%unsettled)) deallocate (frame%unsettled)
-      if (allocated(frame%extremes)) deallocate (frame%extremes)
-      if (allocated(frame%bodies)) deallocate (frame%bodies)
-      if (allocated(frame%rigid)) deallocate (frame%rigid)
-      if (allocated(frame%joints)) deallocate (frame%joints)
-      if (allocated(frame%observed)) deallocate (frame%observed)
-      if (allocated(frame%cuts)) deallocate (frame%cuts)
+      numbers%frame_numbers_t = frame%frame_numbers_t
+      frame = numbers
    end subroutine drop_fields
 
    !> Shows a whole frame, until the next one is shown. The last is always there.

@@ -1,5 +1,10 @@
-!> What a line of *DLOAD or *DSLOAD says of a load on faces: pressure, traction along a direction, hydrostatic pressure.
-module atrito_read_face_load
+!> What a line of *DLOAD or *DSLOAD says of a load: pressure, traction along a direction, hydrostatic pressure, and the axis of
+!> CENTRIF about which elements turn.
+!>
+!> The way from that axis, of direction a through x0, is S (x - x0): S = 1 for an axis across the plane, S = 1 - a a' for one that
+!> lies in it. An oblique axis would push out of the plane.
+module atrito_read_load
+   use atrito_coordinates, only: get_reals
    use atrito_deck, only: data_line_t, line_item
    use atrito_diagnostics, only: report_error
    use atrito_build_context, only: build_context_t
@@ -9,12 +14,16 @@ module atrito_read_face_load
    use atrito_strings, only: to_text
    implicit none (type, external)
    private
-   public :: read_face_load, read_direction, has_no_rest, magnitude_of
+   public :: read_face_load, read_direction, read_spin, has_no_rest, magnitude_of
 
    character(len=*), parameter :: LEVEL = 'level x2 of zero pressure, a real [L]'
    character(len=*), parameter :: LEVEL_OF_MAGNITUDE = 'another level x2, of the magnitude, a real [L]'
 
    real(wp), parameter :: FLAT = 1.0e-10_wp            ! of a direction: it lies in the plane
+
+   integer(ip), parameter :: FIRST = 4, AXIS = 7       !< items of CENTRIF: point, direction
+   character(len=*), parameter :: WHAT_POINT = 'a point of the axis, x, y, z [L]', &
+                                  WHAT_AXIS = 'direction of the axis, ax, ay, az, in the plane or across it, not all 0 [-]'
 
 contains
 
@@ -43,7 +52,16 @@ contains
       case ('H')
          kind = LOAD_HYDROSTATIC
          value(1) = magnitude
-         if (good(2)) call read_levels(line, context, keyword, value(2:), good(3))
+         if (good(2)) then
+            call get_real(context%deck, line_item(context%deck, line, 4_ip), LEVEL, value(2), good(3), keyword=keyword)
+            call get_real(context%deck, line_item(context%deck, line, 5_ip), LEVEL_OF_MAGNITUDE, value(3), ok, keyword=keyword)
+            good(3) = good(3) .and. ok
+            if (good(3) .and. .not. abs(value(2) - value(3)) > 0.0_wp) then
+               good(3) = .false.
+               call report_error(context%deck, line_item(context%deck, line, 5_ip), 'E-VALUE', &
+                                 'the pressure is zero at this level', expected=LEVEL_OF_MAGNITUDE, keyword=keyword)
+            end if
+         end if
       case default
          kind = LOAD_PRESSURE
          value(1) = magnitude
@@ -107,16 +125,11 @@ contains
       logical, intent(out) :: ok
       character(len=:), allocatable :: wanted
       real(wp) :: d(3)
-      integer(ip) :: i
-      logical :: good(3)
 
       direction = 0.0_wp
       wanted = 'direction of '//what//', two components, not both 0 [-]'
       if (what == 'gravity') wanted = 'direction of gravity, gx, gy, not both 0 [-]'
-      do i = 1, 3
-         call get_real(context%deck, line_item(context%deck, line, 3 + i), wanted, d(i), good(i), 0.0_wp, keyword)
-      end do
-      ok = all(good)
+      call get_reals(context%deck, line, 4_ip, wanted, d, ok, keyword, spread(0.0_wp, 1, 3))
       if (.not. ok) return
       if (abs(d(3)) <= FLAT*maxval(abs(d(:2)))) d(3) = 0.0_wp ! what a cosine of 90 degrees leaves
       ok = .not. abs(d(3)) > 0.0_wp .and. maxval(abs(d)) > 0.0_wp
@@ -133,22 +146,67 @@ contains
       end if
    end subroutine read_direction
 
-   !> Items 4 and 5: where the pressure is 0, and where it is the magnitude.
-   subroutine read_levels(line, context, keyword, levels, ok)
+   !> The axis of items 4 to 9, and the way from it: way(1:3) are S11, S12, S22, and S x0 is -there.
+   subroutine read_spin(line, context, square, is_ring, way, there, ok)
       type(data_line_t), intent(in) :: line
       type(build_context_t), intent(in) :: context
-      character(len=*), intent(in) :: keyword
-      real(wp), intent(out) :: levels(2)
+      real(wp), intent(in) :: square                   !< item 3, of the angular velocity [1/T^2]
+      logical, intent(in) :: is_ring                   !< axisymmetric elements: the axis is x2
+      real(wp), intent(out) :: way(3), there(2)        !< [-], [L]
       logical, intent(out) :: ok
+      real(wp) :: point(3), a(3)
       logical :: good(2)
 
-      call get_real(context%deck, line_item(context%deck, line, 4_ip), LEVEL, levels(1), good(1), keyword=keyword)
-      call get_real(context%deck, line_item(context%deck, line, 5_ip), LEVEL_OF_MAGNITUDE, levels(2), good(2), keyword=keyword)
-      ok = all(good)
+      way = 0.0_wp
+      there = 0.0_wp
+      ok = square >= 0.0_wp
+      if (.not. ok) call report_error(context%deck, line_item(context%deck, line, 3_ip), 'E-VALUE', &
+                                      'the square of an angular velocity is negative', expected=magnitude_of('CENTRIF'), &
+                                      keyword='DLOAD')
+      call get_reals(context%deck, line, FIRST, WHAT_POINT, point, good(1), 'DLOAD', spread(0.0_wp, 1, 3))
+      call get_reals(context%deck, line, AXIS, WHAT_AXIS, a, good(2), 'DLOAD', spread(0.0_wp, 1, 3))
+      ok = ok .and. all(good)
       if (.not. ok) return
-      ok = abs(levels(1) - levels(2)) > 0.0_wp
-      if (.not. ok) call report_error(context%deck, line_item(context%deck, line, 5_ip), 'E-VALUE', &
-                                      'the pressure is zero at this level', expected=LEVEL_OF_MAGNITUDE, keyword=keyword)
-   end subroutine read_levels
+      if (maxval(abs(a)) > 0.0_wp) a = a/maxval(abs(a))
+      call check_axis(line, context, is_ring, point, a, ok)
+      if (.not. ok) return
+      if (is_ring) then
+         way(1) = 1.0_wp
+      else if (abs(a(3)) > 0.0_wp) then
+         way = [1.0_wp, 0.0_wp, 1.0_wp]
+      else
+         a = a/norm2(a)
+         way = [a(2)*a(2), -a(1)*a(2), a(1)*a(1)]
+      end if
+      there = -[way(1)*point(1) + way(2)*point(2), way(2)*point(1) + way(3)*point(2)]
+   end subroutine read_spin
 
-end module atrito_read_face_load
+   subroutine check_axis(line, context, is_ring, point, a, ok)
+      type(data_line_t), intent(in) :: line
+      type(build_context_t), intent(in) :: context
+      logical, intent(in) :: is_ring
+      real(wp), intent(in) :: point(3), a(3)
+      logical, intent(out) :: ok
+      logical :: is_across
+
+      ok = .false.
+      is_across = abs(a(3)) > 0.0_wp
+      if (.not. any(abs(a) > 0.0_wp)) then
+         call report_error(context%deck, line_item(context%deck, line, min(AXIS, line%n_tokens + 1)), 'E-VALUE', &
+                           'the axis of CENTRIF has no direction', expected=WHAT_AXIS, keyword='DLOAD')
+      else if (is_ring .and. (is_across .or. abs(a(1)) > 0.0_wp .or. abs(point(1)) > 0.0_wp .or. abs(point(3)) > 0.0_wp)) then
+         call report_error(context%deck, line_item(context%deck, line, FIRST), 'E-VALUE', &
+                           'axisymmetric elements turn about the axis y alone', &
+                           expected='0, 0, 0, 0, 1, 0: a point of the axis and its direction', keyword='DLOAD')
+      else if (is_across .and. any(abs(a(:2)) > 0.0_wp)) then
+         call report_error(context%deck, line_item(context%deck, line, AXIS), 'E-VALUE', &
+                           'an oblique axis of CENTRIF pushes out of the plane', expected=WHAT_AXIS, keyword='DLOAD')
+      else if (.not. is_across .and. abs(point(3)) > 0.0_wp) then
+         call report_error(context%deck, line_item(context%deck, line, FIRST + 2), 'E-VALUE', &
+                           'an axis of CENTRIF beside the plane pushes out of it', expected='z = 0 [L]', keyword='DLOAD')
+      else
+         ok = .true.
+      end if
+   end subroutine check_axis
+
+end module atrito_read_load

@@ -1,0 +1,184 @@
+!> How supports and loads propagate from step to step: a step has those of the one before with the values that they had at its end,
+!> but for those whose place its own lines take.
+module atrito_propagation
+   use atrito_amplitudes, only: factor_at, time_before
+   use atrito_build_context, only: build_context_t, inherited_t, replaced_t
+   use atrito_deck, only: token_t, keyword_name
+   use atrito_diagnostics, only: report_error
+   use atrito_growth, only: resize
+   use atrito_id_map, only: id_map_t, add_id
+   use atrito_items, only: has_option, option_text, option_word
+   use atrito_kinds, only: ip, wp
+   use atrito_load_lists, only: condition_t, condition_list_t, add_condition, scaled
+   use atrito_model, only: LOAD_HYDROSTATIC
+   implicit none (type, external)
+   private
+   public :: is_of_step, is_inherited, removes_all, propagate, list_inherited, apply_condition, set_to_zero
+
+contains
+
+   !> A card of the step that is being built; what stands outside of all steps, which is reported, is read with the first.
+   pure logical function is_of_step(context, i)
+      type(build_context_t), intent(in) :: context
+      integer(ip), intent(in) :: i                     !< card of the deck
+
+      is_of_step = max(context%deck%cards(i)%step, 1_ip) == context%open%number
+   end function is_of_step
+
+   !> Whether a condition is not given by a line of the step that is being built.
+   pure logical function is_inherited(context, condition)
+      type(build_context_t), intent(in) :: context
+      type(condition_t), intent(in) :: condition
+
+      is_inherited = condition%line == 0
+      if (.not. is_inherited) is_inherited = context%deck%lines(condition%line)%first_token < context%open%first_token
+   end function is_inherited
+
+   !> OP=NEW: the step has nothing of a keyword from the step before. All cards of the keyword in the step say the same, or
+   !> nothing behind a first one that does: preprocessors write `*DLOAD, OP=NEW` alone, then `*DLOAD` with the lines.
+   logical function removes_all(context, keyword)
+      type(build_context_t), intent(in) :: context
+      character(len=*), intent(in) :: keyword
+      character(len=:), allocatable :: word
+      type(token_t) :: place
+      integer(ip) :: i
+      logical :: is_first, found, is_new
+
+      removes_all = .false.
+      is_first = .true.
+      do i = context%open%first_card, context%open%last_card
+         associate (card => context%deck%cards(i))
+            if (card%step /= context%open%number .or. keyword_name(card) /= keyword .or. .not. card%ok) cycle
+            is_new = option_word(context%deck, card, 'OP') == 'NEW'
+            if (is_first) removes_all = is_new
+            if (.not. is_first .and. .not. has_option(context%deck, card, 'OP')) is_new = removes_all
+            is_first = .false.
+            if (is_new .eqv. removes_all) cycle
+            call option_text(context%deck, card, 'OP', word, found, place)
+            call report_error(context%deck, place, 'E-CONFLICT', '*'//keyword//' has '//trim(merge('OP=NEW', 'OP=MOD', is_new))// &
+                              ' here, but '//trim(merge('OP=MOD', 'OP=NEW', is_new))//' before in this step', &
+                              expected='the same OP= for all *'//keyword//' of a step; MOD when left out', keyword=keyword)
+         end associate
+      end do
+   end function removes_all
+
+   !> From the end of a step to the beginning of the next: values stay what they are, and amplitudes over all time go on. What was
+   !> removed in the step before is gone.
+   pure subroutine propagate(context, conditions, keeps_zeros)
+      type(build_context_t), intent(in) :: context
+      type(condition_list_t), intent(inout) :: conditions
+      logical, intent(in) :: keeps_zeros               !< displacements of 0 are supports, loads of 0 are nothing
+      type(condition_t) :: condition
+      integer(ip) :: i, n
+      logical :: goes_on
+
+      n = 0
+      associate (amplitudes => context%model%amplitudes, steps => context%model%steps, k => context%open%number)
+         do i = 1, conditions%n
+            condition = conditions%list(i)
+            condition%from = scaled(condition%kind, condition%value, &
+                                    factor_at(amplitudes, condition%amplitude, steps(k - 1)%increments%period, &
+                                              time_before(steps, k)))
+            goes_on = condition%amplitude > 0
+            if (goes_on) goes_on = amplitudes(condition%amplitude)%is_total_time
+            if (.not. goes_on) then
+               condition%amplitude = 0
+               condition%value = condition%from
+            end if
+            if (is_nothing(condition) .and. .not. keeps_zeros) cycle
+            n = n + 1
+            conditions%list(n) = condition
+         end do
+      end associate
+      conditions%n = n
+   end subroutine propagate
+
+   pure logical function is_nothing(condition)
+      type(condition_t), intent(in) :: condition
+
+      is_nothing = .not. any(abs(condition%value(:merge(1, 3, condition%kind == LOAD_HYDROSTATIC))) > 0.0_wp)
+   end function is_nothing
+
+   !> A load goes to 0.
+   pure subroutine set_to_zero(load)
+      type(condition_t), intent(inout) :: load
+
+      load%value = scaled(load%kind, load%value, 0.0_wp)
+      load%amplitude = 0
+   end subroutine set_to_zero
+
+   !> Lists what a step inherits by the slots in which it acts: one for each dof, or one for each element.
+   pure subroutine list_inherited(n_slots, slots, inherited)
+      integer(ip), intent(in) :: n_slots
+      integer(ip), intent(in) :: slots(:)              !< of each condition
+      type(inherited_t), intent(out) :: inherited
+      integer(ip) :: i
+
+      inherited%n = size(slots, kind=ip)
+      allocate (inherited%head(n_slots), source=0_ip)
+      allocate (inherited%next(inherited%n))
+      do i = inherited%n, 1, -1
+         inherited%next(i) = inherited%head(slots(i))
+         inherited%head(slots(i)) = i
+      end do
+   end subroutine list_inherited
+
+   !> Puts a load in the place of one that the step inherits, of the same face and label; others there go to 0. Where there is none,
+   !> or a line of this step has taken its place, the load is added.
+   pure subroutine apply_condition(load, slot, inherited, loads, replaced)
+      type(condition_t), intent(in) :: load
+      integer(ip), intent(in) :: slot                  !< in which it acts, as in list_inherited
+      type(inherited_t), intent(inout) :: inherited
+      type(condition_list_t), intent(inout) :: loads
+      type(replaced_t), intent(inout) :: replaced      !< the line of each load that ends, and that of this one
+      real(wp) :: from(3)
+      integer(ip) :: i, place, before
+
+      place = 0
+      before = 0                                       ! the last that stays in the list; 0: none so far
+      i = 0
+      if (inherited%n > 0) i = inherited%head(slot)
+      do while (i > 0)
+         associate (old => loads%list(i))
+            if (old%face == load%face .and. old%label == load%label) then
+               if (old%kind > 0 .and. .not. is_nothing(old)) call note_replaced(old%line, load%line, replaced) ! else OP=NEW
+               call set_to_zero(old)
+               if (load%amplitude > 0) old%from = old%value
+               if (place == 0) place = i
+               if (before > 0) inherited%next(before) = inherited%next(i)
+               if (before == 0) inherited%head(slot) = inherited%next(i)
+            else
+               before = i
+            end if
+         end associate
+         i = inherited%next(i)
+      end do
+      if (place > 0) then                              ! a CENTRIF is two loads: the other one is added
+         if (loads%list(place)%kind /= load%kind) place = 0
+      end if
+      if (place == 0) then
+         call add_condition(loads, load)
+      else
+         from = loads%list(place)%from                 ! what the old one had come to is where the new one begins
+         loads%list(place) = load
+         loads%list(place)%from = from
+      end if
+   end subroutine apply_condition
+
+   !> Each line that ends is told once of each line that takes its place.
+   pure subroutine note_replaced(old, new, replaced)
+      integer(ip), intent(in) :: old, new              !< lines of the deck
+      type(replaced_t), intent(inout) :: replaced
+      logical :: known
+
+      if (new /= replaced%by) replaced%before = id_map_t()
+      replaced%by = new
+      call add_id(replaced%before, old, 1_ip, known)
+      if (known) return
+      if (.not. allocated(replaced%lines)) allocate (replaced%lines(2, 16))
+      if (replaced%n == size(replaced%lines, 2)) call resize(replaced%lines, replaced%n, 2*replaced%n)
+      replaced%n = replaced%n + 1
+      replaced%lines(:, replaced%n) = [old, new]
+   end subroutine note_replaced
+
+end module atrito_propagation
