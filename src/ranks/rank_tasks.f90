@@ -17,6 +17,7 @@ module atrito_rank_tasks
 
    !> What the tasks are.
    type, abstract :: rank_tasks_t
+      logical :: is_stopped = .false.               !< set by keep: no further task is to begin
    contains
       procedure(make_task), deferred :: make
       procedure(begin_task), deferred :: begin
@@ -88,7 +89,7 @@ contains
       wait_time = SHORT_PAUSE
       do
          do rank = ubound(task_of, 1, kind=ip), 0, -1     ! the others first: rank 0 may have to make its process
-            if (task_of(rank) > 0 .or. next > size(list)) cycle
+            if (task_of(rank) > 0 .or. next > size(list) .or. tasks%is_stopped) cycle
             task_of(rank) = list(next)
             next = next + 1
             call tasks%begin(task_of(rank))
