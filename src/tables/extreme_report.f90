@@ -5,7 +5,7 @@ module atrito_extreme_report
    use atrito_results, only: results_t, extreme_t
    use atrito_strings, only: append_string, string_t, to_text
    use atrito_summary, only: scales_t
-   use atrito_table, only: table_t, begin_table, add_integers, add_reals, add_words, clear_small
+   use atrito_table, only: table_t, begin_step_table, add_integers, add_reals, add_words, clear_small
    implicit none (type, external)
    private
    public :: build_extremes, describe_extremes, add_extremes
@@ -31,16 +31,14 @@ contains
             call clear_small(scale_of(extreme, scales), values(i:i))
          end associate
       end do
-      call begin_table(table, 'extremes', 'a row a quantity: its largest or least value, and where', n)
+      call begin_step_table(table, 'extremes', 'a row a quantity: its largest or least value, and where', n, results%step)
       call append_string(table%remarks, '[L]: u u1_max u1_min u2_max u2_min')
       call append_string(table%remarks, '[F/L^2]: mises s1_max s3_min contact_pressure contact_shear')
-      call add_integers(table, 'step', [results%step])
       call add_words(table, 'quantity', '-', names, on_the_left=.true.)
       call add_reals(table, 'value', 'mixed', values, 0.0_wp)
       call add_reals(table, 'x', 'L', results%extremes%x(1), scales%length)
       call add_reals(table, 'y', 'L', results%extremes%x(2), scales%length)
       call add_integers(table, 'node_or_element', results%extremes%id)
-      call add_integers(table, 'increment', [results%increment])
    end subroutine build_extremes
 
    !> The largest value of the field that a quantity is of.

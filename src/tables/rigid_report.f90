@@ -7,7 +7,7 @@ module atrito_rigid_report
    use atrito_results, only: results_t
    use atrito_strings, only: string_t, to_text
    use atrito_summary, only: scales_t
-   use atrito_table, only: table_t, begin_table, add_integers, add_words, add_real_columns, clear_small, one_word
+   use atrito_table, only: table_t, begin_step_table, add_integers, add_words, add_real_columns, clear_small, one_word
    implicit none (type, external)
    private
    public :: build_rigid_table, describe_rigid_bodies, describe_references
@@ -43,13 +43,11 @@ contains
       end do
       title = 'a row a rigid surface with a reference node'
       if (any(results%rigid%is_section)) title = title//', or a pre-tension section'
-      call begin_table(table, 'rigid', title//': its motion and what holds it', n)
-      call add_integers(table, 'step', spread(results%step, 1, n))
+      call begin_step_table(table, 'rigid', title//': its motion and what holds it', n, results%step)
       call add_words(table, 'body', '-', names, on_the_left=.true.)
       call add_integers(table, 'node', results%rigid%node)
       call add_real_columns(table, ['u1', 'u2', 'ur'], ['L', 'L', '-'], field(:, :3))
       call add_real_columns(table, ['r1    ', 'r2    ', 'moment'], ['F  ', 'F  ', 'F*L'], field(:, 4:))
-      call add_integers(table, 'increment', spread(results%increment, 1, n))
    end subroutine build_rigid_table
 
    !> The rigid surfaces that move, and what of them is prescribed at the end of a step.
