@@ -11,7 +11,7 @@
 !> gathered first, and a part is what lies between a place and the next.
 module atrito_archive
    use atrito_growth, only: grow
-   use atrito_hdf5_arrays, only: hdf5_arrays_t, create_arrays, open_arrays, put_list, get_list, outcome_of, close_arrays
+   use atrito_hdf5, only: hdf5_file_t, create_hdf5, open_hdf5, put_list, get_list, close_hdf5
    use atrito_kinds, only: ip, lp, wp
    use atrito_spool, only: spool_t, open_spool, place_of, go_to, give_up_rest, put_values, get_values, close_spool
    use atrito_status, only: status_t, set_status, is_ok, STATUS_FILE
@@ -25,7 +25,7 @@ module atrito_archive
       logical :: is_reading = .false.
       character(len=:), allocatable :: path          !< for messages
       type(status_t) :: status                       !< first failure
-      type(hdf5_arrays_t), private :: file
+      type(hdf5_file_t), private :: file
       logical, private :: is_spooled = .false.
       type(spool_t), private :: spool
       character(len=:), allocatable, private :: part
@@ -56,7 +56,7 @@ contains
       type(archive_t), intent(out) :: archive
 
       archive%path = final_path
-      call create_arrays(path, final_path, archive%file)
+      call create_hdf5(path, final_path, .true., archive%file)
       call empty_part(archive)
    end subroutine create_archive
 
@@ -67,7 +67,7 @@ contains
 
       archive%is_reading = .true.
       archive%path = path
-      call open_arrays(path, archive%file)
+      call open_hdf5(path, archive%file)
       call empty_part(archive)
    end subroutine open_archive
 
@@ -161,7 +161,7 @@ contains
       call get_list(archive%file, archive%part//'/reals', archive%reals)
       call get_list(archive%file, archive%part//'/integers', archive%longs)
       call get_list(archive%file, archive%part//'/text', archive%text)
-      if (is_ok(archive%status)) call outcome_of(archive%file, archive%status)
+      if (is_ok(archive%status)) archive%status = archive%file%status
       ! no room to hold them: there is nothing, and the first value will be missing
       if (.not. allocated(archive%reals)) allocate (archive%reals(0))
       if (.not. allocated(archive%longs)) allocate (archive%longs(0))
@@ -200,7 +200,7 @@ contains
       type(status_t) :: of_file
 
       status = archive%status
-      call close_arrays(archive%file, of_file)
+      call close_hdf5(archive%file, of_file)
       ! what fails in the file makes nothing but failures behind it
       if (.not. is_ok(of_file)) status = of_file
    end subroutine close_archive

@@ -15,7 +15,7 @@ module atrito_write_fields
    use atrito_frame_tables, only: stress_rows
    use atrito_increments, only: ending_text, time_text
    use atrito_write_tables, only: origin_of
-   use atrito_hdf5, only: hdf5_file_t, open_hdf5, begin_dataset, put_row, put_attribute, close_hdf5
+   use atrito_hdf5, only: hdf5_file_t, create_hdf5, put_array, put_attribute, close_hdf5
    use atrito_xdmf, only: xdmf_grid_t, xdmf_frame_t, begin_grid, add_field, begin_xdmf, add_time, end_xdmf, CENTRE_NODE, CENTRE_CELL
    implicit none (type, external)
    private
@@ -58,7 +58,7 @@ contains
       if (size(due) == 0) return
       names = list_field_files(model)
       call reserve_file(set, names(1)%s, path)
-      call open_hdf5(path, set%folder//'/'//names(1)%s, file)
+      call create_hdf5(path, set%folder//'/'//names(1)%s, .false., file)
       call open_text(set, names(2)%s, text)
       call begin_xdmf(PROGRAM_NAME//' '//PROGRAM_VERSION, warning_of(history), lines)
       call put_origin(file, model, history)
@@ -193,34 +193,20 @@ contains
       character(len=*), intent(in) :: name, topology
       type(xdmf_grid_t), allocatable, intent(inout) :: grids(:)
       type(xdmf_grid_t) :: grid
-      integer(ip) :: n
+      integer(ip), allocatable :: elements(:)
+      integer(ip) :: e, n
 
-      n = count(mesh%shape == shape, kind=ip)
+      elements = pack([(e, e=1, mesh%n_elements)], mesh%shape(:mesh%n_elements) == shape)
+      n = size(elements, kind=ip)
       if (n == 0) return
-      call put_elements(file, '/mesh/'//name, mesh, shape, n)
+      call put_array(file, '/mesh/'//name//'/nodes', mesh%nodes(:shape, elements) - 1, 'rows of the nodes, counted from 0', '-')
+      call put_integers(file, '/mesh/'//name//'/element', 'number of the element', mesh%element_id(elements))
       call begin_grid(grid, 'bodies, '//name//' elements', topology, '/mesh/'//name//'/nodes', [n, shape, mesh%n_nodes], &
                       '/mesh/coordinates')
       call add_field(grid, '/mesh/node', 1_ip, .false., CENTRE_NODE)
       call add_field(grid, '/mesh/'//name//'/element', 1_ip, .false., CENTRE_CELL)
       grids = [grids, grid]
    end subroutine put_shape
-
-   subroutine put_elements(file, group, mesh, shape, n)
-      type(hdf5_file_t), intent(inout) :: file
-      character(len=*), intent(in) :: group
-      type(mesh_t), intent(in) :: mesh
-      integer(ip), intent(in) :: shape, n              !< n: how many there are of this shape
-      integer(ip) :: e
-
-      call begin_dataset(file, group//'/nodes', shape, n, .false., 'rows of the nodes, counted from 0', '-')
-      do e = 1, mesh%n_elements
-         if (mesh%shape(e) == shape) call put_row(file, mesh%nodes(:shape, e) - 1)
-      end do
-      call begin_dataset(file, group//'/element', 1_ip, n, .false., 'number of the element', '-')
-      do e = 1, mesh%n_elements
-         if (mesh%shape(e) == shape) call put_row(file, mesh%element_id(e:e))
-      end do
-   end subroutine put_elements
 
    !> Displacements, reactions and stresses at the nodes, each when asked for. They belong to the grids of all shapes.
    subroutine put_nodal_fields(file, model, results, grids)
@@ -268,8 +254,8 @@ contains
       if (.not. results%ends_step) path = path//'/increment_'//to_text(results%increment)
    end function frame_group
 
-   !> Reals (components, n), a row each of the dataset: all, or those of a list. Vectors in the plane become vectors of space, which
-   !> is what readers take for vectors; what is not asked for is NaN.
+   !> Reals (components, n): all, or those of a list. Vectors in the plane become vectors of space, which is what readers take for
+   !> vectors; what is not asked for is NaN.
    subroutine put_rows(file, path, name, dimension, values, list, mask, in_space)
       type(hdf5_file_t), intent(inout) :: file
       character(len=*), intent(in) :: path, name, dimension
@@ -277,23 +263,23 @@ contains
       integer(ip), intent(in), optional :: list(:)     !< of the columns of values
       logical, intent(in), optional :: mask(:)         !< (n) asked for
       logical, intent(in), optional :: in_space        !< with a third component, 0
-      real(wp) :: row(max(3, size(values, 1)))
-      integer(ip) :: n, n_components, i, k
+      real(wp), allocatable :: rows(:, :)
+      integer :: i, n
 
-      n = size(values, 2, kind=ip)
-      if (present(list)) n = size(list, kind=ip)
-      n_components = size(values, 1, kind=ip)
-      if (present(in_space)) n_components = merge(3_ip, n_components, in_space)
-      call begin_dataset(file, path, n_components, n, .true., name, dimension)
-      row = 0.0_wp
-      do i = 1, n
-         k = i
-         if (present(list)) k = list(i)
-         row(:size(values, 1)) = values(:, k)
-         if (present(mask)) row(:n_components) = merge(row(:n_components), ieee_value(1.0_wp, ieee_quiet_nan), mask(k))
-         call put_row(file, row(:n_components))
-         row = 0.0_wp
-      end do
+      n = size(values, 1)
+      if (present(list)) then
+         rows = values(:, list)
+      else
+         if (present(in_space)) n = merge(3, n, in_space)
+         allocate (rows(n, size(values, 2)), source=0.0_wp)
+         rows(:size(values, 1), :) = values
+      end if
+      if (present(mask)) then
+         do i = 1, size(mask)
+            if (.not. mask(i)) rows(:, i) = ieee_value(1.0_wp, ieee_quiet_nan)
+         end do
+      end if
+      call put_array(file, path, rows, name, dimension)
    end subroutine put_rows
 
    !> The nodes on these elements.
@@ -372,10 +358,8 @@ contains
          call put_integers(file, group//'cells', 'row of the point, counted from 0', [0_ip])
       else
          call begin_grid(grid, name, 'Polyline', group//'cells', [contact%n - 1, 2_ip, contact%n], group//'coordinates')
-         call begin_dataset(file, group//'cells', 2_ip, contact%n - 1, .false., 'rows of the points, counted from 0', '-')
-         do i = 1, contact%n - 1
-            call put_row(file, [i - 1, i])
-         end do
+         call put_array(file, group//'cells', reshape([(i - 1, i, i=1, contact%n - 1)], [2_ip, contact%n - 1]), &
+                        'rows of the points, counted from 0', '-')
       end if
    end subroutine put_slave_line
 
@@ -428,12 +412,8 @@ contains
       character(len=*), intent(in) :: path, name
       integer(ip), intent(in) :: values(:)
       type(xdmf_grid_t), intent(inout), optional :: grid
-      integer(ip) :: i
 
-      call begin_dataset(file, path, 1_ip, size(values, kind=ip), .false., name, '-')
-      do i = 1, size(values, kind=ip)
-         call put_row(file, values(i:i))
-      end do
+      call put_array(file, path, reshape(values, [1, size(values)]), name, '-')
       if (present(grid)) call add_field(grid, path, 1_ip, .false., CENTRE_NODE)
    end subroutine put_integers
 

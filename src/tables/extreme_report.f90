@@ -3,7 +3,7 @@ module atrito_extreme_report
    use atrito_kinds, only: ip, wp
    use atrito_page, only: page_t, add_blank, add_item, add_line, left, right, number
    use atrito_results, only: results_t, extreme_t
-   use atrito_strings, only: append_string, string_t, to_text
+   use atrito_strings, only: append_string, replaced, string_t, to_text
    use atrito_summary, only: scales_t
    use atrito_table, only: table_t, begin_step_table, add_integers, add_reals, add_words, clear_small
    implicit none (type, external)
@@ -84,18 +84,10 @@ contains
    pure function name_of(extreme) result(name)
       type(extreme_t), intent(in) :: extreme
       character(len=:), allocatable :: name
-      integer :: i
 
-      name = trim(extreme%quantity)
-      do i = 1, len(name)
-         if (name(i:i) == '_') name(i:i) = ' '
-      end do
+      name = replaced(trim(extreme%quantity), '_', ' ')
       if (name == 'u') name = '|u|'
-      if (extreme%quantity(1:1) == 'u') then
-         name = name//' [L]'
-      else
-         name = name//' [F/L^2]'
-      end if
+      name = name//trim(merge(' [L]    ', ' [F/L^2]', extreme%quantity(1:1) == 'u'))
    end function name_of
 
    !> For the screen: the largest displacement and the largest stress.

@@ -2,7 +2,7 @@
 module atrito_table
    use atrito_kinds, only: ip, wp, is_nan
    use atrito_provenance, only: provenance_t
-   use atrito_strings, only: string_t
+   use atrito_strings, only: string_t, replaced
    use atrito_utf8, only: visible
    implicit none (type, external)
    private
@@ -218,12 +218,8 @@ contains
    pure function one_word(text) result(word)
       character(len=*), intent(in) :: text
       character(len=len(text)) :: word
-      integer :: i
 
-      word = text
-      do i = 1, len(text)
-         if (text(i:i) == ' ' .or. text(i:i) == '#') word(i:i) = '_'
-      end do
+      word = replaced(text, ' #', '_')
    end function one_word
 
 end module atrito_table
