@@ -19,7 +19,6 @@ module atrito_stability_limit
    use atrito_page, only: page_t
    use atrito_provenance, only: provenance_t
    use atrito_report, only: report_t
-   use atrito_report_maker, only: make_report
    use atrito_reporter, only: reporter_t, report_progress
    use atrito_results, only: history_t, results_t
    use atrito_series_reports, only: begin_series, report_of_limit
@@ -32,7 +31,6 @@ module atrito_stability_limit
                                       falling_value, balanced_value, STEP_BALANCE, STEP_DONE, STANDS, FALLS, &
                                       UNDECIDED, FOUND_LIMIT, FOUND_INTERVAL, BOTH_STAND, BOTH_FALL
    use atrito_stability_tables, only: write_stability, compose_stability
-   use atrito_plot_files, only: PLOTS_OF_LIMIT
    use atrito_status, only: status_t, set_status, reword_status, is_ok, STATUS_OK, STATUS_USAGE, &
                             STATUS_NOT_CONVERGED, STATUS_SINGULAR
    use atrito_strings, only: string_t, append_string, to_text
@@ -59,7 +57,7 @@ contains
       if (is_ok(status) .and. .not. has_clp()) then
          call set_status(status, STATUS_USAGE, 'limit needs Clp, to prove that a scene falls: '//clp_trouble())
       end if
-      call claim_output(command, [character(len=9) :: 'limit', 'mechanism'], PLOTS_OF_LIMIT, claim, status)
+      call claim_output(command, [character(len=9) :: 'limit', 'mechanism'], claim, status)
       code = status%code
       if (.not. is_ok(status)) return
       call find_limit(command, limit, code)
@@ -354,7 +352,6 @@ contains
       type(page_t) :: page
       type(report_t) :: report
       type(string_t), allocatable :: pictures(:)
-      logical :: has_report
 
       origin = series_origin(command, provenance,.not. limit%is_close)
       call write_stability(output_folder(command), origin, limit, int(command%digits), status, command%is_csv)
@@ -364,14 +361,12 @@ contains
       if (command%plot) call write_stability_plots(output_folder(command), origin%deck, model, limit, command%view, &
                                                    pictures)
       call compose_stability(command%names(1)%s, output_folder(command), limit, seconds, page, pictures)
-      has_report = .false.
       if (command%report) then
          call begin_series('limit', command%names(1)%s, output_folder(command), ['limit    ', 'mechanism'], pictures, report)
          report%heading = model%heading
          call report_of_limit(limit, seconds, report)
-         call make_report(command, report, has_report)
       end if
-      call tell_series(command, page, has_report)
+      call tell_series(command, page, report)
    end subroutine finish
 
 end module atrito_stability_limit

@@ -11,12 +11,10 @@ module atrito_study
    use atrito_provenance, only: provenance_t
    use atrito_rank_tasks, only: rank_tasks_t, rank_times_t, work_for_first
    use atrito_report, only: report_t
-   use atrito_report_maker, only: make_report
    use atrito_reporter, only: reporter_t, report_progress
    use atrito_run_request, only: make_tasks, print_lost
    use atrito_series_reports, only: begin_series, take_heading, report_of_study
    use atrito_series, only: claim_output, find_provenance, series_origin, begin_pictures, tell_series
-   use atrito_plot_files, only: PLOTS_OF_STUDY
    use atrito_status, only: status_t, is_ok, STATUS_OK, STATUS_USAGE, STATUS_NOT_CONVERGED, STATUS_INTERNAL
    use atrito_strings, only: string_t, join, to_text
    use atrito_study_errors, only: study_t, study_probe_t
@@ -57,7 +55,7 @@ contains
 
       associate (command => runs%command, status => runs%status)
          call plan_study(asked, command, runs%study, status)
-         call claim_output(command, ['study'], PLOTS_OF_STUDY, claim, status)
+         call claim_output(command, ['study'], claim, status)
          code = status%code
          if (.not. is_ok(status)) return
          runs%reporter%quiet = command%quiet .or. command%json
@@ -207,7 +205,6 @@ contains
       type(report_t) :: report
       type(command_t) :: one
       type(string_t), allocatable :: drawn(:)
-      logical :: has_report
       character(len=:), allocatable :: title       !< the deck and what --set changed of it
 
       study%rounding = max(study%rounding, 10.0_wp**(1 - command%digits))
@@ -220,15 +217,13 @@ contains
       if (size(command%settings) > 0) title = title//', '//join(command%settings, ', ')
       if (command%plot) call write_study_plot(output_folder(command), title, study, drawn)
       call compose_study(command%names(1)%s, output_folder(command), study, page)
-      has_report = .false.
       if (command%report) then
          call begin_series('study', command%names(1)%s, output_folder(command), ['study'], drawn, report)
          call make_command(command, study%rows(1), one)
          call take_heading(one%folder, report)
          call report_of_study(study, report)
-         call make_report(command, report, has_report)
       end if
-      call tell_series(command, page, has_report)
+      call tell_series(command, page, report)
    end subroutine finish
 
 end module atrito_study

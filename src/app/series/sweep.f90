@@ -16,12 +16,11 @@ module atrito_sweep
    use atrito_mpi, only: rank_count
    use atrito_page, only: page_t, add_above_rule, number, plural
    use atrito_parcel, only: parcel_t, put, take
-   use atrito_plot_files, only: plot_folder, PLOTS_OF_SWEEP
+   use atrito_plot_files, only: plot_folder
    use atrito_processes, only: begin_worker, end_worker, share_integers
    use atrito_provenance, only: provenance_t
    use atrito_rank_tasks, only: rank_tasks_t, rank_times_t, work_for_first
    use atrito_report, only: report_t
-   use atrito_report_maker, only: make_report
    use atrito_reporter, only: reporter_t, report_progress
    use atrito_run, only: run_deck
    use atrito_run_request, only: make_tasks, is_sound, print_lost
@@ -74,7 +73,7 @@ contains
          call share_integers(OUTCOMES*sweep%plan%n_runs, sweep%shared)
          if (.not. associated(sweep%shared)) call set_status(status, STATUS_INTERNAL, 'no memory for the outcome of the runs')
       end if
-      call claim_output(command, ['sweep', 'runs '], PLOTS_OF_SWEEP, claim, status)
+      call claim_output(command, ['sweep', 'runs '], claim, status)
       code = status%code
       if (.not. is_ok(status)) return
       call make_and_collect(sweep, code)
@@ -268,7 +267,6 @@ contains
       type(report_t) :: report
       type(origin_t) :: origin
       type(string_t), allocatable :: pictures(:)
-      logical :: has_report
 
       if (.not. any(runs%is_written)) then
          call remove_journal(sweep%journal)
@@ -285,11 +283,9 @@ contains
          if (command%plot) call plot_sweep(command, plan, runs, origin%deck, pictures)
          call compose_sweep(command%names(1)%s, plan%names, observation_names(command%observe), runs, &
                             output_folder(command), seconds, page, pictures)
-         has_report = .false.
-         if (command%report) then
+            if (command%report) then
             call begin_series('sweep', command%names(1)%s, output_folder(command), ['sweep', 'runs '], pictures, report)
             call report_of_sweep(plan%names, runs, seconds, report)
-            call make_report(command, report, has_report)
          end if
          ! What is to be told of ranks, and of what was done before.
          if (sweep%n_left > 0) call add_above_rule(page, 'left alone', &
@@ -299,7 +295,7 @@ contains
                                                        number(times%longest_idle, 3)//' s at most; longest run '// &
                                                        number(times%longest_task, 3)//' s')
          end associate
-         call tell_series(command, page, has_report)
+         call tell_series(command, page, report)
       end associate
    end subroutine finish
 
