@@ -50,35 +50,21 @@ contains
       type(model_t), intent(in) :: model
       type(results_t), intent(in) :: frame
       character(len=*), intent(in) :: name
+      character(len=*), parameter :: NAMES(11) = [character(len=12) :: 'contact', 'nodes', 'reactions', 'stress', 'nodal_stress', &
+                                                  'bodies', 'joints', 'sections', 'rigid', 'extremes', 'resultants']
+      logical :: is_there(size(NAMES))
+      integer :: i
 
+      i = findloc(NAMES == name, .true., dim=1)
       associate (requests => model%steps(frame%step)%requests)
-         select case (name)
-         case ('contact')
-            has_table = pair_count(frame) > 0
-         case ('nodes')
-            has_table = requests%nodes .and. allocated(frame%u)
-         case ('reactions')
-            has_table = requests%reactions .and. allocated(frame%reaction)
-         case ('stress')
-            has_table = requests%stress .and. allocated(frame%stress)
-         case ('bodies')
-            has_table = requests%bodies .and. allocated(frame%bodies)
-         case ('rigid')
-            has_table = allocated(frame%rigid)
-         case ('joints')
-            has_table = requests%joints .and. allocated(frame%joints)
-         case ('nodal_stress')
-            has_table = requests%nodal_stress .and. allocated(frame%nodal_stress)
-         case ('extremes')
-            has_table = allocated(frame%extremes)
-         case ('resultants')
-            has_table = has_resultants(model)
-         case ('sections')
-            has_table = allocated(requests%cuts) .and. allocated(frame%cuts)
-         case default
-            has_table = has_rows(model, frame, name)
-         end select
+         is_there = [pair_count(frame) > 0, requests%nodes .and. allocated(frame%u), &
+                     requests%reactions .and. allocated(frame%reaction), requests%stress .and. allocated(frame%stress), &
+                     requests%nodal_stress .and. allocated(frame%nodal_stress), requests%bodies .and. allocated(frame%bodies), &
+                     requests%joints .and. allocated(frame%joints), allocated(requests%cuts) .and. allocated(frame%cuts), &
+                     allocated(frame%rigid), allocated(frame%extremes), has_resultants(model)]
       end associate
+      if (i > 0) has_table = is_there(i)
+      if (i == 0) has_table = has_rows(model, frame, name)
    end function has_table
 
    !> How often a table is printed. What ties, equations and springs transmit and rigid surfaces do goes with the contact.
