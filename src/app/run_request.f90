@@ -7,7 +7,7 @@ module atrito_run_request
    use atrito_model, only: model_t
    use atrito_observations, only: observations_t, read_observations
    use atrito_mpi, only: rank_count
-   use atrito_parcel, only: parcel_t, put, take
+   use atrito_buffer, only: buffer_t, put, take
    use atrito_rank_services, only: send_to_others, SERVICE_RUNS
    use atrito_rank_tasks, only: rank_tasks_t, rank_times_t, hand_out
    use atrito_run, only: read_model
@@ -27,43 +27,43 @@ contains
       class(rank_tasks_t), intent(inout) :: tasks
       integer(ip), intent(in) :: list(:)            !< of tasks, in the order in which they begin
       type(rank_times_t), intent(out) :: times
-      type(parcel_t) :: parcel
+      type(buffer_t) :: buffer
       type(string_t), allocatable :: arguments(:)
       integer :: i
 
       if (size(list) == 0) return
       if (rank_count() > 1) then
          call fetch_arguments(arguments)
-         call put(parcel, SERVICE_RUNS)
-         call put_arguments(arguments, parcel)
-         call send_to_others(parcel)
+         call put(buffer, SERVICE_RUNS)
+         call put_arguments(arguments, buffer)
+         call send_to_others(buffer)
          call hand_out(tasks, list, times)
          return
       end if
       do i = 1, size(list)
          call tasks%begin(list(i))
-         parcel = parcel_t()
-         call tasks%make(list(i), parcel)
-         call tasks%keep(list(i), parcel, 0)
+         buffer = buffer_t()
+         call tasks%make(list(i), buffer)
+         call tasks%keep(list(i), buffer, 0)
          if (tasks%is_stopped) exit
       end do
    end subroutine make_tasks
 
    !> The arguments of the program, for another rank.
-   subroutine put_arguments(arguments, parcel)
+   subroutine put_arguments(arguments, buffer)
       type(string_t), intent(in) :: arguments(:)
-      type(parcel_t), intent(inout) :: parcel
+      type(buffer_t), intent(inout) :: buffer
       integer :: i
 
-      call put(parcel, size(arguments, kind=ip))
+      call put(buffer, size(arguments, kind=ip))
       do i = 1, size(arguments)
-         call put(parcel, arguments(i)%s)
+         call put(buffer, arguments(i)%s)
       end do
    end subroutine put_arguments
 
    !> On the other ranks: the command, from a request whose first number has been taken.
    subroutine take_request(request, command)
-      type(parcel_t), intent(inout) :: request
+      type(buffer_t), intent(inout) :: request
       type(command_t), intent(out) :: command
       type(string_t), allocatable :: arguments(:)
       type(message_t) :: error

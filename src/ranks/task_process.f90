@@ -7,7 +7,7 @@ module atrito_task_process
    use, intrinsic :: iso_c_binding, only: c_double, c_f_pointer, c_int, c_loc
    use, intrinsic :: iso_fortran_env, only: int8
    use atrito_kinds, only: ip, lp
-   use atrito_parcel, only: parcel_t, make_parcel, parcel_bytes
+   use atrito_buffer, only: buffer_t, make_buffer, buffer_bytes
    use atrito_processes, only: begin_worker, end_worker, share_integers
    use atrito_status, only: STATUS_INTERNAL
    use atrito_system, only: get_shared, maker_number, pause_for, process_number, set_shared, swap_shared, worker_end
@@ -67,7 +67,7 @@ contains
    !> Whether the task is done, or lost: then the copy is gone, and the answer is empty.
    subroutine ask_answer(process, answer, is_done, end_code)
       type(task_process_t), intent(inout) :: process
-      type(parcel_t), intent(out), target :: answer
+      type(buffer_t), intent(out), target :: answer
       logical, intent(out) :: is_done
       integer, intent(out) :: end_code              !< of a copy that is gone, as that of worker_end, never 0; else 0
       integer :: ended
@@ -91,11 +91,11 @@ contains
 
    subroutine take_answer(process, answer)
       type(task_process_t), intent(inout) :: process
-      type(parcel_t), intent(inout), target :: answer
+      type(buffer_t), intent(inout), target :: answer
       integer(int8), pointer :: bytes(:), found(:)
 
-      call make_parcel(int(process%shared(LENGTH), lp), answer)
-      bytes => parcel_bytes(answer)
+      call make_buffer(int(process%shared(LENGTH), lp), answer)
+      bytes => buffer_bytes(answer)
       found => shared_bytes(process, size(bytes, kind=lp))
       bytes = found
       call set_shared(process%shared(ANSWERED), 0_c_int)
@@ -132,10 +132,10 @@ contains
    !> In the copy: hands the answer over.
    subroutine give_answer(process, answer)
       type(task_process_t), intent(inout) :: process
-      type(parcel_t), intent(in), target :: answer
+      type(buffer_t), intent(in), target :: answer
       integer(int8), pointer :: bytes(:), room(:)
 
-      bytes => parcel_bytes(answer)
+      bytes => buffer_bytes(answer)
       if (size(bytes, kind=lp) > NUMBER_BYTES*MOST_NUMBERS) error stop 'atrito_task_process: an answer is too long'
       room => shared_bytes(process, size(bytes, kind=lp))
       room = bytes

@@ -7,7 +7,7 @@ module atrito_study
    use atrito_kinds, only: ip, wp
    use atrito_mpi, only: rank_count
    use atrito_page, only: page_t
-   use atrito_parcel, only: parcel_t, put, put_status, take, take_status
+   use atrito_buffer, only: buffer_t, put, put_status, take, take_status
    use atrito_provenance, only: provenance_t
    use atrito_rank_tasks, only: rank_tasks_t, rank_times_t, work_for_first
    use atrito_report, only: report_t
@@ -144,7 +144,7 @@ contains
    subroutine make_task(self, task, answer)
       class(study_runs_t), intent(inout) :: self
       integer(ip), intent(in) :: task
-      type(parcel_t), intent(inout) :: answer
+      type(buffer_t), intent(inout) :: answer
       real(wp) :: values(size(self%study%quantities))
       type(status_t) :: status
       integer(ip) :: n
@@ -166,7 +166,7 @@ contains
    subroutine take_answer(self, task, answer, end_code)
       class(study_runs_t), intent(inout) :: self
       integer(ip), intent(in) :: task
-      type(parcel_t), intent(inout) :: answer
+      type(buffer_t), intent(inout) :: answer
       integer, intent(in) :: end_code
       type(status_t) :: status
       integer :: i

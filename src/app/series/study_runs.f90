@@ -11,7 +11,7 @@ module atrito_study_runs
    use atrito_model, only: model_t, interaction_t
    use atrito_observations, only: observations_t
    use atrito_read_table, only: table_file_t, find_column
-   use atrito_parcel, only: parcel_t, put, take
+   use atrito_buffer, only: buffer_t, put, take
    use atrito_reporter, only: reporter_t
    use atrito_results, only: history_t, results_t
    use atrito_run, only: run_deck, load_model, prepare_observations, solve_options, agree_on_outcome
@@ -112,36 +112,36 @@ contains
 
    !> Adds what was found in a run, for another rank. What has a fixed size goes as it lies in memory, so that no component is
    !> forgotten. Element and level stay.
-   subroutine put_row(row, parcel)
+   subroutine put_row(row, buffer)
       type(study_row_t), intent(in) :: row          !< with values and phases
-      type(parcel_t), intent(inout) :: parcel
+      type(buffer_t), intent(inout) :: buffer
 
-      call put(parcel, transfer(row%run_facts_t, [0_ip]))
-      call put(parcel, row%code)
-      call put(parcel, [row%estimate, row%penetration, row%pressure])
-      call put(parcel, row%values)
-      call put(parcel, size(row%phases, kind=ip))
-      call put(parcel, transfer(row%phases, [0_ip]))
+      call put(buffer, transfer(row%run_facts_t, [0_ip]))
+      call put(buffer, row%code)
+      call put(buffer, [row%estimate, row%penetration, row%pressure])
+      call put(buffer, row%values)
+      call put(buffer, size(row%phases, kind=ip))
+      call put(buffer, transfer(row%phases, [0_ip]))
    end subroutine put_row
 
    !> The next items, a row.
-   subroutine take_row(parcel, row)
-      type(parcel_t), intent(inout) :: parcel
+   subroutine take_row(buffer, row)
+      type(buffer_t), intent(inout) :: buffer
       type(study_row_t), intent(inout) :: row
       integer(ip), allocatable :: memory(:)
       real(wp), allocatable :: amounts(:)
       integer(ip) :: n
 
-      call take(parcel, memory)
+      call take(buffer, memory)
       row%run_facts_t = transfer(memory, row%run_facts_t)
-      call take(parcel, row%code)
-      call take(parcel, amounts)
+      call take(buffer, row%code)
+      call take(buffer, amounts)
       row%estimate = amounts(1)
       row%penetration = amounts(2)
       row%pressure = amounts(3)
-      call take(parcel, row%values)
-      call take(parcel, n)
-      call take(parcel, memory)
+      call take(buffer, row%values)
+      call take(buffer, n)
+      call take(buffer, memory)
       row%phases = transfer(memory, [phase_time_t()], n)
    end subroutine take_row
 

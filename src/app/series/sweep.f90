@@ -15,7 +15,7 @@ module atrito_sweep
    use atrito_observations, only: observation_names
    use atrito_mpi, only: rank_count
    use atrito_page, only: page_t, add_above_rule, number, plural
-   use atrito_parcel, only: parcel_t, put, take
+   use atrito_buffer, only: buffer_t, put, take
    use atrito_plot_files, only: plot_folder
    use atrito_processes, only: begin_worker, end_worker, share_integers
    use atrito_provenance, only: provenance_t
@@ -180,7 +180,7 @@ contains
    subroutine make_run(self, task, answer)
       class(sweep_t), intent(inout) :: self
       integer(ip), intent(in) :: task
-      type(parcel_t), intent(inout) :: answer
+      type(buffer_t), intent(inout) :: answer
       type(command_t) :: one
       type(run_facts_t) :: facts
       integer :: code
@@ -197,7 +197,7 @@ contains
    subroutine end_run(self, task, answer, end_code)
       class(sweep_t), intent(inout) :: self
       integer(ip), intent(in) :: task
-      type(parcel_t), intent(inout) :: answer
+      type(buffer_t), intent(inout) :: answer
       integer, intent(in) :: end_code
       integer(ip), allocatable :: outcome(:)
 
