@@ -13,13 +13,12 @@ module atrito_archive
    use atrito_growth, only: grow
    use atrito_hdf5, only: hdf5_file_t, create_hdf5, open_hdf5, put_list, get_list, close_hdf5
    use atrito_kinds, only: ip, lp, wp
-   use atrito_spool, only: spool_t, open_spool, place_of, go_to, give_up_rest, put_values, get_values, close_spool
+   use atrito_spool, only: spool_t, open_spool, go_to, put_values, get_values
    use atrito_status, only: status_t, set_status, is_ok, STATUS_FILE
    implicit none (type, external)
    private
-   public :: spool_archive, write_at, read_at, place_in, forgive_writing, close_spooled
-   public :: archive_t, create_archive, open_archive, begin_part, end_part, exchange, exchange_vector, exchange_numbers, &
-             exchange_word, exchange_length, demand, is_sound, close_archive
+   public :: archive_t, spool_archive, turn_to, create_archive, open_archive, begin_part, end_part, exchange, exchange_vector, &
+             exchange_numbers, exchange_word, exchange_length, demand, is_sound, close_archive
 
    type :: archive_t
       logical :: is_reading = .false.
@@ -27,7 +26,7 @@ module atrito_archive
       type(status_t) :: status                       !< first failure
       type(hdf5_file_t), private :: file
       logical, private :: is_spooled = .false.
-      type(spool_t), private :: spool
+      type(spool_t) :: spool                         !< of one that is spooled
       character(len=:), allocatable, private :: part
       real(wp), allocatable, private :: reals(:)     !< of the part
       integer(lp), allocatable, private :: longs(:)
@@ -83,46 +82,16 @@ contains
       call note_outcome(archive)
    end subroutine spool_archive
 
-   !> From now on what is exchanged is written, from a place on [bytes].
-   subroutine write_at(archive, place)
+   !> From now on what is exchanged is written at a place of a spooled archive [bytes], or read there.
+   subroutine turn_to(archive, place, is_reading)
       type(archive_t), intent(inout) :: archive
       integer(lp), intent(in) :: place
+      logical, intent(in) :: is_reading
 
-      archive%is_reading = .false.
+      archive%is_reading = is_reading
       call go_to(archive%spool, place)
       call note_outcome(archive)
-   end subroutine write_at
-
-   !> From now on what is exchanged is read.
-   subroutine read_at(archive, place)
-      type(archive_t), intent(inout) :: archive
-      integer(lp), intent(in) :: place
-
-      call write_at(archive, place)
-      archive%is_reading = .true.
-   end subroutine read_at
-
-   !> Where a spooled archive is [bytes].
-   integer(lp) function place_in(archive)
-      type(archive_t), intent(in) :: archive
-
-      place_in = place_of(archive%spool)
-   end function place_in
-
-   !> What could not be written, for want of room, is given up; what stands before it can be read.
-   subroutine forgive_writing(archive)
-      type(archive_t), intent(inout) :: archive
-
-      call give_up_rest(archive%spool)
-      archive%status = status_t()
-   end subroutine forgive_writing
-
-   !> Lets go of the file of a spooled archive, which is gone then.
-   subroutine close_spooled(archive)
-      type(archive_t), intent(inout) :: archive
-
-      call close_spool(archive%spool)
-   end subroutine close_spooled
+   end subroutine turn_to
 
    subroutine note_outcome(archive)
       type(archive_t), intent(inout) :: archive

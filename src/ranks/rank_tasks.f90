@@ -10,7 +10,7 @@ module atrito_rank_tasks
    use atrito_rank_services, only: await_message
    use atrito_system, only: pause_for
    use atrito_task_process, only: task_process_t, begin_task_process, give_task, ask_answer, end_task_process, await_task, &
-                                  give_answer, is_there, LAST_TASK
+                                  give_answer, LAST_TASK
    implicit none (type, external)
    private
    public :: rank_tasks_t, rank_times_t, hand_out, work_for_first
@@ -186,11 +186,11 @@ contains
       integer(ip), intent(in) :: task
       logical :: is_copy
 
-      if (.not. is_there(process)) then
+      if (.not. process%runs) then
          call begin_task_process(process, is_copy)
          if (is_copy) call work_in_copy(tasks, process)
       end if
-      if (is_there(process)) call give_task(process, task)
+      if (process%runs) call give_task(process, task)
    end subroutine begin_own
 
    !> Does not come back.
@@ -217,7 +217,7 @@ contains
       logical, intent(out) :: is_done
 
       is_done = .true.
-      if (is_there(process)) then
+      if (process%runs) then
          call ask_answer(process, outcome%answer, is_done, outcome%end_code)
       else
          call tasks%make(task, outcome%answer)

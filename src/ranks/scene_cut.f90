@@ -22,14 +22,14 @@ module atrito_scene_cut
    !> What belongs to which part. Nodes and motions: those of body b are the last but bodies%n - b.
    type :: scene_cut_t
       integer(ip) :: n_parts = 0
-      integer(ip) :: n_shared = 0                       !< unknowns that are shared
+      integer(ip) :: n_shared = 0                    !< unknowns that are shared
       integer(ip), allocatable :: first_element(:), element(:) !< of part p: element(first_element(p):first_element(p + 1) - 1)
       integer(ip), allocatable :: first_point(:), point(:)     !< the same of points with a row
       logical, allocatable :: is_shared(:)           !< (nodes and motions)
       integer(ip), allocatable :: pull_part(:)       !< (bodies) 0: it has no motions
       integer(ip), allocatable :: spring_part(:)     !< (k) 0: none
       real(wp), allocatable :: spring_stiffness(:)   !< (k) [F/L]
-      integer(ip), allocatable :: shared_number(:)          !< (n) number of an unknown among those that are shared; 0: it is not
+      integer(ip), allocatable :: shared_number(:)   !< (n) number of an unknown among those that are shared; 0: it is not
       integer(ip), allocatable :: place(:)           !< (nodes and motions) for whoever makes the parts: 0
       integer(ip), allocatable :: unknown_at(:)      !< (n) the same
    end type scene_cut_t

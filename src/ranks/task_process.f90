@@ -13,15 +13,14 @@ module atrito_task_process
    use atrito_system, only: get_shared, maker_number, pause_for, process_number, set_shared, swap_shared, worker_end
    implicit none (type, external)
    private
-   public :: task_process_t, begin_task_process, give_task, ask_answer, end_task_process, await_task, give_answer, is_there
+   public :: task_process_t, begin_task_process, give_task, ask_answer, end_task_process, await_task, give_answer
    public :: LAST_TASK
 
    type :: task_process_t
-      private
-      integer :: number = 0                        !< of the process
-      integer :: maker = 0                         !< of the one that made it
-      logical :: runs = .false.
-      integer(c_int), pointer :: shared(:) => null()
+      logical :: runs = .false.                    !< it has been begun, and not been ended
+      integer, private :: number = 0               !< of the process
+      integer, private :: maker = 0                !< of the one that made it
+      integer(c_int), pointer, private :: shared(:) => null()
    end type task_process_t
 
    integer(ip), parameter :: LAST_TASK = -1_ip      !< there is nothing more to do
@@ -34,7 +33,7 @@ module atrito_task_process
 
 contains
 
-   !> Makes the copy. is_copy tells which of the two this is. Where the system makes none, is_there tells so.
+   !> Makes the copy. is_copy tells which of the two this is. Where the system makes none, it does not run.
    subroutine begin_task_process(process, is_copy)
       type(task_process_t), intent(inout) :: process
       logical, intent(out) :: is_copy
@@ -48,13 +47,6 @@ contains
       if (.not. is_copy) return
       if (maker_number() /= process%maker) call end_worker()
    end subroutine begin_task_process
-
-   !> Whether the process has been begun, and not been ended.
-   pure logical function is_there(process)
-      type(task_process_t), intent(in) :: process
-
-      is_there = process%runs
-   end function is_there
 
    !> To a copy that has answered the one before.
    subroutine give_task(process, task)
