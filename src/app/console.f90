@@ -1,16 +1,25 @@
-!> What goes to the terminal: messages, failures, lines.
+!> What goes to the terminal: messages, the words that say how grave they are in colours where it has them, failures, lines.
 module atrito_console
+   use, intrinsic :: iso_c_binding, only: c_int
    use, intrinsic :: iso_fortran_env, only: error_unit
-   use atrito_colours, only: wants_colours, paint_message
    use atrito_kinds, only: ip
    use atrito_message_json, only: json_of_message
-   use atrito_messages, only: message_t, count_messages, get_message, format_message, SEVERITY_ERROR, SEVERITY_NOTE, MOST_ERRORS
+   use atrito_messages, only: message_t, count_messages, get_message, format_message, place_of_message, severity_word, &
+                              SEVERITY_ERROR, SEVERITY_NOTE, MOST_ERRORS
    use atrito_status, only: status_t, STATUS_USAGE, STATUS_FILE
    use atrito_strings, only: string_t, to_text
+   use atrito_system, only: c_is_terminal
    use atrito_version, only: PROGRAM_NAME
    implicit none (type, external)
    private
-   public :: print_messages, print_status, print_message, print_line, print_lines
+   public :: print_messages, print_status, print_message, print_line, print_lines, paint_message
+
+   integer(c_int), parameter :: STANDARD_ERROR = 2
+   character(len=*), parameter :: ESCAPE = achar(27)//'['
+   !> Bold red, bold magenta and bold cyan, as compilers have them (ECMA-48).
+   character(len=5), parameter :: COLOURS(SEVERITY_NOTE) = ['1;31m', '1;35m', '1;36m']
+
+   character(len=8), parameter :: WORDS(SEVERITY_NOTE) = ['errors  ', 'warnings', 'notes   ']
 
 contains
 
@@ -22,7 +31,6 @@ contains
       logical, intent(in) :: json                   !< one object a line
       type(message_t) :: message
       integer(ip) :: i, printed(SEVERITY_NOTE), n(SEVERITY_NOTE)
-      character(len=8), parameter :: WORD(SEVERITY_NOTE) = ['errors  ', 'warnings', 'notes   ']
 
       n = 0
       do i = first, count_messages()
@@ -37,7 +45,7 @@ contains
       end if
       printed = min(n, int(MOST_ERRORS, ip))
       do i = 1, SEVERITY_NOTE
-         if (n(i) > printed(i)) call print_line('... the first '//to_text(printed(i))//' of '//to_text(n(i))//' '//trim(WORD(i)), &
+         if (n(i) > printed(i)) call print_line('... the first '//to_text(printed(i))//' of '//to_text(n(i))//' '//trim(WORDS(i)), &
                                                 error_unit)
       end do
       if (n(SEVERITY_ERROR) > 0) call print_line(to_text(n(SEVERITY_ERROR))//' '// &
@@ -65,7 +73,6 @@ contains
       logical, intent(in) :: quiet
       type(message_t) :: message
       integer(ip) :: i, rest(SEVERITY_NOTE)
-      character(len=8), parameter :: WORD(SEVERITY_NOTE) = ['errors  ', 'warnings', 'notes   ']
 
       rest = [(count_messages(int(i)), i=1, SEVERITY_NOTE)]
       do i = 1, count_messages()
@@ -74,7 +81,7 @@ contains
       end do
       do i = 1, merge(SEVERITY_NOTE - 1, SEVERITY_NOTE, quiet)
          if (rest(i) == 0) cycle
-         message = message_t(severity=int(i), id='N-MORE', text=to_text(rest(i))//' more '//trim(WORD(i))//' are not told')
+         message = message_t(severity=int(i), id='N-MORE', text=to_text(rest(i))//' more '//trim(WORDS(i))//' are not told')
          call print_message(message, .true.)
       end do
    end subroutine print_rest
@@ -85,8 +92,8 @@ contains
       character(len=*), intent(in) :: file          !< the deck, as the user wrote it
       logical, intent(in) :: json
       type(message_t) :: message
-      character(len=15), parameter :: IDS(STATUS_FILE) = [character(len=15) :: 'E-COMMAND', 'E-DECK', 'E-NOT-CONVERGED', &
-                                                                                                             'E-SINGULAR', 'E-FILE']
+      character(len=*), parameter :: IDS(STATUS_FILE) = [character(len=15) :: 'E-COMMAND', 'E-DECK', 'E-NOT-CONVERGED', &
+                                                         'E-SINGULAR', 'E-FILE']
 
       if (.not. allocated(status%text)) return
       message%id = 'E-INTERNAL'
@@ -119,5 +126,38 @@ contains
       end do
       flush (unit, iostat=ios)                       ! a run that is interrupted later has told it
    end subroutine print_lines
+
+   !> Standard error is a terminal, which is not a dumb one, and the user does not object: NO_COLOR, where it is set, is empty.
+   logical function wants_colours()
+      character(len=:), allocatable :: terminal
+
+      wants_colours = c_is_terminal(STANDARD_ERROR) /= 0
+      if (.not. wants_colours) return
+      terminal = variable('TERM')
+      wants_colours = len(variable('NO_COLOR')) == 0 .and. len(terminal) > 0 .and. terminal /= 'dumb'
+   end function wants_colours
+
+   !> A variable of the environment; empty where it is not set.
+   function variable(name) result(value)
+      character(len=*), intent(in) :: name
+      character(len=:), allocatable :: value
+      integer :: length
+
+      call get_environment_variable(name, length=length)
+      allocate (character(len=length) :: value)
+      if (length > 0) call get_environment_variable(name, value)
+   end function variable
+
+   !> The first line of a message, the word of its severity coloured.
+   function paint_message(message, line) result(painted)
+      type(message_t), intent(in) :: message
+      character(len=*), intent(in) :: line          !< as format_message gives it
+      character(len=:), allocatable :: painted, word
+      integer :: first
+
+      word = severity_word(message%severity)
+      first = len(place_of_message(message)) + 1
+      painted = line(:first - 1)//ESCAPE//COLOURS(message%severity)//word//ESCAPE//'0m'//line(first + len(word):)
+   end function paint_message
 
 end module atrito_console

@@ -12,12 +12,12 @@ module atrito_driver
    use atrito_compare, only: comparison_t, begin_comparison, compare_paths
    use atrito_console, only: print_line, print_lines, print_message, print_messages, print_status
    use atrito_files, only: check_all_own
+   use atrito_help_pages, only: compose_man_page, compose_options, compose_usage
    use atrito_help, only: help_overview, help_keyword, help_manual
    use atrito_folder_claim, only: folder_claim_t, claim_folder, release_folder
    use atrito_keyword_table, only: keyword_table, keyword_names
    use atrito_kinds, only: ip
    use atrito_libraries, only: library_t, add_libraries, version_lines, LOADED
-   use atrito_man_page, only: compose_man_page
    use atrito_means, only: secure_means
    use atrito_messages, only: message_t, add_warning, clear_messages
    use atrito_model, only: model_t
@@ -39,7 +39,6 @@ module atrito_driver
    use atrito_system, only: guard_interrupts, keep_freed_memory
    use atrito_threads, only: set_threads
    use atrito_timers, only: reset_timers
-   use atrito_usage, only: compose_usage, compose_options
    use atrito_version, only: PROGRAM_NAME, PROGRAM_VERSION
    implicit none (type, external)
    private
@@ -215,6 +214,7 @@ contains
       type(command_t), intent(in) :: command
       integer, intent(out) :: code
       type(string_t), allocatable :: lines(:)
+      type(page_t) :: page
       character(len=:), allocatable :: words
       logical :: is_known
 
@@ -226,14 +226,16 @@ contains
       case ('ALL')
          call help_manual(lines)
       case ('MAN')
-         call compose_man_page(lines)
+         call compose_man_page(page)
       case ('BASH')
-         call compose_bash_completion(lines)
+         call compose_bash_completion(page)
       case default
          call help_keyword(words, lines, is_known)
       end select
       code = STATUS_OK
-      if (is_known) then
+      if (page%n > 0) then
+         call print_page(page, output_unit)
+      else if (is_known) then
          call print_lines(lines, output_unit)
       else
          code = STATUS_USAGE

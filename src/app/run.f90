@@ -49,15 +49,6 @@ module atrito_run
    private
    public :: run_deck, take_threads, load_model, read_model, prepare_observations, solve_options, agree_on_outcome
 
-   !> What a run works with besides its model.
-   type :: means_t
-      type(reporter_t) :: reporter
-      type(frame_spool_t) :: frames
-      type(restart_recorder_t) :: recorder
-      type(observations_t) :: observations
-      integer(ip) :: told = 0                       !< messages printed so far
-   end type means_t
-
 contains
 
    !> Solves a deck and writes its tables. What it reads is protected for so long.
@@ -66,66 +57,57 @@ contains
       type(body_cache_t), intent(inout) :: store    !< bodies of an earlier run; those of this one
       integer, intent(out) :: code                  !< one of STATUS_*
       type(run_facts_t), intent(out), optional :: facts
-
-      call forget_inputs()
-      call run_model(command, store, code, facts)
-      call forget_inputs()
-   end subroutine run_deck
-
-   subroutine run_model(command, store, code, facts)
-      type(command_t), intent(in) :: command
-      type(body_cache_t), intent(inout) :: store    !< bodies of an earlier run; those of this one
-      integer, intent(out) :: code                  !< one of STATUS_*
-      type(run_facts_t), intent(out), optional :: facts
+      type(reporter_t) :: reporter
       type(model_t) :: model
-      type(means_t), target :: means
+      type(observations_t) :: observations
+      type(restart_recorder_t) :: recorder
+      type(frame_spool_t), target :: frames
       type(status_t) :: status
+      integer(ip) :: told
 
+      call forget_inputs()
       call take_threads(command)                    ! the other ranks have nothing to do yet
-      means%reporter%quiet = command%quiet .or. command%json
-      call load_model(command, means%reporter, model, means%told, code, keeps_deck=.true.)
-      if (code == STATUS_OK) call prepare_observations(command, model, means%observations, code)
-      if (code /= STATUS_OK) return
-      call check_folder(output_folder(command), status)
-      call begin_frames(output_folder(command), means%frames)
-      if (is_ok(status)) call begin_recorder(command, model, means%recorder, means%frames, status)
-      if (is_ok(status)) call check_files(command, model, status)
-      if (is_ok(status)) then
-         call solve_and_write(command, model, means, store, code, facts)
-      else                                          ! better now than after an hour
-         call print_status(status, model%deck_path, command%json)
+      reporter%quiet = command%quiet .or. command%json
+      call load_model(command, reporter, model, told, code, keeps_deck=.true.)
+      if (code == STATUS_OK) call prepare_observations(command, model, observations, code)
+      if (code == STATUS_OK) then
+         call check_folder(output_folder(command), status)
+         call begin_frames(output_folder(command), frames)
+         if (is_ok(status)) call begin_recorder(command, model, recorder, frames, status)
+         if (is_ok(status)) call check_files(command, model, status)
          code = status%code
+         if (is_ok(status)) then
+            call set_threads(command%threads)
+            call solve_and_write()
+         else                                       ! better now than after an hour
+            call print_status(status, model%deck_path, command%json)
+         end if
+         call end_frames(frames)
       end if
-      call end_frames(means%frames)
-   end subroutine run_model
+      call forget_inputs()
 
-   subroutine solve_and_write(command, model, means, store, code, facts)
-      type(command_t), intent(in) :: command
-      type(model_t), intent(in) :: model
-      type(means_t), intent(inout), target :: means
-      type(body_cache_t), intent(inout) :: store
-      integer, intent(out) :: code
-      type(run_facts_t), intent(out), optional :: facts
-      type(history_t) :: history
-      type(status_t) :: status
+   contains
 
-      call set_threads(command%threads)
-      call solve_history(model, solve_options(command), means%reporter, history, status, store, means%recorder, &
-                         means%observations, means%frames)
-      call print_messages(command%quiet, means%told + 1, command%json)
-      associate (n => last_frame(history))
-         if (n > 0) call agree_on_outcome(status, history%frames(n), history%ending%is_early)
-         if (.not. is_ok(status)) call print_status(status, model%deck_path, command%json)
-         code = status%code
-         if (n == 0) return
-         call take_threads(command)                 ! they have nothing more to do
-         call write_run(command, means%reporter, model, history, code)
-         if (.not. present(facts)) return
-         facts = facts_of(model, history%frames(n))
-         facts%is_written = code == status%code         ! else they could not be
-         facts%is_whole = facts%is_written .and. .not. history%ending%is_early
-      end associate
-   end subroutine solve_and_write
+      subroutine solve_and_write()
+         type(history_t) :: history
+
+         call solve_history(model, solve_options(command), reporter, history, status, store, recorder, observations, frames)
+         call print_messages(command%quiet, told + 1, command%json)
+         associate (n => last_frame(history))
+            if (n > 0) call agree_on_outcome(status, history%frames(n), history%ending%is_early)
+            if (.not. is_ok(status)) call print_status(status, model%deck_path, command%json)
+            code = status%code
+            if (n == 0) return
+            call take_threads(command)              ! the other ranks have nothing more to do
+            call write_run(command, reporter, model, history, code)
+            if (.not. present(facts)) return
+            facts = facts_of(model, history%frames(n))
+            facts%is_written = code == status%code      ! else they could not be
+            facts%is_whole = facts%is_written .and. .not. history%ending%is_early
+         end associate
+      end subroutine solve_and_write
+
+   end subroutine run_deck
 
    !> The threads of this run, with those of ranks that wait on the same host: not where `ulimit -v` counts what each reserves.
    subroutine take_threads(command)

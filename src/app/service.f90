@@ -2,8 +2,8 @@
 module atrito_service
    use atrito_command_line, only: command_t, confine_command, TASK_STUDY, TASK_SWEEP
    use atrito_kinds, only: ip
-   use atrito_mpi, only: receive_parcel
-   use atrito_parcel, only: parcel_t, take
+   use atrito_mpi, only: receive_buffer
+   use atrito_buffer, only: buffer_t, take
    use atrito_part_service, only: serve_part
    use atrito_rank_memory, only: serve_memory
    use atrito_rank_services, only: await_message, SERVICE_END, SERVICE_FIELDS, SERVICE_MEMORY, SERVICE_PART, SERVICE_RUNS
@@ -20,12 +20,12 @@ contains
 
    !> Comes back when nothing more is wanted.
    subroutine serve()
-      type(parcel_t) :: request
+      type(buffer_t) :: request
       integer(ip) :: service
 
       do
          call await_message()
-         call receive_parcel(request, 0_ip)
+         call receive_buffer(request, 0_ip)
          call take(request, service)
          select case (service)
          case (SERVICE_END)
@@ -46,7 +46,7 @@ contains
 
    !> The runs of a sweep or a study.
    subroutine serve_runs(request)
-      type(parcel_t), intent(inout) :: request
+      type(buffer_t), intent(inout) :: request
       type(command_t) :: command
       type(status_t) :: status
 

@@ -11,23 +11,22 @@
 !> gathered first, and a part is what lies between a place and the next.
 module atrito_archive
    use atrito_growth, only: grow
-   use atrito_hdf5_arrays, only: hdf5_arrays_t, create_arrays, open_arrays, put_list, get_list, outcome_of, close_arrays
+   use atrito_hdf5, only: hdf5_file_t, create_hdf5, open_hdf5, put_list, get_list, close_hdf5
    use atrito_kinds, only: ip, lp, wp
-   use atrito_spool, only: spool_t, open_spool, place_of, go_to, give_up_rest, put_values, get_values, close_spool
+   use atrito_spool, only: spool_t, open_spool, go_to, put_values, get_values
    use atrito_status, only: status_t, set_status, is_ok, STATUS_FILE
    implicit none (type, external)
    private
-   public :: spool_archive, write_at, read_at, place_in, forgive_writing, close_spooled
-   public :: archive_t, create_archive, open_archive, begin_part, end_part, exchange, exchange_vector, exchange_numbers, &
-             exchange_word, exchange_length, demand, is_sound, close_archive
+   public :: archive_t, spool_archive, turn_to, create_archive, open_archive, begin_part, end_part, exchange, exchange_vector, &
+             exchange_numbers, exchange_word, exchange_length, demand, is_sound, close_archive
 
    type :: archive_t
       logical :: is_reading = .false.
       character(len=:), allocatable :: path          !< for messages
       type(status_t) :: status                       !< first failure
-      type(hdf5_arrays_t), private :: file
+      type(hdf5_file_t), private :: file
       logical, private :: is_spooled = .false.
-      type(spool_t), private :: spool
+      type(spool_t) :: spool                         !< of one that is spooled
       character(len=:), allocatable, private :: part
       real(wp), allocatable, private :: reals(:)     !< of the part
       integer(lp), allocatable, private :: longs(:)
@@ -56,7 +55,7 @@ contains
       type(archive_t), intent(out) :: archive
 
       archive%path = final_path
-      call create_arrays(path, final_path, archive%file)
+      call create_hdf5(path, final_path, .true., archive%file)
       call empty_part(archive)
    end subroutine create_archive
 
@@ -67,7 +66,7 @@ contains
 
       archive%is_reading = .true.
       archive%path = path
-      call open_arrays(path, archive%file)
+      call open_hdf5(path, archive%file)
       call empty_part(archive)
    end subroutine open_archive
 
@@ -83,46 +82,16 @@ contains
       call note_outcome(archive)
    end subroutine spool_archive
 
-   !> From now on what is exchanged is written, from a place on [bytes].
-   subroutine write_at(archive, place)
+   !> From now on what is exchanged is written at a place of a spooled archive [bytes], or read there.
+   subroutine turn_to(archive, place, is_reading)
       type(archive_t), intent(inout) :: archive
       integer(lp), intent(in) :: place
+      logical, intent(in) :: is_reading
 
-      archive%is_reading = .false.
+      archive%is_reading = is_reading
       call go_to(archive%spool, place)
       call note_outcome(archive)
-   end subroutine write_at
-
-   !> From now on what is exchanged is read.
-   subroutine read_at(archive, place)
-      type(archive_t), intent(inout) :: archive
-      integer(lp), intent(in) :: place
-
-      call write_at(archive, place)
-      archive%is_reading = .true.
-   end subroutine read_at
-
-   !> Where a spooled archive is [bytes].
-   integer(lp) function place_in(archive)
-      type(archive_t), intent(in) :: archive
-
-      place_in = place_of(archive%spool)
-   end function place_in
-
-   !> What could not be written, for want of room, is given up; what stands before it can be read.
-   subroutine forgive_writing(archive)
-      type(archive_t), intent(inout) :: archive
-
-      call give_up_rest(archive%spool)
-      archive%status = status_t()
-   end subroutine forgive_writing
-
-   !> Lets go of the file of a spooled archive, which is gone then.
-   subroutine close_spooled(archive)
-      type(archive_t), intent(inout) :: archive
-
-      call close_spool(archive%spool)
-   end subroutine close_spooled
+   end subroutine turn_to
 
    subroutine note_outcome(archive)
       type(archive_t), intent(inout) :: archive
@@ -161,7 +130,7 @@ contains
       call get_list(archive%file, archive%part//'/reals', archive%reals)
       call get_list(archive%file, archive%part//'/integers', archive%longs)
       call get_list(archive%file, archive%part//'/text', archive%text)
-      if (is_ok(archive%status)) call outcome_of(archive%file, archive%status)
+      if (is_ok(archive%status)) archive%status = archive%file%status
       ! no room to hold them: there is nothing, and the first value will be missing
       if (.not. allocated(archive%reals)) allocate (archive%reals(0))
       if (.not. allocated(archive%longs)) allocate (archive%longs(0))
@@ -200,7 +169,7 @@ contains
       type(status_t) :: of_file
 
       status = archive%status
-      call close_arrays(archive%file, of_file)
+      call close_hdf5(archive%file, of_file)
       ! what fails in the file makes nothing but failures behind it
       if (.not. is_ok(of_file)) status = of_file
    end subroutine close_archive

@@ -2,11 +2,13 @@
 !> memory of a few. What the tables hold depends on all frames (what is rounding beside the largest of any is 0; columns are as wide
 !> as the widest), so they cannot be written before the last one is there.
 module atrito_frame_spool
-   use atrito_archive, only: archive_t, close_spooled, forgive_writing, is_sound, place_in, read_at, spool_archive, write_at
+   use atrito_archive, only: archive_t, is_sound, spool_archive, turn_to
    use atrito_exchange_results, only: exchange_results
    use atrito_growth, only: grow
    use atrito_kinds, only: ip, lp
    use atrito_results, only: frame_store_t, results_t
+   use atrito_spool, only: close_spool, give_up_rest, place_of
+   use atrito_status, only: status_t
    implicit none (type, external)
    private
    public :: frame_spool_t, begin_frames, end_frames
@@ -51,12 +53,15 @@ contains
       end if
       if (.not. allocated(self%place)) allocate (self%place(SOME), source=0_lp)
       if (size(self%place) <= i) call grow(self%place, 2*size(self%place, kind=lp))
-      call write_at(self%archive, self%place(i))
+      call turn_to(self%archive, self%place(i), is_reading=.false.)
       call exchange_results(self%archive, frame)
-      self%place(i + 1) = place_in(self%archive)
-      call read_at(self%archive, self%place(i))      ! what is not with the system yet, goes there now or not at all
+      self%place(i + 1) = place_of(self%archive%spool)
+      ! what is not with the system yet, goes there now or not at all
+      call turn_to(self%archive, self%place(i), is_reading=.true.)
       done = is_sound(self%archive)
-      if (.not. done) call forgive_writing(self%archive)
+      if (done) return
+      call give_up_rest(self%archive%spool)          ! what stands before it can be read
+      self%archive%status = status_t()
    end subroutine put_frame
 
    subroutine get_frame(self, i, frame)
@@ -67,7 +72,7 @@ contains
       frame => self%shown
       if (self%i_shown == i) return
       self%shown = results_t()
-      call read_at(self%archive, self%place(i))
+      call turn_to(self%archive, self%place(i), is_reading=.true.)
       call exchange_results(self%archive, self%shown)
       self%i_shown = i
       if (is_sound(self%archive)) return
@@ -79,7 +84,7 @@ contains
    subroutine end_frames(spool)
       type(frame_spool_t), intent(inout) :: spool
 
-      if (spool%is_open) call close_spooled(spool%archive)
+      if (spool%is_open) call close_spool(spool%archive%spool)
       spool%is_open = .false.
    end subroutine end_frames
 

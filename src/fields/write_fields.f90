@@ -15,11 +15,13 @@ module atrito_write_fields
    use atrito_frame_tables, only: stress_rows
    use atrito_increments, only: ending_text, time_text
    use atrito_write_tables, only: origin_of
-   use atrito_hdf5, only: hdf5_file_t, open_hdf5, begin_dataset, put_row, put_attribute, close_hdf5
+   use atrito_hdf5, only: hdf5_file_t, create_hdf5, put_array, put_attribute, close_hdf5
    use atrito_xdmf, only: xdmf_grid_t, xdmf_frame_t, begin_grid, add_field, begin_xdmf, add_time, end_xdmf, CENTRE_NODE, CENTRE_CELL
    implicit none (type, external)
    private
    public :: write_fields, list_field_files
+
+   character(len=*), parameter :: PLACES = 'x and y, reference place'
 
 contains
 
@@ -56,7 +58,7 @@ contains
       if (size(due) == 0) return
       names = list_field_files(model)
       call reserve_file(set, names(1)%s, path)
-      call open_hdf5(path, set%folder//'/'//names(1)%s, file)
+      call create_hdf5(path, set%folder//'/'//names(1)%s, .false., file)
       call open_text(set, names(2)%s, text)
       call begin_xdmf(PROGRAM_NAME//' '//PROGRAM_VERSION, warning_of(history), lines)
       call put_origin(file, model, history)
@@ -145,16 +147,12 @@ contains
       type(hdf5_file_t), intent(inout) :: file
       type(history_t), intent(in) :: history
       integer(ip), intent(in) :: due(:)                !< places of the frames
-      integer :: i, n
 
-      n = size(due)
-      call put_integers(file, '/increments/step', 'number of the step', [(history%frames(due(i))%step, i=1, n)])
-      call put_integers(file, '/increments/increment', 'number of the increment in its step', &
-                        [(history%frames(due(i))%increment, i=1, n)])
-      call begin_dataset(file, '/increments/time', 1_ip, int(n, ip), .true., 'time of the history', '-')
-      do i = 1, n
-         call put_row(file, [history%frames(due(i))%time])
-      end do
+      associate (frames => history%frames(due))
+         call put_integers(file, '/increments/step', 'number of the step', frames%step)
+         call put_integers(file, '/increments/increment', 'number of the increment in its step', frames%increment)
+         call put_rows(file, '/increments/time', 'time of the history', '-', reshape(frames%time, [1, size(due)]))
+      end associate
    end subroutine put_increments
 
    !> The fields of one increment, into its own group.
@@ -179,7 +177,7 @@ contains
       type(xdmf_grid_t), allocatable, intent(out) :: grids(:)
       integer(ip) :: k
 
-      call put_places(file, '/mesh/coordinates', mesh%x)
+      call put_rows(file, '/mesh/coordinates', PLACES, 'L', mesh%x)
       call put_integers(file, '/mesh/node', 'number of the node', mesh%node_id)
       allocate (grids(0))
       do k = 1, MOST_NODES
@@ -195,11 +193,14 @@ contains
       character(len=*), intent(in) :: name, topology
       type(xdmf_grid_t), allocatable, intent(inout) :: grids(:)
       type(xdmf_grid_t) :: grid
-      integer(ip) :: n
+      integer(ip), allocatable :: elements(:)
+      integer(ip) :: e, n
 
-      n = count(mesh%shape == shape, kind=ip)
+      elements = pack([(e, e=1, mesh%n_elements)], mesh%shape(:mesh%n_elements) == shape)
+      n = size(elements, kind=ip)
       if (n == 0) return
-      call put_elements(file, '/mesh/'//name, mesh, shape, n)
+      call put_array(file, '/mesh/'//name//'/nodes', mesh%nodes(:shape, elements) - 1, 'rows of the nodes, counted from 0', '-')
+      call put_integers(file, '/mesh/'//name//'/element', 'number of the element', mesh%element_id(elements))
       call begin_grid(grid, 'bodies, '//name//' elements', topology, '/mesh/'//name//'/nodes', [n, shape, mesh%n_nodes], &
                       '/mesh/coordinates')
       call add_field(grid, '/mesh/node', 1_ip, .false., CENTRE_NODE)
@@ -207,50 +208,41 @@ contains
       grids = [grids, grid]
    end subroutine put_shape
 
-   subroutine put_elements(file, group, mesh, shape, n)
-      type(hdf5_file_t), intent(inout) :: file
-      character(len=*), intent(in) :: group
-      type(mesh_t), intent(in) :: mesh
-      integer(ip), intent(in) :: shape, n              !< n: how many there are of this shape
-      integer(ip) :: e
-
-      call begin_dataset(file, group//'/nodes', shape, n, .false., 'rows of the nodes, counted from 0', '-')
-      do e = 1, mesh%n_elements
-         if (mesh%shape(e) == shape) call put_row(file, mesh%nodes(:shape, e) - 1)
-      end do
-      call begin_dataset(file, group//'/element', 1_ip, n, .false., 'number of the element', '-')
-      do e = 1, mesh%n_elements
-         if (mesh%shape(e) == shape) call put_row(file, mesh%element_id(e:e))
-      end do
-   end subroutine put_elements
-
-   !> Displacements, reactions and stresses at the nodes, each when asked for.
+   !> Displacements, reactions and stresses at the nodes, each when asked for. They belong to the grids of all shapes.
    subroutine put_nodal_fields(file, model, results, grids)
       type(hdf5_file_t), intent(inout) :: file
       type(model_t), intent(in) :: model
       type(results_t), intent(in) :: results
       type(xdmf_grid_t), intent(inout) :: grids(:)
-      character(len=:), allocatable :: group
       logical, allocatable :: mask(:)
       integer(ip) :: k
 
-      group = frame_group(results)//'/nodes/'
       associate (fields => model%steps(results%step)%requests%fields)
-         if (fields%nodes) then
-            call put_vectors(file, group//'U', 'displacement', 'L', results%u, fields%node_u)
-            call enter_nodal(grids, group//'U', 3_ip)
-         end if
-         if (fields%reactions) then
-            call put_vectors(file, group//'RF', 'force of the support upon the body', 'F', results%reaction, fields%node_rf)
-            call enter_nodal(grids, group//'RF', 3_ip)
-         end if
+         if (fields%nodes) call put_nodal('U', 'displacement', 'L', results%u, fields%node_u)
+         if (fields%reactions) call put_nodal('RF', 'force of the support upon the body', 'F', results%reaction, fields%node_rf)
          if (.not. (fields%stress .and. allocated(results%nodal_stress))) return
          mask = nodes_of(model%mesh, fields%element_s)
          do k = 1, size(STRESS_NAMES, kind=ip)
-            call put_nodal_stress(file, group//trim(STRESS_NAMES(k)), results%nodal_stress, k, mask)
-            call enter_nodal(grids, group//trim(STRESS_NAMES(k)), 1_ip)
+            call put_nodal(trim(STRESS_NAMES(k)), 'stress recovered at the nodes', 'F/L^2', results%nodal_stress(k:k, :), mask)
          end do
       end associate
+
+   contains
+
+      subroutine put_nodal(field, name, dimension, values, mask)
+         character(len=*), intent(in) :: field, name, dimension
+         real(wp), intent(in) :: values(:, :)
+         logical, intent(in), optional :: mask(:)
+         integer :: i
+
+         call put_rows(file, frame_group(results)//'/nodes/'//field, name, dimension, values, mask=mask, &
+                       in_space=size(values, 1) == 2)
+         do i = 1, size(grids)
+            call add_field(grids(i), frame_group(results)//'/nodes/'//field, merge(3_ip, 1_ip, size(values, 1) == 2), .true., &
+                           CENTRE_NODE)
+         end do
+      end subroutine put_nodal
+
    end subroutine put_nodal_fields
 
    !> Where the fields of an increment are: /step_2 of that which ends the step, else /step_2/increment_5.
@@ -262,36 +254,33 @@ contains
       if (.not. results%ends_step) path = path//'/increment_'//to_text(results%increment)
    end function frame_group
 
-   !> A field of the nodes belongs to the grids of all shapes.
-   pure subroutine enter_nodal(grids, path, n_components)
-      type(xdmf_grid_t), intent(inout) :: grids(:)
-      character(len=*), intent(in) :: path
-      integer(ip), intent(in) :: n_components
-      integer :: i
-
-      do i = 1, size(grids)
-         call add_field(grids(i), path, n_components, .true., CENTRE_NODE)
-      end do
-   end subroutine enter_nodal
-
-   !> Vectors (2, n) in the plane as vectors of space, which is what readers take for vectors; NaN where not asked for.
-   subroutine put_vectors(file, path, name, dimension, vectors, mask)
+   !> Reals (components, n): all, or those of a list. Vectors in the plane become vectors of space, which is what readers take for
+   !> vectors; what is not asked for is NaN.
+   subroutine put_rows(file, path, name, dimension, values, list, mask, in_space)
       type(hdf5_file_t), intent(inout) :: file
       character(len=*), intent(in) :: path, name, dimension
-      real(wp), intent(in) :: vectors(:, :)
-      logical, intent(in), optional :: mask(:)         !< (n)
-      logical :: wanted
-      real(wp) :: nan
-      integer(ip) :: i
+      real(wp), intent(in) :: values(:, :)
+      integer(ip), intent(in), optional :: list(:)     !< of the columns of values
+      logical, intent(in), optional :: mask(:)         !< (n) asked for
+      logical, intent(in), optional :: in_space        !< with a third component, 0
+      real(wp), allocatable :: rows(:, :)
+      integer :: i, n
 
-      nan = ieee_value(1.0_wp, ieee_quiet_nan)
-      call begin_dataset(file, path, 3_ip, size(vectors, 2, kind=ip), .true., name, dimension)
-      do i = 1, size(vectors, 2, kind=ip)
-         wanted = .true.
-         if (present(mask)) wanted = mask(i)
-         call put_row(file, merge([vectors(:, i), 0.0_wp], nan, wanted))
-      end do
-   end subroutine put_vectors
+      n = size(values, 1)
+      if (present(list)) then
+         rows = values(:, list)
+      else
+         if (present(in_space)) n = merge(3, n, in_space)
+         allocate (rows(n, size(values, 2)), source=0.0_wp)
+         rows(:size(values, 1), :) = values
+      end if
+      if (present(mask)) then
+         do i = 1, size(mask)
+            if (.not. mask(i)) rows(:, i) = ieee_value(1.0_wp, ieee_quiet_nan)
+         end do
+      end if
+      call put_array(file, path, rows, name, dimension)
+   end subroutine put_rows
 
    !> The nodes on these elements.
    pure function nodes_of(mesh, elements) result(mask)
@@ -305,23 +294,6 @@ contains
          if (elements(e)) mask(mesh%nodes(:mesh%shape(e), e)) = .true.
       end do
    end function nodes_of
-
-   !> Component k of the stresses at the nodes; NaN where not asked for.
-   subroutine put_nodal_stress(file, path, stress, k, mask)
-      type(hdf5_file_t), intent(inout) :: file
-      character(len=*), intent(in) :: path
-      real(wp), intent(in) :: stress(:, :)             !< (5, n) [F/L^2]
-      integer(ip), intent(in) :: k
-      logical, intent(in) :: mask(:)                   !< (n)
-      real(wp) :: nan
-      integer(ip) :: i
-
-      nan = ieee_value(1.0_wp, ieee_quiet_nan)
-      call begin_dataset(file, path, 1_ip, size(stress, 2, kind=ip), .true., 'stress recovered at the nodes', 'F/L^2')
-      do i = 1, size(stress, 2, kind=ip)
-         call put_row(file, [merge(stress(k, i), nan, mask(i))])
-      end do
-   end subroutine put_nodal_stress
 
    !> What stress.tab tells: the stresses at the integration points, as a grid of points.
    subroutine put_stress_points(file, model, results, grids)
@@ -340,17 +312,11 @@ contains
       group = frame_group(results)//'/stress_points/'
       call begin_grid(grid, 'stress points', 'Polyvertex', group//'cells', [n, 1_ip, n], group//'coordinates')
       call put_integers(file, group//'cells', 'rows of the points, counted from 0', [(i, i=0, n - 1)])
-      call begin_dataset(file, group//'coordinates', 2_ip, n, .true., 'x and y, reference place', 'L')
-      do i = 1, n
-         call put_row(file, results%stress_x(:, row(i)))
-      end do
+      call put_rows(file, group//'coordinates', PLACES, 'L', results%stress_x, row)
       call put_integers(file, group//'element', 'number of the element', model%mesh%element_id(results%stress_element(row)), grid)
       call put_integers(file, group//'point', 'number of the point in its element', results%stress_point(row), grid)
       do k = 1, size(STRESS_NAMES, kind=ip)
-         call begin_dataset(file, group//trim(STRESS_NAMES(k)), 1_ip, n, .true., 'stress', 'F/L^2')
-         do i = 1, n
-            call put_row(file, results%stress(k:k, row(i)))
-         end do
+         call put_rows(file, group//trim(STRESS_NAMES(k)), 'stress', 'F/L^2', results%stress(k:k, :), row)
          call add_field(grid, group//trim(STRESS_NAMES(k)), 1_ip, .true., CENTRE_NODE)
       end do
       grids = [grids, grid]
@@ -361,31 +327,21 @@ contains
       type(hdf5_file_t), intent(inout) :: file
       type(results_t), intent(in) :: results
       type(xdmf_grid_t), allocatable, intent(inout) :: grids(:)
-      type(xdmf_grid_t), allocatable :: lines(:), all_grids(:)
+      type(xdmf_grid_t) :: line
       character(len=:), allocatable :: group
-      integer(ip) :: i, n
+      integer(ip) :: i
 
       if (.not. allocated(results%contact)) return
-      allocate (lines(size(results%contact)))
-      n = 0
       do i = 1, size(results%contact, kind=ip)
          if (results%contact(i)%n == 0) cycle
-         n = n + 1
          group = frame_group(results)//'/pair_'//to_text(i)
-         call put_slave_line(file, group//'/', 'pair '//to_text(i), results%contact(i), lines(n))
-         call put_contact(file, group//'/', results%contact(i), lines(n))
-         call put_vectors(file, group//'/U', 'displacement of the slave', 'L', results%contact(i)%u(:, :results%contact(i)%n))
-         call add_field(lines(n), group//'/U', 3_ip, .true., CENTRE_NODE)
-         call put_tractions(file, group//'/traction', results%contact(i), lines(n))
-         if (allocated(results%scene%pairs)) then
-            call put_attribute(file, group, 'slave', results%scene%pairs(i)%slave)
-            call put_attribute(file, group, 'master', results%scene%pairs(i)%master)
-         end if
+         call put_slave_line(file, group//'/', 'pair '//to_text(i), results%contact(i), line)
+         call put_contact(file, group//'/', results%contact(i), line)
+         grids = [grids, line]
+         if (.not. allocated(results%scene%pairs)) cycle
+         call put_attribute(file, group, 'slave', results%scene%pairs(i)%slave)
+         call put_attribute(file, group, 'master', results%scene%pairs(i)%master)
       end do
-      allocate (all_grids(size(grids) + n))
-      all_grids(:size(grids)) = grids
-      all_grids(size(grids) + 1:) = lines(:n)
-      call move_alloc(all_grids, grids)
    end subroutine put_pairs
 
    !> The points in the order of s, joined by straight pieces.
@@ -396,87 +352,59 @@ contains
       type(xdmf_grid_t), intent(out) :: grid
       integer(ip) :: i
 
-      call put_places(file, group//'coordinates', contact%x(:, :contact%n))
+      call put_rows(file, group//'coordinates', PLACES, 'L', contact%x(:, :contact%n))
       if (contact%n == 1) then
          call begin_grid(grid, name, 'Polyvertex', group//'cells', [1_ip, 1_ip, 1_ip], group//'coordinates')
          call put_integers(file, group//'cells', 'row of the point, counted from 0', [0_ip])
       else
          call begin_grid(grid, name, 'Polyline', group//'cells', [contact%n - 1, 2_ip, contact%n], group//'coordinates')
-         call begin_dataset(file, group//'cells', 2_ip, contact%n - 1, .false., 'rows of the points, counted from 0', '-')
-         do i = 1, contact%n - 1
-            call put_row(file, [i - 1, i])
-         end do
+         call put_array(file, group//'cells', reshape([(i - 1, i, i=1, contact%n - 1)], [2_ip, contact%n - 1]), &
+                        'rows of the points, counted from 0', '-')
       end if
    end subroutine put_slave_line
 
-   !> The columns of contact.tab.
+   !> The columns of contact.tab, the displacements of the slave, and the tractions upon it, -p n + sigma_T T with T = n turned by
+   !> +90 degrees.
    subroutine put_contact(file, group, contact, grid)
       type(hdf5_file_t), intent(inout) :: file
       character(len=*), intent(in) :: group
       type(contact_result_t), intent(in) :: contact
       type(xdmf_grid_t), intent(inout) :: grid
+      real(wp) :: traction(2, contact%n)
 
       associate (n => contact%n)
-         call put_reals(file, group//'s', 'arc length along the slave surface', 'L', contact%s(:n), grid)
-         call put_reals(file, group//'gap', 'initial distance - u_n', 'L', contact%gap(:n), grid)
-         call put_reals(file, group//'pressure', 'p = -sigma_n', 'F/L^2', contact%pressure(:n), grid)
-         call put_reals(file, group//'weighted_pressure', 'S_rho(p)', 'F/L^2', contact%weighted_pressure(:n), grid)
-         call put_reals(file, group//'shear', 'sigma_T on the slave along T', 'F/L^2', contact%shear(:n), grid)
-         call put_reals(file, group//'slip', 'u_T', 'L', contact%slip(:n), grid)
+         call put('s', 'arc length along the slave surface', 'L', contact%s(:n))
+         call put('gap', 'initial distance - u_n', 'L', contact%gap(:n))
+         call put('pressure', 'p = -sigma_n', 'F/L^2', contact%pressure(:n))
+         call put('weighted_pressure', 'S_rho(p)', 'F/L^2', contact%weighted_pressure(:n))
+         call put('shear', 'sigma_T on the slave along T', 'F/L^2', contact%shear(:n))
+         call put('slip', 'u_T', 'L', contact%slip(:n))
          call put_integers(file, group//'status', '0 open, 1 stick, 2 slip', contact%status(:n), grid)
-         call put_reals(file, group//'weight', 'quadrature weight times thickness', 'L^2', contact%weight(:n), grid)
+         call put('weight', 'quadrature weight times thickness', 'L^2', contact%weight(:n))
          if (allocated(contact%slip_increment)) then
-            call put_reals(file, group//'slip_increment', 'u_T since the increment before', 'L', contact%slip_increment(:n), grid)
+            call put('slip_increment', 'u_T since the increment before', 'L', contact%slip_increment(:n))
          else
-            call put_reals(file, group//'slip_increment', 'u_T since the increment before', 'L', contact%slip(:n), grid)
+            call put('slip_increment', 'u_T since the increment before', 'L', contact%slip(:n))
          end if
+         call put_rows(file, group//'U', 'displacement of the slave', 'L', contact%u(:, :n), in_space=.true.)
+         call add_field(grid, group//'U', 3_ip, .true., CENTRE_NODE)
+         traction(1, :) = -contact%pressure(:n)*contact%normal(1, :n) - contact%shear(:n)*contact%normal(2, :n)
+         traction(2, :) = -contact%pressure(:n)*contact%normal(2, :n) + contact%shear(:n)*contact%normal(1, :n)
+         call put_rows(file, group//'traction', 'traction upon the slave, -p n + sigma_T T', 'F/L^2', traction, in_space=.true.)
+         call add_field(grid, group//'traction', 3_ip, .true., CENTRE_NODE)
       end associate
+
+   contains
+
+      subroutine put(field, name, dimension, values)
+         character(len=*), intent(in) :: field, name, dimension
+         real(wp), intent(in) :: values(:)
+
+         call put_rows(file, group//field, name, dimension, reshape(values, [1, size(values)]))
+         call add_field(grid, group//field, 1_ip, .true., CENTRE_NODE)
+      end subroutine put
+
    end subroutine put_contact
-
-   !> The tractions upon the slave, -p n + sigma_T T with T = n turned by +90 degrees.
-   subroutine put_tractions(file, path, contact, grid)
-      type(hdf5_file_t), intent(inout) :: file
-      character(len=*), intent(in) :: path
-      type(contact_result_t), intent(in) :: contact
-      type(xdmf_grid_t), intent(inout) :: grid
-      integer(ip) :: i
-
-      call begin_dataset(file, path, 3_ip, contact%n, .true., 'traction upon the slave, -p n + sigma_T T', 'F/L^2')
-      do i = 1, contact%n
-         associate (n => contact%normal(:, i), p => contact%pressure(i), shear => contact%shear(i))
-            call put_row(file, [-p*n(1) - shear*n(2), -p*n(2) + shear*n(1), 0.0_wp])
-         end associate
-      end do
-      call add_field(grid, path, 3_ip, .true., CENTRE_NODE)
-   end subroutine put_tractions
-
-   !> Places (2, n) [L].
-   subroutine put_places(file, path, x)
-      type(hdf5_file_t), intent(inout) :: file
-      character(len=*), intent(in) :: path
-      real(wp), intent(in) :: x(:, :)
-      integer(ip) :: i
-
-      call begin_dataset(file, path, 2_ip, size(x, 2, kind=ip), .true., 'x and y, reference place', 'L')
-      do i = 1, size(x, 2, kind=ip)
-         call put_row(file, x(:, i))
-      end do
-   end subroutine put_places
-
-   !> A value a point of the grid.
-   subroutine put_reals(file, path, name, dimension, values, grid)
-      type(hdf5_file_t), intent(inout) :: file
-      character(len=*), intent(in) :: path, name, dimension
-      real(wp), intent(in) :: values(:)
-      type(xdmf_grid_t), intent(inout) :: grid
-      integer(ip) :: i
-
-      call begin_dataset(file, path, 1_ip, size(values, kind=ip), .true., name, dimension)
-      do i = 1, size(values, kind=ip)
-         call put_row(file, values(i:i))
-      end do
-      call add_field(grid, path, 1_ip, .true., CENTRE_NODE)
-   end subroutine put_reals
 
    !> Numbers; a field of the grid where there is one.
    subroutine put_integers(file, path, name, values, grid)
@@ -484,12 +412,8 @@ contains
       character(len=*), intent(in) :: path, name
       integer(ip), intent(in) :: values(:)
       type(xdmf_grid_t), intent(inout), optional :: grid
-      integer(ip) :: i
 
-      call begin_dataset(file, path, 1_ip, size(values, kind=ip), .false., name, '-')
-      do i = 1, size(values, kind=ip)
-         call put_row(file, values(i:i))
-      end do
+      call put_array(file, path, reshape(values, [1, size(values)]), name, '-')
       if (present(grid)) call add_field(grid, path, 1_ip, .false., CENTRE_NODE)
    end subroutine put_integers
 

@@ -1,11 +1,11 @@
 !> The processes of one run, its ranks, by MPI; the only module that knows it. without_mpi/ has its twin, with one rank.
 !>
-!> Rank 0 is the program; the others wait for what it wants of them. A message is a parcel. Its length goes before it, so that
+!> Rank 0 is the program; the others wait for what it wants of them. A message is a buffer. Its length goes before it, so that
 !> whoever receives can make room.
 module atrito_mpi
    use, intrinsic :: iso_fortran_env, only: int8
    use atrito_kinds, only: ip, lp, wp
-   use atrito_parcel, only: parcel_t, make_parcel, parcel_bytes
+   use atrito_buffer, only: buffer_t, make_buffer, buffer_bytes
    use mpi_f08, only: MPI_Allreduce, MPI_ANY_SOURCE, MPI_BYTE, MPI_Comm, MPI_Comm_free, MPI_Comm_rank, MPI_Comm_size, &
                       MPI_Comm_split_type, MPI_COMM_TYPE_SHARED, MPI_COMM_WORLD, MPI_DOUBLE_PRECISION, MPI_Finalize, &
                       MPI_Get_library_version, MPI_IN_PLACE, MPI_INFO_NULL, MPI_Init_thread, MPI_INTEGER8, MPI_Iprobe, &
@@ -14,7 +14,7 @@ module atrito_mpi
    implicit none (type, external)
    private
    public :: begin_ranks, end_ranks, own_rank, rank_count, ranks_on_host, ANY_RANK
-   public :: send_parcel, receive_parcel, has_message, sum_over_ranks
+   public :: send_buffer, receive_buffer, has_message, sum_over_ranks
    public :: all_ranks_communicator, has_mpi, mpi_name
 
    !> The sender of any message that waits.
@@ -65,25 +65,25 @@ contains
       n = int(ranks, ip)
    end function ranks_on_host
 
-   !> Comes back when the parcel may be changed.
-   subroutine send_parcel(parcel, to)
-      type(parcel_t), intent(in), target :: parcel
+   !> Comes back when the buffer may be changed.
+   subroutine send_buffer(buffer, to)
+      type(buffer_t), intent(in), target :: buffer
       integer(ip), intent(in) :: to
       integer(int8), pointer :: bytes(:)
       integer(lp) :: length, first, last
 
-      bytes => parcel_bytes(parcel)
+      bytes => buffer_bytes(buffer)
       length = size(bytes, kind=lp)
       call MPI_Send([length], 1, MPI_INTEGER8, int(to), LENGTH_TAG, MPI_COMM_WORLD)
       do first = 1, length, SLICE
          last = min(length, first + SLICE - 1)
          call MPI_Send(bytes(first:last), int(last - first + 1), MPI_BYTE, int(to), CONTENT_TAG, MPI_COMM_WORLD)
       end do
-   end subroutine send_parcel
+   end subroutine send_buffer
 
-   !> The next parcel of a rank, or of the first that has one.
-   subroutine receive_parcel(parcel, from, sender)
-      type(parcel_t), intent(out), target :: parcel
+   !> The next buffer of a rank, or of the first that has one.
+   subroutine receive_buffer(buffer, from, sender)
+      type(buffer_t), intent(out), target :: buffer
       integer(ip), intent(in) :: from                !< or ANY_RANK
       integer(ip), intent(out), optional :: sender
       type(MPI_Status) :: status
@@ -96,16 +96,16 @@ contains
       call MPI_Recv(length, 1, MPI_INTEGER8, source, LENGTH_TAG, MPI_COMM_WORLD, status)
       source = status%MPI_SOURCE
       if (present(sender)) sender = int(source, ip)
-      call make_parcel(length(1), parcel)
-      bytes => parcel_bytes(parcel)
+      call make_buffer(length(1), buffer)
+      bytes => buffer_bytes(buffer)
       do first = 1, length(1), SLICE
          last = min(length(1), first + SLICE - 1)
          call MPI_Recv(bytes(first:last), int(last - first + 1), MPI_BYTE, source, CONTENT_TAG, MPI_COMM_WORLD, &
                        MPI_STATUS_IGNORE)
       end do
-   end subroutine receive_parcel
+   end subroutine receive_buffer
 
-   !> Whether a parcel of any rank waits.
+   !> Whether a buffer of any rank waits.
    logical function has_message()
       call MPI_Iprobe(MPI_ANY_SOURCE, LENGTH_TAG, MPI_COMM_WORLD, has_message, MPI_STATUS_IGNORE)
    end function has_message

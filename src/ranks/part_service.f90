@@ -4,57 +4,57 @@
 !> substructuring:
 !>
 !>     S_p = A_cc - A_ci A_ii^-1 A_ic        REFACTOR, on each rank, which keeps it
-!>     S = sum of S_p, factored              TOP_FACTOR, by MUMPS on all ranks together
+!>     S = sum of S_p, factored              SCHUR_FACTOR, by MUMPS on all ranks together
 !>     g_c = f_c - A_ci A_ii^-1 f_i          REDUCE, on each rank
-!>     S x_c = sum of g_c                    TOP_SOLVE, the same
+!>     S x_c = sum of g_c                    SCHUR_SOLVE, the same
 !>     x_i = A_ii^-1 (f_i - A_ic x_c)        EXPAND, on each rank
 !>
-!> A question is a parcel: SERVICE_PART, what is wanted, and what goes with it. The first rank asks itself as it asks the others,
+!> A question is a buffer: SERVICE_PART, what is wanted, and what goes with it. The first rank asks itself as it asks the others,
 !> but after them, so that all work at the same time. A rank has one part, and that of one scene at a time.
 module atrito_part_service
    use atrito_kinds, only: ip, lp, wp
-   use atrito_mpi, only: receive_parcel, send_parcel
+   use atrito_mpi, only: receive_buffer, send_buffer
    use atrito_mumps, only: mumps_system_t, begin_mumps_system, end_mumps_system, factor_mumps_system, mumps_system_bytes, &
                            solve_mumps_system
    use atrito_multifrontal, only: expand_variable, kept_values, reduce_variable
-   use atrito_parcel, only: parcel_t, put, put_status, put_text, take
+   use atrito_buffer, only: buffer_t, put, put_status, put_text, take
    use atrito_rank_services, only: SERVICE_PART
    use atrito_scene_part, only: scene_part_t, assemble_scene_part, take_scene_part
    use atrito_status, only: status_t, is_ok
    implicit none (type, external)
    private
    public :: serve_part, begin_question, ask, ask_with, hear, hear_values
-   public :: held_bytes, ASSEMBLE, MULTIPLY, REFACTOR, REDUCE, EXPAND, TOP_BEGIN, TOP_FACTOR, TOP_SOLVE, FORGET
+   public :: held_bytes, ASSEMBLE, MULTIPLY, REFACTOR, REDUCE, EXPAND, SCHUR_BEGIN, SCHUR_FACTOR, SCHUR_SOLVE, FORGET
 
    ! What is wanted.
    integer(ip), parameter :: ASSEMBLE = 1, MULTIPLY = 2, REFACTOR = 3, REDUCE = 4, EXPAND = 5, &
-                             TOP_BEGIN = 6, TOP_FACTOR = 7, TOP_SOLVE = 8, FORGET = 9
+                             SCHUR_BEGIN = 6, SCHUR_FACTOR = 7, SCHUR_SOLVE = 8, FORGET = 9
 
    !> What a rank has.
    type :: store_t
       type(scene_part_t) :: part
       real(wp), allocatable :: x(:)              !< loads that were reduced
-      type(mumps_system_t) :: top                !< S, of all ranks
+      type(mumps_system_t) :: schur              !< S, of all ranks
    end type store_t
 
    type(store_t), target :: own
-   type(parcel_t) :: own_answer                  !< of the first rank to itself
+   type(buffer_t) :: own_answer                  !< of the first rank to itself
 
 contains
 
-   !> On the other ranks: does what is wanted, and answers; what is left of the parcel comes behind SERVICE_PART.
+   !> On the other ranks: does what is wanted, and answers; what is left of the buffer comes behind SERVICE_PART.
    subroutine serve_part(request)
-      type(parcel_t), intent(inout) :: request
-      type(parcel_t) :: answer
+      type(buffer_t), intent(inout) :: request
+      type(buffer_t) :: answer
 
       call answer_question(request, answer)
-      call send_parcel(answer, 0_ip)
+      call send_buffer(answer, 0_ip)
    end subroutine serve_part
 
    !> The head of a question about a part: what is wanted, one of the constants above; what it needs is put behind it.
    subroutine begin_question(wanted, request)
       integer(ip), intent(in) :: wanted
-      type(parcel_t), intent(out) :: request
+      type(buffer_t), intent(out) :: request
 
       call put(request, SERVICE_PART)
       call put(request, wanted)
@@ -63,14 +63,14 @@ contains
    !> Asks a rank; the first one, the last that is asked, works at once. The answer comes with hear.
    subroutine ask(rank, request)
       integer(ip), intent(in) :: rank
-      type(parcel_t), intent(inout) :: request   !< by begin_question
+      type(buffer_t), intent(inout) :: request   !< by begin_question
       integer(ip) :: service
 
       if (rank > 0) then
-         call send_parcel(request, rank)
+         call send_buffer(request, rank)
       else
          call take(request, service)
-         own_answer = parcel_t()
+         own_answer = buffer_t()
          call answer_question(request, own_answer)
       end if
    end subroutine ask
@@ -79,7 +79,7 @@ contains
    subroutine ask_with(rank, wanted, values)
       integer(ip), intent(in) :: rank, wanted
       real(wp), intent(in), contiguous :: values(:)
-      type(parcel_t) :: request
+      type(buffer_t) :: request
 
       call begin_question(wanted, request)
       call put(request, values)
@@ -89,9 +89,9 @@ contains
    !> The answer to ask, from the rank that was asked.
    subroutine hear(rank, answer)
       integer(ip), intent(in) :: rank
-      type(parcel_t), intent(out) :: answer
+      type(buffer_t), intent(out) :: answer
 
-      if (rank > 0) call receive_parcel(answer, rank)
+      if (rank > 0) call receive_buffer(answer, rank)
       if (rank == 0) answer = own_answer
    end subroutine hear
 
@@ -99,14 +99,14 @@ contains
    subroutine hear_values(rank, values)
       integer(ip), intent(in) :: rank
       real(wp), allocatable, intent(out) :: values(:)
-      type(parcel_t) :: answer
+      type(buffer_t) :: answer
 
       call hear(rank, answer)
       call take(answer, values)
    end subroutine hear_values
 
    subroutine answer_question(request, answer)
-      type(parcel_t), intent(inout) :: request, answer
+      type(buffer_t), intent(inout) :: request, answer
       type(scene_part_t) :: no_part
       integer(ip) :: wanted
 
@@ -118,22 +118,22 @@ contains
          call answer_factored(request, answer)
       case (MULTIPLY, REDUCE, EXPAND)
          call answer_values(wanted, request, answer)
-      case (TOP_BEGIN, TOP_FACTOR, TOP_SOLVE)
-         call answer_top(wanted, request, answer)
+      case (SCHUR_BEGIN, SCHUR_FACTOR, SCHUR_SOLVE)
+         call answer_schur(wanted, request, answer)
       case (FORGET)
-         call end_mumps_system(own%top)
+         call end_mumps_system(own%schur)
          own%part = no_part
       end select
    end subroutine answer_question
 
    !> Takes the part, in the place of the one that there was. Answer: status, is_near, the order, what factoring will take [bytes].
    subroutine answer_assembled(request, answer)
-      type(parcel_t), intent(inout) :: request, answer
+      type(buffer_t), intent(inout) :: request, answer
       type(status_t) :: status
       real(wp) :: bytes
 
       call take_scene_part(request, own%part)
-      request = parcel_t()                       ! what was taken needs no copy
+      request = buffer_t()                       ! what was taken needs no copy
       call assemble_scene_part(own%part, status)
       bytes = 0.0_wp
       if (is_ok(status)) bytes = real(own%part%scene%solving_bytes(), wp)
@@ -145,7 +145,7 @@ contains
 
    !> Takes the stiffness of rows and pulls [F/L]. Answer: status, the unknown whose pivot was not positive, whether S_p is another.
    subroutine answer_factored(request, answer)
-      type(parcel_t), intent(inout) :: request, answer
+      type(buffer_t), intent(inout) :: request, answer
       real(wp), allocatable :: stiffness(:), pull(:)
       type(status_t) :: status
 
@@ -162,7 +162,7 @@ contains
    !> Vectors: A_p x; g_c of the loads f; x of x_c.
    subroutine answer_values(wanted, request, answer)
       integer(ip), intent(in) :: wanted
-      type(parcel_t), intent(inout) :: request, answer
+      type(buffer_t), intent(inout) :: request, answer
       real(wp), allocatable :: x(:), y(:)
       integer(ip) :: n_interior
 
@@ -184,12 +184,12 @@ contains
       call put(answer, y)
    end subroutine answer_values
 
-   !> All ranks are asked, for MUMPS wants them together: to begin, with the number of unknowns of the top and those of this rank;
+   !> All ranks are asked, for MUMPS wants them together: to begin, with the number of shared unknowns and those of this rank;
    !> to factor; to solve, with the loads [F], which the first rank alone has. Answer: status, the unknown that moves most in the
-   !> softest motion of a top that has no factor, or the solution [L].
-   subroutine answer_top(wanted, request, answer)
+   !> softest motion of an S that has no factor, or the solution [L].
+   subroutine answer_schur(wanted, request, answer)
       integer(ip), intent(in) :: wanted
-      type(parcel_t), intent(inout) :: request, answer
+      type(buffer_t), intent(inout) :: request, answer
       type(status_t) :: status
       integer(ip) :: n
       integer(ip), allocatable :: unknown(:)
@@ -198,28 +198,28 @@ contains
       real(wp), target :: nothing(0)
 
       select case (wanted)
-      case (TOP_BEGIN)
+      case (SCHUR_BEGIN)
          call take(request, n)
          call take(request, unknown)
-         call begin_mumps_system(own%top, n, unknown, status)
+         call begin_mumps_system(own%schur, n, unknown, status)
          call put_status(answer, status)
-      case (TOP_FACTOR)
+      case (SCHUR_FACTOR)
          values => kept_values(own%part%scene%matrix)
          if (.not. associated(values)) values => nothing   ! the rank has no part, or shares nothing
-         call factor_mumps_system(own%top, values, status)
+         call factor_mumps_system(own%schur, values, status)
          call put_status(answer, status)
-         call put(answer, own%top%weakest)
-      case (TOP_SOLVE)
+         call put(answer, own%schur%weakest)
+      case (SCHUR_SOLVE)
          call take(request, x)
-         call solve_mumps_system(own%top, x, status)
+         call solve_mumps_system(own%schur, x, status)
          call put_status(answer, status)
          call put(answer, x)
       end select
-   end subroutine answer_top
+   end subroutine answer_schur
 
-   !> Memory held by this process for its part and the top [bytes].
+   !> Memory held by this process for its part and S [bytes].
    pure integer(lp) function held_bytes() result(bytes)
-      bytes = mumps_system_bytes(own%top)
+      bytes = mumps_system_bytes(own%schur)
       if (own%part%scene%n > 0) bytes = bytes + own%part%scene%memory_bytes()
    end function held_bytes
 

@@ -4,7 +4,7 @@
 !> n nodes and e elements of a rank it holds the larger of
 !>
 !>     solving      its part, as it tells when it has assembled it; before that METIS, which orders its elements
-!>     recovering   mesh of its region, and the parcel               2 (72 n + 64 e)
+!>     recovering   mesh of its region, and the buffer               2 (72 n + 64 e)
 !>                  stresses and patches                             recovery_bytes(n, e)
 !>
 !> and of the smaller one what does not serve again: memory goes to pieces, on the first rank less, whose arrays are of the whole
@@ -15,8 +15,8 @@ module atrito_rank_memory
    use atrito_kinds, only: ip, lp, wp
    use atrito_memory, only: address_space_left, memory_text, resident_memory, shared_memory_left
    use atrito_messages, only: message_t, add_message, SEVERITY_ERROR
-   use atrito_mpi, only: rank_count, receive_parcel, send_parcel
-   use atrito_parcel, only: parcel_t, put, take
+   use atrito_mpi, only: rank_count, receive_buffer, send_buffer
+   use atrito_buffer, only: buffer_t, put, take
    use atrito_rank_services, only: send_to_others, SERVICE_MEMORY
    use atrito_results, only: scene_t
    use atrito_scene_data, only: scene_data_t
@@ -81,7 +81,7 @@ contains
    !> Asks all ranks.
    subroutine ask_for_memory(ranks)
       type(rank_memory_t), allocatable, intent(out) :: ranks(:)   !< (ranks) from 0
-      type(parcel_t) :: request, answer
+      type(buffer_t) :: request, answer
       integer(ip) :: rank
       real(wp), allocatable :: bytes(:)
 
@@ -90,7 +90,7 @@ contains
       call send_to_others(request)
       do rank = 0, rank_count() - 1
          if (rank == 0) call put_own_memory(answer)
-         if (rank > 0) call receive_parcel(answer, rank)
+         if (rank > 0) call receive_buffer(answer, rank)
          call take(answer, ranks(rank)%host)
          call take(answer, bytes)
          ranks(rank)%held = int(bytes(1), lp)
@@ -102,15 +102,15 @@ contains
 
    !> The answer of another rank.
    subroutine serve_memory()
-      type(parcel_t) :: answer
+      type(buffer_t) :: answer
 
       call put_own_memory(answer)
-      call send_parcel(answer, 0_ip)
+      call send_buffer(answer, 0_ip)
    end subroutine serve_memory
 
    !> Of this rank: host, held, free, own, of_host.
-   subroutine put_own_memory(parcel)
-      type(parcel_t), intent(inout) :: parcel
+   subroutine put_own_memory(buffer)
+      type(buffer_t), intent(inout) :: buffer
       character(len=:), allocatable :: host
       integer(lp), parameter :: MOST = 2_lp**62      ! so much is no limit, and a number of double precision
       integer(lp) :: free
@@ -119,8 +119,8 @@ contains
       call read_system_line('/proc/sys/kernel/hostname', '', host, found)
       if (.not. found) host = ''
       free = min(reusable_memory(), resident_memory())
-      call put(parcel, host)
-      call put(parcel, real(min([resident_memory() - free, free, address_space_left(), shared_memory_left()], MOST), wp))
+      call put(buffer, host)
+      call put(buffer, real(min([resident_memory() - free, free, address_space_left(), shared_memory_left()], MOST), wp))
    end subroutine put_own_memory
 
    !> Growth of each rank [bytes]; before its part is there at the least.
@@ -143,7 +143,7 @@ contains
                elements = 0
                do p = 1, size(scene%parts, kind=ip)
                   elements(scene%parts(p)%rank) = scene%parts(p)%n_elements
-                  border(scene%parts(p)%rank) = size(scene%parts(p)%top)
+                  border(scene%parts(p)%rank) = size(scene%parts(p)%shared)
                end do
             end select
          end if

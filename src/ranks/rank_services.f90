@@ -1,9 +1,9 @@
-!> What rank 0 may want of the others: the first number of a parcel that it sends them.
+!> What rank 0 may want of the others: the first number of a buffer that it sends them.
 module atrito_rank_services
    use, intrinsic :: iso_c_binding, only: c_double
    use atrito_kinds, only: ip, lp, wp
-   use atrito_mpi, only: has_message, rank_count, send_parcel
-   use atrito_parcel, only: parcel_t, put
+   use atrito_mpi, only: has_message, rank_count, send_buffer
+   use atrito_buffer, only: buffer_t, put
    use atrito_system, only: pause_for
    implicit none (type, external)
    private
@@ -23,23 +23,23 @@ contains
 
    !> The others may end.
    subroutine dismiss_ranks()
-      type(parcel_t) :: parcel
+      type(buffer_t) :: buffer
 
-      call put(parcel, SERVICE_END)
-      call send_to_others(parcel)
+      call put(buffer, SERVICE_END)
+      call send_to_others(buffer)
    end subroutine dismiss_ranks
 
-   !> The same parcel to all ranks but the first.
-   subroutine send_to_others(parcel)
-      type(parcel_t), intent(in) :: parcel
+   !> The same buffer to all ranks but the first.
+   subroutine send_to_others(buffer)
+      type(buffer_t), intent(in) :: buffer
       integer(ip) :: rank
 
       do rank = 1, rank_count() - 1
-         call send_parcel(parcel, rank)
+         call send_buffer(buffer, rank)
       end do
    end subroutine send_to_others
 
-   !> Waits for a parcel of any rank without taking a core for it.
+   !> Waits for a buffer of any rank without taking a core for it.
    subroutine await_message()
       integer(lp) :: began, now, rate
 

@@ -5,18 +5,19 @@
 module atrito_rank_tasks
    use, intrinsic :: iso_c_binding, only: c_double
    use atrito_kinds, only: ip, lp, wp
-   use atrito_mpi, only: ANY_RANK, has_message, rank_count, receive_parcel, send_parcel
-   use atrito_parcel, only: parcel_t, put, take
+   use atrito_mpi, only: ANY_RANK, has_message, rank_count, receive_buffer, send_buffer
+   use atrito_buffer, only: buffer_t, put, take
    use atrito_rank_services, only: await_message
    use atrito_system, only: pause_for
    use atrito_task_process, only: task_process_t, begin_task_process, give_task, ask_answer, end_task_process, await_task, &
-                                  give_answer, is_there, LAST_TASK
+                                  give_answer, LAST_TASK
    implicit none (type, external)
    private
    public :: rank_tasks_t, rank_times_t, hand_out, work_for_first
 
    !> What the tasks are.
    type, abstract :: rank_tasks_t
+      logical :: is_stopped = .false.               !< set by keep: no further task is to begin
    contains
       procedure(make_task), deferred :: make
       procedure(begin_task), deferred :: begin
@@ -26,10 +27,10 @@ module atrito_rank_tasks
    abstract interface
       !> Does a task, on any rank.
       subroutine make_task(self, task, answer)
-         import :: ip, parcel_t, rank_tasks_t
+         import :: ip, buffer_t, rank_tasks_t
          class(rank_tasks_t), intent(inout) :: self
          integer(ip), intent(in) :: task
-         type(parcel_t), intent(inout) :: answer     !< empty
+         type(buffer_t), intent(inout) :: answer     !< empty
       end subroutine make_task
       !> On rank 0: a task is handed out.
       subroutine begin_task(self, task)
@@ -39,10 +40,10 @@ module atrito_rank_tasks
       end subroutine begin_task
       !> On rank 0: a task is done, or lost with the process that did it.
       subroutine take_answer(self, task, answer, end_code)
-         import :: ip, parcel_t, rank_tasks_t
+         import :: ip, buffer_t, rank_tasks_t
          class(rank_tasks_t), intent(inout) :: self
          integer(ip), intent(in) :: task
-         type(parcel_t), intent(inout) :: answer     !< that of make
+         type(buffer_t), intent(inout) :: answer     !< that of make
          integer, intent(in) :: end_code             !< 0; of a lost one the exit code, or 128 and the number of the signal
       end subroutine take_answer
    end interface
@@ -56,7 +57,7 @@ module atrito_rank_tasks
 
    !> What came of a task.
    type :: outcome_t
-      type(parcel_t) :: answer
+      type(buffer_t) :: answer
       integer :: end_code = 0
    end type outcome_t
 
@@ -88,7 +89,7 @@ contains
       wait_time = SHORT_PAUSE
       do
          do rank = ubound(task_of, 1, kind=ip), 0, -1     ! the others first: rank 0 may have to make its process
-            if (task_of(rank) > 0 .or. next > size(list)) cycle
+            if (task_of(rank) > 0 .or. next > size(list) .or. tasks%is_stopped) cycle
             task_of(rank) = list(next)
             next = next + 1
             call tasks%begin(task_of(rank))
@@ -118,10 +119,10 @@ contains
    !> A number for another rank.
    subroutine tell(number, rank)
       integer(ip), intent(in) :: number, rank
-      type(parcel_t) :: parcel
+      type(buffer_t) :: buffer
 
-      call put(parcel, number)
-      call send_parcel(parcel, rank)
+      call put(buffer, number)
+      call send_buffer(buffer, rank)
    end subroutine tell
 
    !> What came of a task, of another rank or of rank 0's own.
@@ -132,17 +133,17 @@ contains
       type(outcome_t), intent(out) :: outcome
       integer(ip), intent(out) :: rank
       logical, intent(out) :: is_done
-      type(parcel_t) :: head
+      type(buffer_t) :: head
       integer(ip) :: end_code
 
       rank = 0
       is_done = .false.
       if (rank_count() > 1) is_done = has_message()
       if (is_done) then
-         call receive_parcel(head, ANY_RANK, rank)
+         call receive_buffer(head, ANY_RANK, rank)
          call take(head, end_code)
          outcome%end_code = int(end_code)
-         call receive_parcel(outcome%answer, rank)
+         call receive_buffer(outcome%answer, rank)
       else if (own_task > 0) then
          call look_at_own(tasks, process, own_task, outcome, is_done)
       end if
@@ -153,14 +154,14 @@ contains
       class(rank_tasks_t), intent(inout) :: tasks
       type(task_process_t) :: process
       type(outcome_t) :: outcome
-      type(parcel_t) :: request, head
+      type(buffer_t) :: request, head
       integer(ip) :: task
       real(c_double) :: wait_time
       logical :: is_done
 
       do
          call await_message()
-         call receive_parcel(request, 0_ip)
+         call receive_buffer(request, 0_ip)
          call take(request, task)
          if (task == LAST_TASK) exit
          call begin_own(tasks, process, task)
@@ -170,10 +171,10 @@ contains
             if (is_done) exit
             call sleep_longer(wait_time)
          end do
-         head = parcel_t()
+         head = buffer_t()
          call put(head, int(outcome%end_code, ip))
-         call send_parcel(head, 0_ip)
-         call send_parcel(outcome%answer, 0_ip)
+         call send_buffer(head, 0_ip)
+         call send_buffer(outcome%answer, 0_ip)
       end do
       call end_task_process(process)
    end subroutine work_for_first
@@ -185,23 +186,23 @@ contains
       integer(ip), intent(in) :: task
       logical :: is_copy
 
-      if (.not. is_there(process)) then
+      if (.not. process%runs) then
          call begin_task_process(process, is_copy)
          if (is_copy) call work_in_copy(tasks, process)
       end if
-      if (is_there(process)) call give_task(process, task)
+      if (process%runs) call give_task(process, task)
    end subroutine begin_own
 
    !> Does not come back.
    subroutine work_in_copy(tasks, process)
       class(rank_tasks_t), intent(inout) :: tasks
       type(task_process_t), intent(inout) :: process
-      type(parcel_t) :: answer
+      type(buffer_t) :: answer
       integer(ip) :: task
 
       do
          call await_task(process, task)
-         answer = parcel_t()
+         answer = buffer_t()
          call tasks%make(task, answer)
          call give_answer(process, answer)
       end do
@@ -216,7 +217,7 @@ contains
       logical, intent(out) :: is_done
 
       is_done = .true.
-      if (is_there(process)) then
+      if (process%runs) then
          call ask_answer(process, outcome%answer, is_done, outcome%end_code)
       else
          call tasks%make(task, outcome%answer)

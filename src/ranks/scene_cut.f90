@@ -22,14 +22,14 @@ module atrito_scene_cut
    !> What belongs to which part. Nodes and motions: those of body b are the last but bodies%n - b.
    type :: scene_cut_t
       integer(ip) :: n_parts = 0
-      integer(ip) :: n_top = 0                       !< unknowns that are shared
+      integer(ip) :: n_shared = 0                    !< unknowns that are shared
       integer(ip), allocatable :: first_element(:), element(:) !< of part p: element(first_element(p):first_element(p + 1) - 1)
       integer(ip), allocatable :: first_point(:), point(:)     !< the same of points with a row
       logical, allocatable :: is_shared(:)           !< (nodes and motions)
       integer(ip), allocatable :: pull_part(:)       !< (bodies) 0: it has no motions
       integer(ip), allocatable :: spring_part(:)     !< (k) 0: none
       real(wp), allocatable :: spring_stiffness(:)   !< (k) [F/L]
-      integer(ip), allocatable :: top_of(:)          !< (n) number of an unknown among those that are shared; 0: it is not
+      integer(ip), allocatable :: shared_number(:)   !< (n) number of an unknown among those that are shared; 0: it is not
       integer(ip), allocatable :: place(:)           !< (nodes and motions) for whoever makes the parts: 0
       integer(ip), allocatable :: unknown_at(:)      !< (n) the same
    end type scene_cut_t
@@ -39,7 +39,7 @@ module atrito_scene_cut
       integer(ip) :: rank = 0                    !< who has the part
       integer(ip) :: n_elements = 0
       integer(ip), allocatable :: unknown(:)     !< those that other parts have, too, last
-      integer(ip), allocatable :: top(:)         !< number of each of these among all that are shared
+      integer(ip), allocatable :: shared(:)      !< number of each of these among all that are shared
       integer(ip), allocatable :: row(:), pull(:)
       real(wp) :: solving = 0.0_wp               !< what factoring it will take, where it is [bytes]
    end type place_t
@@ -202,14 +202,14 @@ contains
       type(scene_cut_t), intent(inout) :: cut
       integer(ip) :: i
 
-      allocate (cut%top_of(numbering%n), source=0_ip)
+      allocate (cut%shared_number(numbering%n), source=0_ip)
       do i = 1, fem%mesh%n_nodes + fem%bodies%n
-         if (cut%is_shared(i)) cut%top_of(unknowns_at(fem, numbering, i)) = 1
+         if (cut%is_shared(i)) cut%shared_number(unknowns_at(fem, numbering, i)) = 1
       end do
       do i = 1, numbering%n
-         if (cut%top_of(i) == 0) cycle
-         cut%n_top = cut%n_top + 1
-         cut%top_of(i) = cut%n_top
+         if (cut%shared_number(i) == 0) cycle
+         cut%n_shared = cut%n_shared + 1
+         cut%shared_number(i) = cut%n_shared
       end do
    end subroutine number_shared
 

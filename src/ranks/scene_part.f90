@@ -15,8 +15,8 @@ module atrito_scene_part
    use atrito_contact_line, only: contact_line_t
    use atrito_contact_rows, only: contact_rows_t
    use atrito_kinds, only: ip, wp
-   use atrito_parcel, only: parcel_t, put, take
-   use atrito_piece_parcel, only: put_piece, receive_piece
+   use atrito_buffer, only: buffer_t, put, take
+   use atrito_piece_buffer, only: put_piece, receive_piece
    use atrito_scene_elimination, only: scene_numbering_t
    use atrito_status, only: status_t
    implicit none (type, external)
@@ -51,92 +51,92 @@ contains
    end subroutine assemble_scene_part
 
    !> Adds a part that is not assembled; its mesh is let go of.
-   subroutine put_scene_part(parcel, part)
-      type(parcel_t), intent(inout) :: parcel
+   subroutine put_scene_part(buffer, part)
+      type(buffer_t), intent(inout) :: buffer
       type(scene_part_t), intent(inout) :: part
 
-      call put(parcel, part%n_kept)
-      call put(parcel, part%spring_stiffness)
-      call put_piece(parcel, part%fem)
+      call put(buffer, part%n_kept)
+      call put(buffer, part%spring_stiffness)
+      call put_piece(buffer, part%fem)
       deallocate (part%fem%mesh)
-      call put_bodies(parcel, part%fem%bodies)
-      call put_numbering(parcel, part%scene%numbering)
+      call put_bodies(buffer, part%fem%bodies)
+      call put_numbering(buffer, part%scene%numbering)
       associate (rows => part%scene%rows)
-         call put(parcel, [rows%n, rows%n_columns])
-         call put(parcel, rows%first)
-         call put(parcel, rows%column)
-         call put(parcel, rows%value)
-         call put(parcel, rows%point)
+         call put(buffer, [rows%n, rows%n_columns])
+         call put(buffer, rows%first)
+         call put(buffer, rows%column)
+         call put(buffer, rows%value)
+         call put(buffer, rows%point)
       end associate
-      call put(parcel, [part%rows%n, part%rows%longest])
-      call put(parcel, part%rows%first)
-      call put(parcel, part%rows%node)
-      call put(parcel, part%line%normal)
-      call put(parcel, part%line%tangential)
+      call put(buffer, [part%rows%n, part%rows%longest])
+      call put(buffer, part%rows%first)
+      call put(buffer, part%rows%node)
+      call put(buffer, part%line%normal)
+      call put(buffer, part%line%tangential)
    end subroutine put_scene_part
 
    !> The next items, a part.
-   subroutine take_scene_part(parcel, part)
-      type(parcel_t), intent(inout) :: parcel
+   subroutine take_scene_part(buffer, part)
+      type(buffer_t), intent(inout) :: buffer
       type(scene_part_t), intent(out) :: part
       integer(ip), allocatable :: numbers(:)
 
-      call take(parcel, part%n_kept)
-      call take(parcel, part%spring_stiffness)
-      call receive_piece(parcel, part%fem)
-      call take_bodies(parcel, part%fem%bodies)
-      call take_numbering(parcel, part%scene%numbering)
+      call take(buffer, part%n_kept)
+      call take(buffer, part%spring_stiffness)
+      call receive_piece(buffer, part%fem)
+      call take_bodies(buffer, part%fem%bodies)
+      call take_numbering(buffer, part%scene%numbering)
       associate (rows => part%scene%rows)
-         call take(parcel, numbers)
+         call take(buffer, numbers)
          rows%n = numbers(1)
          rows%n_columns = numbers(2)
-         call take(parcel, rows%first)
-         call take(parcel, rows%column)
-         call take(parcel, rows%value)
-         call take(parcel, rows%point)
+         call take(buffer, rows%first)
+         call take(buffer, rows%column)
+         call take(buffer, rows%value)
+         call take(buffer, rows%point)
       end associate
-      call take(parcel, numbers)
+      call take(buffer, numbers)
       part%rows%n = numbers(1)
       part%rows%longest = numbers(2)
-      call take(parcel, part%rows%first)
-      call take(parcel, part%rows%node)
-      call take(parcel, part%line%normal)
-      call take(parcel, part%line%tangential)
+      call take(buffer, part%rows%first)
+      call take(buffer, part%rows%node)
+      call take(buffer, part%line%normal)
+      call take(buffer, part%line%tangential)
       part%line%n = part%rows%n
    end subroutine take_scene_part
 
-   subroutine put_numbering(parcel, numbering)
-      type(parcel_t), intent(inout) :: parcel
+   subroutine put_numbering(buffer, numbering)
+      type(buffer_t), intent(inout) :: buffer
       type(scene_numbering_t), intent(in) :: numbering
 
-      call put(parcel, [numbering%n, numbering%k])
-      call put(parcel, numbering%before)
-      call put(parcel, numbering%first_motion)
-      call put(parcel, numbering%n_motions)
-      call put(parcel, numbering%first_pull)
-      call put(parcel, numbering%spring)
-      call put(parcel, numbering%body)
+      call put(buffer, [numbering%n, numbering%k])
+      call put(buffer, numbering%before)
+      call put(buffer, numbering%first_motion)
+      call put(buffer, numbering%n_motions)
+      call put(buffer, numbering%first_pull)
+      call put(buffer, numbering%spring)
+      call put(buffer, numbering%body)
    end subroutine put_numbering
 
-   subroutine take_numbering(parcel, numbering)
-      type(parcel_t), intent(inout) :: parcel
+   subroutine take_numbering(buffer, numbering)
+      type(buffer_t), intent(inout) :: buffer
       type(scene_numbering_t), intent(out) :: numbering
       integer(ip), allocatable :: numbers(:)
 
-      call take(parcel, numbers)
+      call take(buffer, numbers)
       numbering%n = numbers(1)
       numbering%k = numbers(2)
-      call take(parcel, numbering%before)
-      call take(parcel, numbering%first_motion)
-      call take(parcel, numbering%n_motions)
-      call take(parcel, numbering%first_pull)
-      call take(parcel, numbering%spring)
-      call take(parcel, numbering%body)
+      call take(buffer, numbering%before)
+      call take(buffer, numbering%first_motion)
+      call take(buffer, numbering%n_motions)
+      call take(buffer, numbering%first_pull)
+      call take(buffer, numbering%spring)
+      call take(buffer, numbering%body)
    end subroutine take_numbering
 
    !> Of the bodies one element each, where there is any, and the nodes of rigid ones.
-   subroutine put_bodies(parcel, bodies)
-      type(parcel_t), intent(inout) :: parcel
+   subroutine put_bodies(buffer, bodies)
+      type(buffer_t), intent(inout) :: buffer
       type(bodies_t), intent(in) :: bodies
       integer(ip) :: element(bodies%n), b
 
@@ -144,34 +144,34 @@ contains
       do b = 1, bodies%n
          if (allocated(bodies%list(b)%elements)) element(b) = bodies%list(b)%elements(1)
       end do
-      call put(parcel, bodies%n_rigid)
-      call put(parcel, bodies%of_node)
-      call put(parcel, bodies%of_element)
-      call put(parcel, [bodies%equation])
-      call put(parcel, element)
+      call put(buffer, bodies%n_rigid)
+      call put(buffer, bodies%of_node)
+      call put(buffer, bodies%of_element)
+      call put(buffer, [bodies%equation])
+      call put(buffer, element)
       do b = bodies%n - bodies%n_rigid + 1, bodies%n
-         call put(parcel, bodies%list(b)%nodes)
+         call put(buffer, bodies%list(b)%nodes)
       end do
    end subroutine put_bodies
 
-   subroutine take_bodies(parcel, bodies)
-      type(parcel_t), intent(inout) :: parcel
+   subroutine take_bodies(buffer, bodies)
+      type(buffer_t), intent(inout) :: buffer
       type(bodies_t), intent(out) :: bodies
       integer(ip), allocatable :: element(:)
       integer(ip) :: b
 
-      call take(parcel, bodies%n_rigid)
-      call take(parcel, bodies%of_node)
-      call take(parcel, bodies%of_element)
-      call take(parcel, element)
+      call take(buffer, bodies%n_rigid)
+      call take(buffer, bodies%of_node)
+      call take(buffer, bodies%of_element)
+      call take(buffer, element)
       bodies%equation = reshape(element, [2, size(element)/2])
-      call take(parcel, element)
+      call take(buffer, element)
       bodies%n = size(element, kind=ip)
       allocate (bodies%list(bodies%n))
       do b = 1, bodies%n
          if (element(b) > 0) bodies%list(b)%elements = [element(b)]
          bodies%list(b)%is_rigid = b > bodies%n - bodies%n_rigid
-         if (bodies%list(b)%is_rigid) call take(parcel, bodies%list(b)%nodes)
+         if (bodies%list(b)%is_rigid) call take(buffer, bodies%list(b)%nodes)
       end do
    end subroutine take_bodies
 

@@ -10,9 +10,9 @@ module atrito_shared_fields
    use atrito_fem_piece, only: take_piece
    use atrito_kinds, only: ip, wp
    use atrito_mesh, only: mesh_t
-   use atrito_mpi, only: rank_count, receive_parcel, send_parcel
-   use atrito_parcel, only: parcel_t, put, take
-   use atrito_piece_parcel, only: put_piece, receive_piece
+   use atrito_mpi, only: rank_count, receive_buffer, send_buffer
+   use atrito_buffer, only: buffer_t, put, take
+   use atrito_piece_buffer, only: put_piece, receive_piece
    use atrito_plane_state, only: STRESS_NAMES
    use atrito_range, only: unit_of
    use atrito_rank_services, only: SERVICE_FIELDS
@@ -53,7 +53,7 @@ contains
       type(fem_t), intent(in) :: fem
       real(wp), intent(in) :: u(:, :)                !< (2, n_nodes) [L]
       logical, intent(in) :: by_element
-      type(parcel_t) :: request
+      type(buffer_t) :: request
       integer(ip), allocatable :: near(:)
       integer(ip) :: rank
 
@@ -66,7 +66,7 @@ contains
          call find_region(fem%mesh, self%rank_of, near, rank, self%regions(rank))
          if (rank == 0) cycle
          call put_region(self, fem, u, self%regions(rank), request)
-         call send_parcel(request, rank)
+         call send_buffer(request, rank)
       end do
    end subroutine begin_fields
 
@@ -77,7 +77,7 @@ contains
       type(results_t), intent(inout) :: results      !< with the displacements with which they have
       real(wp), intent(out) :: strain_bound          !< no strain is larger than this
       type(energies_t) :: energies
-      type(parcel_t) :: request, answer
+      type(buffer_t) :: request, answer
       integer(ip) :: rank, service
 
       allocate (results%nodal_stress(size(STRESS_NAMES), fem%mesh%n_nodes), source=0.0_wp)
@@ -90,7 +90,7 @@ contains
             call take(request, service)
             call answer_fields(request, answer)
          else
-            call receive_parcel(answer, rank)
+            call receive_buffer(answer, rank)
          end if
          call take_found(self%regions(rank), answer, results, energies)
       end do
@@ -105,7 +105,7 @@ contains
       type(fem_t), intent(in) :: fem
       real(wp), intent(in) :: u(:, :)                !< (2, n_nodes) [L]
       type(region_t), intent(in) :: region
-      type(parcel_t), intent(out) :: request
+      type(buffer_t), intent(out) :: request
       type(fem_t) :: piece
 
       call put(request, SERVICE_FIELDS)
@@ -120,20 +120,20 @@ contains
       deallocate (piece%mesh)
    end subroutine put_region
 
-   !> Joins in; what is left of the parcel comes behind SERVICE_FIELDS.
+   !> Joins in; what is left of the buffer comes behind SERVICE_FIELDS.
    subroutine serve_fields(request)
-      type(parcel_t), intent(inout) :: request
-      type(parcel_t) :: answer
+      type(buffer_t), intent(inout) :: request
+      type(buffer_t) :: answer
 
       call answer_fields(request, answer)
-      call send_parcel(answer, 0_ip)
+      call send_buffer(answer, 0_ip)
    end subroutine serve_fields
 
    !> Stresses at the nodes of the rank's elements [F/L^2], and their error: the energies, and ||e||^2 of each element [F L] where
    !> it is wanted. Without elements there is no answer.
    subroutine answer_fields(request, answer)
-      type(parcel_t), intent(inout) :: request
-      type(parcel_t), intent(out) :: answer
+      type(buffer_t), intent(inout) :: request
+      type(buffer_t), intent(out) :: answer
       type(fem_t) :: piece
       type(stress_field_t) :: field
       type(energies_t) :: e
@@ -149,7 +149,7 @@ contains
       call take(request, u)
       if (n_own == 0) return
       call receive_piece(request, piece)
-      request = parcel_t()                           ! what was taken needs no copy
+      request = buffer_t()                           ! what was taken needs no copy
       call recover_stress_field(piece, u, field)
       call nodal_stresses(piece, field, stress)
       piece%mesh%n_elements = n_own                  ! those round them have served
@@ -165,7 +165,7 @@ contains
    !> Adds what was found in a region; at a border the last rank has its way.
    subroutine take_found(region, answer, results, energies)
       type(region_t), intent(in) :: region
-      type(parcel_t), intent(inout) :: answer
+      type(buffer_t), intent(inout) :: answer
       type(results_t), intent(inout) :: results
       type(energies_t), intent(inout) :: energies
       real(wp), allocatable :: stress(:, :), sums(:), square(:)

@@ -9,10 +9,10 @@ module atrito_shared_scene
    use atrito_contact_rows, only: contact_rows_t
    use atrito_kinds, only: ip, lp, wp
    use atrito_mpi, only: rank_count
-   use atrito_parcel, only: parcel_t, put, take, take_status
+   use atrito_buffer, only: buffer_t, put, take, take_status
    use atrito_part_maker, only: make_scene_part
    use atrito_part_service, only: ask, ask_with, begin_question, hear, hear_values, held_bytes, ASSEMBLE, EXPAND, FORGET, &
-                                  MULTIPLY, REDUCE, REFACTOR, TOP_BEGIN, TOP_FACTOR, TOP_SOLVE
+                                  MULTIPLY, REDUCE, REFACTOR, SCHUR_BEGIN, SCHUR_FACTOR, SCHUR_SOLVE
    use atrito_row_entries, only: build_constraint_rows
    use atrito_scene_cut, only: place_t, scene_cut_t, plan_cut, diagonals_of_rows
    use atrito_scene_elimination, only: eliminate_scene, number_scene
@@ -24,12 +24,12 @@ module atrito_shared_scene
    private
    public :: shared_scene_t, share_scene
 
-   type(status_t), target :: trouble             !< of the first solve of the top that failed, until it is taken (scene_system_t)
+   type(status_t), target :: trouble             !< of the first solve with S that failed, until it is taken (scene_system_t)
 
    type, extends(scene_system_t) :: shared_scene_t
       type(place_t), allocatable :: parts(:)     !< the first rank, where it has one, has the first
       integer(ip), allocatable, private :: shared(:) !< unknown of the scene of each that is shared
-      logical, private :: is_stale = .true.      !< the top is not the sum of what is left of the parts
+      logical, private :: is_stale = .true.      !< S is not the sum of what is left of the parts
    contains
       procedure :: multiply => multiply_shared
       procedure :: factor => factor_shared
@@ -80,7 +80,7 @@ contains
       end do
       call set_flexibility(fem, rows, line, diagonal, coupling, scene)
       deallocate (diagonal, coupling, part_of_element)
-      scene%shared = pack([(i, i=1, scene%n)], cut%top_of > 0)
+      scene%shared = pack([(i, i=1, scene%n)], cut%shared_number > 0)
       allocate (scene%parts(size(rank)))
       scene%parts%rank = rank
       scene%trouble => trouble
@@ -96,13 +96,13 @@ contains
       type(scene_cut_t), intent(inout) :: cut
       type(shared_scene_t), intent(inout) :: scene
       type(scene_part_t) :: part, nothing
-      type(parcel_t) :: request
+      type(buffer_t) :: request
       integer(ip) :: p
 
       do p = size(scene%parts, kind=ip), 1, -1
          associate (place => scene%parts(p))
             call make_scene_part(fem, rows, line, scene%numbering, scene%rows, p, cut, part, place)
-            place%top = cut%top_of(place%unknown(size(place%unknown) - part%n_kept + 1:))
+            place%shared = cut%shared_number(place%unknown(size(place%unknown) - part%n_kept + 1:))
             place%n_elements = cut%first_element(p + 1) - cut%first_element(p)
             call begin_question(ASSEMBLE, request)
             call put_scene_part(request, part)
@@ -112,12 +112,12 @@ contains
       end do
    end subroutine hand_over
 
-   !> What became of the parts; then MUMPS is told who has which unknowns of the top.
+   !> What became of the parts; then MUMPS is told who has which shared unknowns.
    subroutine hear_assembled(scene, status)
       type(shared_scene_t), intent(inout) :: scene
       type(status_t), intent(out) :: status
       type(status_t) :: of_part
-      type(parcel_t) :: answer
+      type(buffer_t) :: answer
       character(len=:), allocatable :: order
       logical :: is_near
       integer(ip) :: p
@@ -132,33 +132,33 @@ contains
          scene%is_near = scene%is_near .or. is_near
          if (p == 1) call move_alloc(order, scene%order)
       end do
-      if (is_ok(status)) call begin_top(scene, status)
+      if (is_ok(status)) call begin_schur(scene, status)
    end subroutine hear_assembled
 
-   !> Says which unknowns of the top each rank has. status: STATUS_INTERNAL: there is no MUMPS, or too little memory.
-   subroutine begin_top(scene, status)
+   !> Says which shared unknowns each rank has. status: STATUS_INTERNAL: there is no MUMPS, or too little memory.
+   subroutine begin_schur(scene, status)
       type(shared_scene_t), intent(in) :: scene
       type(status_t), intent(out) :: status
-      type(parcel_t) :: request, answer
+      type(buffer_t) :: request, answer
       integer(ip) :: rank, p
 
       do rank = rank_count() - 1, 0, -1
-         call begin_question(TOP_BEGIN, request)
+         call begin_question(SCHUR_BEGIN, request)
          call put(request, size(scene%shared, kind=ip))
          p = findloc(scene%parts%rank, rank, dim=1, kind=ip)
-         if (p > 0) call put(request, scene%parts(p)%top)
+         if (p > 0) call put(request, scene%parts(p)%shared)
          if (p == 0) call put(request, [integer(ip) ::])
          call ask(rank, request)
       end do
       call hear_all(answer)
       call take_status(answer, status)
-   end subroutine begin_top
+   end subroutine begin_schur
 
    !> Asks all ranks without anything besides.
    subroutine ask_all(wanted, answer)
       integer(ip), intent(in) :: wanted
-      type(parcel_t), intent(out) :: answer
-      type(parcel_t) :: request
+      type(buffer_t), intent(out) :: answer
+      type(buffer_t) :: request
       integer(ip) :: rank
 
       do rank = rank_count() - 1, 0, -1
@@ -170,7 +170,7 @@ contains
 
    !> The answers of all ranks; that of the first one counts.
    subroutine hear_all(answer)
-      type(parcel_t), intent(out) :: answer
+      type(buffer_t), intent(out) :: answer
       integer(ip) :: rank
 
       do rank = rank_count() - 1, 0, -1
@@ -198,13 +198,13 @@ contains
       end do
    end subroutine multiply_shared
 
-   !> The parts, then the top where what is left of any of them is another than before.
+   !> The parts, then S where what is left of any of them is another than before.
    subroutine factor_shared(self, stiffness, pull, status)
       class(shared_scene_t), intent(inout) :: self
       real(wp), intent(in) :: stiffness(:), pull(:)
       type(status_t), intent(out) :: status
       type(status_t) :: of_part
-      type(parcel_t) :: request, answer
+      type(buffer_t) :: request, answer
       integer(ip) :: p, failed
       logical :: is_changed
 
@@ -226,7 +226,7 @@ contains
          if (failed > 0) self%failed = self%parts(p)%unknown(failed)
       end do
       if (.not. (is_ok(status) .and. self%is_stale)) return
-      call ask_all(TOP_FACTOR, answer)
+      call ask_all(SCHUR_FACTOR, answer)
       call take_status(answer, status)
       call take(answer, failed)
       if (failed > 0) self%failed = self%shared(failed)
@@ -236,26 +236,26 @@ contains
    subroutine solve_shared(self, x)
       class(shared_scene_t), intent(in) :: self
       real(wp), intent(inout) :: x(:)
-      real(wp), allocatable :: f(:), top(:), found(:)
+      real(wp), allocatable :: f(:), shared(:), found(:)
       integer(ip) :: p
 
       do p = size(self%parts, kind=ip), 1, -1
          associate (part => self%parts(p))
             f = x(part%unknown)
-            f(size(f) - size(part%top) + 1:) = 0.0_wp
+            f(size(f) - size(part%shared) + 1:) = 0.0_wp
             call ask_with(part%rank, REDUCE, f)
          end associate
       end do
-      top = x(self%shared)
+      shared = x(self%shared)
       do p = 1, size(self%parts, kind=ip)
          call hear_values(self%parts(p)%rank, found)
-         associate (own => self%parts(p)%top)
-            top(own) = top(own) + found
+         associate (own => self%parts(p)%shared)
+            shared(own) = shared(own) + found
          end associate
       end do
-      call solve_top(top)
+      call solve_schur(shared)
       do p = size(self%parts, kind=ip), 1, -1
-         call ask_with(self%parts(p)%rank, EXPAND, top(self%parts(p)%top))
+         call ask_with(self%parts(p)%rank, EXPAND, shared(self%parts(p)%shared))
       end do
       do p = 1, size(self%parts, kind=ip)
          call hear_values(self%parts(p)%rank, found)
@@ -264,15 +264,15 @@ contains
    end subroutine solve_shared
 
    !> x <- S^-1 x; 0 where that failed, which is noted: nothing that was found may be believed then.
-   subroutine solve_top(x)
+   subroutine solve_schur(x)
       real(wp), intent(inout) :: x(:)            !< (shared unknowns)
       real(wp), allocatable :: found(:)
-      type(parcel_t) :: request, answer
+      type(buffer_t) :: request, answer
       type(status_t) :: status
       integer(ip) :: rank
 
       do rank = rank_count() - 1, 0, -1
-         call begin_question(TOP_SOLVE, request)
+         call begin_question(SCHUR_SOLVE, request)
          call put(request, x(:merge(size(x), 0, rank == 0)))
          call ask(rank, request)
       end do
@@ -282,12 +282,12 @@ contains
       x = 0.0_wp
       if (is_ok(status)) x = found
       if (is_ok(trouble)) trouble = status
-   end subroutine solve_top
+   end subroutine solve_schur
 
    !> All ranks give back what they have.
    subroutine release_parts(self)
       class(shared_scene_t), intent(inout) :: self
-      type(parcel_t) :: answer
+      type(buffer_t) :: answer
 
       if (.not. allocated(self%parts)) return
       call ask_all(FORGET, answer)
@@ -307,7 +307,7 @@ contains
       bytes = sum(self%solving_of_ranks(1_ip))
    end function first_solving_bytes
 
-   !> What solving will take of the first ranks beyond what they hold when the parts are assembled [bytes]: the parts; of the top a
+   !> What solving will take of the first ranks beyond what they hold when the parts are assembled [bytes]: the parts; of S a
    !> share, and what MUMPS makes of the rank's own matrix; on the first one the vectors of the iteration.
    pure function solving_of_ranks(self, n_ranks) result(bytes)
       class(shared_scene_t), intent(in) :: self
@@ -321,7 +321,7 @@ contains
       do p = 1, size(self%parts, kind=ip)
          associate (part => self%parts(p))
             if (part%rank < n_ranks) bytes(part%rank) = bytes(part%rank) + int(part%solving, lp) &
-                                                        + MUMPS_BYTES*size(part%top, kind=lp)**2
+                                                        + MUMPS_BYTES*size(part%shared, kind=lp)**2
          end associate
       end do
    end function solving_of_ranks

@@ -7,21 +7,20 @@ module atrito_task_process
    use, intrinsic :: iso_c_binding, only: c_double, c_f_pointer, c_int, c_loc
    use, intrinsic :: iso_fortran_env, only: int8
    use atrito_kinds, only: ip, lp
-   use atrito_parcel, only: parcel_t, make_parcel, parcel_bytes
+   use atrito_buffer, only: buffer_t, make_buffer, buffer_bytes
    use atrito_processes, only: begin_worker, end_worker, share_integers
    use atrito_status, only: STATUS_INTERNAL
    use atrito_system, only: get_shared, maker_number, pause_for, process_number, set_shared, swap_shared, worker_end
    implicit none (type, external)
    private
-   public :: task_process_t, begin_task_process, give_task, ask_answer, end_task_process, await_task, give_answer, is_there
+   public :: task_process_t, begin_task_process, give_task, ask_answer, end_task_process, await_task, give_answer
    public :: LAST_TASK
 
    type :: task_process_t
-      private
-      integer :: number = 0                        !< of the process
-      integer :: maker = 0                         !< of the one that made it
-      logical :: runs = .false.
-      integer(c_int), pointer :: shared(:) => null()
+      logical :: runs = .false.                    !< it has been begun, and not been ended
+      integer, private :: number = 0               !< of the process
+      integer, private :: maker = 0                !< of the one that made it
+      integer(c_int), pointer, private :: shared(:) => null()
    end type task_process_t
 
    integer(ip), parameter :: LAST_TASK = -1_ip      !< there is nothing more to do
@@ -34,7 +33,7 @@ module atrito_task_process
 
 contains
 
-   !> Makes the copy. is_copy tells which of the two this is. Where the system makes none, is_there tells so.
+   !> Makes the copy. is_copy tells which of the two this is. Where the system makes none, it does not run.
    subroutine begin_task_process(process, is_copy)
       type(task_process_t), intent(inout) :: process
       logical, intent(out) :: is_copy
@@ -49,13 +48,6 @@ contains
       if (maker_number() /= process%maker) call end_worker()
    end subroutine begin_task_process
 
-   !> Whether the process has been begun, and not been ended.
-   pure logical function is_there(process)
-      type(task_process_t), intent(in) :: process
-
-      is_there = process%runs
-   end function is_there
-
    !> To a copy that has answered the one before.
    subroutine give_task(process, task)
       type(task_process_t), intent(inout) :: process
@@ -67,7 +59,7 @@ contains
    !> Whether the task is done, or lost: then the copy is gone, and the answer is empty.
    subroutine ask_answer(process, answer, is_done, end_code)
       type(task_process_t), intent(inout) :: process
-      type(parcel_t), intent(out), target :: answer
+      type(buffer_t), intent(out), target :: answer
       logical, intent(out) :: is_done
       integer, intent(out) :: end_code              !< of a copy that is gone, as that of worker_end, never 0; else 0
       integer :: ended
@@ -91,11 +83,11 @@ contains
 
    subroutine take_answer(process, answer)
       type(task_process_t), intent(inout) :: process
-      type(parcel_t), intent(inout), target :: answer
+      type(buffer_t), intent(inout), target :: answer
       integer(int8), pointer :: bytes(:), found(:)
 
-      call make_parcel(int(process%shared(LENGTH), lp), answer)
-      bytes => parcel_bytes(answer)
+      call make_buffer(int(process%shared(LENGTH), lp), answer)
+      bytes => buffer_bytes(answer)
       found => shared_bytes(process, size(bytes, kind=lp))
       bytes = found
       call set_shared(process%shared(ANSWERED), 0_c_int)
@@ -132,10 +124,10 @@ contains
    !> In the copy: hands the answer over.
    subroutine give_answer(process, answer)
       type(task_process_t), intent(inout) :: process
-      type(parcel_t), intent(in), target :: answer
+      type(buffer_t), intent(in), target :: answer
       integer(int8), pointer :: bytes(:), room(:)
 
-      bytes => parcel_bytes(answer)
+      bytes => buffer_bytes(answer)
       if (size(bytes, kind=lp) > NUMBER_BYTES*MOST_NUMBERS) error stop 'atrito_task_process: an answer is too long'
       room => shared_bytes(process, size(bytes, kind=lp))
       room = bytes

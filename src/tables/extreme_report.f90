@@ -3,9 +3,9 @@ module atrito_extreme_report
    use atrito_kinds, only: ip, wp
    use atrito_page, only: page_t, add_blank, add_item, add_line, left, right, number
    use atrito_results, only: results_t, extreme_t
-   use atrito_strings, only: append_string, string_t, to_text
+   use atrito_strings, only: append_string, replaced, string_t, to_text
    use atrito_summary, only: scales_t
-   use atrito_table, only: table_t, begin_table, add_integers, add_reals, add_words, clear_small
+   use atrito_table, only: table_t, begin_step_table, add_integers, add_reals, add_words, clear_small
    implicit none (type, external)
    private
    public :: build_extremes, describe_extremes, add_extremes
@@ -31,16 +31,14 @@ contains
             call clear_small(scale_of(extreme, scales), values(i:i))
          end associate
       end do
-      call begin_table(table, 'extremes', 'a row a quantity: its largest or least value, and where', n)
+      call begin_step_table(table, 'extremes', 'a row a quantity: its largest or least value, and where', n, results%step)
       call append_string(table%remarks, '[L]: u u1_max u1_min u2_max u2_min')
       call append_string(table%remarks, '[F/L^2]: mises s1_max s3_min contact_pressure contact_shear')
-      call add_integers(table, 'step', [results%step])
       call add_words(table, 'quantity', '-', names, on_the_left=.true.)
       call add_reals(table, 'value', 'mixed', values, 0.0_wp)
       call add_reals(table, 'x', 'L', results%extremes%x(1), scales%length)
       call add_reals(table, 'y', 'L', results%extremes%x(2), scales%length)
       call add_integers(table, 'node_or_element', results%extremes%id)
-      call add_integers(table, 'increment', [results%increment])
    end subroutine build_extremes
 
    !> The largest value of the field that a quantity is of.
@@ -86,18 +84,10 @@ contains
    pure function name_of(extreme) result(name)
       type(extreme_t), intent(in) :: extreme
       character(len=:), allocatable :: name
-      integer :: i
 
-      name = trim(extreme%quantity)
-      do i = 1, len(name)
-         if (name(i:i) == '_') name(i:i) = ' '
-      end do
+      name = replaced(trim(extreme%quantity), '_', ' ')
       if (name == 'u') name = '|u|'
-      if (extreme%quantity(1:1) == 'u') then
-         name = name//' [L]'
-      else
-         name = name//' [F/L^2]'
-      end if
+      name = name//trim(merge(' [L]    ', ' [F/L^2]', extreme%quantity(1:1) == 'u'))
    end function name_of
 
    !> For the screen: the largest displacement and the largest stress.

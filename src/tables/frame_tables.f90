@@ -11,7 +11,7 @@ module atrito_frame_tables
    use atrito_rigid_report, only: build_rigid_table
    use atrito_row_tables, only: has_rows, build_row_table
    use atrito_summary, only: scales_t, pair_count
-   use atrito_table, only: table_t, begin_table, add_reals, add_real_columns, add_field, add_integers, add_integer_field, &
+   use atrito_table, only: table_t, begin_step_table, add_reals, add_real_columns, add_field, add_integers, add_integer_field, &
                            add_words, clear_small, one_word
    implicit none (type, external)
    private
@@ -19,11 +19,10 @@ module atrito_frame_tables
 
    !> The reals of contact.tab, as copy_fields has them. The column status stands among them.
    integer, parameter :: BEFORE_STATUS = 8
-   character(len=17), parameter :: CONTACT_NAMES(*) = [character(len=17) :: 's', 'x', 'y', 'gap', 'pressure', &
-                                                                                   'weighted_pressure', 'shear', 'slip', 'weight', &
-                                                                                                                   'slip_increment']
-   character(len=5), parameter :: CONTACT_DIMENSIONS(*) = [character(len=5) :: 'L', 'L', 'L', 'L', 'F/L^2', 'F/L^2', 'F/L^2', &
-                                                                                                                    'L', 'L^2', 'L']
+   character(len=17), parameter :: CONTACT_NAMES(*) = [character(len=17) :: 's', 'x', 'y', 'gap', 'pressure', 'weighted_pressure', &
+                                                       'shear', 'slip', 'weight', 'slip_increment']
+   character(len=5), parameter :: CONTACT_DIMENSIONS(*) = [character(len=5) :: 'L', 'L', 'L', 'L', 'F/L^2', 'F/L^2', 'F/L^2', 'L', &
+                                                           'L^2', 'L']
 
 contains
 
@@ -51,43 +50,29 @@ contains
       type(model_t), intent(in) :: model
       type(results_t), intent(in) :: frame
       character(len=*), intent(in) :: name
+      character(len=*), parameter :: NAMES(11) = [character(len=12) :: 'contact', 'nodes', 'reactions', 'stress', 'nodal_stress', &
+                                                  'bodies', 'joints', 'sections', 'rigid', 'extremes', 'resultants']
+      logical :: is_there(size(NAMES))
+      integer :: i
 
+      i = findloc(NAMES == name, .true., dim=1)
       associate (requests => model%steps(frame%step)%requests)
-         select case (name)
-         case ('contact')
-            has_table = pair_count(frame) > 0
-         case ('nodes')
-            has_table = requests%nodes .and. allocated(frame%u)
-         case ('reactions')
-            has_table = requests%reactions .and. allocated(frame%reaction)
-         case ('stress')
-            has_table = requests%stress .and. allocated(frame%stress)
-         case ('bodies')
-            has_table = requests%bodies .and. allocated(frame%bodies)
-         case ('rigid')
-            has_table = allocated(frame%rigid)
-         case ('joints')
-            has_table = requests%joints .and. allocated(frame%joints)
-         case ('nodal_stress')
-            has_table = requests%nodal_stress .and. allocated(frame%nodal_stress)
-         case ('extremes')
-            has_table = allocated(frame%extremes)
-         case ('resultants')
-            has_table = has_resultants(model)
-         case ('sections')
-            has_table = allocated(requests%cuts) .and. allocated(frame%cuts)
-         case default
-            has_table = has_rows(model, frame, name)
-         end select
+         is_there = [pair_count(frame) > 0, requests%nodes .and. allocated(frame%u), &
+                     requests%reactions .and. allocated(frame%reaction), requests%stress .and. allocated(frame%stress), &
+                     requests%nodal_stress .and. allocated(frame%nodal_stress), requests%bodies .and. allocated(frame%bodies), &
+                     requests%joints .and. allocated(frame%joints), allocated(requests%cuts) .and. allocated(frame%cuts), &
+                     allocated(frame%rigid), allocated(frame%extremes), has_resultants(model)]
       end associate
+      if (i > 0) has_table = is_there(i)
+      if (i == 0) has_table = has_rows(model, frame, name)
    end function has_table
 
    !> How often a table is printed. What ties, equations and springs transmit and rigid surfaces do goes with the contact.
    pure integer(ip) function frequency_of(requests, name) result(every)
       type(requests_t), intent(in) :: requests
       character(len=*), intent(in) :: name
-      character(len=*), parameter :: ALONE(7) = &
-                               [character(len=12) :: 'nodes', 'reactions', 'stress', 'nodal_stress', 'bodies', 'joints', 'sections']
+      character(len=*), parameter :: ALONE(7) = [character(len=12) :: 'nodes', 'reactions', 'stress', 'nodal_stress', 'bodies', &
+                                                 'joints', 'sections']
       integer(ip) :: frequencies(0:size(ALONE))
 
       associate (every_of => requests%every)
@@ -109,14 +94,12 @@ contains
       select case (name)
       case ('contact')
          call build_contact(frame, own, table)
-      case ('nodes')
-         call build_nodes(model, frame, scales, table)
+      case ('nodes', 'nodal_stress')
+         call build_nodes(model, frame, scales, name, table)
       case ('reactions')
          call build_reactions(model, frame, scales, table)
       case ('stress')
          call build_stress(model, frame, scales, table)
-      case ('nodal_stress')
-         call build_nodal_stress(model, frame, scales, table)
       case ('bodies')
          call build_bodies(frame, scales, table)
       case ('extremes')
@@ -132,6 +115,7 @@ contains
       case default
          call build_row_table(model, frame, scales, name, table)
       end select
+      call add_integers(table, 'increment', [frame%increment])
    end subroutine build_frame_table
 
    !> A row a quadrature point, by pair, then along s.
@@ -154,15 +138,13 @@ contains
          point_status(first:last) = results%contact(i)%status(:results%contact(i)%n)
          call copy_fields(results%contact(i), own(i), field(first:last, :))
       end do
-      call begin_table(table, 'contact', 'a row a quadrature point of the slave surface', n)
-      call add_integers(table, 'step', [results%step])
+      call begin_step_table(table, 'contact', 'a row a quadrature point of the slave surface', n, results%step)
       call add_integers(table, 'pair', pair)
       call add_integers(table, 'point', point)
       call add_real_columns(table, CONTACT_NAMES(:BEFORE_STATUS), CONTACT_DIMENSIONS(:BEFORE_STATUS), field)
       call add_integers(table, 'status', point_status)
       call add_real_columns(table, CONTACT_NAMES(BEFORE_STATUS + 1:), CONTACT_DIMENSIONS(BEFORE_STATUS + 1:), &
                             field(:, BEFORE_STATUS + 1:))
-      call add_integers(table, 'increment', [results%increment])
    end subroutine build_contact
 
    !> What a pair has in the columns CONTACT_NAMES; what is rounding in it becomes 0.
@@ -200,25 +182,35 @@ contains
 
    end subroutine copy_fields
 
-   !> The table points at the fields of model and results.
-   subroutine build_nodes(model, results, scales, table)
+   !> Displacements, or stresses, a row a node. The table points at the fields of model and results.
+   subroutine build_nodes(model, results, scales, name, table)
       type(model_t), intent(in), target :: model
       type(results_t), intent(in), target :: results
       type(scales_t), intent(in) :: scales
+      character(len=*), intent(in) :: name          !< nodes, nodal_stress
       type(table_t), intent(out) :: table
+      character(len=:), allocatable :: title
+      integer :: i
 
-      call begin_table(table, 'nodes', 'a row a node', model%mesh%n_nodes)
-      if (.not. takes_all(model%steps(results%step)%requests%node_u)) then
-         table%places = places(model%steps(results%step)%requests%node_u, model%mesh%n_nodes)
-         table%n_rows = size(table%places, kind=ip)
-      end if
-      call add_integers(table, 'step', [results%step])
+      title = 'a row a node'
+      if (name == 'nodal_stress') title = title//' of an element: recovered stresses, the mean of all elements round it'
+      call begin_step_table(table, name, title, model%mesh%n_nodes, results%step)
+      associate (requests => model%steps(results%step)%requests)
+         if (name == 'nodes' .and. .not. takes_all(requests%node_u)) table%places = places(requests%node_u, model%mesh%n_nodes)
+         if (name /= 'nodes' .and. .not. takes_all(requests%node_s)) table%places = places(requests%node_s, model%mesh%n_nodes)
+      end associate
+      if (allocated(table%places)) table%n_rows = size(table%places, kind=ip)
       call add_integer_field(table, 'node', model%mesh%node_id)
       call add_field(table, 'x', 'L', model%mesh%x(1, :), scales%length)
       call add_field(table, 'y', 'L', model%mesh%x(2, :), scales%length)
-      call add_field(table, 'u1', 'L', results%u(1, :), scales%displacement)
-      call add_field(table, 'u2', 'L', results%u(2, :), scales%displacement)
-      call add_integers(table, 'increment', [results%increment])
+      if (name == 'nodes') then
+         call add_field(table, 'u1', 'L', results%u(1, :), scales%displacement)
+         call add_field(table, 'u2', 'L', results%u(2, :), scales%displacement)
+         return
+      end if
+      do i = 1, size(STRESS_NAMES)
+         call add_field(table, trim(STRESS_NAMES(i)), 'F/L^2', results%nodal_stress(i, :), scales%nodal_stress)
+      end do
    end subroutine build_nodes
 
    !> Whether all nodes or elements are asked for; so it is where nothing is said.
@@ -240,12 +232,10 @@ contains
       node = places(model%steps(results%step)%requests%node_rf, model%mesh%n_nodes)
       node = pack(node, any(results%prescribed(:, node), dim=1))
       n = size(node, kind=ip)
-      call begin_table(table, 'reactions', 'a row a node with a prescribed displacement', n)
-      call add_integers(table, 'step', [results%step])
+      call begin_step_table(table, 'reactions', 'a row a node with a prescribed displacement', n, results%step)
       call add_integers(table, 'node', model%mesh%node_id(node))
       call add_reals(table, 'r1', 'F', results%reaction(1, node), scales%force)
       call add_reals(table, 'r2', 'F', results%reaction(2, node), scales%force)
-      call add_integers(table, 'increment', [results%increment])
    end subroutine build_reactions
 
    !> Places of the nodes asked for; all where nothing is said.
@@ -278,12 +268,12 @@ contains
       type(table_t), intent(out) :: table
       integer :: i
 
-      call begin_table(table, 'stress', 'a row a quadrature point of an element', size(results%stress_element, kind=ip))
+      call begin_step_table(table, 'stress', 'a row a quadrature point of an element', size(results%stress_element, kind=ip), &
+                            results%step)
       if (.not. takes_all(model%steps(results%step)%requests%element_s)) then
          table%places = stress_rows(results, model%steps(results%step)%requests%element_s)
          table%n_rows = size(table%places, kind=ip)
       end if
-      call add_integers(table, 'step', [results%step])
       call add_integer_field(table, 'element', results%stress_element, model%mesh%element_id)
       call add_integer_field(table, 'point', results%stress_point)
       call add_field(table, 'x', 'L', results%stress_x(1, :), scales%length)
@@ -291,52 +281,23 @@ contains
       do i = 1, size(STRESS_NAMES)
          call add_field(table, trim(STRESS_NAMES(i)), 'F/L^2', results%stress(i, :), scales%stress)
       end do
-      call add_integers(table, 'increment', [results%increment])
    end subroutine build_stress
-
-   !> The table points at the fields of results and at the model's nodes.
-   subroutine build_nodal_stress(model, results, scales, table)
-      type(model_t), intent(in), target :: model
-      type(results_t), intent(in), target :: results
-      type(scales_t), intent(in) :: scales
-      type(table_t), intent(out) :: table
-      integer :: i
-
-      call begin_table(table, 'nodal_stress', 'a row a node of an element: recovered stresses, the mean of all elements round it', &
-                       model%mesh%n_nodes)
-      if (.not. takes_all(model%steps(results%step)%requests%node_s)) then
-         table%places = places(model%steps(results%step)%requests%node_s, model%mesh%n_nodes)
-         table%n_rows = size(table%places, kind=ip)
-      end if
-      call add_integers(table, 'step', [results%step])
-      call add_integer_field(table, 'node', model%mesh%node_id)
-      call add_field(table, 'x', 'L', model%mesh%x(1, :), scales%length)
-      call add_field(table, 'y', 'L', model%mesh%x(2, :), scales%length)
-      do i = 1, size(STRESS_NAMES)
-         call add_field(table, trim(STRESS_NAMES(i)), 'F/L^2', results%nodal_stress(i, :), scales%nodal_stress)
-      end do
-      call add_integers(table, 'increment', [results%increment])
-   end subroutine build_nodal_stress
 
    !> A row a body.
    subroutine build_bodies(results, scales, table)
       type(results_t), intent(in) :: results        !< with bodies
       type(scales_t), intent(in) :: scales
       type(table_t), intent(out) :: table
-      integer(ip) :: j
-      character(len=8), parameter :: GROUPS(3) = ['loads   ', 'supports', 'contact ']
-      character(len=7), parameter :: COMPONENTS(3) = ['_fx    ', '_fy    ', '_moment']
-      character(len=len(GROUPS) + len(COMPONENTS)) :: columns(3)
       type(string_t) :: names(size(results%bodies))
-      real(wp) :: field(size(results%bodies), 12), force
+      real(wp) :: field(size(results%bodies), 12)
+      real(wp) :: force                              ! largest component of the resultants
       integer(ip) :: i, n
       integer :: k
 
       n = size(results%bodies, kind=ip)
-      ! Largest component of the resultants.
       force = 0.0_wp
-      do j = 1, size(results%bodies, kind=ip)
-         associate (body => results%bodies(j))
+      do i = 1, n
+         associate (body => results%bodies(i))
             force = max(force, maxval(abs([body%loads(:2), body%supports(:2), body%contact(:2)])))
          end associate
       end do
@@ -352,18 +313,14 @@ contains
             end do
          end associate
       end do
-      call begin_table(table, 'bodies', 'a row a body: its best rigid motion, resultants and moments about its centre', n)
-      call add_integers(table, 'step', [results%step])
+      call begin_step_table(table, 'bodies', 'a row a body: its best rigid motion, resultants and moments about its centre', n, &
+                            results%step)
       call add_integers(table, 'body', [(i, i=1, n)])
       call add_words(table, 'name', '-', names, on_the_left=.true.)
-      call add_real_columns(table, ['u1      ', 'u2      ', 'rotation'], ['L', 'L', '-'], field(:, :3))
-      do k = 1, size(GROUPS)
-         do i = 1, size(COMPONENTS, kind=ip)
-            columns(i) = trim(GROUPS(k))//COMPONENTS(i)
-         end do
-         call add_real_columns(table, columns, ['F  ', 'F  ', 'F*L'], field(:, 3*k + 1:3*k + 3))
-      end do
-      call add_integers(table, 'increment', [results%increment])
+      call add_real_columns(table, [character(len=15) :: 'u1', 'u2', 'rotation', 'loads_fx', 'loads_fy', 'loads_moment', &
+                                    'supports_fx', 'supports_fy', 'supports_moment', 'contact_fx', 'contact_fy', &
+                                    'contact_moment'], &
+                            [character(len=3) :: 'L', 'L', '-', 'F', 'F', 'F*L', 'F', 'F', 'F*L', 'F', 'F', 'F*L'], field)
    end subroutine build_bodies
 
    !> A row a joint.
@@ -386,14 +343,13 @@ contains
             call clear_small(own(joint%pair)%slip, field(i, 7:7))
          end associate
       end do
-      call begin_table(table, 'joints', 'a row for each two bodies that a pair brings together; body 0 is a rigid surface', n)
-      call add_integers(table, 'step', [results%step])
+      call begin_step_table(table, 'joints', 'a row for each two bodies that a pair brings together; body 0 is a rigid surface', &
+                            n, results%step)
       call add_integers(table, 'pair', results%joints%pair)
       call add_integers(table, 'body_1', results%joints%bodies(1))
       call add_integers(table, 'body_2', results%joints%bodies(2))
       call add_real_columns(table, [character(len=7) :: 'n', 't', 'm', 'x', 'y', 'opening', 'sliding'], &
                             ['F  ', 'F  ', 'F*L', 'L  ', 'L  ', 'L  ', 'L  '], field)
-      call add_integers(table, 'increment', [results%increment])
    end subroutine build_joints
 
    !> A row a cut.
@@ -415,12 +371,11 @@ contains
             call clear_small(cut%terms(2), field(i, 6:6))
          end associate
       end do
-      call begin_table(table, 'sections', 'a row a cut: forces upon what is behind it, moment about its middle', n)
-      call add_integers(table, 'step', [results%step])
+      call begin_step_table(table, 'sections', 'a row a cut: forces upon what is behind it, moment about its middle', n, &
+                            results%step)
       call add_words(table, 'cut', '-', names, on_the_left=.true.)
       call add_real_columns(table, [character(len=6) :: 'x', 'y', 'length', 'n', 'v', 'm'], &
                             ['L  ', 'L  ', 'L  ', 'F  ', 'F  ', 'F*L'], field)
-      call add_integers(table, 'increment', [results%increment])
    end subroutine build_sections
 
 end module atrito_frame_tables

@@ -35,16 +35,6 @@ contains
       logical, intent(in), optional :: uses_metis   !< a run does; default: no
 
       allocate (list(5))
-      call list_numerical(of_run, list, uses_metis)
-      if (allocated(besides)) list = [list, besides]
-   end subroutine list_libraries
-
-   !> Those of one process.
-   subroutine list_numerical(of_run, list, uses_metis)
-      logical, intent(in) :: of_run
-      type(library_t), intent(inout) :: list(:)     !< five of them
-      logical, intent(in), optional :: uses_metis
-
       list%name = [character(len=8) :: 'compiler', 'BLAS', 'LAPACK', 'Clp', 'METIS']
       list(1)%version = compiler_version()
       list(2)%version = trim(blas_name())
@@ -56,13 +46,14 @@ contains
          if (present(uses_metis)) then
             if (uses_metis) list(5)%version = metis_version()
          end if
-         return
+      else
+         list(4)%version = 'not used: '//clp_trouble()
+         if (has_clp()) list(4)%version = clp_version()//LOADED
+         list(5)%version = 'not used: '//metis_trouble()
+         if (has_metis()) list(5)%version = metis_version()//LOADED
       end if
-      list(4)%version = 'not used: '//clp_trouble()
-      if (has_clp()) list(4)%version = clp_version()//LOADED
-      list(5)%version = 'not used: '//metis_trouble()
-      if (has_metis()) list(5)%version = metis_version()//LOADED
-   end subroutine list_numerical
+      if (allocated(besides)) list = [list, besides]
+   end subroutine list_libraries
 
    !> What `--version` prints below the name of the program: `BLAS: OpenBLAS 0.3.21 ...`
    subroutine version_lines(lines)

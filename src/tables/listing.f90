@@ -2,7 +2,7 @@
 module atrito_listing
    use atrito_as_run_names, only: as_run_name
    use atrito_kinds, only: ip, wp
-   use atrito_strings, only: string_t, join, to_text
+   use atrito_strings, only: string_t, join, replaced, to_text
    use atrito_version, only: PROGRAM_NAME, PROGRAM_VERSION
    use atrito_status, only: status_t
    use atrito_files, only: file_set_t, text_file_t, open_text, put_line, close_text
@@ -336,19 +336,8 @@ contains
       end if
       if (quantity%is_count) value = to_text(nint(quantity%value, ip))
       if (quantity%dimension /= '-') value = value//' ['//trim(quantity%dimension)//']'
-      call add_entry(page, with_blanks(trim(quantity%name)), value)
+      call add_entry(page, replaced(trim(quantity%name), '_', ' '), value)
    end subroutine add_quantity
-
-   pure function with_blanks(name) result(text)
-      character(len=*), intent(in) :: name
-      character(len=len(name)) :: text
-      integer :: i
-
-      text = name
-      do i = 1, len(name)
-         if (name(i:i) == '_') text(i:i) = ' '
-      end do
-   end function with_blanks
 
    subroutine add_equilibrium(page, model, results, scales)
       type(page_t), intent(inout) :: page

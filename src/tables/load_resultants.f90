@@ -6,12 +6,12 @@ module atrito_load_resultants
    use atrito_face_loads, only: traction_load, hydrostatic_load
    use atrito_kinds, only: ip, wp
    use atrito_mesh, only: face_end, face_nodes, side_count, depth_places
-   use atrito_model, only: model_t, element_load_t, LOAD_PRESSURE, LOAD_BODY, LOAD_TRACTION, LOAD_HYDROSTATIC, LOAD_LINEAR, &
-                           is_on_volume
+   use atrito_model, only: model_t, element_load_t, nodal_values_t, is_on_volume, LOAD_PRESSURE, LOAD_BODY, LOAD_TRACTION, &
+                           LOAD_HYDROSTATIC, LOAD_LINEAR
    use atrito_plane_state, only: depth_at, IS_TAPERED
    implicit none (type, external)
    private
-   public :: force_t, load_resultants, last_factor, add_to, add_element_load
+   public :: force_t, load_resultants, last_factor, last_value, add_to, add_value, add_element_load, is_section_node
 
    !> A resultant [F] and its moment about the origin [F L].
    type :: force_t
@@ -30,54 +30,57 @@ contains
       type(force_t), intent(out) :: body            !< in elements, on the polygon of the corners
       integer(ip), intent(in), optional :: step     !< default 1
       type(element_load_t) :: last
-      real(wp) :: f(2)
       integer(ip) :: i, k
       integer :: n
 
       k = 1
       if (present(step)) k = step
-      associate (loads => model%steps(k)%node_loads)
-         do i = 1, loads%n
-            f = 0.0_wp
-            f(loads%dof(i)) = loads%value(i)
-            if (allocated(loads%amplitude)) f = f*last_factor(model, k, loads%amplitude(i))
-            call add_to(concentrated, f, model%mesh%x(:, loads%node(i)))
-         end do
-      end associate
-      call add_rigid_loads(model, k, concentrated)
-      if (.not. allocated(model%steps(k)%element_loads%amplitude)) then
-         call add_element_loads(model, model%steps(k)%element_loads, pressure, body)
-         return
-      end if
+      call add_nodal_loads(model, k, model%steps(k)%node_loads, concentrated)
+      call add_nodal_loads(model, k, model%steps(k)%rigid_loads, concentrated)
       last = model%steps(k)%element_loads
       do i = 1, last%n
-         n = merge(1, 3, last%kind(i) == LOAD_HYDROSTATIC)
-         last%value(:n, i) = last%value(:n, i)*last_factor(model, k, last%amplitude(i))
+         if (allocated(last%amplitude)) then
+            n = merge(1, 3, last%kind(i) == LOAD_HYDROSTATIC)
+            last%value(:n, i) = last%value(:n, i)*last_factor(model, k, last%amplitude(i))
+         end if
+         if (is_on_volume(last%kind(i))) call add_element_load(model, last, i, body)
+         if (.not. is_on_volume(last%kind(i))) call add_element_load(model, last, i, pressure)
       end do
-      call add_element_loads(model, last, pressure, body)
    end subroutine load_resultants
 
-   !> Forces and moments on the reference nodes of rigid surfaces.
-   pure subroutine add_rigid_loads(model, k, force)
+   !> Forces on nodes, forces and moments on the reference nodes of rigid surfaces. That of a pre-tension section is two forces that
+   !> balance each other.
+   pure subroutine add_nodal_loads(model, k, loads, force)
       type(model_t), intent(in) :: model
       integer(ip), intent(in) :: k                  !< the step
+      type(nodal_values_t), intent(in) :: loads
       type(force_t), intent(inout) :: force
-      real(wp) :: f(2), value
       integer(ip) :: i
 
-      associate (loads => model%steps(k)%rigid_loads)
-         do i = 1, loads%n
-            ! two forces that balance each other
-            if (model%rigid_bodies(findloc(model%rigid_bodies%node, loads%node(i), dim=1))%is_section) cycle
-            value = loads%value(i)
-            if (allocated(loads%amplitude)) value = value*last_factor(model, k, loads%amplitude(i))
-            f = 0.0_wp
-            if (loads%dof(i) <= 2) f(loads%dof(i)) = value
-            call add_to(force, f, model%mesh%x(:, loads%node(i)))
-            if (loads%dof(i) > 2) force%moment = force%moment + value
-         end do
-      end associate
-   end subroutine add_rigid_loads
+      do i = 1, loads%n
+         if (is_section_node(model, loads%node(i))) cycle
+         call add_value(force, loads%dof(i), last_value(model, k, loads, i), model%mesh%x(:, loads%node(i)))
+      end do
+   end subroutine add_nodal_loads
+
+   !> Whether a node is that of a pre-tension section.
+   pure logical function is_section_node(model, node) result(is)
+      type(model_t), intent(in) :: model
+      integer(ip), intent(in) :: node
+
+      is = .false.
+      if (allocated(model%rigid_bodies)) is = any(model%rigid_bodies%is_section .and. model%rigid_bodies%node == node)
+   end function is_section_node
+
+   !> An entry of a list at the end of a step.
+   pure real(wp) function last_value(model, k, list, i) result(value)
+      type(model_t), intent(in) :: model
+      integer(ip), intent(in) :: k, i               !< the step; the entry
+      type(nodal_values_t), intent(in) :: list
+
+      value = list%value(i)
+      if (allocated(list%amplitude)) value = value*last_factor(model, k, list%amplitude(i))
+   end function last_value
 
    !> What an amplitude multiplies by at the end of a step.
    pure real(wp) function last_factor(model, k, amplitude) result(factor)
@@ -86,21 +89,6 @@ contains
 
       factor = factor_at(model%amplitudes, amplitude, model%steps(k)%increments%period, time_before(model%steps, k + 1))
    end function last_factor
-
-   pure subroutine add_element_loads(model, loads, pressure, body)
-      type(model_t), intent(in) :: model
-      type(element_load_t), intent(in) :: loads
-      type(force_t), intent(inout) :: pressure, body
-      integer(ip) :: i
-
-      do i = 1, loads%n
-         if (is_on_volume(loads%kind(i))) then
-            call add_element_load(model, loads, i, body)
-         else
-            call add_element_load(model, loads, i, pressure)
-         end if
-      end do
-   end subroutine add_element_loads
 
    !> Adds the resultant of one load.
    pure subroutine add_element_load(model, loads, i, force)
@@ -141,6 +129,20 @@ contains
       force%terms = force%terms + (abs(f(1)) + abs(f(2)))
       force%moment = force%moment + (x(1)*f(2) - x(2)*f(1))
    end subroutine add_to
+
+   !> Adds a force along a dof (1, 2), or a moment (6), at a place.
+   pure subroutine add_value(force, dof, value, x)
+      type(force_t), intent(inout) :: force
+      integer(ip), intent(in) :: dof
+      real(wp), intent(in) :: value                 !< [F], [F L]
+      real(wp), intent(in) :: x(2)                  !< [L]
+      real(wp) :: f(2)
+
+      f = 0.0_wp
+      if (dof <= 2) f(dof) = value
+      call add_to(force, f, x)
+      if (dof > 2) force%moment = force%moment + value
+   end subroutine add_value
 
    !> A uniform pressure on a face, curved or not, has the resultant of the same pressure on its chord.
    pure subroutine add_pressure(model, loads, i, force)

@@ -2,7 +2,7 @@
 module atrito_model_report
    use atrito_controls, only: METHOD_NAME
    use atrito_element_table, only: KINDS, kind_of
-   use atrito_load_resultants, only: force_t, load_resultants, last_factor
+   use atrito_load_resultants, only: force_t, load_resultants, last_value
    use atrito_row_tables, only: joined_text
    use atrito_kinds, only: ip, wp
    use atrito_rigid_report, only: describe_references
@@ -332,10 +332,7 @@ contains
          return
       end if
       along_1 = count(model%steps(k)%prescribed%dof(:n) == 1, kind=ip)
-      value = model%steps(k)%prescribed%value(:n)
-      if (allocated(model%steps(k)%prescribed%amplitude)) then
-         value = [(value(i)*last_factor(model, k, model%steps(k)%prescribed%amplitude(i)), i=1, n)]
-      end if
+      value = [(last_value(model, k, model%steps(k)%prescribed, i), i=1, n)]
       moved = count(abs(value) > 0.0_wp, kind=ip)
       text = to_text(n)//' ('//to_text(along_1)//' along 1, '//to_text(n - along_1)//' along 2)'
       if (moved > 0) text = text//', '//to_text(moved)//' not zero, the largest '// &

@@ -24,19 +24,17 @@ module atrito_plot_files
                                   TRACTION_PLOT = 'tractions'
    !> Contours of a run, in the order in which they are drawn.
    character(len=20), parameter :: CONTOUR_PLOTS(6) = [character(len=20) :: 'contour-mises', 'contour-s11', 'contour-s22', &
-                                                                             'contour-s12', 'contour-displacement', 'contour-error']
+                                                       'contour-s12', 'contour-displacement', 'contour-error']
    character(len=*), parameter :: SYMBOLS_OF = '-symbols'  !< behind the name of a picture: the data of its symbols
    !> What `check --plot` draws.
    character(len=*), parameter :: SCENE_PLOT = 'scene', SET_PLOT = 'sets', GAP_PLOT = 'pairs'
    !> Whose a picture is: what another command drew into the same folder stays.
    integer, parameter :: PLOTS_OF_RUN = 1, PLOTS_OF_SWEEP = 2, PLOTS_OF_STUDY = 3, PLOTS_OF_LIMIT = 4, PLOTS_OF_CHECK = 5
-   character(len=20), parameter :: PICTURES(21) = [character(len=20) :: OVERLAY_SUMMARY, STUDY_PLOT, LIMIT_PLOT, MECHANISM_PLOT, &
-                                                                           SCENE_PLOT, SET_PLOT, GAP_PLOT, SCENE_PLOT//SYMBOLS_OF, &
-                                                            MESH_PLOT, MESH_PLOT//SYMBOLS_OF, JOINT_PLOT, HISTORY_PLOT, LOOP_PLOT, &
-                                                                                          MOTION_PLOT, TRACTION_PLOT, CONTOUR_PLOTS]
-   integer, parameter :: OWNER(size(PICTURES)) = [PLOTS_OF_SWEEP, PLOTS_OF_STUDY, PLOTS_OF_LIMIT, PLOTS_OF_LIMIT, &
-                                                  PLOTS_OF_CHECK, PLOTS_OF_CHECK, PLOTS_OF_CHECK, PLOTS_OF_CHECK, &
-                                                  spread(PLOTS_OF_RUN, 1, size(PICTURES) - 8)]
+   character(len=20), parameter :: PICTURES(21) = [character(len=20) :: &
+      OVERLAY_SUMMARY, STUDY_PLOT, LIMIT_PLOT, MECHANISM_PLOT, SCENE_PLOT, SET_PLOT, GAP_PLOT, SCENE_PLOT//SYMBOLS_OF, &
+      MESH_PLOT, MESH_PLOT//SYMBOLS_OF, JOINT_PLOT, HISTORY_PLOT, LOOP_PLOT, MOTION_PLOT, TRACTION_PLOT, CONTOUR_PLOTS]
+   integer, parameter :: OWNER(size(PICTURES)) = [PLOTS_OF_SWEEP, PLOTS_OF_STUDY, spread(PLOTS_OF_LIMIT, 1, 2), &
+                                                  spread(PLOTS_OF_CHECK, 1, 4), spread(PLOTS_OF_RUN, 1, size(PICTURES) - 8)]
    character(len=*), parameter :: CONTACT_PLOT = 'contact-', OVERLAY_PLOT = 'overlay-'   !< and the number of the pair
    character(len=*), parameter :: LOG_NAME = 'gnuplot.log'
    character(len=3), parameter :: ENDINGS(6) = ['gp ', 'dat', 'bin', 'png', 'svg', 'gif']
@@ -111,94 +109,69 @@ contains
       text = text(2:)
    end function told_pictures
 
-   !> The files that are there and that remove_plots removes, as far as they are atrito's.
+   !> The files that remove_plots removes, as far as they are there and are atrito's; none where there is no folder of pictures.
    function list_plots(folder, whose) result(names)
       character(len=*), intent(in) :: folder        !< of the tables
       integer, intent(in) :: whose                  !< PLOTS_OF_*
       type(string_t), allocatable :: names(:)       !< without folder
-      character(len=:), allocatable :: path, numbered
+      character(len=:), allocatable :: numbered
       integer :: i
       integer(ip) :: n
 
       allocate (names(0))
-      path = plot_folder(folder)
-      if (.not. is_folder(path)) return
+      if (.not. is_folder(plot_folder(folder))) return
       call append_string(names, LOG_NAME)
       do i = 1, size(PICTURES)
-         if (OWNER(i) == whose) call append_picture(trim(PICTURES(i)), names)
+         if (OWNER(i) == whose) call append_picture(trim(PICTURES(i)))
       end do
       if (whose /= PLOTS_OF_RUN .and. whose /= PLOTS_OF_SWEEP) return
       numbered = merge(CONTACT_PLOT, OVERLAY_PLOT, whose == PLOTS_OF_RUN)
       n = 1
-      do while (has_picture(path//'/'//numbered//to_text(n)))
-         call append_picture(numbered//to_text(n), names)
+      do while (has_picture(numbered//to_text(n)))
+         call append_picture(numbered//to_text(n))
          n = n + 1
       end do
+
+   contains
+
+      subroutine append_picture(name)
+         character(len=*), intent(in) :: name       !< without ending
+         integer :: k
+
+         do k = 1, size(ENDINGS)
+            call append_string(names, name//'.'//trim(ENDINGS(k)))
+         end do
+      end subroutine append_picture
+
+      logical function has_picture(name)
+         character(len=*), intent(in) :: name       !< without ending
+         integer :: k
+
+         has_picture = .false.
+         do k = 1, size(ENDINGS)
+            if (file_exists(plot_folder(folder)//'/'//name//'.'//trim(ENDINGS(k)))) has_picture = .true.
+         end do
+      end function has_picture
+
    end function list_plots
-
-   pure subroutine append_picture(name, names)
-      character(len=*), intent(in) :: name          !< without ending
-      type(string_t), allocatable, intent(inout) :: names(:)
-      integer :: i
-
-      do i = 1, size(ENDINGS)
-         call append_string(names, name//'.'//trim(ENDINGS(i)))
-      end do
-   end subroutine append_picture
 
    !> Removes the pictures of one command from the folder of plots, and the folder when nothing else is in it. A
    !> picture that stays is a warning.
    subroutine remove_plots(folder, whose)
       character(len=*), intent(in) :: folder        !< of the tables
       integer, intent(in) :: whose                  !< PLOTS_OF_*
-      character(len=:), allocatable :: path
+      type(string_t), allocatable :: names(:)
       logical :: stays
       integer :: i
 
-      path = plot_folder(folder)
-      if (.not. is_folder(path)) return
+      names = list_plots(folder, whose)
       stays = .false.
-      do i = 1, size(PICTURES)
-         if (OWNER(i) /= whose) cycle
-         call remove_picture(path//'/'//trim(PICTURES(i)))
-         stays = stays .or. has_picture(path//'/'//trim(PICTURES(i)))
+      do i = 1, size(names)
+         call remove_file(plot_folder(folder)//'/'//names(i)%s)
+         if (names(i)%s /= LOG_NAME) stays = stays .or. file_exists(plot_folder(folder)//'/'//names(i)%s)
       end do
-      if (whose == PLOTS_OF_RUN) call remove_numbered(path//'/'//CONTACT_PLOT)
-      if (whose == PLOTS_OF_SWEEP) call remove_numbered(path//'/'//OVERLAY_PLOT)
-      call remove_file(path//'/'//LOG_NAME)
-      call remove_empty_folder(path)
-      if (stays) call add_warning('W-PLOT', path//': pictures of an earlier run cannot be removed')
+      if (size(names) > 0) call remove_empty_folder(plot_folder(folder))
+      if (stays) call add_warning('W-PLOT', plot_folder(folder)//': pictures of an earlier run cannot be removed')
    end subroutine remove_plots
-
-   !> Removes the pictures of pair 1, 2, ... until there is none.
-   subroutine remove_numbered(path)
-      character(len=*), intent(in) :: path          !< without the number
-      integer(ip) :: i
-
-      i = 1
-      do while (has_picture(path//to_text(i)))
-         call remove_picture(path//to_text(i))
-         i = i + 1
-      end do
-   end subroutine remove_numbered
-
-   logical function has_picture(path)
-      character(len=*), intent(in) :: path          !< without ending
-      integer :: i
-
-      has_picture = .false.
-      do i = 1, size(ENDINGS)
-         if (file_exists(path//'.'//trim(ENDINGS(i)))) has_picture = .true.
-      end do
-   end function has_picture
-
-   subroutine remove_picture(path)
-      character(len=*), intent(in) :: path          !< without ending
-      integer :: i
-
-      do i = 1, size(ENDINGS)
-         call remove_file(path//'.'//trim(ENDINGS(i)))
-      end do
-   end subroutine remove_picture
 
 end module atrito_plot_files

@@ -7,7 +7,7 @@ module atrito_resultant_report
    use atrito_results, only: results_t
    use atrito_strings, only: string_t, to_text
    use atrito_summary, only: scales_t
-   use atrito_table, only: table_t, begin_table, add_integers, add_real_columns, add_words, clear_small, one_word
+   use atrito_table, only: table_t, begin_step_table, add_integers, add_real_columns, add_words, clear_small, one_word
    implicit none (type, external)
    private
    public :: has_resultants, build_resultants, describe_resultants, add_supports
@@ -66,13 +66,12 @@ contains
          keywords(i)%s = list(i)%keyword
          field(i, :) = [list(i)%force%f, list(i)%force%moment]
       end do
-      call begin_table(table, 'resultants', 'a row a support or a load: its force upon the bodies, and moment about the origin', &
-                       size(list, kind=ip))
-      call add_integers(table, 'step', [results%step])
+      call begin_step_table(table, 'resultants', &
+                            'a row a support or a load: its force upon the bodies, and moment about the origin', &
+                            size(list, kind=ip), results%step)
       call add_words(table, 'set', '-', names, on_the_left=.true.)
       call add_words(table, 'keyword', '-', keywords, on_the_left=.true.)
       call add_real_columns(table, ['fx    ', 'fy    ', 'moment'], ['F  ', 'F  ', 'F*L'], field)
-      call add_integers(table, 'increment', [results%increment])
    end subroutine build_resultants
 
    !> For the listing: all of them.

@@ -1,7 +1,7 @@
 !> What holds and loads the bodies in an increment, set by set: the forces of supports and of rigid surfaces upon them, and loads.
 module atrito_resultants
    use atrito_kinds, only: ip, wp
-   use atrito_load_resultants, only: force_t, add_to, add_element_load
+   use atrito_load_resultants, only: force_t, add_to, add_value, add_element_load, is_section_node
    use atrito_mesh, only: is_revolved
    use atrito_model, only: model_t, step_t, nodal_values_t, element_load_t, SURFACE_SEGMENTS
    use atrito_results, only: results_t, contact_result_t
@@ -89,24 +89,19 @@ contains
       type(results_t), intent(in) :: frame
       type(sums_t), intent(inout) :: sums
       integer(ip) :: i
-      real(wp) :: f(2)
 
       if (.not. allocated(frame%reaction)) return
       associate (held => model%steps(frame%step)%prescribed)
-         if (allocated(held%source)) then
-            do i = 1, held%n
-               f = 0.0_wp
-               f(held%dof(i)) = frame%reaction(held%dof(i), held%node(i))
-               call add(held%source(i), f, model%mesh%x(:, held%node(i)), 0.0_wp, sums)
-            end do
-         end if
+         do i = 1, merge(held%n, 0_ip, allocated(held%source))
+            call add(held%source(i), held%dof(i), frame%reaction(held%dof(i), held%node(i)), model%mesh%x(:, held%node(i)), sums)
+         end do
       end associate
       associate (held => model%inclined)
-         if (allocated(held%source)) then
-            do i = 1, held%n
-               call add(held%source(i), frame%reaction(:, held%node(i)), model%mesh%x(:, held%node(i)), 0.0_wp, sums)
-            end do
-         end if
+         do i = 1, merge(held%n, 0_ip, allocated(held%source))
+            if (held%source(i) == 0) cycle
+            sums%acts(held%source(i)) = .true.
+            call add_to(sums%of(held%source(i)), frame%reaction(:, held%node(i)), model%mesh%x(:, held%node(i)))
+         end do
       end associate
       call add_reference_reactions(model, frame, model%steps(frame%step)%rigid_prescribed, sums)
    end subroutine add_supports
@@ -117,34 +112,30 @@ contains
       type(results_t), intent(in) :: frame
       type(nodal_values_t), intent(in) :: held
       type(sums_t), intent(inout) :: sums
-      integer(ip) :: i, body
-      real(wp) :: f(2), moment
+      integer(ip) :: i
+      real(wp) :: value
 
       if (.not. (allocated(held%source) .and. allocated(frame%rigid))) return
       do i = 1, held%n
-         body = findloc(model%rigid_bodies%node, held%node(i), dim=1, kind=ip)
-         if (model%rigid_bodies(body)%is_section) cycle
-         f = 0.0_wp
-         moment = 0.0_wp
-         if (held%dof(i) <= 2) then
-            f(held%dof(i)) = frame%rigid(body)%reaction(held%dof(i))
-         else
-            moment = frame%rigid(body)%moment
-         end if
-         call add(held%source(i), f, model%mesh%x(:, held%node(i)), moment, sums)
+         associate (body => findloc(model%rigid_bodies%node, held%node(i), dim=1))
+            if (model%rigid_bodies(body)%is_section) cycle
+            value = frame%rigid(body)%moment
+            if (held%dof(i) <= 2) value = frame%rigid(body)%reaction(held%dof(i))
+         end associate
+         call add(held%source(i), held%dof(i), value, model%mesh%x(:, held%node(i)), sums)
       end do
    end subroutine add_reference_reactions
 
-   !> A force at a place, with a moment of its own.
-   pure subroutine add(source, f, x, moment, sums)
+   !> A force along a dof at a place, or a moment.
+   pure subroutine add(source, dof, value, x, sums)
       integer(ip), intent(in) :: source             !< 0: none
-      real(wp), intent(in) :: f(2), x(2), moment
+      integer(ip), intent(in) :: dof
+      real(wp), intent(in) :: value, x(2)
       type(sums_t), intent(inout) :: sums
 
       if (source == 0) return
       sums%acts(source) = .true.
-      call add_to(sums%of(source), f, x)
-      sums%of(source)%moment = sums%of(source)%moment + moment
+      call add_value(sums%of(source), dof, value, x)
    end subroutine add
 
    !> What acts at the time of the increment.
@@ -180,29 +171,13 @@ contains
       type(nodal_values_t), intent(in) :: loads
       type(sums_t), intent(inout) :: sums
       integer(ip) :: i
-      real(wp) :: f(2), moment
 
       if (.not. allocated(loads%source)) return
       do i = 1, loads%n
          if (is_section_node(model, loads%node(i))) cycle
-         f = 0.0_wp
-         moment = 0.0_wp
-         if (loads%dof(i) <= 2) then
-            f(loads%dof(i)) = loads%value(i)
-         else
-            moment = loads%value(i)
-         end if
-         call add(loads%source(i), f, model%mesh%x(:, loads%node(i)), moment, sums)
+         call add(loads%source(i), loads%dof(i), loads%value(i), model%mesh%x(:, loads%node(i)), sums)
       end do
    end subroutine add_forces
-
-   pure logical function is_section_node(model, node) result(is)
-      type(model_t), intent(in) :: model
-      integer(ip), intent(in) :: node
-
-      is = .false.
-      if (allocated(model%rigid_bodies)) is = any(model%rigid_bodies%is_section .and. model%rigid_bodies%node == node)
-   end function is_section_node
 
    pure subroutine add_element_loads(model, loads, sums)
       type(model_t), intent(in) :: model

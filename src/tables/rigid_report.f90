@@ -1,13 +1,13 @@
 !> Rigid surfaces that move, and pre-tension sections: rigid.tab, and their lines of the listing.
 module atrito_rigid_report
    use atrito_kinds, only: ip, wp
-   use atrito_load_resultants, only: last_factor
+   use atrito_load_resultants, only: last_value
    use atrito_model, only: model_t, nodal_values_t, rigid_body_name
    use atrito_page, only: page_t, add_entry, add_line, add_blank, left, right, number
    use atrito_results, only: results_t
    use atrito_strings, only: string_t, to_text
    use atrito_summary, only: scales_t
-   use atrito_table, only: table_t, begin_table, add_integers, add_words, add_real_columns, clear_small, one_word
+   use atrito_table, only: table_t, begin_step_table, add_integers, add_words, add_real_columns, clear_small, one_word
    implicit none (type, external)
    private
    public :: build_rigid_table, describe_rigid_bodies, describe_references
@@ -43,13 +43,11 @@ contains
       end do
       title = 'a row a rigid surface with a reference node'
       if (any(results%rigid%is_section)) title = title//', or a pre-tension section'
-      call begin_table(table, 'rigid', title//': its motion and what holds it', n)
-      call add_integers(table, 'step', spread(results%step, 1, n))
+      call begin_step_table(table, 'rigid', title//': its motion and what holds it', n, results%step)
       call add_words(table, 'body', '-', names, on_the_left=.true.)
       call add_integers(table, 'node', results%rigid%node)
       call add_real_columns(table, ['u1', 'u2', 'ur'], ['L', 'L', '-'], field(:, :3))
       call add_real_columns(table, ['r1    ', 'r2    ', 'moment'], ['F  ', 'F  ', 'F*L'], field(:, 4:))
-      call add_integers(table, 'increment', spread(results%increment, 1, n))
    end subroutine build_rigid_table
 
    !> The rigid surfaces that move, and what of them is prescribed at the end of a step.
@@ -59,7 +57,6 @@ contains
       integer(ip), intent(in) :: step
       character(len=:), allocatable :: text
       integer(ip) :: i, k
-      real(wp) :: value
 
       if (.not. allocated(model%rigid_bodies)) return
       do i = 1, size(model%rigid_bodies, kind=ip)
@@ -71,10 +68,8 @@ contains
          associate (held => model%steps(step)%rigid_prescribed, node => model%rigid_bodies(i)%node)
             do k = 1, held%n
                if (held%node(k) /= node) cycle
-               value = held%value(k)
-               if (allocated(held%amplitude)) value = value*last_factor(model, step, held%amplitude(k))
                if (len(text) > 0) text = text//', '
-               text = text//trim(DOF_NAMES(held%dof(k)))//' = '//number(value, DIGITS)
+               text = text//trim(DOF_NAMES(held%dof(k)))//' = '//number(last_value(model, step, held, k), DIGITS)
             end do
             do k = 1, model%inclined%n
                if (model%inclined%node(k) /= node) cycle
@@ -94,19 +89,17 @@ contains
       type(model_t), intent(in) :: model
       integer(ip), intent(in) :: step
       integer(ip), intent(in) :: i                  !< of the rigid bodies
+      character(len=:), allocatable :: text
       real(wp) :: moved, force
       logical :: is_held, is_loaded
 
       associate (body => model%rigid_bodies(i))
          call add_up(model, step, body%node, model%steps(step)%rigid_prescribed, moved, is_held)
          call add_up(model, step, body%node, model%steps(step)%rigid_loads, force, is_loaded)
-         if (is_held) then
-            call add_entry(page, 'pre-tension '//model%surfaces(body%surface)%name, &
-                           'node '//to_text(model%mesh%node_id(body%node))//', '//number(moved, DIGITS)//' [L] taken out')
-         else
-            call add_entry(page, 'pre-tension '//model%surfaces(body%surface)%name, &
-                           'node '//to_text(model%mesh%node_id(body%node))//', force '//number(force, DIGITS)//' [F]')
-         end if
+         text = 'force '//number(force, DIGITS)//' [F]'
+         if (is_held) text = number(moved, DIGITS)//' [L] taken out'
+         call add_entry(page, 'pre-tension '//model%surfaces(body%surface)%name, &
+                        'node '//to_text(model%mesh%node_id(body%node))//', '//text)
       end associate
    end subroutine describe_section
 
@@ -117,7 +110,6 @@ contains
       type(nodal_values_t), intent(in) :: list
       real(wp), intent(out) :: total
       logical, intent(out) :: is_there
-      real(wp) :: value
       integer(ip) :: k
 
       total = 0.0_wp
@@ -125,9 +117,7 @@ contains
       do k = 1, list%n
          if (list%node(k) /= node .or. list%dof(k) /= 1) cycle
          is_there = .true.
-         value = list%value(k)
-         if (allocated(list%amplitude)) value = value*last_factor(model, step, list%amplitude(k))
-         total = total + value
+         total = total + last_value(model, step, list, k)
       end do
    end subroutine add_up
 

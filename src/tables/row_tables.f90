@@ -7,7 +7,7 @@ module atrito_row_tables
    use atrito_results, only: results_t
    use atrito_strings, only: to_text
    use atrito_summary, only: scales_t
-   use atrito_table, only: table_t, begin_table, add_integers, add_reals, add_real_columns, clear_small, ZERO_SHARE
+   use atrito_table, only: table_t, begin_step_table, add_integers, add_reals, add_real_columns, clear_small, ZERO_SHARE
    implicit none (type, external)
    private
    public :: has_rows, build_row_table, describe_rows, joined_text
@@ -80,8 +80,7 @@ contains
          do k = 5, 6
             field(:, k) = field(:, k - 2)/rows%weight(first)
          end do
-         call begin_table(table, 'ties', 'a row a node of a slave, with what the tie does to it', n)
-         call add_integers(table, 'step', [results%step])
+         call begin_step_table(table, 'ties', 'a row a node of a slave, with what the tie does to it', n, results%step)
          call add_integers(table, 'tie', rows%part(first))
       end associate
       do k = 1, 2
@@ -92,7 +91,6 @@ contains
       call add_integers(table, 'node', model%mesh%node_id(node))
       call add_real_columns(table, ['x ', 'y ', 'f1', 'f2', 't1', 't2'], &
                             [character(len=5) :: 'L', 'L', 'F', 'F', 'F/L^2', 'F/L^2'], field)
-      call add_integers(table, 'increment', [results%increment])
    end subroutine build_ties
 
    !> A row an equation: the force that it exerts upon the dof of its first term.
@@ -107,13 +105,12 @@ contains
       rows = rows_of(model, ROW_EQUATION)
       n = size(rows, kind=ip)
       associate (part => model%bilateral%part(rows), equations => model%equations)
-         call begin_table(table, 'equations', 'a row an equation, with the force upon the dof of its first term', n)
-         call add_integers(table, 'step', [results%step])
+         call begin_step_table(table, 'equations', 'a row an equation, with the force upon the dof of its first term', n, &
+                               results%step)
          call add_integers(table, 'equation', part)
          call add_integers(table, 'node', model%mesh%node_id(equations%node(part)))
          call add_integers(table, 'dof', equations%dof(part))
          call add_reals(table, 'force', 'F', -equations%value(part)*results%row_force(rows), scales%force)
-         call add_integers(table, 'increment', [results%increment])
       end associate
    end subroutine build_equations
 
@@ -131,8 +128,7 @@ contains
       associate (springs => model%springs(model%bilateral%part(rows)))
          second = springs%node(2)
          where (second > 0) second = model%mesh%node_id(max(second, 1_ip))
-         call begin_table(table, 'springs', 'a row a spring; node_2 = 0 is the ground', n)
-         call add_integers(table, 'step', [results%step])
+         call begin_step_table(table, 'springs', 'a row a spring; node_2 = 0 is the ground', n, results%step)
          call add_integers(table, 'spring', springs%id)
          call add_integers(table, 'node_1', model%mesh%node_id(springs%node(1)))
          call add_integers(table, 'dof_1', springs%dof(1))
@@ -140,7 +136,6 @@ contains
          call add_integers(table, 'dof_2', springs%dof(2))
          call add_reals(table, 'relative_u', 'L', springs%arm*results%row_force(rows)/springs%stiffness, 0.0_wp)
          call add_reals(table, 'force', 'F', springs%arm*results%row_force(rows), scales%force)
-         call add_integers(table, 'increment', [results%increment])
       end associate
    end subroutine build_springs
 

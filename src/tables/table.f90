@@ -2,12 +2,12 @@
 module atrito_table
    use atrito_kinds, only: ip, wp, is_nan
    use atrito_provenance, only: provenance_t
-   use atrito_strings, only: string_t
+   use atrito_strings, only: string_t, replaced
    use atrito_utf8, only: visible
    implicit none (type, external)
    private
-   public :: table_t, column_t, origin_t, begin_table, add_reals, add_field, add_integers, add_integer_field, add_words, &
-             add_real_columns, clear_small, abs_is_below, one_word, TAB_ENDING, CSV_ENDING
+   public :: table_t, column_t, origin_t, begin_table, begin_step_table, add_reals, add_field, add_integers, add_integer_field, &
+             add_words, add_real_columns, clear_small, abs_is_below, one_word, TAB_ENDING, CSV_ENDING
    public :: MARK_NOT_CONVERGED, MARK_COLUMNS, MARK_DIMENSIONS, ZERO_SHARE, KIND_REAL, KIND_INTEGER, KIND_WORD
 
    character(len=*), parameter :: TAB_ENDING = '.tab', CSV_ENDING = '.csv'   !< of the two forms of a table file
@@ -63,6 +63,16 @@ contains
       table%n_rows = n_rows
       allocate (table%columns(0), table%remarks(0))
    end subroutine begin_table
+
+   !> Begins a table of one increment with the column of its step; that of the increment comes last.
+   pure subroutine begin_step_table(table, name, title, n_rows, step)
+      type(table_t), intent(out) :: table
+      character(len=*), intent(in) :: name, title
+      integer(ip), intent(in) :: n_rows, step
+
+      call begin_table(table, name, title, n_rows)
+      call add_integers(table, 'step', [step])
+   end subroutine begin_step_table
 
    !> Adds a column of reals.
    pure subroutine add_reals(table, name, dimension, values, scale)
@@ -208,12 +218,8 @@ contains
    pure function one_word(text) result(word)
       character(len=*), intent(in) :: text
       character(len=len(text)) :: word
-      integer :: i
 
-      word = text
-      do i = 1, len(text)
-         if (text(i:i) == ' ' .or. text(i:i) == '#') word(i:i) = '_'
-      end do
+      word = replaced(text, ' #', '_')
    end function one_word
 
 end module atrito_table

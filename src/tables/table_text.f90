@@ -290,27 +290,16 @@ contains
       other = 3 - own
       !$omp parallel do schedule(dynamic, 1) default(shared) private(first) if (round > PIECE_ROWS)
       do first = 1 - PIECE_ROWS, n, PIECE_ROWS
-         if (first < 1) then
-            call put_rows(file, table, csv, text(:rows_of_round(table, round, i_round - 1), other))
+         if (first < 1 .and. csv) then
+            call put_csv_rows(file, table, text(:rows_of_round(table, round, i_round - 1), other))
+         else if (first < 1) then
+            call put_lines(file, text(:rows_of_round(table, round, i_round - 1), other))
          else
             call format_rows(table, digits, before + first - 1, text(first:min(n, first + PIECE_ROWS - 1), own))
          end if
       end do
       !$omp end parallel do
    end subroutine write_round
-
-   subroutine put_rows(file, table, csv, rows)
-      type(text_file_t), intent(inout) :: file
-      type(table_t), intent(in) :: table
-      logical, intent(in) :: csv
-      character(len=*), contiguous, intent(in) :: rows(:)
-
-      if (csv) then
-         call put_csv_rows(file, table, rows)
-      else
-         call put_lines(file, rows)
-      end if
-   end subroutine put_rows
 
    pure integer(ip) function rows_of_round(table, round, i_round) result(n)
       type(table_t), intent(in) :: table

@@ -2,9 +2,9 @@
 module atrito_bash_completion
    use atrito_keyword, only: keyword_t
    use atrito_keyword_table, only: keyword_table
-   use atrito_option_table, only: OPTIONS, VALUE_FOLDER, VALUE_FILE, has_value
+   use atrito_option_table, only: OPTIONS, VALUE_FOLDER, VALUE_FILE, TASK_RUN, TASKS, command_names, has_value
+   use atrito_page, only: page_t, add_line, begin_page
    use atrito_strings, only: string_t, append_string, join
-   use atrito_task_table, only: TASKS, command_names
    implicit none (type, external)
    private
    public :: compose_bash_completion, options_of, options_where, VALUE_WORDS
@@ -14,130 +14,122 @@ module atrito_bash_completion
    integer, parameter :: VALUE_NONE = 0, VALUE_OWN = 1, VALUE_WORDS = 2, VALUE_A_FOLDER = 3, VALUE_A_FILE = 4
 
    character(len=88), parameter :: HEAD(*) = [character(len=88) :: &
-                                              '# Completion for bash; printed by `atrito help bash`.', &
-                                              '# shellcheck shell=bash', &
-                                              '', &
-                                              '# Files whose names fit a pattern, and folders.', &
-                                              '_atrito_files() {', &
-                                              '   compopt -o filenames 2>/dev/null', &
-                                              '   mapfile -t COMPREPLY < <({', &
-                                              '      compgen -f -X "!$1" -- "$cur"', &
-                                              '      compgen -d -- "$cur"', &
-                                              '   } | sort -u)', &
-                                              '}', &
-                                              '', &
-                                              '# Those of some words that go on as it was begun.', &
-                                              '_atrito_words() {', &
-                                              '   mapfile -t COMPREPLY < <(compgen -W "$1" -- "$cur")', &
-                                              '}', &
-                                              '', &
-                                              '# The next word of the keywords that go on as they were begun at word $1.', &
-                                              '_atrito_keywords() {', &
-                                              '   local typed='''' keyword words='''' i', &
-                                              '   for ((i = $1; i < COMP_CWORD; i++)); do typed+="${COMP_WORDS[i]^^} "; done', &
-                                              '   while read -r keyword; do', &
-                                              '      if [[ $keyword == "$typed${cur^^}"* ]]; then', &
-                                              '         keyword=${keyword#"$typed"}', &
-                                              '         words+=" ${keyword%% *}"', &
-                                              '      fi', &
-                                              '   done <<''EOF''']
+      '# Completion for bash; printed by `atrito help bash`.', &
+      '# shellcheck shell=bash', &
+      '', &
+      '# Files whose names fit a pattern, and folders.', &
+      '_atrito_files() {', &
+      '   compopt -o filenames 2>/dev/null', &
+      '   mapfile -t COMPREPLY < <({', &
+      '      compgen -f -X "!$1" -- "$cur"', &
+      '      compgen -d -- "$cur"', &
+      '   } | sort -u)', &
+      '}', &
+      '', &
+      '# Those of some words that go on as it was begun.', &
+      '_atrito_words() {', &
+      '   mapfile -t COMPREPLY < <(compgen -W "$1" -- "$cur")', &
+      '}', &
+      '', &
+      '# The next word of the keywords that go on as they were begun at word $1.', &
+      '_atrito_keywords() {', &
+      '   local typed='''' keyword words='''' i', &
+      '   for ((i = $1; i < COMP_CWORD; i++)); do typed+="${COMP_WORDS[i]^^} "; done', &
+      '   while read -r keyword; do', &
+      '      if [[ $keyword == "$typed${cur^^}"* ]]; then', &
+      '         keyword=${keyword#"$typed"}', &
+      '         words+=" ${keyword%% *}"', &
+      '      fi', &
+      '   done <<''EOF''']
 
    character(len=88), parameter :: MIDDLE(*) = [character(len=88) :: &
-                                                'EOF', &
-                                                '   mapfile -t COMPREPLY < <(compgen -W "$words" | sort -u', &
-                                                '      [ "$1" -lt "$COMP_CWORD" ] || compgen -W '''//HELP_PAGES//''' -- "$cur")', &
-                                                '}', &
-                                                '', &
-                                                '_atrito() {', &
-                                          '   local cur=${COMP_WORDS[COMP_CWORD]} prev=${COMP_WORDS[COMP_CWORD - 1]} task='''' i', &
-                                                '   COMPREPLY=()', &
-                                                '   if [ "$cur" = = ]; then cur=''''; fi', &
-                                                '   if [ "$prev" = = ]; then prev=${COMP_WORDS[COMP_CWORD - 2]}; fi', &
-                                                '   case $prev in']
+      'EOF', &
+      '   mapfile -t COMPREPLY < <(compgen -W "$words" | sort -u', &
+      '      [ "$1" -lt "$COMP_CWORD" ] || compgen -W '''//HELP_PAGES//''' -- "$cur")', &
+      '}', &
+      '', &
+      '_atrito() {', &
+      '   local cur=${COMP_WORDS[COMP_CWORD]} prev=${COMP_WORDS[COMP_CWORD - 1]} task='''' i', &
+      '   COMPREPLY=()', &
+      '   if [ "$cur" = = ]; then cur=''''; fi', &
+      '   if [ "$prev" = = ]; then prev=${COMP_WORDS[COMP_CWORD - 2]}; fi', &
+      '   case $prev in']
 
 contains
 
-   !> The script for bash, line by line.
-   subroutine compose_bash_completion(lines)
-      type(string_t), allocatable, intent(out) :: lines(:)
+   !> The script for bash.
+   subroutine compose_bash_completion(page)
+      type(page_t), intent(out) :: page
       type(keyword_t), allocatable :: keywords(:)
       integer :: i
 
-      allocate (lines(0))
-      call add_lines(lines, HEAD)
+      call begin_page(page, len(HEAD))
+      do i = 1, size(HEAD)
+         call add_line(page, HEAD(i))
+      end do
       keywords = keyword_table()
       do i = 1, size(keywords)
-         call append_string(lines, keywords(i)%name)
+         call add_line(page, keywords(i)%name)
       end do
-      call add_lines(lines, MIDDLE)
-      call add_values(lines)
-      call add_search(lines)
-      call add_choice(lines)
+      do i = 1, size(MIDDLE)
+         call add_line(page, MIDDLE(i))
+      end do
+      call add_values(page)
+      call add_search(page)
+      call add_choice(page)
    end subroutine compose_bash_completion
 
-   subroutine add_lines(lines, texts)
-      type(string_t), allocatable, intent(inout) :: lines(:)
-      character(len=*), intent(in) :: texts(:)
-      integer :: i
-
-      do i = 1, size(texts)
-         call append_string(lines, trim(texts(i)))
-      end do
-   end subroutine add_lines
-
    !> What stands behind an option that has a value.
-   subroutine add_values(lines)
-      type(string_t), allocatable, intent(inout) :: lines(:)
+   subroutine add_values(page)
+      type(page_t), intent(inout) :: page
       integer :: i
 
       do i = 1, size(OPTIONS)
-         if (kind_of_value(i) == VALUE_WORDS) call append_string(lines, '      '//trim(OPTIONS(i)%name)//') _atrito_words '''// &
-                                                                 trim(OPTIONS(i)%words)//'''; return ;;')
+         if (kind_of_value(i) == VALUE_WORDS) call add_line(page, '      '//trim(OPTIONS(i)%name)//') _atrito_words '''// &
+                                                            trim(OPTIONS(i)%words)//'''; return ;;')
       end do
-      call append_string(lines, '      '//options_where([VALUE_A_FOLDER])//') compopt -o filenames 2>/dev/null')
-      call append_string(lines, '         mapfile -t COMPREPLY < <(compgen -d -- "$cur"); return ;;')
-      call append_string(lines, '      '//options_where([VALUE_A_FILE])//') _atrito_files ''*''; return ;;')
-      call append_string(lines, '      '//options_where([VALUE_OWN])//') return ;;')
-      call append_string(lines, '   esac')
+      call add_line(page, '      '//options_where([VALUE_A_FOLDER])//') compopt -o filenames 2>/dev/null')
+      call add_line(page, '         mapfile -t COMPREPLY < <(compgen -d -- "$cur"); return ;;')
+      call add_line(page, '      '//options_where([VALUE_A_FILE])//') _atrito_files ''*''; return ;;')
+      call add_line(page, '      '//options_where([VALUE_OWN])//') return ;;')
+      call add_line(page, '   esac')
    end subroutine add_values
 
    !> Which command was given, and where: i is the word behind it.
-   subroutine add_search(lines)
-      type(string_t), allocatable, intent(inout) :: lines(:)
+   subroutine add_search(page)
+      type(page_t), intent(inout) :: page
 
-      call append_string(lines, '   for ((i = 1; i < COMP_CWORD && ${#task} == 0; i++)); do')
-      call append_string(lines, '      case ${COMP_WORDS[i]} in')
-      call append_string(lines, '         '//options_where([VALUE_OWN, VALUE_WORDS, VALUE_A_FOLDER, VALUE_A_FILE])//')')
-      call append_string(lines, '            if [ "${COMP_WORDS[i + 1]}" = = ]; then ((i++)); fi')
-      call append_string(lines, '            ((i++)) ;;')
-      call append_string(lines, '         -*) ;;')
-      call append_string(lines, '         '//join(command_names(), '|')//') task=${COMP_WORDS[i]} ;;')
-      call append_string(lines, '         *) task=run ;;')
-      call append_string(lines, '      esac')
-      call append_string(lines, '   done')
+      call add_line(page, '   for ((i = 1; i < COMP_CWORD && ${#task} == 0; i++)); do')
+      call add_line(page, '      case ${COMP_WORDS[i]} in')
+      call add_line(page, '         '//options_where([VALUE_OWN, VALUE_WORDS, VALUE_A_FOLDER, VALUE_A_FILE])//')')
+      call add_line(page, '            if [ "${COMP_WORDS[i + 1]}" = = ]; then ((i++)); fi')
+      call add_line(page, '            ((i++)) ;;')
+      call add_line(page, '         -*) ;;')
+      call add_line(page, '         '//join(command_names(), '|')//') task=${COMP_WORDS[i]} ;;')
+      call add_line(page, '         *) task=run ;;')
+      call add_line(page, '      esac')
+      call add_line(page, '   done')
    end subroutine add_search
 
    !> What is to be had in this place.
-   subroutine add_choice(lines)
-      type(string_t), allocatable, intent(inout) :: lines(:)
-      character(len=:), allocatable :: command
+   subroutine add_choice(page)
+      type(page_t), intent(inout) :: page
       integer :: task
 
-      call append_string(lines, '   case ${task:-run}:$cur in')
+      call add_line(page, '   case ${task:-run}:$cur in')
       do task = 1, size(TASKS)
-         command = trim(TASKS(task)%name)
-         if (len(command) == 0) command = 'run'
-         call append_string(lines, '      '//command//':-*) _atrito_words '''//options_of(task)//''' ;;')
+         call add_line(page, '      '//trim(merge('run    ', TASKS(task)%name, task == TASK_RUN))//':-*) _atrito_words '''// &
+                       options_of(task)//''' ;;')
       end do
-      call append_string(lines, '      help:*) _atrito_keywords "$i" ;;')
-      call append_string(lines, '      compare:*) _atrito_files ''*'' ;;')
-      call append_string(lines, '      *)')
-      call append_string(lines, '         _atrito_files ''*.inp''')
-      call append_string(lines, '         [ -n "$task" ] || mapfile -t -O ${#COMPREPLY[@]} COMPREPLY < <(compgen -W '''// &
-                         join(command_names(), ' ')//''' -- "$cur") ;;')
-      call append_string(lines, '   esac')
-      call append_string(lines, '}')
-      call append_string(lines, 'complete -F _atrito atrito')
+      call add_line(page, '      help:*) _atrito_keywords "$i" ;;')
+      call add_line(page, '      compare:*) _atrito_files ''*'' ;;')
+      call add_line(page, '      *)')
+      call add_line(page, '         _atrito_files ''*.inp''')
+      call add_line(page, '         [ -n "$task" ] || mapfile -t -O ${#COMPREPLY[@]} COMPREPLY < <(compgen -W '''// &
+                    join(command_names(), ' ')//''' -- "$cur") ;;')
+      call add_line(page, '   esac')
+      call add_line(page, '}')
+      call add_line(page, 'complete -F _atrito atrito')
    end subroutine add_choice
 
    !> What a shell can do for the value of an option, VALUE_...

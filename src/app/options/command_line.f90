@@ -8,10 +8,10 @@ module atrito_command_line
    use atrito_files, only: confine_files, file_exists, target_path, true_path
    use atrito_messages, only: message_t, SEVERITY_ERROR
    use atrito_number_text, only: LEAST_DIGITS, MOST_DIGITS, DEFAULT_DIGITS
-   use atrito_option_table, only: OPTIONS, MOST_THREADS, MOST_LEVELS, find_option, has_value, option_names, option_words, &
-                                  place_of_word, value_text
-   use atrito_task_table, only: TASK_USAGE, TASK_RUN, TASK_CHECK, TASK_COMPARE, TASK_HELP, TASK_SWEEP, TASK_STUDY, TASK_LIMIT, &
-                                TASK_OPTIONS, TASK_VERSION, task_named, command_names, task_form, task_text
+   use atrito_option_table, only: OPTIONS, MOST_THREADS, MOST_LEVELS, find_option, has_value, option_words, place_of_word, &
+                                  value_text, trimmed_strings, TASKS, TASK_USAGE, TASK_RUN, TASK_CHECK, TASK_COMPARE, TASK_HELP, &
+                                  TASK_SWEEP, TASK_STUDY, TASK_LIMIT, TASK_OPTIONS, TASK_VERSION, task_named, command_names, &
+                                  task_form, task_text
    use atrito_plot_view, only: plot_view_t, read_box
    use atrito_compare, only: DEFAULT_RTOL, DEFAULT_ATOL
    implicit none (type, external)
@@ -85,24 +85,32 @@ contains
       type(string_t), intent(in) :: arguments(:)
       type(command_t), intent(out) :: command
       logical, intent(out) :: ok
-      type(message_t), intent(out) :: error
+      type(message_t), intent(out) :: error         !< its text is allocated where there is one, as in all procedures below
       type(given_t), allocatable :: given(:)
       type(string_t), allocatable :: names(:)
       integer :: i
 
       allocate (command%settings(0), command%observe(0), command%vary(0), command%names(0), command%elements(0))
       allocate (command%references(0))
-      call sort_arguments(arguments, names, given, ok, error)
+      call sort_arguments(arguments, names, given, error)
+      ok = .not. allocated(error%text)
       if (.not. ok) return
       if (any(OPTIONS(given%option)%name == '--help')) command%task = TASK_OPTIONS
       if (any(OPTIONS(given%option)%name == '--version')) command%task = TASK_VERSION
       if (command%task /= TASK_USAGE .or. size(arguments) == 0) return
-      call find_task(names, command, ok, error)
+      call find_task(names, command, error)
       do i = 1, size(given)
-         if (ok) call take_option(given(i), command, ok, error)
+         if (.not. allocated(error%text)) call take_option(given(i), command, error)
       end do
-      if (.not. ok) return
-      ok = .false.
+      if (.not. allocated(error%text)) call check_command(command, error)
+      ok = .not. allocated(error%text)
+   end subroutine parse_command
+
+   !> What options have to do with each other and with the command.
+   subroutine check_command(command, error)
+      type(command_t), intent(in) :: command
+      type(message_t), intent(inout) :: error
+
       if (command%task == TASK_SWEEP .and. size(command%vary) == 0) then
          error = wrong('a sweep needs the parameter that it varies', expected=task_form(TASK_SWEEP))
       else if (command%task == TASK_STUDY .and. command%levels == 0) then
@@ -113,10 +121,8 @@ contains
          error = wrong('a limit needs the one parameter that it varies', expected=task_form(TASK_LIMIT))
       else if (command%task == TASK_CHECK .and. allocated(command%folder) .and. .not. command%plot) then
          error = wrong('-o is no option of atrito check without --plot', expected='atrito check DECK.inp --plot -o DIR')
-      else
-         ok = .true.
       end if
-   end subroutine parse_command
+   end subroutine check_command
 
    !> The messages are to be JSON, also one about the command line itself.
    pure logical function wants_json(arguments)
@@ -130,65 +136,60 @@ contains
       end do
    end function wants_json
 
-   !> Sorts arguments into names and options with their values.
-   subroutine sort_arguments(arguments, names, given, ok, error)
+   !> Sorts arguments into names and options with their values; behind `--` there are names alone.
+   subroutine sort_arguments(arguments, names, given, error)
       type(string_t), intent(in) :: arguments(:)
       type(string_t), allocatable, intent(out) :: names(:)
       type(given_t), allocatable, intent(out) :: given(:)
-      logical, intent(out) :: ok
       type(message_t), intent(inout) :: error
-      type(given_t) :: one
       logical :: only_names
       integer :: i
 
       allocate (names(0), given(0))
-      ok = .true.
       only_names = .false.
       i = 1
-      do while (i <= size(arguments) .and. ok)
+      do while (i <= size(arguments) .and. .not. allocated(error%text))
          associate (argument => arguments(i)%s)
             if (argument == '--' .and. .not. only_names) then
                only_names = .true.
             else if (only_names .or. len(argument) < 2 .or. index(argument, '-') /= 1) then
                call append_string(names, argument)
             else
-               call read_option(arguments, i, one, ok, error)
-               given = [given, one]
+               call read_option(arguments, i, given, error)
             end if
          end associate
          i = i + 1
       end do
    end subroutine sort_arguments
 
-   !> Reads the option at place i: `--name value`, `--name=value` or `--name`.
-   subroutine read_option(arguments, i, given, ok, error)
+   !> Adds the option at place i: `--name value`, `--name=value` or `--name`.
+   subroutine read_option(arguments, i, given, error)
       type(string_t), intent(in) :: arguments(:)
       integer, intent(inout) :: i                   !< the last argument that belongs to it
-      type(given_t), intent(out) :: given
-      logical, intent(out) :: ok
+      type(given_t), allocatable, intent(inout) :: given(:)
       type(message_t), intent(inout) :: error
+      type(given_t) :: one
       character(len=:), allocatable :: name
       integer :: equals
 
       equals = index(arguments(i)%s, '=')
       name = arguments(i)%s
       if (equals > 0) name = arguments(i)%s(:equals - 1)
-      given%option = find_option(name)
-      ok = given%option > 0
-      if (.not. ok) then
-         error = wrong('unknown option '//name, nearest=nearest_names(name, option_names(), 3))
-      else if (.not. has_value(given%option)) then
-         ok = equals == 0
-         if (.not. ok) error = wrong(name//' takes no value')
+      one%option = find_option(name)
+      if (one%option == 0) then
+         error = wrong('unknown option '//name, nearest=nearest_names(name, trimmed_strings(OPTIONS%name), 3))
+      else if (.not. has_value(one%option)) then
+         if (equals > 0) error = wrong(name//' takes no value')
       else if (equals > 0) then
-         given%value = arguments(i)%s(equals + 1:)
+         one%value = arguments(i)%s(equals + 1:)
       else
-         ok = i < size(arguments)
-         if (ok) ok = index(arguments(i + 1)%s, '--') /= 1
-         if (.not. ok) error = wrong(name//' needs a value', expected=value_text(given%option))
-         if (ok) given%value = arguments(i + 1)%s
          i = i + 1
+         if (i <= size(arguments)) then
+            if (index(arguments(i)%s, '--') /= 1) one%value = arguments(i)%s
+         end if
+         if (.not. allocated(one%value)) error = wrong(name//' needs a value', expected=value_text(one%option))
       end if
+      given = [given, one]
    end subroutine read_option
 
    !> An error of the command line.
@@ -207,42 +208,32 @@ contains
    end function wrong
 
    !> The first name says what is to be done; the others are its objects.
-   subroutine find_task(names, command, ok, error)
+   subroutine find_task(names, command, error)
       type(string_t), intent(in) :: names(:)
       type(command_t), intent(inout) :: command
-      logical, intent(out) :: ok
       type(message_t), intent(inout) :: error
-      integer :: task
 
-      ok = .false.
       if (size(names) == 0) then
          error = wrong('there is no deck', expected=task_form(TASK_RUN))
          return
       end if
-      task = task_named(names(1)%s)
-      command%task = task
-      command%names = names(merge(1, 2, task == TASK_RUN):)
-      select case (task)
-      case (TASK_COMPARE)
-         ok = size(command%names) == 2
-         if (.not. ok) error = wrong('compare takes two names, not '//to_text(size(command%names, kind=ip)), &
-                                     expected=task_form(task))
-      case (TASK_HELP)
-         ok = .true.
-      case default
-         call check_deck(command%names, task, ok, error)
-      end select
+      command%task = task_named(names(1)%s)
+      command%names = names(merge(1, 2, command%task == TASK_RUN):)
+      if (command%task == TASK_COMPARE) then
+         if (size(command%names) /= 2) error = wrong('compare takes two names, not '//to_text(size(command%names, kind=ip)), &
+                                                     expected=task_form(TASK_COMPARE))
+      else if (command%task /= TASK_HELP) then
+         call check_deck(command%names, command%task, error)
+      end if
    end subroutine find_task
 
    !> One deck; a word that is no file but nearly a command is a misspelt command.
-   subroutine check_deck(names, task, ok, error)
+   subroutine check_deck(names, task, error)
       type(string_t), intent(in) :: names(:)
       integer, intent(in) :: task
-      logical, intent(out) :: ok
       type(message_t), intent(inout) :: error
       type(string_t), allocatable :: near(:)
 
-      ok = .false.
       if (size(names) == 0) then
          error = wrong('there is no deck', expected=task_form(task))
          return
@@ -257,22 +248,19 @@ contains
          error = wrong('one deck at a time; '//names(2)%s//' is too much', expected=task_form(task))
       else if (len_trim(names(1)%s) == 0) then
          error = wrong('the name of the deck is empty', expected=task_form(task))
-      else
-         ok = .true.
       end if
    end subroutine check_deck
 
    !> Puts an option where it belongs.
-   subroutine take_option(given, command, ok, error)
+   subroutine take_option(given, command, error)
       type(given_t), intent(in) :: given
       type(command_t), intent(inout) :: command
-      logical, intent(out) :: ok
       type(message_t), intent(inout) :: error
       character(len=:), allocatable :: name
+      logical :: ok
 
       name = trim(OPTIONS(given%option)%name)
-      ok = OPTIONS(given%option)%for_task(command%task)
-      if (.not. ok) then
+      if (.not. OPTIONS(given%option)%for_task(command%task)) then
          error = wrong(name//' is no option of '//task_text(command%task))
          return
       end if
@@ -302,37 +290,45 @@ contains
          call take_watched(given%value, command%watched, ok)
       case ('--elements')
          call take_elements(given%value, command%elements, ok)
-      case ('--solver')
-         call take_solver(given%value, command, ok, error)
-         if (.not. ok) return
-      case ('--contact')
-         ok = place_of_word(name, given%value) > 0
-         if (ok) command%contact = given%value
-      case ('--share')
-         ok = place_of_word(name, given%value) > 0
-         if (ok) command%share = given%value
-      case ('--format')
-         command%is_csv = given%value == 'csv'
-         ok = place_of_word(name, given%value) > 0
-      case ('--messages')
-         command%json = given%value == 'json'
-         ok = place_of_word(name, given%value) > 0
-      case ('--plot')
-         command%plot = .true.
+      case ('--solver', '--contact', '--share', '--format', '--messages')
+         call take_word(name, given%value, command, ok)
       case ('--plot-box')
          call read_box(given%value, command%view%box, ok)
-      case ('--report')
-         command%report = .true.
-         command%plot = .true.
-      case ('--quiet')
-         command%quiet = .true.
-      case ('--resume')
-         command%resume = .true.
       case default
-         call take_number(name, given%value, command, ok)
+         ok = .true.
+         command%plot = command%plot .or. name == '--plot' .or. name == '--report'
+         command%report = command%report .or. name == '--report'
+         command%quiet = command%quiet .or. name == '--quiet'
+         command%resume = command%resume .or. name == '--resume'
+         if (allocated(given%value)) call take_number(name, given%value, command, ok)
       end select
-      if (.not. ok) error = wrong(name//' '//given%value//' is not possible', expected=value_text(given%option))
+      if (ok) return
+      error = wrong(name//' '//given%value//' is not possible', expected=value_text(given%option))
+      if (name == '--solver') error = wrong('unknown solver '//given%value, expected=value_text(given%option), &
+                                            nearest=nearest_names(given%value, option_words(given%option), 2))
    end subroutine take_option
+
+   !> The options whose value is one of their words.
+   subroutine take_word(name, value, command, ok)
+      character(len=*), intent(in) :: name, value
+      type(command_t), intent(inout) :: command
+      logical, intent(out) :: ok
+
+      ok = place_of_word(name, value) > 0
+      if (.not. ok) return
+      select case (name)
+      case ('--solver')
+         command%solver = value
+      case ('--contact')
+         command%contact = value
+      case ('--share')
+         command%share = value
+      case ('--format')
+         command%is_csv = value == 'csv'
+      case ('--messages')
+         command%json = value == 'json'
+      end select
+   end subroutine take_word
 
    !> The options whose value is a number.
    subroutine take_number(name, value, command, ok)
@@ -358,8 +354,6 @@ contains
          call take_real(value, 0.0_wp, 1.0_wp, command%rtol, ok)
       case ('--atol')
          call take_real(value, 0.0_wp, huge(1.0_wp), command%atol, ok)
-      case default
-         ok = .true.                                ! of --help and --version
       end select
    end subroutine take_number
 
@@ -389,31 +383,11 @@ contains
       do while (first <= len(value) + 1 .and. ok)
          last = first + index(value(first:)//',', ',') - 2
          name = lower_case(trim(adjustl(value(first:last))))
-         ok = kind_named(upper_case(name)) > 0
-         do i = 1, size(elements)
-            ok = ok .and. elements(i)%s /= name
-         end do
+         ok = kind_named(upper_case(name)) > 0 .and. all([(elements(i)%s /= name, i=1, size(elements))])
          call append_string(elements, name)
          first = last + 2
       end do
    end subroutine take_elements
-
-   subroutine take_solver(value, command, ok, error)
-      character(len=*), intent(in) :: value
-      type(command_t), intent(inout) :: command
-      logical, intent(out) :: ok
-      type(message_t), intent(inout) :: error
-      integer :: option
-
-      ok = .false.
-      if (place_of_word('--solver', value) == 0) then
-         option = find_option('--solver')
-         error = wrong('unknown solver '//value, expected=value_text(option), nearest=nearest_names(value, option_words(option), 2))
-      else
-         command%solver = value
-         ok = .true.
-      end if
-   end subroutine take_solver
 
    subroutine take_integer(text, least, most, value, ok)
       character(len=*), intent(in) :: text
@@ -451,10 +425,7 @@ contains
          folder = command%folder
       else
          folder = 'output/'//deck_name(command%names(1)%s)
-         if (command%task == TASK_SWEEP) folder = folder//'-sweep'
-         if (command%task == TASK_STUDY) folder = folder//'-study'
-         if (command%task == TASK_LIMIT) folder = folder//'-limit'
-         if (command%task == TASK_CHECK) folder = folder//'-check'
+         if (command%task > TASK_RUN) folder = folder//'-'//trim(TASKS(command%task)%name)
       end if
    end function output_folder
 

@@ -1,7 +1,7 @@
 !> What sweeps, studies and limits have in common: they claim their folder for all of their runs, write tables, draw, and tell it.
 module atrito_series
    use, intrinsic :: iso_fortran_env, only: output_unit
-   use atrito_command_line, only: command_t, output_folder, TASK_SWEEP, TASK_STUDY
+   use atrito_command_line, only: command_t, output_folder, TASK_LIMIT, TASK_SWEEP
    use atrito_console, only: print_messages, print_status
    use atrito_deck, only: deck_t
    use atrito_deck_as_run, only: take_deck_as_run
@@ -16,6 +16,8 @@ module atrito_series
    use atrito_plot_files, only: plot_folder, list_plots, remove_plots, PLOTS_OF_SWEEP, PLOTS_OF_STUDY, PLOTS_OF_LIMIT
    use atrito_provenance, only: provenance_t
    use atrito_reader, only: read_deck
+   use atrito_report, only: report_t
+   use atrito_report_maker, only: make_report
    use atrito_report_file, only: REPORT_NAME, remove_report
    use atrito_status, only: status_t, is_ok
    use atrito_strings, only: string_t, append_string
@@ -26,39 +28,42 @@ module atrito_series
    private
    public :: claim_output, find_provenance, series_origin, begin_pictures, tell_series, seconds_since
 
+   !> Whose the pictures of a command are.
+   integer, parameter :: WHOSE(TASK_SWEEP:TASK_LIMIT) = [PLOTS_OF_SWEEP, PLOTS_OF_STUDY, PLOTS_OF_LIMIT]
+
 contains
 
    !> Claims the folder of the command; two at once would leave runs of both. A failure, also an earlier one, is told.
-   subroutine claim_output(command, tables, whose, claim, status)
+   subroutine claim_output(command, tables, claim, status)
       type(command_t), intent(in) :: command
       character(len=*), intent(in) :: tables(:)     !< that it writes besides those of its runs; their names
-      integer, intent(in) :: whose                  !< PLOTS_OF_*
       type(folder_claim_t), intent(out) :: claim
       type(status_t), intent(inout) :: status       !< of what came before; STATUS_FILE
 
       if (is_ok(status)) call check_folder(output_folder(command), status)
-      if (is_ok(status)) call check_files(output_folder(command), tables, whose, status)
+      if (is_ok(status)) call check_files(command, tables, status)
       if (is_ok(status)) call claim_folder(output_folder(command), claim, status, silent=command%json)
       if (.not. is_ok(status)) call print_status(status, command%names(1)%s, command%json)
    end subroutine claim_output
 
    !> Whether what is going to be replaced or removed is atrito's.
-   subroutine check_files(folder, tables, whose, status)
-      character(len=*), intent(in) :: folder, tables(:)
-      integer, intent(in) :: whose
+   subroutine check_files(command, tables, status)
+      type(command_t), intent(in) :: command
+      character(len=*), intent(in) :: tables(:)
       type(status_t), intent(out) :: status
       type(string_t), allocatable :: names(:)
       integer :: i
 
       allocate (names(0))
       call append_string(names, REPORT_NAME)
-      if (whose == PLOTS_OF_SWEEP) call append_string(names, JOURNAL_NAME)
+      if (command%task == TASK_SWEEP) call append_string(names, JOURNAL_NAME)
       do i = 1, size(tables)
          call append_string(names, trim(tables(i))//TAB_ENDING)
          call append_string(names, trim(tables(i))//CSV_ENDING)
       end do
-      call check_all_own(folder, names, status)
-      if (is_ok(status)) call check_all_own(plot_folder(folder), list_plots(folder, whose), status)
+      call check_all_own(output_folder(command), names, status)
+      if (is_ok(status)) call check_all_own(plot_folder(output_folder(command)), &
+                                            list_plots(output_folder(command), WHOSE(command%task)), status)
    end subroutine check_files
 
    !> What the heads of the tables tell of the deck, with its own values where a parameter varies. What is wrong with the deck its
@@ -105,30 +110,27 @@ contains
    !> The command's pictures and report of an earlier time go, made anew or not, for its tables are new.
    subroutine begin_pictures(command)
       type(command_t), intent(in) :: command
-      character(len=:), allocatable :: folder
       type(status_t) :: status
-      integer :: whose
 
-      folder = output_folder(command)
       call clear_messages()
-      whose = PLOTS_OF_LIMIT
-      if (command%task == TASK_SWEEP) whose = PLOTS_OF_SWEEP
-      if (command%task == TASK_STUDY) whose = PLOTS_OF_STUDY
-      call check_files(folder, [character(len=1) ::], whose, status)     ! an hour may have passed
+      call check_files(command, [character(len=1) ::], status)     ! an hour may have passed
       if (is_ok(status)) then
-         call remove_plots(folder, whose)
-         call remove_report(folder)
+         call remove_plots(output_folder(command), WHOSE(command%task))
+         call remove_report(output_folder(command))
       else
          call add_warning('W-PLOT', status%text)
       end if
    end subroutine begin_pictures
 
-   !> Prints the closing lines.
-   subroutine tell_series(command, page, has_report)
+   !> Writes the report, where one is asked for, and prints the closing lines.
+   subroutine tell_series(command, page, report)
       type(command_t), intent(in) :: command
       type(page_t), intent(inout) :: page
-      logical, intent(in) :: has_report             !< one was written
+      type(report_t), intent(inout) :: report
+      logical :: has_report
 
+      has_report = .false.
+      if (command%report) call make_report(command, report, has_report)
       if (has_report) call add_above_rule(page, 'report', output_folder(command)//'/'//REPORT_NAME)
       call print_messages(command%quiet, 1_ip, command%json)
       if (.not. command%quiet) call print_page(page, output_unit)

@@ -1,40 +1,45 @@
 !> `atrito limit`: the value of a parameter from which on a scene does not stand.
 !>
-!> What is asked of which value is atrito_stability_search's. The balance of a value needs no stiffness; runs hand their factored
-!> bodies on, so that those that the parameter leaves as they are are factored once.
+!> What is asked of which value is atrito_stability_search's: whether the loads can be balanced, which needs no stiffness, or what
+!> the solution is. Runs hand their factored bodies on, so that those that the parameter leaves as they are are factored once.
 module atrito_stability_limit
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
    use atrito_balance_probe, only: probe_balance
    use atrito_body_cache, only: body_cache_t
    use atrito_clp, only: has_clp, clp_trouble
    use atrito_command_line, only: command_t, output_folder
-   use atrito_console, only: print_status
+   use atrito_console, only: print_messages, print_status
    use atrito_folder_claim, only: folder_claim_t, release_folder
+   use atrito_frame_spool, only: begin_frames, end_frames, frame_spool_t
+   use atrito_history, only: solve_history
    use atrito_kinds, only: ip, lp, wp
+   use atrito_mesh, only: find_node
+   use atrito_messages, only: clear_messages
    use atrito_model, only: model_t
    use atrito_page, only: page_t
    use atrito_provenance, only: provenance_t
    use atrito_report, only: report_t
-   use atrito_report_maker, only: make_report
    use atrito_reporter, only: reporter_t, report_progress
+   use atrito_results, only: history_t, results_t
    use atrito_series_reports, only: begin_series, report_of_limit
    use atrito_series, only: claim_output, find_provenance, series_origin, begin_pictures, tell_series, seconds_since
    use atrito_stability_plot, only: write_stability_plots
-   use atrito_run, only: take_threads
-   use atrito_stability_questions, only: question_t, answer_t, ask, load_value, TELL_ALL, TELL_ERRORS
+   use atrito_run, only: take_threads, load_model, solve_options, agree_on_outcome
    use atrito_sweep_plan, only: read_range
    use atrito_stability_result, only: stability_t, stability_value_t, CODE_NOT_RUN
    use atrito_stability_search, only: search_t, begin_search, next_step, record_balance, record_solution, standing_value, &
-                                      falling_value, balanced_value, STEP_BALANCE, STEP_SOLVE, STEP_DONE, STANDS, FALLS, &
+                                      falling_value, balanced_value, STEP_BALANCE, STEP_DONE, STANDS, FALLS, &
                                       UNDECIDED, FOUND_LIMIT, FOUND_INTERVAL, BOTH_STAND, BOTH_FALL
    use atrito_stability_tables, only: write_stability, compose_stability
-   use atrito_plot_files, only: PLOTS_OF_LIMIT
-   use atrito_status, only: status_t, set_status, is_ok, STATUS_OK, STATUS_USAGE, STATUS_NOT_CONVERGED, STATUS_SINGULAR
-   use atrito_strings, only: string_t, to_text
+   use atrito_status, only: status_t, set_status, reword_status, is_ok, STATUS_OK, STATUS_USAGE, &
+                            STATUS_NOT_CONVERGED, STATUS_SINGULAR
+   use atrito_strings, only: string_t, append_string, to_text
    use atrito_table, only: origin_t
    implicit none (type, external)
    private
    public :: run_limit
+
+   integer, parameter :: ALL_DIGITS = 17            !< a value as text gives the same value again
 
 contains
 
@@ -52,7 +57,7 @@ contains
       if (is_ok(status) .and. .not. has_clp()) then
          call set_status(status, STATUS_USAGE, 'limit needs Clp, to prove that a scene falls: '//clp_trouble())
       end if
-      call claim_output(command, [character(len=9) :: 'limit', 'mechanism'], PLOTS_OF_LIMIT, claim, status)
+      call claim_output(command, [character(len=9) :: 'limit', 'mechanism'], claim, status)
       code = status%code
       if (.not. is_ok(status)) return
       call find_limit(command, limit, code)
@@ -82,7 +87,7 @@ contains
       if (code /= STATUS_OK) return
       call judge_search(search, limit, status)
       if (is_ok(status)) then
-         call load_value(command, limit%parameter, limit%falls, TELL_ERRORS, model, code, told)
+         call load_value(command, limit%parameter, limit%falls, .true., model, code, told)
          if (code /= STATUS_OK) return
          call probe_balance(model, answer, excess, status, limit%collapse)
       end if
@@ -92,71 +97,173 @@ contains
       if (is_ok(status) .and. .not. limit%is_close) code = STATUS_NOT_CONVERGED
    end subroutine find_limit
 
-   !> Asks until the search has what it needs. code: of a deck that has errors at a value, and the like; told.
+   !> Asks until the search has what it needs: at a value of the parameter whether the loads can be balanced, or what the solution
+   !> is. code: of a deck that has errors at a value, and the like; told.
    subroutine ask_all(command, search, limit, code)
       type(command_t), intent(in) :: command
       type(search_t), intent(inout) :: search
       type(stability_t), intent(inout) :: limit
       integer, intent(out) :: code
-      type(body_cache_t) :: store
+      type(body_cache_t) :: store                   ! factored bodies of earlier solutions
       type(reporter_t) :: reporter
-      type(question_t) :: question
-      type(answer_t) :: answer
       type(stability_value_t) :: one
-      integer :: telling
+      real(wp) :: x
+      integer :: step
 
       reporter%quiet = command%quiet .or. command%json
       store%keeps = .true.
       do
-         call next_step(search, question%x, question%step)
+         call next_step(search, x, step)
          code = STATUS_OK
-         if (question%step == STEP_DONE) exit
-         telling = telling_of(question, search, limit)
-         call ask(command, limit%parameter, question, telling, store, answer)
-         code = answer%code
+         if (step == STEP_DONE) exit
+         call find_value(limit, x, one)
+         if (step == STEP_BALANCE) then
+            call ask_balance(command, limit, search, one, code)
+         else
+            call ask_solution(command, limit, store, search, one, code)
+         end if
          if (code /= STATUS_OK) exit
-         call find_value(limit, question%x, one)
-         call take_answer(question, answer, search, one)
          ! Puts it at its place among the others.
-         limit%values = [pack(limit%values, limit%values%value < one%value), one, &
-                         pack(limit%values, limit%values%value > one%value)]
-         call report_progress(reporter, limit%parameter//' = '//to_text(question%x, 12)//'  '//answer_text(one))
+         limit%values = [pack(limit%values, limit%values%value < x), one, pack(limit%values, limit%values%value > x)]
+         call report_progress(reporter, limit%parameter//' = '//to_text(x, 12)//'  '//answer_text(one))
       end do
    end subroutine ask_all
 
-   !> The first balance tells what the deck has to say, the first solution what it has to add.
-   pure integer function telling_of(question, search, limit) result(telling)
-      type(question_t), intent(in) :: question
-      type(search_t), intent(in) :: search
+   !> Whether the loads can be balanced at a value. The first such question tells what the deck has to say.
+   subroutine ask_balance(command, limit, search, one, code)
+      type(command_t), intent(in) :: command
       type(stability_t), intent(in) :: limit
-      logical :: is_first
-
-      is_first = size(search%tried) == 0
-      if (question%step == STEP_SOLVE) is_first = all(limit%values%code == CODE_NOT_RUN .or. limit%values%code == STATUS_SINGULAR)
-      telling = merge(TELL_ALL, TELL_ERRORS, is_first)
-   end function telling_of
-
-   !> What the search and the table of values learn of an answer.
-   pure subroutine take_answer(question, answer, search, one)
-      type(question_t), intent(in) :: question
-      type(answer_t), intent(in) :: answer
       type(search_t), intent(inout) :: search
       type(stability_value_t), intent(inout) :: one
+      integer, intent(out) :: code
+      type(model_t) :: model
+      type(status_t) :: status
+      integer(ip) :: told
+      integer :: verdict
 
-      if (question%step == STEP_BALANCE) then
-         call record_balance(search, question%x, answer%verdict, answer%excess)
-         one%excess = answer%excess
-         if (answer%verdict == FALLS) one%code = STATUS_SINGULAR
-         if (answer%verdict == UNDECIDED) one%excess = ieee_value(1.0_wp, ieee_quiet_nan)
-      else
-         call record_solution(search, question%x, answer%verdict)
-         one%code = merge(STATUS_OK, STATUS_NOT_CONVERGED, answer%verdict == STANDS)
-         one%displacement = answer%displacement
-         one%iterations = answer%iterations
-         one%solves = answer%solves
-         one%factorisations = answer%factorisations
+      call load_value(command, limit%parameter, one%value, size(search%tried) > 0, model, code, told)
+      if (code /= STATUS_OK) return
+      call probe_balance(model, verdict, one%excess, status)
+      code = status%code
+      if (.not. is_ok(status)) then
+         call print_failure(command, limit%parameter, one%value, status)
+         return
       end if
-   end subroutine take_answer
+      call record_balance(search, one%value, verdict, one%excess)
+      if (verdict == FALLS) one%code = STATUS_SINGULAR
+      if (verdict == UNDECIDED) one%excess = ieee_value(1.0_wp, ieee_quiet_nan)
+   end subroutine ask_balance
+
+   !> What the solution at a value is. A run that ends with 0 or 3 is an answer, any other is a failure: what falls has been proved
+   !> before. Of a history 4 is one, too, once something has been solved: it ends at a time that the balance was not asked about
+   !> (supports that go, smooth amplitudes), and neither bound is narrowed. The first solution tells what it has to add to the
+   !> deck's messages.
+   subroutine ask_solution(command, limit, store, search, one, code)
+      type(command_t), intent(in) :: command
+      type(stability_t), intent(in) :: limit
+      type(body_cache_t), intent(inout) :: store
+      type(search_t), intent(inout) :: search
+      type(stability_value_t), intent(inout) :: one
+      integer, intent(out) :: code
+      type(model_t) :: model
+      type(status_t) :: status
+      type(history_t) :: history
+      type(frame_spool_t) :: frames
+      type(reporter_t) :: reporter
+      integer(ip) :: told
+      integer :: n
+
+      one%displacement = ieee_value(1.0_wp, ieee_quiet_nan)
+      call load_value(command, limit%parameter, one%value, .true., model, code, told)
+      if (code /= STATUS_OK) return
+      reporter%quiet = .true.
+      call begin_frames(output_folder(command), frames)
+      call solve_history(model, solve_options(command), reporter, history, status, store, frames=frames)
+      call end_frames(frames)
+      n = size(history%frames)
+      if (n > 0) call agree_on_outcome(status, history%frames(n), history%ending%is_early)
+      if (status%code == STATUS_SINGULAR .and. n > 0) status%code = STATUS_NOT_CONVERGED
+      if (status%code == STATUS_OK .or. status%code == STATUS_NOT_CONVERGED) then
+         if (all(limit%values%code == CODE_NOT_RUN .or. limit%values%code == STATUS_SINGULAR)) then
+            call print_messages(command%quiet, told + 1, command%json)
+         end if
+         one%code = status%code
+         status = status_t()
+         if (n > 0) call watch(model, history%frames(n), command%watched, one%displacement, status)
+         if (n > 0) call count_work(history, one)
+      end if
+      code = status%code
+      if (.not. is_ok(status)) call print_failure(command, limit%parameter, one%value, status)
+      if (is_ok(status)) call record_solution(search, one%value, merge(STANDS, UNDECIDED, one%code == STATUS_OK))
+   end subroutine ask_solution
+
+   !> Of all increments; of a single one its own.
+   pure subroutine count_work(history, one)
+      type(history_t), intent(in) :: history
+      type(stability_value_t), intent(inout) :: one
+      integer :: n
+
+      n = size(history%frames)
+      one%factorisations = history%factorisations
+      one%iterations = history%frames(n)%outer_iterations
+      one%solves = history%frames(n)%linear_solves
+      if (.not. allocated(history%iterations) .or. size(history%rows) == 0) return
+      one%iterations = count(history%iterations%outer > 0 .and. history%iterations%inner == 1, kind=ip)
+      one%solves = size(history%iterations, kind=ip)
+   end subroutine count_work
+
+   !> The displacement of the curve. status: STATUS_USAGE where there is no such node.
+   subroutine watch(model, results, watched, displacement, status)
+      type(model_t), intent(in) :: model
+      type(results_t), intent(in) :: results
+      integer(ip), intent(in) :: watched(2)          !< node and dof; 0: the largest displacement
+      real(wp), intent(out) :: displacement          !< [L]
+      type(status_t), intent(inout) :: status
+      integer(ip) :: node
+
+      displacement = maxval(norm2(results%u, dim=1))
+      if (watched(1) == 0) return
+      node = find_node(model%mesh, watched(1))
+      if (node > 0) then
+         displacement = results%u(watched(2), node)
+      else
+         call set_status(status, STATUS_USAGE, '--watch '//to_text(watched(1))//','//to_text(watched(2)) &
+                         //': the deck has no node '//to_text(watched(1)))
+      end if
+   end subroutine watch
+
+   !> Reads the deck with a value. code: STATUS_DECK and the like, told.
+   subroutine load_value(command, parameter, x, only_errors, model, code, told)
+      type(command_t), intent(in) :: command
+      character(len=*), intent(in) :: parameter
+      real(wp), intent(in) :: x
+      logical, intent(in) :: only_errors            !< what else there is to say of the deck has been told
+      type(model_t), intent(out) :: model
+      integer, intent(out) :: code
+      integer(ip), intent(out) :: told              !< messages of the deck
+      type(command_t) :: one
+      type(reporter_t) :: reporter
+
+      one = command
+      reporter%quiet = .true.
+      call append_string(one%settings, parameter//'='//to_text(x, ALL_DIGITS))
+      call clear_messages()
+      call load_model(one, reporter, model, told, code, only_errors)
+   end subroutine load_value
+
+   subroutine print_failure(command, parameter, x, status)
+      type(command_t), intent(in) :: command
+      character(len=*), intent(in) :: parameter
+      real(wp), intent(in) :: x
+      type(status_t), intent(inout) :: status
+
+      if (status%code /= STATUS_USAGE) then         ! which is of any value
+         call print_messages(command%quiet, 1_ip, command%json)
+         if (.not. allocated(status%text)) return
+         call reword_status(status, 'at '//parameter//' = '//to_text(x, ALL_DIGITS)//': '//status%text)
+      end if
+      call print_status(status, command%names(1)%s, command%json)
+   end subroutine print_failure
 
    pure function answer_text(one) result(text)
       type(stability_value_t), intent(in) :: one
@@ -245,7 +352,6 @@ contains
       type(page_t) :: page
       type(report_t) :: report
       type(string_t), allocatable :: pictures(:)
-      logical :: has_report
 
       origin = series_origin(command, provenance,.not. limit%is_close)
       call write_stability(output_folder(command), origin, limit, int(command%digits), status, command%is_csv)
@@ -255,14 +361,12 @@ contains
       if (command%plot) call write_stability_plots(output_folder(command), origin%deck, model, limit, command%view, &
                                                    pictures)
       call compose_stability(command%names(1)%s, output_folder(command), limit, seconds, page, pictures)
-      has_report = .false.
       if (command%report) then
          call begin_series('limit', command%names(1)%s, output_folder(command), ['limit    ', 'mechanism'], pictures, report)
          report%heading = model%heading
          call report_of_limit(limit, seconds, report)
-         call make_report(command, report, has_report)
       end if
-      call tell_series(command, page, has_report)
+      call tell_series(command, page, report)
    end subroutine finish
 
 end module atrito_stability_limit

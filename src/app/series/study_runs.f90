@@ -11,19 +11,20 @@ module atrito_study_runs
    use atrito_model, only: model_t, interaction_t
    use atrito_observations, only: observations_t
    use atrito_read_table, only: table_file_t, find_column
+   use atrito_buffer, only: buffer_t, put, take
    use atrito_reporter, only: reporter_t
    use atrito_results, only: history_t, results_t
    use atrito_run, only: run_deck, load_model, prepare_observations, solve_options, agree_on_outcome
    use atrito_status, only: status_t, is_ok, STATUS_OK, STATUS_NOT_CONVERGED
    use atrito_strings, only: to_text, upper_case
-   use atrito_study_errors, only: run_facts_t, study_t, study_row_t, study_probe_t, total_seconds, PROCESSOR
+   use atrito_study_errors, only: run_facts_t, study_t, study_row_t, total_seconds, PROCESSOR
    use atrito_study_plan, only: DECK_ELEMENTS
    use atrito_summary, only: quantity_t, scales_t, pair_quantities, step_quantities, summarise_pair
    use atrito_sweep_tables, only: sweep_run_t, read_summary, row_of_quantity
    use atrito_timers, only: phase_time_t, reset_timers, get_phases
    implicit none (type, external)
    private
-   public :: make_timed_run, find_probe, make_command, has_failed, PROBES
+   public :: make_timed_run, find_probe, make_command, has_failed, put_row, take_row, PROBES
 
    real(wp), parameter :: SHORT = 0.1_wp             !< [s] shorter runs are made three times, for the clock
    integer, parameter :: REPEATS = 2                 !< times that a short run is made again
@@ -66,12 +67,12 @@ contains
    end subroutine time_again
 
    !> A run once more, of which nothing is written, with half of a regularisation, or half the compliance of the stick slope.
-   subroutine find_probe(command, study, k, kind, probe)
+   subroutine find_probe(command, study, k, kind, values)
       type(command_t), intent(in) :: command
       type(study_t), intent(in) :: study
       integer, intent(in) :: k                      !< row
       integer, intent(in) :: kind                   !< place in PROBES
-      type(study_probe_t), intent(out) :: probe
+      real(wp), intent(out) :: values(:)            !< one a quantity; nan where the run has none
       type(command_t) :: one
       type(body_cache_t) :: store
       type(model_t) :: model
@@ -83,23 +84,19 @@ contains
       integer(ip) :: told
       integer :: code
 
-      probe%what = trim(PROBES(kind))
-      probe%is_penalty = kind == 1
-      probe%row = k
-      allocate (probe%values(size(study%quantities)), source=ieee_value(1.0_wp, ieee_quiet_nan))
+      values = ieee_value(1.0_wp, ieee_quiet_nan)
       reporter%quiet = .true.
       call make_command(command, study%rows(k), one)
       call clear_messages()
       call load_model(one, reporter, model, told, code)
       if (code == STATUS_OK) call prepare_observations(one, model, observations, code)
       if (code == STATUS_OK) then
-         call scale_laws(model%interactions, merge(0.5_wp, 1.0_wp, probe%is_penalty), &
-                         merge(1.0_wp, 0.5_wp, probe%is_penalty))
+         call scale_laws(model%interactions, merge(0.5_wp, 1.0_wp, kind == 1), merge(1.0_wp, 0.5_wp, kind == 1))
          call begin_frames(output_folder(command), frames)
          call solve_history(model, solve_options(one), reporter, history, status, store, observer=observations, frames=frames)
          associate (n => size(history%frames))
             if (n > 0) call agree_on_outcome(status, history%frames(n), history%ending%is_early)
-            if (is_ok(status)) call find_values(history%frames(n), study, probe%values)
+            if (is_ok(status)) call find_values(history%frames(n), study, values)
          end associate
          call end_frames(frames)
       end if
@@ -112,6 +109,41 @@ contains
 
       has_failed = row%code /= STATUS_OK .and. row%code /= STATUS_NOT_CONVERGED
    end function has_failed
+
+   !> Adds what was found in a run, for another rank. What has a fixed size goes as it lies in memory, so that no component is
+   !> forgotten. Element and level stay.
+   subroutine put_row(row, buffer)
+      type(study_row_t), intent(in) :: row          !< with values and phases
+      type(buffer_t), intent(inout) :: buffer
+
+      call put(buffer, transfer(row%run_facts_t, [0_ip]))
+      call put(buffer, row%code)
+      call put(buffer, [row%estimate, row%penetration, row%pressure])
+      call put(buffer, row%values)
+      call put(buffer, size(row%phases, kind=ip))
+      call put(buffer, transfer(row%phases, [0_ip]))
+   end subroutine put_row
+
+   !> The next items, a row.
+   subroutine take_row(buffer, row)
+      type(buffer_t), intent(inout) :: buffer
+      type(study_row_t), intent(inout) :: row
+      integer(ip), allocatable :: memory(:)
+      real(wp), allocatable :: amounts(:)
+      integer(ip) :: n
+
+      call take(buffer, memory)
+      row%run_facts_t = transfer(memory, row%run_facts_t)
+      call take(buffer, row%code)
+      call take(buffer, amounts)
+      row%estimate = amounts(1)
+      row%penetration = amounts(2)
+      row%pressure = amounts(3)
+      call take(buffer, row%values)
+      call take(buffer, n)
+      call take(buffer, memory)
+      row%phases = transfer(memory, [phase_time_t()], n)
+   end subroutine take_row
 
    subroutine make_run(command, study, row, status)
       type(command_t), intent(in) :: command

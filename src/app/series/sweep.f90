@@ -15,16 +15,15 @@ module atrito_sweep
    use atrito_observations, only: observation_names
    use atrito_mpi, only: rank_count
    use atrito_page, only: page_t, add_above_rule, number, plural
-   use atrito_parcel, only: parcel_t, put, take
-   use atrito_plot_files, only: plot_folder, PLOTS_OF_SWEEP
+   use atrito_buffer, only: buffer_t, put, take
+   use atrito_plot_files, only: plot_folder
    use atrito_processes, only: begin_worker, end_worker, share_integers
    use atrito_provenance, only: provenance_t
-   use atrito_rank_tasks, only: rank_tasks_t, rank_times_t, hand_out, work_for_first
+   use atrito_rank_tasks, only: rank_tasks_t, rank_times_t, work_for_first
    use atrito_report, only: report_t
-   use atrito_report_maker, only: make_report
    use atrito_reporter, only: reporter_t, report_progress
    use atrito_run, only: run_deck
-   use atrito_run_request, only: request_runs, is_sound, print_lost
+   use atrito_run_request, only: make_tasks, is_sound, print_lost
    use atrito_series_reports, only: begin_series, report_of_sweep
    use atrito_series, only: claim_output, find_provenance, series_origin, begin_pictures, tell_series, seconds_since
    use atrito_status, only: status_t, set_status, is_ok, STATUS_USAGE, STATUS_NOT_CONVERGED, STATUS_INTERNAL
@@ -40,7 +39,7 @@ module atrito_sweep
    private
    public :: run_sweep, serve_sweep
 
-   integer(c_int), parameter :: NOT_DONE = -1_c_int
+   integer, parameter :: NOT_DONE = -1              !< in the place of the exit code of a run
 
    !> What is asked, and what became of the runs. The tasks of ranks are the runs.
    type, extends(rank_tasks_t) :: sweep_t
@@ -53,9 +52,9 @@ module atrito_sweep
       integer(ip) :: n_left = 0                        !< runs that were done before
       type(rank_times_t) :: times
    contains
-      procedure :: make => make_task
+      procedure :: make => make_run
       procedure :: begin => begin_run
-      procedure :: keep => take_answer
+      procedure :: keep => end_run
    end type sweep_t
 
 contains
@@ -74,29 +73,35 @@ contains
          call share_integers(OUTCOMES*sweep%plan%n_runs, sweep%shared)
          if (.not. associated(sweep%shared)) call set_status(status, STATUS_INTERNAL, 'no memory for the outcome of the runs')
       end if
-      call claim_output(command, ['sweep', 'runs '], PLOTS_OF_SWEEP, claim, status)
+      call claim_output(command, ['sweep', 'runs '], claim, status)
       code = status%code
       if (.not. is_ok(status)) return
       call make_and_collect(sweep, code)
       call release_folder(claim)
    end subroutine run_sweep
 
-   !> The runs and what is made of them.
+   !> The runs and what is made of them. Runs that were done before keep what they have.
    subroutine make_and_collect(sweep, code)
       type(sweep_t), intent(inout) :: sweep
       integer, intent(out) :: code
       type(sweep_run_t), allocatable :: runs(:)
       type(status_t) :: status
+      logical :: is_done(sweep%plan%n_runs), is_possible
+      integer :: outcomes_of(OUTCOMES, sweep%plan%n_runs)
       integer(lp) :: began
-      logical :: is_possible
+      integer(ip) :: run
 
       call system_clock(began)
       call find_provenance(sweep%command, sweep%provenance)
       call begin_journal(sweep%command, sweep%provenance, sweep%journal)
-      sweep%shared = 0
-      sweep%shared(:sweep%plan%n_runs) = NOT_DONE
-      if (sweep%command%resume) call leave_alone(sweep)
-      call make_runs(sweep, is_possible)
+      is_done = .false.
+      if (sweep%command%resume) call find_done(sweep%journal, sweep%plan, is_done, outcomes_of)
+      sweep%n_left = count(is_done, kind=ip)
+      do run = 1, sweep%plan%n_runs
+         if (.not. is_done(run)) outcomes_of(:, run) = [NOT_DONE, 0, 0]
+         sweep%shared(run::sweep%plan%n_runs) = int(outcomes_of(:, run), c_int)
+      end do
+      call make_runs(sweep, pack([(run, run=1, sweep%plan%n_runs)],.not. is_done), is_possible)
       code = STATUS_USAGE
       if (.not. is_possible) call remove_journal(sweep%journal)
       if (.not. is_possible) return                       ! the deck has no such parameter: told by the first run
@@ -106,89 +111,48 @@ contains
       code = max(maxval(runs%code), status%code)
    end subroutine make_and_collect
 
-   !> Runs that were done before keep what they have.
-   subroutine leave_alone(sweep)
+   !> The first run is made alone, so that the others have its bodies, and what is wrong with all of them is told once; but where it
+   !> is likely to be sound, ranks begin with all of them. One that says that the command line is wrong says so for all.
+   subroutine make_runs(sweep, list, is_possible)
       type(sweep_t), intent(inout) :: sweep
-      logical :: is_done(sweep%plan%n_runs)
-      integer :: outcomes_of(OUTCOMES, sweep%plan%n_runs)
-      integer(ip) :: run
-
-      call find_done(sweep%journal, sweep%plan, is_done, outcomes_of)
-      do run = 1, sweep%plan%n_runs
-         if (is_done(run)) call keep_outcome(sweep, run, outcomes_of(:, run))
-      end do
-      sweep%n_left = count(is_done, kind=ip)
-   end subroutine leave_alone
-
-   !> All runs that are to be made; one that says that the command line is wrong says so for all.
-   subroutine make_runs(sweep, is_possible)
-      type(sweep_t), intent(inout) :: sweep
+      integer(ip), intent(in) :: list(:)            !< of the runs
       logical, intent(out) :: is_possible
-      integer(ip), allocatable :: list(:)
-      integer(ip) :: i
+      type(command_t) :: first
+      integer(ip) :: n_alone
 
       is_possible = .true.
-      list = pack([(i, i=1, sweep%plan%n_runs)], sweep%shared(:sweep%plan%n_runs) == NOT_DONE)
       if (size(list) == 0) return
       sweep%store%keeps = size(list) > 1
+      n_alone = 1
       if (rank_count() > 1) then
-         call make_on_ranks(sweep, list)
-      else
-         call make_here(sweep, list)
+         call make_command(sweep, list(1), first)
+         if (is_sound(first)) n_alone = 0
       end if
+      call make_tasks(sweep, list(:n_alone), sweep%times)
+      is_possible = sweep%shared(list(1)) /= STATUS_USAGE
+      if (.not. is_possible) return
+      if (rank_count() == 1) call make_by_workers(sweep, list(2:))
+      if (rank_count() > 1) call make_tasks(sweep, list(1 + n_alone:), sweep%times)
       is_possible = sweep%shared(list(1)) /= STATUS_USAGE
    end subroutine make_runs
 
-   !> The first run here, the others here or by workers, which take turns.
-   subroutine make_here(sweep, list)
+   !> Runs in this process, or by workers, which take turns.
+   subroutine make_by_workers(sweep, list)
       type(sweep_t), intent(inout) :: sweep
       integer(ip), intent(in) :: list(:)
-      integer(ip) :: n_workers, w, k
+      integer(ip) :: n_workers, w
       logical :: is_worker, made
 
-      call make_run_here(sweep, list(1))
-      if (sweep%shared(list(1)) == STATUS_USAGE) return
-      n_workers = max(1_ip, min(sweep%command%threads, size(list, kind=ip) - 1))
+      n_workers = max(1_ip, min(sweep%command%threads, size(list, kind=ip)))
       do w = 1, n_workers
          is_worker = .false.
          made = .false.
          if (n_workers > 1) call begin_worker(is_worker, made)
-         do k = 1 + w, size(list, kind=ip), n_workers
-            if (is_worker .or. .not. made) call make_run_here(sweep, list(k))
-         end do
+         if (is_worker .or. .not. made) call make_tasks(sweep, list(w::n_workers), sweep%times)
          if (is_worker) call end_worker()
       end do
       if (n_workers > 1) call await_workers()
-   end subroutine make_here
-
-   subroutine make_run_here(sweep, run)
-      type(sweep_t), intent(inout) :: sweep
-      integer(ip), intent(in) :: run
-      integer :: outcome(OUTCOMES)
-
-      call begin_run(sweep, run)
-      call make_run(sweep, run, outcome)
-      call end_run(sweep, run, outcome)
-   end subroutine make_run_here
-
-   !> By all ranks. Where the first run is likely to fail for all, it is made alone, so that it is told once.
-   subroutine make_on_ranks(sweep, list)
-      type(sweep_t), intent(inout) :: sweep
-      integer(ip), intent(in) :: list(:)
-      type(command_t) :: one
-      integer(ip) :: n_alone
-
-      n_alone = 0
-      call make_command(sweep, list(1), one)
-      if (.not. is_sound(one)) then
-         n_alone = 1
-         call request_runs()
-         call hand_out(sweep, list(:1), sweep%times)
-         if (sweep%shared(list(1)) == STATUS_USAGE) return
-      end if
-      call request_runs()
-      call hand_out(sweep, list(1 + n_alone:), sweep%times)
-   end subroutine make_on_ranks
+   end subroutine make_by_workers
 
    !> On the other ranks: makes what runs rank 0 hands out.
    subroutine serve_sweep(command)
@@ -202,34 +166,6 @@ contains
       call work_for_first(sweep)
    end subroutine serve_sweep
 
-   !> A run as the task of a rank.
-   subroutine make_task(self, task, answer)
-      class(sweep_t), intent(inout) :: self
-      integer(ip), intent(in) :: task
-      type(parcel_t), intent(inout) :: answer
-      integer :: outcome(OUTCOMES)
-
-      call make_run(self, task, outcome)
-      call put(answer, int(outcome, ip))
-   end subroutine make_task
-
-   !> What a rank found. Where its process crashed, the run has failed.
-   subroutine take_answer(self, task, answer, end_code)
-      class(sweep_t), intent(inout) :: self
-      integer(ip), intent(in) :: task
-      type(parcel_t), intent(inout) :: answer
-      integer, intent(in) :: end_code
-      integer(ip), allocatable :: outcome(:)
-
-      if (end_code == 0) then
-         call take(answer, outcome)
-         call end_run(self, task, int(outcome))
-      else
-         call print_lost(self%command, self%plan%labels(task)%s, end_code)
-         call end_run(self, task, [STATUS_INTERNAL, 0, 0])
-      end if
-   end subroutine take_answer
-
    subroutine begin_run(self, task)
       class(sweep_t), intent(inout) :: self
       integer(ip), intent(in) :: task
@@ -240,38 +176,37 @@ contains
       call note_begin(self%journal, self%plan, task)
    end subroutine begin_run
 
-   subroutine end_run(sweep, run, outcome)
-      class(sweep_t), intent(inout) :: sweep
-      integer(ip), intent(in) :: run
-      integer, intent(in) :: outcome(OUTCOMES)
-
-      call keep_outcome(sweep, run, outcome)
-      call note_end(sweep%journal, sweep%plan, run, outcome)
-   end subroutine end_run
-
-   subroutine keep_outcome(sweep, run, outcome)
-      class(sweep_t), intent(inout) :: sweep
-      integer(ip), intent(in) :: run
-      integer, intent(in) :: outcome(OUTCOMES)
-
-      sweep%shared(run::sweep%plan%n_runs) = int(outcome, c_int)
-   end subroutine keep_outcome
-
-   subroutine make_run(sweep, run, outcome)
-      class(sweep_t), intent(inout) :: sweep
-      integer(ip), intent(in) :: run
-      integer, intent(out) :: outcome(OUTCOMES)
+   !> Makes a run, on any rank.
+   subroutine make_run(self, task, answer)
+      class(sweep_t), intent(inout) :: self
+      integer(ip), intent(in) :: task
+      type(buffer_t), intent(inout) :: answer
       type(command_t) :: one
       type(run_facts_t) :: facts
       integer :: code
 
-      call make_command(sweep, run, one)
+      call make_command(self, task, one)
       call clear_messages()
       call reset_timers()
-      sweep%store%factorisations = 0
-      call run_deck(one, sweep%store, code, facts)
-      outcome = [code, int(sweep%store%factorisations), count([facts%is_written, facts%is_whole])]
+      self%store%factorisations = 0
+      call run_deck(one, self%store, code, facts)
+      call put(answer, [int(code, ip), self%store%factorisations, count([facts%is_written, facts%is_whole], kind=ip)])
    end subroutine make_run
+
+   !> What became of a run. Where the process of a rank crashed, it has failed.
+   subroutine end_run(self, task, answer, end_code)
+      class(sweep_t), intent(inout) :: self
+      integer(ip), intent(in) :: task
+      type(buffer_t), intent(inout) :: answer
+      integer, intent(in) :: end_code
+      integer(ip), allocatable :: outcome(:)
+
+      outcome = [STATUS_INTERNAL, 0, 0]
+      if (end_code == 0) call take(answer, outcome)
+      if (end_code /= 0) call print_lost(self%command, self%plan%labels(task)%s, end_code)
+      self%shared(task::self%plan%n_runs) = int(outcome, c_int)
+      call note_end(self%journal, self%plan, task, int(outcome))
+   end subroutine end_run
 
    !> The command of one run.
    subroutine make_command(sweep, run, one)
@@ -332,7 +267,6 @@ contains
       type(report_t) :: report
       type(origin_t) :: origin
       type(string_t), allocatable :: pictures(:)
-      logical :: has_report
 
       if (.not. any(runs%is_written)) then
          call remove_journal(sweep%journal)
@@ -349,11 +283,9 @@ contains
          if (command%plot) call plot_sweep(command, plan, runs, origin%deck, pictures)
          call compose_sweep(command%names(1)%s, plan%names, observation_names(command%observe), runs, &
                             output_folder(command), seconds, page, pictures)
-         has_report = .false.
-         if (command%report) then
+            if (command%report) then
             call begin_series('sweep', command%names(1)%s, output_folder(command), ['sweep', 'runs '], pictures, report)
             call report_of_sweep(plan%names, runs, seconds, report)
-            call make_report(command, report, has_report)
          end if
          ! What is to be told of ranks, and of what was done before.
          if (sweep%n_left > 0) call add_above_rule(page, 'left alone', &
@@ -363,7 +295,7 @@ contains
                                                        number(times%longest_idle, 3)//' s at most; longest run '// &
                                                        number(times%longest_task, 3)//' s')
          end associate
-         call tell_series(command, page, has_report)
+         call tell_series(command, page, report)
       end associate
    end subroutine finish
 

@@ -3,7 +3,7 @@ module atrito_strings
    use atrito_kinds, only: ip, lp, wp
    implicit none (type, external)
    private
-   public :: string_t, string_list_t, add_string, take_strings
+   public :: string_t, string_list_t, add_string, take_strings, replaced
    public :: lower_case, upper_case, to_text, join, nearest_names, edit_distance, same_name, append_string, deck_name, count_symbol
 
    !> A string of its own length, for lists of strings.
@@ -344,5 +344,18 @@ contains
          if (lower_case(name(k + 1:)) == '.inp') name = name(:k)
       end if
    end function deck_name
+
+   !> A text of the same length with one letter in the place of each of some.
+   pure function replaced(text, letters, by)
+      character(len=*), intent(in) :: text, letters
+      character(len=1), intent(in) :: by
+      character(len=len(text)) :: replaced
+      integer :: i
+
+      replaced = text
+      do i = 1, len(text)
+         if (index(letters, text(i:i)) > 0) replaced(i:i) = by
+      end do
+   end function replaced
 
 end module atrito_strings

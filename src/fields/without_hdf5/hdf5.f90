@@ -1,24 +1,35 @@
-!> The twin of src/fields/hdf5.f90 in a build without HDF5 (ATRITO_HDF5=OFF). A deck that asks for fields is refused before
-!> it is solved, so nothing here is reached; open_hdf5 fails all the same.
+!> The twin of src/fields/hdf5.f90 in a build without HDF5 (ATRITO_HDF5=OFF). A deck that asks for fields or restart files is refused
+!> before it is solved; --restart comes here and fails.
 module atrito_hdf5
-   use atrito_kinds, only: ip, wp
+   use atrito_kinds, only: ip, lp, wp
    use atrito_status, only: status_t, set_status, STATUS_FILE
    implicit none (type, external)
    private
-   public :: hdf5_file_t, has_hdf5, open_hdf5, begin_dataset, put_row, put_attribute, close_hdf5
+   public :: hdf5_file_t, has_hdf5, create_hdf5, open_hdf5, put_array, put_attribute, put_list, get_list, close_hdf5
 
+   !> The same components as with HDF5: the test of this twin links it with an archive that was compiled with the other.
    type :: hdf5_file_t
-      private
       type(status_t) :: status
+      integer(lp), private :: id = 0
+      logical, private :: is_open = .false., has_lists = .false.
+      character(len=:), allocatable, private :: path
    end type hdf5_file_t
 
-   interface put_row
-      module procedure put_real_row, put_integer_row
-   end interface put_row
+   interface put_array
+      module procedure put_real_array, put_integer_array
+   end interface put_array
 
    interface put_attribute
       module procedure put_text_attribute, put_integer_attribute
    end interface put_attribute
+
+   interface put_list
+      module procedure put_reals, put_longs, put_text
+   end interface put_list
+
+   interface get_list
+      module procedure get_reals, get_longs, get_text
+   end interface get_list
 
 contains
 
@@ -28,30 +39,33 @@ contains
    end function has_hdf5
 
    !> The file fails: this build has no HDF5.
-   subroutine open_hdf5(path, final_path, file)
+   subroutine create_hdf5(path, final_path, has_lists, file)
       character(len=*), intent(in) :: path, final_path
+      logical, intent(in) :: has_lists
       type(hdf5_file_t), intent(out) :: file
 
-      if (len(path) > 0) call set_status(file%status, STATUS_FILE, final_path//': this build of atrito has no HDF5')
+      call set_status(file%status, STATUS_FILE, final_path//': this build of atrito has no HDF5')
+   end subroutine create_hdf5
+
+   !> The file fails: this build has no HDF5.
+   subroutine open_hdf5(path, file)
+      character(len=*), intent(in) :: path
+      type(hdf5_file_t), intent(out) :: file
+
+      call set_status(file%status, STATUS_FILE, path//': this build of atrito has no HDF5')
    end subroutine open_hdf5
 
-   !> Does nothing.
-   subroutine begin_dataset(file, path, n_components, n_rows, is_real, name, dimension)
+   subroutine put_real_array(file, path, values, name, dimension)
       type(hdf5_file_t), intent(inout) :: file
       character(len=*), intent(in) :: path, name, dimension
-      integer(ip), intent(in) :: n_components, n_rows
-      logical, intent(in) :: is_real
-   end subroutine begin_dataset
+      real(wp), contiguous, target, intent(in) :: values(:, :)
+   end subroutine put_real_array
 
-   subroutine put_real_row(file, values)
+   subroutine put_integer_array(file, path, values, name, dimension)
       type(hdf5_file_t), intent(inout) :: file
-      real(wp), intent(in) :: values(:)
-   end subroutine put_real_row
-
-   subroutine put_integer_row(file, values)
-      type(hdf5_file_t), intent(inout) :: file
-      integer(ip), intent(in) :: values(:)
-   end subroutine put_integer_row
+      character(len=*), intent(in) :: path, name, dimension
+      integer(ip), contiguous, target, intent(in) :: values(:, :)
+   end subroutine put_integer_array
 
    subroutine put_text_attribute(file, path, name, text)
       type(hdf5_file_t), intent(inout) :: file
@@ -64,7 +78,49 @@ contains
       integer(ip), intent(in) :: number
    end subroutine put_integer_attribute
 
-   !> status: STATUS_FILE, of open_hdf5.
+   subroutine put_reals(file, path, values)
+      type(hdf5_file_t), intent(inout) :: file
+      character(len=*), intent(in) :: path
+      real(wp), contiguous, target, intent(in) :: values(:)
+   end subroutine put_reals
+
+   subroutine put_longs(file, path, values)
+      type(hdf5_file_t), intent(inout) :: file
+      character(len=*), intent(in) :: path
+      integer(lp), contiguous, target, intent(in) :: values(:)
+   end subroutine put_longs
+
+   subroutine put_text(file, path, text)
+      type(hdf5_file_t), intent(inout) :: file
+      character(len=*), intent(in) :: path
+      character(len=*), target, intent(in) :: text
+   end subroutine put_text
+
+   subroutine get_reals(file, path, values)
+      type(hdf5_file_t), intent(inout) :: file
+      character(len=*), intent(in) :: path
+      real(wp), allocatable, target, intent(out) :: values(:)
+
+      allocate (values(0))
+   end subroutine get_reals
+
+   subroutine get_longs(file, path, values)
+      type(hdf5_file_t), intent(inout) :: file
+      character(len=*), intent(in) :: path
+      integer(lp), allocatable, target, intent(out) :: values(:)
+
+      allocate (values(0))
+   end subroutine get_longs
+
+   subroutine get_text(file, path, text)
+      type(hdf5_file_t), intent(inout) :: file
+      character(len=*), intent(in) :: path
+      character(len=:), allocatable, target, intent(out) :: text
+
+      allocate (character(len=0) :: text)
+   end subroutine get_text
+
+   !> status: STATUS_FILE, of create_hdf5 or open_hdf5.
    subroutine close_hdf5(file, status)
       type(hdf5_file_t), intent(inout) :: file
       type(status_t), intent(out) :: status

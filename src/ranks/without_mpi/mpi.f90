@@ -2,11 +2,11 @@
 !> links the other in front of it, so both have the same procedures with the same interfaces.
 module atrito_mpi
    use atrito_kinds, only: ip, wp
-   use atrito_parcel, only: parcel_t
+   use atrito_buffer, only: buffer_t
    implicit none (type, external)
    private
    public :: begin_ranks, end_ranks, own_rank, rank_count, ranks_on_host, ANY_RANK
-   public :: send_parcel, receive_parcel, has_message, sum_over_ranks
+   public :: send_buffer, receive_buffer, has_message, sum_over_ranks
    public :: all_ranks_communicator, has_mpi, mpi_name
 
    integer(ip), parameter :: ANY_RANK = -1_ip
@@ -38,22 +38,22 @@ contains
    end function ranks_on_host
 
    !> Nobody takes it: an invariant is broken.
-   subroutine send_parcel(parcel, to)
-      type(parcel_t), intent(in), target :: parcel
+   subroutine send_buffer(buffer, to)
+      type(buffer_t), intent(in), target :: buffer
       integer(ip), intent(in) :: to
 
       error stop NOBODY
-   end subroutine send_parcel
+   end subroutine send_buffer
 
    !> Nobody sends one: an invariant is broken.
-   subroutine receive_parcel(parcel, from, sender)
-      type(parcel_t), intent(out), target :: parcel
+   subroutine receive_buffer(buffer, from, sender)
+      type(buffer_t), intent(out), target :: buffer
       integer(ip), intent(in) :: from
       integer(ip), intent(out), optional :: sender
 
       if (present(sender)) sender = from
       error stop NOBODY
-   end subroutine receive_parcel
+   end subroutine receive_buffer
 
    !> None ever comes.
    logical function has_message()

@@ -2,7 +2,7 @@
 module restart_cases
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
    use atrito_fingerprint, only: fingerprint_t, take_fingerprint
-   use atrito_hdf5_arrays, only: hdf5_arrays_t, open_arrays, get_list, close_arrays
+   use atrito_hdf5, only: hdf5_file_t, open_hdf5, get_list, close_hdf5
    use atrito_kinds, only: ip, lp, wp
    use atrito_model, only: model_t
    use atrito_restart_file, only: write_restart, read_restart
@@ -85,15 +85,15 @@ contains
    logical function has_same_lists(one, other)
       character(len=*), intent(in) :: one, other
       character(len=7), parameter :: PARTS(4) = ['origin ', 'state  ', 'frame_1', 'frame_2']
-      type(hdf5_arrays_t) :: a, b
+      type(hdf5_file_t) :: a, b
       type(status_t) :: status(2)
       real(wp), allocatable :: x(:), y(:)
       integer(lp), allocatable :: i(:), j(:)
       character(len=:), allocatable :: s, t
       integer :: k
 
-      call open_arrays(one, a)
-      call open_arrays(other, b)
+      call open_hdf5(one, a)
+      call open_hdf5(other, b)
       has_same_lists = .true.
       do k = 1, size(PARTS)
          call get_list(a, '/'//trim(PARTS(k))//'/reals', x)
@@ -106,8 +106,8 @@ contains
          if (.not. has_same_lists) exit
          has_same_lists = all(transfer(x, [0_lp], size(x)) == transfer(y, [0_lp], size(y))) .and. all(i == j) .and. s == t
       end do
-      call close_arrays(a, status(1))
-      call close_arrays(b, status(2))
+      call close_hdf5(a, status(1))
+      call close_hdf5(b, status(2))
       has_same_lists = has_same_lists .and. is_ok(status(1)) .and. is_ok(status(2))
    end function has_same_lists
 

@@ -1,7 +1,7 @@
 !> Tasks of which a unit test knows what comes out: squares; one of them ends its process.
 module task_cases
    use atrito_kinds, only: ip
-   use atrito_parcel, only: parcel_t, put, take
+   use atrito_buffer, only: buffer_t, put, take
    use atrito_rank_tasks, only: rank_tasks_t
    use atrito_system, only: terminate
    implicit none (type, external)
@@ -26,7 +26,7 @@ contains
    subroutine square(self, task, answer)
       class(squares_t), intent(inout) :: self
       integer(ip), intent(in) :: task
-      type(parcel_t), intent(inout) :: answer
+      type(buffer_t), intent(inout) :: answer
 
       if (task == self%bad) call terminate()
       call put(answer, [task*task, self%made])
@@ -43,7 +43,7 @@ contains
    subroutine keep_square(self, task, answer, end_code)
       class(squares_t), intent(inout) :: self
       integer(ip), intent(in) :: task
-      type(parcel_t), intent(inout) :: answer
+      type(buffer_t), intent(inout) :: answer
       integer, intent(in) :: end_code
       integer(ip), allocatable :: numbers(:)
 

@@ -1,0 +1,229 @@
+!> How the program is called (docs/user/running.md), from the tables of commands, options, exit codes and keywords: what `atrito`
+!> alone prints, `atrito --help`, and the manual page atrito(1). The last two have their entries, a word and its meaning, in two
+!> forms: in columns for a screen, or in the language of man(7), which groff sets.
+module atrito_help_pages
+   use atrito_keyword, only: keyword_t, LEVEL_MODEL, LEVEL_STEP, LEVEL_BOTH
+   use atrito_keyword_table, only: keyword_table
+   use atrito_option_table, only: TASKS, task_form, called, option_group_t, group_options, option_text, phrase_text
+   use atrito_page, only: page_t, begin_page, add_blank, add_line, add_paragraph
+   use atrito_strings, only: upper_case
+   use atrito_version, only: PROGRAM_NAME, PROGRAM_VERSION
+   implicit none (type, external)
+   private
+   public :: compose_usage, compose_options, compose_man_page
+
+   character(len=*), parameter :: SUMMARY = 'contact with friction between elastic bodies'
+   character(len=*), parameter :: DESCRIPTION(*) = [character(len=320) :: &
+      'atrito finds displacements, stresses and contact forces of linear elastic bodies in the plane or of revolution that '// &
+      'touch with friction, by finite elements. A deck of keywords goes in, in the tradition of Abaqus and CalculiX; tables '// &
+      'and a listing come out.', &
+      'Standard output is for the summary, standard error for progress and messages. A run whose check of equilibrium and '// &
+      'contact law fails never ends with 0.']
+
+   type :: exit_code_t
+      character(len=13) :: codes
+      character(len=110) :: meaning
+   end type exit_code_t
+
+   type(exit_code_t), parameter :: EXIT_CODES(*) = [ &
+      exit_code_t('0', 'solved, checked, all tables written; compare: the same'), &
+      exit_code_t('1', 'wrong command line; compare: different'), &
+      exit_code_t('2', 'errors in the deck, all of them listed; nothing computed'), &
+      exit_code_t('3', 'not converged, or the final check failed: the last iterate is written, and marked'), &
+      exit_code_t('4', 'singular or indefinite system'), &
+      exit_code_t('5', 'a file cannot be read or written'), &
+      exit_code_t('9', 'internal error'), &
+      exit_code_t('129, 130, 143', 'ended by SIGHUP, SIGINT, SIGTERM; nothing half-written is left')]
+   integer, parameter :: WIDTH = 80                  !< columns of the screen
+   integer, parameter :: ROFF = 0                    !< in the place of a column of the screen: the form of man(7)
+
+contains
+
+   !> The short form.
+   subroutine compose_usage(page)
+      type(page_t), intent(out) :: page
+      integer :: task
+
+      call begin_page(page, WIDTH)
+      do task = 1, size(TASKS)
+         call add_line(page, merge('usage: ', '       ', task == 1)//task_form(task))
+      end do
+      call add_line(page, '       atrito --help | --version')
+   end subroutine compose_usage
+
+   !> The long form: every command, option and exit code.
+   subroutine compose_options(page)
+      type(page_t), intent(out) :: page
+
+      call begin_page(page, WIDTH)
+      call add_line(page, PROGRAM_NAME//' '//PROGRAM_VERSION//': '//SUMMARY)
+      call add_blank(page)
+      call add_commands(page, 28)
+      call add_line(page, 'atrito --help | --version')
+      call add_options(page, 22)
+      call add_blank(page)
+      call add_line(page, 'exit codes')
+      call add_exit_codes(page, 18)
+   end subroutine compose_options
+
+   !> The manual page.
+   subroutine compose_man_page(page)
+      type(page_t), intent(out) :: page
+      integer :: i
+
+      call begin_page(page, WIDTH)
+      call add_line(page, '.\" Printed by `atrito help man`; do not edit.')
+      call add_line(page, '.TH '//upper_case(PROGRAM_NAME)//' 1 "" "'//PROGRAM_NAME//' '//PROGRAM_VERSION//'" "User Commands"')
+      call add_line(page, '.SH NAME')
+      call add_line(page, PROGRAM_NAME//' \- '//roff_text(SUMMARY))
+      call add_line(page, '.SH SYNOPSIS')
+      do i = 1, size(TASKS)
+         if (i > 1) call add_line(page, '.br')
+         call add_line(page, '.B '//roff_text(called(i)))
+         if (len_trim(TASKS(i)%options) > 0) call add_line(page, roff_text(trim(TASKS(i)%options)))
+      end do
+      call add_line(page, '.SH DESCRIPTION')
+      do i = 1, size(DESCRIPTION)
+         if (i > 1) call add_line(page, '.PP')
+         call add_line(page, roff_text(trim(DESCRIPTION(i))))
+      end do
+      call add_line(page, '.SH COMMANDS')
+      call add_commands(page, ROFF)
+      call add_entry(page, 'atrito help man | bash', 'this page; what completes commands, options and keywords in bash', ROFF)
+      call add_line(page, '.SH OPTIONS')
+      call add_line(page, roff_text('Options may stand before or behind the names; --name value and --name=value are the same. '// &
+                               'Behind -- everything is a name.'))
+      call add_options(page, ROFF)
+      call add_keywords(page)
+      call add_line(page, '.SH EXIT STATUS')
+      call add_exit_codes(page, ROFF)
+      call add_line(page, '.SH ENVIRONMENT')
+      call add_entry(page, 'NO_COLOR', 'where it is set and not empty, messages on a terminal have no colours', ROFF)
+      call add_entry(page, 'TERM', 'nor where it is not set, or dumb', ROFF)
+      call add_line(page, '.SH FILES')
+      call add_entry(page, 'share/atrito/input', 'decks of examples and lessons, below the prefix of the installation', ROFF)
+      call add_entry(page, 'share/doc/atrito', 'the documentation, in Markdown; begin with docs/user/first-deck.md', ROFF)
+      call add_line(page, '.SH EXAMPLES')
+      call add_entry(page, 'atrito plate.inp --set nu=0 --refine 1', &
+                     'plate.inp without friction, on a mesh of four times the elements; tables in ./output/plate', ROFF)
+      call add_entry(page, 'atrito check plate.inp', 'all errors of the deck, or what it needs', ROFF)
+      call add_line(page, '.SH SEE ALSO')
+      call add_line(page, '.BR gnuplot (1)')
+   end subroutine compose_man_page
+
+   subroutine add_commands(page, column)
+      type(page_t), intent(inout) :: page
+      integer, intent(in) :: column                 !< before the meaning, or ROFF
+      integer :: i
+
+      do i = 1, size(TASKS)
+         call add_entry(page, called(i)//merge(' [options]', '          ', i == 1 .and. column /= ROFF), trim(TASKS(i)%phrase), &
+                        column)
+      end do
+   end subroutine add_commands
+
+   !> All options, in their groups.
+   subroutine add_options(page, column)
+      type(page_t), intent(inout) :: page
+      integer, intent(in) :: column                 !< before the meaning, or ROFF
+      type(option_group_t), allocatable :: groups(:)
+      integer :: i, k
+
+      call group_options(groups)
+      do i = 1, size(groups)
+         if (column == ROFF) then
+            call add_line(page, '.SS '//roff_text(groups(i)%title))
+         else
+            call add_blank(page)
+            call add_line(page, groups(i)%title)
+         end if
+         do k = 1, size(groups(i)%options)
+            call add_entry(page, '  '//option_text(groups(i)%options(k)), phrase_text(groups(i)%options(k)), column)
+         end do
+         if (len(groups(i)%others) == 0) cycle
+         if (column == ROFF) then
+            call add_line(page, '.PP')
+            call add_line(page, roff_text(groups(i)%others))
+         else
+            call add_paragraph(page, groups(i)%others, 2)
+         end if
+      end do
+   end subroutine add_options
+
+   subroutine add_keywords(page)
+      type(page_t), intent(inout) :: page
+      type(keyword_t), allocatable :: table(:)
+      integer :: level, i
+      integer, parameter :: LEVELS(3) = [LEVEL_MODEL, LEVEL_STEP, LEVEL_BOTH]
+      character(len=40), parameter :: TITLES(3) = [character(len=40) :: 'of the model, before *STEP', &
+                                                   'of a step, between *STEP and *END STEP', 'of both']
+
+      table = keyword_table()
+      call add_line(page, '.SH KEYWORDS')
+      call add_line(page, roff_text('A deck is made of lines *KEYWORD, OPTION=value, each with its data lines. '// &
+                                    'atrito help KEYWORD prints all of a keyword; + marks what is atrito''s own.'))
+      do level = 1, size(LEVELS)
+         call add_line(page, '.SS '//roff_text(trim(TITLES(level))))
+         do i = 1, size(table)
+            if (table(i)%level == LEVELS(level)) call add_entry(page, trim('*'//table(i)%name//merge(' +', '  ', table(i)%own)), &
+                                                                table(i)%summary, ROFF)
+         end do
+      end do
+   end subroutine add_keywords
+
+   subroutine add_exit_codes(page, column)
+      type(page_t), intent(inout) :: page
+      integer, intent(in) :: column                 !< before the meaning, or ROFF
+      integer :: i
+
+      do i = 1, size(EXIT_CODES)
+         call add_entry(page, '  '//trim(EXIT_CODES(i)%codes), trim(EXIT_CODES(i)%meaning), column)
+      end do
+   end subroutine add_exit_codes
+
+   !> A word, and its meaning in a column of its own; a word that leaves no room has a line to itself.
+   subroutine add_entry(page, word, meaning, column)
+      type(page_t), intent(inout) :: page
+      character(len=*), intent(in) :: word, meaning
+      integer, intent(in) :: column                 !< blanks before the meaning, or ROFF
+      integer :: first
+
+      if (column == ROFF) then
+         call add_line(page, '.TP')
+         call add_line(page, '.B '//roff_text(trim(adjustl(word))))
+         call add_line(page, roff_text(meaning))
+         return
+      end if
+      if (len_trim(word) >= column) call add_line(page, word)
+      first = page%n + 1
+      call add_paragraph(page, meaning, column)
+      if (len_trim(word) < column) page%lines(first)%s(:len_trim(word)) = trim(word)
+   end subroutine add_entry
+
+   !> A text in which roff finds no requests of its own.
+   pure function roff_text(text) result(safe)
+      character(len=*), intent(in) :: text
+      character(len=:), allocatable :: safe
+      integer :: i
+
+      safe = ''
+      do i = 1, len(text)
+         select case (text(i:i))
+         case ('\')
+            safe = safe//'\e'
+         case ('-')
+            safe = safe//'\-'
+         case ('''')
+            safe = safe//'\(aq'
+         case ('`')
+            safe = safe//'\(ga'
+         case ('.')
+            if (i == 1) safe = safe//'\&'
+            safe = safe//'.'
+         case default
+            safe = safe//text(i:i)
+         end select
+      end do
+   end function roff_text
+
+end module atrito_help_pages
