@@ -4,11 +4,11 @@
 !> They are plain lists, searched when a name is not in the table; the table is made at each start and stays short. What a list
 !> has and the table as well, the table decides.
 module atrito_foreign_keywords
-   use atrito_strings, only: upper_case
+   use atrito_strings, only: string_t, append_string, upper_case
    implicit none (type, external)
    private
-   public :: outside_t, subject_t, ask_keyword, ask_element_type, IGNORED_KEYWORDS, OUTSIDE_KEYWORDS, SUBJECTS, &
-             NOT_FOREIGN, FOREIGN_IGNORED, FOREIGN_OUTSIDE, LINEAR_STEP, CHANGE
+   public :: ask_keyword, ask_element_type, foreign_keywords, is_among, SUBJECTS, NOT_FOREIGN, FOREIGN_IGNORED, FOREIGN_OUTSIDE, &
+             LINEAR_STEP, CHANGE
 
    !> What is known of a foreign name.
    integer, parameter :: NOT_FOREIGN = 0, FOREIGN_IGNORED = 1, FOREIGN_OUTSIDE = 2
@@ -20,10 +20,10 @@ module atrito_foreign_keywords
       logical :: is_scene = .false.                !< nothing that is left of such a deck means what it says
    end type subject_t
 
-   type :: outside_t
-      character(len=40) :: name = ''               !< in capitals, without blanks
+   type :: names_t
       integer :: subject = 1                       !< place in SUBJECTS
-   end type outside_t
+      character(len=492) :: names = ''             !< in capitals, a comma and a blank between two
+   end type names_t
 
    integer, parameter :: YIELD = 1, RUBBER = 2, USER_LAW = 3, INERTIA = 4, EIGENVALUES = 5, HEAT = 6, FLUID = 7, SPATIAL = 8, &
                          STRUCTURE = 9, CONSTRAINT = 10, BOLT = 11, PARTICLE = 12, CYCLIC = 13, SUBMODEL = 14, CHANGE = 15, &
@@ -72,107 +72,76 @@ module atrito_foreign_keywords
                                             '*CONTACT INTERFERENCE')]
 
    !> Output of other programs, properties that statics does not use, controls of their solvers.
-   character(len=32), parameter :: IGNORED_KEYWORDS(*) = [character(len=32) :: &
-                                    'ACOUSTIC MEDIUM', 'ANNEAL TEMPERATURE', 'BULK VISCOSITY', 'CONDUCTIVITY', 'CONTACT CONTROLS', &
-               'CONTACT CONTROLS ASSIGNMENT', 'CONTACT DAMPING', 'CONTACT FORMULATION', 'CONTACT OUTPUT', 'CONTACT STABILIZATION', &
-                                  'DAMPING', 'DEPVAR', 'DIAGNOSTICS', 'DISPLAY BODY', 'ELECTRICAL CONDUCTIVITY', 'ELEMENT OUTPUT', &
-               'EMISSIVITY', 'ENERGY FILE', 'ENERGY OUTPUT', 'ENERGY PRINT', 'FACE PRINT', 'FILE FORMAT', 'FILE OUTPUT', 'FILTER', &
-                              'FLUID CONSTANTS', 'GAP CONDUCTANCE', 'GAP HEAT GENERATION', 'GAP RADIATION', 'HOURGLASS STIFFNESS', &
-              'INCREMENTATION OUTPUT', 'INELASTIC HEAT FRACTION', 'INTEGRATED OUTPUT', 'INTEGRATED OUTPUT SECTION', 'LATENT HEAT', &
-               'MAGNETIC PERMEABILITY', 'MATRIX OUTPUT', 'MONITOR', 'NODE OUTPUT', 'OUTPUT', 'PERMEABILITY', 'PHYSICAL CONSTANTS', &
-                                 'PREPRINT', 'PRINT', 'SECTION CONTROLS', 'SECTION FILE', 'SOLUTION TECHNIQUE', 'SOLVER CONTROLS', &
-                   'SPECIFIC GAS CONSTANT', 'SPECIFIC HEAT', 'SURFACE OUTPUT', 'SURFACE PROPERTY ASSIGNMENT', 'SURFACE SMOOTHING', &
-              'TIME POINTS', 'TRANSVERSE SHEAR STIFFNESS', 'USER OUTPUT VARIABLES', 'VALUES AT INFINITY', 'VARIABLE MASS SCALING', &
-                                                          'FIXED MASS SCALING', 'VISCOSITY']
+   character(len=*), parameter :: IGNORED = 'ACOUSTIC MEDIUM, ANNEAL TEMPERATURE, BULK VISCOSITY, CONDUCTIVITY, '// &
+         'CONTACT CONTROLS, CONTACT CONTROLS ASSIGNMENT, CONTACT DAMPING, CONTACT FORMULATION, CONTACT OUTPUT, '// &
+         'CONTACT STABILIZATION, DAMPING, DEPVAR, DIAGNOSTICS, DISPLAY BODY, ELECTRICAL CONDUCTIVITY, ELEMENT OUTPUT, '// &
+         'EMISSIVITY, ENERGY FILE, ENERGY OUTPUT, ENERGY PRINT, FACE PRINT, FILE FORMAT, FILE OUTPUT, FILTER, '// &
+         'FLUID CONSTANTS, GAP CONDUCTANCE, GAP HEAT GENERATION, GAP RADIATION, HOURGLASS STIFFNESS, '// &
+         'INCREMENTATION OUTPUT, INELASTIC HEAT FRACTION, INTEGRATED OUTPUT, INTEGRATED OUTPUT SECTION, LATENT HEAT, '// &
+         'MAGNETIC PERMEABILITY, MATRIX OUTPUT, MONITOR, NODE OUTPUT, OUTPUT, PERMEABILITY, PHYSICAL CONSTANTS, '// &
+         'PREPRINT, PRINT, SECTION CONTROLS, SECTION FILE, SOLUTION TECHNIQUE, SOLVER CONTROLS, SPECIFIC GAS CONSTANT, '// &
+         'SPECIFIC HEAT, SURFACE OUTPUT, SURFACE PROPERTY ASSIGNMENT, SURFACE SMOOTHING, TIME POINTS, '// &
+         'TRANSVERSE SHEAR STIFFNESS, USER OUTPUT VARIABLES, VALUES AT INFINITY, VARIABLE MASS SCALING, '// &
+         'FIXED MASS SCALING, VISCOSITY'
 
-   type(outside_t), parameter :: OUTSIDE_KEYWORDS(*) = [ &
-          outside_t('PLASTIC', YIELD), outside_t('CREEP', YIELD), outside_t('VISCO', YIELD), outside_t('CYCLIC HARDENING', YIELD), &
-                    outside_t('DEFORMATION PLASTICITY', YIELD), outside_t('CHANGE PLASTIC', YIELD), outside_t('POTENTIAL', YIELD), &
-               outside_t('DRUCKER PRAGER', YIELD), outside_t('DRUCKER PRAGER HARDENING', YIELD), outside_t('MOHR COULOMB', YIELD), &
-                outside_t('MOHR COULOMB HARDENING', YIELD), outside_t('CAP PLASTICITY', YIELD), outside_t('CAP HARDENING', YIELD), &
-                            outside_t('CLAY PLASTICITY', YIELD), outside_t('CLAY HARDENING', YIELD), outside_t('CONCRETE', YIELD), &
-                              outside_t('CONCRETE DAMAGED PLASTICITY', YIELD), outside_t('CONCRETE COMPRESSION HARDENING', YIELD), &
-                                 outside_t('CONCRETE TENSION STIFFENING', YIELD), outside_t('TENSION STIFFENING', YIELD), &
-                                outside_t('RATE DEPENDENT', YIELD), outside_t('VISCOELASTIC', YIELD), outside_t('VISCOUS', YIELD), &
-            outside_t('DAMAGE INITIATION', YIELD), outside_t('DAMAGE EVOLUTION', YIELD), outside_t('CAST IRON PLASTICITY', YIELD), &
-                                 outside_t('CRUSHABLE FOAM', YIELD), outside_t('SWELLING', YIELD), outside_t('ORNL', YIELD), &
-                           outside_t('HYPERELASTIC', RUBBER), outside_t('HYPERFOAM', RUBBER), outside_t('MULLINS EFFECT', RUBBER), &
-                           outside_t('NO COMPRESSION', RUBBER), outside_t('NO TENSION', RUBBER), outside_t('HYPOELASTIC', RUBBER), &
-                                 outside_t('POROUS ELASTIC', RUBBER), outside_t('FABRIC', RUBBER), &
-                                 outside_t('USER MATERIAL', USER_LAW), outside_t('USER DEFINED FIELD', USER_LAW), &
-                          outside_t('DYNAMIC', INERTIA), outside_t('MODAL DYNAMIC', INERTIA), outside_t('MODAL DAMPING', INERTIA), &
-                                 outside_t('STEADY STATE DYNAMICS', INERTIA), outside_t('RANDOM RESPONSE', INERTIA), &
-                       outside_t('RESPONSE SPECTRUM', INERTIA), outside_t('BASE MOTION', INERTIA), outside_t('SUBSPACE', INERTIA), &
-                                outside_t('GREEN', INERTIA), outside_t('IMPEDANCE', INERTIA), outside_t('DIRECT CYCLIC', INERTIA), &
-               outside_t('FREQUENCY', EIGENVALUES), outside_t('COMPLEX FREQUENCY', EIGENVALUES), outside_t('BUCKLE', EIGENVALUES), &
-                          outside_t('ROBUST DESIGN', DESIGN), outside_t('RANDOM FIELD', DESIGN), outside_t('SENSITIVITY', DESIGN), &
-                      outside_t('OBJECTIVE', DESIGN), outside_t('DESIGN VARIABLES', DESIGN), outside_t('DESIGN RESPONSE', DESIGN), &
-              outside_t('CONSTRAINT', DESIGN), outside_t('GEOMETRIC CONSTRAINT', DESIGN), outside_t('FEASIBLE DIRECTION', DESIGN), &
-                                 outside_t('HEAT TRANSFER', HEAT), outside_t('COUPLED TEMPERATURE-DISPLACEMENT', HEAT), &
-                        outside_t('UNCOUPLED TEMPERATURE-DISPLACEMENT', HEAT), outside_t('CFLUX', HEAT), outside_t('DFLUX', HEAT), &
-                         outside_t('DSFLUX', HEAT), outside_t('FILM', HEAT), outside_t('SFILM', HEAT), outside_t('RADIATE', HEAT), &
-               outside_t('SRADIATE', HEAT), outside_t('VIEWFACTOR', HEAT), outside_t('CRADIATE', HEAT), outside_t('CAVITY', HEAT), &
-                                 outside_t('CFD', FLUID), outside_t('FLUID SECTION', FLUID), outside_t('FLUID SECTIONS', FLUID), &
-                                 outside_t('MASS FLOW', FLUID), outside_t('BOUNDARYF', FLUID), outside_t('EQUATIONF', FLUID), &
-                                 outside_t('TRANSFORMF', FLUID), outside_t('NETWORK MPC', FLUID), &
-                                 outside_t('FLUID CAVITY', FLUID), &
-                                 outside_t('SHELL SECTION', STRUCTURE), outside_t('SHELL GENERAL SECTION', STRUCTURE), &
-                                 outside_t('BEAM SECTION', STRUCTURE), outside_t('BEAM GENERAL SECTION', STRUCTURE), &
-                outside_t('MEMBRANE SECTION', STRUCTURE), outside_t('MEMBRANE', STRUCTURE), outside_t('TRUSS SECTION', STRUCTURE), &
-                      outside_t('USER SECTION', STRUCTURE), outside_t('NORMAL', STRUCTURE), outside_t('FRAME SECTION', STRUCTURE), &
-                      outside_t('REBAR', STRUCTURE), outside_t('REBAR LAYER', STRUCTURE), outside_t('SURFACE SECTION', STRUCTURE), &
-                              outside_t('MPC', CONSTRAINT), outside_t('COUPLING', CONSTRAINT), outside_t('KINEMATIC', CONSTRAINT), &
-                                 outside_t('DISTRIBUTING', CONSTRAINT), outside_t('DISTRIBUTING COUPLING', CONSTRAINT), &
-                                 outside_t('KINEMATIC COUPLING', CONSTRAINT), outside_t('EMBEDDED ELEMENT', CONSTRAINT), &
-                                outside_t('SHELL TO SOLID COUPLING', CONSTRAINT), outside_t('MULTI-POINT CONSTRAINT', CONSTRAINT), &
-                                 outside_t('INERTIA RELIEF', CONSTRAINT), &
-                                 outside_t('BOLT LOAD', BOLT), &
-                               outside_t('DASHPOT', PARTICLE), outside_t('MASS', PARTICLE), outside_t('ROTARY INERTIA', PARTICLE), &
-                  outside_t('GAP', PARTICLE), outside_t('CONNECTOR SECTION', PARTICLE), outside_t('CONNECTOR BEHAVIOR', PARTICLE), &
-                                 outside_t('CONNECTOR ELASTICITY', PARTICLE), outside_t('CONNECTOR DAMPING', PARTICLE), &
-                     outside_t('CONNECTOR MOTION', PARTICLE), outside_t('CONNECTOR LOAD', PARTICLE), outside_t('JOINT', PARTICLE), &
-                                 outside_t('CYCLIC SYMMETRY MODEL', CYCLIC), outside_t('SELECT CYCLIC SYMMETRY MODES', CYCLIC), &
-                                 outside_t('SYMMETRIC MODEL GENERATION', CYCLIC), &
-                                 outside_t('SUBMODEL', SUBMODEL), outside_t('SUBSTRUCTURE GENERATE', SUBMODEL), &
-                                 outside_t('SUBSTRUCTURE MATRIX OUTPUT', SUBMODEL), outside_t('SUBSTRUCTURE PATH', SUBMODEL), &
-                                 outside_t('SUBSTRUCTURE LOAD CASE', SUBMODEL), outside_t('SLOAD', SUBMODEL), &
-                outside_t('RETAINED NODAL DOFS', SUBMODEL), outside_t('MATRIX ASSEMBLE', SUBMODEL), outside_t('IMPORT', SUBMODEL), &
-                                 outside_t('MAP SOLUTION', SUBMODEL), outside_t('REFINE MESH', SUBMODEL), &
-            outside_t('MODEL CHANGE', CHANGE), outside_t('CHANGE FRICTION', CHANGE), outside_t('CHANGE SURFACE BEHAVIOR', CHANGE), &
-                      outside_t('CHANGE SOLID SECTION', CHANGE), outside_t('CHANGE MATERIAL', CHANGE), outside_t('FIELD', CHANGE), &
-                     outside_t('CHANGE CONTACT TYPE', CHANGE), outside_t('LOAD CASE', CHANGE), outside_t('END LOAD CASE', CHANGE), &
-                                 outside_t('GEOSTATIC', CHANGE), &
-               outside_t('CRACK PROPAGATION', CRACK), outside_t('COHESIVE SECTION', CRACK), outside_t('COHESIVE BEHAVIOR', CRACK), &
-                                 outside_t('ENRICHMENT', CRACK), outside_t('DEBOND', CRACK), outside_t('CONTOUR INTEGRAL', CRACK), &
-            outside_t('FRACTURE CRITERION', CRACK), outside_t('SURFACE FLAW', CRACK), outside_t('INITIAL STRAIN INCREASE', CRACK), &
-              outside_t('USER ELEMENT', USER_CODE), outside_t('UEL PROPERTY', USER_CODE), outside_t('USER SUBROUTINE', USER_CODE), &
-                           outside_t('ORIENTATION', AXES), outside_t('DISTRIBUTION', AXES), outside_t('DISTRIBUTION TABLE', AXES), &
-                 outside_t('ELECTROMAGNETICS', ELECTRIC), outside_t('PIEZOELECTRIC', ELECTRIC), outside_t('DIELECTRIC', ELECTRIC), &
-            outside_t('COUPLED THERMAL-ELECTRICAL', ELECTRIC), outside_t('CECURRENT', ELECTRIC), outside_t('DECURRENT', ELECTRIC), &
-                                 outside_t('SOILS', POROUS), outside_t('SORPTION', POROUS), outside_t('MASS DIFFUSION', POROUS), &
-                                 outside_t('POROUS BULK MODULI', POROUS), outside_t('CFLOW', POROUS), outside_t('DFLOW', POROUS), &
-                      outside_t('ACOUSTIC', SOUND), outside_t('ACOUSTIC FLOW VELOCITY', SOUND), outside_t('INCIDENT WAVE', SOUND), &
-                                 outside_t('NO ANALYSIS', CHECK_ONLY), outside_t('IMPERFECTION', MADE), &
-                                 outside_t('SYSTEM', MADE), outside_t('NMAP', MADE), &
-                                 outside_t('ADAPTIVE MESH', MADE), &
-                                 outside_t('RIGID SURFACE', MADE), outside_t('SLIDE LINE', MADE), &
-                     outside_t('CONTACT INITIALIZATION DATA', BEGINNING), outside_t('CONTACT INITIALIZATION ASSIGNMENT', BEGINNING)]
+   !> Names of keywords by their subjects, in the order of `atrito help`.
+   type(names_t), parameter :: OUTSIDE(*) = [ &
+         names_t(YIELD, 'PLASTIC, CREEP, VISCO, CYCLIC HARDENING, DEFORMATION PLASTICITY, CHANGE PLASTIC, POTENTIAL, '// &
+            'DRUCKER PRAGER, DRUCKER PRAGER HARDENING, MOHR COULOMB, MOHR COULOMB HARDENING, CAP PLASTICITY, '// &
+            'CAP HARDENING, CLAY PLASTICITY, CLAY HARDENING, CONCRETE, CONCRETE DAMAGED PLASTICITY, '// &
+            'CONCRETE COMPRESSION HARDENING, CONCRETE TENSION STIFFENING, TENSION STIFFENING, RATE DEPENDENT, '// &
+            'VISCOELASTIC, VISCOUS, DAMAGE INITIATION, DAMAGE EVOLUTION, CAST IRON PLASTICITY, CRUSHABLE FOAM, SWELLING, '// &
+            'ORNL'), &
+         names_t(RUBBER, 'HYPERELASTIC, HYPERFOAM, MULLINS EFFECT, NO COMPRESSION, NO TENSION, HYPOELASTIC, '// &
+            'POROUS ELASTIC, FABRIC'), &
+         names_t(USER_LAW, 'USER MATERIAL, USER DEFINED FIELD'), &
+         names_t(INERTIA, 'DYNAMIC, MODAL DYNAMIC, MODAL DAMPING, STEADY STATE DYNAMICS, RANDOM RESPONSE, '// &
+            'RESPONSE SPECTRUM, BASE MOTION, SUBSPACE, GREEN, IMPEDANCE, DIRECT CYCLIC'), &
+         names_t(EIGENVALUES, 'FREQUENCY, COMPLEX FREQUENCY, BUCKLE'), &
+         names_t(DESIGN, 'ROBUST DESIGN, RANDOM FIELD, SENSITIVITY, OBJECTIVE, DESIGN VARIABLES, DESIGN RESPONSE, '// &
+            'CONSTRAINT, GEOMETRIC CONSTRAINT, FEASIBLE DIRECTION'), &
+         names_t(HEAT, 'HEAT TRANSFER, COUPLED TEMPERATURE-DISPLACEMENT, UNCOUPLED TEMPERATURE-DISPLACEMENT, CFLUX, '// &
+            'DFLUX, DSFLUX, FILM, SFILM, RADIATE, SRADIATE, VIEWFACTOR, CRADIATE, CAVITY'), &
+         names_t(FLUID, 'CFD, FLUID SECTION, FLUID SECTIONS, MASS FLOW, BOUNDARYF, EQUATIONF, TRANSFORMF, NETWORK MPC, '// &
+            'FLUID CAVITY'), &
+         names_t(STRUCTURE, 'SHELL SECTION, SHELL GENERAL SECTION, BEAM SECTION, BEAM GENERAL SECTION, '// &
+            'MEMBRANE SECTION, MEMBRANE, TRUSS SECTION, USER SECTION, NORMAL, FRAME SECTION, REBAR, REBAR LAYER, '// &
+            'SURFACE SECTION'), &
+         names_t(CONSTRAINT, 'MPC, COUPLING, KINEMATIC, DISTRIBUTING, DISTRIBUTING COUPLING, KINEMATIC COUPLING, '// &
+            'EMBEDDED ELEMENT, SHELL TO SOLID COUPLING, MULTI-POINT CONSTRAINT, INERTIA RELIEF'), &
+         names_t(BOLT, 'BOLT LOAD'), &
+         names_t(PARTICLE, 'DASHPOT, MASS, ROTARY INERTIA, GAP, CONNECTOR SECTION, CONNECTOR BEHAVIOR, '// &
+            'CONNECTOR ELASTICITY, CONNECTOR DAMPING, CONNECTOR MOTION, CONNECTOR LOAD, JOINT'), &
+         names_t(CYCLIC, 'CYCLIC SYMMETRY MODEL, SELECT CYCLIC SYMMETRY MODES, SYMMETRIC MODEL GENERATION'), &
+         names_t(SUBMODEL, 'SUBMODEL, SUBSTRUCTURE GENERATE, SUBSTRUCTURE MATRIX OUTPUT, SUBSTRUCTURE PATH, '// &
+            'SUBSTRUCTURE LOAD CASE, SLOAD, RETAINED NODAL DOFS, MATRIX ASSEMBLE, IMPORT, MAP SOLUTION, REFINE MESH'), &
+         names_t(CHANGE, 'MODEL CHANGE, CHANGE FRICTION, CHANGE SURFACE BEHAVIOR, CHANGE SOLID SECTION, '// &
+            'CHANGE MATERIAL, FIELD, CHANGE CONTACT TYPE, LOAD CASE, END LOAD CASE, GEOSTATIC'), &
+         names_t(CRACK, 'CRACK PROPAGATION, COHESIVE SECTION, COHESIVE BEHAVIOR, ENRICHMENT, DEBOND, CONTOUR INTEGRAL, '// &
+            'FRACTURE CRITERION, SURFACE FLAW, INITIAL STRAIN INCREASE'), &
+         names_t(USER_CODE, 'USER ELEMENT, UEL PROPERTY, USER SUBROUTINE'), &
+         names_t(AXES, 'ORIENTATION, DISTRIBUTION, DISTRIBUTION TABLE'), &
+         names_t(ELECTRIC, 'ELECTROMAGNETICS, PIEZOELECTRIC, DIELECTRIC, COUPLED THERMAL-ELECTRICAL, CECURRENT, '// &
+            'DECURRENT'), &
+         names_t(POROUS, 'SOILS, SORPTION, MASS DIFFUSION, POROUS BULK MODULI, CFLOW, DFLOW'), &
+         names_t(SOUND, 'ACOUSTIC, ACOUSTIC FLOW VELOCITY, INCIDENT WAVE'), &
+         names_t(CHECK_ONLY, 'NO ANALYSIS'), &
+         names_t(MADE, 'IMPERFECTION, SYSTEM, NMAP, ADAPTIVE MESH, RIGID SURFACE, SLIDE LINE'), &
+         names_t(BEGINNING, 'CONTACT INITIALIZATION DATA, CONTACT INITIALIZATION ASSIGNMENT')]
 
-   !> Beginnings of the names of elements; the first that fits counts.
-   type(outside_t), parameter :: FAMILIES(*) = [ &
-                   outside_t('C3D', SPATIAL), outside_t('CIN3D', SPATIAL), outside_t('R3D', SPATIAL), outside_t('SFM3D', SPATIAL), &
-                                 outside_t('CCL', SPATIAL), outside_t('F3D', FLUID), outside_t('DC', HEAT), outside_t('DS', HEAT), &
-                   outside_t('DASHPOT', PARTICLE), outside_t('DCOUP', CONSTRAINT), outside_t('DGAP', HEAT), outside_t('D', FLUID), &
-             outside_t('SPRING', PARTICLE), outside_t('SAX', STRUCTURE), outside_t('STRI', STRUCTURE), outside_t('SC', STRUCTURE), &
-                outside_t('S', STRUCTURE), outside_t('B', STRUCTURE), outside_t('PIPE', STRUCTURE), outside_t('ELBOW', STRUCTURE), &
-             outside_t('FRAME', STRUCTURE), outside_t('T2D', STRUCTURE), outside_t('T3D', STRUCTURE), outside_t('M3D', STRUCTURE), &
-            outside_t('MAX', STRUCTURE), outside_t('MCL', STRUCTURE), outside_t('MASS', PARTICLE), outside_t('ROTARYI', PARTICLE), &
-                outside_t('GAP', PARTICLE), outside_t('CONN', PARTICLE), outside_t('JOINT', PARTICLE), outside_t('ITS', PARTICLE), &
-                 outside_t('COH', CRACK), outside_t('R2D', CONSTRAINT), outside_t('RAX', CONSTRAINT), outside_t('RB', CONSTRAINT), &
-                              outside_t('FAX', FLUID), outside_t('F2D', FLUID), outside_t('HYDRO', FLUID), outside_t('AC', SOUND), &
-                   outside_t('EMC', ELECTRIC), outside_t('CGAX', TWISTED), outside_t('CPEG', TWISTED), outside_t('CAXA', TWISTED), &
-                     outside_t('CIN', SPATIAL), outside_t('EC3D', SPATIAL), outside_t('Q3D', SPATIAL), outside_t('US', STRUCTURE), &
-                                 outside_t('U', USER_CODE)]
+   !> Beginnings of the names of elements; the longest that fits counts.
+   type(names_t), parameter :: FAMILIES(*) = [ &
+         names_t(SPATIAL, 'C3D, CIN3D, R3D, SFM3D, CCL, CIN, EC3D, Q3D'), &
+         names_t(FLUID, 'F3D, D, FAX, F2D, HYDRO'), &
+         names_t(HEAT, 'DC, DS, DGAP'), &
+         names_t(PARTICLE, 'DASHPOT, SPRING, MASS, ROTARYI, GAP, CONN, JOINT, ITS'), &
+         names_t(CONSTRAINT, 'DCOUP, R2D, RAX, RB'), &
+         names_t(STRUCTURE, 'SAX, STRI, SC, S, B, PIPE, ELBOW, FRAME, T2D, T3D, M3D, MAX, MCL, US'), &
+         names_t(CRACK, 'COH'), &
+         names_t(SOUND, 'AC'), &
+         names_t(ELECTRIC, 'EMC'), &
+         names_t(TWISTED, 'CGAX, CPEG, CAXA'), &
+         names_t(USER_CODE, 'U')]
 
 contains
 
@@ -185,33 +154,69 @@ contains
 
       verdict = NOT_FOREIGN
       subject = 0
-      if (len(word) == 0) return
-      do i = 1, size(IGNORED_KEYWORDS)
-         if (without_blanks(IGNORED_KEYWORDS(i)) /= word) cycle
-         verdict = FOREIGN_IGNORED
-         return
-      end do
-      do i = 1, size(OUTSIDE_KEYWORDS)
-         if (without_blanks(OUTSIDE_KEYWORDS(i)%name) /= word) cycle
+      if (is_among(word, IGNORED)) verdict = FOREIGN_IGNORED
+      if (verdict == FOREIGN_IGNORED) return
+      do i = 1, size(OUTSIDE)
+         if (.not. is_among(word, OUTSIDE(i)%names)) cycle
          verdict = FOREIGN_OUTSIDE
-         subject = OUTSIDE_KEYWORDS(i)%subject
-         return
+         subject = OUTSIDE(i)%subject
       end do
    end subroutine ask_keyword
+
+   !> The names of other programs' keywords.
+   pure function foreign_keywords(verdict, subject) result(names)
+      integer, intent(in) :: verdict               !< FOREIGN_IGNORED, FOREIGN_OUTSIDE
+      integer, intent(in), optional :: subject     !< of FOREIGN_OUTSIDE these alone; place in SUBJECTS
+      type(string_t), allocatable :: names(:)
+      integer :: i
+
+      allocate (names(0))
+      if (verdict == FOREIGN_IGNORED) call append_names(IGNORED, names)
+      if (verdict == FOREIGN_IGNORED) return
+      do i = 1, size(OUTSIDE)
+         if (present(subject)) then
+            if (OUTSIDE(i)%subject /= subject) cycle
+         end if
+         call append_names(trim(OUTSIDE(i)%names), names)
+      end do
+   end function foreign_keywords
+
+   pure subroutine append_names(list, names)
+      character(len=*), intent(in) :: list
+      type(string_t), allocatable, intent(inout) :: names(:)
+      integer :: first, last
+
+      first = 1
+      do while (first <= len(list))
+         last = first - 2 + index(list(first:)//',', ',')
+         call append_string(names, list(first:last))
+         first = last + 3
+      end do
+   end subroutine append_names
+
+   !> A word is one of the names of a list, blanks apart.
+   pure logical function is_among(word, list)
+      character(len=*), intent(in) :: word         !< in capitals, without blanks
+      character(len=*), intent(in) :: list         !< a comma between two names
+
+      is_among = index(','//trim(without_blanks(list))//',', ','//word//',') > 0 .and. len(word) > 0 .and. index(word, ',') == 0
+   end function is_among
 
    !> The subject of elements of other programs; 0: no program has such a type, as far as is known.
    pure integer function ask_element_type(name) result(subject)
       character(len=*), intent(in) :: name
-      character(len=len(name)) :: word
-      integer :: i
+      character(len=:), allocatable :: word
+      integer :: i, n
 
-      word = upper_case(name)
-      subject = special_plane_type(trim(word))
+      word = trim(upper_case(name))
+      subject = special_plane_type(word)
       if (subject > 0) return
-      do i = 1, size(FAMILIES)
-         if (index(word, trim(FAMILIES(i)%name)) /= 1 .or. .not. goes_on(word, len_trim(FAMILIES(i)%name))) cycle
-         subject = FAMILIES(i)%subject
-         return
+      do n = len(word), 1, -1
+         if (.not. goes_on(word, n)) cycle
+         do i = 1, size(FAMILIES)
+            if (is_among(word(:n), FAMILIES(i)%names)) subject = FAMILIES(i)%subject
+         end do
+         if (subject > 0) return
       end do
    end function ask_element_type
 

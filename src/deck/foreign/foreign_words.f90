@@ -1,197 +1,139 @@
 !> Options of keywords, and words that options and data lines take, in Abaqus and CalculiX and not in atrito's table: what changes
 !> no result of a linear static run, and what is refused by its name. Searched when a name is not in the table.
 module atrito_foreign_words
-   use atrito_foreign_keywords, only: NOT_FOREIGN, FOREIGN_IGNORED, FOREIGN_OUTSIDE
+   use atrito_foreign_keywords, only: is_among, NOT_FOREIGN, FOREIGN_IGNORED, FOREIGN_OUTSIDE
    implicit none (type, external)
    private
    public :: ask_option, ask_word, is_foreign_variable, variable_of_component, may_be_empty
 
-   !> `KEYWORD/OPTION`, or `KEYWORD/OPTION=WORD`; what it means, or what to do instead.
+   !> What some options mean, or what to do instead: `KEYWORD/OPTION`, or `KEYWORD/OPTION=WORD`, a comma between two.
    type :: phrase_t
-      character(len=52) :: name = ''
-      character(len=110) :: text = ''
+      character(len=84) :: text = ''
+      character(len=219) :: names = ''
    end type phrase_t
 
    !> Without effect, and why.
    type(phrase_t), parameter :: IGNORED(*) = [ &
-                                phrase_t('AMPLITUDE/SMOOTH', 'for accelerations'), &
-                                phrase_t('BOUNDARY/REGIONTYPE', 'mark of a preprocessor'), &
-                                phrase_t('BOUNDARY/TYPE=DISPLACEMENT', 'the values are displacements'), &
-                                phrase_t('CLOAD/FOLLOWER', 'displacements are small, forces keep their directions'), &
-                                phrase_t('CLOAD/REGIONTYPE', 'mark of a preprocessor'), &
-                                phrase_t('CONTACTFILE/CONTACTELEMENTS', 'there are none'), &
-                                phrase_t('CONTACTFILE/LASTITERATIONS', 'of other programs'), &
-                                phrase_t('CONTACTFILE/NSET', 'the field file has all points'), &
-                                phrase_t('CONTACTPAIR/CPSET', 'mark of a preprocessor'), &
-                              phrase_t('CONTACTPAIR/EXTENSIONZONE', 'points beyond the end of the master are left out, and told'), &
-                                phrase_t('CONTACTPAIR/GEOMETRICCORRECTION', 'curved sides are told by their nodes'), &
-                                phrase_t('CONTACTPAIR/HCRIT', 'of the iteration of another program'), &
-                                phrase_t('CONTACTPAIR/MECHANICALCONSTRAINT', 'the contact law is met as it is written'), &
-                                phrase_t('CONTACTPAIR/MINIMUMDISTANCE', 'of the search of another program'), &
-                                phrase_t('CONTACTPAIR/NOTHICKNESS', 'of shells'), &
-                                phrase_t('CONTACTPAIR/OP', 'pairs are the same in all steps'), &
-                                phrase_t('CONTACTPAIR/SMOOTH', 'for large sliding'), &
-                                phrase_t('CONTACTPAIR/SUPPLEMENTARYCONSTRAINTS', 'of another program'), &
-                                phrase_t('CONTACTPAIR/TRACKING', 'for large sliding'), &
-                                phrase_t('CONTACTPAIR/WEIGHT', 'of another program'), &
-                                phrase_t('CONTACTPRINT/CONTACTELEMENTS', 'there are none'), &
-                                phrase_t('CONTACTPRINT/MASTER', 'the table has all pairs'), &
-                                phrase_t('CONTACTPRINT/NSET', 'the table has all points'), &
-                                phrase_t('CONTACTPRINT/SET', 'the table has all points'), &
-                                phrase_t('CONTACTPRINT/SLAVE', 'the table has all pairs'), &
-                                phrase_t('CONTACTPRINT/SUMMARY', 'summary.tab has it'), &
-                                phrase_t('CONTROLS/ANALYSIS', 'of the iteration of another program'), &
-                                phrase_t('CONTROLS/FIELD', 'of the iteration of another program'), &
-                                phrase_t('DENSITY/DEPENDENCIES', 'the density is constant'), &
-                                phrase_t('DLOAD/CONSTANTRESULTANT', 'displacements are small, faces keep their areas'), &
-                                phrase_t('DLOAD/FOLLOWER', 'displacements are small, loads keep their directions'), &
-                                phrase_t('DLOAD/REGIONTYPE', 'mark of a preprocessor'), &
-                                phrase_t('DSLOAD/CONSTANTRESULTANT', 'displacements are small, faces keep their areas'), &
-                                phrase_t('DSLOAD/FOLLOWER', 'displacements are small, loads keep their directions'), &
-                                phrase_t('ELASTIC/MODULI', 'statics has the moduli of the long term'), &
-                                phrase_t('ELFILE/CONTACTELEMENTS', 'there are none'), &
-                                phrase_t('ELFILE/DIRECTIONS', 'axes are global'), &
-                                phrase_t('ELFILE/FREQUENCYF', 'of flow'), &
-                                phrase_t('ELFILE/LASTITERATIONS', 'of other programs'), &
-                                phrase_t('ELFILE/NSET', 'ELSET= says which'), &
-                                phrase_t('ELFILE/POSITION', 'points and nodes are both written'), &
-                                phrase_t('ELFILE/SECTIONFORCES', 'of beams'), &
-                                phrase_t('ELPRINT/FREQUENCYF', 'of flow'), &
-                                phrase_t('ELPRINT/POSITION=CENTROIDAL', 'stress.tab has the integration points'), &
-                                phrase_t('ELPRINT/POSITION=NODES', 'stress.tab has the integration points, AVERAGED AT NODES '// &
-                                         'the nodes'), &
-                                phrase_t('ELPRINT/SUMMARY', 'extremes are found in extremes.tab'), &
-                                phrase_t('FRICTION/ELASTICSLIP', 'what sticks does not slip at all'), &
-                                phrase_t('FRICTION/LAGRANGE', 'what sticks does not slip at all in any case'), &
-                                phrase_t('FRICTION/SLIPTOLERANCE', 'what sticks does not slip at all'), &
-                                phrase_t('NODEFILE/CONTACTELEMENTS', 'there are none'), &
-                                phrase_t('NODEFILE/FREQUENCYF', 'of flow'), &
-                                phrase_t('NODEFILE/LASTITERATIONS', 'of other programs'), &
-                                phrase_t('NODEPRINT/FREQUENCYF', 'of flow'), &
-                                phrase_t('NODEPRINT/SUMMARY', 'extremes.tab has it'), &
-                                phrase_t('RESTART/NUMBERINTERVAL', 'FREQUENCY= says when'), &
-                                phrase_t('RESTART/TIMEMARKS', 'FREQUENCY= says when'), &
-                                phrase_t('RIGIDBODY/ISOTHERMAL', 'temperatures are given'), &
-                                phrase_t('SOLIDSECTION/CONTROLS', 'the control of hourglass modes is atrito''s own'), &
-                                phrase_t('SOLIDSECTION/OFFSET', 'of shells'), &
-                                phrase_t('STATIC/ADJUST', 'of other programs'), &
-                                phrase_t('STATIC/ALLSDTOL', 'nothing is damped'), &
-                                phrase_t('STATIC/CONTINUE', 'nothing is damped'), &
-                                phrase_t('STATIC/FACTOR', 'nothing is damped'), &
-                                phrase_t('STATIC/STABILIZE', 'nothing is damped; what moves freely is told'), &
-                                phrase_t('STEP/CONVERTSDI', 'of the iteration of another program'), &
-                                phrase_t('STEP/SHOCKSMOOTHING', 'of flow'), &
-                                phrase_t('SURFACE/MAXRATIO', 'of shells'), &
-                                phrase_t('SURFACE/NOOFFSET', 'of shells'), &
-                                phrase_t('SURFACE/NOTHICK', 'of shells'), &
-                                phrase_t('SURFACE/PROPERTY', 'of another program'), &
-                                phrase_t('SURFACE/REGIONTYPE', 'mark of a preprocessor'), &
-                                phrase_t('SURFACE/SCALETHICK', 'of shells'), &
-                                phrase_t('SURFACEBEHAVIOR/AUGMENTEDLAGRANGE', 'the law is met as it is written'), &
-                                phrase_t('SURFACEBEHAVIOR/DIRECT', 'the law is met as it is written'), &
-               phrase_t('SURFACEBEHAVIOR/PENALTY', 'the law is met as it is written; its stiffness: PRESSURE-OVERCLOSURE=LINEAR'), &
-                                phrase_t('SURFACEINTERACTION/DEPVAR', 'of another program'), &
-                                phrase_t('SURFACEINTERACTION/PADTHICKNESS', 'of another program'), &
-                                phrase_t('SURFACEINTERACTION/UNSYMM', 'of another program'), &
-                                phrase_t('TEMPERATURE/REGIONTYPE', 'mark of a preprocessor'), &
-                                phrase_t('TIE/CONSTRAINTRATIO', 'of shells'), &
-                                phrase_t('TIE/MULTIPHYSICS', 'of other programs')]
+         phrase_t('for accelerations', 'AMPLITUDE/SMOOTH'), &
+         phrase_t('mark of a preprocessor', &
+                  'BOUNDARY/REGIONTYPE, CLOAD/REGIONTYPE, CONTACTPAIR/CPSET, DLOAD/REGIONTYPE, SURFACE/REGIONTYPE, '// &
+                  'TEMPERATURE/REGIONTYPE'), &
+         phrase_t('the values are displacements', 'BOUNDARY/TYPE=DISPLACEMENT'), &
+         phrase_t('displacements are small, forces keep their directions', 'CLOAD/FOLLOWER'), &
+         phrase_t('there are none', &
+                  'CONTACTFILE/CONTACTELEMENTS, CONTACTPRINT/CONTACTELEMENTS, ELFILE/CONTACTELEMENTS, '// &
+                  'NODEFILE/CONTACTELEMENTS'), &
+         phrase_t('of other programs', &
+                  'CONTACTFILE/LASTITERATIONS, ELFILE/LASTITERATIONS, NODEFILE/LASTITERATIONS, STATIC/ADJUST, '// &
+                  'TIE/MULTIPHYSICS'), &
+         phrase_t('the field file has all points', 'CONTACTFILE/NSET'), &
+         phrase_t('points beyond the end of the master are left out, and told', 'CONTACTPAIR/EXTENSIONZONE'), &
+         phrase_t('curved sides are told by their nodes', 'CONTACTPAIR/GEOMETRICCORRECTION'), &
+         phrase_t('of the iteration of another program', &
+                  'CONTACTPAIR/HCRIT, CONTROLS/ANALYSIS, CONTROLS/FIELD, STEP/CONVERTSDI'), &
+         phrase_t('the contact law is met as it is written', 'CONTACTPAIR/MECHANICALCONSTRAINT'), &
+         phrase_t('of the search of another program', 'CONTACTPAIR/MINIMUMDISTANCE'), &
+         phrase_t('of shells', &
+                  'CONTACTPAIR/NOTHICKNESS, SOLIDSECTION/OFFSET, SURFACE/MAXRATIO, SURFACE/NOOFFSET, SURFACE/NOTHICK, '// &
+                  'SURFACE/SCALETHICK, TIE/CONSTRAINTRATIO'), &
+         phrase_t('pairs are the same in all steps', 'CONTACTPAIR/OP'), &
+         phrase_t('for large sliding', 'CONTACTPAIR/SMOOTH, CONTACTPAIR/TRACKING'), &
+         phrase_t('of another program', &
+                  'CONTACTPAIR/SUPPLEMENTARYCONSTRAINTS, CONTACTPAIR/WEIGHT, SURFACE/PROPERTY, '// &
+                  'SURFACEINTERACTION/DEPVAR, SURFACEINTERACTION/PADTHICKNESS, SURFACEINTERACTION/UNSYMM'), &
+         phrase_t('the table has all pairs', 'CONTACTPRINT/MASTER, CONTACTPRINT/SLAVE'), &
+         phrase_t('the table has all points', 'CONTACTPRINT/NSET, CONTACTPRINT/SET'), &
+         phrase_t('summary.tab has it', 'CONTACTPRINT/SUMMARY'), &
+         phrase_t('the density is constant', 'DENSITY/DEPENDENCIES'), &
+         phrase_t('displacements are small, faces keep their areas', 'DLOAD/CONSTANTRESULTANT, DSLOAD/CONSTANTRESULTANT'), &
+         phrase_t('displacements are small, loads keep their directions', 'DLOAD/FOLLOWER, DSLOAD/FOLLOWER'), &
+         phrase_t('statics has the moduli of the long term', 'ELASTIC/MODULI'), &
+         phrase_t('axes are global', 'ELFILE/DIRECTIONS'), &
+         phrase_t('of flow', &
+                  'ELFILE/FREQUENCYF, ELPRINT/FREQUENCYF, NODEFILE/FREQUENCYF, NODEPRINT/FREQUENCYF, STEP/SHOCKSMOOTHING'), &
+         phrase_t('ELSET= says which', 'ELFILE/NSET'), &
+         phrase_t('points and nodes are both written', 'ELFILE/POSITION'), &
+         phrase_t('of beams', 'ELFILE/SECTIONFORCES'), &
+         phrase_t('stress.tab has the integration points', 'ELPRINT/POSITION=CENTROIDAL'), &
+         phrase_t('stress.tab has the integration points, AVERAGED AT NODES the nodes', 'ELPRINT/POSITION=NODES'), &
+         phrase_t('extremes are found in extremes.tab', 'ELPRINT/SUMMARY'), &
+         phrase_t('what sticks does not slip at all', 'FRICTION/ELASTICSLIP, FRICTION/SLIPTOLERANCE'), &
+         phrase_t('what sticks does not slip at all in any case', 'FRICTION/LAGRANGE'), &
+         phrase_t('extremes.tab has it', 'NODEPRINT/SUMMARY'), &
+         phrase_t('FREQUENCY= says when', 'RESTART/NUMBERINTERVAL, RESTART/TIMEMARKS'), &
+         phrase_t('temperatures are given', 'RIGIDBODY/ISOTHERMAL'), &
+         phrase_t('the control of hourglass modes is atrito''s own', 'SOLIDSECTION/CONTROLS'), &
+         phrase_t('nothing is damped', 'STATIC/ALLSDTOL, STATIC/CONTINUE, STATIC/FACTOR'), &
+         phrase_t('nothing is damped; what moves freely is told', 'STATIC/STABILIZE'), &
+         phrase_t('the law is met as it is written', 'SURFACEBEHAVIOR/AUGMENTEDLAGRANGE, SURFACEBEHAVIOR/DIRECT'), &
+         phrase_t('the law is met as it is written; its stiffness: PRESSURE-OVERCLOSURE=LINEAR', 'SURFACEBEHAVIOR/PENALTY')]
 
    !> Refused, and what to do instead.
    type(phrase_t), parameter :: OUTSIDE(*) = [ &
-                                phrase_t('AMPLITUDE/DEFINITION=DECAY', 'a table of time and value'), &
-                                phrase_t('AMPLITUDE/DEFINITION=EQUALLYSPACED', 'pairs of time and value'), &
-                                phrase_t('AMPLITUDE/DEFINITION=MODULATED', 'a table of time and value'), &
-                                phrase_t('AMPLITUDE/DEFINITION=PERIODIC', 'a table of time and value'), &
-                                phrase_t('AMPLITUDE/DEFINITION=USER', 'a table of time and value'), &
-                                phrase_t('AMPLITUDE/SHIFTX', 'times and values as they are to be'), &
-                                phrase_t('AMPLITUDE/SHIFTY', 'times and values as they are to be'), &
-                                phrase_t('BOUNDARY/FIXED', 'no line; of a section with a load: the value in rigid.tab'), &
-                                phrase_t('BOUNDARY/LOADCASE', 'one load case a deck'), &
-                                phrase_t('BOUNDARY/MASSFLOW', 'a program for flow'), &
-                                phrase_t('BOUNDARY/SUBMODEL', 'one deck with all of the model'), &
-                                phrase_t('BOUNDARY/TIMEDELAY', 'an *AMPLITUDE with the times that are meant'), &
-                                phrase_t('BOUNDARY/TYPE=ACCELERATION', 'displacements'), &
-                                phrase_t('BOUNDARY/TYPE=VELOCITY', 'displacements: velocity times the length of the step'), &
-                                phrase_t('BOUNDARY/USER', '*BOUNDARY, FUNCTION'), &
-                                phrase_t('CLOAD/LOADCASE', 'one load case a deck'), &
-                                phrase_t('CLOAD/TIMEDELAY', 'an *AMPLITUDE with the times that are meant'), &
-                                phrase_t('CLOAD/USER', 'a line a node'), &
-                                phrase_t('CONTACTPAIR/TIED', '*TIE'), &
-                                phrase_t('CONTACTPAIR/TYPE=LINMORTAR', 'TYPE=SURFACE TO SURFACE'), &
-                                phrase_t('CONTACTPAIR/TYPE=MASSLESS', 'TYPE=NODE TO SURFACE'), &
-                                phrase_t('CONTACTPAIR/TYPE=PGLINMORTAR', 'TYPE=SURFACE TO SURFACE'), &
-                                phrase_t('DLOAD/LOADCASE', 'one load case a deck'), &
-                                phrase_t('DLOAD/ORIENTATION', 'directions along x and y'), &
-                                phrase_t('DLOAD/TIMEDELAY', 'an *AMPLITUDE with the times that are meant'), &
-                                phrase_t('DSLOAD/ORIENTATION', 'directions along x and y'), &
-                                phrase_t('DSLOAD/SUBMODEL', 'one deck with all of the model'), &
-                                phrase_t('ELASTIC/DEPENDENCIES', 'one line of constants'), &
-                                phrase_t('ELASTIC/TYPE=ANISO', 'an isotropic *ELASTIC'), &
-                                phrase_t('ELASTIC/TYPE=ANISOTROPIC', 'an isotropic *ELASTIC'), &
-                                phrase_t('ELASTIC/TYPE=COUPLEDTRACTION', 'an isotropic *ELASTIC'), &
-                                phrase_t('ELASTIC/TYPE=ENGINEERINGCONSTANTS', 'an isotropic *ELASTIC'), &
-                                phrase_t('ELASTIC/TYPE=LAMINA', 'an isotropic *ELASTIC'), &
-                                phrase_t('ELASTIC/TYPE=ORTHO', 'an isotropic *ELASTIC'), &
-                                phrase_t('ELASTIC/TYPE=ORTHOTROPIC', 'an isotropic *ELASTIC'), &
-                                phrase_t('ELASTIC/TYPE=SHEAR', 'an isotropic *ELASTIC'), &
-                                phrase_t('ELASTIC/TYPE=TRACTION', 'an isotropic *ELASTIC'), &
-                                phrase_t('ELEMENT/INPUT', '*INCLUDE behind the keyword line'), &
-                                phrase_t('EQUATION/REMOVE', 'equations that hold in all steps'), &
-                                phrase_t('EXPANSION/DEPENDENCIES', 'one line of constants'), &
-                                phrase_t('EXPANSION/USER', 'one line of constants'), &
-                              phrase_t('FRICTION/ANISOTROPIC', 'one coefficient: in the plane there is one direction of sliding'), &
-                                phrase_t('FRICTION/DEPENDENCIES', 'one coefficient'), &
-                                phrase_t('FRICTION/EXPONENTIALDECAY', 'one coefficient'), &
-                                phrase_t('FRICTION/ROUGH', '*TIE, or a large coefficient'), &
-                                phrase_t('FRICTION/SHEARTRACTIONSLOPE', 'the slope as second item of the data line'), &
-              phrase_t('FRICTION/TAUMAX', 'a coefficient alone; max_abs_shear of summary.tab tells whether the bound is reached'), &
-                                phrase_t('FRICTION/USER', 'one coefficient'), &
-                                phrase_t('INITIALCONDITIONS/FILE', 'TYPE=TEMPERATURE with lines of nodes'), &
-                                phrase_t('INITIALCONDITIONS/TYPE=CONTACT', '*CLEARANCE'), &
-                                phrase_t('INITIALCONDITIONS/TYPE=DISPLACEMENT', 'the load of a step before'), &
-                                phrase_t('INITIALCONDITIONS/TYPE=FIELD', 'TYPE=TEMPERATURE'), &
-                                phrase_t('INITIALCONDITIONS/TYPE=FLUIDVELOCITY', 'a program for flow'), &
-                                phrase_t('INITIALCONDITIONS/TYPE=HARDENING', '*ELASTIC alone'), &
-                                phrase_t('INITIALCONDITIONS/TYPE=MASSFLOW', 'a program for flow'), &
-                                phrase_t('INITIALCONDITIONS/TYPE=PLASTICSTRAIN', '*ELASTIC alone'), &
-                                phrase_t('INITIALCONDITIONS/TYPE=PRESSURE', 'a program for flow'), &
-                                phrase_t('INITIALCONDITIONS/TYPE=SOLUTION', '*ELASTIC alone'), &
-                                phrase_t('INITIALCONDITIONS/TYPE=STRESS', 'the load that makes the stress, in a first step'), &
-                                phrase_t('INITIALCONDITIONS/TYPE=TOTALPRESSURE', 'a program for flow'), &
-                                phrase_t('INITIALCONDITIONS/TYPE=VELOCITY', 'a program for dynamics'), &
-                                phrase_t('INITIALCONDITIONS/USER', 'TYPE=TEMPERATURE with lines of nodes'), &
-                                phrase_t('NODE/INPUT', '*INCLUDE behind the keyword line'), &
-                                phrase_t('NODE/SYSTEM', 'coordinates x, y'), &
-                                phrase_t('NSET/ELEMENT', 'the numbers of the nodes'), &
-                                phrase_t('RESTART/STEP', 'atrito --restart FILE, which goes on from the last increment in it'), &
-                                phrase_t('RIGIDBODY/ROTNODE', 'REF NODE= alone, whose dof 6 is the rotation'), &
-                                phrase_t('SOLIDSECTION/COMPOSITE', 'a *SOLID SECTION for each layer, of its own elements'), &
-                                phrase_t('SOLIDSECTION/ORIENTATION', 'an isotropic *ELASTIC, or axes along x and y'), &
-                                phrase_t('STATIC/FULLYPLASTIC', 'no such option'), &
-                                phrase_t('STATIC/RIKS', 'atrito limit DECK --vary NAME=a:b finds the load that contact can bear'), &
-                                phrase_t('STATIC/TIMERESET', 'times that go on from step to step'), &
-                                phrase_t('STATIC/TOTALTIMEATSTART', 'times that go on from step to step'), &
-                                phrase_t('SURFACE/COMBINE', 'one surface of all faces'), &
-                                phrase_t('SURFACE/CROP', 'the faces that are meant'), &
-                                phrase_t('SURFACE/TYPE=CUTTINGSURFACE', 'TYPE=ELEMENT'), &
-                                phrase_t('SURFACE/TYPE=CYLINDER', 'TYPE=SEGMENTS'), &
-                                phrase_t('SURFACE/TYPE=REVOLUTION', 'TYPE=SEGMENTS'), &
-                                phrase_t('SURFACE/TYPE=USER', 'TYPE=SEGMENTS'), &
-                                phrase_t('SURFACEBEHAVIOR/NOSEPARATION', '*TIE, where surfaces stay together'), &
-           phrase_t('SURFACEBEHAVIOR/PRESSURE-OVERCLOSURE=EXPONENTIAL', 'LINEAR, slope about p0/c0, or HARD: contact begins at '// &
-                                         'gap 0, not at c0'), &
-                                phrase_t('SURFACEBEHAVIOR/PRESSURE-OVERCLOSURE=SCALEFACTOR', 'LINEAR, or HARD'), &
-      phrase_t('SURFACEBEHAVIOR/PRESSURE-OVERCLOSURE=TABULAR', 'LINEAR with the slope at the pressure that is expected, or HARD'), &
-                                phrase_t('SURFACEBEHAVIOR/PRESSURE-OVERCLOSURE=TIED', '*TIE'), &
-                                phrase_t('SURFACEBEHAVIOR/SCALEFACTOR', 'LINEAR, or HARD'), &
-                                phrase_t('SURFACEINTERACTION/USER', '*SURFACE BEHAVIOR and *FRICTION'), &
-                                phrase_t('TEMPERATURE/AMPLITUDE', 'a step for each temperature: within a step they go linearly'), &
-                                phrase_t('TEMPERATURE/BSTEP', 'lines of nodes and temperatures'), &
-                                phrase_t('TEMPERATURE/FILE', 'lines of nodes and temperatures'), &
-                                phrase_t('TEMPERATURE/USER', 'lines of nodes and temperatures'), &
-                                phrase_t('TIE/FASTENER', '*TIE of two surfaces'), &
-                                phrase_t('TIE/TIEDNSET', '*TIE of two surfaces')]
+         phrase_t('a table of time and value', &
+                  'AMPLITUDE/DEFINITION=DECAY, AMPLITUDE/DEFINITION=MODULATED, AMPLITUDE/DEFINITION=PERIODIC, '// &
+                  'AMPLITUDE/DEFINITION=USER'), &
+         phrase_t('pairs of time and value', 'AMPLITUDE/DEFINITION=EQUALLYSPACED'), &
+         phrase_t('times and values as they are to be', 'AMPLITUDE/SHIFTX, AMPLITUDE/SHIFTY'), &
+         phrase_t('no line; of a section with a load: the value in rigid.tab', 'BOUNDARY/FIXED'), &
+         phrase_t('one load case a deck', 'BOUNDARY/LOADCASE, CLOAD/LOADCASE, DLOAD/LOADCASE'), &
+         phrase_t('a program for flow', &
+                  'BOUNDARY/MASSFLOW, INITIALCONDITIONS/TYPE=FLUIDVELOCITY, INITIALCONDITIONS/TYPE=MASSFLOW, '// &
+                  'INITIALCONDITIONS/TYPE=PRESSURE, INITIALCONDITIONS/TYPE=TOTALPRESSURE'), &
+         phrase_t('one deck with all of the model', 'BOUNDARY/SUBMODEL, DSLOAD/SUBMODEL'), &
+         phrase_t('an *AMPLITUDE with the times that are meant', 'BOUNDARY/TIMEDELAY, CLOAD/TIMEDELAY, DLOAD/TIMEDELAY'), &
+         phrase_t('displacements', 'BOUNDARY/TYPE=ACCELERATION'), &
+         phrase_t('displacements: velocity times the length of the step', 'BOUNDARY/TYPE=VELOCITY'), &
+         phrase_t('*BOUNDARY, FUNCTION', 'BOUNDARY/USER'), &
+         phrase_t('a line a node', 'CLOAD/USER'), &
+         phrase_t('*TIE', 'CONTACTPAIR/TIED, SURFACEBEHAVIOR/PRESSURE-OVERCLOSURE=TIED'), &
+         phrase_t('TYPE=SURFACE TO SURFACE', 'CONTACTPAIR/TYPE=LINMORTAR, CONTACTPAIR/TYPE=PGLINMORTAR'), &
+         phrase_t('TYPE=NODE TO SURFACE', 'CONTACTPAIR/TYPE=MASSLESS'), &
+         phrase_t('directions along x and y', 'DLOAD/ORIENTATION, DSLOAD/ORIENTATION'), &
+         phrase_t('one line of constants', 'ELASTIC/DEPENDENCIES, EXPANSION/DEPENDENCIES, EXPANSION/USER'), &
+         phrase_t('an isotropic *ELASTIC', &
+                  'ELASTIC/TYPE=ANISO, ELASTIC/TYPE=ANISOTROPIC, ELASTIC/TYPE=COUPLEDTRACTION, '// &
+                  'ELASTIC/TYPE=ENGINEERINGCONSTANTS, ELASTIC/TYPE=LAMINA, ELASTIC/TYPE=ORTHO, ELASTIC/TYPE=ORTHOTROPIC, '// &
+                  'ELASTIC/TYPE=SHEAR, ELASTIC/TYPE=TRACTION'), &
+         phrase_t('*INCLUDE behind the keyword line', 'ELEMENT/INPUT, NODE/INPUT'), &
+         phrase_t('equations that hold in all steps', 'EQUATION/REMOVE'), &
+         phrase_t('one coefficient: in the plane there is one direction of sliding', 'FRICTION/ANISOTROPIC'), &
+         phrase_t('one coefficient', 'FRICTION/DEPENDENCIES, FRICTION/EXPONENTIALDECAY, FRICTION/USER'), &
+         phrase_t('*TIE, or a large coefficient', 'FRICTION/ROUGH'), &
+         phrase_t('the slope as second item of the data line', 'FRICTION/SHEARTRACTIONSLOPE'), &
+         phrase_t('a coefficient alone; max_abs_shear of summary.tab tells whether the bound is reached', 'FRICTION/TAUMAX'), &
+         phrase_t('TYPE=TEMPERATURE with lines of nodes', 'INITIALCONDITIONS/FILE, INITIALCONDITIONS/USER'), &
+         phrase_t('*CLEARANCE', 'INITIALCONDITIONS/TYPE=CONTACT'), &
+         phrase_t('the load of a step before', 'INITIALCONDITIONS/TYPE=DISPLACEMENT'), &
+         phrase_t('TYPE=TEMPERATURE', 'INITIALCONDITIONS/TYPE=FIELD'), &
+         phrase_t('*ELASTIC alone', &
+                  'INITIALCONDITIONS/TYPE=HARDENING, INITIALCONDITIONS/TYPE=PLASTICSTRAIN, '// &
+                  'INITIALCONDITIONS/TYPE=SOLUTION'), &
+         phrase_t('the load that makes the stress, in a first step', 'INITIALCONDITIONS/TYPE=STRESS'), &
+         phrase_t('a program for dynamics', 'INITIALCONDITIONS/TYPE=VELOCITY'), &
+         phrase_t('coordinates x, y', 'NODE/SYSTEM'), &
+         phrase_t('the numbers of the nodes', 'NSET/ELEMENT'), &
+         phrase_t('atrito --restart FILE, which goes on from the last increment in it', 'RESTART/STEP'), &
+         phrase_t('REF NODE= alone, whose dof 6 is the rotation', 'RIGIDBODY/ROTNODE'), &
+         phrase_t('a *SOLID SECTION for each layer, of its own elements', 'SOLIDSECTION/COMPOSITE'), &
+         phrase_t('an isotropic *ELASTIC, or axes along x and y', 'SOLIDSECTION/ORIENTATION'), &
+         phrase_t('no such option', 'STATIC/FULLYPLASTIC'), &
+         phrase_t('atrito limit DECK --vary NAME=a:b finds the load that contact can bear', 'STATIC/RIKS'), &
+         phrase_t('times that go on from step to step', 'STATIC/TIMERESET, STATIC/TOTALTIMEATSTART'), &
+         phrase_t('one surface of all faces', 'SURFACE/COMBINE'), &
+         phrase_t('the faces that are meant', 'SURFACE/CROP'), &
+         phrase_t('TYPE=ELEMENT', 'SURFACE/TYPE=CUTTINGSURFACE'), &
+         phrase_t('TYPE=SEGMENTS', 'SURFACE/TYPE=CYLINDER, SURFACE/TYPE=REVOLUTION, SURFACE/TYPE=USER'), &
+         phrase_t('*TIE, where surfaces stay together', 'SURFACEBEHAVIOR/NOSEPARATION'), &
+         phrase_t('LINEAR, slope about p0/c0, or HARD: contact begins at gap 0, not at c0', &
+                  'SURFACEBEHAVIOR/PRESSURE-OVERCLOSURE=EXPONENTIAL'), &
+         phrase_t('LINEAR, or HARD', 'SURFACEBEHAVIOR/PRESSURE-OVERCLOSURE=SCALEFACTOR, SURFACEBEHAVIOR/SCALEFACTOR'), &
+         phrase_t('LINEAR with the slope at the pressure that is expected, or HARD', &
+                  'SURFACEBEHAVIOR/PRESSURE-OVERCLOSURE=TABULAR'), &
+         phrase_t('*SURFACE BEHAVIOR and *FRICTION', 'SURFACEINTERACTION/USER'), &
+         phrase_t('a step for each temperature: within a step they go linearly', 'TEMPERATURE/AMPLITUDE'), &
+         phrase_t('lines of nodes and temperatures', 'TEMPERATURE/BSTEP, TEMPERATURE/FILE, TEMPERATURE/USER'), &
+         phrase_t('*TIE of two surfaces', 'TIE/FASTENER, TIE/TIEDNSET')]
 
    !> What *NODE PRINT, *NODE FILE, *EL PRINT and *EL FILE of CalculiX and Abaqus write besides.
    character(len=6), parameter :: VARIABLES(*) = [character(len=6) :: 'A', 'BHE', 'CEEQ', 'CENT', 'CF', 'COOR', 'COORD', 'CP', &
@@ -235,13 +177,13 @@ contains
       verdict = NOT_FOREIGN
       text = ''
       do i = 1, size(IGNORED)
-         if (IGNORED(i)%name /= name) cycle
+         if (.not. is_among(name, IGNORED(i)%names)) cycle
          verdict = FOREIGN_IGNORED
          text = trim(IGNORED(i)%text)
          return
       end do
       do i = 1, size(OUTSIDE)
-         if (OUTSIDE(i)%name /= name) cycle
+         if (.not. is_among(name, OUTSIDE(i)%names)) cycle
          verdict = FOREIGN_OUTSIDE
          text = trim(OUTSIDE(i)%text)
          return

@@ -1,7 +1,6 @@
 !> Reference of the deck keywords, from the keyword table: pages of 80 columns for the terminal, and docs/user/keywords.md.
 module atrito_help
-   use atrito_foreign_keywords, only: ask_keyword, IGNORED_KEYWORDS, OUTSIDE_KEYWORDS, SUBJECTS, NOT_FOREIGN, FOREIGN_IGNORED, &
-                                      FOREIGN_OUTSIDE
+   use atrito_foreign_keywords, only: ask_keyword, foreign_keywords, SUBJECTS, NOT_FOREIGN, FOREIGN_IGNORED, FOREIGN_OUTSIDE
    use atrito_keyword, only: keyword_t, option_spec_t, form_t
    use atrito_keyword_table, only: keyword_table, find_keyword, packed
    use atrito_keyword_text, only: form_text, option_text_of, choices_text, lines_text, condition_text, &
@@ -250,29 +249,16 @@ contains
       integer, intent(in) :: verdict                !< FOREIGN_IGNORED, FOREIGN_OUTSIDE
       integer, intent(in), optional :: subject      !< these alone; place in SUBJECTS
       character(len=:), allocatable :: names
+      type(string_t), allocatable :: list(:)
       integer :: i
 
       names = ''
-      if (verdict == FOREIGN_IGNORED) then
-         do i = 1, size(IGNORED_KEYWORDS)
-            call add_name(IGNORED_KEYWORDS(i))
-         end do
-         return
-      end if
-      do i = 1, size(OUTSIDE_KEYWORDS)
-         if (present(subject)) then
-            if (OUTSIDE_KEYWORDS(i)%subject /= subject) cycle
-         end if
-         call add_name(OUTSIDE_KEYWORDS(i)%name)
-      end do
-   contains
-      subroutine add_name(name)
-         character(len=*), intent(in) :: name
-
-         if (find_keyword(table, name) > 0) return
+      list = foreign_keywords(verdict, subject)
+      do i = 1, size(list)
+         if (find_keyword(table, list(i)%s) > 0) cycle
          if (len(names) > 0) names = names//', '
-         names = names//'*'//trim(name)
-      end subroutine add_name
+         names = names//'*'//list(i)%s
+      end do
    end function foreign_names
 
    pure function title_of(keyword) result(title)
