@@ -1,7 +1,7 @@
 !> Messages about a place in the deck, docs/user/messages.md.
 module atrito_diagnostics
    use atrito_kinds, only: ip
-   use atrito_deck, only: deck_t, token_t, token_text, reading_order, take_source_line
+   use atrito_deck, only: deck_t, card_t, token_t, token_text, reading_order, take_source_line
    use atrito_foreign_keywords, only: SUBJECTS
    use atrito_messages, only: message_t, add_message, has_room, count_messages, ID_OUTSIDE, MOST_ERRORS, WIDEST_SOURCE, &
                               SEVERITY_ERROR, SEVERITY_WARNING, SEVERITY_NOTE
@@ -9,7 +9,7 @@ module atrito_diagnostics
    use atrito_strings, only: string_t, nearest_names
    implicit none (type, external)
    private
-   public :: report_error, report_warning, report_note, report_outside, report_deck_error
+   public :: report_error, refuse_card, report_warning, report_note, report_outside, report_deck_error
 
    !> What may be wrong because the scene is another one than atrito's: faces, labels and options of other elements.
    character(len=16), parameter :: FOLLOWING(8) = [character(len=16) :: 'E-CHOICE', 'E-ITEMS', 'E-LINES', 'E-OPTION', &
@@ -37,6 +37,22 @@ contains
       end if
       call report(deck, token, SEVERITY_ERROR, id, text, expected, known, keyword, among)
    end subroutine report_error
+
+   !> Reports an error of a card, whose `ok` is false from then on.
+   subroutine refuse_card(deck, card, id, text, expected, place, known)
+      type(deck_t), intent(in) :: deck
+      type(card_t), intent(inout) :: card
+      character(len=*), intent(in) :: id, text              !< as of report_error
+      character(len=*), intent(in), optional :: expected
+      type(token_t), intent(in), optional :: place          !< where; its keyword when left out
+      type(string_t), intent(in), optional :: known(:)
+      type(token_t) :: at
+
+      card%ok = .false.
+      at = card%place
+      if (present(place)) at = place
+      call report_error(deck, at, id, text, expected, known, trim(card%name))
+   end subroutine refuse_card
 
    !> Refuses by name what atrito does not solve, and says what to do instead.
    subroutine report_outside(deck, token, name, subject)
