@@ -3,8 +3,8 @@ module atrito_cards
    use atrito_kinds, only: ip, wp
    use atrito_deck, only: deck_t, card_t, option_t, token_t, KEYWORD_UNKNOWN, token_text, part_of, is_empty_token, is_quoted
    use atrito_diagnostics, only: report_error, refuse_card, report_note, report_outside
-   use atrito_foreign_keywords, only: ask_keyword, ask_element_type, SUBJECTS, NOT_FOREIGN, FOREIGN_IGNORED, FOREIGN_OUTSIDE, CHANGE
-   use atrito_foreign_words, only: ask_option, ask_word
+   use atrito_foreign_keywords, only: subject_t, ask_keyword, ask_element_type, ask_option, take_subjects, NOT_FOREIGN, &
+                                      FOREIGN_IGNORED, FOREIGN_OUTSIDE
    use atrito_items, only: get_real, get_integer, get_name
    use atrito_keyword, only: option_spec_t, KIND_FLAG, KIND_NAME, KIND_WORD, KIND_OPTIONAL_WORD, KIND_REAL, KIND_INTEGER
    use atrito_keyword_table, only: find_keyword, find_option_spec, find_choice, keyword_names, option_names, choice_names, packed
@@ -54,6 +54,7 @@ contains
       type(card_t), intent(inout) :: card
       character(len=:), allocatable :: name
       type(string_t), allocatable :: near(:)
+      type(subject_t), allocatable :: subjects(:)
       integer :: verdict, subject
 
       name = upper_case(token_text(deck, card%place))
@@ -63,8 +64,9 @@ contains
          card%is_ignored = .true.
          call report_note(deck, card%place, 'N-IGNORED', '*'//name//' has no effect')
       case (FOREIGN_OUTSIDE)
-         card%is_outside = SUBJECTS(subject)%is_scene
-         card%changes_model = subject == CHANGE
+         call take_subjects(subjects)
+         card%is_outside = subjects(subject)%is_scene
+         card%changes_model = subjects(subject)%key == 'change'
          if (subject == deck%subject .or. is_company(deck, name)) return   ! of elements, or of a keyword, that are refused
          call report_outside(deck, card%place, '*'//name, subject)
       case (NOT_FOREIGN)
@@ -128,7 +130,7 @@ contains
       associate (definition => deck%keywords(k))
          if (size(definition%options) == 0) has_options = .false.
          if (has_options .or. size(definition%options) == 0) return
-         call ask_option(packed(definition%name), packed(text(:last)), verdict, why)
+         call ask_option(packed(definition%name)//'/'//packed(text(:last)), verdict, why)
          has_options = verdict /= NOT_FOREIGN .or. find_option_spec(definition, text(:last)) > 0 .or. definition%name == 'STEP'
       end associate
    end function has_options
@@ -171,13 +173,15 @@ contains
       type(deck_t), intent(in) :: deck
       type(card_t), intent(inout) :: card
       type(option_t), intent(inout) :: option
-      character(len=:), allocatable :: name, text
+      character(len=:), allocatable :: name, phrase, text
       integer :: verdict
 
       name = token_text(deck, option%name)
-      call ask_option(packed(card%name), packed(name), verdict, text)
-      if (verdict == NOT_FOREIGN .and. option%has_value) call ask_word(packed(card%name), packed(name), &
-                                                                       packed(token_text(deck, option%value)), verdict, text)
+      phrase = packed(card%name)//'/'//packed(name)
+      call ask_option(phrase, verdict, text)
+      if (verdict == NOT_FOREIGN .and. option%has_value) then
+         call ask_option(phrase//'='//packed(token_text(deck, option%value)), verdict, text)
+      end if
       select case (verdict)
       case (FOREIGN_IGNORED)
          option%spec = FOREIGN_OPTION
@@ -307,7 +311,7 @@ contains
          card%subject = subject
          if (is_foreign_word) call report_outside(deck, place, 'TYPE='//upper_case(word)//' of *ELEMENT', subject)
       else
-         call ask_word(packed(card%name), packed(spec%name), packed(word), verdict, text)
+         call ask_option(packed(card%name)//'/'//packed(spec%name)//'='//packed(word), verdict, text)
          is_foreign_word = verdict /= NOT_FOREIGN
          ok = verdict == FOREIGN_IGNORED
          if (ok) call report_note(deck, place, 'N-IGNORED', spec%name//'='//upper_case(word)//' of *'//trim(card%name)// &

@@ -2,7 +2,7 @@
 module atrito_diagnostics
    use atrito_kinds, only: ip
    use atrito_deck, only: deck_t, card_t, token_t, token_text, reading_order, take_source_line
-   use atrito_foreign_keywords, only: SUBJECTS
+   use atrito_foreign_keywords, only: subject_t, take_subjects
    use atrito_messages, only: message_t, add_message, has_room, count_messages, ID_OUTSIDE, MOST_ERRORS, WIDEST_SOURCE, &
                               SEVERITY_ERROR, SEVERITY_WARNING, SEVERITY_NOTE
    use atrito_name_list, only: name_list_t, names_of
@@ -59,10 +59,12 @@ contains
       type(deck_t), intent(in) :: deck
       type(token_t), intent(in) :: token
       character(len=*), intent(in) :: name                  !< as in the deck, or as in the list
-      integer, intent(in) :: subject                        !< place in SUBJECTS
+      integer, intent(in) :: subject                        !< its place, atrito_foreign_keywords
+      type(subject_t), allocatable :: subjects(:)
 
-      call report(deck, token, SEVERITY_ERROR, ID_OUTSIDE, name//' is outside of atrito: '//trim(SUBJECTS(subject)%what), &
-                  expected=trim(SUBJECTS(subject)%instead))
+      call take_subjects(subjects)
+      call report(deck, token, SEVERITY_ERROR, ID_OUTSIDE, name//' is outside of atrito: '//subjects(subject)%what, &
+                  expected=subjects(subject)%instead)
    end subroutine report_outside
 
    !> As report_error, a warning.

@@ -1,6 +1,7 @@
 !> Reference of the deck keywords, from the keyword table: pages of 80 columns for the terminal, and docs/user/keywords.md.
 module atrito_help
-   use atrito_foreign_keywords, only: ask_keyword, foreign_keywords, SUBJECTS, NOT_FOREIGN, FOREIGN_IGNORED, FOREIGN_OUTSIDE
+   use atrito_foreign_keywords, only: subject_t, ask_keyword, foreign_keywords, take_subjects, NOT_FOREIGN, FOREIGN_IGNORED, &
+                                      FOREIGN_OUTSIDE
    use atrito_keyword, only: keyword_t, option_spec_t, form_t
    use atrito_keyword_table, only: keyword_table, find_keyword, packed
    use atrito_keyword_text, only: form_text, option_text_of, choices_text, lines_text, condition_text, &
@@ -103,6 +104,7 @@ contains
       type(string_t), allocatable, intent(inout) :: lines(:)
       character(len=*), intent(in) :: word
       logical, intent(out) :: found
+      type(subject_t), allocatable :: subjects(:)
       integer :: verdict, subject
 
       call ask_keyword(word, verdict, subject)
@@ -110,8 +112,9 @@ contains
       if (verdict == FOREIGN_IGNORED) then
          call append_string(lines, '*'//word//', of other programs, has no effect; a note says so.')
       else if (verdict == FOREIGN_OUTSIDE) then
-         call append_wrapped(lines, '', '*'//word//', of other programs, is outside of atrito: '//trim(SUBJECTS(subject)%what)//'.')
-         call append_wrapped(lines, '', 'Instead: '//trim(SUBJECTS(subject)%instead)//'.')
+         call take_subjects(subjects)
+         call append_wrapped(lines, '', '*'//word//', of other programs, is outside of atrito: '//subjects(subject)%what//'.')
+         call append_wrapped(lines, '', 'Instead: '//subjects(subject)%instead//'.')
       end if
    end subroutine append_foreign
 
@@ -228,6 +231,7 @@ contains
    subroutine append_all_foreign(lines, table)
       type(string_t), allocatable, intent(inout) :: lines(:)
       type(keyword_t), intent(in) :: table(:)
+      type(subject_t), allocatable :: subjects(:)
       character(len=:), allocatable :: names
       integer :: i
 
@@ -237,9 +241,10 @@ contains
       call append_block(lines, 'These are outside of atrito, and an error says so by name:')
       call append_block(lines, '| what | keywords | instead |')
       call append_string(lines, '|---|---|---|')
-      do i = 1, size(SUBJECTS)
-         names = foreign_names(table, FOREIGN_OUTSIDE, i)
-         if (len(names) > 0) call append_row(lines, trim(SUBJECTS(i)%what), names, trim(SUBJECTS(i)%instead))
+      call take_subjects(subjects)
+      do i = 1, size(subjects)
+         names = foreign_names(table, FOREIGN_OUTSIDE, subjects(i)%key)
+         if (len(names) > 0) call append_row(lines, subjects(i)%what, names, subjects(i)%instead)
       end do
    end subroutine append_all_foreign
 
@@ -247,7 +252,7 @@ contains
    function foreign_names(table, verdict, subject) result(names)
       type(keyword_t), intent(in) :: table(:)
       integer, intent(in) :: verdict                !< FOREIGN_IGNORED, FOREIGN_OUTSIDE
-      integer, intent(in), optional :: subject      !< these alone; place in SUBJECTS
+      character(len=*), intent(in), optional :: subject !< those of this key alone
       character(len=:), allocatable :: names
       type(string_t), allocatable :: list(:)
       integer :: i

@@ -1,4 +1,5 @@
-!> Reads the definitions of keywords. Each line begins with a word that says what it is; a line that begins with a blank goes on.
+!> Reads the definitions of keywords. Each line begins with a word that says what it is; a line that begins with a blank goes on
+!> with the one before (tools/text-lines).
 !>
 !>     *NAME | LEVEL | what it does              LEVEL: model, step, both; `model *MATERIAL`: it belongs behind that keyword
 !>     doc SENTENCES
@@ -30,7 +31,7 @@ contains
 
    !> The keywords that some lines define, in their order.
    pure subroutine read_keywords(lines, table, wrong)
-      character(len=*), intent(in) :: lines(:)                  !< comments and blank lines left out
+      type(string_t), intent(in) :: lines(:)                    !< those that go on joined
       type(keyword_t), allocatable, intent(out) :: table(:)
       character(len=:), allocatable, intent(out) :: wrong       !< the last line that cannot be read; not allocated: there is none
       type(string_t), allocatable :: parts(:)
@@ -46,30 +47,21 @@ contains
       end do
    end subroutine read_keywords
 
-   !> Joins lines that go on, and puts groups and the lines of elements where they are used.
+   !> Puts groups and the lines of elements where they are used.
    pure subroutine unfold_lines(lines, parts)
-      character(len=*), intent(in) :: lines(:)
+      type(string_t), intent(in) :: lines(:)
       type(string_t), allocatable, intent(out) :: parts(:)
-      type(string_list_t) :: joined, unfolded
-      type(string_t), allocatable :: whole(:)
-      integer :: i, k, last
+      type(string_list_t) :: unfolded
+      integer :: i, k
       logical :: is_group
 
-      i = 1
-      do while (i <= size(lines))
-         last = i - 1 + findloc(lines(i + 1:)(1:1) == ' ', .false., dim=1)
-         if (last < i) last = size(lines)
-         call add_string(joined, trim(lines(i))//continued(lines(i + 1:last)))
-         i = last + 1
-      end do
-      call take_strings(joined, whole)
       is_group = .false.
-      do i = 1, size(whole)
-         associate (line => whole(i)%s)
+      do i = 1, size(lines)
+         associate (line => lines(i)%s)
             if (begins(line, 'define ') .or. begins(line, '*')) is_group = begins(line, 'define ')
             if (is_group) cycle
             if (begins(line, 'use ')) then
-               call copy_group(whole, line(5:), unfolded)
+               call copy_group(lines, line(5:), unfolded)
             else if (line == 'element lines') then
                do k = 1, MOST_NODES
                   if (SHAPES(k)%n_nodes > 0) call add_element_lines(int(k, ip), unfolded)
@@ -81,14 +73,6 @@ contains
       end do
       call take_strings(unfolded, parts)
    end subroutine unfold_lines
-
-   pure recursive function continued(lines) result(text)
-      character(len=*), intent(in) :: lines(:)
-      character(len=:), allocatable :: text
-
-      text = ''
-      if (size(lines) > 0) text = ' '//trim(adjustl(lines(1)))//continued(lines(2:))
-   end function continued
 
    pure logical function begins(text, word)
       character(len=*), intent(in) :: text, word
