@@ -38,13 +38,10 @@ contains
       integer(ip), allocatable :: longer(:)
       integer :: no_memory
 
-      if (present(enough)) then
-         allocate (longer(length), stat=no_memory)
-         enough = no_memory == 0
-         if (.not. enough) return
-      else
-         allocate (longer(length))
-      end if
+      allocate (longer(length), stat=no_memory)
+      if (present(enough)) enough = no_memory == 0
+      if (present(enough) .and. no_memory /= 0) return
+      if (no_memory /= 0) allocate (longer(length))   ! ends the program
       longer(:size(list)) = list
       call move_alloc(longer, list)
    end subroutine grow_numbers
@@ -56,13 +53,10 @@ contains
       integer(lp), allocatable :: longer(:)
       integer :: no_memory
 
-      if (present(enough)) then
-         allocate (longer(length), stat=no_memory)
-         enough = no_memory == 0
-         if (.not. enough) return
-      else
-         allocate (longer(length))
-      end if
+      allocate (longer(length), stat=no_memory)
+      if (present(enough)) enough = no_memory == 0
+      if (present(enough) .and. no_memory /= 0) return
+      if (no_memory /= 0) allocate (longer(length))   ! ends the program
       longer(:size(list)) = list
       call move_alloc(longer, list)
    end subroutine grow_long_numbers
@@ -74,13 +68,10 @@ contains
       real(wp), allocatable :: longer(:)
       integer :: no_memory
 
-      if (present(enough)) then
-         allocate (longer(length), stat=no_memory)
-         enough = no_memory == 0
-         if (.not. enough) return
-      else
-         allocate (longer(length))
-      end if
+      allocate (longer(length), stat=no_memory)
+      if (present(enough)) enough = no_memory == 0
+      if (present(enough) .and. no_memory /= 0) return
+      if (no_memory /= 0) allocate (longer(length))   ! ends the program
       longer(:size(list)) = list
       call move_alloc(longer, list)
    end subroutine grow_reals

@@ -156,17 +156,8 @@ contains
       if (STATES(state)%is_thin) stress_33 = 0.0_wp
    end function stress_33
 
-   !> What a thermal strain that cannot happen makes of normal stresses, s11 = s22 = -modulus*strain [F/L^2]: the sum of a row of
-   !> the elasticity of three dimensions, or of the plane where no stress goes across it.
-   pure real(wp) function thermal_modulus(section, state)
-      type(elastic_t), intent(in) :: section
-      integer(ip), intent(in) :: state     !< place in STATES
-
-      thermal_modulus = section%young/(1 - merge(1, 2, STATES(state)%is_thin)*section%poisson)
-   end function thermal_modulus
-
-   !> What a unit of thermal strain that cannot happen takes from s11, s22, s12 and s33 [F/L^2]: of isotropic elasticity the modulus
-   !> three times; else the sums of the rows of the elasticity.
+   !> What a unit of thermal strain that cannot happen takes from s11, s22, s12 and s33 [F/L^2]: the sums of the rows of the elasticity
+   !> for the normal strains, of isotropic elasticity E/(1 - 2 mu), or E/(1 - mu) where no stress goes across the plane.
    pure function thermal_stresses(section, state) result(b)
       type(elastic_t), intent(in) :: section
       integer(ip), intent(in) :: state     !< place in STATES
@@ -174,7 +165,7 @@ contains
       real(wp) :: d(COMPONENTS, COMPONENTS)
 
       if (.not. section%is_orthotropic) then
-         b = thermal_modulus(section, state)
+         b = section%young/(1 - merge(1, 2, STATES(state)%is_thin)*section%poisson)
          b(COMPONENTS) = 0.0_wp
       else if (STATES(state)%is_thin) then
          d = elasticity_matrix(section, state)

@@ -36,17 +36,12 @@ contains
       real(wp), intent(in) :: a, b
       real(wp), intent(out) :: product
       integer, intent(out) :: outcome
-      integer :: power_of_two
 
-      product = fraction(a)*fraction(b)
-      power_of_two = exponent(a) + exponent(b) + exponent(product)
-      if (product /= 0.0_wp .and. power_of_two > LARGEST_EXPONENT) then
-         product = 0.0_wp
-         outcome = ARITHMETIC_OVERFLOW
-      else
-         product = a*b
-         outcome = ARITHMETIC_OK
-      end if
+      product = 0.0_wp
+      outcome = ARITHMETIC_OVERFLOW
+      if (.not. fits(fraction(a)*fraction(b), exponent(a) + exponent(b))) return
+      product = a*b
+      outcome = ARITHMETIC_OK
    end subroutine multiply_safely
 
    !> a/b. outcome: ARITHMETIC_OK, ARITHMETIC_ZERO_DIVISION or ARITHMETIC_OVERFLOW, and then the quotient is 0.
@@ -54,21 +49,23 @@ contains
       real(wp), intent(in) :: a, b
       real(wp), intent(out) :: quotient
       integer, intent(out) :: outcome
-      integer :: power_of_two
 
       quotient = 0.0_wp
       outcome = ARITHMETIC_ZERO_DIVISION
       if (b == 0.0_wp) return
-      quotient = fraction(a)/fraction(b)
-      power_of_two = exponent(a) - exponent(b) + exponent(quotient)
-      if (quotient /= 0.0_wp .and. power_of_two > LARGEST_EXPONENT) then
-         quotient = 0.0_wp
-         outcome = ARITHMETIC_OVERFLOW
-      else
-         quotient = a/b
-         outcome = ARITHMETIC_OK
-      end if
+      outcome = ARITHMETIC_OVERFLOW
+      if (.not. fits(fraction(a)/fraction(b), exponent(a) - exponent(b))) return
+      quotient = a/b
+      outcome = ARITHMETIC_OK
    end subroutine divide_safely
+
+   !> Whether x 2**power_of_two is no more than the largest number.
+   pure logical function fits(x, power_of_two)
+      real(wp), intent(in) :: x
+      integer, intent(in) :: power_of_two
+
+      fits = x == 0.0_wp .or. power_of_two + exponent(x) <= LARGEST_EXPONENT
+   end function fits
 
    !> a**b; of a negative number only a whole power exists.
    pure subroutine raise_safely(a, b, power, outcome)

@@ -35,7 +35,9 @@ contains
       integer :: f
 
       ! which forms apply is not known when an option is wrong
-      if (.not. card%ok .and. any_condition(deck%keywords(card%keyword)%forms)) return
+      if (.not. card%ok) then
+         if (any([(len(deck%keywords(card%keyword)%forms(f)%option) > 0, f=1, size(deck%keywords(card%keyword)%forms))])) return
+      end if
       call find_forms(deck, card, tally)
       if (size(tally%forms) == 1) call join_lines(deck, card, deck%keywords(card%keyword)%forms(tally%forms(1)))
       do i = card%first_line, card%first_line + card%n_lines - 1
@@ -116,16 +118,6 @@ contains
       end do
    end function ends_with_comma
 
-   pure logical function any_condition(forms)
-      type(form_t), intent(in) :: forms(:)
-      integer :: i
-
-      any_condition = .false.
-      do i = 1, size(forms)
-         any_condition = any_condition .or. len(forms(i)%option) > 0
-      end do
-   end function any_condition
-
    subroutine find_forms(deck, card, tally)
       type(deck_t), intent(in) :: deck
       type(card_t), intent(in) :: card
@@ -196,11 +188,21 @@ contains
       character(len=:), allocatable :: text
       type(token_t) :: first
       type(string_t), allocatable :: words(:)
+      logical :: is_word
+      integer :: f
 
       first = line_item(deck, line, 1_ip)
-      words = leading_words(deck, card, tally)
       text = token_text(deck, first)
-      if (any_same(words, text)) then
+      allocate (words(0))
+      is_word = .false.
+      do f = 1, size(tally%forms)
+         associate (word => deck%keywords(card%keyword)%forms(tally%forms(f))%word)
+            if (len(word) == 0) cycle
+            call append_string(words, word)
+            is_word = is_word .or. same_name(word, text)
+         end associate
+      end do
+      if (is_word) then
          call report_error(deck, first, 'E-LINES', 'one '//text//' line too many', keyword=trim(card%name))
       else if (size(words) > 0) then
          call report_error(deck, first, 'E-CHOICE', "'"//text//"' begins no data line of *"//trim(card%name), &
@@ -212,32 +214,6 @@ contains
                            expected=expected_forms(deck, card, tally))
       end if
    end subroutine report_superfluous
-
-   pure function leading_words(deck, card, tally) result(words)
-      type(deck_t), intent(in) :: deck
-      type(card_t), intent(in) :: card
-      type(tally_t), intent(in) :: tally
-      type(string_t), allocatable :: words(:)
-      integer :: f
-
-      allocate (words(0))
-      do f = 1, size(tally%forms)
-         associate (form => deck%keywords(card%keyword)%forms(tally%forms(f)))
-            if (len(form%word) > 0) call append_string(words, form%word)
-         end associate
-      end do
-   end function leading_words
-
-   pure logical function any_same(words, text)
-      type(string_t), intent(in) :: words(:)
-      character(len=*), intent(in) :: text
-      integer :: i
-
-      any_same = .false.
-      do i = 1, size(words)
-         any_same = any_same .or. same_name(words(i)%s, text)
-      end do
-   end function any_same
 
    !> The forms that apply, as they are written.
    pure function expected_forms(deck, card, tally) result(text)
@@ -400,7 +376,7 @@ contains
       character(len=:), allocatable :: text
       integer :: f
 
-      if (removes_all(deck, card)) return
+      if (option_word(deck, card, 'OP') == 'NEW' .and. has_option(deck, card, 'OP')) return  ! nothing replaces what is removed
       if (card%n_lines == 0 .and. may_be_empty(trim(card%name))) then
          call report_note(deck, card%place, 'N-IGNORED', '*'//trim(card%name)//' without data lines has no effect')
          return
@@ -418,14 +394,5 @@ contains
          end associate
       end do
    end subroutine check_counts
-
-   !> OP=NEW may stand alone: nothing takes the place of what is removed.
-   pure logical function removes_all(deck, card)
-      type(deck_t), intent(in) :: deck
-      type(card_t), intent(in) :: card
-
-      removes_all = .false.
-      if (has_option(deck, card, 'OP')) removes_all = option_word(deck, card, 'OP') == 'NEW'
-   end function removes_all
 
 end module atrito_card_data

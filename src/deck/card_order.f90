@@ -1,7 +1,7 @@
 !> Where a keyword stands: model, step, or behind the end; and to what it belongs.
 module atrito_card_order
    use atrito_deck, only: deck_t, card_t, token_t, token_text, KEYWORD_UNKNOWN, LEVEL_MODEL, LEVEL_STEP
-   use atrito_diagnostics, only: report_error, report_deck_error
+   use atrito_diagnostics, only: report_error, refuse_card, report_deck_error
    use atrito_keyword, only: LEVEL_BOTH
    use atrito_kinds, only: ip
    use atrito_part_order, only: parts_t, check_parts, check_open_parts
@@ -56,7 +56,7 @@ contains
       case ('STEP')
          call begin_step(deck, order, card)
       case ('END STEP')
-         if (.not. (order%in_step .or. order%lost_step)) call refuse(deck, card, 'E-STEP', '*END STEP without a *STEP', &
+         if (.not. (order%in_step .or. order%lost_step)) call refuse_card(deck, card, 'E-STEP', '*END STEP without a *STEP', &
                                                                      '*STEP before it')
          order%in_step = .false.
       case default
@@ -88,7 +88,7 @@ contains
       type(order_t), intent(inout) :: order
       type(card_t), intent(inout) :: card
 
-      if (order%in_step) call refuse(deck, card, 'E-STEP', '*STEP inside a step', 'the *END STEP of the step before')
+      if (order%in_step) call refuse_card(deck, card, 'E-STEP', '*STEP inside a step', 'the *END STEP of the step before')
       order%n_steps = order%n_steps + 1
       order%in_step = .true.
       order%step = card%place
@@ -106,12 +106,12 @@ contains
       if (follows_only(deck, order, card)) then
          card%ok = .false.
       else if (order%n_steps > 0 .and. .not. order%in_step) then
-         call refuse(deck, card, 'E-STEP', '*'//trim(card%name)//' stands after an *END STEP', &
+         call refuse_card(deck, card, 'E-STEP', '*'//trim(card%name)//' stands after an *END STEP', &
                      'a *STEP, or nothing behind it')
       else if (level == LEVEL_MODEL .and. order%in_step .and. .not. is_removal(deck, card)) then
-         call refuse(deck, card, 'E-LEVEL', '*'//trim(card%name)//' stands inside the step', 'its place before *STEP')
+         call refuse_card(deck, card, 'E-LEVEL', '*'//trim(card%name)//' stands inside the step', 'its place before *STEP')
       else if (level == LEVEL_STEP .and. .not. order%in_step) then
-         call refuse(deck, card, 'E-LEVEL', '*'//trim(card%name)//' stands outside of a step', &
+         call refuse_card(deck, card, 'E-LEVEL', '*'//trim(card%name)//' stands outside of a step', &
                      'its place between *STEP and *END STEP')
       end if
    end subroutine check_level
@@ -153,7 +153,7 @@ contains
             order%parent = card%name
             order%parent_ok = card%ok
          else if (keyword%parent /= order%parent .and. order%parent /= LOST) then
-            call refuse(deck, card, 'E-PARENT', '*'//trim(card%name)//' belongs to no *'//keyword%parent, &
+            call refuse_card(deck, card, 'E-PARENT', '*'//trim(card%name)//' belongs to no *'//keyword%parent, &
                         'its place behind *'//keyword%parent)
          end if
       end associate
@@ -175,14 +175,5 @@ contains
                            keyword='STEP')
       end if
    end subroutine check_end
-
-   subroutine refuse(deck, card, id, text, expected)
-      type(deck_t), intent(in) :: deck
-      type(card_t), intent(inout) :: card
-      character(len=*), intent(in) :: id, text, expected
-
-      card%ok = .false.
-      call report_error(deck, card%place, id, text, expected=expected, keyword=trim(card%name))
-   end subroutine refuse
 
 end module atrito_card_order

@@ -1,16 +1,16 @@
 !> Keyword lines: the items of one become a card, checked against the keyword table.
 module atrito_cards
    use atrito_kinds, only: ip, wp
-   use atrito_deck, only: deck_t, card_t, option_t, token_t, KEYWORD_UNKNOWN, token_text, is_empty_token, is_quoted
-   use atrito_diagnostics, only: report_error, report_note, report_outside
-   use atrito_foreign_keywords, only: ask_keyword, ask_element_type, SUBJECTS, NOT_FOREIGN, FOREIGN_IGNORED, FOREIGN_OUTSIDE, CHANGE
-   use atrito_foreign_words, only: ask_option, ask_word
+   use atrito_deck, only: deck_t, card_t, option_t, token_t, KEYWORD_UNKNOWN, token_text, part_of, is_empty_token, is_quoted
+   use atrito_diagnostics, only: report_error, refuse_card, report_note, report_outside
+   use atrito_foreign_keywords, only: subject_t, ask_keyword, ask_element_type, ask_option, take_subjects, NOT_FOREIGN, &
+                                      FOREIGN_IGNORED, FOREIGN_OUTSIDE
    use atrito_items, only: get_real, get_integer, get_name
    use atrito_keyword, only: option_spec_t, KIND_FLAG, KIND_NAME, KIND_WORD, KIND_OPTIONAL_WORD, KIND_REAL, KIND_INTEGER
    use atrito_keyword_table, only: find_keyword, find_option_spec, find_choice, keyword_names, option_names, choice_names, packed
    use atrito_keyword_text, only: option_text_of, with_dimension, choices_text
    use atrito_messages, only: ID_OUTSIDE
-   use atrito_lexer, only: find_equals, trim_place
+   use atrito_lexer, only: find_equals
    use atrito_strings, only: string_t, nearest_names, upper_case
    implicit none (type, external)
    private
@@ -33,7 +33,7 @@ contains
       type(card_t), intent(out) :: card
       integer :: i
 
-      card%place = without_asterisk(deck, items(1))
+      card%place = part_of(deck, items(1), items(1)%first + 1, items(1)%last)
       allocate (card%options(size(items) - 1))
       do i = 1, size(card%options)
          call split_option(deck, items(i + 1), card%options(i))
@@ -54,6 +54,7 @@ contains
       type(card_t), intent(inout) :: card
       character(len=:), allocatable :: name
       type(string_t), allocatable :: near(:)
+      type(subject_t), allocatable :: subjects(:)
       integer :: verdict, subject
 
       name = upper_case(token_text(deck, card%place))
@@ -63,8 +64,9 @@ contains
          card%is_ignored = .true.
          call report_note(deck, card%place, 'N-IGNORED', '*'//name//' has no effect')
       case (FOREIGN_OUTSIDE)
-         card%is_outside = SUBJECTS(subject)%is_scene
-         card%changes_model = subject == CHANGE
+         call take_subjects(subjects)
+         card%is_outside = subjects(subject)%is_scene
+         card%changes_model = subjects(subject)%key == 'change'
          if (subject == deck%subject .or. is_company(deck, name)) return   ! of elements, or of a keyword, that are refused
          call report_outside(deck, card%place, '*'//name, subject)
       case (NOT_FOREIGN)
@@ -96,17 +98,6 @@ contains
       end do
    end function is_company
 
-   pure function without_asterisk(deck, item) result(place)
-      type(deck_t), intent(in) :: deck
-      type(token_t), intent(in) :: item
-      type(token_t) :: place
-
-      place = item
-      place%first = item%first + 1
-      call trim_place(deck%sources(item%source)%text, place%first, place%last)
-      place%column = item%column + place%first - item%first
-   end function without_asterisk
-
    !> NAME or NAME=VALUE.
    subroutine split_option(deck, item, option)
       type(deck_t), intent(in) :: deck
@@ -114,20 +105,11 @@ contains
       type(option_t), intent(out) :: option
       integer(ip) :: equals
 
-      option%name = item
-      option%value = item
       equals = find_equals(deck%sources(item%source)%text, item%first, item%last)
       option%has_value = equals > 0
-      if (equals == 0) then
-         option%value%first = item%last + 1
-         option%value%last = item%last
-      else
-         option%name%last = equals - 1
-         option%value%first = equals + 1
-         call trim_place(deck%sources(item%source)%text, option%name%first, option%name%last)
-         call trim_place(deck%sources(item%source)%text, option%value%first, option%value%last)
-      end if
-      option%value%column = item%column + option%value%first - item%first
+      if (equals == 0) equals = item%last + 1
+      option%name = part_of(deck, item, item%first, equals - 1)
+      option%value = part_of(deck, item, min(equals + 1, item%last + 1), item%last)
    end subroutine split_option
 
    !> Whether a line behind a comma at the end of a keyword line goes on with options: what is none is data, and the comma means
@@ -148,7 +130,7 @@ contains
       associate (definition => deck%keywords(k))
          if (size(definition%options) == 0) has_options = .false.
          if (has_options .or. size(definition%options) == 0) return
-         call ask_option(packed(definition%name), packed(text(:last)), verdict, why)
+         call ask_option(packed(definition%name)//'/'//packed(text(:last)), verdict, why)
          has_options = verdict /= NOT_FOREIGN .or. find_option_spec(definition, text(:last)) > 0 .or. definition%name == 'STEP'
       end associate
    end function has_options
@@ -175,11 +157,11 @@ contains
       name = token_text(deck, card%options(i)%name)
       spec = find_option_spec(deck%keywords(card%keyword), name)
       if (len(name) == 0) then
-         call refuse(deck, card, card%options(i)%name, 'E-OPTION', 'an empty option')
+         call refuse_card(deck, card, 'E-OPTION', 'an empty option', place=card%options(i)%name)
       else if (spec == 0) then
          call judge_option(deck, card, card%options(i))
       else if (any(card%options(:i - 1)%spec == spec)) then
-         call refuse(deck, card, card%options(i)%name, 'E-OPTION-TWICE', 'option '//name//' is given twice')
+         call refuse_card(deck, card, 'E-OPTION-TWICE', 'option '//name//' is given twice', place=card%options(i)%name)
       else
          card%options(i)%spec = spec
          call check_use(deck, card, card%options(i), deck%keywords(card%keyword)%options(spec))
@@ -191,13 +173,15 @@ contains
       type(deck_t), intent(in) :: deck
       type(card_t), intent(inout) :: card
       type(option_t), intent(inout) :: option
-      character(len=:), allocatable :: name, text
+      character(len=:), allocatable :: name, phrase, text
       integer :: verdict
 
       name = token_text(deck, option%name)
-      call ask_option(packed(card%name), packed(name), verdict, text)
-      if (verdict == NOT_FOREIGN .and. option%has_value) call ask_word(packed(card%name), packed(name), &
-                                                                       packed(token_text(deck, option%value)), verdict, text)
+      phrase = packed(card%name)//'/'//packed(name)
+      call ask_option(phrase, verdict, text)
+      if (verdict == NOT_FOREIGN .and. option%has_value) then
+         call ask_option(phrase//'='//packed(token_text(deck, option%value)), verdict, text)
+      end if
       select case (verdict)
       case (FOREIGN_IGNORED)
          option%spec = FOREIGN_OPTION
@@ -207,9 +191,8 @@ contains
          option%spec = FOREIGN_OPTION
          call refuse_outside(deck, card, option%name, 'option '//upper_case(name)//' of *'//trim(card%name), text)
       case (NOT_FOREIGN)
-         card%ok = .false.
-         call report_error(deck, option%name, 'E-OPTION', 'unknown option '//name//' of *'//trim(card%name), &
-                           known=option_names(deck%keywords(card%keyword)%options), keyword=trim(card%name))
+         call refuse_card(deck, card, 'E-OPTION', 'unknown option '//name//' of *'//trim(card%name), &
+                          known=option_names(deck%keywords(card%keyword)%options), place=option%name)
       end select
    end subroutine judge_option
 
@@ -237,14 +220,13 @@ contains
          call report_note(deck, option%name, 'N-IGNORED', 'option '//spec%name//' of *'//trim(card%name)// &
                           ' has no effect: '//spec%doc)
       else if (.not. spec%built) then
-         call refuse(deck, card, option%name, 'E-NOT-BUILT', 'option '//spec%name//' of *'//trim(card%name)// &
-                     ' is not built yet')
+         call refuse_card(deck, card, 'E-NOT-BUILT', 'option '//spec%name//' of *'//trim(card%name)//' is not built yet', &
+                          place=option%name)
       else if (spec%kind == KIND_FLAG) then
-         if (option%has_value) call refuse(deck, card, option%value, 'E-OPTION-VALUE', 'option '//spec%name//' takes no value')
+         if (option%has_value) call refuse_card(deck, card, 'E-OPTION-VALUE', 'option '//spec%name//' takes no value', &
+                                                place=option%value)
       else if (spec%kind /= KIND_OPTIONAL_WORD .and. is_empty_token(option%value)) then
-         card%ok = .false.
-         call report_error(deck, option%value, 'E-OPTION-VALUE', 'option '//spec%name//' needs a value', &
-                           expected=meaning(spec), keyword=trim(card%name))
+         call refuse_card(deck, card, 'E-OPTION-VALUE', 'option '//spec%name//' needs a value', meaning(spec), option%value)
       else
          call check_value(deck, card, option, spec)
       end if
@@ -329,7 +311,7 @@ contains
          card%subject = subject
          if (is_foreign_word) call report_outside(deck, place, 'TYPE='//upper_case(word)//' of *ELEMENT', subject)
       else
-         call ask_word(packed(card%name), packed(spec%name), packed(word), verdict, text)
+         call ask_option(packed(card%name)//'/'//packed(spec%name)//'='//packed(word), verdict, text)
          is_foreign_word = verdict /= NOT_FOREIGN
          ok = verdict == FOREIGN_IGNORED
          if (ok) call report_note(deck, place, 'N-IGNORED', spec%name//'='//upper_case(word)//' of *'//trim(card%name)// &
@@ -351,16 +333,16 @@ contains
             if (options(i)%required .and. .not. any(card%options%spec == i)) then
                card%ok = .false.
                if (is_misspelt(deck, card, options(i)%name)) cycle
-               call report_error(deck, card%place, 'E-OPTION-MISSING', '*'//trim(card%name)//' needs the option '// &
-                                 options(i)%name, expected=meaning(options(i)), keyword=trim(card%name))
+               call refuse_card(deck, card, 'E-OPTION-MISSING', '*'//trim(card%name)//' needs the option '//options(i)%name, &
+                                meaning(options(i)))
             end if
          end do
          do j = 1, size(card%options)
             if (card%options(j)%spec < 1) cycle
             i = find_option_spec(deck%keywords(card%keyword), options(card%options(j)%spec)%needs)
             if (i == 0 .or. any(card%options%spec == i)) cycle
-            call refuse(deck, card, card%options(j)%name, 'E-OPTION', 'option '//options(card%options(j)%spec)%name// &
-                        ' goes with '//options(i)%name//' only')
+            call refuse_card(deck, card, 'E-OPTION', 'option '//options(card%options(j)%spec)%name//' goes with '// &
+                             options(i)%name//' only', place=card%options(j)%name)
          end do
       end associate
    end subroutine check_company
@@ -390,15 +372,5 @@ contains
       if (size(spec%choices) > 0) text = text//', '//choices_text(spec%choices)
       text = with_dimension(text, spec%dimension)
    end function meaning
-
-   subroutine refuse(deck, card, place, id, text)
-      type(deck_t), intent(in) :: deck
-      type(card_t), intent(inout) :: card
-      type(token_t), intent(in) :: place
-      character(len=*), intent(in) :: id, text
-
-      card%ok = .false.
-      call report_error(deck, place, id, text, keyword=trim(card%name))
-   end subroutine refuse
 
 end module atrito_cards

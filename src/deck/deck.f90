@@ -8,13 +8,14 @@ module atrito_deck
    use atrito_kinds, only: ip, lp, wp
    use atrito_growth, only: make_room_in => make_room
    use atrito_keyword, only: keyword_t, LEVEL_MODEL, LEVEL_STEP
+   use atrito_lexer, only: trim_place
    use atrito_name_list, only: name_list_t, add_name
    implicit none (type, external)
    private
    public :: source_t, token_t, option_t, card_t, data_line_t, scope_t, parameter_t, deck_t
    public :: KEYWORD_UNKNOWN, LEVEL_MODEL, LEVEL_STEP
    public :: token_text, is_empty_token, is_quoted, is_id_token, written_length, keyword_name, count_lines, line_item, last_item, &
-             reading_order, take_source_line, scope_shift, scope_text, model_number
+             reading_order, take_source_line, part_of, scope_shift, scope_text, model_number
    public :: after_byte_order_mark
    public :: allocate_deck, make_room, append_source, note_include, append_token, append_line, append_card, &
              append_parameter, append_mesh
@@ -169,6 +170,20 @@ contains
       text = ''
       if (token%scope > 0) text = ' of '//deck%scopes(token%scope)%name
    end function scope_text
+
+   !> The item at some characters of another one, without the blanks round them.
+   pure function part_of(deck, token, first, last) result(part)
+      type(deck_t), intent(in) :: deck
+      type(token_t), intent(in) :: token
+      integer(ip), intent(in) :: first, last
+      type(token_t) :: part
+
+      part = token
+      part%first = first
+      part%last = last
+      call trim_place(deck%sources(token%source)%text, part%first, part%last)
+      part%column = token%column + part%first - token%first
+   end function part_of
 
    !> How many characters of a name stand in the deck, its quotes apart.
    pure integer(ip) function written_length(deck, token) result(n)

@@ -1,15 +1,15 @@
 !> Messages about a place in the deck, docs/user/messages.md.
 module atrito_diagnostics
    use atrito_kinds, only: ip
-   use atrito_deck, only: deck_t, token_t, token_text, reading_order, take_source_line
-   use atrito_foreign_keywords, only: SUBJECTS
+   use atrito_deck, only: deck_t, card_t, token_t, token_text, reading_order, take_source_line
+   use atrito_foreign_keywords, only: subject_t, take_subjects
    use atrito_messages, only: message_t, add_message, has_room, count_messages, ID_OUTSIDE, MOST_ERRORS, WIDEST_SOURCE, &
                               SEVERITY_ERROR, SEVERITY_WARNING, SEVERITY_NOTE
    use atrito_name_list, only: name_list_t, names_of
    use atrito_strings, only: string_t, nearest_names
    implicit none (type, external)
    private
-   public :: report_error, report_warning, report_note, report_outside, report_deck_error
+   public :: report_error, refuse_card, report_warning, report_note, report_outside, report_deck_error
 
    !> What may be wrong because the scene is another one than atrito's: faces, labels and options of other elements.
    character(len=16), parameter :: FOLLOWING(8) = [character(len=16) :: 'E-CHOICE', 'E-ITEMS', 'E-LINES', 'E-OPTION', &
@@ -38,15 +38,33 @@ contains
       call report(deck, token, SEVERITY_ERROR, id, text, expected, known, keyword, among)
    end subroutine report_error
 
+   !> Reports an error of a card, whose `ok` is false from then on.
+   subroutine refuse_card(deck, card, id, text, expected, place, known)
+      type(deck_t), intent(in) :: deck
+      type(card_t), intent(inout) :: card
+      character(len=*), intent(in) :: id, text              !< as of report_error
+      character(len=*), intent(in), optional :: expected
+      type(token_t), intent(in), optional :: place          !< where; its keyword when left out
+      type(string_t), intent(in), optional :: known(:)
+      type(token_t) :: at
+
+      card%ok = .false.
+      at = card%place
+      if (present(place)) at = place
+      call report_error(deck, at, id, text, expected, known, trim(card%name))
+   end subroutine refuse_card
+
    !> Refuses by name what atrito does not solve, and says what to do instead.
    subroutine report_outside(deck, token, name, subject)
       type(deck_t), intent(in) :: deck
       type(token_t), intent(in) :: token
       character(len=*), intent(in) :: name                  !< as in the deck, or as in the list
-      integer, intent(in) :: subject                        !< place in SUBJECTS
+      integer, intent(in) :: subject                        !< its place, atrito_foreign_keywords
+      type(subject_t), allocatable :: subjects(:)
 
-      call report(deck, token, SEVERITY_ERROR, ID_OUTSIDE, name//' is outside of atrito: '//trim(SUBJECTS(subject)%what), &
-                  expected=trim(SUBJECTS(subject)%instead))
+      call take_subjects(subjects)
+      call report(deck, token, SEVERITY_ERROR, ID_OUTSIDE, name//' is outside of atrito: '//subjects(subject)%what, &
+                  expected=subjects(subject)%instead)
    end subroutine report_outside
 
    !> As report_error, a warning.

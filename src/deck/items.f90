@@ -2,11 +2,11 @@
 module atrito_items
    use atrito_keyword_table, only: find_choice
    use atrito_kinds, only: ip, wp
-   use atrito_deck, only: deck_t, card_t, option_t, token_t, token_text, is_empty_token, written_length, keyword_name, reading_order
+   use atrito_deck, only: deck_t, card_t, option_t, token_t, token_text, part_of, is_empty_token, written_length, keyword_name, &
+                          reading_order
    use atrito_diagnostics, only: report_error
    use atrito_deck_expressions, only: evaluate_at, has_own_degree, report_later, index_of_parameter
    use atrito_expressions, only: is_name, is_reserved_name
-   use atrito_lexer, only: trim_place
    use atrito_numbers, only: read_real, read_integer, NUMBER_OK, NUMBER_TOO_LARGE, NUMBER_NOT_INTEGER
    use atrito_strings, only: same_name, to_text, upper_case
    implicit none (type, external)
@@ -70,7 +70,7 @@ contains
          return
       end if
       associate (text => deck%sources(token%source)%text(token%first:token%last))
-         if (.not. is_expression(text)) then
+         if (index(text, '<') /= 1 .and. index(text, '-<') /= 1) then   ! value_of_expression checks the rest
             call number_of_text(deck, token, text, what, is_whole, value, ok, keyword)
             return
          end if
@@ -116,14 +116,6 @@ contains
       end select
    end subroutine number_of_text
 
-   !> Begins like an expression in angle brackets; value_of_expression checks the rest.
-   pure logical function is_expression(text)
-      character(len=*), intent(in) :: text
-
-      is_expression = text(1:1) == '<'
-      if (len(text) > 1 .and. .not. is_expression) is_expression = text(1:2) == '-<'
-   end function is_expression
-
    !> The value of `<expression>` or `-<expression>`; of a name alone it is that of the parameter.
    subroutine value_of_expression(deck, token, what, value, ok, keyword)
       type(deck_t), intent(in) :: deck
@@ -137,11 +129,7 @@ contains
 
       value = 0.0_wp
       text = token_text(deck, token)
-      place = token
-      place%first = token%first + merge(2, 1, text(1:1) == '-')
-      place%last = token%last - 1
-      call trim_place(deck%sources(token%source)%text, place%first, place%last)
-      place%column = token%column + place%first - token%first
+      place = part_of(deck, token, token%first + merge(2, 1, text(1:1) == '-'), token%last - 1)
       ok = .not. is_empty_token(place) .and. text(len(text):) == '>'
       if (.not. ok) then
          call report_error(deck, token, 'E-NUMBER', "'"//text//"' is neither a number nor <expression> of parameters", &
@@ -166,6 +154,8 @@ contains
       end associate
    end function is_own_name
 
+   !> The value of the parameter that an item names; ok: .false. when there is none before this place, which is reported here, or its
+   !> definition was reported.
    subroutine value_of_parameter(deck, place, what, value, ok)
       type(deck_t), intent(in) :: deck
       type(token_t), intent(in) :: place               !< its name
@@ -175,35 +165,21 @@ contains
       integer(ip) :: i
 
       value = 0.0_wp
-      call find_parameter(deck, place, i, what)
+      i = index_of_parameter(deck, token_text(deck, place))
       ok = i > 0
-      if (.not. ok) return
-      ok = deck%parameters(i)%known      ! if not, its definition is reported
-      value = deck%parameters(i)%value
-   end subroutine value_of_parameter
-
-   !> Index of the parameter that an item names, 0 when there is none before this place (reported).
-   subroutine find_parameter(deck, place, i, what)
-      type(deck_t), intent(in) :: deck
-      type(token_t), intent(in) :: place
-      integer(ip), intent(out) :: i
-      character(len=*), intent(in) :: what
-      character(len=:), allocatable :: name
-
-      name = token_text(deck, place)
-      i = index_of_parameter(deck, name)
-      if (i == 0) then
+      if (.not. ok) then
          if (deck%has_lost_parameters) return
-         call report_error(deck, place, 'E-PARAMETER', 'unknown parameter '//name, expected=what, &
+         call report_error(deck, place, 'E-PARAMETER', 'unknown parameter '//token_text(deck, place), expected=what, &
                            among=deck%parameter_names, keyword='PARAMETER')
          return
       end if
       associate (parameter => deck%parameters(i))
-         if (parameter%order < reading_order(deck, place%source, place%line)) return
+         ok = parameter%order < reading_order(deck, place%source, place%line)
+         if (.not. ok) call report_later(deck, place, i, what)
+         ok = ok .and. parameter%known
+         if (ok) value = parameter%value
       end associate
-      call report_later(deck, place, i, what)
-      i = 0
-   end subroutine find_parameter
+   end subroutine value_of_parameter
 
    !> An item that is a name: not empty, of at most 80 characters.
    subroutine get_name(deck, token, what, name, ok, keyword)

@@ -141,14 +141,15 @@ contains
       type(data_line_t), intent(in) :: line
       integer(ip), intent(in) :: k
       logical :: is_name, is_whole
-      integer :: f
+      integer :: f, i
 
       is_name = .true.
       is_whole = .true.
       associate (forms => deck%keywords(card%keyword)%forms)
          do f = 1, size(forms)
             if (.not. may_be_form(deck, line, forms(f))) cycle
-            select case (kind_of_item(forms(f), int(k)))
+            i = min(int(k) - merge(1, 0, len(forms(f)%word) > 0), size(forms(f)%items))  ! the last item may be repeated
+            select case (forms(f)%items(max(1, i))%kind)
             case (KIND_NAME)
                cycle
             case (KIND_INTEGER, KIND_ID, KIND_ID_OR_NAME)
@@ -175,14 +176,6 @@ contains
       if (may_be_form .and. len(form%word) > 0) may_be_form = same_name(form%word, token_text(deck, &
                                                                                               deck%tokens(line%first_token)))
    end function may_be_form
-
-   !> The last item of a form may be repeated.
-   pure integer function kind_of_item(form, k) result(kind)
-      type(form_t), intent(in) :: form
-      integer, intent(in) :: k
-
-      kind = form%items(max(1, min(k - merge(1, 0, len(form%word) > 0), size(form%items))))%kind
-   end function kind_of_item
 
    !> `<expression>` or `-<expression>` becomes a number that reads as the same value.
    subroutine note_value(deck, token, is_whole)

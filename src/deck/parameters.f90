@@ -1,13 +1,13 @@
 !> `*PARAMETER` and `--set`, and expressions of parameters and of the place.
 module atrito_parameters
    use atrito_kinds, only: ip, wp
-   use atrito_deck, only: deck_t, token_t, parameter_t, append_parameter, reading_order, token_text
+   use atrito_deck, only: deck_t, token_t, parameter_t, append_parameter, part_of, reading_order, token_text
    use atrito_diagnostics, only: report_error
    use atrito_expressions, only: expression_fault_t, evaluate_expression, is_name, is_reserved_name
    use atrito_deck_expressions, only: evaluate_at, has_own_degree, report_fault, collect_known, put_before, index_of_parameter, &
                                       is_known_at, parameter_names
    use atrito_items, only: LONGEST_NAME
-   use atrito_lexer, only: find_equals, trim_place
+   use atrito_lexer, only: find_equals
    use atrito_name_list, only: name_list_t, add_name, find_name, has_name, names_of
    use atrito_status, only: status_t, set_status, is_ok, STATUS_USAGE
    use atrito_strings, only: string_t, nearest_names, join, to_text
@@ -91,20 +91,6 @@ contains
       call append_parameter(deck, parameter)
    end subroutine define_parameter
 
-   !> The item at some characters of another one, without the blanks round them.
-   pure function part_of(deck, token, first, last) result(part)
-      type(deck_t), intent(in) :: deck
-      type(token_t), intent(in) :: token
-      integer(ip), intent(in) :: first, last
-      type(token_t) :: part
-
-      part = token
-      part%first = first
-      part%last = last
-      call trim_place(deck%sources(token%source)%text, part%first, part%last)
-      part%column = token%column + part%first - token%first
-   end function part_of
-
    subroutine check_name(deck, place, name, ok)
       type(deck_t), intent(in) :: deck
       type(token_t), intent(in) :: place
@@ -142,6 +128,7 @@ contains
       type(string_t), allocatable :: names(:)
       real(wp), allocatable :: known(:)
       type(string_t) :: coordinates(2)
+      real(wp) :: value
       integer(ip) :: i, k
 
       coordinates(1)%s = 'x'
@@ -158,7 +145,11 @@ contains
       call collect_known(deck, expression, names, known)
       call put_before(coordinates, names)
       ok = .true.
-      if (size(values) == 0) call check_text(deck, expression, names, known, ok, keyword)
+      if (size(values) == 0) then                      ! only the text of the expression can be wrong
+         call evaluate_expression(token_text(deck, expression), names, [0.0_wp, 0.0_wp, known], value, fault, has_own_degree(deck))
+         ok = .not. allocated(fault%text) .or. fault%of_value
+         if (.not. ok) call report_fault(deck, expression, fault, coordinates, keyword)
+      end if
       do i = 1, size(values, kind=ip)
          call evaluate_expression(token_text(deck, expression), names, [x(:, i), known], values(i), fault, &
                                   has_own_degree(deck))
@@ -169,22 +160,6 @@ contains
          return
       end do
    end subroutine evaluate_function
-
-   !> Without a place only the text of an expression can be wrong.
-   subroutine check_text(deck, expression, names, known, ok, keyword)
-      type(deck_t), intent(in) :: deck
-      type(token_t), intent(in) :: expression
-      type(string_t), intent(in) :: names(:)           !< x, y, parameters
-      real(wp), intent(in) :: known(:)                 !< values of the parameters
-      logical, intent(out) :: ok
-      character(len=*), intent(in) :: keyword
-      type(expression_fault_t) :: fault
-      real(wp) :: value
-
-      call evaluate_expression(token_text(deck, expression), names, [0.0_wp, 0.0_wp, known], value, fault, has_own_degree(deck))
-      ok = .not. allocated(fault%text) .or. fault%of_value
-      if (.not. ok) call report_fault(deck, expression, fault, names(:2), keyword)
-   end subroutine check_text
 
    !> status: STATUS_USAGE when a setting names no parameter of the deck; tells those that it has.
    subroutine check_settings(deck, settings, status)

@@ -126,7 +126,12 @@ contains
       do i = 1, store%n
          store%start(i + 1) = store%start(i) + 2*fem%mesh%shape(elements(i))
       end do
-      call collect_equations(fem, elements, store)
+      allocate (store%equations(store%start(store%n + 1)))
+      !$omp parallel do schedule(dynamic, CHUNK_LENGTH) if (is_shared(store%n))
+      do i = 1, store%n
+         store%equations(store%start(i) + 1:store%start(i + 1)) = element_equations(fem%mesh, fem%bodies, elements(i))
+      end do
+      !$omp end parallel do
       call compare_chunks(fem, elements, 0.0_wp, chunks, store%matrix_of)
       if (present(grain)) call look_for_near(fem, elements, grain, chunks, store)
       store%n_matrices = sum(chunks%n)
@@ -157,20 +162,6 @@ contains
       chunks = near_chunks
       call move_alloc(number, store%matrix_of)
    end subroutine look_for_near
-
-   subroutine collect_equations(fem, elements, store)
-      type(fem_t), intent(in) :: fem
-      integer(ip), intent(in) :: elements(:)
-      type(element_store_t), intent(inout) :: store
-      integer(ip) :: i
-
-      allocate (store%equations(store%start(store%n + 1)))
-      !$omp parallel do schedule(dynamic, CHUNK_LENGTH) if (is_shared(store%n))
-      do i = 1, store%n
-         store%equations(store%start(i) + 1:store%start(i + 1)) = element_equations(fem%mesh, fem%bodies, elements(i))
-      end do
-      !$omp end parallel do
-   end subroutine collect_equations
 
    !> Compares every element with the last different one before it, chunks side by side. A chunk has to guess what came before it
    !> (the first element of all, which is right in a regular mesh), and is compared again when it turns out to be another.

@@ -92,8 +92,12 @@ contains
       integer(ip) :: i
 
       products(:2*n, :2*n) = 0.0_wp
-      if (is_reduced) then
-         call integrate_reduced(n, x, products)
+      if (is_reduced .and. n == 4) then
+         call add_products(n, x, Q1R_XI_SLOPES, Q1R_ETA_SLOPES, 4.0_wp, products)
+      else if (is_reduced) then
+         do i = 1, size(S2R_XI_SLOPES, 2, kind=ip)
+            call add_products(n, x, S2R_XI_SLOPES(:, i), S2R_ETA_SLOPES(:, i), 1.0_wp, products)
+         end do
       else if (n == 4) then
          do i = 1, size(Q1_XI_SLOPES, 2, kind=ip)
             call add_products(n, x, Q1_XI_SLOPES(:, i), Q1_ETA_SLOPES(:, i), 1.0_wp, products)
@@ -139,22 +143,6 @@ contains
          call add_products(n, x, slopes(:, 1), slopes(:, 2), weight*dot_product(shape_values(n, xi), thickness), products)
       end do
    end subroutine integrate_tapered
-
-   !> The same at fewer points: 2 x 2 of eight nodes, the middle of four.
-   pure subroutine integrate_reduced(n, x, products)
-      integer(ip), intent(in) :: n
-      real(wp), intent(in) :: x(2, MOST_NODES)
-      real(wp), intent(inout) :: products(MOST_DOFS, MOST_DOFS)
-      integer(ip) :: i
-
-      if (n == 4) then
-         call add_products(n, x, Q1R_XI_SLOPES, Q1R_ETA_SLOPES, 4.0_wp, products)
-      else
-         do i = 1, size(S2R_XI_SLOPES, 2, kind=ip)
-            call add_products(n, x, S2R_XI_SLOPES(:, i), S2R_ETA_SLOPES(:, i), 1.0_wp, products)
-         end do
-      end if
-   end subroutine integrate_reduced
 
    !> What of the stiffness of four nodes the middle does not feel, in the blocks a < b.
    pure subroutine add_hourglass(x, section, state, thickness, k)

@@ -166,34 +166,21 @@ contains
       largest_orthotropic_strain = sqrt(square)
    end function largest_orthotropic_strain
 
-   !> A bound of the strains of an axisymmetric element at the points: the root of s11^2 + s22^2 + s33^2 + 2 s12^2 over the
-   !> least of 2G and 2G + 3 lambda.
-   pure real(wp) function largest_spatial_strain(n, d, s, hoop)
+   !> A bound of the strains at the points: the root of s11^2 + s22^2 + s33^2 + 2 s12^2 over the least of the moduli of elasticity;
+   !> s33 of rings alone.
+   pure real(wp) function largest_strain(n, compliance, s, hoop)
       integer(ip), intent(in) :: n
-      real(wp), intent(in) :: d(COMPONENTS, COMPONENTS) !< elasticity matrix [F/L^2]
-      real(wp), intent(in) :: s(MOST_POINTS, COMPONENTS), hoop(MOST_POINTS) !< [F/L^2]
-      real(wp) :: square, compliance
-      integer(ip) :: i
-
-      square = 0.0_wp
-      compliance = 1/(2*d(3, 3) + 3*min(d(1, 2), 0.0_wp))
-      do i = 1, n
-         square = max(square, sum((s(i, 1:2)*compliance)**2) + (hoop(i)*compliance)**2 + 2*(s(i, 3)*compliance)**2)
-      end do
-      largest_spatial_strain = sqrt(square)
-   end function largest_spatial_strain
-
-   !> A bound of the strains at the points: the root of s11^2 + s22^2 + 2 s12^2 over the least of 2G and 2(G + lambda).
-   pure real(wp) function largest_strain(n, compliance, s)
-      integer(ip), intent(in) :: n
-      real(wp), intent(in) :: compliance           !< 1 over that least one [L^2/F]
+      real(wp), intent(in) :: compliance           !< 1 over the least of 2G and 2(G + lambda), of rings of 2G and 2G + 3 lambda [L^2/F]
       real(wp), intent(in) :: s(MOST_POINTS, COMPONENTS)
-      real(wp) :: square
+      real(wp), intent(in), optional :: hoop(MOST_POINTS) !< s33 [F/L^2]; left out: 0
+      real(wp) :: square, s33
       integer(ip) :: i
 
       square = 0.0_wp
+      s33 = 0.0_wp
       do i = 1, n
-         square = max(square, (s(i, 1)*compliance)**2 + (s(i, 2)*compliance)**2 + 2*(s(i, 3)*compliance)**2)
+         if (present(hoop)) s33 = hoop(i)
+         square = max(square, (s(i, 1)*compliance)**2 + (s(i, 2)*compliance)**2 + (s33*compliance)**2 + 2*(s(i, 3)*compliance)**2)
       end do
       largest_strain = sqrt(square)
    end function largest_strain
@@ -234,8 +221,10 @@ contains
       call point_stresses(fem, e, u, rule, geometry, s, hoop)
       s(:rule%n, :) = s(:rule%n, :)*per_unit
       hoop(:rule%n) = hoop(:rule%n)*per_unit
-      if (.not. geometry%is_orthotropic) energies%strain = max(energies%strain, &
-                                                               largest_spatial_strain(rule%n, geometry%d, s, hoop))
+      if (.not. geometry%is_orthotropic) then
+         energies%strain = max(energies%strain, largest_strain(rule%n, 1/(2*geometry%d(3, 3) + 3*min(geometry%d(1, 2), 0.0_wp)), &
+                                                               s, hoop))
+      end if
       associate (place => field%place(:geometry%shape, e))
          do i = 1, rule%n
             associate (value => rule%value(i, :geometry%shape))

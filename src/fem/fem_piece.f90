@@ -28,7 +28,11 @@ contains
          own%state = mesh%state(elements)
          own%nodes = mesh%nodes(:, elements)
          if (allocated(mesh%thickness)) own%thickness = mesh%thickness(nodes)
-         call invert(nodes, local, before)
+         before = minval(nodes) - 1                ! less than all numbers
+         allocate (local(maxval(nodes) - before))
+         do i = 1, own%n_nodes
+            local(nodes(i) - before) = i
+         end do
          do i = 1, own%n_elements
             own%nodes(:own%shape(i), i) = local(own%nodes(:own%shape(i), i) - before)
          end do
@@ -38,19 +42,5 @@ contains
       piece%grain = fem%grain
       if (allocated(fem%heating)) piece%heating = fem%heating(nodes)
    end subroutine take_piece
-
-   !> Where each number stands in a list: number i at place(i - before).
-   pure subroutine invert(list, place, before)
-      integer(ip), intent(in) :: list(:)
-      integer(ip), allocatable, intent(out) :: place(:)
-      integer(ip), intent(out) :: before         !< less than all numbers
-      integer(ip) :: i
-
-      before = minval(list) - 1
-      allocate (place(maxval(list) - before))
-      do i = 1, size(list, kind=ip)
-         place(list(i) - before) = i
-      end do
-   end subroutine invert
 
 end module atrito_fem_piece

@@ -105,38 +105,32 @@ contains
    end subroutine measure_deformation
 
    !> The middle of an element whose nodes are its corners.
-   pure subroutine measure_middle(mesh, u, e, n_corners, largest)
+   pure subroutine measure_middle(mesh, u, element, n_corners, largest)
       type(mesh_t), intent(in) :: mesh
       real(wp), contiguous, intent(in) :: u(:, :)
-      integer(ip), intent(in) :: e, n_corners
+      integer(ip), intent(in) :: element, n_corners
       type(deformation_t), intent(inout) :: largest
-      integer(ip) :: i1, i2, i3, i4
-      real(wp) :: a1, a2, b1, b2, d1, d2, e1, e2, per, h(2, 2), x(2)
+      integer(ip) :: from(2), to(2)
+      real(wp) :: a(2), b(2), d(2), e(2), per, h(2, 2), x(2)
 
-      i1 = mesh%nodes(1, e)
-      i2 = merge(mesh%nodes(2, e), i1, n_corners == 4)  ! of three nodes two sides in place of the diagonals
-      i3 = mesh%nodes(n_corners - 1, e)
-      i4 = mesh%nodes(n_corners, e)
-      a1 = u(1, i3) - u(1, i1)
-      a2 = u(2, i3) - u(2, i1)
-      b1 = u(1, i4) - u(1, i2)
-      b2 = u(2, i4) - u(2, i2)
-      d1 = mesh%x(1, i3) - mesh%x(1, i1)
-      d2 = mesh%x(2, i3) - mesh%x(2, i1)
-      e1 = mesh%x(1, i4) - mesh%x(1, i2)
-      e2 = mesh%x(2, i4) - mesh%x(2, i2)
-      per = 1/(d1*e2 - d2*e1)
-      h(1, 1) = (a1*e2 - b1*d2)*per
-      h(2, 1) = (a2*e2 - b2*d2)*per
-      h(1, 2) = (b1*d1 - a1*e1)*per
-      h(2, 2) = (b2*d1 - a2*e1)*per
-      if (.not. (is_larger(h, largest) .or. is_revolved(mesh))) return
-      x = 0.25_wp*(mesh%x(:, i1) + mesh%x(:, i2) + mesh%x(:, i3) + mesh%x(:, i4))
-      if (n_corners == 3) x = (mesh%x(:, i1) + mesh%x(:, i3) + mesh%x(:, i4))/3
-      call note_gradient(h, e, x, largest)
+      associate (nodes => mesh%nodes(:, element))
+         from = [nodes(1), merge(nodes(2), nodes(1), n_corners == 4)]  ! of three nodes two sides in place of the diagonals
+         to = [nodes(n_corners - 1), nodes(n_corners)]
+      end associate
+      a = u(:, to(1)) - u(:, from(1))
+      b = u(:, to(2)) - u(:, from(2))
+      d = mesh%x(:, to(1)) - mesh%x(:, from(1))
+      e = mesh%x(:, to(2)) - mesh%x(:, from(2))
+      per = 1/(d(1)*e(2) - d(2)*e(1))
+      h(:, 1) = (a*e(2) - b*d(2))*per
+      h(:, 2) = (b*d(1) - a*e(1))*per
+      if (strain_of(h) <= largest%strain .and. rotation_of(h) <= largest%rotation .and. .not. is_revolved(mesh)) return
+      x = 0.25_wp*(mesh%x(:, from(1)) + mesh%x(:, from(2)) + mesh%x(:, to(1)) + mesh%x(:, to(2)))
+      if (n_corners == 3) x = (mesh%x(:, from(1)) + mesh%x(:, to(1)) + mesh%x(:, to(2)))/3
+      call note_gradient(h, element, x, largest)
       if (is_revolved(mesh)) then
-         associate (corners => mesh%nodes(:n_corners, e))
-            call note_strain(abs(sum(u(1, corners))/sum(mesh%x(1, corners))), e, x, largest)
+         associate (corners => mesh%nodes(:n_corners, element))
+            call note_strain(abs(sum(u(1, corners))/sum(mesh%x(1, corners))), element, x, largest)
          end associate
       end if
    end subroutine measure_middle
@@ -168,14 +162,6 @@ contains
       end do
    end subroutine measure_points
 
-   !> Whether strain or rotation of a gradient h(i, j) = du_i/dx_j is the largest so far.
-   pure logical function is_larger(h, largest)
-      real(wp), intent(in) :: h(2, 2)
-      type(deformation_t), intent(in) :: largest
-
-      is_larger = strain_of(h) > largest%strain .or. rotation_of(h) > largest%rotation
-   end function is_larger
-
    !> The largest absolute principal strain in the plane.
    pure real(wp) function strain_of(h)
       real(wp), intent(in) :: h(2, 2)
@@ -183,6 +169,7 @@ contains
       strain_of = 0.5_wp*(abs(h(1, 1) + h(2, 2)) + hypot(h(1, 1) - h(2, 2), h(1, 2) + h(2, 1)))
    end function strain_of
 
+   !> The rotation of a gradient h(i, j) = du_i/dx_j.
    pure real(wp) function rotation_of(h)
       real(wp), intent(in) :: h(2, 2)
 
@@ -195,11 +182,10 @@ contains
       integer(ip), intent(in) :: e
       real(wp), intent(in) :: x(2)                 !< [L]
       type(deformation_t), intent(inout) :: largest
-      real(wp) :: strain, rotation
+      real(wp) :: rotation
 
-      strain = strain_of(h)
       rotation = rotation_of(h)
-      call note_strain(strain, e, x, largest)
+      call note_strain(strain_of(h), e, x, largest)
       if (rotation > largest%rotation) then
          largest%rotation = rotation
          largest%rotation_element = e

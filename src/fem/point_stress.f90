@@ -83,7 +83,7 @@ contains
       integer(ip), intent(in) :: e
       type(point_rule_t), intent(in) :: rule
       type(point_geometry_t), intent(inout) :: geometry  !< of another element by the same rule, or nothing
-      real(wp) :: volume
+      real(wp) :: mean(2, 4), volume
       integer(ip) :: k, first
 
       if (geometry%section == fem%section_of(e) .and. geometry%state == fem%mesh%state(e)) then
@@ -126,7 +126,8 @@ contains
          k = geometry%shape
          call spread_ring_strains(rule%n, geometry%x(:, :k), geometry%radius, geometry%state, geometry%gradient, geometry%hoop)
       else if (has_mean_strains(geometry)) then
-         call spread_means(rule%n, geometry)
+         call tapered_means(geometry%x(:, :4), geometry%thickness(:4), mean, volume)
+         geometry%gradient(:rule%n, :, :4) = spread(mean, 1, rule%n)
       else if (IS_REDUCED(geometry%state)) then
          call spread_gradients(rule%n, geometry%shape, geometry%x, geometry%gradient)
       end if
@@ -308,19 +309,6 @@ contains
       has_mean_strains = geometry%shape == 4 .and. IS_REDUCED(geometry%state) &
                          .and. (geometry%has_hoop .or. IS_TAPERED(geometry%state))
    end function has_mean_strains
-
-   !> The means of the gradients at n points of a tapered element.
-   pure subroutine spread_means(n, geometry)
-      integer(ip), intent(in) :: n
-      type(point_geometry_t), intent(inout) :: geometry
-      real(wp) :: mean(2, 4), volume
-      integer(ip) :: i
-
-      call tapered_means(geometry%x(:, :4), geometry%thickness(:4), mean, volume)
-      do i = 1, n
-         geometry%gradient(i, :, :4) = mean
-      end do
-   end subroutine spread_means
 
    !> From the strains in the plane to the stresses of an axisymmetric element.
    pure subroutine axisymmetric_stresses(rule, geometry, way, u, s, hoop)

@@ -266,20 +266,28 @@ contains
       integer(ip), intent(in) :: n                 !< 1, 4 or 9; 1, 3, 6, 16 or 25
       integer(ip), intent(in) :: k                 !< 1 .. n
       real(wp), intent(out) :: xi(2), weight
-      real(wp) :: points(3), weights(3)
-      integer(ip) :: order, i, j
 
       if (SHAPES(n_nodes)%n_corners == 3) then
          call triangle_point(n, k, xi, weight)
-         return
+      else
+         call square_point(n, k, xi, weight)
       end if
+   end subroutine rule_point
+
+   pure subroutine square_point(n, k, xi, weight)
+      integer(ip), intent(in) :: n                 !< a square, of a number up to 5
+      integer(ip), intent(in) :: k
+      real(wp), intent(out) :: xi(2), weight
+      real(wp) :: points(5), weights(5)
+      integer(ip) :: order, i, j
+
       order = nint(sqrt(real(n, wp)), ip)
       call gauss_rule(order, points(:order), weights(:order))
       i = mod(k - 1, order) + 1
       j = (k - 1)/order + 1
       xi = [points(i), points(j)]
       weight = weights(i)*weights(j)
-   end subroutine rule_point
+   end subroutine square_point
 
    pure subroutine triangle_point(n, k, xi, weight)
       integer(ip), intent(in) :: n                 !< exact for polynomials of degree 1, 2, 4, 6, 8: 1, 3, 6, 16, 25
@@ -288,7 +296,11 @@ contains
       real(wp) :: t
 
       if (n > 6) then
-         call collapsed_point(n, k, xi, weight)
+         ! of the square whose side at xi = 1 is drawn together to a corner: the Jacobian takes one degree
+         call square_point(n, k, xi, weight)
+         xi(1) = 0.5_wp*(1 + xi(1))
+         xi(2) = 0.5_wp*(1 + xi(2))*(1 - xi(1))
+         weight = 0.25_wp*weight*(1 - xi(1))
          return
       end if
       if (n == 1) then
@@ -305,22 +317,5 @@ contains
       if (mod(k, 3_ip) == 2) xi(1) = 1 - 2*t
       if (mod(k, 3_ip) == 0) xi(2) = 1 - 2*t
    end subroutine triangle_point
-
-   !> Gauss points of the square whose side at xi = 1 is drawn together to a corner: the Jacobian takes one degree.
-   pure subroutine collapsed_point(n, k, xi, weight)
-      integer(ip), intent(in) :: n                 !< a square
-      integer(ip), intent(in) :: k
-      real(wp), intent(out) :: xi(2), weight
-      real(wp) :: points(5), weights(5)
-      integer(ip) :: order, i, j
-
-      order = nint(sqrt(real(n, wp)), ip)
-      call gauss_rule(order, points(:order), weights(:order))
-      i = mod(k - 1, order) + 1
-      j = (k - 1)/order + 1
-      xi(1) = 0.5_wp*(1 + points(i))
-      xi(2) = 0.5_wp*(1 + points(j))*(1 - xi(1))
-      weight = 0.25_wp*weights(i)*weights(j)*(1 - xi(1))
-   end subroutine collapsed_point
 
 end module atrito_shape_functions

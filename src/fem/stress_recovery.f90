@@ -59,8 +59,14 @@ contains
       type(stress_field_t), intent(out) :: field
       type(recovery_t) :: work
       real(wp), allocatable :: hoop(:, :)
+      integer(ip) :: k
 
-      call begin_recovery(fem, u, work)
+      call build_patches(fem, work%patches)
+      call make_point_rules(BEST_OF, work%best)
+      call make_point_rules(POINTS_OF, work%all)
+      k = max(1_ip, maxval(BEST_OF(fem%mesh%shape)))
+      allocate (work%x(2, k, fem%mesh%n_elements), work%s(COMPONENTS, k, fem%mesh%n_elements))
+      call sample_stresses(fem, u, work)
       field%n = work%patches%n
       allocate (field%stress(COMPONENTS, field%n), work%polynomial(field%n))
       call fit_stresses(fem, u, work, field%stress)
@@ -92,21 +98,6 @@ contains
       call borrow_stresses(fem%mesh, work, stress)
    end subroutine fit_stresses
 
-   !> Patches, rules, and the stresses at the best points of all elements.
-   subroutine begin_recovery(fem, u, work)
-      type(fem_t), intent(in) :: fem
-      real(wp), intent(in) :: u(:, :)
-      type(recovery_t), intent(out) :: work
-      integer(ip) :: k
-
-      call build_patches(fem, work%patches)
-      call make_point_rules(BEST_OF, work%best)
-      call make_point_rules(POINTS_OF, work%all)
-      k = max(1_ip, maxval(BEST_OF(fem%mesh%shape)))
-      allocate (work%x(2, k, fem%mesh%n_elements), work%s(COMPONENTS, k, fem%mesh%n_elements))
-      call sample_stresses(fem, u, work)
-   end subroutine begin_recovery
-
    !> The stresses at the best points of all elements.
    subroutine sample_stresses(fem, u, work)
       type(fem_t), intent(in) :: fem
@@ -134,11 +125,7 @@ contains
       do e = first, last
          associate (rule => work%best(fem%mesh%shape(e)))
             call fetch_geometry(fem, e, rule, geometry)
-            if (work%of_hoop) then
-               call hoop_stresses(fem, e, u, rule, geometry, s)
-            else
-               call point_stresses(fem, e, u, rule, geometry, s)
-            end if
+            call stresses_at(fem, e, u, rule, geometry, work%of_hoop, s)
             do point = 1, rule%n
                work%s(:, point, e) = s(point, :)
                work%x(:, point, e) = geometry%place(point, :)
@@ -147,21 +134,27 @@ contains
       end do
    end subroutine sample_chunk
 
-   !> s33 in the place of the first stress in the plane, 0 in that of the others.
-   pure subroutine hoop_stresses(fem, e, u, rule, geometry, s)
+   !> The stresses of an element at the points of a rule; of a recovery of hoop stresses s33 in the place of the first one and 0 in
+   !> that of the others.
+   pure subroutine stresses_at(fem, e, u, rule, geometry, of_hoop, s)
       type(fem_t), intent(in) :: fem
       integer(ip), intent(in) :: e
       real(wp), intent(in) :: u(:, :)
       type(point_rule_t), intent(in) :: rule
       type(point_geometry_t), intent(in) :: geometry
+      logical, intent(in) :: of_hoop
       real(wp), intent(inout) :: s(MOST_POINTS, COMPONENTS)
       real(wp) :: hoop(MOST_POINTS)
 
+      if (.not. of_hoop) then
+         call point_stresses(fem, e, u, rule, geometry, s)
+         return
+      end if
       hoop = 0.0_wp
       call point_stresses(fem, e, u, rule, geometry, s, hoop)
       s = 0.0_wp
       s(:, 1) = hoop
-   end subroutine hoop_stresses
+   end subroutine stresses_at
 
    !> The patches of one chunk of places: the stress at their nodes, and the polynomials that other nodes want.
    pure subroutine fit_chunk(fem, u, chunk, work, stress)
@@ -272,11 +265,7 @@ contains
       end if
       associate (rule => work%all(fem%mesh%shape(e)))
          call fetch_geometry(fem, e, rule, geometry)
-         if (work%of_hoop) then
-            call hoop_stresses(fem, e, u, rule, geometry, s)
-         else
-            call point_stresses(fem, e, u, rule, geometry, s)
-         end if
+         call stresses_at(fem, e, u, rule, geometry, work%of_hoop, s)
          do point = 1, rule%n
             call add_sample(first + geometry%place(point, :), s(point, :), fit)
          end do

@@ -131,33 +131,24 @@ contains
             do k = 2, n
                fe(:, k) = fe(:, k) + push(i, 1:2)*point_rows(geometry, i, k)
             end do
-            if (geometry%is_orthotropic) call add_shear(n, geometry%gradient(i, :, :n), push(i, 3), fe)
+            if (.not. geometry%is_orthotropic) cycle
+            do k = 2, n
+               fe(:, k) = fe(:, k) + push(i, 3)*geometry%gradient(i, 2:1:-1, k)
+            end do
          end do
          fe(:, 1) = -sum(fe(:, 2:n), dim=2)        ! the gradients add up to 0
          if (geometry%has_hoop) call add_hoop(rule, geometry, push(:, COMPONENTS + 1), fe)
          if (geometry%is_orthotropic) then
             blocked = blocked + 0.5_wp*dot_product(push(:rule%n, 1) + push(:rule%n, 2) + push(:rule%n, 4), strain(:rule%n))
          else
-            blocked = blocked + 0.5_wp*free_axes(state)*sum(push(:rule%n, 1)*strain(:rule%n))
+            ! along two axes, or three, the temperature meets stiffness: not across a thin plate
+            blocked = blocked + 0.5_wp*merge(2.0_wp, 3.0_wp, STATES(state)%is_thin)*sum(push(:rule%n, 1)*strain(:rule%n))
          end if
       end associate
       do k = 1, n
          f(:, fem%mesh%nodes(k, e)) = f(:, fem%mesh%nodes(k, e)) + fe(:, k)
       end do
    end subroutine add_element
-
-   !> What a shear stress does at a point.
-   pure subroutine add_shear(n, gradient, push, fe)
-      integer(ip), intent(in) :: n
-      real(wp), intent(in) :: gradient(2, n)       !< of the shape functions [1/L]; of the first nothing
-      real(wp), intent(in) :: push                 !< [F L]
-      real(wp), intent(inout) :: fe(2, MOST_NODES)
-      integer(ip) :: k
-
-      do k = 2, n
-         fe(:, k) = fe(:, k) + push*[gradient(2, k), gradient(1, k)]
-      end do
-   end subroutine add_shear
 
    !> The volume of a point [L^3]: all of it where the strains are means.
    pure real(wp) function volume_at(geometry, rule, i, thickness) result(volume)
@@ -209,12 +200,5 @@ contains
          fe(1, :n) = fe(1, :n) + (push(i)/(geometry%radius + geometry%place(i, 1)))*rule%value(i, :n)
       end do
    end subroutine add_hoop
-
-   !> Along how many axes the temperature meets stiffness: not across a thin plate.
-   pure real(wp) function free_axes(state)
-      integer(ip), intent(in) :: state             !< place in STATES
-
-      free_axes = merge(2.0_wp, 3.0_wp, STATES(state)%is_thin)
-   end function free_axes
 
 end module atrito_thermal_loads

@@ -44,7 +44,7 @@ contains
       integer(ip), intent(in) :: set(:)
       type(free_set_factor_t), intent(inout) :: factor
       integer(ip), intent(out) :: dependent      !< 0, or an unknown whose row depends on those before; then there is no factor
-      integer(ip) :: i, n, failed
+      integer(ip) :: i, j, n, failed
 
       n = size(set, kind=ip)
       if (allocated(factor%matrix)) then
@@ -54,7 +54,12 @@ contains
       factor%set = set
       factor%steps = 0
       factor%scale = [(1.0_wp/sqrt(c(set(i), set(i)) + d(set(i))), i=1, n)]
-      call gather(c, set, factor%scale, factor%matrix)
+      !$omp parallel do schedule(static) default(none) shared(c, set, factor) if(size(set) >= LEAST_KEPT)
+      do j = 1, size(set, kind=ip)
+         factor%matrix(:, j) = c(set, set(j))*(factor%scale*factor%scale(j))
+         factor%matrix(j, j) = 1.0_wp
+      end do
+      !$omp end parallel do
       call factor_in_blocks(factor%matrix, failed)
       if (failed == 0) then
          do i = 1, n
@@ -66,31 +71,6 @@ contains
       dependent = set(failed)
       deallocate (factor%set)
    end subroutine factor_free_set
-
-   !> The scaled matrix, by columns.
-   subroutine gather(c, set, scale, m)
-      real(wp), intent(in), contiguous :: c(:, :)
-      integer(ip), intent(in) :: set(:)
-      real(wp), intent(in) :: scale(:)
-      real(wp), intent(out), contiguous :: m(:, :)
-      integer(ip) :: j
-
-      !$omp parallel do schedule(static) default(none) shared(c, set, scale, m) if(size(set) >= LEAST_KEPT)
-      do j = 1, size(set, kind=ip)
-         call gather_column(c(:, set(j)), set, scale*scale(j), m(:, j))
-         m(j, j) = 1.0_wp
-      end do
-      !$omp end parallel do
-   end subroutine gather
-
-   pure subroutine gather_column(c, set, scale, m)
-      real(wp), intent(in), contiguous :: c(:)
-      integer(ip), intent(in) :: set(:)
-      real(wp), intent(in) :: scale(:)
-      real(wp), intent(out) :: m(:)
-
-      m = c(set)*scale
-   end subroutine gather_column
 
    !> Estimate of the condition of the scaled matrix, in the 1-norm. Its norm is that of the upper triangle, which is still there.
    real(wp) function condition_of(factor) result(condition)

@@ -295,7 +295,10 @@ contains
             node = nodes(i)
             k = i
             do while (k > gap)
-               if (.not. comes_before(graph, node, nodes(k - gap))) exit
+               associate (other => nodes(k - gap))
+                  if (degree(graph, node) > degree(graph, other)) exit
+                  if (degree(graph, node) == degree(graph, other) .and. node >= other) exit
+               end associate
                nodes(k) = nodes(k - gap)
                k = k - gap
             end do
@@ -304,13 +307,6 @@ contains
          gap = gap/FACTOR
       end do
    end subroutine sort_by_degree
-
-   pure logical function comes_before(graph, one, other)
-      type(graph_t), intent(in) :: graph
-      integer(ip), intent(in) :: one, other
-
-      comes_before = degree(graph, one) < degree(graph, other) .or. (degree(graph, one) == degree(graph, other) .and. one < other)
-   end function comes_before
 
    pure integer(ip) function degree(graph, node)
       type(graph_t), intent(in) :: graph

@@ -191,7 +191,8 @@ contains
       real(wp) :: place
       integer :: along, bit
 
-      bit = work%guide%n_halvings - 1 - depth_of(number)
+      ! of the halvings the one that belongs to the cuts that led to this set: number has one binary digit more than they are
+      bit = work%guide%n_halvings - (bit_size(number) - leadz(number))
       associate (element => work%element(first:last), centre => work%centre(:, first:last))
          is_upper = .false.
          if (bit >= 0) is_upper = btest(work%guide%half(element), bit)
@@ -208,13 +209,6 @@ contains
       end associate
       middle = first + middle - 1
    end subroutine split
-
-   !> Cuts that led to the set of a cut.
-   pure integer function depth_of(number)
-      integer(lp), intent(in) :: number
-
-      depth_of = int(bit_size(number)) - 1 - leadz(number)
-   end function depth_of
 
    pure subroutine sort_by_side(is_upper, element, centre, n_lower)
       logical, intent(in) :: is_upper(:)
@@ -374,6 +368,7 @@ contains
       integer(ip), intent(inout) :: order(:)
       type(dissection_t), intent(inout) :: parts
       integer(ip), intent(out) :: root
+      real(wp) :: work
       integer(ip) :: n, i
 
       root = maxval(children)
@@ -381,23 +376,14 @@ contains
       if (n == 0 .and. minval(children) == 0) return
       order(parts%n_nodes + 1:parts%n_nodes + n) = separator
       parts%n_nodes = parts%n_nodes + n
-      call add_work(n, parts%n_nodes - before, parts)
+      work = real(n, wp)**3                      ! and were the set a square of a regular mesh
+      parts%work = parts%work + work
+      parts%regular_work = parts%regular_work + min(work, real(parts%n_nodes - before, wp)**1.5_wp)
       call close_part(parts, root)
       do i = 1, 2
          if (children(i) > 0) parts%parent(children(i)) = root
       end do
    end subroutine add_part
-
-   !> Adds the work of a separator, and what it would be were its set a square of a regular mesh.
-   pure subroutine add_work(n_separator, n_nodes, parts)
-      integer(ip), intent(in) :: n_separator, n_nodes !< of the set, separator included
-      type(dissection_t), intent(inout) :: parts
-      real(wp) :: work
-
-      work = real(n_separator, wp)**3
-      parts%work = parts%work + work
-      parts%regular_work = parts%regular_work + min(work, real(n_nodes, wp)**1.5_wp)
-   end subroutine add_work
 
    !> Ends a part at the last node; it has no parent yet.
    pure subroutine close_part(parts, root)

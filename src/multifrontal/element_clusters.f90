@@ -156,7 +156,10 @@ contains
             call count_shared_nodes(lists, clusters%of_element, c, element(i), seen, tally)
          end do
          n = clusters%first(c)
-         call make_room(n + tally%n, clusters)
+         if (n + tally%n > size(clusters%neighbour)) then
+            call grow(clusters%neighbour, 2*int(n + tally%n, lp))
+            call grow(clusters%shared, 2*int(n + tally%n, lp))
+         end if
          clusters%neighbour(n:n + tally%n - 1) = tally%list(:tally%n)
          clusters%shared(n:n + tally%n - 1) = tally%times(tally%list(:tally%n))
          clusters%first(c + 1) = n + tally%n
@@ -185,14 +188,5 @@ contains
          end do
       end do
    end subroutine count_shared_nodes
-
-   pure subroutine make_room(n, clusters)
-      integer(ip), intent(in) :: n               !< neighbours
-      type(cluster_t), intent(inout) :: clusters
-
-      if (n <= size(clusters%neighbour)) return
-      call grow(clusters%neighbour, 2*int(n, lp))
-      call grow(clusters%shared, 2*int(n, lp))
-   end subroutine make_room
 
 end module atrito_element_clusters

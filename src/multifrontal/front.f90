@@ -116,41 +116,26 @@ contains
    subroutine update_rest(order, first, last, front)
       integer(ip), intent(in) :: order, first, last
       real(wp), intent(inout) :: front(order, order)
-      integer(ip) :: start
+      integer(ip) :: start, n
 
       do start = last + 1, order, TILE
          !$omp task default(none) shared(front) firstprivate(start, order, first, last) if(order - last > 2*TILE)
-         call divide_rows(order, first, last, start, min(start + TILE - 1, order), front)
+         call dtrsm('R', 'L', 'T', 'N', min(TILE, order - start + 1), last - first + 1, 1.0_wp, front(first, first), order, &
+                    front(start, first), order)
          !$omp end task
       end do
       !$omp taskwait
       do start = last + 1, order, TILE
-         !$omp task default(none) shared(front) firstprivate(start, order, first, last) if(order - last > 2*TILE)
-         call update_columns(order, first, last, start, min(start + TILE - 1, order), front)
+         !$omp task default(none) shared(front) firstprivate(start, order, first, last) private(n) if(order - last > 2*TILE)
+         n = min(TILE, order - start + 1)
+         call dsyrk('L', 'N', n, last - first + 1, -1.0_wp, front(start, first), order, 1.0_wp, front(start, start), order)
+         if (start + n <= order) call dgemm('N', 'T', order - start - n + 1, n, last - first + 1, -1.0_wp, &
+                                            front(start + n, first), order, front(start, first), order, 1.0_wp, &
+                                            front(start + n, start), order)
          !$omp end task
       end do
       !$omp taskwait
    end subroutine update_rest
-
-   !> Rows of L from those of the matrix.
-   subroutine divide_rows(order, first, last, start, end, front)
-      integer(ip), intent(in) :: order, first, last, start, end
-      real(wp), intent(inout) :: front(order, *)
-
-      call dtrsm('R', 'L', 'T', 'N', end - start + 1, last - first + 1, 1.0_wp, front(first, first), order, front(start, first), &
-                 order)
-   end subroutine divide_rows
-
-   !> Takes the products of a panel off some columns, from the diagonal down.
-   subroutine update_columns(order, first, last, start, end, front)
-      integer(ip), intent(in) :: order, first, last, start, end
-      real(wp), intent(inout) :: front(order, *)
-
-      call dsyrk('L', 'N', end - start + 1, last - first + 1, -1.0_wp, front(start, first), order, 1.0_wp, front(start, start), &
-                 order)
-      if (end < order) call dgemm('N', 'T', order - end, end - start + 1, last - first + 1, -1.0_wp, front(end + 1, first), &
-                                  order, front(start, first), order, 1.0_wp, front(end + 1, start), order)
-   end subroutine update_columns
 
    !> Columns of a lower triangle one behind the other.
    subroutine pack_columns(order, front, first, last, packed)

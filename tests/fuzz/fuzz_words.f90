@@ -1,7 +1,7 @@
 !> What a mutation puts into a deck: words of the deck language, numbers that a careless reader bends, characters that no deck
 !> should hold.
 module fuzz_words
-   use atrito_foreign_keywords, only: IGNORED_KEYWORDS, OUTSIDE_KEYWORDS
+   use atrito_foreign_keywords, only: foreign_keywords, FOREIGN_IGNORED, FOREIGN_OUTSIDE
    use atrito_keyword, only: keyword_t
    use atrito_keyword_table, only: keyword_table
    use atrito_kinds, only: ip
@@ -69,9 +69,11 @@ contains
       call add_words(NUMBERS, dictionary%items)            ! twice: they are what matters most
       call add_words(FOREIGN_ITEMS, dictionary%items)
       call add_controls(dictionary%items)
-      call add_lines(FOREIGN_LINES, '', dictionary%lines)
-      call add_lines(IGNORED_KEYWORDS, '*', dictionary%lines)
-      call add_lines(OUTSIDE_KEYWORDS%name, '*', dictionary%lines)
+      do i = 1, size(FOREIGN_LINES, kind=ip)
+         call append_string(dictionary%lines, trim(FOREIGN_LINES(i))//NEW_LINE_CHARACTER)
+      end do
+      call add_names(foreign_keywords(FOREIGN_IGNORED), dictionary%lines)
+      call add_names(foreign_keywords(FOREIGN_OUTSIDE), dictionary%lines)
       do i = 1, size(EXPRESSIONS, kind=ip)
          call append_string(dictionary%lines, '*PARAMETER'//NEW_LINE_CHARACTER//trim(EXPRESSIONS(i))//NEW_LINE_CHARACTER)
       end do
@@ -87,15 +89,15 @@ contains
       end do
    end subroutine add_words
 
-   pure subroutine add_lines(words, before, list)
-      character(len=*), intent(in) :: words(:), before
+   pure subroutine add_names(names, list)
+      type(string_t), intent(in) :: names(:)
       type(string_t), allocatable, intent(inout) :: list(:)
       integer :: i
 
-      do i = 1, size(words)
-         call append_string(list, before//trim(words(i))//NEW_LINE_CHARACTER)
+      do i = 1, size(names)
+         call append_string(list, '*'//names(i)%s//NEW_LINE_CHARACTER)
       end do
-   end subroutine add_lines
+   end subroutine add_names
 
    pure subroutine add_keyword(keyword, dictionary)
       type(keyword_t), intent(in) :: keyword

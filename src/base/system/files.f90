@@ -45,9 +45,8 @@ module atrito_files
    integer(lp), parameter :: LARGEST_FILE = 2000000000_lp
    !> A text has no zero byte; of a file with one in its first bytes no more than these is read.
    integer, parameter :: FIRST_BYTES = 65536
-   !> Answers of c_open_input.
-   integer(c_int), parameter :: NOT_THERE = -1, NOT_ALLOWED = -2, IS_FOLDER_CODE = -3, IS_PIPE = -4, IS_DEVICE = -5, &
-                                OF_SYSTEM = -6, OUTSIDE = -7, NOT_OPENED = -8
+   !> Answers of c_open_input; the reasons for all of them are in tell_unread.
+   integer(c_int), parameter :: NOT_THERE = -1, NOT_ALLOWED = -2, IS_FOLDER_CODE = -3, NOT_OPENED = -8
    !> Of a file of the system no more is read: what is asked for stands near its beginning.
    integer, parameter :: LONGEST_SYSTEM_FILE = 65536
 
@@ -141,28 +140,15 @@ contains
    !> What is read must be a plain file: a folder has no text, and a pipe that nobody writes into would never end.
    pure subroutine tell_unread(path, code, status)
       character(len=*), intent(in) :: path
-      integer(c_int), intent(in) :: code            !< of c_open_input
+      integer(c_int), intent(in) :: code            !< of c_open_input, < 0
       type(status_t), intent(out) :: status
       character(len=*), parameter :: PLAIN = '; a plain file is expected'
+      character(len=60), parameter :: REASONS(8) = [character(len=60) :: 'cannot be read: no such file', &
+                                    'cannot be read: permission denied', 'is a folder', 'is a pipe or a terminal'//PLAIN, &
+                                    'is a device'//PLAIN, 'is a file of the system'//PLAIN, &
+                                    'is outside of the folder of --confine', 'cannot be read']
 
-      select case (code)
-      case (NOT_THERE)
-         call set_status(status, STATUS_FILE, path//': cannot be read: no such file')
-      case (NOT_ALLOWED)
-         call set_status(status, STATUS_FILE, path//': cannot be read: permission denied')
-      case (IS_FOLDER_CODE)
-         call set_status(status, STATUS_FILE, path//': is a folder')
-      case (IS_PIPE)
-         call set_status(status, STATUS_FILE, path//': is a pipe or a terminal'//PLAIN)
-      case (IS_DEVICE)
-         call set_status(status, STATUS_FILE, path//': is a device'//PLAIN)
-      case (OF_SYSTEM)
-         call set_status(status, STATUS_FILE, path//': is a file of the system'//PLAIN)
-      case (OUTSIDE)
-         call set_status(status, STATUS_FILE, path//': is outside of the folder of --confine')
-      case default
-         call set_status(status, STATUS_FILE, path//': cannot be read')
-      end select
+      call set_status(status, STATUS_FILE, path//': '//trim(REASONS(min(-code, size(REASONS)))))
    end subroutine tell_unread
 
    !> status%text says why, without the name of the file.

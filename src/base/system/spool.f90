@@ -4,7 +4,7 @@
 !> The first failure is kept in `is_sound`, after which nothing more is written.
 module atrito_spool
    use, intrinsic :: iso_c_binding, only: c_associated, c_loc, c_null_char, c_null_ptr, c_ptr, c_size_t
-   use atrito_kinds, only: lp, wp
+   use atrito_kinds, only: lp
    use atrito_paths, only: nearest_folder
    use atrito_system, only: c_close_file, c_go_to_place, c_open_nameless, c_place_in_file, c_read_bytes, c_write_bytes
    implicit none (type, external)
@@ -18,15 +18,15 @@ module atrito_spool
 
    !> Writes values at the place where the file is.
    interface put_values
-      module procedure put_reals, put_longs, put_text
+      module procedure put_numbers, put_text
    end interface put_values
 
    !> Reads as many from there.
    interface get_values
-      module procedure get_reals, get_longs, get_text
+      module procedure get_numbers, get_text
    end interface get_values
 
-   integer(lp), parameter :: NUMBER_BYTES = 8_lp     !< of a real and of a long
+   integer(c_size_t), parameter :: NUMBER_BYTES = 8_c_size_t     !< of a real and of a long
 
 contains
 
@@ -65,62 +65,48 @@ contains
       spool%is_sound = .true.
    end subroutine give_up_rest
 
-   subroutine put_reals(spool, values)
+   subroutine put_numbers(spool, values)
       type(spool_t), intent(inout) :: spool
-      real(wp), intent(in), contiguous, target :: values(:)
+      type(*), intent(in), contiguous, target :: values(:)    !< reals or longs
 
-      if (size(values) > 0) call put_bytes(spool, c_loc(values), NUMBER_BYTES*size(values, kind=lp))
-   end subroutine put_reals
-
-   subroutine put_longs(spool, values)
-      type(spool_t), intent(inout) :: spool
-      integer(lp), intent(in), contiguous, target :: values(:)
-
-      if (size(values) > 0) call put_bytes(spool, c_loc(values), NUMBER_BYTES*size(values, kind=lp))
-   end subroutine put_longs
+      call put_bytes(spool, c_loc(values), NUMBER_BYTES*size(values, kind=c_size_t))
+   end subroutine put_numbers
 
    subroutine put_text(spool, text)
       type(spool_t), intent(inout) :: spool
       character(len=*), intent(in), target :: text
 
-      if (len(text) > 0) call put_bytes(spool, c_loc(text), len(text, kind=lp))
+      call put_bytes(spool, c_loc(text), len(text, kind=c_size_t))
    end subroutine put_text
 
    subroutine put_bytes(spool, bytes, length)
       type(spool_t), intent(inout) :: spool
       type(c_ptr), intent(in) :: bytes
-      integer(lp), intent(in) :: length
+      integer(c_size_t), intent(in) :: length
 
-      if (spool%is_sound) spool%is_sound = c_write_bytes(spool%stream, bytes, int(length, c_size_t)) == 1
+      if (spool%is_sound) spool%is_sound = c_write_bytes(spool%stream, bytes, length) == 1
    end subroutine put_bytes
 
-   subroutine get_reals(spool, values)
+   subroutine get_numbers(spool, values)
       type(spool_t), intent(inout) :: spool
-      real(wp), intent(inout), contiguous, target :: values(:)
+      type(*), intent(inout), contiguous, target :: values(:) !< reals or longs
 
-      if (size(values) > 0) call get_bytes(spool, c_loc(values), NUMBER_BYTES*size(values, kind=lp))
-   end subroutine get_reals
-
-   subroutine get_longs(spool, values)
-      type(spool_t), intent(inout) :: spool
-      integer(lp), intent(inout), contiguous, target :: values(:)
-
-      if (size(values) > 0) call get_bytes(spool, c_loc(values), NUMBER_BYTES*size(values, kind=lp))
-   end subroutine get_longs
+      call get_bytes(spool, c_loc(values), NUMBER_BYTES*size(values, kind=c_size_t))
+   end subroutine get_numbers
 
    subroutine get_text(spool, text)
       type(spool_t), intent(inout) :: spool
       character(len=*), intent(inout), target :: text
 
-      if (len(text) > 0) call get_bytes(spool, c_loc(text), len(text, kind=lp))
+      call get_bytes(spool, c_loc(text), len(text, kind=c_size_t))
    end subroutine get_text
 
    subroutine get_bytes(spool, bytes, length)
       type(spool_t), intent(inout) :: spool
       type(c_ptr), intent(in) :: bytes
-      integer(lp), intent(in) :: length
+      integer(c_size_t), intent(in) :: length
 
-      if (spool%is_sound) spool%is_sound = c_read_bytes(spool%stream, bytes, int(length, c_size_t)) == 1
+      if (spool%is_sound) spool%is_sound = c_read_bytes(spool%stream, bytes, length) == 1
    end subroutine get_bytes
 
    !> Closes the file, which is gone then, and makes the spool as it was before it was opened.

@@ -38,6 +38,14 @@ module atrito_system
          import :: c_char, c_int
          character(kind=c_char), intent(in) :: path(*)
       end function ask_path
+      integer(c_int) function ask_two(one, other) bind(C)
+         import :: c_char, c_int
+         character(kind=c_char), intent(in) :: one(*), other(*)
+      end function ask_two
+      type(c_ptr) function open_path(path) bind(C)
+         import :: c_char, c_ptr
+         character(kind=c_char), intent(in) :: path(*)
+      end function open_path
       integer(c_int64_t) function ask_bytes() bind(C)
          import :: c_int64_t
       end function ask_bytes
@@ -93,6 +101,16 @@ module atrito_system
    procedure(ask_bytes), bind(C, name='atrito_stack_limit') :: stack_limit
    procedure(act), bind(C, name='atrito_keep_freed_memory') :: keep_freed_memory
    procedure(ask_bytes), bind(C, name='atrito_reusable_memory') :: reusable_memory
+   !> 1: the file has its new name, in one step of the file system; whatever had that name is replaced.
+   procedure(ask_two), bind(C, name='atrito_rename') :: c_rename
+   !> What a name in a folder is, as c_kind_of tells it of a path.
+   procedure(ask_two), bind(C, name='atrito_kind_in') :: c_kind_in
+   !> 1: the line is at the end of a plain file, which is made where it is missing; lines of several processes do not mix.
+   procedure(ask_two), bind(C, name='atrito_append_line') :: c_append_line
+   !> A file that is not there yet, to be written; null: it cannot be made.
+   procedure(open_path), bind(C, name='atrito_create_file') :: c_create_file
+   !> A file without a name on the disk of a folder, to be written and read, which is gone with the process; null: there is none.
+   procedure(open_path), bind(C, name='atrito_open_nameless') :: c_open_nameless
 
    interface
       !> 1: a file of the process is a terminal.
@@ -100,27 +118,16 @@ module atrito_system
          import :: c_int
          integer(c_int), value :: file              !< 1: standard output, 2: standard error
       end function c_is_terminal
-      !> 1: so many bytes of address space can be had now, in one piece.
-      integer(c_int) function c_has_address_space(bytes) bind(C, name='atrito_has_address_space')
-         import :: c_int, c_int64_t
-         integer(c_int64_t), value :: bytes
-      end function c_has_address_space
       !> How many threads there can be beside this one, 0 to most: they are made, and end at once.
       integer(c_int) function c_count_threads(most) bind(C, name='atrito_count_threads')
          import :: c_int
          integer(c_int), value :: most
       end function c_count_threads
-      !> 1: the folder is new; where is_noted is 1 it is noted then, to be removed if the program is interrupted.
-      integer(c_int) function c_make_folder(path, is_noted) bind(C, name='atrito_make_folder')
-         import :: c_char, c_int
-         character(kind=c_char), intent(in) :: path(*)
-         integer(c_int), value :: is_noted
-      end function c_make_folder
-      !> 1: the file has its new name, in one step of the file system; whatever had that name is replaced.
-      integer(c_int) function c_rename(from, to) bind(C, name='atrito_rename')
-         import :: c_char, c_int
-         character(kind=c_char), intent(in) :: from(*), to(*)
-      end function c_rename
+      !> How a worker has ended: -1 while it runs; else its exit code, or 128 and the number of the signal that ended it.
+      integer(c_int) function worker_end(id) bind(C, name='atrito_worker_end')
+         import :: c_int
+         integer(c_int), value :: id                !< of c_begin_worker
+      end function worker_end
       !> The path without links, `.` and `..`: its length, 0 where there is no such file or its path has more than `room` bytes.
       integer(c_int) function c_true_path(path, resolved, room) bind(C, name='atrito_true_path')
          import :: c_char, c_int
@@ -128,6 +135,24 @@ module atrito_system
          character(kind=c_char), intent(inout) :: resolved(*)
          integer(c_int), value :: room
       end function c_true_path
+      !> Reads a small file of the system at once: the number of bytes.
+      integer(c_int) function c_read_system(path, text, room) bind(C, name='atrito_read_system')
+         import :: c_char, c_int
+         character(kind=c_char), intent(in) :: path(*)
+         character(kind=c_char), intent(inout) :: text(*)
+         integer(c_int), value :: room
+      end function c_read_system
+      !> 1: so many bytes of address space can be had now, in one piece.
+      integer(c_int) function c_has_address_space(bytes) bind(C, name='atrito_has_address_space')
+         import :: c_int, c_int64_t
+         integer(c_int64_t), value :: bytes
+      end function c_has_address_space
+      !> 1: the folder is new; where is_noted is 1 it is noted then, to be removed if the program is interrupted.
+      integer(c_int) function c_make_folder(path, is_noted) bind(C, name='atrito_make_folder')
+         import :: c_char, c_int
+         character(kind=c_char), intent(in) :: path(*)
+         integer(c_int), value :: is_noted
+      end function c_make_folder
       !> Opens a file to be read: its descriptor and its length [bytes], or, negative, why it is not opened (atrito_files has the
       !> words).
       integer(c_int) function c_open_input(path, length) bind(C, name='atrito_open_input')
@@ -135,11 +160,6 @@ module atrito_system
          character(kind=c_char), intent(in) :: path(*)
          integer(c_int64_t), intent(inout) :: length
       end function c_open_input
-      !> What a name in a folder is, as c_kind_of tells it of a path.
-      integer(c_int) function c_kind_in(folder, name) bind(C, name='atrito_kind_in')
-         import :: c_char, c_int
-         character(kind=c_char), intent(in) :: folder(*), name(*)
-      end function c_kind_in
       !> 1: a text has nothing but printable characters of ASCII.
       pure integer(c_int) function c_is_plain(text, length) bind(C, name='atrito_is_plain')
          import :: c_char, c_int, c_size_t
@@ -173,13 +193,6 @@ module atrito_system
          character(kind=c_char), intent(inout) :: text(*)
          integer(c_int), value :: room, from_end
       end function c_peek
-      !> Reads a small file of the system at once: the number of bytes.
-      integer(c_int) function c_read_system(path, text, room) bind(C, name='atrito_read_system')
-         import :: c_char, c_int
-         character(kind=c_char), intent(in) :: path(*)
-         character(kind=c_char), intent(inout) :: text(*)
-         integer(c_int), value :: room
-      end function c_read_system
       !> The n-th name in a folder that ends so, from 1 on: its length; 0: there is none.
       integer(c_int) function c_find_name(folder, ending, n, name, room) bind(C, name='atrito_find_name')
          import :: c_char, c_int
@@ -199,16 +212,6 @@ module atrito_system
          character(kind=c_char), intent(in) :: command(*)
          real(c_double), value :: seconds
       end function c_run_command
-      !> A file that is not there yet, to be written; null: it cannot be made.
-      type(c_ptr) function c_create_file(path) bind(C, name='atrito_create_file')
-         import :: c_char, c_ptr
-         character(kind=c_char), intent(in) :: path(*)
-      end function c_create_file
-      !> A file without a name on the disk of a folder, to be written and read, which is gone with the process; null: there is none.
-      type(c_ptr) function c_open_nameless(folder) bind(C, name='atrito_open_nameless')
-         import :: c_char, c_ptr
-         character(kind=c_char), intent(in) :: folder(*)
-      end function c_open_nameless
       !> The place that is read or written next [bytes]; -1: it is not known.
       integer(c_int64_t) function c_place_in_file(file) bind(C, name='atrito_place_in_file')
          import :: c_int64_t, c_ptr
@@ -237,16 +240,6 @@ module atrito_system
          integer(c_int), value :: file              !< of c_open_lock
          real(c_double), value :: seconds
       end function c_lock_folder
-      !> 1: the line is at the end of a plain file, which is made where it is missing; lines of several processes do not mix.
-      integer(c_int) function c_append_line(path, line) bind(C, name='atrito_append_line')
-         import :: c_char, c_int
-         character(kind=c_char), intent(in) :: path(*), line(*)
-      end function c_append_line
-      !> How a worker has ended: -1 while it runs; else its exit code, or 128 and the number of the signal that ended it.
-      integer(c_int) function worker_end(id) bind(C, name='atrito_worker_end')
-         import :: c_int
-         integer(c_int), value :: id                !< of c_begin_worker
-      end function worker_end
       !> Does nothing for so many seconds; a signal ends it earlier.
       subroutine pause_for(seconds) bind(C, name='atrito_pause')
          import :: c_double

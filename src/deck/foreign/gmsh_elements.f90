@@ -25,8 +25,7 @@ module atrito_gmsh_elements
 contains
 
    !> The section $Elements, behind its first line.
-   subroutine read_elements(text, is_new, words, mesh)
-      character(len=*), intent(in) :: text
+   subroutine read_elements(is_new, words, mesh)
       logical, intent(in) :: is_new                    !< format 4.1, else 2.2
       type(words_t), intent(inout) :: words
       type(gmsh_mesh_t), intent(inout) :: mesh
@@ -34,21 +33,21 @@ contains
       integer(ip) :: n_blocks, n, i
 
       if (is_new) then
-         call begin_line(text, words, 'number of blocks', n_blocks)
-         call take_integer(text, words, 'number of elements', n)
+         call begin_line(words, 'number of blocks', n_blocks)
+         call take_integer(words, 'number of elements', n)
       else
-         call begin_line(text, words, 'number of elements', n)
+         call begin_line(words, 'number of elements', n)
          n_blocks = n                                  ! each line a block of one
       end if
-      call check_count(text, words, n, 4_ip)
-      call check_count(text, words, n_blocks, 4_ip)
+      call check_count(words, n, 4_ip)
+      call check_count(words, n_blocks, 4_ip)
       if (.not. words%ok) return
       call trim_gmsh_mesh(mesh, n)
       do i = 1, n_blocks
          if (is_new) then
-            call read_element_block(text, words, mesh, n)
+            call read_element_block(words, mesh, n)
          else
-            call read_old_element(text, words, old, mesh)
+            call read_old_element(words, old, mesh)
          end if
          if (.not. words%ok) return
       end do
@@ -57,22 +56,21 @@ contains
    end subroutine read_elements
 
    !> Format 4.1: number, nodes.
-   subroutine read_element_block(text, words, mesh, n)
-      character(len=*), intent(in) :: text
+   subroutine read_element_block(words, mesh, n)
       type(words_t), intent(inout) :: words
       type(gmsh_mesh_t), intent(inout) :: mesh
       integer(ip), intent(in) :: n                     !< elements in all
       integer(ip) :: head(4), i, id, part
 
-      call begin_line(text, words, 'dimension of the entity', head(1))
-      call take_integer(text, words, 'tag of the entity', head(2))
-      call take_integer(text, words, 'type of the elements', head(3))
+      call begin_line(words, 'dimension of the entity', head(1))
+      call take_integer(words, 'tag of the entity', head(2))
+      call take_integer(words, 'type of the elements', head(3))
       call check_type(words, head(3))
-      call take_integer(text, words, 'number of elements', head(4))
+      call take_integer(words, 'number of elements', head(4))
       if (words%ok .and. (head(4) < 0 .or. head(4) > n - mesh%n_elements)) then
          call fail(words, 'more elements in the blocks than in all', to_text(n)//' in all')
       end if
-      call end_line(text, words, 'four integers')
+      call end_line(words, 'four integers')
       if (.not. words%ok) return
       part = find_part(mesh, DIM_OF_TYPE(head(3)), head(2))
       if (part == 0) then
@@ -80,36 +78,35 @@ contains
          part = mesh%n_parts
       end if
       do i = 1, head(4)
-         call begin_line(text, words, 'element number', id)
+         call begin_line(words, 'element number', id)
          call check_number(words, id)
-         call take_nodes(text, words, mesh, id, part, NODES_OF_TYPE(head(3)))
+         call take_nodes(words, mesh, id, part, NODES_OF_TYPE(head(3)))
          if (.not. words%ok) return
       end do
    end subroutine read_element_block
 
    !> Format 2.2: number, type, how many tags, physical group, entity, further tags, nodes.
-   subroutine read_old_element(text, words, old, mesh)
-      character(len=*), intent(in) :: text
+   subroutine read_old_element(words, old, mesh)
       type(words_t), intent(inout) :: words
       type(old_part_t), intent(inout) :: old
       type(gmsh_mesh_t), intent(inout) :: mesh
       integer(ip) :: id, kind, n_tags, tags(2), i, other
 
-      call begin_line(text, words, 'element number', id)
+      call begin_line(words, 'element number', id)
       call check_number(words, id)
-      call take_integer(text, words, 'type of the element', kind)
+      call take_integer(words, 'type of the element', kind)
       call check_type(words, kind)
-      call take_integer(text, words, 'number of tags', n_tags)
-      call check_count(text, words, n_tags, 2_ip)
+      call take_integer(words, 'number of tags', n_tags)
+      call check_count(words, n_tags, 2_ip)
       tags = 0
       do i = 1, n_tags
-         call take_integer(text, words, 'a tag', other)
+         call take_integer(words, 'a tag', other)
          if (i <= 2) tags(i) = other
          if (.not. words%ok) return
       end do
       if (.not. words%ok) return
       call find_old_part(old, mesh, [DIM_OF_TYPE(kind), tags(2), abs(tags(1))])
-      call take_nodes(text, words, mesh, id, old%part, NODES_OF_TYPE(kind))
+      call take_nodes(words, mesh, id, old%part, NODES_OF_TYPE(kind))
    end subroutine read_old_element
 
    !> Format 2.2 knows no entities but by their elements: one of each group.
@@ -126,18 +123,17 @@ contains
       old%part = mesh%n_parts
    end subroutine find_old_part
 
-   subroutine take_nodes(text, words, mesh, id, part, n)
-      character(len=*), intent(in) :: text
+   subroutine take_nodes(words, mesh, id, part, n)
       type(words_t), intent(inout) :: words
       type(gmsh_mesh_t), intent(inout) :: mesh
       integer(ip), intent(in) :: id, part, n
       integer(ip) :: nodes(MOST_NODES), i
 
       do i = 1, n
-         call take_integer(text, words, 'node number', nodes(i))
+         call take_integer(words, 'node number', nodes(i))
          call check_number(words, nodes(i))
       end do
-      call end_line(text, words, to_text(n)//' nodes')
+      call end_line(words, to_text(n)//' nodes')
       if (words%ok) call add_element(mesh, id, part, nodes(:n))
    end subroutine take_nodes
 

@@ -28,25 +28,26 @@ contains
 
    !> Reads the text of a file. fault%text is not allocated when all is well.
    subroutine read_gmsh_text(text, mesh, fault)
-      character(len=*), intent(in) :: text
+      character(len=*), intent(in), target :: text
       type(gmsh_mesh_t), intent(inout) :: mesh
       type(fault_t), intent(out) :: fault
       type(reading_t) :: reading
       logical :: found
 
+      reading%words%text => text
       call trim_gmsh_mesh(mesh, 0_ip)
       allocate (mesh%node_id(0), mesh%x(2, 0), mesh%names(0))
-      call next_line(text, reading%words, found)
-      if (found) found = word_is(text, reading%words, '$MeshFormat')
+      call next_line(reading%words, found)
+      if (found) found = word_is(reading%words, '$MeshFormat')
       if (found) then
-         call read_format(text, reading)
+         call read_format(reading)
       else
          call fail(reading%words, 'this is no mesh of Gmsh', 'a file that begins with $MeshFormat: gmsh -2 drawing.geo')
       end if
       do while (reading%words%ok)
-         call next_line(text, reading%words, found)
+         call next_line(reading%words, found)
          if (.not. found) exit
-         call read_section(text, reading, mesh)
+         call read_section(reading, mesh)
       end do
       if (reading%words%ok .and. .not. (reading%has_nodes .and. reading%has_elements)) then
          call fail(reading%words, 'the file has no '//trim(merge('$Elements', '$Nodes   ', reading%has_nodes)), &
@@ -56,47 +57,46 @@ contains
       call trim_gmsh_mesh(mesh, mesh%n_elements)
    end subroutine read_gmsh_text
 
-   subroutine read_section(text, reading, mesh)
-      character(len=*), intent(in) :: text
+   subroutine read_section(reading, mesh)
       type(reading_t), intent(inout) :: reading
       type(gmsh_mesh_t), intent(inout) :: mesh
       character(len=:), allocatable :: name
 
-      name = text(reading%words%first:reading%words%last)
+      name = reading%words%text(reading%words%first:reading%words%last)
       select case (name)
       case ('$PhysicalNames')
-         call read_names(text, reading%words, mesh)
+         call read_names(reading%words, mesh)
       case ('$Entities')
-         call read_entities(text, reading%words, mesh)
+         call read_entities(reading%words, mesh)
       case ('$Nodes')
          if (reading%has_nodes) call fail(reading%words, 'a second $Nodes', 'one mesh a file')
          reading%has_nodes = .true.
-         call read_nodes(text, reading, mesh)
+         call read_nodes(reading, mesh)
       case ('$Elements')
          if (reading%has_elements) call fail(reading%words, 'a second $Elements', 'one mesh a file')
          reading%has_elements = .true.
-         call read_elements(text, reading%is_new, reading%words, mesh)
+         call read_elements(reading%is_new, reading%words, mesh)
       case ('$PartitionedEntities')
          call fail(reading%words, 'a partitioned mesh', 'a mesh that is saved whole: Mesh.PartitionCount = 0')
       case default
-         call skip_section(text, reading%words, name)
+         call skip_section(reading%words, name)
          return
       end select
-      call end_section(text, reading%words, '$End'//name(2:))
+      call end_section(reading%words, '$End'//name(2:))
    end subroutine read_section
 
-   subroutine end_section(text, words, name)
-      character(len=*), intent(in) :: text, name
+   subroutine end_section(words, name)
+      character(len=*), intent(in) :: name
       type(words_t), intent(inout) :: words
 
       if (.not. words%ok) return
-      call go_on(text, words, name)
-      if (words%ok .and. .not. word_is(text, words, name)) call fail(words, 'this does not end the section', name)
+      call go_on(words, name)
+      if (words%ok .and. .not. word_is(words, name)) call fail(words, 'this does not end the section', name)
    end subroutine end_section
 
    !> Passes over what says nothing of a mesh.
-   subroutine skip_section(text, words, name)
-      character(len=*), intent(in) :: text, name
+   subroutine skip_section(words, name)
+      character(len=*), intent(in) :: name
       type(words_t), intent(inout) :: words
       type(words_t) :: begin
       logical :: found
@@ -108,60 +108,57 @@ contains
       begin = words
       found = .true.
       do while (found)
-         call next_line(text, words, found)
-         if (found .and. word_is(text, words, '$End'//name(2:))) return
+         call next_line(words, found)
+         if (found .and. word_is(words, '$End'//name(2:))) return
       end do
       words = begin
       call fail(words, 'the section has no end', '$End'//name(2:))
    end subroutine skip_section
 
-   subroutine read_format(text, reading)
-      character(len=*), intent(in) :: text
+   subroutine read_format(reading)
       type(reading_t), intent(inout) :: reading
       integer(ip) :: kind
 
-      call go_on(text, reading%words, '4.1 0 8')
+      call go_on(reading%words, '4.1 0 8')
       if (.not. reading%words%ok) return
-      if (word_is(text, reading%words, '4.1')) then
+      if (word_is(reading%words, '4.1')) then
          reading%is_new = .true.
-      else if (word_is(text, reading%words, '2.2')) then
+      else if (word_is(reading%words, '2.2')) then
          reading%is_new = .false.
       else
          call fail(reading%words, 'this format of Gmsh is not read', &
                    'format 4.1 or 2.2: gmsh old.msh -save -format msh41 -o new.msh')
          return
       end if
-      call take_integer(text, reading%words, 'kind of file', kind)
+      call take_integer(reading%words, 'kind of file', kind)
       if (reading%words%ok .and. kind /= 0) then
          call fail(reading%words, 'the file is binary', '0, a text file: gmsh -2 without -bin, Mesh.Binary = 0')
       end if
-      call end_section(text, reading%words, '$EndMeshFormat')
+      call end_section(reading%words, '$EndMeshFormat')
    end subroutine read_format
 
    !> dimension, tag, "name"
-   subroutine read_names(text, words, mesh)
-      character(len=*), intent(in) :: text
+   subroutine read_names(words, mesh)
       type(words_t), intent(inout) :: words
       type(gmsh_mesh_t), intent(inout) :: mesh
       integer(ip) :: i, n
 
-      call begin_line(text, words, 'number of physical names', n)
-      call check_count(text, words, n, 6_ip)
+      call begin_line(words, 'number of physical names', n)
+      call check_count(words, n, 6_ip)
       if (.not. words%ok) return
       deallocate (mesh%names)
       allocate (mesh%names(n))
       do i = 1, n
-         call begin_line(text, words, 'dimension of the group', mesh%names(i)%dim)
-         call take_integer(text, words, 'tag of the group', mesh%names(i)%tag)
-         call take_name(text, words, mesh%names(i)%name)
+         call begin_line(words, 'dimension of the group', mesh%names(i)%dim)
+         call take_integer(words, 'tag of the group', mesh%names(i)%tag)
+         call take_name(words, mesh%names(i)%name)
          if (.not. words%ok) return
          call note_group_name(mesh, i)
       end do
    end subroutine read_names
 
    !> A name in quotes; blanks and commas become _, as in Gmsh's own Abaqus files.
-   subroutine take_name(text, words, name)
-      character(len=*), intent(in) :: text
+   subroutine take_name(words, name)
       type(words_t), intent(inout) :: words
       character(len=:), allocatable, intent(out) :: name
       integer(ip) :: length, i
@@ -169,89 +166,86 @@ contains
 
       name = ''
       if (.not. words%ok) return
-      call take_word(text, words)
-      length = scan(text(words%first:), achar(10)//achar(13)) - 1
-      if (length < 0) length = len(text) - words%first + 1
-      length = scan(text(words%first:words%first + length - 1), '"', back=.true.)
+      call take_word(words)
+      length = scan(words%text(words%first:), achar(10)//achar(13)) - 1
+      if (length < 0) length = len(words%text) - words%first + 1
+      length = scan(words%text(words%first:words%first + length - 1), '"', back=.true.)
       words%last = words%first + length - 1
       is_name = length >= 3
-      if (is_name) is_name = text(words%first:words%first) == '"'
+      if (is_name) is_name = words%text(words%first:words%first) == '"'
       if (.not. is_name) then
          call fail(words, 'this is not a name', 'the name of the group in "quotes"')
          return
       end if
       words%position = words%last + 1
-      name = text(words%first + 1:words%last - 1)
+      name = words%text(words%first + 1:words%last - 1)
       do i = 1, len(name)
          if (scan(name(i:i), ' ,"') > 0 .or. iachar(name(i:i)) < iachar(' ')) name(i:i) = '_'
       end do
    end subroutine take_name
 
    !> Points: tag, x, y, z, groups; curves and surfaces: tag, a box of six numbers, groups, what bounds them.
-   subroutine read_entities(text, words, mesh)
-      character(len=*), intent(in) :: text
+   subroutine read_entities(words, mesh)
       type(words_t), intent(inout) :: words
       type(gmsh_mesh_t), intent(inout) :: mesh
       integer(ip) :: n(0:3), dim, i
 
-      call begin_line(text, words, 'number of points', n(0))
-      call take_integer(text, words, 'number of curves', n(1))
-      call take_integer(text, words, 'number of surfaces', n(2))
-      call take_integer(text, words, 'number of volumes', n(3))
+      call begin_line(words, 'number of points', n(0))
+      call take_integer(words, 'number of curves', n(1))
+      call take_integer(words, 'number of surfaces', n(2))
+      call take_integer(words, 'number of volumes', n(3))
       do dim = 0, 3
-         call check_count(text, words, n(dim), 8_ip)
+         call check_count(words, n(dim), 8_ip)
          if (.not. words%ok) return
          do i = 1, n(dim)
-            call read_entity(text, words, dim, mesh)
+            call read_entity(words, dim, mesh)
             if (.not. words%ok) return
          end do
       end do
    end subroutine read_entities
 
-   subroutine read_entity(text, words, dim, mesh)
-      character(len=*), intent(in) :: text
+   subroutine read_entity(words, dim, mesh)
       type(words_t), intent(inout) :: words
       integer(ip), intent(in) :: dim
       type(gmsh_mesh_t), intent(inout) :: mesh
       integer(ip), allocatable :: groups(:)
       integer(ip) :: tag, i, n
 
-      call begin_line(text, words, 'tag of the entity', tag)
+      call begin_line(words, 'tag of the entity', tag)
       do i = 1, merge(3, 6, dim == 0)
-         call take_word(text, words)
+         call take_word(words)
       end do
-      call take_integer(text, words, 'number of physical groups', n)
-      call check_count(text, words, n, 2_ip)
+      call take_integer(words, 'number of physical groups', n)
+      call check_count(words, n, 2_ip)
       if (.not. words%ok) return
       allocate (groups(n))
       do i = 1, n
-         call take_integer(text, words, 'tag of a physical group', groups(i))
+         call take_integer(words, 'tag of a physical group', groups(i))
       end do
       if (words%ok .and. dim < 3) call add_part(mesh, dim, tag, abs(groups))
    end subroutine read_entity
 
-   subroutine read_nodes(text, reading, mesh)
-      character(len=*), intent(in) :: text
+   subroutine read_nodes(reading, mesh)
       type(reading_t), intent(inout) :: reading
       type(gmsh_mesh_t), intent(inout) :: mesh
       integer(ip) :: n_blocks, n, i
 
       n_blocks = 0
       if (reading%is_new) then
-         call begin_line(text, reading%words, 'number of blocks', n_blocks)
-         call take_integer(text, reading%words, 'number of nodes', n)
+         call begin_line(reading%words, 'number of blocks', n_blocks)
+         call take_integer(reading%words, 'number of nodes', n)
       else
-         call begin_line(text, reading%words, 'number of nodes', n)
+         call begin_line(reading%words, 'number of nodes', n)
       end if
-      call check_count(text, reading%words, n, 6_ip)
+      call check_count(reading%words, n, 6_ip)
       if (.not. reading%words%ok) return
       deallocate (mesh%node_id, mesh%x)
       allocate (mesh%node_id(n), mesh%x(2, n))
       do i = 1, n_blocks
-         call read_node_block(text, reading, mesh)
+         call read_node_block(reading, mesh)
          if (.not. reading%words%ok) return
       end do
-      if (.not. reading%is_new) call read_node_lines(text, reading, mesh)
+      if (.not. reading%is_new) call read_node_lines(reading, mesh)
       if (.not. reading%words%ok) return
       if (mesh%n_nodes < n) call fail(reading%words, 'there are '//to_text(mesh%n_nodes)//' nodes in the blocks', &
                                       to_text(n)//' of them')
@@ -259,59 +253,56 @@ contains
    end subroutine read_nodes
 
    !> Format 4.1: numbers, then coordinates.
-   subroutine read_node_block(text, reading, mesh)
-      character(len=*), intent(in) :: text
+   subroutine read_node_block(reading, mesh)
       type(reading_t), intent(inout) :: reading
       type(gmsh_mesh_t), intent(inout) :: mesh
       integer(ip) :: head(4), i, n
 
-      call read_head(text, reading%words, 'number of nodes', head)
+      call read_head(reading%words, 'number of nodes', head)
       n = mesh%n_nodes
       if (reading%words%ok .and. (head(4) < 0 .or. head(4) > size(mesh%node_id) - n)) then
          call fail(reading%words, 'more nodes in the blocks than in all', to_text(size(mesh%node_id, kind=ip))//' in all')
       end if
       if (.not. reading%words%ok) return
       do i = n + 1, n + head(4)
-         call begin_line(text, reading%words, 'node number', mesh%node_id(i))
+         call begin_line(reading%words, 'node number', mesh%node_id(i))
          call check_number(reading%words, mesh%node_id(i))
          if (.not. reading%words%ok) return
       end do
       do i = n + 1, n + head(4)
-         call go_on(text, reading%words, 'x, y and z of a node')
+         call go_on(reading%words, 'x, y and z of a node')
          reading%words%position = reading%words%first
-         call take_place(text, reading, mesh%x(:, i))
+         call take_place(reading, mesh%x(:, i))
          if (.not. reading%words%ok) return
       end do
       mesh%n_nodes = n + head(4)
    end subroutine read_node_block
 
    !> Format 2.2: number, x, y, z.
-   subroutine read_node_lines(text, reading, mesh)
-      character(len=*), intent(in) :: text
+   subroutine read_node_lines(reading, mesh)
       type(reading_t), intent(inout) :: reading
       type(gmsh_mesh_t), intent(inout) :: mesh
       integer(ip) :: i
 
       do i = 1, size(mesh%node_id, kind=ip)
-         call begin_line(text, reading%words, 'node number', mesh%node_id(i))
+         call begin_line(reading%words, 'node number', mesh%node_id(i))
          call check_number(reading%words, mesh%node_id(i))
-         call take_place(text, reading, mesh%x(:, i))
-         call end_line(text, reading%words, 'number, x, y, z')
+         call take_place(reading, mesh%x(:, i))
+         call end_line(reading%words, 'number, x, y, z')
          if (.not. reading%words%ok) return
       end do
       mesh%n_nodes = size(mesh%node_id, kind=ip)
    end subroutine read_node_lines
 
    !> x, y, z; where z is greatest is kept.
-   subroutine take_place(text, reading, x)
-      character(len=*), intent(in) :: text
+   subroutine take_place(reading, x)
       type(reading_t), intent(inout) :: reading
       real(wp), intent(out) :: x(2)
       real(wp) :: z
 
-      call take_real(text, reading%words, 'x [L]', x(1))
-      call take_real(text, reading%words, 'y [L]', x(2))
-      call take_real(text, reading%words, 'z [L]', z)
+      call take_real(reading%words, 'x [L]', x(1))
+      call take_real(reading%words, 'y [L]', x(2))
+      call take_real(reading%words, 'z [L]', z)
       if (.not. abs(z) > reading%most_z) return
       reading%most_z = abs(z)
       associate (words => reading%words)

@@ -16,8 +16,9 @@ module atrito_gmsh_words
       integer(ip) :: first = 1, last = 0           !< characters of the text
    end type fault_t
 
-   !> A place in a text. A line is over when take_word finds nothing more.
+   !> A text and a place in it. A line is over when take_word finds nothing more.
    type :: words_t
+      character(len=:), pointer :: text => null()  !< of whoever reads it
       integer(ip) :: position = 1                  !< next character
       integer(ip) :: line = 0                      !< number of the present line
       integer(ip) :: start = 1                     !< its first character
@@ -31,8 +32,7 @@ module atrito_gmsh_words
 contains
 
    !> Goes to the next line that has a word, and takes that word; found is .false. at the end of the text.
-   subroutine next_line(text, words, found)
-      character(len=*), intent(in) :: text
+   subroutine next_line(words, found)
       type(words_t), intent(inout) :: words
       logical, intent(out) :: found
       integer(ip) :: i
@@ -40,41 +40,45 @@ contains
       found = .false.
       do
          if (words%line > 0) then                  ! over the rest of the present line
-            do i = words%position, len(text)
-               if (text(i:i) == LINE_FEED) exit
+            do i = words%position, len(words%text)
+               if (words%text(i:i) == LINE_FEED) exit
             end do
-            words%position = min(i, len(text)) + 1
+            words%position = min(i, len(words%text)) + 1
          end if
-         if (words%position > len(text)) exit
+         if (words%position > len(words%text)) exit
          words%line = words%line + 1
          words%start = words%position
-         call take_word(text, words)
+         call take_word(words)
          found = words%last >= words%first
          if (found) return
       end do
    end subroutine next_line
 
    !> The next word of the line; none: last < first.
-   pure subroutine take_word(text, words)
-      character(len=*), intent(in) :: text
+   pure subroutine take_word(words)
       type(words_t), intent(inout) :: words
-      integer(ip) :: i, n
 
-      n = len(text)
-      do i = words%position, n
-         if (text(i:i) == LINE_FEED .or. iachar(text(i:i)) > iachar(' ')) exit
-      end do
-      words%first = i
-      do i = words%first, n
-         if (iachar(text(i:i)) <= iachar(' ')) exit
-      end do
-      words%last = i - 1
-      words%position = i
+      call find_word(words%text, words%position, words%first, words%last)
+      words%position = words%last + 1
    end subroutine take_word
 
+   pure subroutine find_word(text, position, first, last)
+      character(len=*), intent(in) :: text
+      integer(ip), intent(in) :: position
+      integer(ip), intent(out) :: first, last
+
+      do first = position, len(text)
+         if (text(first:first) == LINE_FEED .or. iachar(text(first:first)) > iachar(' ')) exit
+      end do
+      do last = first, len(text)
+         if (iachar(text(last:last)) <= iachar(' ')) exit
+      end do
+      last = last - 1
+   end subroutine find_word
+
    !> The next word, which must be an integer.
-   subroutine take_integer(text, words, what, value)
-      character(len=*), intent(in) :: text, what
+   subroutine take_integer(words, what, value)
+      character(len=*), intent(in) :: what
       type(words_t), intent(inout) :: words
       integer(ip), intent(out) :: value
       integer(lp) :: sum
@@ -83,15 +87,15 @@ contains
 
       value = 0
       if (.not. words%ok) return
-      call take_word(text, words)
+      call take_word(words)
       sum = 0_lp
       first = words%first
       if (first < words%last) then
-         if (text(first:first) == '-') first = first + 1
+         if (words%text(first:first) == '-') first = first + 1
       end if
       words%ok = words%last >= first
       do i = first, words%last
-         digit = iachar(text(i:i)) - iachar('0')
+         digit = iachar(words%text(i:i)) - iachar('0')
          words%ok = words%ok .and. digit >= 0 .and. digit <= 9
          if (.not. words%ok) exit                    ! a long word of other characters would leave the integers
          sum = min(10_lp*sum + int(digit, lp), int(huge(1_ip), lp) + 1_lp)
@@ -107,16 +111,16 @@ contains
    end subroutine take_integer
 
    !> The next word, which must be a real.
-   subroutine take_real(text, words, what, value)
-      character(len=*), intent(in) :: text, what
+   subroutine take_real(words, what, value)
+      character(len=*), intent(in) :: what
       type(words_t), intent(inout) :: words
       real(wp), intent(out) :: value
       integer :: outcome
 
       value = 0.0_wp
       if (.not. words%ok) return
-      call take_word(text, words)
-      call read_real(text(words%first:words%last), value, outcome)
+      call take_word(words)
+      call read_real(words%text(words%first:words%last), value, outcome)
       if (outcome /= NUMBER_OK) call fail(words, missing_or(words, 'this is not a number'), what//', a real')
    end subroutine take_real
 
@@ -130,15 +134,15 @@ contains
    end function missing_or
 
    !> Nothing more may stand in the line.
-   subroutine end_line(text, words, expected)
-      character(len=*), intent(in) :: text, expected
+   subroutine end_line(words, expected)
+      character(len=*), intent(in) :: expected
       type(words_t), intent(inout) :: words
       integer(ip) :: first, last
 
       if (.not. words%ok) return
       first = words%first
       last = words%last
-      call take_word(text, words)
+      call take_word(words)
       if (words%last >= words%first) call fail(words, 'an item too many', expected)
       words%first = first                          ! what is said next is of the last item
       words%last = last
@@ -160,47 +164,46 @@ contains
    end subroutine fail
 
    !> Whether the word that was read last is this one, letter for letter.
-   pure logical function word_is(text, words, word)
-      character(len=*), intent(in) :: text, word
+   pure logical function word_is(words, word)
+      character(len=*), intent(in) :: word
       type(words_t), intent(in) :: words
 
       word_is = words%last - words%first + 1 == len(word)
-      if (word_is) word_is = text(words%first:words%last) == word
+      if (word_is) word_is = words%text(words%first:words%last) == word
    end function word_is
 
    !> To the next line, which must be there.
-   subroutine go_on(text, words, expected)
-      character(len=*), intent(in) :: text, expected
+   subroutine go_on(words, expected)
+      character(len=*), intent(in) :: expected
       type(words_t), intent(inout) :: words
       logical :: found
 
       if (.not. words%ok) return
-      call next_line(text, words, found)
+      call next_line(words, found)
       if (.not. found) call fail(words, 'the file ends too early', expected)
    end subroutine go_on
 
    !> The first word of the next line as an integer.
-   subroutine begin_line(text, words, what, value)
-      character(len=*), intent(in) :: text, what
+   subroutine begin_line(words, what, value)
+      character(len=*), intent(in) :: what
       type(words_t), intent(inout) :: words
       integer(ip), intent(out) :: value
 
       value = 0
-      call go_on(text, words, what)
+      call go_on(words, what)
       if (.not. words%ok) return
       words%position = words%first
-      call take_integer(text, words, what, value)
+      call take_integer(words, what, value)
    end subroutine begin_line
 
    !> A count of lines that the rest of the text can hold; each of so many characters at the least.
-   subroutine check_count(text, words, n, least)
-      character(len=*), intent(in) :: text
+   subroutine check_count(words, n, least)
       type(words_t), intent(inout) :: words
       integer(ip), intent(in) :: n, least
 
       if (.not. words%ok) return
       if (n < 0) call fail(words, 'a negative number', 'a number of lines')
-      if (n > (len(text) - words%position)/least + 1) call fail(words, 'the rest of the file is too short for so many', &
+      if (n > (len(words%text) - words%position)/least + 1) call fail(words, 'the rest of the file is too short for so many', &
                                                                 'as many as follow')
    end subroutine check_count
 
@@ -213,17 +216,17 @@ contains
    end subroutine check_number
 
    !> The head of a block of format 4.1.
-   subroutine read_head(text, words, what, head)
-      character(len=*), intent(in) :: text, what
+   subroutine read_head(words, what, head)
+      character(len=*), intent(in) :: what
       type(words_t), intent(inout) :: words
       integer(ip), intent(out) :: head(4)              !< dimension, entity, kind, how many
 
       head = 0
-      call begin_line(text, words, 'dimension of the entity', head(1))
-      call take_integer(text, words, 'tag of the entity', head(2))
-      call take_integer(text, words, 'kind', head(3))
-      call take_integer(text, words, what, head(4))
-      call end_line(text, words, 'four integers')
+      call begin_line(words, 'dimension of the entity', head(1))
+      call take_integer(words, 'tag of the entity', head(2))
+      call take_integer(words, 'kind', head(3))
+      call take_integer(words, what, head(4))
+      call end_line(words, 'four integers')
    end subroutine read_head
 
 end module atrito_gmsh_words

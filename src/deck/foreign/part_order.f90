@@ -1,7 +1,7 @@
 !> Parts, instances and the assembly: which of them is open, and what may stand in it.
 module atrito_part_order
    use atrito_deck, only: deck_t, card_t, token_t, token_text
-   use atrito_diagnostics, only: report_error
+   use atrito_diagnostics, only: report_error, refuse_card
    use atrito_kinds, only: ip
    use atrito_strings, only: same_name
    implicit none (type, external)
@@ -39,7 +39,8 @@ contains
          call open_block(deck, parts, card)
       case ('ASSEMBLY')
          call refuse_nesting(deck, parts, card)
-         if (parts%in_assembly .and. card%ok) call refuse(deck, card, '*ASSEMBLY inside the assembly', 'one *ASSEMBLY')
+         if (parts%in_assembly .and. card%ok) call refuse_card(deck, card, 'E-PART', '*ASSEMBLY inside the assembly', &
+                                                               'one *ASSEMBLY')
          parts%in_assembly = .true.
          parts%assembly_place = card%place
       case ('END PART', 'END INSTANCE')
@@ -47,7 +48,7 @@ contains
       case ('END ASSEMBLY')
          call refuse_nesting(deck, parts, card)
          if (.not. (parts%in_assembly .or. parts%is_loose)) then
-            call refuse(deck, card, '*END ASSEMBLY without an *ASSEMBLY', '*ASSEMBLY before it')
+            call refuse_card(deck, card, 'E-PART', '*END ASSEMBLY without an *ASSEMBLY', '*ASSEMBLY before it')
          end if
          parts%in_assembly = .false.
       case ('STEP')
@@ -87,9 +88,9 @@ contains
       if (.not. card%ok) then
          return
       else if (card%name == 'PART' .and. parts%in_assembly) then
-         call refuse(deck, card, '*PART inside the assembly', 'its place before *ASSEMBLY')
+         call refuse_card(deck, card, 'E-PART', '*PART inside the assembly', 'its place before *ASSEMBLY')
       else if (card%name == 'INSTANCE' .and. .not. (parts%in_assembly .or. parts%is_loose)) then
-         call refuse(deck, card, '*INSTANCE outside of an assembly', 'its place between *ASSEMBLY and *END ASSEMBLY')
+         call refuse_card(deck, card, 'E-PART', '*INSTANCE outside of an assembly', 'its place between *ASSEMBLY and *END ASSEMBLY')
          parts%is_loose = .true.
       end if
    end subroutine check_assembly
@@ -119,11 +120,11 @@ contains
       type(card_t), intent(inout) :: card
 
       if (.not. parts%in_block) then
-         call refuse(deck, card, '*'//trim(card%name)//' without '//trim(merge('a *PART     ', 'an *INSTANCE', &
+         call refuse_card(deck, card, 'E-PART', '*'//trim(card%name)//' without '//trim(merge('a *PART     ', 'an *INSTANCE', &
                                                                                card%name == 'END PART')), &
                      '*'//trim(card%name(5:))//' before it')
       else if (parts%block /= card%name(5:)) then
-         call refuse(deck, card, '*'//trim(card%name)//' inside '//open_text(parts), '*END '//trim(parts%block))
+         call refuse_card(deck, card, 'E-PART', '*'//trim(card%name)//' inside '//open_text(parts), '*END '//trim(parts%block))
       end if
       card%block = merge(parts%n_blocks, 0_ip, parts%in_block)
       parts%in_block = .false.
@@ -135,7 +136,7 @@ contains
       type(parts_t), intent(inout) :: parts
       type(card_t), intent(inout) :: card
 
-      if (parts%in_block .and. .not. parts%is_told) call refuse(deck, card, '*'//trim(card%name)//' inside '// &
+      if (parts%in_block .and. .not. parts%is_told) call refuse_card(deck, card, 'E-PART', '*'//trim(card%name)//' inside '// &
                                                                 open_text(parts), '*END '//trim(parts%block)//' before it')
       parts%in_block = .false.
    end subroutine refuse_nesting
@@ -150,7 +151,7 @@ contains
       card%block = 0
       if (parts%is_told) return
       parts%is_told = .true.
-      call refuse(deck, card, '*'//trim(card%name)//' stands inside '//open_text(parts), &
+      call refuse_card(deck, card, 'E-PART', '*'//trim(card%name)//' stands inside '//open_text(parts), &
                   'its place outside of parts and instances, which hold nodes, elements, sets, surfaces and sections')
    end subroutine check_member
 
@@ -161,14 +162,5 @@ contains
       text = 'the part '//parts%name
       if (parts%block == 'INSTANCE') text = 'the instance '//parts%name
    end function open_text
-
-   subroutine refuse(deck, card, text, expected)
-      type(deck_t), intent(in) :: deck
-      type(card_t), intent(inout) :: card
-      character(len=*), intent(in) :: text, expected
-
-      card%ok = .false.
-      call report_error(deck, card%place, 'E-PART', text, expected=expected, keyword=trim(card%name))
-   end subroutine refuse
 
 end module atrito_part_order

@@ -1,11 +1,12 @@
-!> Reference of the deck keywords for the terminal, 80 columns, from the keyword table.
+!> Reference of the deck keywords, from the keyword table: pages of 80 columns for the terminal, and docs/user/keywords.md.
 module atrito_help
-   use atrito_foreign_keywords, only: ask_keyword, SUBJECTS, NOT_FOREIGN, FOREIGN_IGNORED, FOREIGN_OUTSIDE
+   use atrito_foreign_keywords, only: subject_t, ask_keyword, foreign_keywords, take_subjects, NOT_FOREIGN, FOREIGN_IGNORED, &
+                                      FOREIGN_OUTSIDE
    use atrito_keyword, only: keyword_t, option_spec_t, form_t
    use atrito_keyword_table, only: keyword_table, find_keyword, packed
-   use atrito_keyword_text, only: form_text, option_text_of, choices_text, lines_text, condition_text, level_text, item_meaning
-   use atrito_manual, only: help_manual, foreign_names
-   use atrito_strings, only: string_t, append_string
+   use atrito_keyword_text, only: form_text, option_text_of, choices_text, lines_text, condition_text, &
+                                  with_dimension, item_meaning, LEVEL_TEXTS
+   use atrito_strings, only: string_t, append_string, upper_case
    implicit none (type, external)
    private
    public :: help_overview, help_keyword, help_manual
@@ -13,44 +14,46 @@ module atrito_help
    integer, parameter :: WIDTH = 80
    integer, parameter :: LEFT = 24               !< width of the left column
 
+   character(len=96), parameter :: INTRODUCTION(14) = [character(len=96) :: &
+                                                       '# Keywords of a deck', &
+                                                       '', &
+                                 'This page is printed by `atrito help all > docs/user/keywords.md` from the table that the deck', &
+                                                       'reader uses; do not edit it. `atrito help KEYWORD` prints one section.', &
+                                                       '', &
+                                 'A + marks what is atrito''s own; the rest is read by Abaqus or CalculiX too. Dimensions are in', &
+                                                     'force F, length L and time T; the units are yours, if they are consistent.', &
+                                                       '', &
+                                    'A deck is made of lines `*KEYWORD, OPTION=value`, each with its data lines of items between', &
+                                    'commas. `**` begins a comment. A comma at the end of a keyword line continues it. Names are', &
+                                 'without case and have at most 80 characters; "quotes" may stand round them; all digits means a', &
+                                 'number. A real may be written as an integer, an integer not as a real. An empty item takes its', &
+                                                       'default.', &
+                                                       '']
+
 contains
 
    !> One line a keyword.
    subroutine help_overview(lines)
       type(string_t), allocatable, intent(out) :: lines(:)
       type(keyword_t), allocatable :: table(:)
+      character(len=33), parameter :: TITLES(3) = [character(len=33) :: 'Model, before *STEP', &
+                                                                      'Step, between *STEP and *END STEP', 'Both']
+      integer :: i, level
 
       allocate (lines(0))
       table = keyword_table()
       call append_string(lines, "Keywords of a deck; + is atrito's own. More: atrito help KEYWORD")
-      call append_group(lines, table, 'Model, before *STEP', [.true., .false., .false.])
-      call append_group(lines, table, 'Step, between *STEP and *END STEP', [.false., .true., .false.])
-      call append_group(lines, table, 'Both', [.false., .false., .true.])
-      call append_string(lines, '')
-      call append_string(lines, 'Of other programs, without effect, a note')
+      do level = 1, size(TITLES)                       ! LEVEL_*
+         call append_block(lines, trim(TITLES(level)))
+         do i = 1, size(table)
+            if (table(i)%level == level) call append_entry(lines, title_of(table(i)), table(i)%summary)
+         end do
+      end do
+      call append_block(lines, 'Of other programs, without effect, a note')
       call append_wrapped(lines, '  ', foreign_names(table, FOREIGN_IGNORED))
-      call append_string(lines, '')
-      call append_string(lines, 'Of other programs, outside of atrito; atrito help KEYWORD says what instead')
+      call append_block(lines, 'Of other programs, outside of atrito; atrito help KEYWORD says what instead')
       call append_wrapped(lines, '  ', foreign_names(table, FOREIGN_OUTSIDE))
    end subroutine help_overview
-
-   subroutine append_group(lines, table, title, levels)
-      type(string_t), allocatable, intent(inout) :: lines(:)
-      type(keyword_t), intent(in) :: table(:)
-      character(len=*), intent(in) :: title
-      logical, intent(in) :: levels(:)             !< by LEVEL_*
-      character(len=:), allocatable :: name
-      integer :: i
-
-      call append_string(lines, '')
-      call append_string(lines, title)
-      do i = 1, size(table)
-         if (.not. levels(table(i)%level)) cycle
-         name = '*'//table(i)%name
-         if (table(i)%own) name = name//' +'
-         call append_entry(lines, name, table(i)%summary)
-      end do
-   end subroutine append_group
 
    !> The page of a keyword; found: .false. when there is none of this name, blanks and case apart.
    subroutine help_keyword(name, lines, found)
@@ -66,17 +69,42 @@ contains
       i = find_keyword(table, name(first:))
       found = i > 0
       if (found) then
-         call append_page(lines, table(i))
+         call append_title(lines, table(i))
+         call append_keyword(lines, table(i), .false.)
       else
          call append_foreign(lines, packed(name(first:)), found)
       end if
    end subroutine help_keyword
+
+   !> The manual page in Markdown.
+   subroutine help_manual(lines)
+      type(string_t), allocatable, intent(out) :: lines(:)
+      type(keyword_t), allocatable :: table(:)
+      integer :: i
+
+      allocate (lines(0))
+      table = keyword_table()
+      do i = 1, size(INTRODUCTION)
+         call append_string(lines, trim(INTRODUCTION(i)))
+      end do
+      call append_string(lines, '| keyword | where | what |')
+      call append_string(lines, '|---|---|---|')
+      do i = 1, size(table)
+         call append_row(lines, title_of(table(i)), trim(LEVEL_TEXTS(table(i)%level)), table(i)%summary)
+      end do
+      do i = 1, size(table)
+         call append_heading(lines, table(i))
+         call append_keyword(lines, table(i), .true.)
+      end do
+      call append_all_foreign(lines, table)
+   end subroutine help_manual
 
    !> What is known of a keyword of other programs.
    subroutine append_foreign(lines, word, found)
       type(string_t), allocatable, intent(inout) :: lines(:)
       character(len=*), intent(in) :: word
       logical, intent(out) :: found
+      type(subject_t), allocatable :: subjects(:)
       integer :: verdict, subject
 
       call ask_keyword(word, verdict, subject)
@@ -84,85 +112,184 @@ contains
       if (verdict == FOREIGN_IGNORED) then
          call append_string(lines, '*'//word//', of other programs, has no effect; a note says so.')
       else if (verdict == FOREIGN_OUTSIDE) then
-         call append_wrapped(lines, '', '*'//word//', of other programs, is outside of atrito: '//trim(SUBJECTS(subject)%what)//'.')
-         call append_wrapped(lines, '', 'Instead: '//trim(SUBJECTS(subject)%instead)//'.')
+         call take_subjects(subjects)
+         call append_wrapped(lines, '', '*'//word//', of other programs, is outside of atrito: '//subjects(subject)%what//'.')
+         call append_wrapped(lines, '', 'Instead: '//subjects(subject)%instead//'.')
       end if
    end subroutine append_foreign
 
-   subroutine append_page(lines, keyword)
+   !> The keyword on the left, its place on the right; then what it does.
+   subroutine append_title(lines, keyword)
       type(string_t), allocatable, intent(inout) :: lines(:)
       type(keyword_t), intent(in) :: keyword
-      integer :: i
+      character(len=:), allocatable :: title, place
 
-      call append_string(lines, title_line(keyword))
-      call append_wrapped(lines, '  ', keyword%summary)
-      if (len(keyword%doc) > 0) then
-         call append_string(lines, '')
-         call append_wrapped(lines, '  ', keyword%doc)
-      end if
-      if (size(keyword%options) > 0) then
-         call append_string(lines, '')
-         call append_string(lines, 'Options')
-      end if
-      do i = 1, size(keyword%options)
-         call append_option(lines, keyword%options(i))
-      end do
-      do i = 1, size(keyword%forms)
-         call append_form(lines, keyword%forms(i))
-      end do
-      if (size(keyword%example) == 0) return
-      call append_string(lines, '')
-      call append_string(lines, 'Example')
-      do i = 1, size(keyword%example)
-         call append_string(lines, '  '//keyword%example(i)%s)
-      end do
-   end subroutine append_page
-
-   !> The keyword on the left, its place on the right.
-   pure function title_line(keyword) result(line)
-      type(keyword_t), intent(in) :: keyword
-      character(len=:), allocatable :: line, place
-
-      line = '*'//keyword%name
-      if (keyword%own) line = line//" +"
-      place = level_text(keyword%level)
+      title = title_of(keyword)
+      place = trim(LEVEL_TEXTS(keyword%level))
       if (len(keyword%parent) > 0) place = 'behind *'//keyword%parent
-      line = line//repeat(' ', max(2, WIDTH - len(line) - len(place)))//place
-   end function title_line
+      call append_string(lines, title//repeat(' ', max(2, WIDTH - len(title) - len(place)))//place)
+      call append_wrapped(lines, '  ', keyword%summary)
+   end subroutine append_title
 
-   subroutine append_option(lines, option)
+   !> The same as a section of the manual.
+   subroutine append_heading(lines, keyword)
       type(string_t), allocatable, intent(inout) :: lines(:)
-      type(option_spec_t), intent(in) :: option
+      type(keyword_t), intent(in) :: keyword
       character(len=:), allocatable :: text
 
-      text = option%doc
-      if (len(option%dimension) > 0) text = text//' ['//option%dimension//']'
+      call append_block(lines, '## '//escaped(title_of(keyword)))
+      text = upper_case(keyword%summary(:1))//keyword%summary(2:)//'. Place: '//trim(LEVEL_TEXTS(keyword%level))
+      if (len(keyword%parent) > 0) text = text//', behind *'//keyword%parent
+      call append_block(lines, escaped(text)//'.')
+   end subroutine append_heading
+
+   !> What stands below the title, for the terminal or in Markdown.
+   subroutine append_keyword(lines, keyword, markdown)
+      type(string_t), allocatable, intent(inout) :: lines(:)
+      type(keyword_t), intent(in) :: keyword
+      logical, intent(in) :: markdown
+      integer :: i
+
+      if (len(keyword%doc) > 0) then
+         call append_string(lines, '')
+         if (markdown) call append_string(lines, escaped(keyword%doc))
+         if (.not. markdown) call append_wrapped(lines, '  ', keyword%doc)
+      end if
+      if (size(keyword%options) > 0 .and. markdown) then
+         call append_block(lines, '| option | meaning | default |')
+         call append_string(lines, '|---|---|---|')
+      else if (size(keyword%options) > 0) then
+         call append_block(lines, 'Options')
+      end if
+      do i = 1, size(keyword%options)
+         call append_option(lines, keyword%options(i), markdown)
+      end do
+      do i = 1, size(keyword%forms)
+         call append_form(lines, keyword%forms(i), markdown)
+      end do
+      if (size(keyword%example) == 0) return
+      call append_block(lines, trim(merge('```    ', 'Example', markdown)))
+      do i = 1, size(keyword%example)
+         call append_string(lines, repeat(' ', merge(0, 2, markdown))//keyword%example(i)%s)
+      end do
+      if (markdown) call append_string(lines, '```')
+   end subroutine append_keyword
+
+   subroutine append_option(lines, option, markdown)
+      type(string_t), allocatable, intent(inout) :: lines(:)
+      type(option_spec_t), intent(in) :: option
+      logical, intent(in) :: markdown                  !< the default has a column of its own
+      character(len=:), allocatable :: text, default
+
+      default = option%default
+      if (option%required) default = 'required'
+      text = with_dimension(option%doc, option%dimension)
       if (size(option%choices) > 0) text = text//': '//choices_text(option%choices)
-      if (len(option%default) > 0) text = text//'; default '//option%default
+      if (len(option%default) > 0 .and. .not. markdown) text = text//'; default '//option%default
       if (len(option%needs) > 0) text = text//'; goes with '//option%needs
-      if (option%required) text = text//' (required)'
+      if (option%required .and. .not. markdown) text = text//' (required)'
       if (.not. option%built) text = text//' (not built yet)'
       if (option%harmless) text = text//' (no effect, a note)'
-      call append_entry(lines, option_text_of(option), text)
+      if (markdown) then
+         call append_string(lines, '| '//escaped(option_text_of(option))//' | '//escaped(text)//' | '//default//' |')
+      else
+         call append_entry(lines, option_text_of(option), text)
+      end if
    end subroutine append_option
 
-   subroutine append_form(lines, form)
+   subroutine append_form(lines, form, markdown)
       type(string_t), allocatable, intent(inout) :: lines(:)
       type(form_t), intent(in) :: form
+      logical, intent(in) :: markdown
       character(len=:), allocatable :: title
       integer :: i
 
       title = 'Data lines'
       if (len(form%option) > 0) title = title//' '//condition_text(form)
       title = title//': '//form%doc//' ('//lines_text(form)//')'
-      if (form%harmless) title = title//', no effect'
       call append_string(lines, '')
-      call append_wrapped(lines, '', title)
-      call append_wrapped(lines, '  ', form_text(form))
+      if (markdown) then
+         if (form%harmless) title = title//' (no effect)'
+         call append_string(lines, escaped(title)//':')
+         call append_string(lines, '`'//form_text(form)//'`')
+         call append_string(lines, '')
+      else
+         if (form%harmless) title = title//', no effect'
+         call append_wrapped(lines, '', title)
+         call append_wrapped(lines, '  ', form_text(form))
+      end if
       do i = 1, size(form%items)
-         call append_entry(lines, form%items(i)%name, item_meaning(form%items(i)))
+         if (markdown) then
+            call append_string(lines, '- '//escaped(form%items(i)%name//': '//item_meaning(form%items(i))))
+         else
+            call append_entry(lines, form%items(i)%name, item_meaning(form%items(i)))
+         end if
       end do
    end subroutine append_form
+
+   !> All keywords of other programs, a section of the manual.
+   subroutine append_all_foreign(lines, table)
+      type(string_t), allocatable, intent(inout) :: lines(:)
+      type(keyword_t), intent(in) :: table(:)
+      type(subject_t), allocatable :: subjects(:)
+      character(len=:), allocatable :: names
+      integer :: i
+
+      call append_block(lines, '## Keywords of other programs')
+      call append_block(lines, 'These have no effect on a linear static run, and a note says so once:')
+      call append_string(lines, escaped(foreign_names(table, FOREIGN_IGNORED))//'.')
+      call append_block(lines, 'These are outside of atrito, and an error says so by name:')
+      call append_block(lines, '| what | keywords | instead |')
+      call append_string(lines, '|---|---|---|')
+      call take_subjects(subjects)
+      do i = 1, size(subjects)
+         names = foreign_names(table, FOREIGN_OUTSIDE, subjects(i)%key)
+         if (len(names) > 0) call append_row(lines, subjects(i)%what, names, subjects(i)%instead)
+      end do
+   end subroutine append_all_foreign
+
+   !> `*CONDUCTIVITY, *DAMPING`: what is known of other programs and is not in the table.
+   function foreign_names(table, verdict, subject) result(names)
+      type(keyword_t), intent(in) :: table(:)
+      integer, intent(in) :: verdict                !< FOREIGN_IGNORED, FOREIGN_OUTSIDE
+      character(len=*), intent(in), optional :: subject !< those of this key alone
+      character(len=:), allocatable :: names
+      type(string_t), allocatable :: list(:)
+      integer :: i
+
+      names = ''
+      list = foreign_keywords(verdict, subject)
+      do i = 1, size(list)
+         if (find_keyword(table, list(i)%s) > 0) cycle
+         if (len(names) > 0) names = names//', '
+         names = names//'*'//list(i)%s
+      end do
+   end function foreign_names
+
+   pure function title_of(keyword) result(title)
+      type(keyword_t), intent(in) :: keyword
+      character(len=:), allocatable :: title
+
+      title = '*'//keyword%name
+      if (keyword%own) title = title//' +'
+   end function title_of
+
+   !> An empty line and a line.
+   subroutine append_block(lines, line)
+      type(string_t), allocatable, intent(inout) :: lines(:)
+      character(len=*), intent(in) :: line
+
+      call append_string(lines, '')
+      call append_string(lines, line)
+   end subroutine append_block
+
+   !> A row of a table in Markdown.
+   subroutine append_row(lines, first, second, third)
+      type(string_t), allocatable, intent(inout) :: lines(:)
+      character(len=*), intent(in) :: first, second, third
+
+      call append_string(lines, '| '//escaped(first)//' | '//escaped(second)//' | '//escaped(third)//' |')
+   end subroutine append_row
 
    !> Two columns: a name, and its meaning wrapped beside it.
    subroutine append_entry(lines, name, text)
@@ -197,5 +324,18 @@ contains
          first = last + 1
       end do
    end subroutine append_wrapped
+
+   !> Characters that Markdown would take for its own.
+   pure function escaped(text) result(safe)
+      character(len=*), intent(in) :: text
+      character(len=:), allocatable :: safe
+      integer :: i
+
+      safe = ''
+      do i = 1, len(text)
+         if (scan(text(i:i), '*<>|_') > 0) safe = safe//'\'
+         safe = safe//text(i:i)
+      end do
+   end function escaped
 
 end module atrito_help

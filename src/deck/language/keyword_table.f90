@@ -1,9 +1,8 @@
 !> The one table of all keywords that the program knows.
 module atrito_keyword_table
-   use atrito_keyword, only: keyword_t, keyword_list_t, choice_t, option_spec_t, take_keywords
-   use atrito_mesh_keywords, only: define_mesh_keywords
-   use atrito_scene_keywords, only: define_scene_keywords
-   use atrito_step_keywords, only: define_step_keywords
+   use atrito_keyword, only: keyword_t, choice_t, option_spec_t
+   use atrito_keyword_lines, only: take_keyword_lines
+   use atrito_keyword_reader, only: read_keywords
    use atrito_strings, only: string_t, append_string, upper_case
    implicit none (type, external)
    private
@@ -14,12 +13,11 @@ contains
    !> The table, in the order of the manual.
    function keyword_table() result(table)
       type(keyword_t), allocatable :: table(:)
-      type(keyword_list_t) :: keywords
+      type(string_t), allocatable :: lines(:)
+      character(len=:), allocatable :: wrong       ! a unit test asks for it
 
-      call define_mesh_keywords(keywords)
-      call define_scene_keywords(keywords)
-      call define_step_keywords(keywords)
-      call take_keywords(keywords, table)
+      call take_keyword_lines(lines)
+      call read_keywords(lines, table, wrong)
    end function keyword_table
 
    !> A keyword without its blanks and in capitals: they do not matter (`*ENDSTEP`).

@@ -1,13 +1,20 @@
 !> How keywords, options and data lines are written: for messages, `atrito help` and the manual.
 module atrito_keyword_text
-   use atrito_keyword, only: option_spec_t, choice_t, form_t, item_t, ANY_NUMBER, KIND_FLAG, KIND_NAME, KIND_WORD, &
-                             KIND_OPTIONAL_WORD, KIND_REAL, KIND_INTEGER, KIND_FILE, KIND_ID, KIND_ID_OR_NAME, KIND_TEXT, &
-                             KIND_REAL_OR_NAME, LEVEL_MODEL, LEVEL_STEP
+   use atrito_keyword, only: option_spec_t, choice_t, form_t, item_t, ANY_NUMBER
    use atrito_strings, only: to_text
    implicit none (type, external)
    private
-   public :: form_text, item_text, option_text_of, choices_text, lines_text, condition_text, with_dimension, level_text, &
-             item_meaning
+   public :: form_text, item_text, option_text_of, choices_text, lines_text, condition_text, with_dimension, item_meaning, &
+             LEVEL_TEXTS
+
+   !> Where a keyword may stand, by LEVEL_*.
+   character(len=34), parameter :: LEVEL_TEXTS(3) = [character(len=34) :: 'model, before *STEP', &
+                                                                         'step, between *STEP and *END STEP', 'model or step']
+   !> By KIND_*: what stands behind the name of an option, and what a value is.
+   character(len=15), parameter :: VALUES(11) = [character(len=15) :: '', '=name', '=word', '[=word]', '=real', '=integer', &
+                                                                      '=file', '', '=number or name', '', '=real or name']
+   character(len=20), parameter :: WORDS(11) = [character(len=20) :: 'no value', 'a name', 'a word', 'a word', 'a real', &
+                                          'an integer', 'a file', 'an integer', 'an integer or a name', 'text', 'a real or a name']
 
 contains
 
@@ -34,7 +41,7 @@ contains
       type(item_t), intent(in) :: item
       character(len=:), allocatable :: text
 
-      text = item%name//': '//item%doc//', '//with_dimension(kind_words(item%kind), item%dimension)
+      text = item%name//': '//item%doc//', '//with_dimension(trim(WORDS(item%kind)), item%dimension)
    end function item_text
 
    !> The meaning of an item for the reference: kind, dimension, choices, default.
@@ -46,7 +53,7 @@ contains
       if (size(item%choices) > 0) then
          text = text//': '//choices_text(item%choices)
       else
-         text = text//'; '//with_dimension(kind_words(item%kind), item%dimension)
+         text = text//'; '//with_dimension(trim(WORDS(item%kind)), item%dimension)
       end if
       if (len(item%default) > 0) text = text//'; default '//item%default
       if (.not. item%required .and. len(item%default) == 0 .and. .not. item%harmless) text = text//'; may be left out'
@@ -58,25 +65,7 @@ contains
       type(option_spec_t), intent(in) :: option
       character(len=:), allocatable :: text
 
-      text = option%name
-      select case (option%kind)
-      case (KIND_NAME)
-         text = text//'=name'
-      case (KIND_WORD)
-         text = text//'=word'
-      case (KIND_OPTIONAL_WORD)
-         text = text//'[=word]'
-      case (KIND_REAL)
-         text = text//'=real'
-      case (KIND_INTEGER)
-         text = text//'=integer'
-      case (KIND_FILE)
-         text = text//'=file'
-      case (KIND_ID_OR_NAME)
-         text = text//'=number or name'
-      case (KIND_REAL_OR_NAME)
-         text = text//'=real or name'
-      end select
+      text = option%name//trim(VALUES(option%kind))
       if (option%own) text = text//' +'
    end function option_text_of
 
@@ -95,39 +84,23 @@ contains
       end do
    end function choices_text
 
-   !> Where a keyword may stand.
-   pure function level_text(level) result(text)
-      integer, intent(in) :: level
-      character(len=:), allocatable :: text
-
-      select case (level)
-      case (LEVEL_MODEL)
-         text = 'model, before *STEP'
-      case (LEVEL_STEP)
-         text = 'step, between *STEP and *END STEP'
-      case default
-         text = 'model or step'
-      end select
-   end function level_text
-
    !> How many lines of a form there may be.
    pure function lines_text(form) result(text)
       type(form_t), intent(in) :: form
       character(len=:), allocatable :: text
 
-      if (form%min_lines == form%max_lines) then
-         text = to_text(form%min_lines)//merge(' line ', ' lines', form%min_lines == 1)
-         text = trim(text)
-      else if (form%max_lines == ANY_NUMBER) then
-         text = 'any number of lines'
-         if (form%min_lines > 0) text = to_text(form%min_lines)//' or more lines'
-      else
-         text = to_text(form%min_lines)//' or '//to_text(form%max_lines)//' lines'
-         if (form%max_lines - form%min_lines > 1) then
-            text = to_text(form%min_lines)//' to '//to_text(form%max_lines)//' lines'
+      associate (least => form%min_lines, most => form%max_lines)
+         if (least == most) then
+            text = to_text(least)//trim(merge(' line ', ' lines', least == 1))
+         else if (most == ANY_NUMBER) then
+            text = 'any number of lines'
+            if (least > 0) text = to_text(least)//' or more lines'
+         else if (most == 1) then
+            text = 'at most 1 line'
+         else
+            text = to_text(least)//trim(merge(' or', ' to', most == least + 1))//' '//to_text(most)//' lines'
          end if
-         if (form%max_lines == 1) text = 'at most 1 line'
-      end if
+      end associate
       if (form%goes_on) text = text//'; a line with too few items goes on in the next'
    end function lines_text
 
@@ -147,34 +120,6 @@ contains
          text = text//form%values(i)%s
       end do
    end function condition_text
-
-   pure function kind_words(kind) result(text)
-      integer, intent(in) :: kind
-      character(len=:), allocatable :: text
-
-      select case (kind)
-      case (KIND_FLAG)
-         text = 'no value'
-      case (KIND_NAME)
-         text = 'a name'
-      case (KIND_WORD, KIND_OPTIONAL_WORD)
-         text = 'a word'
-      case (KIND_REAL)
-         text = 'a real'
-      case (KIND_INTEGER)
-         text = 'an integer'
-      case (KIND_FILE)
-         text = 'a file'
-      case (KIND_ID)
-         text = 'an integer'
-      case (KIND_ID_OR_NAME)
-         text = 'an integer or a name'
-      case (KIND_TEXT)
-         text = 'text'
-      case (KIND_REAL_OR_NAME)
-         text = 'a real or a name'
-      end select
-   end function kind_words
 
    !> A text with its dimension behind it: `x [L]`; the text alone where there is none.
    pure function with_dimension(text, dimension) result(both)

@@ -5,7 +5,7 @@ module atrito_build_steps
    use atrito_deck, only: deck_t, card_t, data_line_t, option_t, keyword_name, last_item, token_t, token_text, line_item, &
                           is_empty_token
    use atrito_diagnostics, only: report_error, report_note, report_outside, report_warning
-   use atrito_foreign_keywords, only: LINEAR_STEP
+   use atrito_foreign_keywords, only: subject_named
    use atrito_items, only: find_option, get_real, has_option, option_integer, option_word, refuse_option
    use atrito_kinds, only: ip, wp
    use atrito_model, only: model_t, step_t, increments_t
@@ -49,7 +49,7 @@ contains
                call read_nlgeom(context%deck, card, context%model)
                call find_option(context%deck, card, 'PERTURBATION', option, found)
                if (found .and. n > 1) call report_outside(context%deck, option%name, 'PERTURBATION in one of several steps', &
-                                                          LINEAR_STEP)
+                                                          subject_named('linear step'))
             case ('STATIC')
                call read_static_card(context%deck, i, static_card(card%step), step%increments)
             case ('RESTART')
