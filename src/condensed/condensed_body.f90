@@ -1,8 +1,8 @@
 !> A body reduced to its contact degrees of freedom.
 !>
-!> With the Schur complement S of the interior and the reduced load f_c, a body held by its supports moves at its contact dofs by
-!> u = F (f_c - B' q), F = S^-1. A floating one has F = (S + alpha Q Q')^-1 with the orthonormal rigid motions Q, and moves by
-!> that and any rigid motion Z a; the forces on it balance, Z' (f - B' q) = 0, so F is as good as any generalised inverse.
+!> With the Schur complement S of the interior and the reduced load f_c, a body held by its supports moves at its contact dofs by u
+!> = F (f_c - B' q), F = S^-1. A floating one has F = (S + alpha Q Q')^-1 with the orthonormal rigid motions Q, and moves by that
+!> and any rigid motion Z a; the forces on it balance, Z' (f - B' q) = 0, so F is as good as any generalised inverse.
 module atrito_condensed_body
    use atrito_kinds, only: ip, lp, wp
    use atrito_assembly, only: fem_t, body_profile, assemble_body, retained_diagonal
