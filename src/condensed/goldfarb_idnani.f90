@@ -33,8 +33,8 @@ module atrito_goldfarb_idnani
 
 contains
 
-   !> Goes on from state%state until all conditions hold (outcome%solved), there is no equilibrium (outcome%moves), or there were too
-   !> many solves.
+   !> Goes on from state%state until all conditions hold (outcome%solved), there is no equilibrium (outcome%moves), or there were
+   !> too many solves.
    subroutine take_goldfarb_idnani_steps(problem, bounds, state, history, outcome, status, factor)
       type(bound_qp_t), intent(in) :: problem
       type(box_bounds_t), intent(in) :: bounds
