@@ -1,20 +1,24 @@
 !> Solves the bound-constrained QP by full steps on the active set: all points change at once.
 !>
 !> If it were known which points are open, stick and slip, the QP would be linear: free unknowns have r = 0, the others stand at
-!> their bounds (solve_free_set). A full step solves that, and gives every unknown that breaks the condition of its state the
-!> other one:
+!> their bounds (solve_free_set). A full step solves that, and gives every unknown that breaks the condition of its state the other
+!> one:
 !>
 !>     free, q < lower or q > upper          -> at that bound        (a tension opens, too much shear slips)
 !>     at the lower bound, r > 0             -> free                 (an overlap closes, slip against the shear sticks)
 !>     at the upper bound, r < 0             -> free
 !>
+!> A tension, an excess or a multiplier that round-off may make changes nothing (`is_in_tension`, `is_released`), or points at the
+!> edge of contact would turn to and fro for ever.
+!>
 !> This is Newton's method for the piecewise linear equations q = clip(q + r/c, lower, upper), the primal-dual active set method of
-!> M. Hintermueller, K. Ito and K. Kunisch (SIAM J. Optim. 13 (2002) 865-888). Where no state changes the solution is exact.
+!> M. Hintermueller, K. Ito and K. Kunisch (SIAM J. Optim. 13 (2002) 865-888). Near the solution it converges at once, since the
+!> equations are linear there: where no state changes the solution is exact. A step costs one linear solve.
 !>
 !> Full steps end in a few solves almost always, but nothing makes them. When a state comes back, after MOST_FULL_STEPS, or when a
 !> body is free under the load, the finite Goldfarb-Idnani steps take over (atrito_goldfarb_idnani).
 module atrito_active_set
-   use atrito_free_set, only: equality_solution_t, solve_free_set, is_vanishing, put_at_bounds, row_round_off, force_round_off
+   use atrito_free_set, only: solve_free_set, is_vanishing, put_at_bounds, row_round_off, force_round_off
    use atrito_kinds, only: ip, lp, wp, HUGE_REAL
    use atrito_bound_qp, only: bound_qp_t, box_bounds_t, box_state_t, box_outcome_t, FREE, AT_LOWER, AT_UPPER
    use atrito_goldfarb_idnani, only: take_goldfarb_idnani_steps
@@ -33,15 +37,15 @@ module atrito_active_set
 contains
 
    !> Solves from the given state (state%state; fixed unknowns are put at their bounds). Every linear solve is recorded.
-   subroutine solve_box(problem, bounds, state, history, outcome, status, kept)
+   !> status: STATUS_SINGULAR with DEPENDENT_POINTS. outcome%moves: no equilibrium. Neither that nor solved: too many solves.
+   subroutine solve_box(problem, bounds, state, history, outcome, status, factor)
       type(bound_qp_t), intent(in) :: problem
       type(box_bounds_t), intent(in) :: bounds
       type(box_state_t), intent(inout) :: state
       type(solve_history_t), intent(inout) :: history
       type(box_outcome_t), intent(out) :: outcome
       type(status_t), intent(out) :: status
-      type(free_set_factor_t), intent(inout), optional :: kept !< of the solve before, or of the last one: see solve_free_set
-      type(equality_solution_t) :: solution
+      type(free_set_factor_t), intent(inout) :: factor !< of the solve before, or of the last one: see solve_free_set
       integer(lp) :: seen(max(MOST_FULL_STEPS, problem%m/UNKNOWNS_A_STEP))
       integer(ip) :: step, changes
 
@@ -49,25 +53,16 @@ contains
          seen(step) = state_code(state)
          if (any(seen(:step - 1) == seen(step))) exit
          call put_at_bounds(bounds, state)
-         call solve_free_set(problem, bounds%d, state, solution, status, kept)
-         outcome%dependent = solution%dependent
-         outcome%condition = solution%condition
+         call solve_free_set(problem, bounds%d, state, outcome, status, factor)
          if (.not. is_ok(status)) return
          call record_solve(history, problem, bounds, state)
-         if (solution%moves) exit
+         if (outcome%moves) exit
          call change_states(problem, bounds, state, changes)
          outcome%solved = changes == 0
-         if (.not. outcome%solved) cycle
-         if (allocated(solution%undetermined)) outcome%undetermined = solution%undetermined
-         return
+         if (outcome%solved) return
       end do
+      call take_goldfarb_idnani_steps(problem, bounds, state, history, outcome, status, factor)
       outcome%used_goldfarb_idnani = .true.
-      call take_goldfarb_idnani_steps(problem, bounds, state, history, solution, outcome%solved, status, kept)
-      outcome%dependent = solution%dependent
-      outcome%condition = solution%condition
-      outcome%moves = solution%moves
-      if (solution%moves) outcome%motion = solution%motion
-      if (outcome%solved .and. allocated(solution%undetermined)) outcome%undetermined = solution%undetermined
    end subroutine solve_box
 
    !> The full step: every unknown that breaks its condition changes.

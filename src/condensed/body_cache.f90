@@ -1,7 +1,7 @@
 !> The factored bodies of a scene, kept from one run to the next: a sweep over friction, penalty or loads factors each body once.
 !>
-!> Numbering and rigid motions serve again when mesh, supports and contact nodes are the same numbers; a factored body serves
-!> again when its materials are, too; its reduced load when the load is the same as well. Nothing is guessed from what was varied.
+!> Numbering and rigid motions serve again when mesh, supports and contact nodes are the same numbers; a factored body serves again
+!> when its materials are, too; its reduced load when the load is the same as well. Nothing is guessed from what was varied.
 module atrito_body_cache
    use atrito_assembly, only: fem_t
    use atrito_bilateral_rows, only: bilateral_rows_t

@@ -1,20 +1,34 @@
 !> A body reduced to its contact degrees of freedom.
 !>
-!> With the Schur complement S of the interior and the reduced load f_c, a body held by its supports moves at its contact dofs by
-!> u = F (f_c - B' q), F = S^-1. A floating one has F = (S + alpha Q Q')^-1 with the orthonormal rigid motions Q, and moves by
-!> that and any rigid motion Z a; the forces on it balance, Z' (f - B' q) = 0, so F is as good as any generalised inverse.
+!> The bodies are elastic and meet at the contact line alone, so all that the contact problem has to know of a body is how its
+!> contact dofs move under forces on them. With the stiffness K partitioned into the interior i and the contact dofs c, block
+!> elimination of the interior (the solver's factor) leaves
+!>
+!>     S u_c = f_c - B' q,    S = K_cc - K_ci K_ii^-1 K_ic,    f_c = f at the contact dofs - K_ci K_ii^-1 f_i,
+!>
+!> the Schur complement and the reduced load; K_ii u_i = f_i - K_ic u_c gives the interior afterwards (`expand_body`).
+!>
+!> A body that its supports hold has a positive definite S and moves by u_c = F (f_c - B' q), F = S^-1. One that they leave free,
+!> with the rigid motions Z, has a singular S: with Q an orthonormal basis of Z at the contact dofs, F = (S + alpha Q Q')^-1, and
+!> the body moves by that and any rigid motion Z a. The forces on it balance, Z' (f - B' q) = 0, so Q' (f_c - B' q) = 0: alpha has
+!> no part in the answer, and F is as good as any generalised inverse. alpha = trace(S)/n gives the motions a stiffness of the
+!> usual size.
+!>
+!> S or S + alpha Q Q' is kept as its Cholesky factor of n_retained^2 numbers. What is asked of it is F times forces
+!> (`contact_response`) and the flexibility C = B F B' of all points (`add_flexibilities`). A pivot that is round-off, of the
+!> interior or of S, means that a part of the body moves by itself: STATUS_SINGULAR, told with its node.
 module atrito_condensed_body
-   use atrito_kinds, only: ip, lp, wp
    use atrito_assembly, only: fem_t, body_profile, assemble_body, retained_diagonal
-   use atrito_bodies, only: mode_at, order_by_dissection
+   use atrito_bodies, only: order_by_dissection
+   use atrito_body_cost, only: choose_solver, kept_bytes
+   use atrito_body_motions, only: modes_at_node, motion_text
    use atrito_dense, only: solve_cholesky, orthonormalise, add_product
    use atrito_dense_blocks, only: add_inverse_form, factor_in_blocks
    use atrito_hourglass, only: free_hourglass
-   use atrito_profile, only: profile_t, begin_profile, profile_length, half_bandwidth, skyline_flops, banded_flops, sparse_flops, &
-                             skyline_bytes, banded_bytes, sparse_bytes, sparse_entries
+   use atrito_kinds, only: ip, wp
+   use atrito_profile, only: profile_t, begin_profile
    use atrito_results, only: body_result_t
-   use atrito_solver_choice, only: new_solver, needs_profile, solver_name, N_STORAGES, SOLVER_SKYLINE, SOLVER_BANDED, &
-                                   SOLVER_SPARSE
+   use atrito_solver_choice, only: new_solver, SOLVER_SPARSE
    use atrito_status, only: status_t, set_status, is_ok, STATUS_INTERNAL, STATUS_SINGULAR
    use atrito_linear_solver, only: linear_solver_t, smallest_ratio
    use atrito_strings, only: to_text
@@ -22,9 +36,8 @@ module atrito_condensed_body
    use atrito_timers, only: start_phase, stop_phase
    implicit none (type, external)
    private
-   public :: check_held, hourglass_text, loose_text
-   public :: condensed_body_t, condense_body, choose_solver, set_load, contact_response, add_flexibilities, expand_body, &
-             motion_text, body_text, how_it_moves, is_turn
+   public :: condensed_body_t, condense_body, set_load, contact_response, add_flexibilities, expand_body, check_held, &
+             hourglass_text, loose_text
 
    type :: condensed_body_t
       class(linear_solver_t), allocatable :: solver
@@ -33,92 +46,7 @@ module atrito_condensed_body
       logical :: is_near = .false.                 !< some elements have the stiffness of one that they are near to, and not equal
    end type condensed_body_t
 
-   real(wp), parameter :: FARTHEST_CENTRE = 1.0e4_wp !< of a rotation, in sizes of the body
-
-   ! Costs in operations of the skyline, fitted to blocks and strips of 200 to 900,000 equations with OpenBLAS
-   ! (docs/developer/solvers.md).
-   !> Floating-point operations that LAPACK's band routines do in the time of one of the skyline's.
-   real(wp), parameter :: BAND_SPEED = 2.2_wp
-   !> The same of the fronts of the sparse solver.
-   real(wp), parameter :: SPARSE_SPEED = 2.0_wp
-   !> What assembly and solves take in the time of so many of them: for an equation, and for the sparse solver to begin with.
-   real(wp), parameter :: SKYLINE_OVERHEAD = 1600.0_wp, BAND_OVERHEAD = 2500.0_wp, SPARSE_OVERHEAD = 1000.0_wp, &
-                          SPARSE_START = 2.0e6_wp
-
 contains
-
-   !> Chooses the solver of a body by its predicted cost, unless one is asked for, and says why.
-   subroutine choose_solver(profile, asked, kind, result)
-      type(profile_t), intent(in) :: profile
-      integer, intent(in) :: asked                 !< STORAGE_* or 0 for the choice
-      integer, intent(out) :: kind
-      type(body_result_t), intent(inout) :: result
-      real(wp) :: cost(N_STORAGES)
-      integer :: second
-
-      cost = predict_costs(profile)
-      if (asked /= 0) then
-         kind = asked
-         result%reason = 'asked for'
-      else
-         kind = SOLVER_SPARSE
-         if (needs_profile(asked, profile%n)) kind = minloc(cost, dim=1)
-         second = minloc(cost, dim=1, mask=[SOLVER_SKYLINE, SOLVER_BANDED, SOLVER_SPARSE] /= kind)
-         result%reason = 'predicted cost '//ratio_text(cost(second), cost(kind))//' of '//solver_name(second)
-      end if
-      result%solver = solver_name(kind)
-      result%solver_kind = kind
-      result%half_bandwidth = half_bandwidth(profile)
-      result%profile = profile_length(profile)
-      if (kind == SOLVER_SPARSE) result%profile = int(sparse_entries(profile), lp)
-      result%memory = predict_memory(profile, kind) + kept_bytes(profile%n_retained)
-      result%most_memory = result%memory
-   end subroutine choose_solver
-
-   !> The matrix of the retained equations.
-   elemental integer(lp) function kept_bytes(n_retained) result(bytes)
-      integer(ip), intent(in) :: n_retained
-
-      bytes = 8_lp*int(n_retained, lp)**2
-   end function kept_bytes
-
-   !> Predicted cost of every solver, in operations of the skyline: nothing that depends on the machine.
-   pure function predict_costs(profile) result(cost)
-      type(profile_t), intent(in) :: profile
-      real(wp) :: cost(N_STORAGES)
-
-      cost(SOLVER_SKYLINE) = skyline_flops(profile) + SKYLINE_OVERHEAD*real(profile%n, wp)
-      cost(SOLVER_BANDED) = banded_flops(profile)/BAND_SPEED + BAND_OVERHEAD*real(profile%n, wp)
-      cost(SOLVER_SPARSE) = sparse_cost(profile)
-   end function predict_costs
-
-   !> That of the sparse solver.
-   pure real(wp) function sparse_cost(profile) result(cost)
-      type(profile_t), intent(in) :: profile
-
-      cost = sparse_flops(profile)/SPARSE_SPEED + SPARSE_OVERHEAD*real(profile%n, wp) + SPARSE_START
-   end function sparse_cost
-
-   pure integer(lp) function predict_memory(profile, kind) result(bytes)
-      type(profile_t), intent(in) :: profile
-      integer, intent(in) :: kind
-
-      select case (kind)
-      case (SOLVER_SKYLINE)
-         bytes = skyline_bytes(profile)
-      case (SOLVER_BANDED)
-         bytes = banded_bytes(profile)
-      case default
-         bytes = sparse_bytes(profile)
-      end select
-   end function predict_memory
-
-   function ratio_text(other, own) result(text)
-      real(wp), intent(in) :: other, own
-      character(len=:), allocatable :: text
-
-      text = to_text(own/max(other, tiny(other)), 2)
-   end function ratio_text
 
    !> Assembles, factors and condenses a body, by the solver that was chosen for `result` or that is chosen now.
    !>
@@ -131,14 +59,13 @@ contains
       type(body_result_t), intent(inout) :: result
       type(status_t), intent(out) :: status
       type(profile_t) :: profile
-      integer :: kind
 
       call check_held(fem, i_body, status)
       if (.not. is_ok(status)) return
       call start_phase('order')
       if (result%solver_kind < SOLVER_SPARSE) then
          call body_profile(fem, i_body, profile)
-         if (result%solver_kind == 0) call choose_solver(profile, asked, kind, result)
+         if (result%solver_kind == 0) call choose_solver(profile, asked, result)
       end if
       if (result%solver_kind >= SOLVER_SPARSE) then
          call begin_profile(profile, fem%bodies%list(i_body)%n, fem%bodies%list(i_body)%n_retained)
@@ -149,21 +76,15 @@ contains
       call new_solver(result%solver_kind, body%solver)
       call start_phase('assemble')
       call body%solver%create(profile, status)
-      if (is_ok(status)) call assemble_body(fem, i_body, body%solver, grain_for(fem, result%solver_kind), body%is_near)
+      ! fronts alone are the fewer for elements that are taken as equal
+      if (is_ok(status)) call assemble_body(fem, i_body, body%solver, &
+                                            merge(fem%grain, 0.0_wp, result%solver_kind == SOLVER_SPARSE), body%is_near)
       call stop_phase('assemble')
       if (.not. is_ok(status)) return
       call start_phase('factor')
       call factor_body(fem, i_body, body, result, status)
       call stop_phase('factor')
    end subroutine condense_body
-
-   !> Fronts alone are the fewer for elements that are taken as equal.
-   pure real(wp) function grain_for(fem, solver_kind) result(grain)
-      type(fem_t), intent(in) :: fem
-      integer, intent(in) :: solver_kind
-
-      grain = merge(fem%grain, 0.0_wp, solver_kind == SOLVER_SPARSE)
-   end function grain_for
 
    !> status: STATUS_SINGULAR when a body can move, or take a shape without strain, and no contact point touches it.
    subroutine check_held(fem, i_body, status)
@@ -331,18 +252,19 @@ contains
       type(fem_t), intent(in) :: fem
       integer(ip), intent(in) :: i_body
       real(wp), allocatable :: z(:, :)
-      integer(ip) :: i, j, dof, k
+      real(wp) :: at_node(2, 3)
+      integer(ip) :: i, dof
 
       associate (body => fem%bodies%list(i_body))
          allocate (z(body%n_retained, size(body%modes, 2)))
          do i = 1, size(body%nodes, kind=ip)
-            do dof = 1, 2
-               k = fem%bodies%equation(dof, body%nodes(i)) - (body%n - body%n_retained)
-               if (k <= 0) cycle
-               do j = 1, size(body%modes, 2, kind=ip)
-                  z(k, j) = mode_at(body, body%modes(:, j), fem%mesh%x(:, body%nodes(i)), dof)
+            associate (dofs => fem%bodies%equation(:, body%nodes(i)) - (body%n - body%n_retained))
+               if (all(dofs <= 0)) cycle
+               at_node = modes_at_node(fem, i_body, body%nodes(i))
+               do dof = 1, 2
+                  if (dofs(dof) > 0) z(dofs(dof), :) = at_node(dof, :size(z, 2))
                end do
-            end do
+            end associate
          end do
       end associate
    end function modes_at_contact
@@ -413,60 +335,5 @@ contains
          !$omp end parallel do
       end associate
    end subroutine expand_body
-
-   !> A rigid motion of a body in words: 'body BLOCK (node 7 and all others) is free to move along x1'.
-   function motion_text(fem, i_body, mode) result(text)
-      type(fem_t), intent(in) :: fem
-      integer(ip), intent(in) :: i_body
-      real(wp), intent(in) :: mode(3)              !< translations along 1 and 2, rotation
-      character(len=:), allocatable :: text
-
-      text = body_text(fem, i_body)//' is free to '//how_it_moves(fem, i_body, mode)
-   end function motion_text
-
-   !> 'body BLOCK (node 7 and all others)'
-   function body_text(fem, i_body) result(text)
-      type(fem_t), intent(in) :: fem
-      integer(ip), intent(in) :: i_body
-      character(len=:), allocatable :: text
-
-      associate (body => fem%bodies%list(i_body))
-         text = 'body '//body%name//' (node '//to_text(fem%mesh%node_id(body%nodes(1)))//' and all others)'
-         if (body%is_rigid) text = 'rigid body '//body%name//' (reference node '//to_text(fem%mesh%node_id(body%nodes(1)))//')'
-      end associate
-   end function body_text
-
-   !> Whether a motion turns a body: what turns about a point many sizes away moves along a line, as far as the digits tell.
-   pure logical function is_turn(mode)
-      real(wp), intent(in) :: mode(3)              !< translations along 1 and 2, rotation at the size of the body
-
-      is_turn = FARTHEST_CENTRE*abs(mode(3)) > norm2(mode(:2))
-   end function is_turn
-
-   !> 'rotate about (1, 0)', 'move along x1'
-   function how_it_moves(fem, i_body, mode) result(text)
-      type(fem_t), intent(in) :: fem
-      integer(ip), intent(in) :: i_body
-      real(wp), intent(in) :: mode(3)              !< translations along 1 and 2, rotation
-      character(len=:), allocatable :: text
-      real(wp), parameter :: SMALL = 1.0e-6_wp     !< the digits of the texts
-      real(wp) :: size_of_mode, arm(2), centre(2)
-
-      size_of_mode = maxval(abs(mode))
-      associate (body => fem%bodies%list(i_body))
-         if (is_turn(mode)) then
-            arm = [-mode(2), mode(1)]*body%size/mode(3)
-            centre = body%centre + arm
-            where (abs(centre) < SMALL*max(body%size, abs(arm))) centre = 0.0_wp
-            text = 'rotate about ('//to_text(centre(1))//', '//to_text(centre(2))//')'
-         else if (abs(mode(2)) <= SMALL*size_of_mode) then
-            text = 'move along x1'
-         else if (abs(mode(1)) <= SMALL*size_of_mode) then
-            text = 'move along x2'
-         else
-            text = 'move along ('//to_text(mode(1)/norm2(mode(:2)))//', '//to_text(mode(2)/norm2(mode(:2)))//')'
-         end if
-      end associate
-   end function how_it_moves
 
 end module atrito_condensed_body

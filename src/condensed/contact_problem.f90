@@ -1,11 +1,22 @@
 !> The contact line of a scene and its bound-constrained QP: C = B F B', G = B Z, g0 and h, summed over the bodies.
+!>
+!> B is the gap operator: its row of an unknown force has what the displacements of the nodes at its point make of the overlap (a
+!> normal force) or of the slip (a tangential one). B' q are the nodal forces of q, so with condensed bodies
+!> (atrito_condensed_body)
+!>
+!>     B u = B u_prescribed + B F (f_c - B' q) + B Z a,    r = B u - gap (or rest slip) - D q = g0 - (C + D) q + G a,
+!>     g0 = B u_prescribed - gap + B F f_c,    G' q = Z' B' q = Z' f = h    (the forces on each body balance).
+!>
+!> C and G are the same for all loads: a history makes them once. C is a full matrix of m^2 numbers, since every point of a body
+!> moves with every other; F B' costs n^2 operations for each row that a body has.
 module atrito_contact_problem
    use atrito_kinds, only: ip, lp, wp, EPS_MACH
    use atrito_assembly, only: fem_t
    use atrito_average, only: add_identity_rows
-   use atrito_bodies, only: mode_at
+   use atrito_body_motions, only: modes_at_node
    use atrito_bound_qp, only: bound_qp_t
    use atrito_condensed_body, only: condensed_body_t, contact_response, add_flexibilities
+   use atrito_constraint_rows, only: constraint_rows_t
    use atrito_contact_line, only: contact_line_t, number_unknowns, rest_of
    use atrito_contact_rows, only: contact_rows_t, row_value, vector_of_entry
    use atrito_contact_scales, only: usual_growth
@@ -13,12 +24,12 @@ module atrito_contact_problem
    use atrito_friction_law, only: friction_law_t, FRICTION_NONE, FRICTION_LOCAL
    use atrito_model, only: model_t, interaction_t
    use atrito_points, only: contact_points_t
-   use atrito_row_entries, only: first_motions, loads_on_motions
+   use atrito_row_entries, only: build_constraint_rows, direction_of, first_motions, loads_on_motions
    use atrito_surface_average, only: average_rule_t, average_surfaces, count_surface_entries
    implicit none (type, external)
    private
    public :: average_entries, build_line, set_known_points, build_problem, build_flexibility, set_right_hand_sides, &
-             add_displacements, motion_body
+             add_displacements
 
 contains
 
@@ -164,20 +175,24 @@ contains
       type(contact_rows_t), intent(in) :: rows
       type(contact_line_t), intent(in) :: line
       type(bound_qp_t), intent(out) :: problem
-      integer(ip) :: m, b
+      type(constraint_rows_t) :: b
+      integer(ip) :: motions(fem%bodies%n + 1), before, i
 
+      motions = first_motions(fem%bodies)
       problem%m = size(line%point, kind=ip)
       problem%n_normal = count(line%normal > 0, kind=ip)
-      do b = 1, fem%bodies%n
-         problem%k = problem%k + size(fem%bodies%list(b)%modes, 2, kind=ip)
-      end do
-      m = problem%m
-      allocate (problem%c(m, m), problem%g(m, problem%k), source=0.0_wp)
+      problem%k = motions(fem%bodies%n + 1) - 1
+      allocate (problem%c(problem%m, problem%m), problem%g(problem%m, problem%k), source=0.0_wp)
       problem%weight = line%weight(line%point)
-      do b = 1, fem%bodies%n
-         call add_flexibility(fem, b, condensed(b), rows, line, problem)
+      call build_constraint_rows(fem, rows, line, .false., b)
+      before = 0
+      do i = 1, fem%bodies%n
+         associate (body => fem%bodies%list(i))
+            before = before + body%n
+            call add_flexibility(condensed(i), b, before - body%n_retained, body%n_retained, problem%c)
+         end associate
       end do
-      call add_motions(fem, rows, line, problem)
+      call add_motions(fem, rows, line, motions, problem%g)
    end subroutine build_flexibility
 
    !> g0 and h: what prescribed displacements, loads and rest slips do.
@@ -189,89 +204,84 @@ contains
       real(wp), intent(in) :: value(:, :)            !< (2, n_nodes) prescribed displacements [L]
       real(wp), intent(in) :: f(:, :)                !< (2, n_nodes) applied forces [F]
       type(bound_qp_t), intent(inout) :: problem     !< with C and G
-      integer(ip) :: i, b
+      integer(ip) :: i
 
       if (allocated(problem%g0)) deallocate (problem%g0, problem%h, problem%h_size)
       allocate (problem%g0(problem%m), problem%h(problem%k), problem%h_size(problem%k), source=0.0_wp)
       do i = 1, problem%m
-         problem%g0(i) = row_value(rows, line%point(i), direction_of(problem, rows, line, i), value)
+         problem%g0(i) = row_value(rows, line%point(i), direction_of(rows, line, i), value)
          if (i <= problem%n_normal) then
             problem%g0(i) = problem%g0(i) - rows%gap(line%point(i))
          else
             problem%g0(i) = problem%g0(i) - rest_of(line, line%point(i))
          end if
       end do
-      do b = 1, fem%bodies%n
-         call add_displacements(fem, b, condensed(b), rows, line, problem)
-      end do
+      call add_displacements(fem, condensed, rows, line, problem%g0)
       call loads_on_motions(fem, f, problem%h, problem%h_size)
    end subroutine set_right_hand_sides
 
-   pure function direction_of(problem, rows, line, i) result(d)
-      type(bound_qp_t), intent(in) :: problem
-      type(contact_rows_t), intent(in) :: rows
-      type(contact_line_t), intent(in) :: line
-      integer(ip), intent(in) :: i
-      real(wp) :: d(2)
-
-      if (i <= problem%n_normal) then
-         d = rows%normal(:, line%point(i))
-      else
-         d = rows%tangent(:, line%point(i))
-      end if
-   end function direction_of
-
-   !> Adds B F f_c of one body to g0: what its load moves the points by.
-   subroutine add_displacements(fem, i_body, condensed, rows, line, problem)
+   !> Adds B F f_c of all bodies to g0: what their loads move the points by.
+   subroutine add_displacements(fem, condensed, rows, line, g0)
       type(fem_t), intent(in) :: fem
-      integer(ip), intent(in) :: i_body
-      type(condensed_body_t), intent(in) :: condensed
+      type(condensed_body_t), intent(in) :: condensed(:) !< with their loads
       type(contact_rows_t), intent(in) :: rows
       type(contact_line_t), intent(in) :: line
-      type(bound_qp_t), intent(inout) :: problem
+      real(wp), intent(inout) :: g0(:)               !< (m) [L]
+      type(constraint_rows_t) :: b
       real(wp), allocatable :: moved(:, :)
-      integer(ip) :: dofs(2*rows%longest), j, n
-      real(wp) :: coefficients(size(dofs))
+      integer(ip) :: before, i, j, k
+      real(wp) :: change
 
-      n = fem%bodies%list(i_body)%n_retained
-      if (n == 0) return
-      moved = condensed%load(size(condensed%load, 1) - n + 1:, :)
-      call contact_response(condensed, moved)
-      do j = 1, problem%m
-         call row_entries(fem, i_body, rows, line%point(j), direction_of(problem, rows, line, j), dofs, coefficients)
-         problem%g0(j) = problem%g0(j) + sum(coefficients*moved(max(dofs, 1_ip), 1))
+      call build_constraint_rows(fem, rows, line, .false., b)
+      before = 0
+      do i = 1, fem%bodies%n
+         associate (n => fem%bodies%list(i)%n_retained)
+            before = before + fem%bodies%list(i)%n
+            if (n == 0) cycle
+            moved = condensed(i)%load(size(condensed(i)%load, 1) - n + 1:, :)
+            call contact_response(condensed(i), moved)
+            do j = 1, b%n
+               change = 0.0_wp
+               do k = b%first(j), b%first(j + 1) - 1
+                  associate (dof => b%column(k) - (before - n))
+                     if (dof > 0 .and. dof <= n) change = change + b%value(k)*moved(dof, 1)
+                  end associate
+               end do
+               g0(j) = g0(j) + change
+            end do
+         end associate
       end do
    end subroutine add_displacements
 
-   !> Adds B F B' of one body to C.
-   subroutine add_flexibility(fem, i_body, condensed, rows, line, problem)
-      type(fem_t), intent(in) :: fem
-      integer(ip), intent(in) :: i_body
+   !> Adds B F B' of one body to C. Rows are taken in the order of their first contact dof: the columns of F B' above it are zero.
+   subroutine add_flexibility(condensed, b, before, n, c)
       type(condensed_body_t), intent(in) :: condensed
-      type(contact_rows_t), intent(in) :: rows
-      type(contact_line_t), intent(in) :: line
-      type(bound_qp_t), intent(inout) :: problem
+      type(constraint_rows_t), intent(in) :: b
+      integer(ip), intent(in) :: before, n           !< the contact dofs of the body are the columns before + 1 .. before + n of B
+      real(wp), intent(inout), contiguous :: c(:, :)
       real(wp), allocatable :: forces(:, :)
-      integer(ip), allocatable :: first(:), order(:)
-      integer(ip) :: i, j, n
-      integer(ip) :: dofs(2*rows%longest)
-      real(wp) :: coefficients(size(dofs))
+      integer(ip), allocatable :: order(:)
+      integer(ip) :: first(b%n), j, k, place(b%n)
 
-      n = fem%bodies%list(i_body)%n_retained
       if (n == 0) return
-      allocate (first(problem%m))
-      do j = 1, problem%m
-         call row_entries(fem, i_body, rows, line%point(j), direction_of(problem, rows, line, j), dofs, coefficients)
-         first(j) = minval(dofs, mask=dofs > 0)      ! huge where there is none
+      do j = 1, b%n
+         first(j) = n + 1                            ! where there is none
+         do k = b%first(j), b%first(j + 1) - 1
+            if (b%column(k) > before) first(j) = min(first(j), b%column(k) - before)
+         end do
       end do
       order = places_in_order(first, n)
+      place = 0
+      place(order) = [(j, j=1, size(order, kind=ip))]
       allocate (forces(n, size(order)), source=0.0_wp)
-      do i = 1, size(order, kind=ip)
-         j = order(i)
-         call row_entries(fem, i_body, rows, line%point(j), direction_of(problem, rows, line, j), dofs, coefficients)
-         call scatter(dofs, coefficients, forces(:, i))
+      do j = 1, b%n
+         do k = b%first(j), b%first(j + 1) - 1
+            associate (dof => b%column(k) - before)
+               if (dof > 0 .and. dof <= n) forces(dof, place(j)) = forces(dof, place(j)) + b%value(k)
+            end associate
+         end do
       end do
-      call add_flexibilities(condensed, forces, first(order), order, problem%c)
+      call add_flexibilities(condensed, forces, first(order), order, c)
    end subroutine add_flexibility
 
    !> The places of the values from 1 to n, in ascending order of the values.
@@ -296,120 +306,34 @@ contains
       end do
    end function places_in_order
 
-   !> The entries of a row on the contact dofs of a body; dof 0 beyond them.
-   pure subroutine row_entries(fem, i_body, rows, point, direction, dofs, coefficients)
-      type(fem_t), intent(in) :: fem
-      integer(ip), intent(in) :: i_body, point
-      type(contact_rows_t), intent(in) :: rows
-      real(wp), intent(in) :: direction(2)
-      integer(ip), intent(out) :: dofs(:)
-      real(wp), intent(out) :: coefficients(:)
-      integer(ip) :: k, dof, n, node
-      real(wp) :: along(2)
-
-      dofs = 0
-      coefficients = 0.0_wp
-      n = 0
-      do k = rows%first(point), rows%first(point + 1) - 1
-         node = rows%node(k)
-         if (fem%bodies%of_node(node) /= i_body) cycle
-         along = vector_of_entry(rows, point, k, direction)
-         do dof = 1, 2
-            if (fem%bodies%equation(dof, node) <= 0 .or. along(dof) == 0.0_wp) cycle
-            n = n + 1
-            dofs(n) = fem%bodies%equation(dof, node) - (fem%bodies%list(i_body)%n - fem%bodies%list(i_body)%n_retained)
-            coefficients(n) = along(dof)
-         end do
-      end do
-   end subroutine row_entries
-
-   pure subroutine scatter(dofs, coefficients, column)
-      integer(ip), intent(in) :: dofs(:)
-      real(wp), intent(in) :: coefficients(:)
-      real(wp), intent(inout) :: column(:)
-      integer(ip) :: k
-
-      do k = 1, size(dofs, kind=ip)
-         if (dofs(k) > 0) column(dofs(k)) = column(dofs(k)) + coefficients(k)
-      end do
-   end subroutine scatter
-
-   !> The rigid motions of all bodies at the points: G = B Z.
-   subroutine add_motions(fem, rows, line, problem)
+   !> The rigid motions of all bodies at the points: G = B Z. Motions are of size one: what is below rounding of that is no motion,
+   !> nor is one that no point sees but for the rounding of coordinates that supports allow it by (find_rigid_modes).
+   subroutine add_motions(fem, rows, line, first, g)
       type(fem_t), intent(in) :: fem
       type(contact_rows_t), intent(in) :: rows
       type(contact_line_t), intent(in) :: line
-      type(bound_qp_t), intent(inout) :: problem
-      integer(ip) :: column(fem%bodies%n + 1), b, i, k
+      integer(ip), intent(in) :: first(:)            !< (bodies + 1) motion of each, the last one behind all
+      real(wp), intent(inout) :: g(:, :)             !< (m, k) zero
+      real(wp), parameter :: ROUND_OFF = 1.0e-13_wp, UNSEEN = 1.0e-10_wp
+      real(wp) :: z(2, 3), vector(2)
+      integer(ip) :: b, i, j, k
 
-      column = first_motions(fem%bodies)
-      do i = 1, problem%m
+      do i = 1, size(g, 1, kind=ip)
          do k = rows%first(line%point(i)), rows%first(line%point(i) + 1) - 1
             b = fem%bodies%of_node(rows%node(k))
-            call add_motion_row(fem, b, rows%node(k), &
-                                vector_of_entry(rows, line%point(i), k, direction_of(problem, rows, line, i)), &
-                                problem%g(i, column(b):column(b + 1) - 1))
-         end do
-      end do
-      call clear_round_off(problem%g)
-   end subroutine add_motions
-
-   !> What one entry of a row adds to the row of G: the motions of the body that has the node.
-   pure subroutine add_motion_row(fem, b, node, vector, g)
-      type(fem_t), intent(in) :: fem
-      integer(ip), intent(in) :: b, node
-      real(wp), intent(in) :: vector(2)              !< of the entry
-      real(wp), intent(inout) :: g(:)                !< (motions of the body)
-      integer(ip) :: j, dof
-      real(wp) :: z
-
-      associate (body => fem%bodies%list(b))
-         do j = 1, size(g, kind=ip)
-            do dof = 1, 2
-               if (fem%bodies%equation(dof, node) == 0) cycle
-               z = mode_at(body, body%modes(:, j), fem%mesh%x(:, node), dof)
-               g(j) = g(j) + vector(dof)*z
+            if (first(b + 1) == first(b)) cycle
+            z = modes_at_node(fem, b, rows%node(k))
+            vector = vector_of_entry(rows, line%point(i), k, direction_of(rows, line, i))
+            do j = first(b), first(b + 1) - 1
+               g(i, j) = g(i, j) + vector(1)*z(1, j - first(b) + 1)
+               g(i, j) = g(i, j) + vector(2)*z(2, j - first(b) + 1)
             end do
          end do
-      end associate
-   end subroutine add_motion_row
-
-   !> Motions are of size one: what is below rounding of that is no motion, nor is one that no point sees but for the rounding of
-   !> coordinates that supports allow it by (find_rigid_modes).
-   pure subroutine clear_round_off(g)
-      real(wp), intent(inout) :: g(:, :)
-      real(wp), parameter :: ROUND_OFF = 1.0e-13_wp, UNSEEN = 1.0e-10_wp
-      integer(ip) :: j
-
+      end do
       where (abs(g) < ROUND_OFF) g = 0.0_wp
       do j = 1, size(g, 2, kind=ip)
          if (all(abs(g(:, j)) < UNSEEN)) g(:, j) = 0.0_wp
       end do
-   end subroutine clear_round_off
-
-   !> The body that moves most in a motion of amplitudes a, and its motion as translations and rotation.
-   pure subroutine motion_body(fem, a, i_body, mode)
-      type(fem_t), intent(in) :: fem
-      real(wp), intent(in) :: a(:)
-      integer(ip), intent(out) :: i_body
-      real(wp), intent(out) :: mode(3)
-      real(wp) :: own(3), most
-      integer(ip) :: b, first, n
-
-      i_body = 1
-      mode = 0.0_wp
-      most = -1.0_wp
-      n = 0
-      first = 1
-      do b = 1, fem%bodies%n
-         first = first + n
-         n = size(fem%bodies%list(b)%modes, 2, kind=ip)
-         own = matmul(fem%bodies%list(b)%modes, a(first:first + n - 1))
-         if (norm2(own) <= most) cycle
-         most = norm2(own)
-         i_body = b
-         mode = own
-      end do
-   end subroutine motion_body
+   end subroutine add_motions
 
 end module atrito_contact_problem

@@ -1,16 +1,17 @@
 !> From the contact forces to the displacements of the bodies.
+!>
+!> The forces q at the points are nodal forces B' q on both bodies. Without its rigid motion a condensed body moves by u_e = F (f_c
+!> - B' q) at its contact dofs, F being the flexibility of atrito_condensed_body; the interior follows from these.
 module atrito_displacements
    use atrito_assembly, only: fem_t
-   use atrito_bodies, only: body_t, mode_at
    use atrito_condensed_body, only: condensed_body_t, contact_response, expand_body
    use atrito_contact_line, only: contact_line_t
    use atrito_contact_rows, only: contact_rows_t
    use atrito_contact_solution, only: contact_solution_t
    use atrito_kinds, only: ip, wp
-   use atrito_threads, only: is_shared
    implicit none (type, external)
    private
-   public :: contact_forces, add_bilateral_forces, elastic_displacements, add_rigid_motions
+   public :: contact_forces, add_bilateral_forces, elastic_displacements
 
 contains
 
@@ -81,48 +82,5 @@ contains
          call expand_body(fem, i_body, condensed, x(:, 1), u)
       end associate
    end subroutine elastic_displacements
-
-   !> u = u_e + Z a.
-   subroutine add_rigid_motions(fem, a, u)
-      type(fem_t), intent(in) :: fem
-      real(wp), intent(in) :: a(:)
-      real(wp), intent(inout) :: u(:, :)             !< (2, n_nodes) [L]
-      integer(ip) :: b, first
-
-      first = 1
-      do b = 1, fem%bodies%n
-         if (size(fem%bodies%list(b)%modes, 2) > 0) call move_body(fem, fem%bodies%list(b), a(first:), u)
-         first = first + size(fem%bodies%list(b)%modes, 2, kind=ip)
-      end do
-   end subroutine add_rigid_motions
-
-   subroutine move_body(fem, body, a, u)
-      type(fem_t), intent(in) :: fem
-      type(body_t), intent(in) :: body
-      real(wp), intent(in) :: a(:)                   !< of its modes and those of later bodies
-      real(wp), intent(inout) :: u(:, :)
-      real(wp) :: mode(3)
-      integer(ip) :: i
-
-      mode = matmul(body%modes, a(:size(body%modes, 2)))
-      !$omp parallel do schedule(static) if (is_shared(size(body%nodes, kind=ip)))
-      do i = 1, size(body%nodes, kind=ip)
-         call move_node(fem, body, mode, body%nodes(i), u(:, body%nodes(i)))
-      end do
-      !$omp end parallel do
-   end subroutine move_body
-
-   pure subroutine move_node(fem, body, mode, node, u)
-      type(fem_t), intent(in) :: fem
-      type(body_t), intent(in) :: body
-      real(wp), intent(in) :: mode(3)
-      integer(ip), intent(in) :: node
-      real(wp), intent(inout) :: u(2)
-      integer(ip) :: dof
-
-      do dof = 1, 2
-         if (fem%bodies%equation(dof, node) /= 0) u(dof) = u(dof) + mode_at(body, mode, fem%mesh%x(:, node), dof)
-      end do
-   end subroutine move_node
 
 end module atrito_displacements

@@ -5,8 +5,8 @@
 !>
 !>     [P -G; -G' 0] [dq; da] = [r; -s],       r = rhs + G a - M q,   s = load - G' q
 !>
-!> with s = 0. They go on until r is round-off of the terms it is made of; then comes one refinement, as after a solve with a factor
-!> of its own. All of it is scaled to a unit diagonal of M = C + D.
+!> with s = 0. They go on until r is round-off of the terms it is made of; then comes one refinement, as after a solve with a
+!> factor of its own. All of it is scaled to a unit diagonal of M = C + D.
 module atrito_dual_preconditioner
    use atrito_dense, only: eigen_symmetric
    use atrito_dense_blocks, only: multiply_symmetric
@@ -14,7 +14,7 @@ module atrito_dual_preconditioner
    use atrito_free_set_factor, only: free_set_factor_t, relation_t, relate_sets, apply_inverse
    implicit none (type, external)
    private
-   public :: free_system_t, solve_with_kept, scaled_product
+   public :: complement_t, free_system_t, find_complement, solve_with_kept, scaled_product
 
    !> The equations of a free set, scaled: M q - G a = rhs, G' q = load.
    type :: free_system_t
@@ -25,6 +25,11 @@ module atrito_dual_preconditioner
       real(wp), allocatable :: rhs(:)            !< (n)
       real(wp), allocatable :: load(:)           !< (k) [F]
    end type free_system_t
+
+   !> How firmly a free set holds each motion: eigenvectors and eigenvalues of G' M^-1 G, scaled to a unit diagonal.
+   type :: complement_t
+      real(wp), allocatable :: vectors(:, :), values(:), scale(:)
+   end type complement_t
 
    !> P and its complement of the motions.
    type :: preconditioner_t
@@ -86,39 +91,56 @@ contains
       a = found%b
    end subroutine solve_with_kept
 
+   !> S = G' M^-1 G, scaled to a unit diagonal, by its eigenvectors; y = M^-1 G. A motion that no free unknown sees has the scale 1
+   !> and the eigenvalue 0.
+   subroutine find_complement(g, y, complement)
+      real(wp), intent(in) :: g(:, :), y(:, :)   !< (n, k)
+      type(complement_t), intent(out) :: complement
+      integer(ip) :: j, k, info
+
+      k = size(g, 2, kind=ip)
+      complement%vectors = matmul(transpose(g), y)
+      complement%vectors = 0.5_wp*(complement%vectors + transpose(complement%vectors))
+      allocate (complement%scale(k), source=1.0_wp)
+      allocate (complement%values(k))
+      associate (vectors => complement%vectors, scale => complement%scale)
+         do j = 1, k
+            if (vectors(j, j) > 0.0_wp) scale(j) = 1.0_wp/sqrt(vectors(j, j))
+         end do
+         do j = 1, k
+            vectors(:, j) = vectors(:, j)*scale*scale(j)
+         end do
+         call eigen_symmetric(vectors, complement%values, info)
+      end associate
+   end subroutine find_complement
+
    !> P^-1 G and the inverse of G' P^-1 G, where the set holds all motions.
    subroutine prepare_motions(factor, system, p, held)
       type(free_set_factor_t), intent(in) :: factor
       type(free_system_t), intent(in) :: system
       type(preconditioner_t), intent(inout) :: p
       logical, intent(out) :: held
-      real(wp), allocatable :: vectors(:, :), values(:), column_scale(:)
-      integer(ip) :: i, j, k, info
+      type(complement_t) :: complement
+      integer(ip) :: i, j, k
 
       k = size(system%g, 2, kind=ip)
-      allocate (p%y(size(system%g, 1), k), p%inverse(k, k), values(k))
+      allocate (p%y(size(system%g, 1), k), p%inverse(k, k))
       held = .true.
       if (k == 0) return
       do j = 1, k
          call apply_inverse(factor, p%relation, system%g(:, j), p%y(:, j))
       end do
-      vectors = matmul(transpose(system%g), p%y)
-      vectors = 0.5_wp*(vectors + transpose(vectors))
-      held = all([(vectors(j, j) > 0.0_wp, j=1, k)])
-      if (.not. held) return
-      column_scale = [(1.0_wp/sqrt(vectors(j, j)), j=1, k)]
-      do j = 1, k
-         vectors(:, j) = vectors(:, j)*column_scale*column_scale(j)
-      end do
-      call eigen_symmetric(vectors, values, info)
-      held = info == 0 .and. all(values > WEAKLY_HELD)
+      call find_complement(system%g, p%y, complement)
+      held = all(complement%values > WEAKLY_HELD)
       if (.not. held) return
       p%inverse = 0.0_wp
-      do i = 1, k
-         do j = 1, k
-            p%inverse(:, j) = p%inverse(:, j) + vectors(:, i)*(vectors(j, i)*column_scale(j)/values(i))*column_scale
+      associate (vectors => complement%vectors, scale => complement%scale)
+         do i = 1, k
+            do j = 1, k
+               p%inverse(:, j) = p%inverse(:, j) + vectors(:, i)*(vectors(j, i)*scale(j)/complement%values(i))*scale
+            end do
          end do
-      end do
+      end associate
    end subroutine prepare_motions
 
    !> One step with both residuals.

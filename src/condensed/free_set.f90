@@ -1,26 +1,43 @@
-!> The bound-constrained QP (atrito_bound_qp) where it is known which unknowns are free: a linear system.
+!> The bound-constrained QP (atrito_bound_qp) where it is known which unknowns are free: one linear system.
+!>
+!> Let F be the free unknowns (normal forces of closed points, tangential ones of sticking points) and X the others, whose forces
+!> q_X are known: 0 at an open point, +-w tau at a slipping one. With M = (C + D)_FF the conditions r_F = 0 and G' q = h are the
+!> saddle point system
+!>
+!>     [  M     -G_F ] [ q_F ]   [  (g0 - C q_X)_F  ]
+!>     [ -G_F'    0  ] [  a  ] = [ -(h - G_X' q_X)  ]
+!>
+!> 1. M is scaled to a unit diagonal and factored by Cholesky: rows of stiff and of soft bodies then count alike. M is positive
+!>    definite, as the flexibility C = B F B' of condensed bodies is, unless rows of B depend on each other: a pivot that vanishes
+!>    is a row that others make up, as where nodes of two pairs are one.
+!> 2. q_F = M^-1 (rhs + G_F a) leaves S a = h - G_X' q_X - G_F' M^-1 rhs with the complement S = G_F' M^-1 G_F, a matrix of the
+!>    size of the rigid motions, which is decomposed into its eigenvectors.
+!> 3. An eigenvalue that vanishes belongs to a motion that the closed points do not hold. It takes no part in a. Where the load
+!>    works on it there is no equilibrium with these states (outcome%moves), else it may be anything (outcome%undetermined).
+!> 4. The residual of both equations is solved for once more with the same factors: what is left is round-off of the solution. 5. r
+!> = g0 - (C + D) q + G a of all unknowns, the fixed ones too: its sign tells whether their states are right.
+!>
+!> The factor of an earlier solve whose free set differs by some unknowns serves again as the preconditioner of conjugate gradients
+!> (atrito_dual_preconditioner), where that is cheaper than a new one.
+!>
+!> Cost: |F|^3/3 operations for a factor, 2 m^2 for each product with C and as many for each solve with the factor.
+!>
+!> Round-off. r_i is the difference of terms, so it is known to CLOSES times their sum (`row_round_off`), and a force to that over
+!> C_ii + D_ii (`force_round_off`). The states of unknowns change by more than that alone (atrito_active_set).
 module atrito_free_set
-   use atrito_bound_qp, only: bound_qp_t, box_bounds_t, box_state_t, FREE, AT_LOWER, AT_UPPER, FROZEN, DEPENDENT_POINTS
+   use atrito_bound_qp, only: bound_qp_t, box_bounds_t, box_outcome_t, box_state_t, FREE, AT_LOWER, AT_UPPER, FROZEN, &
+                              DEPENDENT_POINTS
    use atrito_kinds, only: ip, wp
-   use atrito_dense, only: solve_cholesky, eigen_symmetric
+   use atrito_dense, only: solve_cholesky
    use atrito_dense_blocks, only: multiply_symmetric
-   use atrito_dual_preconditioner, only: free_system_t, solve_with_kept, scaled_product
-   use atrito_free_set_factor, only: free_set_factor_t, factor_free_set, condition_of, is_worth_keeping
-   use atrito_status, only: status_t, set_status, is_ok, STATUS_SINGULAR
+   use atrito_dual_preconditioner, only: complement_t, free_system_t, find_complement, solve_with_kept, &
+                                         scaled_product
+   use atrito_free_set_factor, only: free_set_factor_t, factor_free_set, is_worth_keeping
+   use atrito_status, only: status_t, set_status, STATUS_SINGULAR
    implicit none (type, external)
    private
-   public :: equality_solution_t, solve_free_set, put_at_bounds, set_residual, clear_vanishing, is_vanishing, row_round_off, &
+   public :: solve_free_set, put_at_bounds, set_residual, clear_vanishing, is_vanishing, row_round_off, &
              force_round_off
-
-   !> What a solve with a given set of free unknowns found besides q, a, r.
-   type :: equality_solution_t
-      logical :: moves = .false.                 !< the free set does not hold a motion that the load works on
-      real(wp), allocatable :: motion(:)         !< (k) that motion, in the direction of the load
-      logical :: hardly = .false.                !< with moves: so little load that the body rests where nothing stops it
-      real(wp), allocatable :: undetermined(:) !< (k) a motion that neither the free set nor the load touches; else not allocated
-      real(wp) :: condition = 1.0_wp             !< of the scaled matrix of the free set
-      integer(ip) :: dependent = 0               !< an unknown whose row depends on others; 0: none
-   end type equality_solution_t
 
    real(wp), parameter :: NULL_MOTION = 1.0e-12_wp  !< eigenvalue of a motion that the free set does not hold
    real(wp), parameter :: NO_LOAD = 1.0e-13_wp      !< part of the load in such a motion that is none
@@ -28,57 +45,17 @@ module atrito_free_set
    real(wp), parameter :: CLOSES = 1.0e-14_wp       !< round-off of r, of the terms it is made of
    real(wp), parameter :: VANISHING = 1.0e-25_wp    !< of the force that would undo the displacements: refinement leaves it of 0
 
-   !> How firmly the free set holds each motion: eigenvectors and eigenvalues of G' M^-1 G, scaled to a unit diagonal.
-   type :: complement_t
-      real(wp), allocatable :: vectors(:, :), values(:), scale(:)
-   end type complement_t
-
 contains
 
-   !> Solves for the free unknowns, the others fixed at state%q; sets state%q, a, r, slack. solution%moves: no equilibrium, and a is
-   !> the least motion that satisfies the rest. status: STATUS_SINGULAR when rows depend on each other (solution%dependent).
-   !>
-   !> With F the free unknowns, X the fixed ones and M = (C + D)_FF, the conditions r_F = 0 and G' q = h are the saddle system
-   !>
-   !>     [  M     -G_F ] [ q_F ]   [  (g0 - C q_X)_F  ]
-   !>     [ -G_F'    0  ] [  a  ] = [ -(h - G_X' q_X)  ]
-   !>
-   !> 1. M is scaled to a unit diagonal and factored by Cholesky: rows of stiff and of soft bodies then count alike. A pivot that
-   !>    vanishes is a row that others make up, as where nodes of two pairs are one.
-   !> 2. q_F = M^-1 (rhs + G_F a) leaves S a = h - G_X' q_X - G_F' M^-1 rhs with the complement S = G_F' M^-1 G_F, a matrix of the
-   !>    size of the rigid motions, which is decomposed into its eigenvectors.
-   !> 3. An eigenvalue that vanishes belongs to a motion that the closed points do not hold. It takes no part in a. Where the load
-   !>    works on it there is no equilibrium with these states (moves), else it may be anything (undetermined).
-   !> 4. The residual of both equations is solved for once more with the same factors: what is left is round-off of the solution.
-   !>
-   !> The factor of an earlier solve whose free set differs by some unknowns serves again as the preconditioner of conjugate
-   !> gradients (atrito_dual_preconditioner), where that is cheaper than a new one.
-   subroutine solve_free_set(problem, d, state, solution, status, kept)
+   !> Solves for the free unknowns, the others fixed at state%q; sets state%q, a, r, slack. outcome%moves: no equilibrium, and a is
+   !> the least motion that satisfies the rest. status: STATUS_SINGULAR when rows depend on each other (outcome%dependent).
+   subroutine solve_free_set(problem, d, state, outcome, status, factor)
       type(bound_qp_t), intent(in) :: problem
       real(wp), intent(in) :: d(:)               !< (m) [L/F]
       type(box_state_t), intent(inout) :: state
-      type(equality_solution_t), intent(out) :: solution
+      type(box_outcome_t), intent(out) :: outcome !< solved is left to the caller, condition to condition_of
       type(status_t), intent(out) :: status
-      !> Factor of an earlier solve, which serves again where it can, or of this one; solution%condition is left to condition_of.
-      type(free_set_factor_t), intent(inout), optional :: kept
-      type(free_set_factor_t) :: own
-
-      if (present(kept)) then
-         call solve_with_factor(problem, d, kept, state, solution, status)
-      else
-         call solve_with_factor(problem, d, own, state, solution, status)
-         if (is_ok(status)) solution%condition = condition_of(own)
-      end if
-   end subroutine solve_free_set
-
-   !> By the factor that is there, or by a new one.
-   subroutine solve_with_factor(problem, d, factor, state, solution, status)
-      type(bound_qp_t), intent(in) :: problem
-      real(wp), intent(in) :: d(:)               !< (m) [L/F]
-      type(free_set_factor_t), intent(inout) :: factor
-      type(box_state_t), intent(inout) :: state
-      type(equality_solution_t), intent(inout) :: solution
-      type(status_t), intent(out) :: status
+      type(free_set_factor_t), intent(inout) :: factor !< of an earlier solve, which serves again where it can, or of this one
       type(free_system_t) :: system
       real(wp), allocatable :: held(:), q(:)
       logical :: solved
@@ -88,16 +65,16 @@ contains
       solved = .false.
       if (is_worth_keeping(size(q, kind=ip))) call solve_with_kept(factor, problem%c, system, q, state%a, solved)
       if (.not. solved) then
-         call factor_free_set(problem%c, d, system%set, factor, solution%dependent)
-         if (solution%dependent > 0) then
+         call factor_free_set(problem%c, d, system%set, factor, outcome%dependent)
+         if (outcome%dependent > 0) then
             call set_status(status, STATUS_SINGULAR, DEPENDENT_POINTS)
             return
          end if
-         call solve_saddle(problem, factor%matrix, system, held, q, state%a, solution)
+         call solve_saddle(problem, factor%matrix, system, held, q, state%a, outcome)
       end if
       state%q(system%set) = q*system%scale
       call set_residual(problem, d, state)
-   end subroutine solve_with_factor
+   end subroutine solve_free_set
 
    !> The equations of the free unknowns, scaled to a unit diagonal of C + D.
    subroutine free_system(problem, d, state, held, system)
@@ -126,21 +103,21 @@ contains
    end subroutine free_system
 
    !> [M -G; -G' 0] [q; a] = [rhs; -load] by the complement of M, with one refinement.
-   subroutine solve_saddle(problem, factor, system, held, q, a, solution)
+   subroutine solve_saddle(problem, factor, system, held, q, a, outcome)
       type(bound_qp_t), intent(in) :: problem
       real(wp), intent(in) :: factor(:, :)       !< of M
       type(free_system_t), intent(in) :: system
       real(wp), intent(in) :: held(:)            !< (m) forces of the fixed unknowns
       real(wp), intent(out) :: q(:)              !< scaled
       real(wp), intent(inout) :: a(:)
-      type(equality_solution_t), intent(inout) :: solution
+      type(box_outcome_t), intent(inout) :: outcome
       type(complement_t) :: complement
       real(wp), allocatable :: y(:, :), x(:), correction(:), da(:)
 
       associate (gs => system%g, rhs => system%rhs, load => system%load)
          y = gs
          call solve_cholesky(factor, y)
-         call complement_modes(gs, y, complement)
+         call find_complement(gs, y, complement)
          x = rhs
          call solve_cholesky(factor, x)
          call solve_motions(complement, load - matmul(transpose(gs), x), a)
@@ -152,33 +129,9 @@ contains
          call solve_motions(complement, load - matmul(transpose(gs), q) - matmul(transpose(gs), correction), da)
          q = q + correction + matmul(y, da)
          a = a + da
-         call judge_motions(problem, complement, system, held, q, a, solution)
+         call judge_motions(problem, complement, system, held, q, a, outcome)
       end associate
    end subroutine solve_saddle
-
-   !> S = G' M^-1 G, scaled to a unit diagonal, by its eigenvectors; y = M^-1 G.
-   subroutine complement_modes(gs, y, complement)
-      real(wp), intent(in) :: gs(:, :), y(:, :)
-      type(complement_t), intent(out) :: complement
-      integer(ip) :: i, j, k, info
-
-      k = size(gs, 2, kind=ip)
-      complement%vectors = matmul(transpose(gs), y)
-      complement%vectors = 0.5_wp*(complement%vectors + transpose(complement%vectors))
-      allocate (complement%scale(k), complement%values(k))
-      associate (vectors => complement%vectors, scale => complement%scale)
-         do j = 1, k
-            scale(j) = 1.0_wp
-            if (vectors(j, j) > 0.0_wp) scale(j) = 1.0_wp/sqrt(vectors(j, j))
-         end do
-         do j = 1, k
-            do i = 1, k
-               vectors(i, j) = vectors(i, j)*scale(i)*scale(j)
-            end do
-         end do
-         call eigen_symmetric(vectors, complement%values, info)
-      end associate
-   end subroutine complement_modes
 
    !> a from G' M^-1 G a = force; a motion that the free set does not hold takes no part.
    subroutine solve_motions(complement, force, a)
@@ -195,23 +148,23 @@ contains
       a = a*complement%scale
    end subroutine solve_motions
 
-   !> Whether the load works on a motion that the free set does not hold: then solution%moves. The load is measured by the forces of
+   !> Whether the load works on a motion that the free set does not hold: then outcome%moves. The load is measured by the forces of
    !> the solution on the bodies that move, and by what was cancelled in it; those before the bodies have moved to where they touch
    !> may be larger by any factor, and say nothing.
-   subroutine judge_motions(problem, complement, system, held, q, a, solution)
+   subroutine judge_motions(problem, complement, system, held, q, a, outcome)
       type(bound_qp_t), intent(in) :: problem
       type(complement_t), intent(in) :: complement
       type(free_system_t), intent(in) :: system
       real(wp), intent(in) :: held(:)
       real(wp), intent(in) :: q(:)               !< scaled, of the free set
       real(wp), intent(in) :: a(:)
-      type(equality_solution_t), intent(inout) :: solution
+      type(box_outcome_t), intent(inout) :: outcome
       real(wp) :: all_q(problem%m), none(problem%m), work(problem%k), size_of_work(problem%k), motion(problem%k), way(problem%k)
       real(wp) :: part, size_of_part, round_off
       integer(ip) :: j
 
       if (all(complement%values > NULL_MOTION)) return
-      solution%hardly = .true.
+      outcome%hardly = .true.
       all_q = held
       all_q(system%set) = q*system%scale
       none = min(abs(all_q), VANISHING*forces_of_places(problem, system, a))
@@ -226,14 +179,14 @@ contains
          round_off = dot_product(abs(matmul(problem%g, way)), none)
          if (abs(part) > NO_LOAD*size_of_part + round_off) then
             motion = motion + complement%vectors(:, j)*part
-            solution%hardly = solution%hardly .and. abs(part) <= LITTLE_LOAD*size_of_part + round_off
+            outcome%hardly = outcome%hardly .and. abs(part) <= LITTLE_LOAD*size_of_part + round_off
          else
-            solution%undetermined = way
+            outcome%undetermined = way
          end if
       end do
       if (all(motion == 0.0_wp)) return
-      solution%moves = .true.
-      solution%motion = motion*complement%scale
+      outcome%moves = .true.
+      outcome%motion = motion*complement%scale
    end subroutine judge_motions
 
    !> The work of all loads on each motion without sign [F]: what round-off of h is measured by.

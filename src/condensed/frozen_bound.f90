@@ -1,10 +1,21 @@
 !> The contact line with a friction bound that stands still: what the Picard loop solves once an iteration.
+!>
+!> With tau given the shear has the constant bound w tau at each point and the compliance D of the friction law at that tau, and
+!> the problem is the bound-constrained QP (atrito_bound_qp), convex, with one solution in the displacements:
+!>
+!>     1. bounds and compliances of tau (`set_friction_bounds`);
+!>     2. full steps of the active set, then steps of Goldfarb and Idnani (atrito_active_set); the proximal method where rows depend
+!>        on each other, or where the steps did not come to an end;
+!>     3. what is round-off becomes nothing: forces that vanish, tensions that other points bear, pairs that carry noise alone;
+!>     4. p = q_n/w, t = q_t/w, and the image nu S_rho(p) of tau.
+!>
+!> The image is the next bound of Picard's iteration; where it is tau itself the law of friction holds.
 module atrito_frozen_bound
    use atrito_active_set, only: solve_box, is_settled
-   use atrito_bound_qp, only: bound_qp_t, box_state_t, FREE, AT_LOWER
+   use atrito_bound_qp, only: bound_qp_t, box_outcome_t, box_state_t, FREE, AT_LOWER
    use atrito_contact_line, only: contact_line_t, last_of_pair, pressure_of, shear_force_of, set_friction_bounds
    use atrito_contact_solution, only: contact_solution_t, bound_of_state, NOISE
-   use atrito_free_set, only: equality_solution_t, solve_free_set, clear_vanishing, force_round_off
+   use atrito_free_set, only: solve_free_set, clear_vanishing, force_round_off
    use atrito_kinds, only: ip, wp, HUGE_REAL
    use atrito_proximal, only: solve_box_proximal
    use atrito_status, only: status_t, is_ok
@@ -43,8 +54,11 @@ contains
       end if
       if (.not. is_ok(status)) return
       call clear_vanishing(problem, solution%bounds%d, solution%state)
-      if (solution%inner%solved) call open_tensions(problem, solution)
-      if (solution%inner%solved) call clear_noise(problem, line, solution)
+      if (solution%inner%solved) then
+         ! with rows the factor is not that of the free set
+         if (.not. allocated(solution%rows)) call open_tensions(problem, solution)
+         call clear_noise(problem, line, solution)
+      end if
       solution%p = pressure_of(line, solution%state%q)
       solution%t = shear_force_of(line, solution%state%q, tau)
       image = bound_of_state(line, solution)
@@ -56,12 +70,11 @@ contains
       type(bound_qp_t), intent(in) :: problem
       type(contact_solution_t), intent(inout) :: solution
       type(box_state_t) :: state
-      type(equality_solution_t) :: found
+      type(box_outcome_t) :: found
       type(status_t) :: status
       logical :: pulled(problem%n_normal)
       integer :: round
 
-      if (allocated(solution%rows)) return              ! their factor is not that of the free set
       associate (n => problem%n_normal)
          state = solution%state
          do round = 1, MOST_ROUNDS

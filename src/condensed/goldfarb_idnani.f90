@@ -1,16 +1,23 @@
-!> The finite dual method of Goldfarb and Idnani (1983) for the bound-constrained QP.
+!> The finite dual method of Goldfarb and Idnani (Math. Program. 27 (1983) 1-33) for the bound-constrained QP.
 !>
-!> It goes from one exact solution of a relaxed problem (some bounds of free unknowns broken, all multipliers right) to the next,
-!> and the dual value rises at every step, so no state comes back:
+!> The multiplier of a fixed unknown is r: it must be <= 0 at a lower bound (the point is open, the slip goes against the friction)
+!> and >= 0 at an upper one. The method goes from one exact solution of a relaxed problem, in which all multipliers are right and
+!> some bounds of free unknowns are broken, to the next:
+!>
 !>   (i)   release every fixed unknown whose multiplier r has the wrong sign, until none has;
-!>   (ii)  take the free unknown that breaks its bound most and drive it to the bound, everything else changing linearly; the
-!>         first fixed unknown whose multiplier reaches zero on the way is released, and the drive goes on;
-!>   (iii) when that leaves a body free, move along its motion until a multiplier reaches zero and release that unknown; when none
-!>         does, there is no equilibrium.
+!>   (ii)  take the free unknown that breaks its bound most and drive it to the bound, everything else changing linearly,
+!>         (q, a, r) <- (q, a, r) + t ((q, a, r)' - (q, a, r)), the prime being the solution with this unknown at its bound;
+!>         the first fixed unknown whose multiplier reaches zero on the way is released, and the drive goes on from there;
+!>   (iii) when that leaves a body free, move along its motion v, r <- r + t G v, until a multiplier reaches zero and release that
+!>         unknown; when none does, there is no equilibrium, and v is the motion of the body.
+!>
+!> Each relaxed problem has fewer conditions than the QP, so its value is below that of the QP. It rises at every step, so no set
+!> of states comes back, and there are finitely many: the method ends. Full steps (atrito_active_set) take fewer solves where they
+!> end. A step costs one linear solve; SOLVES_PER_UNKNOWN limits them.
 module atrito_goldfarb_idnani
-   use atrito_free_set, only: equality_solution_t, solve_free_set, is_vanishing, put_at_bounds, row_round_off, force_round_off
+   use atrito_free_set, only: solve_free_set, is_vanishing, put_at_bounds, row_round_off, force_round_off
    use atrito_kinds, only: ip, wp
-   use atrito_bound_qp, only: bound_qp_t, box_bounds_t, box_state_t, FREE, AT_LOWER, AT_UPPER
+   use atrito_bound_qp, only: bound_qp_t, box_bounds_t, box_outcome_t, box_state_t, FREE, AT_LOWER, AT_UPPER
    use atrito_free_set_factor, only: free_set_factor_t
    use atrito_solve_history, only: solve_history_t, record_solve
    use atrito_status, only: status_t, is_ok
@@ -26,51 +33,52 @@ module atrito_goldfarb_idnani
 
 contains
 
-   !> Goes on from state%state until all conditions hold (solved), there is no equilibrium (solution%moves), or too many solves.
-   subroutine take_goldfarb_idnani_steps(problem, bounds, state, history, solution, solved, status, kept)
+   !> Goes on from state%state until all conditions hold (outcome%solved), there is no equilibrium (outcome%moves), or there were
+   !> too many solves.
+   subroutine take_goldfarb_idnani_steps(problem, bounds, state, history, outcome, status, factor)
       type(bound_qp_t), intent(in) :: problem
       type(box_bounds_t), intent(in) :: bounds
       type(box_state_t), intent(inout) :: state
       type(solve_history_t), intent(inout) :: history
-      type(equality_solution_t), intent(out) :: solution
-      logical, intent(out) :: solved
+      type(box_outcome_t), intent(out) :: outcome
       type(status_t), intent(out) :: status
-      type(free_set_factor_t), intent(inout), optional :: kept
+      type(free_set_factor_t), intent(inout) :: factor
       integer(ip) :: left, worst, i
 
-      solved = .false.
       left = SOLVES_PER_UNKNOWN*problem%m + 50
-      call release_until_right(problem, bounds, state, history, solution, left, status, kept)
-      do while (is_ok(status) .and. left > 0 .and. .not. solution%moves)
+      call release_until_right(problem, bounds, state, history, outcome, left, status, factor)
+      do while (is_ok(status) .and. left > 0 .and. .not. outcome%moves)
          call find_worst(problem, bounds, state, worst)
          if (worst == 0) then
             ! an undetermined motion may have turned a multiplier
-            solved = .not. any([(is_wrong(problem, state, i), i=1, problem%m)])
-            if (solved) return
-            call release_until_right(problem, bounds, state, history, solution, left, status, kept)
+            outcome%solved = .not. any([(is_wrong(problem, state, i), i=1, problem%m)])
+            if (outcome%solved) exit
+            call release_until_right(problem, bounds, state, history, outcome, left, status, factor)
             cycle
          end if
          state%state(worst) = DRIVEN
-         call drive_to_bound(problem, bounds, state, history, solution, left, status, kept)
+         call drive_to_bound(problem, bounds, state, history, outcome, left, status, factor)
       end do
+      if (allocated(outcome%motion) .and. .not. outcome%moves) deallocate (outcome%motion)
+      if (allocated(outcome%undetermined) .and. .not. outcome%solved) deallocate (outcome%undetermined)
    end subroutine take_goldfarb_idnani_steps
 
    !> (i) and, where a body is free, (iii).
-   subroutine release_until_right(problem, bounds, state, history, solution, left, status, kept)
+   subroutine release_until_right(problem, bounds, state, history, outcome, left, status, factor)
       type(bound_qp_t), intent(in) :: problem
       type(box_bounds_t), intent(in) :: bounds
       type(box_state_t), intent(inout) :: state
       type(solve_history_t), intent(inout) :: history
-      type(equality_solution_t), intent(out) :: solution
+      type(box_outcome_t), intent(out) :: outcome
       integer(ip), intent(inout) :: left
       type(status_t), intent(out) :: status
-      type(free_set_factor_t), intent(inout), optional :: kept
+      type(free_set_factor_t), intent(inout) :: factor
       real(wp) :: t
       integer(ip) :: i, released, first
 
       do while (left > 0)
          call put_at_bounds(bounds, state)
-         call solve_free_set(problem, bounds%d, state, solution, status, kept)
+         call solve_free_set(problem, bounds%d, state, outcome, status, factor)
          left = left - 1
          if (.not. is_ok(status)) return
          call record_solve(history, problem, bounds, state)
@@ -81,27 +89,27 @@ contains
             released = released + 1
          end do
          if (released > 0) cycle
-         if (.not. solution%moves) return
-         call find_first_reached(problem, state, solution%motion, first, t)
+         if (.not. outcome%moves) return
+         call find_first_reached(problem, state, outcome%motion, first, t)
          if (first == 0) then
-            call rest(solution)
+            call rest(outcome)
             return
          end if
          state%state(first) = FREE
-         solution%moves = .false.
+         outcome%moves = .false.
       end do
    end subroutine release_until_right
 
    !> (ii) and (iii) for one unknown.
-   subroutine drive_to_bound(problem, bounds, state, history, solution, left, status, kept)
+   subroutine drive_to_bound(problem, bounds, state, history, outcome, left, status, factor)
       type(bound_qp_t), intent(in) :: problem
       type(box_bounds_t), intent(in) :: bounds
       type(box_state_t), intent(inout) :: state      !< one unknown is DRIVEN, beyond its bound
       type(solve_history_t), intent(inout) :: history
-      type(equality_solution_t), intent(out) :: solution
+      type(box_outcome_t), intent(out) :: outcome
       integer(ip), intent(inout) :: left
       type(status_t), intent(out) :: status
-      type(free_set_factor_t), intent(inout), optional :: kept
+      type(free_set_factor_t), intent(inout) :: factor
       type(box_state_t) :: target
       real(wp) :: t, motion(problem%k)
       integer(ip) :: i, bound, first
@@ -111,21 +119,21 @@ contains
       do while (left > 0)
          target = state
          target%q(i) = merge(bounds%lower(i), bounds%upper(i), bound == AT_LOWER)
-         call solve_free_set(problem, bounds%d, target, solution, status, kept)
+         call solve_free_set(problem, bounds%d, target, outcome, status, factor)
          left = left - 1
          if (.not. is_ok(status)) exit
          call record_solve(history, problem, bounds, target)
-         if (solution%moves) then
-            motion = opening_motion(problem, i, bound, solution%motion)
+         if (outcome%moves) then
+            motion = opening_motion(problem, i, bound, outcome%motion)
             call find_first_reached(problem, state, motion, first, t)
             if (first == 0) then
-               call rest(solution)
-               if (.not. solution%moves) state = target
+               call rest(outcome)
+               if (.not. outcome%moves) state = target
                exit
             end if
             state%a = state%a + t*motion
             state%r = state%r + t*matmul(problem%g, motion)
-            solution%moves = .false.
+            outcome%moves = .false.
          else
             call first_crossing(state, target, first, t)
             if (first == 0) then
@@ -142,12 +150,12 @@ contains
    end subroutine drive_to_bound
 
    !> A body that nothing stops and hardly anything drives rests.
-   pure subroutine rest(solution)
-      type(equality_solution_t), intent(inout) :: solution
+   pure subroutine rest(outcome)
+      type(box_outcome_t), intent(inout) :: outcome
 
-      if (.not. solution%hardly) return
-      solution%moves = .false.
-      solution%undetermined = solution%motion
+      if (.not. outcome%hardly) return
+      outcome%moves = .false.
+      outcome%undetermined = outcome%motion
    end subroutine rest
 
    !> Whether r of a fixed unknown has the wrong sign, by more than round-off.

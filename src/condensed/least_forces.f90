@@ -6,10 +6,11 @@
 !>
 !>     minimise sum q_i^2 / w_i,     B' q as it is,    lower <= q <= upper,    q_i as it is where the row may not change,
 !>
-!> the limit of a small compliance that is the same at all points. With y = q/sqrt(w) and A = B' W^1/2 it is the shortest y with the
-!> same A y. Without bounds that is the part of y in the range of A'; bounds are met by a primal active set, which keeps A y at
+!> the limit of a small compliance that is the same at all points. With y = q/sqrt(w) and A = B' W^1/2 it is the shortest y with
+!> the same A y. Without bounds that is the part of y in the range of A'; bounds are met by a primal active set, which keeps A y at
 !> every step. Components that share no dof are solved each by itself (atrito_constraint_rows).
 module atrito_least_forces
+   use atrito_bound_qp, only: box_bounds_t, box_state_t, FREE
    use atrito_constraint_rows, only: constraint_rows_t, list_components
    use atrito_dense, only: least_squares
    use atrito_kinds, only: ip, lp, wp
@@ -35,42 +36,45 @@ module atrito_least_forces
 
 contains
 
-   !> Replaces q by the least forces; is_shared tells the rows whose force is not unique.
-   subroutine find_least_forces(rows, weight, lower, upper, may_change, q, is_shared)
+   !> Replaces state%q by the least forces; what is between its bounds then is free. is_shared tells the rows whose force is not
+   !> unique.
+   subroutine find_least_forces(rows, weight, bounds, may_change, state, is_shared)
       type(constraint_rows_t), intent(in) :: rows
       real(wp), intent(in) :: weight(:)          !< (n) of the rows' points [L^2]
-      real(wp), intent(in) :: lower(:), upper(:) !< (n) [F]
+      type(box_bounds_t), intent(in) :: bounds   !< of the n forces
       logical, intent(in) :: may_change(:)       !< (n) closed or sticking, r = 0 and no compliance
-      real(wp), intent(inout) :: q(:)            !< (n) [F], admissible
-      logical, intent(out) :: is_shared(:)       !< (n)
+      type(box_state_t), intent(inout) :: state  !< with admissible forces
+      logical, allocatable, intent(out) :: is_shared(:) !< (n)
       type(component_t) :: component
       integer(ip), allocatable :: first(:), member(:)
-      real(wp) :: scale(size(q))
+      real(wp) :: scale(rows%n)
       integer(ip) :: i
       logical, allocatable :: shared(:)
 
-      is_shared = .false.
+      allocate (is_shared(rows%n), source=.false.)
       call list_components(rows, may_change, first, member)
       if (size(first) <= 1) return
       scale = sqrt(weight)
       do i = 1, size(first, kind=ip) - 1
          associate (own => member(first(i):first(i + 1) - 1))
-            call extract_component(rows, own, scale, lower, upper, q, component)
+            call extract_component(rows, own, scale, bounds, state%q, component)
             call find_shared(component, shared)
             if (.not. any(shared)) cycle
             call shorten(component)
             call find_shared(component, shared)
-            q(own) = component%y*scale(own)
+            state%q(own) = component%y*scale(own)
             is_shared(own) = shared
          end associate
       end do
+      where (is_shared .and. state%q > bounds%lower .and. state%q < bounds%upper) state%state = FREE
    end subroutine find_least_forces
 
    !> Rows of a component in its own numbers.
-   subroutine extract_component(rows, own, scale, lower, upper, q, component)
+   subroutine extract_component(rows, own, scale, bounds, q, component)
       type(constraint_rows_t), intent(in) :: rows
       integer(ip), intent(in) :: own(:)
-      real(wp), intent(in) :: scale(:), lower(:), upper(:), q(:)
+      real(wp), intent(in) :: scale(:), q(:)
+      type(box_bounds_t), intent(in) :: bounds
       type(component_t), intent(out) :: component
       integer(lp), allocatable :: dofs(:)
       integer(ip) :: i, k, n
@@ -94,8 +98,8 @@ contains
       call scale_columns(component)
       component%y = q(own)/scale(own)
       ! no bound stays none
-      component%lower = max(lower(own), -0.5_wp*huge(1.0_wp)*min(scale(own), 1.0_wp))/scale(own)
-      component%upper = min(upper(own), 0.5_wp*huge(1.0_wp)*min(scale(own), 1.0_wp))/scale(own)
+      component%lower = max(bounds%lower(own), -0.5_wp*huge(1.0_wp)*min(scale(own), 1.0_wp))/scale(own)
+      component%upper = min(bounds%upper(own), 0.5_wp*huge(1.0_wp)*min(scale(own), 1.0_wp))/scale(own)
    end subroutine extract_component
 
    !> Each dof's entries to length one: the same A y, better conditioned.

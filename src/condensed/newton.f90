@@ -1,8 +1,19 @@
 !> Newton's method on the forces and the rigid motions together, friction bound and all.
 !>
-!> Unknowns: q of closed, sticking and slipping points, a. Rows: r = 0 for closed and sticking points (with D = eps/(w tau(q)) for
-!> the law of Oden and Pires), q = +-w tau(q) for slipping ones, G' q = h. The bound tau = nu W p is differentiated, so the matrix
-!> is not symmetric. States change after each step as in the full steps of the active set.
+!> The Picard loop freezes the bound tau; this does not. Unknowns are q of closed, sticking and slipping points, and a; open points
+!> have q = 0. Rows are
+!>
+!>     r_i = g0_i - ((C + D) q)_i + (G a)_i = 0           closed and sticking points; D = eps/(w tau(q)) for NONLOCAL
+!>     q_i -+ w_j tau_j(q) = 0                            points j that slip along T or against it
+!>     G' q = h                                           the balance of the bodies
+!>
+!> with tau_j = nu sum_k W_jk q_k/w_k, W being the average S_rho, so d tau_j/d q_k = nu W_jk/w_k (`bound_slope`). The derivative of
+!> D is -D/tau d tau. The matrix is not symmetric, so it is factored by LU: 2/3 (|active| + k)^3 operations a step. Forces are
+!> scaled by 1/sqrt(C_ii + D_ii), motions to unit columns, so that stiff and soft bodies count alike.
+!>
+!> States change after each step as in the full steps of the active set. Once they stand, the error is squared in each step. From
+!> far away nothing makes it converge, and states may turn to and fro; a singular matrix ends it. So it is begun from a state that
+!> the loop has come to.
 module atrito_newton
    use atrito_active_set, only: change_states
    use atrito_bound_qp, only: bound_qp_t, FREE, AT_LOWER, AT_UPPER, FROZEN
@@ -39,7 +50,10 @@ contains
          call begin_outer(solution%history)
          solution%tau = bound_of_state(line, solution)
          call update_compliances(problem, line, solution)
-         active = pack([(i, i=1, problem%m)], is_active(problem, solution%state%state))
+         ! open points have no row; slipping ones have
+         associate (state => solution%state%state, slips => [(i > problem%n_normal, i=1, problem%m)])
+            active = pack([(i, i=1, problem%m)], state == FREE .or. (slips .and. (state == AT_LOWER .or. state == AT_UPPER)))
+         end associate
          call build_system(problem, line, solution, active, jacobian, rhs)
          call solve_lu(jacobian, rhs, info)
          if (info /= 0) then
@@ -48,7 +62,7 @@ contains
          end if
          change = maxval(abs([rhs(:size(active)), 0.0_wp]))
          call apply_step(problem, active, rhs, solution)
-         largest_force = maxval(abs([scaled_forces(problem, active, solution), 0.0_wp]))
+         largest_force = maxval(abs([solution%state%q(active)/force_scale(problem, solution, active), 0.0_wp]))
          solution%tau = bound_of_state(line, solution)
          call update_compliances(problem, line, solution)
          call set_residual(problem, solution%bounds%d, solution%state)
@@ -67,23 +81,6 @@ contains
       solution%p = pressure_of(line, solution%state%q)
       solution%t = shear_force_of(line, solution%state%q, solution%tau)
    end subroutine iterate_newton
-
-   !> Open points have no row; slipping ones have.
-   pure elemental logical function is_row(state, tangential)
-      integer(ip), intent(in) :: state
-      logical, intent(in) :: tangential
-
-      is_row = state == FREE .or. (tangential .and. (state == AT_LOWER .or. state == AT_UPPER))
-   end function is_row
-
-   pure function is_active(problem, state) result(active)
-      type(bound_qp_t), intent(in) :: problem
-      integer(ip), intent(in) :: state(:)
-      logical :: active(size(state))
-      integer(ip) :: i
-
-      active = [(is_row(state(i), i > problem%n_normal), i=1, size(state, kind=ip))]
-   end function is_active
 
    !> d tau_j / d q of the active unknowns: nu W_jk / w_k of the pressures.
    pure function bound_slope(problem, line, active, j) result(slope)
@@ -218,15 +215,6 @@ contains
       solution%state%a = solution%state%a + step(size(active) + 1:)*scale_of_motions(problem, active, scale)
    end subroutine apply_step
 
-   pure function scaled_forces(problem, active, solution) result(forces)
-      type(bound_qp_t), intent(in) :: problem
-      integer(ip), intent(in) :: active(:)
-      type(contact_solution_t), intent(in) :: solution
-      real(wp) :: forces(size(active))
-
-      forces = solution%state%q(active)/force_scale(problem, solution, active)
-   end function scaled_forces
-
    !> A slipping force is its bound to the last digit.
    pure subroutine put_slipping_at_bounds(problem, line, solution)
       type(bound_qp_t), intent(in) :: problem
@@ -235,8 +223,10 @@ contains
       integer(ip) :: i
 
       do i = problem%n_normal + 1, problem%m
-         if (solution%state%state(i) == AT_UPPER) solution%state%q(i) = solution%tau(line%point(i))*line%weight(line%point(i))
-         if (solution%state%state(i) == AT_LOWER) solution%state%q(i) = -solution%tau(line%point(i))*line%weight(line%point(i))
+         associate (j => line%point(i), state => solution%state)
+            if (state%state(i) == AT_UPPER) state%q(i) = solution%tau(j)*line%weight(j)
+            if (state%state(i) == AT_LOWER) state%q(i) = -solution%tau(j)*line%weight(j)
+         end associate
       end do
    end subroutine put_slipping_at_bounds
 

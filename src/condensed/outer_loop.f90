@@ -1,5 +1,5 @@
-!> Where the Picard loop on the weighted normal stress, tau <- nu S_rho(p(tau)), the fixed point of the existence proof, begins, and
-!> what is tried where it does not converge.
+!> Where the Picard loop on the weighted normal stress, tau <- nu S_rho(p(tau)), the fixed point of the existence proof, begins,
+!> and what is tried where it does not converge.
 module atrito_outer_loop
    use atrito_accelerator, only: picard_t, anderson_t
    use atrito_bound_qp, only: bound_qp_t, box_bounds_t, box_state_t

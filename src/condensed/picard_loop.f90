@@ -1,21 +1,21 @@
 !> The Picard loop on the weighted normal stress, with the accelerator that it is given.
 !>
 !> The friction law of Oden and Pires bounds the shear at a point by nu S_rho(p): the coefficient times the pressure, weighted over
-!> a length rho. The bound depends on the pressure, the pressure on the shear, so what is sought is a fixed point. Let p(tau) be the
-!> pressure of the contact problem with the bound frozen at tau: that is a convex problem with one solution (Tresca's), which
+!> a length rho. The bound depends on the pressure, the pressure on the shear, so what is sought is a fixed point. Let p(tau) be
+!> the pressure of the contact problem with the bound frozen at tau: that is a convex problem with one solution (Tresca's), which
 !> `solve_with_bound` finds exactly. The loop is
 !>
 !>     tau_0 given,    tau_(k+1) = nu S_rho(p(tau_k)),                                                  (Picard)
 !>
-!> the iteration of the existence proof; S_rho makes the map compact, and for small nu it contracts. Its rate is measured on the way
-!> (`measure_rate`) and printed. An accelerator takes the bound and its image and says what the next bound is: Picard's own, or
+!> the iteration of the existence proof; S_rho makes the map compact, and for small nu it contracts. Its rate is measured on the
+!> way (`measure_rate`) and printed. An accelerator takes the bound and its image and says what the next bound is: Picard's own, or
 !> Anderson's mixing of the last ones (atrito_accelerator), which takes fewer steps.
 !>
 !> The loop stops when bound and image agree to the tolerance, pair by pair; when round-off, as the condition of the contact matrix
 !> tells it, leaves no more to gain; when bounds come again in a cycle; or when no bound holds the bodies.
 !>
-!> Source: E. B. Pires and P. Providencia e Costa (1991); L. T. Campos, J. T. Oden and N. Kikuchi, Comput. Methods Appl.
-!> Mech. Eng. 34 (1982) 821-845, for the problem with the bound frozen.
+!> Source: E. B. Pires and P. Providencia e Costa (1991); L. T. Campos, J. T. Oden and N. Kikuchi, Comput. Methods Appl. Mech. Eng.
+!> 34 (1982) 821-845, for the problem with the bound frozen.
 module atrito_picard_loop
    use atrito_accelerator, only: accelerator_t
    use atrito_bound_qp, only: bound_qp_t

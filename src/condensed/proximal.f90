@@ -1,14 +1,17 @@
 !> The bound-constrained QP where rows of the contact matrix depend on each other: at a joint of three bodies, at a corner of two
 !> pairs.
 !>
-!> The displacements are unique, the forces are not, and C + D cannot be factored. The proximal method (R. T. Rockafellar 1976)
-!> solves instead, again and again from the forces q' of the time before,
+!> The displacements are unique, the forces are not, and C + D cannot be factored. The proximal method (R. T. Rockafellar, SIAM J.
+!> Control Optim. 14 (1976) 877-898) adds to the function that q makes least half of s (q - q')' c (q - q'), q' being the forces of
+!> the time before, and solves again and again
 !>
 !>     r = g0 - (C + D) q - s c (q - q') + G a,      c = diagonal of C,  s = 1e-5 or less,
 !>
-!> a bound-constrained QP with a good condition. Where forces are unique the difference q - q' falls by s/(lambda + s) each time,
-!> lambda being an eigenvalue of the scaled matrix; elsewhere q stays where it is. Then the least of the forces that move the bodies
-!> alike is taken (atrito_least_forces), so that the answer does not depend on the way.
+!> a bound-constrained QP with the condition 1/s at the most: bounds%d + s c takes the place of D, and s c q' is the shift of
+!> box_state_t. Where q = q' it is the QP itself. Where forces are unique the difference q - q' falls by s/(lambda + s) each time,
+!> lambda being an eigenvalue of the scaled matrix; elsewhere q stays where it is. Where it falls too slowly, s is divided by 100.
+!> Then the least of the forces that move the bodies alike is taken (atrito_least_forces), so that the answer does not depend on
+!> the way.
 module atrito_proximal
    use atrito_active_set, only: solve_box
    use atrito_bound_qp, only: bound_qp_t, box_bounds_t, box_state_t, FREE, FROZEN, box_outcome_t
@@ -34,14 +37,14 @@ module atrito_proximal
 contains
 
    !> Solves from the given state. outcome%solved is false where the rounds do not come to an end.
-   subroutine solve_box_proximal(problem, bounds, state, history, outcome, status, kept, rows)
+   subroutine solve_box_proximal(problem, bounds, state, history, outcome, status, factor, rows)
       type(bound_qp_t), intent(in) :: problem
       type(box_bounds_t), intent(in) :: bounds
       type(box_state_t), intent(inout) :: state
       type(solve_history_t), intent(inout) :: history
       type(box_outcome_t), intent(out) :: outcome
       type(status_t), intent(out) :: status
-      type(free_set_factor_t), intent(inout) :: kept
+      type(free_set_factor_t), intent(inout) :: factor
       type(constraint_rows_t), intent(in), optional :: rows !< of the unknowns; without them there are no least forces
       type(box_bounds_t) :: near
       real(wp) :: c(problem%m), q(problem%m), share, change, last
@@ -60,7 +63,7 @@ contains
          before = state%state
          near%d = bounds%d + share*c
          state%shift = share*c*q
-         call solve_box(problem, near, state, history, outcome, status, kept)
+         call solve_box(problem, near, state, history, outcome, status, factor)
          if (.not. is_ok(status) .or. .not. outcome%solved) exit
          change = maxval([c*abs(state%q - q), 0.0_wp])
          stands = share*change <= ROUND_OFF*state%slack .or. &
@@ -74,17 +77,16 @@ contains
       if (.not. is_ok(status) .or. .not. outcome%solved) return
       outcome%solved = stands
       if (.not. present(rows)) return
-      allocate (outcome%is_shared(problem%m))
       call take_least_forces(problem, bounds, rows, state, outcome%is_shared)
    end subroutine solve_box_proximal
 
-   !> Of the forces that move the bodies alike the least.
+   !> Of the forces that move the bodies alike the least: of rows without compliance, closed or sticking or so by their r.
    subroutine take_least_forces(problem, bounds, rows, state, is_shared)
       type(bound_qp_t), intent(in) :: problem
       type(box_bounds_t), intent(in) :: bounds
       type(constraint_rows_t), intent(in) :: rows
       type(box_state_t), intent(inout) :: state
-      logical, intent(out) :: is_shared(:)
+      logical, allocatable, intent(out) :: is_shared(:)
       logical :: may_change(problem%m)
       integer(ip) :: i
 
@@ -92,10 +94,8 @@ contains
          may_change(i) = bounds%d(i) <= NO_COMPLIANCE*problem%c(i, i) .and. state%state(i) /= FROZEN
          if (may_change(i) .and. state%state(i) /= FREE) may_change(i) = abs(state%r(i)) <= AT_REST*row_round_off(problem, state, i)
       end do
-      call find_least_forces(rows, problem%weight, bounds%lower, bounds%upper, may_change, state%q, is_shared)
-      if (.not. any(is_shared)) return
-      where (is_shared .and. state%q > bounds%lower .and. state%q < bounds%upper) state%state = FREE
-      call set_residual(problem, bounds%d, state)
+      call find_least_forces(rows, problem%weight, bounds, may_change, state, is_shared)
+      if (any(is_shared)) call set_residual(problem, bounds%d, state)
    end subroutine take_least_forces
 
 end module atrito_proximal

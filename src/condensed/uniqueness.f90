@@ -1,11 +1,11 @@
 !> How far a scene is from having more than one solution: an estimate of the contraction of the Picard map tau -> nu S_rho(p(tau)).
 !>
-!> Where all points of a set are closed and slip, the normal forces follow the tangential ones linearly, q_n = A q_t with
-!> A = -C_nn^-1 C_nt (and what the rigid motions add), and the map of tau is L = nu w^-1 A w S, S the directions of slip. Two
-!> solutions on this set, or a Picard loop that cycles, need a spectral radius of L of 1 or more; for one point it is
-!> nu |C_nt|/C_nn = nu |K_nt|/K_tt. Sets: all points, and those that are closed in the solution, all slipping the same way; and the
-!> solution itself, where those that slip go on the way they do and those that stick hold: their forces follow, too. Other sets
-!> and directions may be worse, hence an estimate. The average S_rho is left out.
+!> Where all points of a set are closed and slip, the normal forces follow the tangential ones linearly, q_n = A q_t with A =
+!> -C_nn^-1 C_nt (and what the rigid motions add), and the map of tau is L = nu w^-1 A w S, S the directions of slip. Two solutions
+!> on this set, or a Picard loop that cycles, need a spectral radius of L of 1 or more; for one point it is nu |C_nt|/C_nn = nu
+!> |K_nt|/K_tt. Sets: all points, and those that are closed in the solution, all slipping the same way; and the solution itself,
+!> where those that slip go on the way they do and those that stick hold: their forces follow, too. Other sets and directions may
+!> be worse, hence an estimate. The average S_rho is left out.
 module atrito_uniqueness
    use atrito_bound_qp, only: bound_qp_t, FREE, AT_LOWER
    use atrito_contact_line, only: contact_line_t

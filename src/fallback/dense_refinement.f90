@@ -134,8 +134,8 @@ contains
       do b = 1, size(bodies, kind=ip)
          if (data%fem%bodies%list(b)%is_rigid) cycle
          call set_load(data%fem, b, now%residual, bodies(b))
-         call add_displacements(data%fem, b, bodies(b), data%rows, data%line, problem)
       end do
+      call add_displacements(data%fem, bodies, data%rows, data%line, problem%g0)
       call continue_contact_line(problem, data%line, controls, data%reporter, solution, status)
       if (.not. is_ok(status)) return
       change = -now%contact

@@ -2,7 +2,7 @@
 !> friction could hold.
 module atrito_free_motion
    use atrito_assembly, only: fem_t
-   use atrito_condensed_body, only: motion_text, how_it_moves
+   use atrito_body_motions, only: motion_text, how_it_moves
    use atrito_contact_line, only: contact_line_t
    use atrito_contact_rows, only: contact_rows_t
    use atrito_kinds, only: ip, wp

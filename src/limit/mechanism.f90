@@ -5,12 +5,11 @@
 !> loads drive it with h'v~, and the excess h'v is what friction falls short by.
 module atrito_mechanism
    use atrito_assembly, only: fem_t
+   use atrito_body_motions, only: add_rigid_motions, is_turn, motions_of_bodies
    use atrito_certificate, only: certificate_t, friction_work
-   use atrito_condensed_body, only: is_turn
    use atrito_contact_line, only: contact_line_t
    use atrito_contact_rows, only: contact_rows_t, row_value
    use atrito_dense, only: least_squares
-   use atrito_displacements, only: add_rigid_motions
    use atrito_kinds, only: ip, wp
    use atrito_motion_rows, only: motion_rows_t, motion_rates
    implicit none (type, external)
@@ -150,15 +149,9 @@ contains
       real(wp), intent(in) :: v(:)
       type(mechanism_t), intent(inout) :: mechanism
       real(wp) :: mode(3, fem%bodies%n), speed(fem%bodies%n), greatest
-      integer(ip) :: b, first, n, i
+      integer(ip) :: b, n, i
 
-      mode = 0.0_wp
-      first = 1
-      do b = 1, fem%bodies%n
-         n = size(fem%bodies%list(b)%modes, 2, kind=ip)
-         mode(:, b) = matmul(fem%bodies%list(b)%modes, v(first:first + n - 1))
-         first = first + n
-      end do
+      mode = motions_of_bodies(fem%bodies, v)
       speed = norm2(mode, dim=1)
       greatest = maxval(speed)
       n = count(speed > SMALL*greatest, kind=ip)
@@ -200,29 +193,17 @@ contains
       type(certificate_t), intent(in) :: certificate
       real(wp), intent(in) :: v(:)
       type(mechanism_t), intent(inout) :: mechanism
-      real(wp) :: scale, lift(3)
+      real(wp) :: scale, lifts(3, fem%bodies%n)
 
       scale = norm2(mechanism%mode(:2, 1))
       if (mechanism%turns .and. mechanism%together) scale = abs(mechanism%mode(3, 1))/fem%bodies%list(mechanism%bodies(1))%size
       mechanism%load = dot_product(motions%work, v)/scale
       mechanism%friction = max(0.0_wp, mechanism%load - certificate%excess/scale)
       if (mechanism%turns .or. .not. mechanism%together) return
-      lift = lift_of(fem, mechanism%bodies(1), certificate%motion - v)
-      if (norm2(lift(:2)) > 0.0_wp) mechanism%normal = -dot_product(motions%work, certificate%motion - v)/norm2(lift(:2))
+      lifts = motions_of_bodies(fem%bodies, certificate%motion - v)
+      associate (lift => norm2(lifts(:2, mechanism%bodies(1))))
+         if (lift > 0.0_wp) mechanism%normal = -dot_product(motions%work, certificate%motion - v)/lift
+      end associate
    end subroutine measure_forces
-
-   pure function lift_of(fem, b, v) result(mode)
-      type(fem_t), intent(in) :: fem
-      integer(ip), intent(in) :: b
-      real(wp), intent(in) :: v(:)
-      real(wp) :: mode(3)
-      integer(ip) :: first, i
-
-      first = 1
-      do i = 1, b - 1
-         first = first + size(fem%bodies%list(i)%modes, 2, kind=ip)
-      end do
-      mode = matmul(fem%bodies%list(b)%modes, v(first:first + size(fem%bodies%list(b)%modes, 2, kind=ip) - 1))
-   end function lift_of
 
 end module atrito_mechanism

@@ -414,7 +414,6 @@ contains
 
       if (loop%asked) return
       loop%asked = .true.
-      allocate (solution%is_shared(shape%m))
       call take_least_forces(system, rows, shape%weight, solution%bounds, multipliers, solution%state, solution%is_shared)
       loop%shares = any(solution%is_shared)
       solution%converged = .not. loop%shares

@@ -353,15 +353,14 @@ contains
       type(box_bounds_t), intent(in) :: bounds
       type(multiplier_t), intent(in) :: multipliers
       type(box_state_t), intent(inout) :: state
-      logical, intent(out) :: is_shared(:)       !< (m)
+      logical, allocatable, intent(out) :: is_shared(:) !< (m)
       logical :: may_change(system%rows%n)
 
       may_change = bounds%d <= NO_COMPLIANCE*system%flexibility .and. state%state /= FROZEN
       where (state%state == AT_LOWER .or. state%state == AT_UPPER)
          may_change = may_change .and. abs(state%r) <= multipliers%noise*(bounds%d + rho_of(system, multipliers))
       end where
-      call find_least_forces(rows, weight, bounds%lower, bounds%upper, may_change, state%q, is_shared)
-      where (is_shared .and. state%q > bounds%lower .and. state%q < bounds%upper) state%state = FREE
+      call find_least_forces(rows, weight, bounds, may_change, state, is_shared)
    end subroutine take_least_forces
 
    !> A pressure that is round-off is none: the point is open.

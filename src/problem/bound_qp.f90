@@ -53,6 +53,7 @@ module atrito_bound_qp
    type :: box_outcome_t
       logical :: solved = .false.
       logical :: moves = .false.                  !< no equilibrium: a free motion under the load
+      logical :: hardly = .false.                 !< with moves: so little load that the body rests where nothing stops it
       real(wp), allocatable :: motion(:)          !< (k) that motion
       real(wp), allocatable :: undetermined(:)            !< (k) a motion that nothing holds and nothing drives; else not allocated
       real(wp) :: condition = 1.0_wp

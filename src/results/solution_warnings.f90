@@ -1,8 +1,8 @@
 !> What a careful user should know of a solution, told as warnings and notes.
 module atrito_solution_warnings
    use atrito_blas_info, only: is_reference_blas
-   use atrito_condensed_body, only: hourglass_text, motion_text
-   use atrito_contact_problem, only: motion_body
+   use atrito_body_motions, only: find_moved_body, motion_text
+   use atrito_condensed_body, only: hourglass_text
    use atrito_contact_solution, only: contact_solution_t
    use atrito_friction_law, only: FRICTION_NONE
    use atrito_hourglass, only: worst_hourglass
@@ -63,7 +63,7 @@ contains
 
       text = ''
       if (.not. allocated(solution%inner%undetermined)) return
-      call motion_body(data%fem, solution%inner%undetermined, b, mode)
+      call find_moved_body(data%fem%bodies, solution%inner%undetermined, b, mode)
       text = motion_text(data%fem, b, mode)
    end function idle_text
 

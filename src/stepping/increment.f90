@@ -3,15 +3,14 @@
 module atrito_increment
    use atrito_body_cache, only: body_cache_t
    use atrito_body_sums, only: sum_bodies
-   use atrito_condensed_body, only: body_text, how_it_moves
+   use atrito_body_motions, only: add_rigid_motions, body_text, find_moved_body, how_it_moves
    use atrito_contact_form, only: can_be_dense, contact_form_name, CONTACT_AUTO, CONTACT_DENSE, CONTACT_SPARSE
-   use atrito_contact_problem, only: motion_body
    use atrito_contact_rows, only: bodies_of_row
    use atrito_contact_scales, only: usual_growth, force_round_off, NONE_OF_HAD
    use atrito_contact_solution, only: contact_solution_t
    use atrito_controls, only: controls_t, METHOD_ANDERSON, METHOD_NEWTON, METHOD_PICARD
    use atrito_dense_form, only: solve_dense_form
-   use atrito_displacements, only: contact_forces, add_rigid_motions
+   use atrito_displacements, only: contact_forces
    use atrito_extremes, only: find_extremes
    use atrito_final_check, only: check_equilibrium, check_balance, check_law, equilibrium_t
    use atrito_force_sums, only: sum_forces
@@ -360,7 +359,7 @@ contains
       text = ''
       if (.not. allocated(solution%inner%motion)) return
       if (.not. any(abs(solution%inner%motion) > 0.0_wp)) return
-      call motion_body(data%fem, solution%inner%motion, b, mode)
+      call find_moved_body(data%fem%bodies, solution%inner%motion, b, mode)
       text = ': '//body_text(data%fem, b)//' would '//how_it_moves(data%fem, b, mode)
    end function moving_text
 

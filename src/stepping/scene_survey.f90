@@ -1,8 +1,7 @@
 !> What a scene needs, and what it does without: for `check` and for the listing.
 module atrito_scene_survey
    use atrito_assembly, only: body_profile
-   use atrito_body_memory, only: estimate_body_memory, count_body_memory
-   use atrito_condensed_body, only: choose_solver
+   use atrito_body_cost, only: choose_solver, estimate_body_memory, count_body_memory
    use atrito_contact_form, only: contact_form_name, CONTACT_SPARSE
    use atrito_kinds, only: ip, lp
    use atrito_memory, only: available_memory, held_memory, resident_memory
@@ -64,7 +63,6 @@ contains
       integer(ip), intent(in) :: b
       type(body_result_t), intent(inout) :: result
       type(profile_t) :: profile
-      integer :: kind
 
       associate (body => data%fem%bodies%list(b))
          result%name = body%name
@@ -82,7 +80,7 @@ contains
          result%solver = 'scene'
       else
          call body_profile(data%fem, b, profile)
-         call choose_solver(profile, data%solver_kind, kind, result)
+         call choose_solver(profile, data%solver_kind, result)
          call estimate_body_memory(data%fem, b, result)
       end if
    end subroutine describe_body

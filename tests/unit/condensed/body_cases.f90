@@ -6,11 +6,12 @@ module body_cases
    use atrito_bound_qp, only: bound_qp_t
    use atrito_condensed_body, only: condensed_body_t, condense_body, set_load
    use atrito_contact_line, only: contact_line_t, number_unknowns
+   use atrito_body_motions, only: add_rigid_motions
    use atrito_contact_problem, only: build_problem
    use atrito_contact_rows, only: contact_rows_t, build_rows
    use atrito_contact_solution, only: contact_solution_t
    use atrito_controls, only: controls_t, METHOD_ANDERSON
-   use atrito_displacements, only: add_rigid_motions, contact_forces, elastic_displacements
+   use atrito_displacements, only: contact_forces, elastic_displacements
    use atrito_element, only: element_stiffness
    use atrito_faces, only: face_list_t, add_face
    use atrito_friction_law, only: friction_law_t, FRICTION_NONLOCAL, KERNEL_POINTS

@@ -1,16 +1,22 @@
-!> What the solver of a body will take, while it is factored and afterwards.
-module atrito_body_memory
+!> Which solver a body gets, and what that will take of time and memory, while the body is factored and afterwards.
+!>
+!> Time is told in operations of the skyline, from the profile of the matrix alone: nothing depends on the machine, and the same
+!> deck has the same solver everywhere.
+module atrito_body_cost
    use atrito_assembly, only: fem_t, collect_elements
    use atrito_bodies, only: order_by_dissection
    use atrito_element_table, only: SHAPES
    use atrito_kinds, only: ip, lp, wp
    use atrito_multifrontal, only: element_store_t, elimination_t
+   use atrito_profile, only: profile_t, profile_length, half_bandwidth, skyline_flops, banded_flops, sparse_flops, skyline_bytes, &
+                             banded_bytes, sparse_bytes, sparse_entries
    use atrito_results, only: body_result_t
-   use atrito_solver_choice, only: SOLVER_SPARSE
+   use atrito_solver_choice, only: needs_profile, solver_name, N_STORAGES, SOLVER_SKYLINE, SOLVER_BANDED, SOLVER_SPARSE
    use atrito_sparse_solver, only: expect_fronts
+   use atrito_strings, only: to_text
    implicit none (type, external)
    private
-   public :: estimate_body_memory, count_body_memory
+   public :: choose_solver, kept_bytes, estimate_body_memory, count_body_memory
 
    integer(lp), parameter :: REAL_BYTES = storage_size(1.0_wp)/8, INDEX_BYTES = storage_size(1_ip)/8, &
                              LONG_BYTES = storage_size(1_lp)/8
@@ -19,7 +25,69 @@ module atrito_body_memory
    !> Differences of coordinates, relative to the side of an element, that are round-off.
    real(wp), parameter :: SAME = 1.0e-9_wp
 
+   ! Costs in operations of the skyline, fitted to blocks and strips of 200 to 900,000 equations with OpenBLAS
+   ! (docs/developer/solvers.md).
+   !> Floating-point operations that LAPACK's band routines do in the time of one of the skyline's.
+   real(wp), parameter :: BAND_SPEED = 2.2_wp
+   !> The same of the fronts of the sparse solver.
+   real(wp), parameter :: SPARSE_SPEED = 2.0_wp
+   !> What assembly and solves take in the time of so many of them: for an equation, and for the sparse solver to begin with.
+   real(wp), parameter :: SKYLINE_OVERHEAD = 1600.0_wp, BAND_OVERHEAD = 2500.0_wp, SPARSE_OVERHEAD = 1000.0_wp, &
+                          SPARSE_START = 2.0e6_wp
+
 contains
+
+   !> Chooses the solver of a body by its predicted cost, unless one is asked for, and says why.
+   subroutine choose_solver(profile, asked, result)
+      type(profile_t), intent(in) :: profile
+      integer, intent(in) :: asked                 !< STORAGE_* or 0 for the choice
+      type(body_result_t), intent(inout) :: result
+      real(wp) :: cost(N_STORAGES)
+      integer :: kind, second
+
+      cost = predict_costs(profile)
+      if (asked /= 0) then
+         kind = asked
+         result%reason = 'asked for'
+      else
+         kind = SOLVER_SPARSE
+         if (needs_profile(asked, profile%n)) kind = minloc(cost, dim=1)
+         second = minloc(cost, dim=1, mask=[SOLVER_SKYLINE, SOLVER_BANDED, SOLVER_SPARSE] /= kind)
+         result%reason = 'predicted cost '//to_text(cost(kind)/max(cost(second), tiny(cost)), 2)//' of '//solver_name(second)
+      end if
+      result%solver = solver_name(kind)
+      result%solver_kind = kind
+      result%half_bandwidth = half_bandwidth(profile)
+      result%profile = profile_length(profile)
+      if (kind == SOLVER_SPARSE) result%profile = int(sparse_entries(profile), lp)
+      select case (kind)
+      case (SOLVER_SKYLINE)
+         result%memory = skyline_bytes(profile)
+      case (SOLVER_BANDED)
+         result%memory = banded_bytes(profile)
+      case default
+         result%memory = sparse_bytes(profile)
+      end select
+      result%memory = result%memory + kept_bytes(profile%n_retained)
+      result%most_memory = result%memory
+   end subroutine choose_solver
+
+   !> The matrix of the retained equations.
+   elemental integer(lp) function kept_bytes(n_retained) result(bytes)
+      integer(ip), intent(in) :: n_retained
+
+      bytes = 8_lp*int(n_retained, lp)**2
+   end function kept_bytes
+
+   !> Predicted cost of every solver, in operations of the skyline.
+   pure function predict_costs(profile) result(cost)
+      type(profile_t), intent(in) :: profile
+      real(wp) :: cost(N_STORAGES)
+
+      cost(SOLVER_SKYLINE) = skyline_flops(profile) + SKYLINE_OVERHEAD*real(profile%n, wp)
+      cost(SOLVER_BANDED) = banded_flops(profile)/BAND_SPEED + BAND_OVERHEAD*real(profile%n, wp)
+      cost(SOLVER_SPARSE) = sparse_flops(profile)/SPARSE_SPEED + SPARSE_OVERHEAD*real(profile%n, wp) + SPARSE_START
+   end function predict_costs
 
    !> Estimates, as an upper bound, what is not told by the profile: the matrices of the elements, and the sparse solver, which
    !> takes a quarter more than expected where no two elements are equal.
@@ -55,7 +123,7 @@ contains
       associate (kept => fem%bodies%list(b)%n_retained)
          call expect_fronts(elimination, fem%bodies%list(b)%n, kept, store, held, most, enough)
          if (.not. enough) return
-         result%memory = held + REAL_BYTES*int(kept, lp)**2
+         result%memory = held + kept_bytes(kept)
          result%most_memory = max(result%memory, most)
       end associate
    end subroutine count_body_memory
@@ -112,4 +180,4 @@ contains
       end associate
    end function are_equal
 
-end module atrito_body_memory
+end module atrito_body_cost
