@@ -12,7 +12,6 @@ module atrito_mortar_points
    use atrito_element_table, only: MOST_SIDES
    use atrito_face_geometry, only: face_direction
    use atrito_faces, only: face_list_t
-   use atrito_growth, only: make_room
    use atrito_id_map, only: id_map_t
    use atrito_incidence, only: list_holders
    use atrito_kinds, only: ip, lp, wp, EPS_MACH
@@ -21,9 +20,9 @@ module atrito_mortar_points
    use atrito_mortar_segments, only: segments_t, slave_face_t, cut_slave, join_curves, take_face, place_on_face, direction_at
    use atrito_plane_state, only: depth_at
    use atrito_pieces, only: cross_piece, place_at
-   use atrito_points, only: contact_points_t, allocate_points, add_point, add_entries, trim_points
+   use atrito_points, only: contact_points_t, terms_t, allocate_points, add_point, add_entries, add_term, trim_points
    use atrito_shape_functions, only: face_shape_values, gauss_rule
-   use atrito_revolved_faces, only: is_at_axis
+   use atrito_revolved_faces, only: is_at_axis, hats
    use atrito_slave_faces, only: nodal_rule_t, nodal_rule, common_ends, sine, clear_small_component, CORNER
    use atrito_sorting, only: sorted_places
    use atrito_smooth_normals, only: common_normal
@@ -57,13 +56,6 @@ module atrito_mortar_points
       real(wp), allocatable :: master(:, :)         !< (MOST, n or more) int psi_a phi_k h ds [L^2]
    end type face_integrals_t
 
-   !> Terms of the rows as they come: point, node, value.
-   type :: terms_t
-      integer(ip) :: n = 0
-      integer(ip), allocatable :: point(:), node(:)
-      real(wp), allocatable :: value(:)             !< [L^2]
-   end type terms_t
-
    !> The rows while faces are added.
    type :: rows_t
       type(id_map_t) :: place                       !< of the points of nodes
@@ -96,8 +88,6 @@ contains
       call cut_slave(mesh, slave, master, segments)
       call join_curves(master, compliance, master_compliance, segments)
       call allocate_points(MOST*slave%n, 0_ip, points)
-      call begin_terms(rows%slave)
-      call begin_terms(rows%master)
       allocate (rows%least(MOST*slave%n), source=huge(1.0_wp))
       tips = common_ends(mesh, slave, master_faces)
       s = 0.0_wp
@@ -270,30 +260,6 @@ contains
       end if
    end function weighting
 
-   !> Hat functions over the nodes at -1, 1 and 0 that are in use, constant beyond them.
-   pure function hats(in_use, t) result(psi)
-      logical, intent(in) :: in_use(MOST)
-      real(wp), intent(in) :: t
-      real(wp) :: psi(MOST)
-
-      psi = 0.0_wp
-      select case (count(in_use))
-      case (0)                                      ! both ends are tips
-      case (1)
-         where (in_use) psi = 1.0_wp
-      case (2)
-         if (in_use(1) .and. in_use(2)) then
-            psi(:2) = [0.5_wp*(1 - t), 0.5_wp*(1 + t)]
-         else if (in_use(1)) then
-            psi([1, 3]) = [max(-t, 0.0_wp), min(1 + t, 1.0_wp)]
-         else
-            psi([2, 3]) = [max(t, 0.0_wp), min(1 - t, 1.0_wp)]
-         end if
-      case default
-         psi = [max(-t, 0.0_wp), max(t, 0.0_wp), 1 - abs(t)]
-      end select
-   end function hats
-
    !> The place t in [0,1] of a piece that a place of the slave faces, the direction in which they would touch, and how far off it
    !> is along that.
    pure subroutine look_at_piece(face, t, master, piece, on_master, normal, gap)
@@ -402,26 +368,6 @@ contains
       end do
    end subroutine add_face
 
-   pure subroutine begin_terms(terms)
-      type(terms_t), intent(inout) :: terms
-
-      allocate (terms%point(0), terms%node(0), terms%value(0))
-   end subroutine begin_terms
-
-   pure subroutine add_term(point, node, value, terms)
-      integer(ip), intent(in) :: point, node
-      real(wp), intent(in) :: value
-      type(terms_t), intent(inout) :: terms
-
-      call make_room(terms%point, terms%n, terms%n + 1)
-      call make_room(terms%node, terms%n, terms%n + 1)
-      call make_room(terms%value, terms%n, terms%n + 1)
-      terms%n = terms%n + 1
-      terms%point(terms%n) = point
-      terms%node(terms%n) = node
-      terms%value(terms%n) = value
-   end subroutine add_term
-
    !> Unit normals, mean gaps, and the rows by points: of each the slave's nodes, its own first, then the master's. The functions
    !> psi change their signs, and with them the mean may be below all gaps: sides that touch beside a bend do not overlap.
    subroutine finish_points(mesh, rows, points)
@@ -434,8 +380,8 @@ contains
 
       deallocate (points%entry, points%coefficient)
       allocate (points%entry(rows%slave%n + rows%master%n), points%coefficient(rows%slave%n + rows%master%n))
-      call list_holders(points%n, reshape(rows%slave%point(:rows%slave%n), [1_ip, rows%slave%n]), first_own, of_own)
-      call list_holders(points%n, reshape(rows%master%point(:rows%master%n), [1_ip, rows%master%n]), first_other, of_other)
+      call list_terms(points%n, rows%slave, first_own, of_own)
+      call list_terms(points%n, rows%master, first_other, of_other)
       round_off = 0.0_wp
       if (points%n > 0) round_off = ROUND_OFFS*EPS_MACH*maxval(abs(points%x(:, :points%n)))
       do j = 1, points%n
@@ -451,8 +397,19 @@ contains
       call trim_points(points)
    end subroutine finish_points
 
-   !> Moves a point from its node to where its force acts on the slave: elsewhere on a face that is covered in part. Rings of forces
-   !> have no moment that would have to be kept.
+   !> The terms of each of n points.
+   subroutine list_terms(n, terms, first, of_point)
+      integer(ip), intent(in) :: n
+      type(terms_t), intent(in) :: terms
+      integer(ip), allocatable, intent(out) :: first(:)    !< (n + 1)
+      integer(ip), allocatable, intent(out) :: of_point(:) !< those of point j are first(j) .. first(j + 1) - 1
+      integer(ip) :: i
+
+      call list_holders(n, reshape([(terms%point(i), i=1, terms%n)], [1_ip, terms%n]), first, of_point)
+   end subroutine list_terms
+
+   !> Moves a point from its node to where its force acts on the slave, x_j = sum c_k x_k: elsewhere on a face that is covered in
+   !> part. Rings of forces have no moment that would have to be kept.
    pure subroutine place_force(mesh, j, points)
       type(mesh_t), intent(in) :: mesh
       integer(ip), intent(in) :: j                  !< the point; its entries so far are those of the slave
@@ -477,6 +434,7 @@ contains
       integer(ip) :: order(size(list)), k
       real(wp) :: value
 
+      if (size(list) == 0) return
       associate (node => terms%node(list))
          order = list(sorted_places(int(merge(0_ip, node, node == points%node(j)), lp)))
       end associate

@@ -12,8 +12,9 @@ module atrito_nodal_points
                             look_at_end, nearest_end
    use atrito_pieces, only: place_at
    use atrito_plane_state, only: depth_at, IS_TAPERED, STATES
-   use atrito_points, only: contact_points_t, allocate_points, add_point, add_entries, drop_points, trim_points
-   use atrito_revolved_faces, only: revolved_face_t, mixed_rows_t, revolve_face, note_mixed, mix_rows
+   use atrito_points, only: contact_points_t, terms_t, allocate_points, add_point, add_entries, drop_points, &
+                            trim_points
+   use atrito_revolved_faces, only: revolved_face_t, revolve_face, note_mixed, mix_rows
    use atrito_shape_functions, only: face_shape_values
    use atrito_slave_faces, only: nodal_rule_t, nodal_rule, common_ends, turn_at, sine, clear_small_component, CORNER
    use atrito_smooth_normals, only: smooth_surface, common_normal
@@ -47,7 +48,7 @@ contains
       type(contact_points_t), intent(out) :: points
       logical, allocatable :: used(:)
       real(wp), allocatable :: curvature(:)         ! of the slave at the points [1/L]
-      type(mixed_rows_t) :: mixed
+      type(terms_t) :: mixed
       integer(ip) :: i
 
       points%rigid = master%rigid
@@ -128,7 +129,7 @@ contains
       real(wp), intent(in) :: grain                 !< to which the nodes are known [L]
       type(contact_points_t), intent(inout) :: points
       real(wp), allocatable, intent(out) :: curvature(:) !< of the slave at the points [1/L]
-      type(mixed_rows_t), intent(inout) :: mixed
+      type(terms_t), intent(inout) :: mixed
       real(wp), allocatable :: ends(:, :, :), of_face(:), bend(:)
       type(id_map_t) :: place                       ! point of a node
       type(nodal_rule_t) :: rule

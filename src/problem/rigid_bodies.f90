@@ -19,6 +19,7 @@ module atrito_rigid_bodies
 
    integer(ip), parameter :: MOTIONS = 3_ip
    integer(ip), parameter :: DOF_OF_MOTION(MOTIONS) = [1_ip, 2_ip, 6_ip]
+   real(wp), parameter :: IDENTITY(MOTIONS, MOTIONS) = reshape([1, 0, 0, 0, 1, 0, 0, 0, 1]*1.0_wp, [MOTIONS, MOTIONS])
 
 contains
 
@@ -184,19 +185,12 @@ contains
       type(bodies_t), intent(inout) :: bodies
       logical :: is_prescribed(MOTIONS)
       real(wp) :: motion(MOTIONS)
-      integer(ip) :: i, m, n
+      integer(ip) :: i, m
 
       do i = 1, bodies%n_rigid
          call prescribed_motion(model, prescribed, i, is_prescribed, motion)
          associate (body => bodies%list(bodies%n - bodies%n_rigid + i))
-            deallocate (body%modes)
-            allocate (body%modes(MOTIONS, count(.not. is_prescribed)), source=0.0_wp)
-            n = 0
-            do m = 1, MOTIONS
-               if (is_prescribed(m)) cycle
-               n = n + 1
-               body%modes(m, n) = 1.0_wp
-            end do
+            body%modes = IDENTITY(:, pack([(m, m=1, MOTIONS)], .not. is_prescribed))
             call mark_moving(model%solver_mesh, body, bodies%equation)
          end associate
       end do

@@ -6,7 +6,7 @@ module atrito_scene_builder
    use atrito_bodies, only: bodies_t, find_bodies, number_equations, find_rigid_modes
    use atrito_body_names, only: name_bodies
    use atrito_incidence, only: list_holders
-   use atrito_model, only: model_t, step_t, nodal_values_t
+   use atrito_model, only: model_t, step_t
    use atrito_number_list, only: number_list_t, add_number, numbers_of
    use atrito_pairing, only: pair_all
    use atrito_points, only: contact_points_t
@@ -92,30 +92,20 @@ contains
       type(step_t), intent(in) :: step
       logical, allocatable, intent(out) :: held(:, :)          !< (2, nodes of the solver's mesh)
       real(wp), allocatable, intent(out) :: value(:, :)        !< [L]
+      integer(ip) :: i, n_nodes
 
-      if (has_moving_surfaces(model)) then
-         call list_prescribed(step%prescribed, model%solver_mesh%n_nodes, held, value)
-         call hold_carriers(model, step%rigid_prescribed, held, value)
-      else
-         call list_prescribed(step%prescribed, model%mesh%n_nodes, held, value)
-      end if
-   end subroutine list_held
-
-   !> Prescribed dofs and their displacements.
-   pure subroutine list_prescribed(prescribed, n_nodes, held, value)
-      type(nodal_values_t), intent(in) :: prescribed
-      integer(ip), intent(in) :: n_nodes
-      logical, allocatable, intent(out) :: held(:, :)
-      real(wp), allocatable, intent(out) :: value(:, :)
-      integer(ip) :: i
-
+      n_nodes = model%mesh%n_nodes
+      if (has_moving_surfaces(model)) n_nodes = model%solver_mesh%n_nodes
       allocate (held(2, n_nodes), source=.false.)
       allocate (value(2, n_nodes), source=0.0_wp)
-      do i = 1, prescribed%n
-         held(prescribed%dof(i), prescribed%node(i)) = .true.
-         value(prescribed%dof(i), prescribed%node(i)) = prescribed%value(i)
-      end do
-   end subroutine list_prescribed
+      associate (prescribed => step%prescribed)
+         do i = 1, prescribed%n
+            held(prescribed%dof(i), prescribed%node(i)) = .true.
+            value(prescribed%dof(i), prescribed%node(i)) = prescribed%value(i)
+         end do
+      end associate
+      if (has_moving_surfaces(model)) call hold_carriers(model, step%rigid_prescribed, held, value)
+   end subroutine list_held
 
    !> The nodes of each body that take part in contact and bilateral rows, each once, in the order of the points.
    subroutine list_contact_nodes(bodies, points, bilateral, first, nodes)

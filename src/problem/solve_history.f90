@@ -2,7 +2,7 @@
 module atrito_solve_history
    use atrito_kinds, only: ip, wp
    use atrito_iteration, only: iteration_t
-   use atrito_bound_qp, only: bound_qp_t, box_bounds_t, box_state_t, FREE, AT_LOWER, AT_UPPER
+   use atrito_bound_qp, only: bound_qp_t, box_bounds_t, box_state_t, FREE, FROZEN
    implicit none (type, external)
    private
    public :: solve_history_t, record_solve, restart_history, begin_outer, end_outer, state_letters, OUTER_KEPT
@@ -11,6 +11,8 @@ module atrito_solve_history
    !> State of a point: open, closed without a tangential unknown, sticking, slipping along T and against it.
    integer(ip), parameter :: IS_OPEN = 1, IS_CLOSED = 2, IS_STUCK = 3, SLIPS_ALONG = 4, SLIPS_AGAINST = 5
    character(len=1), parameter :: LETTERS(5) = ['o', 'c', '=', '+', '-']
+   !> State of a closed point by that of its tangential unknown.
+   integer(ip), parameter :: BY_TANGENTIAL(FREE:FROZEN) = [IS_STUCK, SLIPS_AGAINST, SLIPS_ALONG, IS_CLOSED]
 
    type :: solve_history_t
       integer(ip) :: n = 0
@@ -130,16 +132,7 @@ contains
       else if (t == 0) then
          now = IS_CLOSED
       else
-         select case (state%state(t))
-         case (FREE)
-            now = IS_STUCK
-         case (AT_UPPER)
-            now = SLIPS_ALONG
-         case (AT_LOWER)
-            now = SLIPS_AGAINST
-         case default
-            now = IS_CLOSED
-         end select
+         now = BY_TANGENTIAL(state%state(t))
       end if
    end function point_state
 
