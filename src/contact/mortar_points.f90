@@ -1,12 +1,36 @@
 !> MORTAR quadrature of a contact pair: the gap is small in the mean, weighted by functions psi_j of the slave's nodes.
 !>
-!> Row of node j, W_j = int psi_j h ds with the thickness h:
-!>    (1/W_j) int psi_j (u_slave - u_master) h ds,   gap s_j = (1/W_j) int psi_j g h ds.
-!> On a face that is covered whole psi_j are dual to the shape functions, int psi_j phi_k = delta_jk int phi_k, so that the slave's
-!> part of the row is its own node alone (Wohlmuth, SIAM J. Numer. Anal. 38 (2000) 989-1012). On a face that hangs over the end of
-!> the master they are hat functions of the nodes that are covered, constant beyond them. Either sum to one, so a uniform pressure
-!> is carried over exactly. At the tip of a crack, a node of both sides, there is no row: the last face has the hat functions of its
-!> other nodes.
+!> With the thickness h (2 pi r on the full circle), W_j = int psi_j h ds over the part of the slave that faces the
+!> master, and x_m(x) the place of the master that the place x of the slave faces, the row of node j is
+!>
+!>     (1/W_j) int psi_j (u(x) - u(x_m(x))) h ds,     s_j = (1/W_j) int psi_j g h ds,     n_j ~ int psi_j n h ds,
+!>
+!> g the distance along the common normal n of both sides. Put into shape functions phi of either side it has the coefficients
+!>
+!>     c_jk = (1/W_j) int psi_j phi_k h ds of the slave's nodes,     -(1/W_j) int psi_j phi_k h ds of the master's.
+!>
+!> The integrals are taken by three Gauss points on each segment (atrito_mortar_segments), on which the shape functions
+!> of both sides are smooth. Three choices of psi, all with sum 1, so that a uniform pressure is carried over exactly
+!> (the patch test):
+!>
+!> 1. A face that is covered whole has functions that are dual to its shape functions (B. Wohlmuth, SIAM J. Numer. Anal. 38 (2000)
+!>    989-1012):
+!>
+!>        psi = A phi,     A = D M^-1,     M_ab = int phi_a phi_b h ds,     D_aa = int phi_a h ds,
+!>
+!>    which makes int psi_a phi_b h ds = delta_ab D_aa: the slave's part of the row is its own node with 1, and W_j =
+!>    D_jj is the nodal force of a uniform pressure. The integrals are made with phi and multiplied by A at the end (make_dual).
+!> 2. A face that hangs over the end of the master has hat functions of the nodes that are covered, constant beyond them:
+!>    dual functions would give weights near zero or below, and points at nodes that face nothing. The force then acts
+!>    at x_j = sum c_jk x_k.
+!> 3. At the tip of a crack, a node of both sides, there is no row: the last face has the hat functions of its other nodes.
+!>
+!> psi_j of dual functions has both signs, and the mean of a gap could be below all gaps, an overlap of sides that touch
+!> beside a bend: s_j is no less than the least g that is met on the faces of psi_j. At a corner of the slave between
+!> two faces that both see the master, the gap is measured along the master's normals.
+!>
+!> Where faces with two nodes stand for curves, what their chords are short of the curve that both sides take under
+!> pressure is added to g: see join_curves in atrito_mortar_segments and lift_of.
 module atrito_mortar_points
    use atrito_dense, only: solve_lu
    use atrito_element_table, only: MOST_SIDES
@@ -39,7 +63,8 @@ module atrito_mortar_points
    !> end together, rounding of their coordinates decides nothing.
    real(wp), parameter :: AT_NODE = 1.0e-3_wp
 
-   !> Integrals over a face with the weighting functions of its nodes.
+   !> Integrals over a face with the weighting functions of its nodes: with the shape functions phi until make_dual,
+   !> where the face is covered whole.
    type :: face_integrals_t
       logical :: is_whole = .true.
       logical :: has_point(MOST) = .true.           !< nodes that get a weighting function

@@ -1,4 +1,19 @@
 !> Normals and curvature of a surface of element faces, as of the smooth curve that the faces stand for.
+!>
+!> Between two faces that meet at a node without a corner the curve has one tangent. The normal there is the mean of
+!> both faces' normals. The curvature of a face of length c is taken from the angles by which the normal turns:
+!>
+!>     k = (turn along the face + mean of the turns at its joints)/c,
+!>
+!> a parabola turning along itself and a chord at its ends alone. Turns below NO_TURN are rounding of coordinates, and,
+!> where the nodes are known to g only, those below 12 g/c: they fade out by 3 x^2 - 2 x^3 (`shown`), since a step would
+!> make neighbours with nearly the same turn differ.
+!>
+!> `bend` is the curvature of a chord with its sign, > 0 where convex, and not of its polygon but of the curve through
+!> its nodes: at a joint the tangent of a circle through three nodes makes the angles turn c_1/(c_1 + c_2) and turn
+!> c_2/(c_1 + c_2) with the chords c_1, c_2, and a chord with the angles alpha at its ends has k = 2 tan(alpha)/c. Of
+!> both ends the flatter one counts, so that a straight face beside a curve stays straight, and of two ends that bend
+!> opposite ways none.
 module atrito_smooth_normals
    use atrito_face_geometry, only: outward_normal
    use atrito_faces, only: face_list_t

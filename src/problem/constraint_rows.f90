@@ -7,9 +7,8 @@
 !> 1. Let d be the dofs that point j alone touches. In B' q = 0 the equations of d have no terms but those of j. So if the rows of j
 !>    (normal and tangential) are independent on d, its forces are 0 in every such q: the point takes no part in any dependence.
 !> 2. Without this point its neighbours may be alone with some dofs, and are asked again. Of each dof the number of
-!> points that touch
-!>    it is kept, and the sum of their numbers: when one is left the sum is that one's number. A point is in the queue once
-!>    at most.
+!>    points that touch it is kept, and the sum of their numbers: when one is left the sum is that one's number. A point is
+!>    in the queue once at most.
 !> 3. The points that are left when the queue is empty are joined where they share a dof (union by the smallest number). Each
 !>    component is a dependence of its own, and is examined by itself with a dense matrix (atrito_least_forces).
 !>

@@ -1,5 +1,13 @@
 !> Rigid motions that all supports leave to a body: a body knows those of its own dofs alone, and supports along directions of their
 !> own (*TRANSFORM) are bilateral rows. So what is asked of motions has one answer however a scene is turned.
+!>
+!> Z are the motions that the body's own dofs leave, each scaled to size one. A support with the row v_k at the nodes k
+!> sees of a motion
+!>
+!>     r = Z' sum_k v_k(x_k),     and all of them     A = sum r r',
+!>
+!> so the motions that no support sees are Z times the eigenvectors of A with the eigenvalue 0 (below 1e-14 a row, round-off of the
+!> squares).
 module atrito_left_motions
    use atrito_assembly, only: fem_t
    use atrito_bilateral_rows, only: bilateral_rows_t, ROW_SUPPORT

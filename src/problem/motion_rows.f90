@@ -2,6 +2,11 @@
 !>
 !> Equilibrium of the bodies is G' q = h (docs/theory/formulation.md, section 4), q being the contact forces in the order of the
 !> unknowns of the line. A row touches the motions of two bodies at most, so G is kept by its entries.
+!>
+!>     motion_rates     G v:  how fast the motion v opens the points and lets them slip
+!>     motion_forces    G' q: the work of the contact forces on each motion
+!>
+!> With `sizes` the terms of the sums are taken without their signs: a sum that is less than some EPS_MACH of that is round-off.
 module atrito_motion_rows
    use atrito_kinds, only: ip, wp
    implicit none (type, external)

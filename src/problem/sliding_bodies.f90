@@ -66,6 +66,7 @@ contains
       if (maxval(abs(sliding%centre - body%centre)) <= ALL_BUT*body%size) body%centre = sliding%centre
    end subroutine turn_about
 
+   !> Whether a translation is along an axis: its rows are exact as they are.
    pure logical function is_along_axis(sliding)
       type(sliding_t), intent(in) :: sliding
 

@@ -1,4 +1,10 @@
 !> What changed from one linear solve of the contact line to the next: the rows of iterations.tab.
+!>
+!> An outer iteration freezes the friction bounds; the inner ones are the linear solves that find the states for them.
+!> Of each solve are recorded the changes of displacements, pressures and friction from the solve before, |now -
+!> before|/|now| in the largest norm, the residual of the bounds that the last outer iteration ended with, and how many
+!> points are open, stick and slip. The states at the end of the last OUTER_KEPT outer iterations are kept, to tell of
+!> points that do not come to rest when a loop does not converge.
 module atrito_solve_history
    use atrito_kinds, only: ip, wp
    use atrito_iteration, only: iteration_t
@@ -88,6 +94,7 @@ contains
       history%records(history%n) = record
    end subroutine record_solve
 
+   !> |now - before|/|now| in the largest norm; 0 where there is nothing now.
    pure real(wp) function relative_change(now, before) result(change)
       real(wp), intent(in) :: now(:), before(:)
       real(wp) :: scale
@@ -117,6 +124,7 @@ contains
       history%states(:, max(history%kept, 1_ip)) = now
    end subroutine count_states
 
+   !> The state of a point, IS_OPEN and so on; 0 of a bilateral row, which is no point of contact.
    pure integer(ip) function point_state(history, state, i) result(now)
       type(solve_history_t), intent(in) :: history
       type(box_state_t), intent(in) :: state
