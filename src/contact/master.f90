@@ -22,7 +22,7 @@ module atrito_master
    use atrito_faces, only: face_list_t
    use atrito_id_map, only: id_map_t, add_id, find_id
    use atrito_kinds, only: ip, wp
-   use atrito_mesh, only: mesh_t, face_nodes
+   use atrito_mesh, only: mesh_t, face_end, face_nodes
    use atrito_piece_tree, only: piece_tree_t, search_t, plant, begin_search, next_leaf, FACING
    use atrito_pieces, only: pieces_t, allocate_pieces, sag_of, sweep_of, place_at, normal_at, cross_piece, cross, END_TOLERANCE
    use atrito_slave_faces, only: sine, CORNER
@@ -107,16 +107,14 @@ contains
       real(wp), intent(in) :: curvature(:)
       type(master_t), intent(inout) :: master
       type(id_map_t) :: begins                      ! face of its first node
-      integer(ip) :: i, k, nodes(2)
+      integer(ip) :: i, k
       logical :: known
 
       do i = 1, faces%n
-         nodes = ends_of(i)
-         call add_id(begins, nodes(1), i, known)
+         call add_id(begins, mesh%nodes(faces%face(i), faces%element(i)), i, known)
       end do
       do i = 1, faces%n
-         nodes = ends_of(i)
-         k = find_id(begins, nodes(2))
+         k = find_id(begins, mesh%nodes(face_end(mesh, faces%element(i), faces%face(i)), faces%element(i)))
          if (k == 0) cycle
          if (sine(normal_at(master, i, 1.0_wp), normal_at(master, k, 0.0_wp)) > CORNER) then
             master%kink(2, i) = 1.0_wp
@@ -126,17 +124,6 @@ contains
             master%curvature(1, k) = master%curvature(2, i)
          end if
       end do
-
-   contains
-
-      pure function ends_of(i)
-         integer(ip), intent(in) :: i
-         integer(ip) :: ends_of(2)
-
-         associate (nodes => face_nodes(mesh, faces%element(i), faces%face(i)))
-            ends_of = nodes(:2)
-         end associate
-      end function ends_of
    end subroutine join_faces
 
    !> The same pieces with their outside on the other side.

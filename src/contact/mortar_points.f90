@@ -205,7 +205,8 @@ contains
       associate (n => face%n)
          phi = 0.0_wp
          phi(:n) = face_shape_values(n, t)
-         psi = weighting(n, t, integrals)
+         psi = phi
+         if (.not. integrals%is_whole) psi = hats(integrals%has_point, t)
          ds = weight*norm2(face_direction(face%x(:, :n), t))
          integrals%length = integrals%length + ds*psi
          ds = ds*depth_at(face%state, face%thickness, dot_product(phi(:n), face%places(:n)))
@@ -269,21 +270,6 @@ contains
       integrals%has_point = away <= AT_NODE
       if (.not. any(integrals%has_point)) integrals%has_point = [(a == minloc(away, dim=1) .and. may_have(a), a=1, MOST)]
    end subroutine judge_cover
-
-   !> The functions that are integrated with: shape functions on a whole face, which make_dual combines; else hats.
-   pure function weighting(n, t, integrals) result(psi)
-      integer(ip), intent(in) :: n                  !< nodes of the face
-      real(wp), intent(in) :: t
-      type(face_integrals_t), intent(in) :: integrals
-      real(wp) :: psi(MOST)
-
-      psi = 0.0_wp
-      if (integrals%is_whole) then
-         psi(:n) = face_shape_values(n, t)
-      else
-         psi = hats(integrals%has_point, t)
-      end if
-   end function weighting
 
    !> The place t in [0,1] of a piece that a place of the slave faces, the direction in which they would touch, and how far off it
    !> is along that.

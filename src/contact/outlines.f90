@@ -14,6 +14,7 @@ module atrito_outlines
    use atrito_element_table, only: MOST_SIDES
    use atrito_face_geometry, only: face_arc_length, outward_normal
    use atrito_faces, only: face_list_t, node_elements_t, outer_faces
+   use atrito_growth, only: make_room
    use atrito_kinds, only: ip, wp, EPS_MACH
    use atrito_master, only: master_t, master_of_faces
    use atrito_mesh, only: mesh_t, face_nodes, face_end
@@ -48,7 +49,6 @@ module atrito_outlines
       real(wp) :: limit = 0.0_wp                     !< [L]
    end type line_t
 
-   integer(ip), parameter :: FIRST_LENGTH = 16_ip
    !> Errors of rounding that a distance may have.
    real(wp), parameter :: ROUND_OFFS = 64.0_wp
 
@@ -141,7 +141,7 @@ contains
       real(wp) :: half_of_longest
       integer(ip) :: i
 
-      allocate (seen(outlines%faces%n), piece(FIRST_LENGTH), away(FIRST_LENGTH))
+      allocate (seen(outlines%faces%n))
       if (outlines%faces%n == 0) return
       half_of_longest = 0.5_wp*maxval(outlines%length)
       call master_of_faces(mesh, outlines%faces, all)
@@ -242,10 +242,8 @@ contains
          distance = dot_product(place_at(master, i, t(k)) - line%x, line%normal)
          if (abs(distance) > line%limit) cycle
          if (dot_product(line%normal, normal_at(master, i, min(max(t(k), 0.0_wp), 1.0_wp))) > FACING) cycle
-         if (n == size(piece)) then
-            piece = [piece, piece]
-            away = [away, away]
-         end if
+         call make_room(piece, n, n + 1)
+         call make_room(away, n, n + 1)
          n = n + 1
          piece(n) = i
          away(n) = distance

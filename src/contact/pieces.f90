@@ -106,14 +106,6 @@ contains
       is_arc = abs(pieces%sweep(i)) > 0.0_wp
    end function is_arc
 
-   !> The middle node lies so far off, or so near to an end, that the normals at the ends do not tell those between them.
-   pure logical function has_cusp(pieces, i)
-      class(pieces_t), intent(in) :: pieces
-      integer(ip), intent(in) :: i
-
-      has_cusp = 4*norm2(pieces%sag(:, i)) >= 0.9_wp*norm2(pieces%d(:, i))
-   end function has_cusp
-
    !> Box round a piece with what a point may hang over its ends, and box round its normals, for the tree of pieces.
    !>
    !> A parabola lies within |sag| of its chord in each coordinate, an arc within its rise r (1 - cos(sweep/2)). A point
@@ -140,7 +132,8 @@ contains
       low = minval(ends, dim=2) - bulge - spare
       high = maxval(ends, dim=2) + bulge + spare
       spare = norm2(normals(:, 2) - normals(:, 1))
-      if (has_cusp(pieces, i)) spare = 2.0_wp
+      ! a middle node so far off, or so near to an end, that the normals at the ends do not tell those between them
+      if (4*norm2(pieces%sag(:, i)) >= 0.9_wp*norm2(pieces%d(:, i))) spare = 2.0_wp
       normal_low = minval(normals, dim=2) - spare
       normal_high = maxval(normals, dim=2) + spare
    end subroutine box_of_piece

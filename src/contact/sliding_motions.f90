@@ -234,7 +234,7 @@ contains
       n = n/norm2(n)
       where (abs(n) <= DIGITS_TURN*motion%grain/motion%extent) n = 0.0_wp
       motion%direction = [-n(2), n(1)]/norm2(n)
-      motion%exists = agrees(chords, motion)
+      motion%exists = all([(slides(chords, i, motion), i=1, chords%n)])
    end subroutine find_straight
 
    !> A rotation, where the bisectors of all chords meet; none of fewer than LEAST_CHORDS.
@@ -263,7 +263,7 @@ contains
       motion%extent = motion%radius
       motion%grain = chords%grain
       motion%is_convex = dot_product(chords%normal(:, 1), chords%place(:, 1) - motion%centre) > 0.0_wp
-      motion%exists = agrees(chords, motion)
+      motion%exists = all([(slides(chords, i, motion), i=1, chords%n)])
    end subroutine find_round
 
    !> Some of the chords, in arrays of their number.
@@ -281,19 +281,6 @@ contains
       end associate
       some%grain = chords%grain
    end function only
-
-   !> Whether all chords slide along themselves in a motion.
-   pure logical function agrees(chords, motion)
-      type(chords_t), intent(in) :: chords
-      type(sliding_t), intent(in) :: motion
-      integer(ip) :: i
-
-      agrees = .true.
-      do i = 1, chords%n
-         agrees = slides(chords, i, motion)
-         if (.not. agrees) return
-      end do
-   end function agrees
 
    !> Whether a chord slides along itself, but for the digits of its ends and the resolution of the curve.
    pure logical function slides(chords, i, motion)
@@ -315,10 +302,7 @@ contains
       integer(ip) :: i
 
       serves = other%is_round .eqv. own%is_round
-      do i = 1, chords%n
-         if (.not. serves) return
-         serves = slides(chords, i, other) .or. .not. slides(chords, i, own)
-      end do
+      if (serves) serves = all([(slides(chords, i, other) .or. .not. slides(chords, i, own), i=1, chords%n)])
    end function serves
 
    !> The motion of another pair with the size of a pair's own.

@@ -43,7 +43,7 @@ contains
       real(wp), allocatable, intent(out) :: bend(:)       !< (faces) [1/L] > 0: convex
       real(wp), intent(in), optional :: grain       !< to which the nodes are known [L]; left out: all digits
       type(id_map_t) :: begins                      ! face of its first node
-      real(wp) :: turn(faces%n), joints(faces%n), slope(2, faces%n), own(2, 2)
+      real(wp) :: turn(faces%n), joints(faces%n), slope(2, faces%n), own(2, 2), length(2)
       integer(ip) :: n_joints(faces%n), beside(2, faces%n), last(faces%n), i, k
       logical :: is_chord(faces%n), known
 
@@ -73,7 +73,9 @@ contains
          n_joints([i, k]) = n_joints([i, k]) + 1
          beside(2, i) = k
          beside(1, k) = i
-         call share_turn(own, 1/curvature(i), 1/curvature(k), slope(2, i), slope(1, k))
+         length = 1/curvature([i, k])               ! the turn is shared in the ratio of the chords
+         slope(2, i) = tan(turn_between(own(:, 1), own(:, 2))*(length(1)/(length(1) + length(2))))
+         slope(1, k) = tan(turn_between(own(:, 1), own(:, 2))*(length(2)/(length(1) + length(2))))
          ends(:, 2, i) = (own(:, 1) + own(:, 2))/norm2(own(:, 1) + own(:, 2))
          ends(:, 1, k) = ends(:, 2, i)
       end do
@@ -85,19 +87,6 @@ contains
       end if
       curvature = turn*shown(turn, joints)*curvature
    end subroutine smooth_surface
-
-   !> The slopes of a curve against the two chords that meet at one of its points, as of a circle through their three ends: the
-   !> turn is shared in the ratio of the chords.
-   pure subroutine share_turn(normals, before, behind, last, first)
-      real(wp), intent(in) :: normals(2, 2)         !< of both chords
-      real(wp), intent(in) :: before, behind        !< their lengths [L]
-      real(wp), intent(out) :: last, first          !< at the last end of the one, the first of the other; > 0: convex
-      real(wp) :: turn
-
-      turn = turn_between(normals(:, 1), normals(:, 2))
-      last = tan(turn*(before/(before + behind)))
-      first = tan(turn*(behind/(before + behind)))
-   end subroutine share_turn
 
    !> The angle from one normal to the next [rad], > 0: convex.
    pure real(wp) function turn_between(a, b) result(turn)

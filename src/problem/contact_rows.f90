@@ -108,13 +108,11 @@ contains
       do i = 1, size(points, kind=ip)
          associate (n => points(i)%n)
             rows%gap(first + 1:first + n) = points(i)%gap(:n)
-            if (share(i) > 0.0_wp) then
-               rows%allowed(first + 1:first + n) = share(i)*max(0.0_wp, -points(i)%gap(:n))
-               rows%gap(first + 1:first + n) = points(i)%gap(:n) + rows%allowed(first + 1:first + n)
-            end if
+            if (share(i) > 0.0_wp) rows%allowed(first + 1:first + n) = share(i)*max(0.0_wp, -points(i)%gap(:n))
             first = first + n
          end associate
       end do
+      if (allocated(rows%allowed)) rows%gap(:first) = rows%gap(:first) + rows%allowed(:first)
    end subroutine allow_overlap
 
    !> The distance of two sides from what contact takes for it.

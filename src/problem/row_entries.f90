@@ -20,7 +20,7 @@ module atrito_row_entries
    private
    public :: build_constraint_rows, motions_of_row, modes_at_node, first_motions, direction_of, loads_on_motions, work_on_motion
 
-   integer(ip), parameter :: MOST_MODES = 3_ip   !< of a body
+   integer(ip), parameter, public :: MOST_MODES = 3_ip !< of a body
    real(wp), parameter :: ROUND_OFF = 1.0e-13_wp !< motions are of size one: what is below rounding of that is no motion
 
 contains

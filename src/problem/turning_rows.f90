@@ -22,8 +22,8 @@ module atrito_turning_rows
    use atrito_contact_rows, only: contact_rows_t
    use atrito_growth, only: make_room, resize
    use atrito_kinds, only: ip, wp
-   use atrito_left_motions, only: motions_left
    use atrito_points, only: contact_points_t, sliding_t
+   use atrito_sliding_bodies, only: motions_left
    use atrito_sliding_motions, only: first_of_master
    implicit none (type, external)
    private
