@@ -7,7 +7,7 @@ module atrito_body_motions
    use atrito_assembly, only: fem_t
    use atrito_bodies, only: bodies_t, body_t, mode_at
    use atrito_kinds, only: ip, wp
-   use atrito_row_entries, only: first_motions
+   use atrito_row_entries, only: first_motions, modes_at_node
    use atrito_strings, only: to_text
    use atrito_threads, only: is_shared
    implicit none (type, external)
@@ -17,23 +17,6 @@ module atrito_body_motions
    real(wp), parameter :: FARTHEST_CENTRE = 1.0e4_wp !< of a rotation, in sizes of the body
 
 contains
-
-   !> The motions of a body at one of its nodes; 0 at the dofs that are held, and in the columns of motions that it does not have.
-   pure function modes_at_node(fem, b, node) result(z)
-      type(fem_t), intent(in) :: fem
-      integer(ip), intent(in) :: b, node
-      real(wp) :: z(2, 3)
-      integer(ip) :: dof, j
-
-      z = 0.0_wp
-      associate (body => fem%bodies%list(b))
-         do j = 1, size(body%modes, 2, kind=ip)
-            do dof = 1, 2
-               if (fem%bodies%equation(dof, node) /= 0) z(dof, j) = mode_at(body, body%modes(:, j), fem%mesh%x(:, node), dof)
-            end do
-         end do
-      end associate
-   end function modes_at_node
 
    !> Translations along 1 and 2, and rotation, of every body: (3, bodies).
    pure function motions_of_bodies(bodies, a) result(motion)

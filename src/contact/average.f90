@@ -1,8 +1,22 @@
 !> The nonlocal average S_rho of the paper on the quadrature points of one slave surface: P = W p.
+!>
+!> The friction bound of the nonlocal law is nu times the mean of the pressure round a point, not the pressure at it:
+!>
+!>     S_rho(p)(x) = int omega_rho(|x - y|) p(y) dy,     omega_rho(r) = c exp(rho^2/(r^2 - rho^2)) for r < rho, else 0.
+!>
+!> omega_rho is smooth, and c makes its integral one along a straight line: c = 2.252.../rho. With the points x_k, which
+!> stand for the lengths l_k of the surface, the integral becomes a sum with a sparse matrix,
+!>
+!>     P_j = sum_k W_jk p_k,     W_jk = omega_rho(|x_j - x_k|) l_k.
+!>
+!> KERNEL_LINE takes this c; near the ends of the surface the rows sum to less than one, since a part of the kernel lies
+!> beyond it. KERNEL_POINTS divides each row by its sum instead, so that a uniform pressure stays uniform. |x_j - x_k|
+!> is the straight distance, not the way along the surface. Where rho is at most the least distance of neighbours each
+!> point has itself alone: W = 1, the local law (is_identity).
 module atrito_average
    use atrito_kinds, only: ip, lp, wp
    use atrito_friction_law, only: KERNEL_LINE
-   use atrito_neighbours, only: grid_t, build_grid, count_near, list_near
+   use atrito_neighbours, only: grid_t, build_grid, list_near
    implicit none (type, external)
    private
    public :: average_t, identity_average, add_identity_rows, build_average, count_entries, apply_average, least_spacing
@@ -27,12 +41,10 @@ contains
    pure function identity_average(n) result(w)
       integer(ip), intent(in) :: n
       type(average_t) :: w
-      integer(ip) :: j
 
-      w%n = n
-      w%first = [(j, j=1, n + 1)]
-      w%column = [(j, j=1, n)]
-      allocate (w%entry(n), source=1.0_wp)
+      w%first = [1_ip]
+      allocate (w%column(0), w%entry(0))
+      call add_identity_rows(n, w)
    end function identity_average
 
    !> More points, each of them its own average.
@@ -120,7 +132,7 @@ contains
       integer(lp), intent(in) :: most
       integer(ip), intent(in), optional :: start(:)  !< as in build_average
       type(grid_t) :: grid
-      integer(ip) :: j, n
+      integer(ip) :: near(size(x, 2)), j, n, n_near
 
       n = size(x, 2, kind=ip)
       entries = n
@@ -128,7 +140,8 @@ contains
       call build_grid(x, rho, grid)
       entries = 0_lp
       do j = 1, n
-         entries = entries + int(count_near(grid, x, j), lp)
+         call list_near(grid, x, j, near, n_near)
+         entries = entries + int(n_near, lp)
          if (entries > most) then
             entries = int(real(entries, wp)*(real(n, wp)/real(j, wp)), lp)
             return

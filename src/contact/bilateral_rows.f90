@@ -1,10 +1,17 @@
 !> Rows that hold whatever the sign of their force: ties, equations, supports along any direction, springs,
 !> pre-tension sections, nodes of rigid bodies.
 !>
-!> Row j asks for sum_k vector(:, k) . u(node(k)) = value(j) + compliance(j) q_j, k from first(j) to first(j+1) - 1, with a force
-!> q_j of any sign, which takes vector(:, k) q_j from the loads of node(k).
+!> Row j asks for
+!>
+!>     sum_k v_k . u(node(k)) = value(j) + compliance(j) q_j,     k = first(j) .. first(j + 1) - 1,   v_k = vector(:, k),
+!>
+!> with a force q_j of any sign, which takes v_k q_j from the loads of node(k). A tie has the slave's node with a unit
+!> vector and the master's with minus their shape functions; an equation has the coefficients of the deck; a support
+!> along d has v = d and the prescribed displacement as its value; a spring of stiffness k has the compliance 1/k, all
+!> others 0; a pre-tension section and a rigid body have rows that tie nodes to a reference node. For the solver these
+!> are normal rows of contact without the bound q >= 0: see atrito_contact_line.
 module atrito_bilateral_rows
-   use atrito_growth, only: make_room, resize
+   use atrito_growth, only: resize
    use atrito_id_map, only: id_map_t, add_id, find_id
    use atrito_kinds, only: ip, wp
    implicit none (type, external)
@@ -37,9 +44,9 @@ contains
       type(bilateral_rows_t), intent(out) :: rows
       integer(ip), parameter :: SOME = 16_ip
 
-      allocate (rows%first(SOME + 1), source=1_ip)
-      allocate (rows%node(SOME), rows%kind(SOME), rows%group(SOME), rows%part(SOME), source=0_ip)
-      allocate (rows%vector(2, SOME), rows%value(SOME), rows%compliance(SOME), rows%weight(SOME), source=0.0_wp)
+      allocate (rows%vector(2, 0))
+      call set_room(0_ip, SOME, 0_ip, SOME, rows)
+      rows%first(1) = 1
    end subroutine begin_rows
 
    !> Appends a row; entries of one node are added up, and those that are 0 are left out.
@@ -53,9 +60,10 @@ contains
       integer(ip) :: k, at, last
       logical :: known
 
-      call make_room_for_row(size(nodes, kind=ip), rows)
+      last = rows%first(rows%n + 1) - 1
+      if (rows%n == size(rows%value) .or. last + size(nodes) > size(rows%node)) &
+         call set_room(rows%n, 2*(rows%n + 1_ip), last, 2*(last + size(nodes, kind=ip)), rows)
       rows%n = rows%n + 1
-      last = rows%first(rows%n) - 1
       do k = 1, size(nodes, kind=ip)
          if (all(vectors(:, k) == 0.0_wp)) cycle
          at = find_id(entry_of, nodes(k)) + rows%first(rows%n) - 1
@@ -78,41 +86,29 @@ contains
       rows%n_groups = max(rows%n_groups, identity(2))
    end subroutine add_row
 
-   !> Room for one more row with some entries.
-   pure subroutine make_room_for_row(entries, rows)
-      integer(ip), intent(in) :: entries
-      type(bilateral_rows_t), intent(inout) :: rows
-      integer(ip) :: n, used
-
-      n = rows%n
-      call make_room(rows%first, n + 1_ip, n + 2_ip)
-      call make_room(rows%value, n, n + 1_ip)
-      call make_room(rows%compliance, n, n + 1_ip)
-      call make_room(rows%weight, n, n + 1_ip)
-      call make_room(rows%kind, n, n + 1_ip)
-      call make_room(rows%group, n, n + 1_ip)
-      call make_room(rows%part, n, n + 1_ip)
-      used = rows%first(n + 1) - 1
-      call make_room(rows%node, used, used + entries)
-      if (size(rows%vector, 2) < size(rows%node)) call resize(rows%vector, used, size(rows%node, kind=ip))
-   end subroutine make_room_for_row
-
    !> Gives back what was allocated for more rows and entries.
    pure subroutine trim_rows(rows)
       type(bilateral_rows_t), intent(inout) :: rows
-      integer(ip) :: n, entries
 
-      n = rows%n
-      entries = rows%first(n + 1) - 1
-      rows%first = rows%first(:n + 1)
-      rows%node = rows%node(:entries)
-      rows%vector = rows%vector(:, :entries)
-      rows%value = rows%value(:n)
-      rows%compliance = rows%compliance(:n)
-      rows%weight = rows%weight(:n)
-      rows%kind = rows%kind(:n)
-      rows%group = rows%group(:n)
-      rows%part = rows%part(:n)
+      associate (n => rows%n, entries => rows%first(rows%n + 1) - 1)
+         call set_room(n, n, entries, entries, rows)
+      end associate
    end subroutine trim_rows
+
+   !> Room for `most` rows and `most_entries` entries; the n rows and their entries stay.
+   pure subroutine set_room(n, most, entries, most_entries, rows)
+      integer(ip), intent(in) :: n, most, entries, most_entries
+      type(bilateral_rows_t), intent(inout) :: rows
+
+      call resize(rows%first, n + 1_ip, most + 1_ip)
+      call resize(rows%value, n, most)
+      call resize(rows%compliance, n, most)
+      call resize(rows%weight, n, most)
+      call resize(rows%kind, n, most)
+      call resize(rows%group, n, most)
+      call resize(rows%part, n, most)
+      call resize(rows%node, entries, most_entries)
+      call resize(rows%vector, entries, most_entries)
+   end subroutine set_room
 
 end module atrito_bilateral_rows

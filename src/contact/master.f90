@@ -1,19 +1,36 @@
-!> The master of a contact pair as a list of pieces, and what a point of the slave sees of it. Of pieces that are equally good the
-!> first of the list is taken, as if all of them had been looked at.
+!> The master of a contact pair as a list of pieces, and what a point of the slave sees of it.
+!>
+!> A point at x looks along its normal n: it sees the piece with the least |s| among those that the line x + s n
+!> crosses, that face it (n.m < FACING, m the normal of the piece there), and that lie no deeper inside than the longer
+!> of the two faces (s >= -reach). Of pieces that are equally good the first of the list is taken, as if all of them had
+!> been looked at, so the tree changes nothing.
+!>
+!> Faces stand for a smooth curve. Each end of a piece has the mean of the normals of both faces that meet there, and so
+!> has the curvature; at a corner (a turn of more than 53 degrees) each face keeps its own. Between the ends the normal
+!> of a piece is drawn to these means linearly, or, on a parabola, by functions that are 1 at one end and 0 in the
+!> middle and at the other end, since a parabola's normal is right in its middle (smooth_normal).
+!>
+!> Where two curves are to touch they have one normal. With the curvatures k_s and k_m of slave and master it is (share_of_master)
+!>
+!>     n ~ (1 - f) n_s - f n_m,     f = k_s/(k_s + k_m):
+!>
+!> of two circles that is the line between their centres, of a curve on a straight side the normal of that side, and it
+!> does not depend on which of them is the slave. Of two straight sides it is the slave's normal, without a jump from
+!> the one case to the other (`straight`).
 module atrito_master
    use atrito_element_table, only: DEGREE_OF
    use atrito_faces, only: face_list_t
    use atrito_id_map, only: id_map_t, add_id, find_id
    use atrito_kinds, only: ip, wp
-   use atrito_mesh, only: mesh_t, face_nodes
-   use atrito_piece_tree, only: piece_tree_t, search_t, plant, begin_search, next_leaf, is_far_off, FACING
+   use atrito_mesh, only: mesh_t, face_end, face_nodes
+   use atrito_piece_tree, only: piece_tree_t, search_t, plant, begin_search, next_leaf, FACING
    use atrito_pieces, only: pieces_t, allocate_pieces, sag_of, sweep_of, place_at, normal_at, cross_piece, cross, END_TOLERANCE
    use atrito_slave_faces, only: sine, CORNER
    use atrito_smooth_normals, only: smooth_surface
    implicit none (type, external)
    private
    public :: master_t, sight_t, master_of_faces, master_of_segments, turn_master, smooth_normal, share_of_master, kink_near, &
-             is_out_of_sight, look_along, look_at_end, nearest_end
+             look_along, look_at_end, nearest_end
 
    !> Faces of elements, or rigid segments and arcs.
    type, extends(pieces_t) :: master_t
@@ -90,16 +107,14 @@ contains
       real(wp), intent(in) :: curvature(:)
       type(master_t), intent(inout) :: master
       type(id_map_t) :: begins                      ! face of its first node
-      integer(ip) :: i, k, nodes(2)
+      integer(ip) :: i, k
       logical :: known
 
       do i = 1, faces%n
-         nodes = ends_of(i)
-         call add_id(begins, nodes(1), i, known)
+         call add_id(begins, mesh%nodes(faces%face(i), faces%element(i)), i, known)
       end do
       do i = 1, faces%n
-         nodes = ends_of(i)
-         k = find_id(begins, nodes(2))
+         k = find_id(begins, mesh%nodes(face_end(mesh, faces%element(i), faces%face(i)), faces%element(i)))
          if (k == 0) cycle
          if (sine(normal_at(master, i, 1.0_wp), normal_at(master, k, 0.0_wp)) > CORNER) then
             master%kink(2, i) = 1.0_wp
@@ -109,17 +124,6 @@ contains
             master%curvature(1, k) = master%curvature(2, i)
          end if
       end do
-
-   contains
-
-      pure function ends_of(i)
-         integer(ip), intent(in) :: i
-         integer(ip) :: ends_of(2)
-
-         associate (nodes => face_nodes(mesh, faces%element(i), faces%face(i)))
-            ends_of = nodes(:2)
-         end associate
-      end function ends_of
    end subroutine join_faces
 
    !> The same pieces with their outside on the other side.
@@ -215,16 +219,6 @@ contains
          kink = max(kink, master%kink(k, i)*max(1 - away/reach, 0.0_wp))
       end do
    end function kink_near
-
-   !> Whether the whole master lies so far off the line through x along the normal that neither look_along nor look_at_end, in no
-   !> more doubt about the normal than this, can find it: most faces of a long slave are so far off a short master.
-   pure logical function is_out_of_sight(x, normal, turn, master)
-      real(wp), intent(in) :: x(2), normal(2)
-      real(wp), intent(in) :: turn                  !< sine of the angle by which the normal may be in doubt
-      type(master_t), intent(in) :: master
-
-      is_out_of_sight = is_far_off(master%tree, x, normal, turn)
-   end function is_out_of_sight
 
    !> The nearest piece of the master on the line through x along the normal; a piece seen from behind is not seen, nor one that
    !> lies deeper inside than the longer of the slave's face and the piece. A piece that the line misses by END_TOLERANCE or less is

@@ -1,18 +1,41 @@
 !> MORTAR quadrature of a contact pair: the gap is small in the mean, weighted by functions psi_j of the slave's nodes.
 !>
-!> Row of node j, W_j = int psi_j h ds with the thickness h:
-!>    (1/W_j) int psi_j (u_slave - u_master) h ds,   gap s_j = (1/W_j) int psi_j g h ds.
-!> On a face that is covered whole psi_j are dual to the shape functions, int psi_j phi_k = delta_jk int phi_k, so that the slave's
-!> part of the row is its own node alone (Wohlmuth, SIAM J. Numer. Anal. 38 (2000) 989-1012). On a face that hangs over the end of
-!> the master they are hat functions of the nodes that are covered, constant beyond them. Either sum to one, so a uniform pressure
-!> is carried over exactly. At the tip of a crack, a node of both sides, there is no row: the last face has the hat functions of its
-!> other nodes.
+!> With the thickness h (2 pi r on the full circle), W_j = int psi_j h ds over the part of the slave that faces the
+!> master, and x_m(x) the place of the master that the place x of the slave faces, the row of node j is
+!>
+!>     (1/W_j) int psi_j (u(x) - u(x_m(x))) h ds,     s_j = (1/W_j) int psi_j g h ds,     n_j ~ int psi_j n h ds,
+!>
+!> g the distance along the common normal n of both sides. Put into shape functions phi of either side it has the coefficients
+!>
+!>     c_jk = (1/W_j) int psi_j phi_k h ds of the slave's nodes,     -(1/W_j) int psi_j phi_k h ds of the master's.
+!>
+!> The integrals are taken by three Gauss points on each segment (atrito_mortar_segments), on which the shape functions
+!> of both sides are smooth. Three choices of psi, all with sum 1, so that a uniform pressure is carried over exactly
+!> (the patch test):
+!>
+!> 1. A face that is covered whole has functions that are dual to its shape functions (B. Wohlmuth, SIAM J. Numer. Anal. 38 (2000)
+!>    989-1012):
+!>
+!>        psi = A phi,     A = D M^-1,     M_ab = int phi_a phi_b h ds,     D_aa = int phi_a h ds,
+!>
+!>    which makes int psi_a phi_b h ds = delta_ab D_aa: the slave's part of the row is its own node with 1, and W_j =
+!>    D_jj is the nodal force of a uniform pressure. The integrals are made with phi and multiplied by A at the end (make_dual).
+!> 2. A face that hangs over the end of the master has hat functions of the nodes that are covered, constant beyond them:
+!>    dual functions would give weights near zero or below, and points at nodes that face nothing. The force then acts
+!>    at x_j = sum c_jk x_k.
+!> 3. At the tip of a crack, a node of both sides, there is no row: the last face has the hat functions of its other nodes.
+!>
+!> psi_j of dual functions has both signs, and the mean of a gap could be below all gaps, an overlap of sides that touch
+!> beside a bend: s_j is no less than the least g that is met on the faces of psi_j. At a corner of the slave between
+!> two faces that both see the master, the gap is measured along the master's normals.
+!>
+!> Where faces with two nodes stand for curves, what their chords are short of the curve that both sides take under
+!> pressure is added to g: see join_curves in atrito_mortar_segments and lift_of.
 module atrito_mortar_points
    use atrito_dense, only: solve_lu
    use atrito_element_table, only: MOST_SIDES
    use atrito_face_geometry, only: face_direction
    use atrito_faces, only: face_list_t
-   use atrito_growth, only: make_room
    use atrito_id_map, only: id_map_t
    use atrito_incidence, only: list_holders
    use atrito_kinds, only: ip, lp, wp, EPS_MACH
@@ -21,9 +44,9 @@ module atrito_mortar_points
    use atrito_mortar_segments, only: segments_t, slave_face_t, cut_slave, join_curves, take_face, place_on_face, direction_at
    use atrito_plane_state, only: depth_at
    use atrito_pieces, only: cross_piece, place_at
-   use atrito_points, only: contact_points_t, allocate_points, add_point, add_entries, trim_points
+   use atrito_points, only: contact_points_t, terms_t, allocate_points, add_point, add_entries, add_term, trim_points
    use atrito_shape_functions, only: face_shape_values, gauss_rule
-   use atrito_revolved_faces, only: is_at_axis
+   use atrito_revolved_faces, only: is_at_axis, hats
    use atrito_slave_faces, only: nodal_rule_t, nodal_rule, common_ends, sine, clear_small_component, CORNER
    use atrito_sorting, only: sorted_places
    use atrito_smooth_normals, only: common_normal
@@ -40,7 +63,8 @@ module atrito_mortar_points
    !> end together, rounding of their coordinates decides nothing.
    real(wp), parameter :: AT_NODE = 1.0e-3_wp
 
-   !> Integrals over a face with the weighting functions of its nodes.
+   !> Integrals over a face with the weighting functions of its nodes: with the shape functions phi until make_dual,
+   !> where the face is covered whole.
    type :: face_integrals_t
       logical :: is_whole = .true.
       logical :: has_point(MOST) = .true.           !< nodes that get a weighting function
@@ -56,13 +80,6 @@ module atrito_mortar_points
       integer(ip), allocatable :: node(:)           !< (n or more) maybe twice
       real(wp), allocatable :: master(:, :)         !< (MOST, n or more) int psi_a phi_k h ds [L^2]
    end type face_integrals_t
-
-   !> Terms of the rows as they come: point, node, value.
-   type :: terms_t
-      integer(ip) :: n = 0
-      integer(ip), allocatable :: point(:), node(:)
-      real(wp), allocatable :: value(:)             !< [L^2]
-   end type terms_t
 
    !> The rows while faces are added.
    type :: rows_t
@@ -96,8 +113,6 @@ contains
       call cut_slave(mesh, slave, master, segments)
       call join_curves(master, compliance, master_compliance, segments)
       call allocate_points(MOST*slave%n, 0_ip, points)
-      call begin_terms(rows%slave)
-      call begin_terms(rows%master)
       allocate (rows%least(MOST*slave%n), source=huge(1.0_wp))
       tips = common_ends(mesh, slave, master_faces)
       s = 0.0_wp
@@ -190,7 +205,8 @@ contains
       associate (n => face%n)
          phi = 0.0_wp
          phi(:n) = face_shape_values(n, t)
-         psi = weighting(n, t, integrals)
+         psi = phi
+         if (.not. integrals%is_whole) psi = hats(integrals%has_point, t)
          ds = weight*norm2(face_direction(face%x(:, :n), t))
          integrals%length = integrals%length + ds*psi
          ds = ds*depth_at(face%state, face%thickness, dot_product(phi(:n), face%places(:n)))
@@ -254,45 +270,6 @@ contains
       integrals%has_point = away <= AT_NODE
       if (.not. any(integrals%has_point)) integrals%has_point = [(a == minloc(away, dim=1) .and. may_have(a), a=1, MOST)]
    end subroutine judge_cover
-
-   !> The functions that are integrated with: shape functions on a whole face, which make_dual combines; else hats.
-   pure function weighting(n, t, integrals) result(psi)
-      integer(ip), intent(in) :: n                  !< nodes of the face
-      real(wp), intent(in) :: t
-      type(face_integrals_t), intent(in) :: integrals
-      real(wp) :: psi(MOST)
-
-      psi = 0.0_wp
-      if (integrals%is_whole) then
-         psi(:n) = face_shape_values(n, t)
-      else
-         psi = hats(integrals%has_point, t)
-      end if
-   end function weighting
-
-   !> Hat functions over the nodes at -1, 1 and 0 that are in use, constant beyond them.
-   pure function hats(in_use, t) result(psi)
-      logical, intent(in) :: in_use(MOST)
-      real(wp), intent(in) :: t
-      real(wp) :: psi(MOST)
-
-      psi = 0.0_wp
-      select case (count(in_use))
-      case (0)                                      ! both ends are tips
-      case (1)
-         where (in_use) psi = 1.0_wp
-      case (2)
-         if (in_use(1) .and. in_use(2)) then
-            psi(:2) = [0.5_wp*(1 - t), 0.5_wp*(1 + t)]
-         else if (in_use(1)) then
-            psi([1, 3]) = [max(-t, 0.0_wp), min(1 + t, 1.0_wp)]
-         else
-            psi([2, 3]) = [max(t, 0.0_wp), min(1 - t, 1.0_wp)]
-         end if
-      case default
-         psi = [max(-t, 0.0_wp), max(t, 0.0_wp), 1 - abs(t)]
-      end select
-   end function hats
 
    !> The place t in [0,1] of a piece that a place of the slave faces, the direction in which they would touch, and how far off it
    !> is along that.
@@ -402,26 +379,6 @@ contains
       end do
    end subroutine add_face
 
-   pure subroutine begin_terms(terms)
-      type(terms_t), intent(inout) :: terms
-
-      allocate (terms%point(0), terms%node(0), terms%value(0))
-   end subroutine begin_terms
-
-   pure subroutine add_term(point, node, value, terms)
-      integer(ip), intent(in) :: point, node
-      real(wp), intent(in) :: value
-      type(terms_t), intent(inout) :: terms
-
-      call make_room(terms%point, terms%n, terms%n + 1)
-      call make_room(terms%node, terms%n, terms%n + 1)
-      call make_room(terms%value, terms%n, terms%n + 1)
-      terms%n = terms%n + 1
-      terms%point(terms%n) = point
-      terms%node(terms%n) = node
-      terms%value(terms%n) = value
-   end subroutine add_term
-
    !> Unit normals, mean gaps, and the rows by points: of each the slave's nodes, its own first, then the master's. The functions
    !> psi change their signs, and with them the mean may be below all gaps: sides that touch beside a bend do not overlap.
    subroutine finish_points(mesh, rows, points)
@@ -434,8 +391,8 @@ contains
 
       deallocate (points%entry, points%coefficient)
       allocate (points%entry(rows%slave%n + rows%master%n), points%coefficient(rows%slave%n + rows%master%n))
-      call list_holders(points%n, reshape(rows%slave%point(:rows%slave%n), [1_ip, rows%slave%n]), first_own, of_own)
-      call list_holders(points%n, reshape(rows%master%point(:rows%master%n), [1_ip, rows%master%n]), first_other, of_other)
+      call list_terms(points%n, rows%slave, first_own, of_own)
+      call list_terms(points%n, rows%master, first_other, of_other)
       round_off = 0.0_wp
       if (points%n > 0) round_off = ROUND_OFFS*EPS_MACH*maxval(abs(points%x(:, :points%n)))
       do j = 1, points%n
@@ -451,8 +408,19 @@ contains
       call trim_points(points)
    end subroutine finish_points
 
-   !> Moves a point from its node to where its force acts on the slave: elsewhere on a face that is covered in part. Rings of forces
-   !> have no moment that would have to be kept.
+   !> The terms of each of n points.
+   subroutine list_terms(n, terms, first, of_point)
+      integer(ip), intent(in) :: n
+      type(terms_t), intent(in) :: terms
+      integer(ip), allocatable, intent(out) :: first(:)    !< (n + 1)
+      integer(ip), allocatable, intent(out) :: of_point(:) !< those of point j are first(j) .. first(j + 1) - 1
+      integer(ip) :: i
+
+      call list_holders(n, reshape([(terms%point(i), i=1, terms%n)], [1_ip, terms%n]), first, of_point)
+   end subroutine list_terms
+
+   !> Moves a point from its node to where its force acts on the slave, x_j = sum c_k x_k: elsewhere on a face that is covered in
+   !> part. Rings of forces have no moment that would have to be kept.
    pure subroutine place_force(mesh, j, points)
       type(mesh_t), intent(in) :: mesh
       integer(ip), intent(in) :: j                  !< the point; its entries so far are those of the slave
@@ -477,6 +445,7 @@ contains
       integer(ip) :: order(size(list)), k
       real(wp) :: value
 
+      if (size(list) == 0) return
       associate (node => terms%node(list))
          order = list(sorted_places(int(merge(0_ip, node, node == points%node(j)), lp)))
       end associate

@@ -1,8 +1,23 @@
 !> Segments of a pair whose sides do not match: the slave's faces, cut at their own ends and where they face the nodes of the
 !> master, so that on a segment the shape functions of both sides are smooth.
 !>
-!> A place of the slave faces what it sees along a direction that turns from the normal at one end of the face to that at the other,
-!> and is the same on both sides of a node: nothing of a smooth master is seen twice or left out.
+!> A place x(t) of the slave, t in [-1,1] on its face, looks along
+!>
+!>     d(t) = sum_a phi_a(t) d_a,
+!>
+!> d_a the normals at the nodes of the face (the means of both faces that meet there): the direction turns from the one
+!> end to the other and is the same on both sides of a node, so nothing of a smooth master is seen twice or left out.
+!>
+!> 1. Cuts. The end y of a piece of the master is faced from where its line of sight goes through it,
+!>
+!>        F(t) = cross(y - x(t), d(t)) = 0,     F' = cross(y - x, d') - cross(x', d),
+!>
+!>    by Newton's method from the foot of y on the chord; on straight faces with parallel directions that is one step.
+!>    Pieces that lie aside of the strip that the face looks into are left out by the tree (strip_of), ends that lie
+!>    behind by can_see.
+!> 2. Segments. The middle of each part between two cuts looks for its piece as a NODAL point does; a part
+!>    that sees nothing is left out.
+!> 3. A face that is covered to less than LEAST_COVER is not covered.
 module atrito_mortar_segments
    use atrito_face_geometry, only: face_direction, outward_normal
    use atrito_faces, only: face_list_t
@@ -77,8 +92,13 @@ contains
       end do
    end subroutine cut_slave
 
-   !> The curve that both sides take under pressure. Of the curvature that they have against each other each gives up its share, in
-   !> the ratio of the compliances E*^-1 (Hertz); a rigid master keeps its own.
+   !> The curve that both sides take under pressure. Of the curvature k_s + k_m that they have against each other (> 0: convex) each
+   !> gives up its share, in the ratio of the compliances C = 1/E* (Hertz); a rigid master keeps its own:
+   !>
+   !>     k = k_s - (k_s + k_m) C_s/(C_s + C_m)     out of the slave, -k out of the master.
+   !>
+   !> Between chords of such a curve the gap shows a sawtooth of k c^2/8, c the chord, that is not there:
+   !> atrito_mortar_points adds what the chords are short of it.
    pure subroutine join_curves(master, slave_compliance, master_compliance, segments)
       type(master_t), intent(in) :: master
       real(wp), intent(in) :: slave_compliance(:), master_compliance(:) !< of the faces [L^2/F]; nothing of a rigid master

@@ -1,11 +1,16 @@
-!> Which of many points lie near one another: a grid of square cells, of which only those that hold points are kept. A point and all
-!> its neighbours lie in nine cells.
+!> Which of many points lie near one another: a grid of square cells, of which only those that hold points are kept.
+!>
+!> A cell is a little longer than the reach, so a point and all its neighbours lie in its own cell and the eight round
+!> it. The cells are numbered column by column, key = column 4 M + row, the points sorted by the key of their cell.
+!> Three cells one above the other have keys that follow one another, so their points do, too: of each cell three ranges
+!> of points are kept, one a column, found by bisection. Making the grid takes n log n, a point then as many steps as
+!> nine cells have points.
 module atrito_neighbours
    use atrito_kinds, only: ip, lp, wp
    use atrito_sorting, only: sorted_places, first_at_least
    implicit none (type, external)
    private
-   public :: grid_t, build_grid, count_near, list_near
+   public :: grid_t, build_grid, list_near
 
    type :: grid_t
       real(wp) :: reach = 0.0_wp                     !< [L] points that are nearer than this are neighbours
@@ -41,19 +46,17 @@ contains
          key(i) = key_of(int((x(1, i) - low(1))/width, lp), int((x(2, i) - low(2))/width, lp))
       end do
       grid%place = sorted_places(key)
-      allocate (grid%cell(n), cells(n))
+      allocate (grid%cell(n), cells(0:n))
+      cells(0) = -1_lp
       n_cells = 0
       do i = 1, n
-         if (n_cells == 0) then
-            n_cells = 1
-            cells(1) = key(grid%place(i))
-         else if (key(grid%place(i)) > cells(n_cells)) then
+         if (key(grid%place(i)) > cells(n_cells)) then
             n_cells = n_cells + 1
             cells(n_cells) = key(grid%place(i))
          end if
          grid%cell(grid%place(i)) = n_cells
       end do
-      call find_columns(key(grid%place), cells(:n_cells), grid)
+      call find_columns(key(grid%place), cells(1:n_cells), grid)
    end subroutine build_grid
 
    !> Cells that lie one above the other have keys that follow one another.
@@ -81,30 +84,7 @@ contains
       end do
    end subroutine find_columns
 
-   pure logical function is_near(grid, x, i, j)
-      type(grid_t), intent(in) :: grid
-      real(wp), intent(in) :: x(:, :)
-      integer(ip), intent(in) :: i, j
-
-      is_near = hypot(x(1, i) - x(1, j), x(2, i) - x(2, j)) < grid%reach
-   end function is_near
-
-   !> How many points lie near point j, itself one of them.
-   pure integer(ip) function count_near(grid, x, j) result(n)
-      type(grid_t), intent(in) :: grid
-      real(wp), intent(in) :: x(:, :)                !< (2, n) those of the grid [L]
-      integer(ip), intent(in) :: j
-      integer(ip) :: k, i
-
-      n = 0
-      do k = 1, 3
-         do i = grid%first(k, grid%cell(j)), grid%last(k, grid%cell(j))
-            if (is_near(grid, x, grid%place(i), j)) n = n + 1
-         end do
-      end do
-   end function count_near
-
-   !> The points near point j, in no particular order.
+   !> The points near point j, itself one of them, in no particular order.
    pure subroutine list_near(grid, x, j, near, n)
       type(grid_t), intent(in) :: grid
       real(wp), intent(in) :: x(:, :)                !< (2, n) those of the grid [L]
@@ -116,9 +96,11 @@ contains
       n = 0
       do k = 1, 3
          do i = grid%first(k, grid%cell(j)), grid%last(k, grid%cell(j))
-            if (.not. is_near(grid, x, grid%place(i), j)) cycle
-            n = n + 1
-            near(n) = grid%place(i)
+            associate (other => grid%place(i))
+               if (hypot(x(1, other) - x(1, j), x(2, other) - x(2, j)) >= grid%reach) cycle
+               n = n + 1
+               near(n) = other
+            end associate
          end do
       end do
    end subroutine list_near

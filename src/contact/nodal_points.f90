@@ -1,19 +1,35 @@
 !> NODAL quadrature of a contact pair, as in the paper: where its points lie, what they weigh, what they face.
 !>
-!> The points are the slave's nodes, trapezoidal for Q1 and Simpson for Q2. Each looks along
-!> the slave's normal for the master, element faces or rigid segments.
+!> The points are the slave's nodes. The integral of a pressure over a face is the trapezoidal rule for two nodes,
+!> Simpson's for three,
+!>
+!>     int p ds ~ sum_a p(x_a) l_a,     l_a = omega_a |dx/dt|(t_a),     omega = (1, 1) or (1, 4, 1)/3 with t in [-1,1];
+!>
+!> a node of two faces is one point, with the sum of both lengths and their mean normal weighted by them: sum l_a n_a of
+!> a face are the nodal forces of a uniform pressure, exactly. The weight w_j is l_j times the thickness; on the full
+!> circle, and where the thickness is tapered, weights and normals come from atrito_revolved_faces.
+!>
+!> Each point looks along its normal for the master (atrito_master). It sees the place t of a piece, where the piece's
+!> nodes k have the shape functions phi_k(t), so the row of the point is (atrito_points)
+!>
+!>     u_j - sum_k phi_k(t) u_k,     s_j = n_j . (x_master(t) - x_j),
+!>
+!> n_j then being the normal that both sides have in common. A face of the slave takes part only where all of its nodes see the
+!> master: a part of a face has no rule of its own here (MORTAR has one).
 module atrito_nodal_points
    use atrito_element_table, only: DEGREE_OF, MOST_SIDES
    use atrito_id_map, only: id_map_t
    use atrito_kinds, only: ip, lp, wp, EPS_MACH
    use atrito_mesh, only: mesh_t, face_nodes
    use atrito_faces, only: face_list_t
-   use atrito_master, only: master_t, sight_t, smooth_normal, share_of_master, kink_near, is_out_of_sight, look_along, &
-                            look_at_end, nearest_end
+   use atrito_master, only: master_t, sight_t, smooth_normal, share_of_master, kink_near, look_along, look_at_end, &
+                            nearest_end
+   use atrito_piece_tree, only: is_far_off
    use atrito_pieces, only: place_at
    use atrito_plane_state, only: depth_at, IS_TAPERED, STATES
-   use atrito_points, only: contact_points_t, allocate_points, add_point, add_entries, drop_points, trim_points
-   use atrito_revolved_faces, only: revolved_face_t, mixed_rows_t, revolve_face, note_mixed, mix_rows
+   use atrito_points, only: contact_points_t, terms_t, allocate_points, add_point, add_entries, drop_points, &
+                            trim_points
+   use atrito_revolved_faces, only: revolved_face_t, revolve_face, note_mixed, mix_rows
    use atrito_shape_functions, only: face_shape_values
    use atrito_slave_faces, only: nodal_rule_t, nodal_rule, common_ends, turn_at, sine, clear_small_component, CORNER
    use atrito_smooth_normals, only: smooth_surface, common_normal
@@ -47,7 +63,7 @@ contains
       type(contact_points_t), intent(out) :: points
       logical, allocatable :: used(:)
       real(wp), allocatable :: curvature(:)         ! of the slave at the points [1/L]
-      type(mixed_rows_t) :: mixed
+      type(terms_t) :: mixed
       integer(ip) :: i
 
       points%rigid = master%rigid
@@ -101,6 +117,7 @@ contains
       end do
    end function sees_master
 
+   !> Whether a node of face i sees the master along the face's normal there, or an end of it within the doubt about that normal.
    pure logical function node_finds(mesh, slave, i, rule, k, master) result(finds)
       type(mesh_t), intent(in) :: mesh
       type(face_list_t), intent(in) :: slave
@@ -111,7 +128,7 @@ contains
       type(sight_t) :: sight
 
       associate (x => mesh%x(:, rule%node(k)), normal => rule%normal(:, k), reach => rule%s(rule%n))
-         finds = .not. is_out_of_sight(x, normal, CORNER, master)
+         finds = .not. is_far_off(master%tree, x, normal, CORNER)
          if (.not. finds) return
          sight = look_along(x, normal, reach, master)
          if (sight%piece == 0) sight = look_at_end(x, normal, reach, turn_at(mesh, slave, i, rule), master)
@@ -128,7 +145,7 @@ contains
       real(wp), intent(in) :: grain                 !< to which the nodes are known [L]
       type(contact_points_t), intent(inout) :: points
       real(wp), allocatable, intent(out) :: curvature(:) !< of the slave at the points [1/L]
-      type(mixed_rows_t), intent(inout) :: mixed
+      type(terms_t), intent(inout) :: mixed
       real(wp), allocatable :: ends(:, :, :), of_face(:), bend(:)
       type(id_map_t) :: place                       ! point of a node
       type(nodal_rule_t) :: rule

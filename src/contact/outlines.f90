@@ -1,15 +1,26 @@
-!> The outlines of all bodies, and what each face of them looks at: for contact that is found and not given pair by pair. In linear
-!> time but for the depth of the tree of the faces.
+!> The outlines of all bodies, and what each face of them looks at: for contact that is found and not given pair by pair.
+!>
+!> The middle x of each face looks along its outward normal n, both ways: faces of another body at y = x + s n count
+!> where they face it, in front (s > 0, a gap) or behind (s < 0, an overlap). The own body hides what lies behind it:
+!> with the nearest own faces at
+!>
+!>     front = min s > 0,     back = max s < 0     over the faces of the same body,
+!>
+!> only back < s < front can be seen, so thin plates are not looked through. Of those the nearest is taken, no farther
+!> off than `distance` or half of the longer one of the two faces; a rigid surface has to be nearer than that, and
+!> within half of the face. All faces stand in one tree (atrito_piece_tree), so a search takes some log n steps, all of
+!> them n log n.
 module atrito_outlines
    use atrito_element_table, only: MOST_SIDES
    use atrito_face_geometry, only: face_arc_length, outward_normal
    use atrito_faces, only: face_list_t, node_elements_t, outer_faces
+   use atrito_growth, only: make_room
    use atrito_kinds, only: ip, wp, EPS_MACH
    use atrito_master, only: master_t, master_of_faces
    use atrito_mesh, only: mesh_t, face_nodes, face_end
    use atrito_piece_tree, only: search_t, begin_search, next_leaf, FACING
    use atrito_pieces, only: place_at, normal_at, cross_piece, END_TOLERANCE
-   use atrito_slave_faces, only: CORNER
+   use atrito_slave_faces, only: sine, CORNER
    use atrito_shape_functions, only: face_shape_values
    implicit none (type, external)
    private
@@ -38,7 +49,6 @@ module atrito_outlines
       real(wp) :: limit = 0.0_wp                     !< [L]
    end type line_t
 
-   integer(ip), parameter :: FIRST_LENGTH = 16_ip
    !> Errors of rounding that a distance may have.
    real(wp), parameter :: ROUND_OFFS = 64.0_wp
 
@@ -67,20 +77,19 @@ contains
       call join_faces(mesh, outlines)
    end subroutine list_outlines
 
+   !> Takes some faces out of a list.
    pure subroutine leave_out(some, faces)
       type(face_list_t), intent(in) :: some
       type(face_list_t), intent(inout) :: faces
-      integer(ip) :: i, n
+      integer(ip) :: i
 
       if (some%n == 0) return
-      n = 0
-      do i = 1, faces%n
-         if (any(some%element(:some%n) == faces%element(i) .and. some%face(:some%n) == faces%face(i))) cycle
-         n = n + 1
-         faces%element(n) = faces%element(i)
-         faces%face(n) = faces%face(i)
-      end do
-      faces%n = n
+      associate (kept => pack([(i, i=1, faces%n)], [(.not. any(some%element(:some%n) == faces%element(i) .and. &
+                                                              some%face(:some%n) == faces%face(i)), i=1, faces%n)]))
+         faces%n = size(kept, kind=ip)
+         faces%element(:faces%n) = faces%element(kept)
+         faces%face(:faces%n) = faces%face(kept)
+      end associate
    end subroutine leave_out
 
    !> Where a face ends another one begins; two of them where corners of a body meet, and then neither goes on.
@@ -99,18 +108,12 @@ contains
          do i = 1, faces%n
             outlines%next(i) = max(from(mesh%nodes(face_end(mesh, faces%element(i), faces%face(i)), faces%element(i))), 0_ip)
             if (outlines%next(i) == 0) cycle
-            if (.not. goes_on(normal_of(mesh, faces, i, 1.0_wp), normal_of(mesh, faces, outlines%next(i), -1.0_wp))) then
+            if (sine(normal_of(mesh, faces, i, 1.0_wp), normal_of(mesh, faces, outlines%next(i), -1.0_wp)) > CORNER) then
                outlines%next(i) = 0
             end if
          end do
       end associate
    end subroutine join_faces
-
-   pure logical function goes_on(a, b)
-      real(wp), intent(in) :: a(2), b(2)             !< unit normals
-
-      goes_on = dot_product(a, b) > 0.0_wp .and. abs(a(1)*b(2) - a(2)*b(1)) <= CORNER
-   end function goes_on
 
    !> Outward unit normal of a face at t in [-1, 1].
    pure function normal_of(mesh, faces, i, t) result(normal)
@@ -138,7 +141,7 @@ contains
       real(wp) :: half_of_longest
       integer(ip) :: i
 
-      allocate (seen(outlines%faces%n), piece(FIRST_LENGTH), away(FIRST_LENGTH))
+      allocate (seen(outlines%faces%n))
       if (outlines%faces%n == 0) return
       half_of_longest = 0.5_wp*maxval(outlines%length)
       call master_of_faces(mesh, outlines%faces, all)
@@ -222,6 +225,7 @@ contains
       end do
    end subroutine look_both_ways
 
+   !> Adds the places where the line meets one piece, each with its distance along the line.
    pure subroutine add_crossings(line, master, i, piece, away, n)
       type(line_t), intent(in) :: line
       type(master_t), intent(in) :: master
@@ -238,10 +242,8 @@ contains
          distance = dot_product(place_at(master, i, t(k)) - line%x, line%normal)
          if (abs(distance) > line%limit) cycle
          if (dot_product(line%normal, normal_at(master, i, min(max(t(k), 0.0_wp), 1.0_wp))) > FACING) cycle
-         if (n == size(piece)) then
-            piece = [piece, piece]
-            away = [away, away]
-         end if
+         call make_room(piece, n, n + 1)
+         call make_room(away, n, n + 1)
          n = n + 1
          piece(n) = i
          away(n) = distance

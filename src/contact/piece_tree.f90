@@ -1,5 +1,21 @@
 !> A tree over the pieces of a surface: those of a branch lie in a box, their normals in another one, so that whole branches are
-!> passed over that a line cannot meet, or would meet from behind. What waits is looked at by its distance, the nearest first.
+!> passed over that a line cannot meet, or would meet from behind.
+!>
+!> The pieces are put in the order of a curve that fills the plane (Morton: the bits of both coordinates in turn), so
+!> pieces near each other mostly follow each other, and the order is halved until few are left: branch k has the halves
+!> 2 k and 2 k + 1. Building it takes n log n, a search some log n.
+!>
+!> For the line x + s n and a branch with the box low .. high of its places and another one of its normals m, these hold
+!> for every place y of the branch, n.m and the others being bounded coordinate by coordinate (the least of a product
+!> over an interval is at one of its ends):
+!>
+!>     n.m > FACING for all m             nothing in the branch faces the line: it is passed over
+!>     |cross(y - x, n)| >= across        across > 0: the line does not meet the branch
+!>     |(y - x).n| >= along               a bound of the distance at which it may be met
+!>
+!> Each bound is given away by `margin`, the round-off of the coordinates, so a search finds what looking at all pieces
+!> would find. The branches that are still to be looked at wait in the order of their bound; the nearest is opened next,
+!> and the search ends when the nearest bound is above what was found.
 module atrito_piece_tree
    use atrito_kinds, only: ip, lp, wp, EPS_MACH
    use atrito_pieces, only: pieces_t, box_of_piece
@@ -77,7 +93,7 @@ contains
       call enclose(pieces, tree, 1_ip, 1_ip, pieces%n)
    end subroutine plant
 
-   !> Of a tree over n pieces.
+   !> The number of branches of a tree over n pieces, a full one: 2^levels - 1.
    pure integer(ip) function n_branches(n)
       integer(ip), intent(in) :: n
       integer(ip) :: m
@@ -110,11 +126,13 @@ contains
       type(piece_tree_t), intent(inout) :: tree
       integer(ip), intent(in) :: k                  !< the branch
       integer(ip), intent(in) :: first, last        !< its pieces in the order
+      type(branch_t) :: own
       integer(ip) :: i, middle
 
       if (last - first < LEAF) then
          do i = first, last
-            call widen(tree%branches(k), branch_of(pieces, tree%order(i)))
+            call box_of_piece(pieces, tree%order(i), own%low, own%high, own%normal_low, own%normal_high)
+            call widen(tree%branches(k), own)
          end do
          return
       end if
@@ -125,6 +143,7 @@ contains
       call widen(tree%branches(k), tree%branches(2*k + 1))
    end subroutine enclose
 
+   !> Makes the boxes of a branch so large that another one's are in them.
    pure subroutine widen(branch, other)
       type(branch_t), intent(inout) :: branch
       type(branch_t), intent(in) :: other
@@ -134,13 +153,6 @@ contains
       branch%normal_low = min(branch%normal_low, other%normal_low)
       branch%normal_high = max(branch%normal_high, other%normal_high)
    end subroutine widen
-
-   pure type(branch_t) function branch_of(pieces, i) result(branch)
-      class(pieces_t), intent(in) :: pieces
-      integer(ip), intent(in) :: i
-
-      call box_of_piece(pieces, i, branch%low, branch%high, branch%normal_low, branch%normal_high)
-   end function branch_of
 
    !> Whether all pieces lie farther off the line than `turn` times their greatest distance from x, or turn their backs on it.
    pure logical function is_far_off(tree, x, normal, turn)
@@ -159,6 +171,7 @@ contains
       is_far_off = .not. facing_it .or. across > turn*farthest
    end function is_far_off
 
+   !> The line of a search, and the rounding that its comparisons may have.
    pure subroutine aim(tree, x, normal, search)
       type(piece_tree_t), intent(in) :: tree
       real(wp), intent(in) :: x(2), normal(2)

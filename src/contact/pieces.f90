@@ -1,4 +1,20 @@
 !> The pieces of a contact surface's outline, straight, parabolic or circular: places, normals, and where a line crosses them.
+!>
+!> Piece i is, with t in [0,1] from its first end to its last,
+!>
+!>     x(t) = a + t d + 4 t (1 - t) sag      a face of elements (sag = 0: two nodes, or three in a line), a rigid segment
+!>     x(t) = c + R(t sweep) (a - c)         a rigid arc about c, R(angle) a rotation
+!>
+!> and its outward normal is dx/dt turned by -90 degrees (side = 1) or +90 degrees (side = -1), over its length.
+!>
+!> The line x0 + s n crosses a piece where cross(x(t) - x0, n) = 0, cross(p, q) = p1 q2 - p2 q1. For a parabola this is
+!>
+!>     A t^2 + B t + C = 0,     A = -4 cross(sag, n),   B = cross(d, n) - A,   C = -cross(x0 - a, n),
+!>
+!> solved by q = -(B + sign(B) sqrt(B^2 - 4 A C))/2, t = C/q and t = q/A: no digits are lost by a difference of near
+!> numbers, and with A = 0 (a straight piece) only t = C/q is left. The circle of an arc with the radius r is met at s =
+!> -(x0 - c).n -+ sqrt(r^2 - cross(x0 - c, n)^2), the root taken as sqrt((r - |cross|)(r + |cross|)), and t is the angle
+!> of that place over the sweep.
 module atrito_pieces
    use atrito_kinds, only: ip, wp, EPS_MACH
    implicit none (type, external)
@@ -32,7 +48,7 @@ contains
       allocate (pieces%a(2, n), pieces%d(2, n), pieces%sag(2, n), pieces%centre(2, n), pieces%sweep(n), source=0.0_wp)
    end subroutine allocate_pieces
 
-   !> Round-off of a straight face's middle is no sag.
+   !> The sag of a face: by what its middle node is off the middle of its chord. Round-off of a straight face's middle is none.
    pure function sag_of(x) result(sag)
       real(wp), intent(in) :: x(:, :)               !< (2, 2 or 3) [L]
       real(wp) :: sag(2)
@@ -82,6 +98,7 @@ contains
       n = [d(2), -d(1)]*(pieces%side/norm2(d))
    end function normal_at
 
+   !> Whether a piece is an arc; a sweep of 0 stands for a line or a parabola.
    pure logical function is_arc(pieces, i)
       class(pieces_t), intent(in) :: pieces
       integer(ip), intent(in) :: i
@@ -89,16 +106,12 @@ contains
       is_arc = abs(pieces%sweep(i)) > 0.0_wp
    end function is_arc
 
-   !> The middle node lies so far off, or so near to an end, that the normals at the ends do not tell those between them.
-   pure logical function has_cusp(pieces, i)
-      class(pieces_t), intent(in) :: pieces
-      integer(ip), intent(in) :: i
-
-      has_cusp = 4*norm2(pieces%sag(:, i)) >= 0.9_wp*norm2(pieces%d(:, i))
-   end function has_cusp
-
-   !> Box round a piece with what a point may hang over its ends, and box round its normals: those on a bend stand no farther off
-   !> the normals at the ends than these stand apart.
+   !> Box round a piece with what a point may hang over its ends, and box round its normals, for the tree of pieces.
+   !>
+   !> A parabola lies within |sag| of its chord in each coordinate, an arc within its rise r (1 - cos(sweep/2)). A point
+   !> may hang over an end by END_TOLERANCE of the piece. Normals turn one way along a piece and by less than 180
+   !> degrees, so those between the ends are no farther off the normals at the ends than these are apart; where the
+   !> middle node makes a cusp nothing is known of them.
    pure subroutine box_of_piece(pieces, i, low, high, normal_low, normal_high)
       class(pieces_t), intent(in) :: pieces
       integer(ip), intent(in) :: i
@@ -119,7 +132,8 @@ contains
       low = minval(ends, dim=2) - bulge - spare
       high = maxval(ends, dim=2) + bulge + spare
       spare = norm2(normals(:, 2) - normals(:, 1))
-      if (has_cusp(pieces, i)) spare = 2.0_wp
+      ! a middle node so far off, or so near to an end, that the normals at the ends do not tell those between them
+      if (4*norm2(pieces%sag(:, i)) >= 0.9_wp*norm2(pieces%d(:, i))) spare = 2.0_wp
       normal_low = minval(normals, dim=2) - spare
       normal_high = maxval(normals, dim=2) + spare
    end subroutine box_of_piece

@@ -1,12 +1,25 @@
-!> The points of a contact pair as constraints on the nodes of both sides. What makes them is atrito_nodal_points; what solves for
-!> their forces does not know it.
+!> The points of a contact pair as constraints on the nodes of both sides. atrito_nodal_points and atrito_mortar_points make them;
+!> what solves for their forces does not know which of the two did.
+!>
+!> Point j stands for a part of the slave surface: for its length l_j in averages, for its weight w_j = l_j times the thickness (or
+!> 2 pi r) where stresses become forces, q_j = w_j p_j. With its unit normal n_j, out of the slave, and T_j, n_j turned by +90
+!> degrees, its row is
+!>
+!>     N_j u = n_j . sum_k c_jk u_k,     T_j u = T_j . sum_k c_jk u_k
+!>
+!> over nodes k of both sides. The coefficients c_jk of the slave add up to 1, those of the master to -1, so a translation of both
+!> bodies is nothing to a point, and the forces q_j c_jk n_j on the nodes are equal and opposite. The sides touch where
+!> N_j u = s_j, the gap; contact asks for N_j u - s_j <= 0, p_j >= 0 and p_j (N_j u - s_j) = 0 (or = delta p_j).
+!>
+!> The rows are kept by their entries (compressed rows): those of point j are first(j) .. first(j + 1) - 1.
 module atrito_points
+   use atrito_growth, only: make_room
    use atrito_id_map, only: id_map_t, add_id, find_id
    use atrito_kinds, only: ip, lp, wp
    use atrito_mesh, only: mesh_t
    implicit none (type, external)
    private
-   public :: contact_points_t, sliding_t, allocate_points, add_point, add_entries, drop_points, trim_points
+   public :: contact_points_t, sliding_t, terms_t, allocate_points, add_point, add_entries, add_term, drop_points, trim_points
 
    !> A motion in which both sides of a pair slide along themselves (atrito_sliding_motions).
    type :: sliding_t
@@ -49,6 +62,14 @@ module atrito_points
       real(wp) :: coarseness = 0.0_wp               !< NODAL: largest distance of slave nodes over that of the master's there
       integer(ip) :: coarse_node = 0                !< where
    end type contact_points_t
+
+   !> Terms of the rows of points in any order, several of one node among them: what integrals over faces give one after the other.
+   type :: terms_t
+      integer(ip) :: n = 0
+      integer(ip), allocatable :: point(:)          !< (n or more)
+      integer(ip), allocatable :: node(:)           !< (n or more) a node, or a point whose row takes part
+      real(wp), allocatable :: value(:)             !< (n or more) coefficient times weight [L^2]
+   end type terms_t
 
 contains
 
@@ -101,56 +122,61 @@ contains
       end associate
    end subroutine add_entries
 
+   !> Appends a term to a list; the list grows by doubling.
+   pure subroutine add_term(point, node, value, terms)
+      integer(ip), intent(in) :: point, node
+      real(wp), intent(in) :: value                 !< [L^2]
+      type(terms_t), intent(inout) :: terms
+
+      call make_room(terms%point, terms%n, terms%n + 1)
+      call make_room(terms%node, terms%n, terms%n + 1)
+      call make_room(terms%value, terms%n, terms%n + 1)
+      terms%n = terms%n + 1
+      terms%point(terms%n) = point
+      terms%node(terms%n) = node
+      terms%value(terms%n) = value
+   end subroutine add_term
+
    !> Takes away the points of some nodes.
    pure subroutine drop_points(nodes, points)
       integer(ip), intent(in) :: nodes(:)           !< 0: none
       type(contact_points_t), intent(inout) :: points
-      integer(ip) :: i, n, k, at
+      integer(ip) :: i
 
-      n = 0
-      at = 1
-      do i = 1, points%n
-         if (any(nodes == points%node(i))) cycle
-         n = n + 1
-         points%node(n) = points%node(i)
-         points%x(:, n) = points%x(:, i)
-         points%s(n) = points%s(i)
-         points%normal(:, n) = points%normal(:, i)
-         points%length(n) = points%length(i)
-         points%weight(n) = points%weight(i)
-         points%gap(n) = points%gap(i)
-         associate (from => points%first(i), entries => points%first(i + 1) - points%first(i))
-            do k = 0, entries - 1                   ! never to a place behind that it is taken from
-               points%entry(at + k) = points%entry(from + k)
-               points%coefficient(at + k) = points%coefficient(from + k)
-            end do
-            k = entries
-         end associate
-         points%first(n) = at
-         at = at + k
-      end do
-      points%first(n + 1) = at
-      points%n = n
-      call trim_points(points)
+      call take_points(pack([(i, i=1, points%n)], [(.not. any(nodes == points%node(i)), i=1, points%n)]), points)
    end subroutine drop_points
 
    !> Gives back what was allocated for more points and entries.
    pure subroutine trim_points(points)
       type(contact_points_t), intent(inout) :: points
-      integer(ip) :: n, n_entries
+      integer(ip) :: i
 
-      n = points%n
-      points%node = points%node(:n)
-      points%x = points%x(:, :n)
-      points%s = points%s(:n)
-      points%normal = points%normal(:, :n)
-      points%length = points%length(:n)
-      points%weight = points%weight(:n)
-      points%gap = points%gap(:n)
-      points%first = points%first(:n + 1)
-      n_entries = points%first(n + 1) - 1
-      points%entry = points%entry(:n_entries)
-      points%coefficient = points%coefficient(:n_entries)
+      call take_points([(i, i=1, points%n)], points)
    end subroutine trim_points
+
+   !> Some of the points, in the order of a list, and no room for others.
+   pure subroutine take_points(list, points)
+      integer(ip), intent(in) :: list(:)            !< places of the points
+      type(contact_points_t), intent(inout) :: points
+      integer(ip), allocatable :: entries(:)
+      integer(ip) :: i, k
+
+      entries = [((k, k=points%first(list(i)), points%first(list(i) + 1) - 1), i=1, size(list, kind=ip))]
+      points%entry = points%entry(entries)
+      points%coefficient = points%coefficient(entries)
+      entries = [1_ip, points%first(list + 1) - points%first(list)]      ! from numbers of entries to the first of each point
+      do i = 1, size(list, kind=ip)
+         entries(i + 1) = entries(i) + entries(i + 1)
+      end do
+      points%first = entries
+      points%n = size(list, kind=ip)
+      points%node = points%node(list)
+      points%x = points%x(:, list)
+      points%s = points%s(list)
+      points%normal = points%normal(:, list)
+      points%length = points%length(list)
+      points%weight = points%weight(list)
+      points%gap = points%gap(list)
+   end subroutine take_points
 
 end module atrito_points

@@ -15,12 +15,13 @@ module atrito_revolved_faces
    use atrito_kinds, only: ip, wp
    use atrito_mesh, only: mesh_t, depth_places
    use atrito_plane_state, only: STATES, depth_at
-   use atrito_points, only: contact_points_t
+   use atrito_points, only: contact_points_t, terms_t, add_term
    use atrito_shape_functions, only: face_shape_values, gauss_rule
    use atrito_slave_faces, only: nodal_rule_t
+   use atrito_sorting, only: each_once
    implicit none (type, external)
    private
-   public :: revolved_face_t, mixed_rows_t, revolve_face, is_at_axis, note_mixed, mix_rows
+   public :: revolved_face_t, revolve_face, is_at_axis, hats, note_mixed, mix_rows
 
    integer(ip), parameter :: MOST = 3              !< nodes of a face
    !> A face of the second degree that begins within this part of its reach along the radius begins at the axis.
@@ -35,13 +36,6 @@ module atrito_revolved_faces
       real(wp) :: share(MOST, MOST) = 0.0_wp       !< int psi_j N_a 2 pi r ds where it mixes [L^2]
    end type revolved_face_t
 
-   !> Points whose rows are those of several nodes.
-   type :: mixed_rows_t
-      integer(ip) :: n = 0
-      integer(ip), allocatable :: point(:), other(:)
-      real(wp), allocatable :: share(:)            !< [L^2]
-   end type mixed_rows_t
-
 contains
 
    !> Whether a face of the second degree touches the axis of its body of revolution, or nearly so.
@@ -54,13 +48,29 @@ contains
       is_at_axis = minval(x(1, :)) < AT_AXIS*(maxval(x(1, :)) - minval(x(1, :)))
    end function is_at_axis
 
-   !> Hat functions of the nodes at -1, 1 and 0.
-   pure function axis_hats(t) result(psi)
+   !> Hat functions over the nodes at -1, 1 and 0 that are in use, constant beyond them: they add up to one and are not negative.
+   pure function hats(in_use, t) result(psi)
+      logical, intent(in) :: in_use(MOST)
       real(wp), intent(in) :: t                    !< [-1,1]
       real(wp) :: psi(MOST)
 
-      psi = [max(-t, 0.0_wp), max(t, 0.0_wp), 1 - abs(t)]
-   end function axis_hats
+      psi = 0.0_wp
+      select case (count(in_use))
+      case (0)                                     ! both ends are tips
+      case (1)
+         where (in_use) psi = 1.0_wp
+      case (2)
+         if (in_use(1) .and. in_use(2)) then
+            psi(:2) = [0.5_wp*(1 - t), 0.5_wp*(1 + t)]
+         else if (in_use(1)) then
+            psi([1, 3]) = [max(-t, 0.0_wp), min(1 + t, 1.0_wp)]
+         else
+            psi([2, 3]) = [max(t, 0.0_wp), min(1 - t, 1.0_wp)]
+         end if
+      case default
+         psi = [max(-t, 0.0_wp), max(t, 0.0_wp), 1 - abs(t)]
+      end select
+   end function hats
 
    !> The weights and normals of a face, exact for straight faces and curved ones of the second degree.
    pure function revolve_face(mesh, state, thickness, rule) result(face)
@@ -113,7 +123,7 @@ contains
          values = 0.0_wp
          values(:n) = face_shape_values(n, t)
          psi = values
-         if (face%mixes) psi = axis_hats(t)
+         if (face%mixes) psi = hats([.true., .true., .true.], t)
          ds = 0.5_wp*weights(g)*(part(2) - part(1))*norm2(face_direction(x, t)) &
               *depth_at(state, thickness, dot_product(values(:n), places))
          vector = vector + ds*spread(outward_normal(x, t), 2, MOST)*spread(psi, 1, 2)
@@ -121,59 +131,63 @@ contains
       end do
    end subroutine add_part
 
-   !> Notes that the points of a face mix the rows of its nodes.
+   !> Notes that the points of a face mix the rows of its nodes: terms of a point, with other points in the place of
+   !> nodes. The part of its weight that a point has from this face goes to the nodes of the face, in the ratio of int
+   !> psi_j N_a 2 pi r ds.
    pure subroutine note_mixed(face, points, mixed)
       type(revolved_face_t), intent(in) :: face
       integer(ip), intent(in) :: points(MOST)      !< of its nodes, in the order of travel
-      type(mixed_rows_t), intent(inout) :: mixed
+      type(terms_t), intent(inout) :: mixed
       integer(ip) :: j, a
 
       if (.not. face%mixes) return
-      if (.not. allocated(mixed%point)) allocate (mixed%point(0), mixed%other(0), mixed%share(0))
-      call make_room(mixed%point, mixed%n, mixed%n + MOST**2)
-      call make_room(mixed%other, mixed%n, mixed%n + MOST**2)
-      call make_room(mixed%share, mixed%n, mixed%n + MOST**2)
       do j = 1, MOST
          do a = 1, MOST
-            mixed%n = mixed%n + 1
-            mixed%point(mixed%n) = points(j)
-            mixed%other(mixed%n) = points(a)
-            ! the part of its weight that a point has from this face goes to the nodes of the face
-            mixed%share(mixed%n) = face%share(j, a)/sum(face%share(j, :))*face%weight(j)
+            call add_term(points(j), points(a), face%share(j, a)/sum(face%share(j, :))*face%weight(j), mixed)
          end do
       end do
    end subroutine note_mixed
 
-   !> From the rows of nodes to those of points: row j becomes the sum over its faces of share/W_j times the rows of their nodes,
-   !> and its own with what is left of the weight. The gaps go with the rows.
+   !> From the rows of nodes to those of points: row j becomes the sum over its faces of share/W_j times the rows of
+   !> their nodes, and its own with what is left of the weight. The gaps go with the rows. A row has its own node first,
+   !> then others of the slave, then the master's.
    pure subroutine mix_rows(mixed, points)
-      type(mixed_rows_t), intent(in) :: mixed
+      type(terms_t), intent(in) :: mixed
       type(contact_points_t), intent(inout) :: points
-      integer(ip), allocatable :: first(:), entry(:)
+      integer(ip), allocatable :: terms(:), list(:), entry(:)
       real(wp), allocatable :: coefficient(:), gap(:)
-      real(wp) :: part(points%n)
-      integer(ip) :: j, k, n
+      real(wp) :: part(points%n)                   ! of each point's row in row j
+      integer(ip) :: first(points%n + 1), i, j, k, n
 
       if (mixed%n == 0) return
-      allocate (first(points%n + 1), entry(0), coefficient(0))
+      allocate (entry(0), coefficient(0))
       gap = points%gap
+      part = 0.0_wp
       n = 0
       do j = 1, points%n
-         first(j) = n + 1
-         if (.not. any(mixed%point(:mixed%n) == j)) then
-            call copy_row(j, points, entry, coefficient, n)
-            cycle
-         end if
-         part = 0.0_wp
+         terms = pack([(k, k=1, mixed%n)], mixed%point(:mixed%n) == j)
          part(j) = points%weight(j)
-         do k = 1, mixed%n
-            if (mixed%point(k) /= j) cycle
-            part(j) = part(j) - mixed%share(k)
-            part(mixed%other(k)) = part(mixed%other(k)) + mixed%share(k)
+         do k = 1, size(terms, kind=ip)
+            associate (share => mixed%value(terms(k)), other => mixed%node(terms(k)))
+               part(j) = part(j) - share
+               part(other) = part(other) + share
+            end associate
          end do
-         part = part/points%weight(j)
-         points%gap(j) = sum(part*gap(:points%n))
-         call mix_row(j, part, points, entry, coefficient, n)
+         list = each_once([j, mixed%node(terms)])
+         part(list) = part(list)/points%weight(j)
+         points%gap(j) = sum(part(list)*gap(list))
+         first(j) = n + 1
+         call add_to_row(points%node(j), part(j), first(j), entry, coefficient, n)
+         list = pack(list, abs(part(list)) > 0.0_wp)
+         do i = 1, size(list, kind=ip)
+            if (list(i) /= j) call add_to_row(points%node(list(i)), part(list(i)), first(j), entry, coefficient, n)
+         end do
+         do i = 1, size(list, kind=ip)
+            do k = points%first(list(i)) + 1, points%first(list(i) + 1) - 1
+               call add_to_row(points%entry(k), part(list(i))*points%coefficient(k), first(j), entry, coefficient, n)
+            end do
+         end do
+         part(list) = 0.0_wp
       end do
       first(points%n + 1) = n + 1
       points%first(:points%n + 1) = first
@@ -181,56 +195,18 @@ contains
       points%coefficient = coefficient(:n)
    end subroutine mix_rows
 
-   !> Appends the entries of a row: its own node, others of the slave, the master's.
-   pure subroutine mix_row(j, part, points, entry, coefficient, n)
-      integer(ip), intent(in) :: j
-      real(wp), intent(in) :: part(:)              !< of each point
-      type(contact_points_t), intent(in) :: points
-      integer(ip), allocatable, intent(inout) :: entry(:)
-      real(wp), allocatable, intent(inout) :: coefficient(:)
-      integer(ip), intent(inout) :: n
-      integer(ip) :: i, k, start
-
-      start = n
-      call add_to_row(points%node(j), part(j), start, entry, coefficient, n)
-      do i = 1, points%n
-         if (abs(part(i)) > 0.0_wp) call add_to_row(points%node(i), merge(0.0_wp, part(i), i == j), start, entry, coefficient, n)
-      end do
-      do i = 1, points%n
-         if (.not. abs(part(i)) > 0.0_wp) cycle
-         do k = points%first(i) + 1, points%first(i + 1) - 1
-            call add_to_row(points%entry(k), part(i)*points%coefficient(k), start, entry, coefficient, n)
-         end do
-      end do
-   end subroutine mix_row
-
-   pure subroutine copy_row(j, points, entry, coefficient, n)
-      integer(ip), intent(in) :: j
-      type(contact_points_t), intent(in) :: points
-      integer(ip), allocatable, intent(inout) :: entry(:)
-      real(wp), allocatable, intent(inout) :: coefficient(:)
-      integer(ip), intent(inout) :: n
-      integer(ip) :: k
-
-      k = points%first(j + 1) - points%first(j)
-      call make_room(entry, n, n + k)
-      call make_room(coefficient, n, n + k)
-      entry(n + 1:n + k) = points%entry(points%first(j):points%first(j + 1) - 1)
-      coefficient(n + 1:n + k) = points%coefficient(points%first(j):points%first(j + 1) - 1)
-      n = n + k
-   end subroutine copy_row
-
-   pure subroutine add_to_row(node, value, start, entry, coefficient, n)
+   !> Adds to the entry of a node in the last row, which is made where there is none yet.
+   pure subroutine add_to_row(node, value, first, entry, coefficient, n)
       integer(ip), intent(in) :: node
       real(wp), intent(in) :: value
-      integer(ip), intent(in) :: start             !< entries before those of the row
+      integer(ip), intent(in) :: first             !< entry of the row
       integer(ip), allocatable, intent(inout) :: entry(:)
       real(wp), allocatable, intent(inout) :: coefficient(:)
-      integer(ip), intent(inout) :: n
+      integer(ip), intent(inout) :: n              !< entries so far
       integer(ip) :: at
 
-      at = start + findloc(entry(start + 1:n), node, dim=1, kind=ip)
-      if (at == start) then
+      at = first - 1 + findloc(entry(first:n), node, dim=1, kind=ip)
+      if (at < first) then
          call make_room(entry, n, n + 1)
          call make_room(coefficient, n, n + 1)
          n = n + 1

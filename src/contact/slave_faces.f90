@@ -1,4 +1,12 @@
 !> The faces of a slave surface: the nodal rule on each, and how the normal turns along them.
+!>
+!> A face has the places x(t), t in [-1,1], from its first node to its last. The nodal rule takes its nodes with
+!>
+!>     l_a = omega_a |dx/dt|(t_a),     omega = (1, 1) for two nodes, (1, 4, 1)/3 for three,
+!>
+!> so that sum_a l_a f(x_a) is int f ds: exact for linear f on a straight face of two nodes, for cubics on one of three.
+!> On a parabola l_a n_a = omega_a (dx/dt turned) is still exact for the nodal forces int N_a n ds of a uniform
+!> pressure, N_a dx/dt being a cubic.
 module atrito_slave_faces
    use atrito_face_geometry, only: face_arc_length, face_direction, outward_normal
    use atrito_faces, only: face_list_t

@@ -90,10 +90,7 @@ contains
             call add_face(mesh%x(:, face_nodes(mesh, faces%element(i), faces%face(i))), .false., chords)
          end if
       end do
-      chords%place = chords%place(:, :chords%n)
-      chords%normal = chords%normal(:, :chords%n)
-      chords%length = chords%length(:chords%n)
-      chords%of_slave = chords%of_slave(:chords%n)
+      chords = only(spread(.true., 1, chords%n), chords)
       ! nodes on a lattice, as of whole numbers: a mesh of faces as short as their last digit was not rounded to it
       if (any(chords%length < LATTICE*chords%grain)) chords%grain = EPS_MACH*maxval(abs(chords%place))
    end subroutine list_chords
@@ -193,46 +190,31 @@ contains
    subroutine find_sliding(chords, motion)
       type(chords_t), intent(in) :: chords
       type(sliding_t), intent(out) :: motion
-      type(sliding_t) :: own(2)
+      type(chords_t) :: of_side(2)
+      type(sliding_t) :: own(2), round
 
       if (.not. (any(chords%of_slave) .and. any(.not. chords%of_slave))) return
       call find_straight(chords, motion)
       if (motion%exists) return
-      call find_straight(only(chords%of_slave, chords), own(1))
-      call find_straight(only(.not. chords%of_slave, chords), own(2))
+      of_side = [only(chords%of_slave, chords), only(.not. chords%of_slave, chords)]
+      call find_straight(of_side(1), own(1))
+      call find_straight(of_side(2), own(2))
       if (own(1)%exists .neqv. own(2)%exists) then
          motion = own(merge(1, 2, own(1)%exists))
          motion%is_of_both = .false.
-         motion%meets_round = is_round(chords%of_slave .neqv. own(1)%exists, chords)
+         call find_round(of_side(merge(2, 1, own(1)%exists)), round)
+         motion%meets_round = round%exists
       end if
-      if (any(own%exists) .or. min(count(chords%of_slave), count(.not. chords%of_slave)) < LEAST_CHORDS) return
-      call find_round(spread(.true., 1, chords%n), chords, motion)
+      if (any(own%exists) .or. any(of_side%n < LEAST_CHORDS)) return
+      call find_round(chords, motion)
       if (motion%exists) return
-      call find_round(chords%of_slave, chords, own(1))
-      call find_round(.not. chords%of_slave, chords, own(2))
+      call find_round(of_side(1), own(1))
+      call find_round(of_side(2), own(2))
       if (.not. (own(1)%exists .and. own(2)%exists)) return
       if (own(1)%is_convex .eqv. own(2)%is_convex) return
       if (norm2(own(1)%centre - own(2)%centre) > CONCENTRIC*min(own(1)%radius, own(2)%radius)) return
-      motion = merge_pin(own)
+      motion = own(merge(1, 2, own(1)%is_convex))   ! the pin's
    end subroutine find_sliding
-
-   !> Whether some chords are those of a circle.
-   logical function is_round(asked, chords)
-      logical, intent(in) :: asked(:)               !< (n)
-      type(chords_t), intent(in) :: chords
-      type(sliding_t) :: motion
-
-      is_round = count(asked) >= LEAST_CHORDS
-      if (.not. is_round) return
-      call find_round(asked, chords, motion)
-      is_round = motion%exists
-   end function is_round
-
-   pure type(sliding_t) function merge_pin(own) result(pin)
-      type(sliding_t), intent(in) :: own(2)         !< of the slave and of the master
-
-      pin = own(merge(1, 2, own(1)%is_convex))
-   end function merge_pin
 
    !> A translation, where all chords are parallel.
    pure subroutine find_straight(chords, motion)
@@ -252,22 +234,21 @@ contains
       n = n/norm2(n)
       where (abs(n) <= DIGITS_TURN*motion%grain/motion%extent) n = 0.0_wp
       motion%direction = [-n(2), n(1)]/norm2(n)
-      motion%exists = agrees(chords, motion)
+      motion%exists = all([(slides(chords, i, motion), i=1, chords%n)])
    end subroutine find_straight
 
-   !> A rotation, where the bisectors of some chords meet.
-   subroutine find_round(asked, chords, motion)
-      logical, intent(in) :: asked(:)               !< (n) the chords that are looked at
+   !> A rotation, where the bisectors of all chords meet; none of fewer than LEAST_CHORDS.
+   subroutine find_round(chords, motion)
       type(chords_t), intent(in) :: chords
       type(sliding_t), intent(out) :: motion
       real(wp) :: a(3, 3), values(3), row(3), origin(2), length
       integer(ip) :: i, info
 
-      origin = sum(chords%place, dim=2, mask=spread(asked, 1, 2))/count(asked)
-      length = maxval(abs(chords%place - spread(origin, 2, chords%n)), mask=spread(asked, 1, 2))
+      if (chords%n < LEAST_CHORDS) return
+      origin = sum(chords%place, dim=2)/chords%n
+      length = maxval(abs(chords%place - spread(origin, 2, chords%n)))
       a = 0.0_wp
       do i = 1, chords%n
-         if (.not. asked(i)) cycle
          row(:2) = chords%normal(:, i)
          row(3) = dot_product(row(:2), perp(chords%place(:, i) - origin))/length
          a = a + chords%length(i)**2*spread(row, 1, 3)*spread(row, 2, 3)
@@ -278,22 +259,14 @@ contains
       motion%centre = origin + perp(a(:2, 1))*(length/a(3, 1))
       ! a centre with as few digits as the nodes have is the one that is meant
       if (chords%grain > EXACT*length) motion%centre = anint(motion%centre/(2*chords%grain))*(2*chords%grain)
-      motion%radius = sum(norm2(chords%place - spread(motion%centre, 2, chords%n), dim=1), mask=asked)/count(asked)
+      motion%radius = sum(norm2(chords%place - spread(motion%centre, 2, chords%n), dim=1))/chords%n
       motion%extent = motion%radius
       motion%grain = chords%grain
-      motion%is_convex = is_convex(findloc(asked, .true., dim=1, kind=ip), chords, motion%centre)
-      motion%exists = agrees(only(asked, chords), motion)
+      motion%is_convex = dot_product(chords%normal(:, 1), chords%place(:, 1) - motion%centre) > 0.0_wp
+      motion%exists = all([(slides(chords, i, motion), i=1, chords%n)])
    end subroutine find_round
 
-   !> Whether the side of a chord bulges away from a centre.
-   pure logical function is_convex(i, chords, centre)
-      integer(ip), intent(in) :: i
-      type(chords_t), intent(in) :: chords
-      real(wp), intent(in) :: centre(2)
-
-      is_convex = dot_product(chords%normal(:, i), chords%place(:, i) - centre) > 0.0_wp
-   end function is_convex
-
+   !> Some of the chords, in arrays of their number.
    pure type(chords_t) function only(asked, chords) result(some)
       logical, intent(in) :: asked(:)
       type(chords_t), intent(in) :: chords
@@ -308,19 +281,6 @@ contains
       end associate
       some%grain = chords%grain
    end function only
-
-   !> Whether all chords slide along themselves in a motion.
-   pure logical function agrees(chords, motion)
-      type(chords_t), intent(in) :: chords
-      type(sliding_t), intent(in) :: motion
-      integer(ip) :: i
-
-      agrees = .true.
-      do i = 1, chords%n
-         agrees = slides(chords, i, motion)
-         if (.not. agrees) return
-      end do
-   end function agrees
 
    !> Whether a chord slides along itself, but for the digits of its ends and the resolution of the curve.
    pure logical function slides(chords, i, motion)
@@ -342,10 +302,7 @@ contains
       integer(ip) :: i
 
       serves = other%is_round .eqv. own%is_round
-      do i = 1, chords%n
-         if (.not. serves) return
-         serves = slides(chords, i, other) .or. .not. slides(chords, i, own)
-      end do
+      if (serves) serves = all([(slides(chords, i, other) .or. .not. slides(chords, i, own), i=1, chords%n)])
    end function serves
 
    !> The motion of another pair with the size of a pair's own.

@@ -1,4 +1,19 @@
 !> Normals and curvature of a surface of element faces, as of the smooth curve that the faces stand for.
+!>
+!> Between two faces that meet at a node without a corner the curve has one tangent. The normal there is the mean of
+!> both faces' normals. The curvature of a face of length c is taken from the angles by which the normal turns:
+!>
+!>     k = (turn along the face + mean of the turns at its joints)/c,
+!>
+!> a parabola turning along itself and a chord at its ends alone. Turns below NO_TURN are rounding of coordinates, and,
+!> where the nodes are known to g only, those below 12 g/c: they fade out by 3 x^2 - 2 x^3 (`shown`), since a step would
+!> make neighbours with nearly the same turn differ.
+!>
+!> `bend` is the curvature of a chord with its sign, > 0 where convex, and not of its polygon but of the curve through
+!> its nodes: at a joint the tangent of a circle through three nodes makes the angles turn c_1/(c_1 + c_2) and turn
+!> c_2/(c_1 + c_2) with the chords c_1, c_2, and a chord with the angles alpha at its ends has k = 2 tan(alpha)/c. Of
+!> both ends the flatter one counts, so that a straight face beside a curve stays straight, and of two ends that bend
+!> opposite ways none.
 module atrito_smooth_normals
    use atrito_face_geometry, only: outward_normal
    use atrito_faces, only: face_list_t
@@ -28,7 +43,7 @@ contains
       real(wp), allocatable, intent(out) :: bend(:)       !< (faces) [1/L] > 0: convex
       real(wp), intent(in), optional :: grain       !< to which the nodes are known [L]; left out: all digits
       type(id_map_t) :: begins                      ! face of its first node
-      real(wp) :: turn(faces%n), joints(faces%n), slope(2, faces%n), own(2, 2)
+      real(wp) :: turn(faces%n), joints(faces%n), slope(2, faces%n), own(2, 2), length(2)
       integer(ip) :: n_joints(faces%n), beside(2, faces%n), last(faces%n), i, k
       logical :: is_chord(faces%n), known
 
@@ -58,7 +73,9 @@ contains
          n_joints([i, k]) = n_joints([i, k]) + 1
          beside(2, i) = k
          beside(1, k) = i
-         call share_turn(own, 1/curvature(i), 1/curvature(k), slope(2, i), slope(1, k))
+         length = 1/curvature([i, k])               ! the turn is shared in the ratio of the chords
+         slope(2, i) = tan(turn_between(own(:, 1), own(:, 2))*(length(1)/(length(1) + length(2))))
+         slope(1, k) = tan(turn_between(own(:, 1), own(:, 2))*(length(2)/(length(1) + length(2))))
          ends(:, 2, i) = (own(:, 1) + own(:, 2))/norm2(own(:, 1) + own(:, 2))
          ends(:, 1, k) = ends(:, 2, i)
       end do
@@ -70,19 +87,6 @@ contains
       end if
       curvature = turn*shown(turn, joints)*curvature
    end subroutine smooth_surface
-
-   !> The slopes of a curve against the two chords that meet at one of its points, as of a circle through their three ends: the
-   !> turn is shared in the ratio of the chords.
-   pure subroutine share_turn(normals, before, behind, last, first)
-      real(wp), intent(in) :: normals(2, 2)         !< of both chords
-      real(wp), intent(in) :: before, behind        !< their lengths [L]
-      real(wp), intent(out) :: last, first          !< at the last end of the one, the first of the other; > 0: convex
-      real(wp) :: turn
-
-      turn = turn_between(normals(:, 1), normals(:, 2))
-      last = tan(turn*(before/(before + behind)))
-      first = tan(turn*(behind/(before + behind)))
-   end subroutine share_turn
 
    !> The angle from one normal to the next [rad], > 0: convex.
    pure real(wp) function turn_between(a, b) result(turn)

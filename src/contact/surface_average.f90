@@ -1,6 +1,11 @@
-!> The average S_rho over the points of all contact pairs. It is an average over a slave surface: pairs whose slaves are parts of
-!> one surface are averaged together, each point by the law of its own pair. Pairs that look from the same face are not parts of
-!> one surface but two, and each of them is averaged by itself.
+!> The average S_rho over the points of all contact pairs.
+!>
+!> It is an average over a slave surface, not over a pair: a bed joint over two blocks is not cut at the joint between
+!> them. So the pairs are put into groups whose slaves are parts of one surface, and each point of a group is averaged
+!> over all points of it, by the rho and the kernel of its own pair. Where a group has several such laws, W is made once
+!> for each over the points of the whole group, and every point takes its row from the W of its own law (part_t). Pairs
+!> that look from the same face see different things from one place, a floor and a wall beyond it; the sum of their
+!> pressures is nothing that either feels, and each of them is a group of its own.
 module atrito_surface_average
    use atrito_average, only: average_t, build_average, count_entries
    use atrito_friction_law, only: KERNEL_POINTS
@@ -20,6 +25,7 @@ module atrito_surface_average
 
    !> The points of the pairs on one slave surface, pair by pair, and the rows of the average that one law makes.
    type :: part_t
+      type(average_rule_t) :: rule                   !< the law
       real(wp), allocatable :: x(:, :), length(:)    !< (2, n), (n) [L]
       integer(ip), allocatable :: point(:)           !< (n) their places among the points of all pairs
       integer(ip), allocatable :: start(:)           !< the first point of each pair
@@ -35,57 +41,57 @@ contains
       type(average_rule_t), intent(in) :: rules(:)   !< one a pair
       type(average_t), intent(out) :: w
       type(part_t) :: parts(size(points))
-      logical :: is_last(size(points))
-      integer(ip) :: order(size(points)), before(size(points)), first, last, i, k, n_parts
+      integer(ip) :: i, n
 
-      call group_pairs(points, rules, order, is_last)
-      before = points_before(points)
-      n_parts = 0
-      first = 1
-      do last = 1, size(points, kind=ip)
-         if (.not. is_last(last)) cycle
-         associate (pairs => order(first:last))
-            do i = 1, size(pairs, kind=ip)
-               if (any([(same_law(rules(pairs(i)), rules(pairs(k))), k=1, i - 1)])) cycle
-               n_parts = n_parts + 1
-               call gather_points(points, before, pairs, parts(n_parts))
-               call choose_rows(points, rules, pairs, i, parts(n_parts))
-               parts(n_parts)%w = build_average(parts(n_parts)%x, parts(n_parts)%length, rules(pairs(i))%rho, &
-                                                rules(pairs(i))%kernel, parts(n_parts)%start)
-            end do
+      call list_parts(points, rules, parts, n)
+      do i = 1, n
+         associate (part => parts(i))
+            part%w = build_average(part%x, part%length, part%rule%rho, part%rule%kernel, part%start)
          end associate
-         first = last + 1
       end do
-      call join_parts(sum(points%n), parts(:n_parts), w)
+      call join_parts(sum(points%n), parts(:n), w)
    end subroutine average_surfaces
 
    !> How many entries average_surfaces would make, more than `most` only about.
    pure integer(lp) function count_surface_entries(points, rules, most) result(entries)
       type(contact_points_t), intent(in) :: points(:)
-      type(average_rule_t), intent(in) :: rules(:)
+      type(average_rule_t), intent(in) :: rules(:)   !< one a pair
       integer(lp), intent(in) :: most
-      type(part_t) :: part
-      logical :: is_last(size(points))
-      integer(ip) :: order(size(points)), before(size(points)), first, last, i, k
+      type(part_t) :: parts(size(points))
+      integer(ip) :: i, n
 
-      call group_pairs(points, rules, order, is_last)
-      before = points_before(points)
+      call list_parts(points, rules, parts, n)
       entries = 0_lp
-      first = 1
-      do last = 1, size(points, kind=ip)
-         if (.not. is_last(last)) cycle
-         associate (pairs => order(first:last))
-            call gather_points(points, before, pairs, part)
-            do i = 1, size(pairs, kind=ip)
-               if (any([(same_law(rules(pairs(i)), rules(pairs(k))), k=1, i - 1)])) cycle
-               entries = entries + count_entries(part%x, rules(pairs(i))%rho, most, part%start)
-            end do
-         end associate
-         first = last + 1
+      do i = 1, n
+         entries = entries + count_entries(parts(i)%x, parts(i)%rule%rho, most, parts(i)%start)
       end do
    end function count_surface_entries
 
-   pure logical function same_law(a, b)
+   !> The groups of pairs on one surface, each as often as it has laws.
+   pure subroutine list_parts(points, rules, parts, n)
+      type(contact_points_t), intent(in) :: points(:)
+      type(average_rule_t), intent(in) :: rules(:)
+      type(part_t), intent(out) :: parts(:)          !< the first n are in use
+      integer(ip), intent(out) :: n
+      logical :: is_last(size(points))
+      integer(ip) :: order(size(points)), first, last, i
+
+      call group_pairs(points, rules, order, is_last)
+      n = 0
+      first = 1
+      do last = 1, size(points, kind=ip)
+         if (.not. is_last(last)) cycle
+         do i = first, last
+            if (any(same_law(rules(order(first:i - 1)), rules(order(i))))) cycle
+            n = n + 1
+            parts(n)%rule = rules(order(i))
+            call gather_points(points, order(first:last), same_law(rules(order(first:last)), rules(order(i))), parts(n))
+         end do
+         first = last + 1
+      end do
+   end subroutine list_parts
+
+   elemental logical function same_law(a, b)
       type(average_rule_t), intent(in) :: a, b
 
       same_law = .not. abs(a%rho - b%rho) > 0.0_wp .and. a%kernel == b%kernel
@@ -121,28 +127,21 @@ contains
       logical :: is_alone(size(points))
       integer(lp), allocatable :: face(:)
       integer(ip), allocatable :: pair(:), order(:)
-      integer(ip) :: by_surface(size(points)), i, k, n
+      integer(ip) :: by_surface(size(points)), i, k
 
       is_alone = .false.
       by_surface = sorted_places(int(surface, lp))
-      n = 0
-      do i = 1, size(points, kind=ip)
-         if (allocated(points(i)%faces)) n = n + size(points(i)%faces, kind=ip)
-      end do
-      allocate (face(n), pair(n))
-      n = 0
+      allocate (face(0), pair(0))
       do i = 1, size(points, kind=ip)
          associate (p => by_surface(i))
             if (.not. allocated(points(p)%faces)) cycle
-            k = n + size(points(p)%faces, kind=ip)
-            face(n + 1:k) = points(p)%faces
-            pair(n + 1:k) = p
-            n = k
+            face = [face, points(p)%faces]
+            pair = [pair, [(p, k=1, size(points(p)%faces, kind=ip))]]
          end associate
       end do
       ! equal faces follow each other, and of these equal surfaces
       order = sorted_places(face)
-      do i = 2, n
+      do i = 2, size(order, kind=ip)
          associate (a => order(i - 1), b => order(i))
             if (face(a) /= face(b) .or. surface(pair(a)) /= surface(pair(b))) cycle
             is_alone(pair([a, b])) = .true.
@@ -150,50 +149,28 @@ contains
       end do
    end function look_from_one_face
 
-   !> The points of the pairs before each of them.
-   pure function points_before(points) result(before)
+   !> The points of some pairs one after the other; those of the pairs that take part in its law take their rows from it.
+   pure subroutine gather_points(points, pairs, takes, part)
       type(contact_points_t), intent(in) :: points(:)
-      integer(ip) :: before(size(points)), i
-
-      before = 0
-      do i = 2, size(points, kind=ip)
-         before(i) = before(i - 1) + points(i - 1)%n
-      end do
-   end function points_before
-
-   pure subroutine gather_points(points, before, pairs, part)
-      type(contact_points_t), intent(in) :: points(:)
-      integer(ip), intent(in) :: before(:), pairs(:)
-      type(part_t), intent(out) :: part
+      integer(ip), intent(in) :: pairs(:)
+      logical, intent(in) :: takes(:)                !< (pairs)
+      type(part_t), intent(inout) :: part
       integer(ip) :: i, k, n
 
       n = sum(points(pairs)%n)
-      allocate (part%x(2, n), part%length(n), part%point(n), part%start(size(pairs)))
+      allocate (part%x(2, n), part%length(n), part%point(n), part%takes(n), part%start(size(pairs)))
       n = 0
       do i = 1, size(pairs, kind=ip)
-         associate (one => points(pairs(i)))
+         associate (one => points(pairs(i)), last => n + points(pairs(i))%n)
             part%start(i) = n + 1
-            part%x(:, n + 1:n + one%n) = one%x(:, :one%n)
-            part%length(n + 1:n + one%n) = one%length(:one%n)
-            part%point(n + 1:n + one%n) = [(before(pairs(i)) + k, k=1, one%n)]
-            n = n + one%n
+            part%x(:, n + 1:last) = one%x(:, :one%n)
+            part%length(n + 1:last) = one%length(:one%n)
+            part%point(n + 1:last) = sum(points(:pairs(i) - 1)%n) + [(k, k=1, one%n)]
+            part%takes(n + 1:last) = takes(i)
+            n = last
          end associate
       end do
    end subroutine gather_points
-
-   !> The points of the pairs with the law of the i-th.
-   pure subroutine choose_rows(points, rules, pairs, i, part)
-      type(contact_points_t), intent(in) :: points(:)
-      type(average_rule_t), intent(in) :: rules(:)
-      integer(ip), intent(in) :: pairs(:), i
-      type(part_t), intent(inout) :: part
-      integer(ip) :: k
-
-      allocate (part%takes(size(part%point)))
-      do k = 1, size(pairs, kind=ip)
-         part%takes(part%start(k):part%start(k) + points(pairs(k))%n - 1) = same_law(rules(pairs(k)), rules(pairs(i)))
-      end do
-   end subroutine choose_rows
 
    !> The rows of all parts; each point has one.
    pure subroutine join_parts(n, parts, w)

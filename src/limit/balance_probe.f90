@@ -9,8 +9,7 @@ module atrito_balance_probe
    use atrito_kinds, only: ip, wp
    use atrito_mechanism, only: mechanism_t, describe_motion
    use atrito_model, only: model_t
-   use atrito_motion_rows, only: motion_rows_t
-   use atrito_motion_system, only: build_motion_rows
+   use atrito_motion_rows, only: motion_rows_t, build_motion_rows
    use atrito_results, only: pair_scene_t
    use atrito_rigid_bodies, only: hold_the_same
    use atrito_scene_builder, only: list_held

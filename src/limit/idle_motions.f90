@@ -18,8 +18,7 @@ module atrito_idle_motions
    use atrito_incidence, only: list_holders
    use atrito_kinds, only: ip, wp
    use atrito_load_digits, only: place_doubt, is_within_digits, take_out
-   use atrito_motion_rows, only: motion_rows_t, motion_rates
-   use atrito_motion_system, only: build_motion_rows
+   use atrito_motion_rows, only: motion_rows_t, build_motion_rows, motion_rates
    use atrito_scene_data, only: scene_data_t
    implicit none (type, external)
    private

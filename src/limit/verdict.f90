@@ -6,8 +6,7 @@ module atrito_verdict
    use atrito_kinds, only: wp
    use atrito_load_digits, only: is_within_digits, take_out
    use atrito_mechanism, only: mechanism_t, describe_motion
-   use atrito_motion_rows, only: motion_rows_t
-   use atrito_motion_system, only: build_motion_rows
+   use atrito_motion_rows, only: motion_rows_t, build_motion_rows
    use atrito_results, only: pair_scene_t
    use atrito_scene_data, only: scene_data_t
    use atrito_status, only: status_t, set_status, STATUS_SINGULAR

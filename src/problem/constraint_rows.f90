@@ -1,10 +1,20 @@
 !> The rows of the contact constraints over displacement dofs, and which of them can depend on each other.
 !>
-!> A row is what an unknown contact force does: B' q are the forces on the dofs. Forces with the same B' q move the bodies alike, so
-!> where rows depend on each other the forces are not unique. A point whose rows are independent on the dofs that no other point
-!> touches takes no part in any dependence; once it is set aside, others may be alone with theirs. What is left when that ends falls
-!> into components that share no dof. All of it is linear in the number of entries.
+!> A row is what an unknown contact force does: B' q are the forces on the dofs. Forces with the same B' q move the
+!> bodies alike, so where rows depend on each other, B' q = 0 for some q /= 0, the forces are not unique. Which rows may
+!> take part in such a q is found without a factorisation, in time that is linear in the number of entries:
+!>
+!> 1. Let d be the dofs that point j alone touches. In B' q = 0 the equations of d have no terms but those of j. So if the rows of j
+!>    (normal and tangential) are independent on d, its forces are 0 in every such q: the point takes no part in any dependence.
+!> 2. Without this point its neighbours may be alone with some dofs, and are asked again. Of each dof the number of
+!>    points that touch it is kept, and the sum of their numbers: when one is left the sum is that one's number. A point is
+!>    in the queue once at most.
+!> 3. The points that are left when the queue is empty are joined where they share a dof (union by the smallest number). Each
+!>    component is a dependence of its own, and is examined by itself with a dense matrix (atrito_least_forces).
+!>
+!> Two rows a, b are independent on d where |a| and the part of b across a are more than INDEPENDENT of the whole rows.
 module atrito_constraint_rows
+   use atrito_incidence, only: list_holders
    use atrito_kinds, only: ip, lp, wp
    implicit none (type, external)
    private
@@ -85,6 +95,7 @@ contains
       call group(rows, rows_of, waits, first, member)
    end subroutine list_components
 
+   !> The rows of each point that count, the first one first.
    pure subroutine list_rows_of_points(rows, used, rows_of)
       type(constraint_rows_t), intent(in) :: rows
       logical, intent(in) :: used(:)
@@ -93,12 +104,7 @@ contains
 
       allocate (rows_of(MOST_OF_POINT, maxval([rows%point, 0_ip])), source=0_ip)
       do i = 1, rows%n
-         if (.not. used(i)) cycle
-         if (rows_of(1, rows%point(i)) == 0) then
-            rows_of(1, rows%point(i)) = i
-         else
-            rows_of(2, rows%point(i)) = i
-         end if
+         if (used(i)) rows_of(merge(1, 2, rows_of(1, rows%point(i)) == 0), rows%point(i)) = i
       end do
    end subroutine list_rows_of_points
 
@@ -119,7 +125,7 @@ contains
       tail = size(queue, kind=ip)
       do while (tail > head)
          head = head + 1
-         j = queue(place_in_ring(head, size(queue, kind=ip)))
+         j = queue(mod(head - 1, size(queue, kind=ip)) + 1)
          queued(j) = .false.
          if (.not. waits(j)) cycle
          dofs = dofs_of_point(rows, rows_of(:, j))
@@ -132,18 +138,12 @@ contains
             associate (last => int(touches%sum(dofs(k)), ip))
                if (queued(last)) cycle
                tail = tail + 1
-               queue(place_in_ring(tail, size(queue, kind=ip))) = last
+               queue(mod(tail - 1, size(queue, kind=ip)) + 1) = last
                queued(last) = .true.
             end associate
          end do
       end do
    end subroutine set_aside
-
-   pure integer(ip) function place_in_ring(k, n)
-      integer(ip), intent(in) :: k, n
-
-      place_in_ring = mod(k - 1, n) + 1
-   end function place_in_ring
 
    pure subroutine count_touches(rows, rows_of, waits, touches)
       type(constraint_rows_t), intent(in) :: rows
@@ -213,41 +213,28 @@ contains
       whole = norm2(rows%value(rows%first(i):rows%first(i + 1) - 1))
    end subroutine spread_row
 
-   !> Lists the rows of the points that are left by what shares dofs, in their order.
+   !> Lists the rows of the points that are left by what shares dofs, in the order of the points.
    subroutine group(rows, rows_of, waits, first, member)
       type(constraint_rows_t), intent(in) :: rows
       integer(ip), intent(in) :: rows_of(:, :)
       logical, intent(in) :: waits(:)
       integer(ip), allocatable, intent(out) :: first(:), member(:)
-      integer(ip), allocatable :: root(:), number(:), next(:)
-      integer(ip) :: j, k, n
+      integer(ip), allocatable :: root(:), component(:, :), points(:), of_points(:)
+      integer(ip) :: j, n
 
       call join_points(rows, rows_of, waits, root)
-      allocate (number(size(waits)), source=0_ip)
+      allocate (component(1, size(waits)), source=0_ip)
       n = 0
-      do j = 1, size(waits, kind=ip)
+      do j = 1, size(waits, kind=ip)                ! the root of a component is its first point
          if (.not. waits(j)) cycle
-         if (number(root(j)) == 0) then
-            n = n + 1
-            number(root(j)) = n
-         end if
+         if (root(j) == j) n = n + 1
+         component(1, j) = merge(n, component(1, root(j)), root(j) == j)
       end do
-      allocate (first(n + 1), source=0_ip)
-      do j = 1, size(waits, kind=ip)
-         if (waits(j)) first(number(root(j)) + 1) = first(number(root(j)) + 1) + count(rows_of(:, j) > 0, kind=ip)
-      end do
-      first(1) = 1
-      do k = 1, n
-         first(k + 1) = first(k + 1) + first(k)
-      end do
-      next = first
-      allocate (member(first(n + 1) - 1))
-      do j = 1, size(waits, kind=ip)
-         if (.not. waits(j)) cycle
-         associate (own => pack(rows_of(:, j), rows_of(:, j) > 0), at => next(number(root(j))))
-            member(at:at + size(own, kind=ip) - 1) = own
-            at = at + size(own, kind=ip)
-         end associate
+      call list_holders(n, component, first, points)
+      member = pack(rows_of(:, points), rows_of(:, points) > 0)
+      of_points = first
+      do j = 1, n
+         first(j + 1) = first(j) + count(rows_of(:, points(of_points(j):of_points(j + 1) - 1)) > 0, kind=ip)
       end do
    end subroutine group
 

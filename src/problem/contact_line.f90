@@ -1,4 +1,19 @@
 !> The contact line of a scene: all points of all pairs, their laws, and where their unknown forces stand.
+!>
+!> At point j, with the weight w_j, stand the stresses p_j (pressure) and t_j (friction, acting on the master along T);
+!> the unknowns are the forces q = w_j p_j and q = w_j t_j. The laws, equation (8) of docs/theory/formulation.md, are
+!>
+!>     p_j = (1/delta_j) (u_n - s_j)^+                                   delta = 0: contact without penetration
+!>     t_j = min(|u_T - rest_j|/c_j, tau_j) sign(u_T - rest_j)           c = 0: exact stick
+!>     tau_j = nu_j S_rho(p)_j = nu_j sum_k W_jk max(p_k, 0)             the friction bound
+!>
+!> Solvers see them as a problem with bounds (atrito_bound_qp): for a normal unknown 0 <= q, D = delta/w; for a tangential one, with
+!> tau frozen, -w tau <= q <= w tau, D = c/w. Where tau = 0 a tangential force is frozen at 0. The unknowns are numbered with all
+!> normal ones first, in the order of the points, then the tangential ones.
+!>
+!> A point whose row touches no free displacement has no unknown: u_n - s_j and u_T are known numbers there, and its stresses follow
+!> from the laws. For a slip that is prescribed as nothing, or as less than round-off, exact stick leaves t open within -tau .. tau:
+!> the point keeps the friction of the increment before.
 module atrito_contact_line
    use atrito_kinds, only: ip, wp, HUGE_REAL
    use atrito_friction_law, only: friction_law_t, stick_compliance, sticking_slip, friction_stress, FRICTION_NONE
@@ -45,24 +60,12 @@ contains
       logical :: has_tangential(line%n)
       integer(ip) :: j, m
 
-      line%normal = [(0_ip, j=1, line%n)]
-      line%tangential = line%normal
       line%has_friction = any(line%law%kind /= FRICTION_NONE)
       has_tangential = tangential_row .and. line%law%kind /= FRICTION_NONE
-      line%point = [(0_ip, j=1, count(normal_row) + count(has_tangential))]
-      m = 0
-      do j = 1, line%n
-         if (.not. normal_row(j)) cycle
-         m = m + 1
-         line%normal(j) = m
-         line%point(m) = j
-      end do
-      do j = 1, line%n
-         if (.not. has_tangential(j)) cycle
-         m = m + 1
-         line%tangential(j) = m
-         line%point(m) = j
-      end do
+      line%point = [pack([(j, j=1, line%n)], normal_row), pack([(j, j=1, line%n)], has_tangential)]
+      m = count(normal_row, kind=ip)
+      line%normal = unpack([(j, j=1, m)], normal_row, 0_ip)
+      line%tangential = unpack([(j, j=m + 1, size(line%point, kind=ip))], has_tangential, 0_ip)
    end subroutine number_unknowns
 
    !> The contact pair of each unknown; those of bilateral rows are groups behind the pairs.

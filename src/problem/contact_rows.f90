@@ -1,4 +1,16 @@
 !> The rows N_j and T_j of equation (8): relative displacements at the points from nodal displacements.
+!>
+!>     N_j u = sum_k (c_jk n_j + e_k^N n_j) . u_k,     T_j u = sum_k (c_jk T_j + e_k^T n_j) . u_k,     k = first(j) ..
+!>     first(j + 1) - 1,
+!>
+!> with the coefficients c_jk of the points (atrito_points) and T_j the normal turned by +90 degrees. e are the turns of
+!> atrito_turning_rows, by which a rotation of both bodies together is no relative displacement; without them they are not there.
+!> Contact asks for N_j u <= s_j, s_j the gap, and friction acts against T_j u.
+!>
+!> The last n_bilateral rows have a vector of their own at each entry, sum_k v_k . u_k, and no tangential row: ties,
+!> equations, springs and so on (atrito_bilateral_rows), with the value that is prescribed in the place of the gap. A
+!> step that resolves an overlap bit by bit (*CONTACT INTERFERENCE) allows a share of it: gap(j) = s_j + share max(0,
+!> -s_j), and true_gap takes that out again.
 module atrito_contact_rows
    use atrito_bilateral_rows, only: bilateral_rows_t
    use atrito_kinds, only: ip, wp
@@ -65,6 +77,7 @@ contains
       if (rows%n_bilateral > 0) call append_bilateral(bilateral, m, rows)
    end subroutine build_rows
 
+   !> The bilateral rows behind m rows of points.
    pure subroutine append_bilateral(bilateral, m, rows)
       type(bilateral_rows_t), intent(in) :: bilateral
       integer(ip), intent(in) :: m                   !< rows before
@@ -95,13 +108,11 @@ contains
       do i = 1, size(points, kind=ip)
          associate (n => points(i)%n)
             rows%gap(first + 1:first + n) = points(i)%gap(:n)
-            if (share(i) > 0.0_wp) then
-               rows%allowed(first + 1:first + n) = share(i)*max(0.0_wp, -points(i)%gap(:n))
-               rows%gap(first + 1:first + n) = points(i)%gap(:n) + rows%allowed(first + 1:first + n)
-            end if
+            if (share(i) > 0.0_wp) rows%allowed(first + 1:first + n) = share(i)*max(0.0_wp, -points(i)%gap(:n))
             first = first + n
          end associate
       end do
+      if (allocated(rows%allowed)) rows%gap(:first) = rows%gap(:first) + rows%allowed(:first)
    end subroutine allow_overlap
 
    !> The distance of two sides from what contact takes for it.

@@ -1,5 +1,14 @@
 !> What the fields of a contact pair are measured by when they are judged: its own stresses and motions, and what double precision
 !> leaves uncertain of them.
+!>
+!> A displacement u of a body with n equations is wrong by about cond(K) EPS_MACH |u|, cond(K) being no less than 5e4
+!> for small bodies, growing with n, and 10^digits where pivots have lost digits (usual_growth). So a slip or an opening
+!> is none, below
+!>
+!>     1e-9 (largest relative motion of the pair) + growth EPS_MACH (displacement of the body),
+!>
+!> and a gap besides below the round-off of the coordinates that it is a difference of (measure_places). Of a history
+!> the largest so far counts (had_t): what is left when loads go is round-off of that.
 module atrito_contact_scales
    use atrito_contact_rows, only: contact_rows_t, row_value
    use atrito_kinds, only: ip, wp, EPS_MACH

@@ -1,4 +1,13 @@
 !> What the outer loop works on and what it finds: the contact line's state, its stresses, and the verdict.
+!>
+!> All loops look for a friction bound tau that is its own image: with tau frozen the problem with bounds gives
+!> pressures p(tau), and
+!>
+!>     tau = Phi(tau) = nu S_rho(p(tau)),     residual = max over pairs of |Phi(tau) - tau|/|tau|, largest norms.
+!>
+!> A loop stops where the residual is below the tolerance of the deck. Round-off of the matrix can make a relative error
+!> of EPS_MACH times its condition in p, and so in the residual; below that bound the loop stops as soon as an iteration
+!> no longer halves the residual (has_settled), but never above 1e-7.
 module atrito_contact_solution
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use atrito_bound_qp, only: bound_qp_t, box_bounds_t, box_outcome_t, box_state_t, AT_LOWER
@@ -124,6 +133,7 @@ contains
       if (.not. all(ieee_is_finite(image))) residual = HUGE_REAL   ! maxval passes over what is not a number
    end function relative_residual
 
+   !> |image - tau|/|tau| of one pair, both divided first so that no small bound overflows.
    pure real(wp) function residual_of_pair(tau, image, none) result(residual)
       real(wp), intent(in) :: tau(:), image(:)
       real(wp), intent(in) :: none                    !< a bound that is none
@@ -134,6 +144,7 @@ contains
       if (scale > none) residual = maxval(abs(image/scale - tau/scale))
    end function residual_of_pair
 
+   !> The largest size of a bound and its image; 0 of none.
    pure real(wp) function largest_of(tau, image)
       real(wp), intent(in) :: tau(:), image(:)
 

@@ -2,11 +2,20 @@
 !>
 !> Equilibrium of the bodies is G' q = h (docs/theory/formulation.md, section 4), q being the contact forces in the order of the
 !> unknowns of the line. A row touches the motions of two bodies at most, so G is kept by its entries.
+!>
+!>     motion_rates     G v:  how fast the motion v opens the points and lets them slip
+!>     motion_forces    G' q: the work of the contact forces on each motion
+!>
+!> With `sizes` the terms of the sums are taken without their signs: a sum that is less than some EPS_MACH of that is round-off.
 module atrito_motion_rows
+   use atrito_assembly, only: fem_t
+   use atrito_contact_line, only: contact_line_t
+   use atrito_contact_rows, only: contact_rows_t
    use atrito_kinds, only: ip, wp
+   use atrito_row_entries, only: motions_of_row, first_motions, work_on_motion, MOST_MODES
    implicit none (type, external)
    private
-   public :: motion_rows_t, motion_rates, motion_forces
+   public :: motion_rows_t, build_motion_rows, motion_rates, motion_forces
 
    type :: motion_rows_t
       integer(ip) :: m = 0                       !< unknown contact forces
@@ -20,6 +29,42 @@ module atrito_motion_rows
    end type motion_rows_t
 
 contains
+
+   !> G of all unknown forces by rows, and h = Z'f with the size of its terms.
+   pure subroutine build_motion_rows(fem, rows, line, f, motions)
+      type(fem_t), intent(in) :: fem
+      type(contact_rows_t), intent(in) :: rows
+      type(contact_line_t), intent(in) :: line
+      real(wp), intent(in) :: f(:, :)                !< (2, n_nodes) applied forces [F]
+      type(motion_rows_t), intent(out) :: motions
+      integer(ip) :: first_motion(fem%bodies%n + 1), b, i, n
+
+      first_motion = first_motions(fem%bodies)
+      motions%k = first_motion(fem%bodies%n + 1) - 1
+      allocate (motions%body(motions%k), motions%work(motions%k), motions%work_size(motions%k))
+      do b = 1, fem%bodies%n
+         do i = first_motion(b), first_motion(b + 1) - 1
+            motions%body(i) = b
+            call work_on_motion(fem, fem%bodies%list(b), i - first_motion(b) + 1_ip, f, motions%work(i), motions%work_size(i))
+         end do
+      end do
+      motions%m = size(line%point, kind=ip)
+      n = 0
+      do i = 1, motions%m
+         n = n + MOST_MODES*max(2_ip, min(fem%bodies%n, rows%first(line%point(i) + 1) - rows%first(line%point(i))))
+      end do
+      allocate (motions%first(motions%m + 1), motions%motion(n), motions%value(n))
+      motions%first(1) = 1
+      do i = 1, motions%m
+         associate (first => motions%first(i))
+            call motions_of_row(fem, rows, line, i, first_motion, n, motions%motion(first:), motions%value(first:))
+            motions%first(i + 1) = first + n
+         end associate
+      end do
+      n = motions%first(motions%m + 1) - 1
+      motions%motion = motions%motion(:n)
+      motions%value = motions%value(:n)
+   end subroutine build_motion_rows
 
    !> G v; or, with sizes, the sum of the terms without their signs.
    pure function motion_rates(rows, v, sizes) result(rate)

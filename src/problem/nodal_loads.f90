@@ -1,4 +1,14 @@
 !> Nodal forces of all loads of a step.
+!>
+!> Consistent forces of the shape functions N_a of an element or a face:
+!>
+!>     f_a = int N_a b h dA         forces per volume b; b may be linear in place (GRAV, CENTRIF: LOAD_BODY, LOAD_LINEAR)
+!>     f_a = -int N_a p n h ds      a pressure p on a face with the outward normal n, uniform or hydrostatic
+!>     f_a = int N_a t h ds         a traction t along a direction (TRVEC)
+!>
+!> with the thickness h, or 2 pi r on the full circle. f = sum over elements and faces; concentrated forces add to it.
+!> The same integrals over a part of an element, which has the shape of a triangle or a chord, serve section forces
+!> (atrito_split_loads).
 module atrito_nodal_loads
    use atrito_kinds, only: ip, wp
    use atrito_mesh, only: face_nodes, depth_places

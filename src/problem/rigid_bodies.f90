@@ -1,9 +1,17 @@
 !> Rigid surfaces that move, as bodies of a scene: without elements and equations, with up to three motions about their reference
 !> node.
 !>
-!> Three nodes carry the motion of such a body (model%solver_mesh). With its barycentric coordinates in their triangle a place x
-!> moves by u(x) = sum N_i(x) u_i, exactly so for a rigid motion, so a contact point that faces the body has these nodes among its
-!> entries like those of a face of elements: what is prescribed comes in with their values, what is free with the motions.
+!> A rigid body with the reference node R moves by u(x) = u_R + phi perp(x - x_R), perp(a) = (-a2, a1). Three nodes
+!> carry this motion (model%solver_mesh), at R and at its size L along either axis: with (a1, a2) = (x - x_R)/L a place
+!> x has the barycentric coordinates
+!>
+!>     N = (1 - a1 - a2, a1, a2),     u(x) = sum_i N_i(x) u_i,     exactly so for a rigid motion, inside the triangle or not.
+!>
+!> So a contact point that faces the body at x + g n has these nodes among its entries with -N_i, like those of a face
+!> of elements. What is prescribed of u_R and phi comes in with the displacements of the three nodes; what is free are
+!> up to three motions about R, with amplitudes like those of a floating body. There is no stiffness: the body adds
+!> nothing to C, and to G and h what other bodies do. A force on R is one on the first node; a moment M is the couple
+!> -M/L, M/L along the second axis on the first two.
 module atrito_rigid_bodies
    use atrito_bodies, only: bodies_t, body_t, mode_at, MOVES_RIGIDLY
    use atrito_build_rigid_bodies, only: carriers_of, CARRIERS
@@ -19,6 +27,7 @@ module atrito_rigid_bodies
 
    integer(ip), parameter :: MOTIONS = 3_ip
    integer(ip), parameter :: DOF_OF_MOTION(MOTIONS) = [1_ip, 2_ip, 6_ip]
+   real(wp), parameter :: IDENTITY(MOTIONS, MOTIONS) = reshape([1, 0, 0, 0, 1, 0, 0, 0, 1]*1.0_wp, [MOTIONS, MOTIONS])
 
 contains
 
@@ -56,6 +65,8 @@ contains
       end do
    end function bodies_of_surfaces
 
+   !> The rows of a pair with the nodes of its rigid master behind those of the slave. The slave's coefficients add up
+   !> to `whole`, 1.
    pure subroutine attach_to(body, reference, nodes, points)
       type(rigid_body_t), intent(in) :: body
       real(wp), intent(in) :: reference(2)             !< [L]
@@ -184,24 +195,18 @@ contains
       type(bodies_t), intent(inout) :: bodies
       logical :: is_prescribed(MOTIONS)
       real(wp) :: motion(MOTIONS)
-      integer(ip) :: i, m, n
+      integer(ip) :: i, m
 
       do i = 1, bodies%n_rigid
          call prescribed_motion(model, prescribed, i, is_prescribed, motion)
          associate (body => bodies%list(bodies%n - bodies%n_rigid + i))
-            deallocate (body%modes)
-            allocate (body%modes(MOTIONS, count(.not. is_prescribed)), source=0.0_wp)
-            n = 0
-            do m = 1, MOTIONS
-               if (is_prescribed(m)) cycle
-               n = n + 1
-               body%modes(m, n) = 1.0_wp
-            end do
+            body%modes = IDENTITY(:, pack([(m, m=1, MOTIONS)], .not. is_prescribed))
             call mark_moving(model%solver_mesh, body, bodies%equation)
          end associate
       end do
    end subroutine set_rigid_motions
 
+   !> The dofs of its nodes that a rigid body's free motions move; the others are held.
    pure subroutine mark_moving(mesh, body, equation)
       type(mesh_t), intent(in) :: mesh
       type(body_t), intent(in) :: body

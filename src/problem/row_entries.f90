@@ -1,16 +1,26 @@
 !> The rows of the unknown contact forces by their entries: over the displacements of the bodies, and over their rigid motions.
+!>
+!> The displacements of a body are u = u_e + Z a, u_e those of its dofs with equations, Z its rigid motions that supports leave (two
+!> translations and a rotation, of size one at the body's size), a their amplitudes. An unknown i at point j, along d_i = n_j or
+!> T_j, has on the node k of its row the vector b_ik = c_jk d_i (and what atrito_turning_rows adds). Its row is
+!>
+!>     (B u)_i = sum_k b_ik . u_k,     B_i,dof = (b_ik)_dof at the free dofs,     G_im = sum_k b_ik . z_m(x_k) = (B Z)_im,
+!>
+!> z_m(x_k) being motion m of the node's body, 0 at dofs that are held. B' q are the forces of the contact on the dofs,
+!> G' q their work on the motions; the loads f have the work h = Z' f, and a body is in equilibrium where G' q = h.
+!> Motions are of size one, so an entry of G below ROUND_OFF is none. Rigid bodies have no equations, only motions.
 module atrito_row_entries
    use atrito_assembly, only: fem_t
    use atrito_bodies, only: bodies_t, body_t, mode_at
    use atrito_constraint_rows, only: constraint_rows_t
    use atrito_contact_line, only: contact_line_t
-   use atrito_contact_rows, only: contact_rows_t, bodies_of_row, vector_of_entry, direction_of_entry, turn_of_entry
+   use atrito_contact_rows, only: contact_rows_t, vector_of_entry, direction_of_entry, turn_of_entry
    use atrito_kinds, only: ip, wp
    implicit none (type, external)
    private
-   public :: build_constraint_rows, motions_of_row, first_motions, direction_of, loads_on_motions, work_on_motion
+   public :: build_constraint_rows, motions_of_row, modes_at_node, first_motions, direction_of, loads_on_motions, work_on_motion
 
-   integer(ip), parameter :: MOST_MODES = 3_ip   !< of a body
+   integer(ip), parameter, public :: MOST_MODES = 3_ip !< of a body
    real(wp), parameter :: ROUND_OFF = 1.0e-13_wp !< motions are of size one: what is below rounding of that is no motion
 
 contains
@@ -35,8 +45,9 @@ contains
       constraints%point = line%point
       n = 0
       do i = 1, constraints%n
-         n = n + 2*(rows%first(line%point(i) + 1) - rows%first(line%point(i)))
-         n = n + MOST_MODES*count_bodies(bodies_of_row(rows, line%point(i), fem%bodies%of_node))
+         associate (entries => rows%first(line%point(i) + 1) - rows%first(line%point(i)))
+            n = n + 2*entries + MOST_MODES*min(entries, fem%bodies%n)
+         end associate
       end do
       allocate (constraints%first(constraints%n + 1), constraints%column(n), constraints%value(n))
       constraints%first(1) = 1
@@ -73,16 +84,6 @@ contains
          if (seen(constraints%column(e)) < UNSEEN) constraints%value(e) = 0.0_wp
       end do
    end subroutine drop_unseen_motions
-
-   pure integer(ip) function count_bodies(bodies) result(n)
-      integer(ip), intent(in) :: bodies(:)       !< of the entries of a row
-      integer(ip) :: k
-
-      n = 0
-      do k = 1, size(bodies, kind=ip)
-         if (.not. any(bodies(:k - 1) == bodies(k))) n = n + 1
-      end do
-   end function count_bodies
 
    pure subroutine displacements_of_row(fem, rows, line, i, before, n, column, value)
       type(fem_t), intent(in) :: fem
@@ -121,8 +122,8 @@ contains
       integer(ip), intent(inout) :: motion(:)
       real(wp), intent(inout) :: value(:)
       logical, intent(in), optional :: rigid_only !< of rigid bodies alone; default .false.
-      real(wp) :: direction(2), vector(2), turn(2)
-      integer(ip) :: k, node, b, mode, e, kept
+      real(wp) :: direction(2), vector(2), turn(2), z(2, MOST_MODES)
+      integer(ip) :: k, node, b, mode, e
       logical :: of_all
 
       of_all = .true.
@@ -136,43 +137,41 @@ contains
          if (.not. (of_all .or. fem%bodies%list(b)%is_rigid)) cycle
          vector = direction_of_entry(rows, line%point(i), k, direction)
          turn = turn_of_entry(rows, line%point(i), k, direction)
+         z = modes_at_node(fem, b, node)
          do mode = 1, size(fem%bodies%list(b)%modes, 2, kind=ip)
-            do e = 1, n
-               if (motion(e) == first_motion(b) + mode - 1) exit
-            end do
-            if (e > n) then
-               n = e
+            e = findloc(motion(:n), first_motion(b) + mode - 1, dim=1, kind=ip)
+            if (e == 0) then
+               n = n + 1
+               e = n
                motion(e) = first_motion(b) + mode - 1
                value(e) = 0.0_wp
             end if
-            value(e) = value(e) + rows%coefficient(k)*along_motion(fem, fem%bodies%list(b), mode, node, vector)
-            if (any(abs(turn) > 0.0_wp)) value(e) = value(e) + along_motion(fem, fem%bodies%list(b), mode, node, turn)
+            value(e) = value(e) + rows%coefficient(k)*dot_product(vector, z(:, mode))
+            if (any(abs(turn) > 0.0_wp)) value(e) = value(e) + dot_product(turn, z(:, mode))
          end do
       end do
-      kept = 0
-      do e = 1, n
-         if (abs(value(e)) < ROUND_OFF) cycle
-         kept = kept + 1
-         motion(kept) = motion(e)
-         value(kept) = value(e)
-      end do
-      n = kept
+      e = count(abs(value(:n)) >= ROUND_OFF, kind=ip)
+      motion(:e) = pack(motion(:n), abs(value(:n)) >= ROUND_OFF)
+      value(:e) = pack(value(:n), abs(value(:n)) >= ROUND_OFF)
+      n = e
    end subroutine motions_of_row
 
-   !> The displacement of a node along a vector in a rigid motion; 0 where the node is held.
-   pure real(wp) function along_motion(fem, body, mode, node, vector) result(z)
+   !> The motions of a body at one of its nodes; 0 at the dofs that are held, and in the columns of motions that it does not have.
+   pure function modes_at_node(fem, b, node) result(z)
       type(fem_t), intent(in) :: fem
-      type(body_t), intent(in) :: body
-      integer(ip), intent(in) :: mode, node
-      real(wp), intent(in) :: vector(2)
-      integer(ip) :: dof
+      integer(ip), intent(in) :: b, node
+      real(wp) :: z(2, MOST_MODES)
+      integer(ip) :: dof, j
 
       z = 0.0_wp
-      do dof = 1, 2
-         if (fem%bodies%equation(dof, node) == 0) cycle
-         z = z + vector(dof)*mode_at(body, body%modes(:, mode), fem%mesh%x(:, node), dof)
-      end do
-   end function along_motion
+      associate (body => fem%bodies%list(b))
+         do j = 1, size(body%modes, 2, kind=ip)
+            do dof = 1, 2
+               if (fem%bodies%equation(dof, node) /= 0) z(dof, j) = mode_at(body, body%modes(:, j), fem%mesh%x(:, node), dof)
+            end do
+         end do
+      end associate
+   end function modes_at_node
 
    !> The first rigid motion of each body when they are counted from 1 on, and one more than there are.
    pure function first_motions(bodies) result(first)

@@ -1,4 +1,12 @@
-!> From the model to the bodies with their equations and the points of the contact line.
+!> From the model to the bodies with their equations and the points of the contact line: the one builder of a scene.
+!>
+!> 1. build_scene: the mesh and the elasticity of each section, what is prescribed, and the points of every pair (those
+!>    that the check of the deck has made). Rigid surfaces that move add three nodes each, which carry their motion
+!>    (atrito_rigid_bodies).
+!> 2. build_bodies: a body is a connected part of the mesh. Its free displacements are numbered so that those of its
+!>    contact nodes are the last ones: a factorisation that stops before them leaves their flexibility, the only thing the
+!>    contact line needs of the body. The motions that supports leave the body follow, and rigid bodies behind those of
+!>    elements.
 module atrito_scene_builder
    use atrito_kinds, only: ip, wp
    use atrito_assembly, only: fem_t, grain_of
@@ -6,8 +14,7 @@ module atrito_scene_builder
    use atrito_bodies, only: bodies_t, find_bodies, number_equations, find_rigid_modes
    use atrito_body_names, only: name_bodies
    use atrito_incidence, only: list_holders
-   use atrito_model, only: model_t, step_t, nodal_values_t
-   use atrito_number_list, only: number_list_t, add_number, numbers_of
+   use atrito_model, only: model_t, step_t
    use atrito_pairing, only: pair_all
    use atrito_points, only: contact_points_t
    use atrito_rigid_bodies, only: append_rigid_bodies, attach_points, has_moving_surfaces, hold_carriers
@@ -92,30 +99,20 @@ contains
       type(step_t), intent(in) :: step
       logical, allocatable, intent(out) :: held(:, :)          !< (2, nodes of the solver's mesh)
       real(wp), allocatable, intent(out) :: value(:, :)        !< [L]
+      integer(ip) :: i, n_nodes
 
-      if (has_moving_surfaces(model)) then
-         call list_prescribed(step%prescribed, model%solver_mesh%n_nodes, held, value)
-         call hold_carriers(model, step%rigid_prescribed, held, value)
-      else
-         call list_prescribed(step%prescribed, model%mesh%n_nodes, held, value)
-      end if
-   end subroutine list_held
-
-   !> Prescribed dofs and their displacements.
-   pure subroutine list_prescribed(prescribed, n_nodes, held, value)
-      type(nodal_values_t), intent(in) :: prescribed
-      integer(ip), intent(in) :: n_nodes
-      logical, allocatable, intent(out) :: held(:, :)
-      real(wp), allocatable, intent(out) :: value(:, :)
-      integer(ip) :: i
-
+      n_nodes = model%mesh%n_nodes
+      if (has_moving_surfaces(model)) n_nodes = model%solver_mesh%n_nodes
       allocate (held(2, n_nodes), source=.false.)
       allocate (value(2, n_nodes), source=0.0_wp)
-      do i = 1, prescribed%n
-         held(prescribed%dof(i), prescribed%node(i)) = .true.
-         value(prescribed%dof(i), prescribed%node(i)) = prescribed%value(i)
-      end do
-   end subroutine list_prescribed
+      associate (prescribed => step%prescribed)
+         do i = 1, prescribed%n
+            held(prescribed%dof(i), prescribed%node(i)) = .true.
+            value(prescribed%dof(i), prescribed%node(i)) = prescribed%value(i)
+         end do
+      end associate
+      if (has_moving_surfaces(model)) call hold_carriers(model, step%rigid_prescribed, held, value)
+   end subroutine list_held
 
    !> The nodes of each body that take part in contact and bilateral rows, each once, in the order of the points.
    subroutine list_contact_nodes(bodies, points, bilateral, first, nodes)
@@ -124,37 +121,22 @@ contains
       type(bilateral_rows_t), intent(in) :: bilateral
       integer(ip), allocatable, intent(out) :: first(:)    !< (bodies + 1)
       integer(ip), allocatable, intent(out) :: nodes(:)    !< those of body i are nodes(first(i):first(i + 1) - 1)
-      type(number_list_t) :: found
       logical, allocatable :: taken(:)
-      integer(ip), allocatable :: of_body(:, :), place(:)
-      integer(ip) :: i, j
+      integer(ip), allocatable :: place(:)
+      integer(ip) :: i, n
 
+      nodes = [(points(i)%entry, i=1, size(points, kind=ip))]
+      if (bilateral%n > 0) nodes = [nodes, bilateral%node]
       taken = bodies%of_node == 0
-      do i = 1, size(points, kind=ip)
-         do j = 1, size(points(i)%entry, kind=ip)
-            call take(points(i)%entry(j))
-         end do
+      n = 0
+      do i = 1, size(nodes, kind=ip)
+         if (taken(nodes(i))) cycle
+         taken(nodes(i)) = .true.
+         n = n + 1
+         nodes(n) = nodes(i)
       end do
-      if (bilateral%n > 0) then
-         do j = 1, size(bilateral%node, kind=ip)
-            call take(bilateral%node(j))
-         end do
-      end if
-      nodes = numbers_of(found)
-      of_body = reshape(bodies%of_node(nodes), [1, size(nodes)])
-      call list_holders(bodies%n, of_body, first, place)
+      call list_holders(bodies%n, reshape(bodies%of_node(nodes(:n)), [1_ip, n]), first, place)
       nodes = nodes(place)
-
-   contains
-
-      subroutine take(node)
-         integer(ip), intent(in) :: node
-
-         if (taken(node)) return
-         taken(node) = .true.
-         call add_number(found, node)
-      end subroutine take
-
    end subroutine list_contact_nodes
 
 end module atrito_scene_builder

@@ -1,8 +1,14 @@
 !> What changed from one linear solve of the contact line to the next: the rows of iterations.tab.
+!>
+!> An outer iteration freezes the friction bounds; the inner ones are the linear solves that find the states for them.
+!> Of each solve are recorded the changes of displacements, pressures and friction from the solve before, |now -
+!> before|/|now| in the largest norm, the residual of the bounds that the last outer iteration ended with, and how many
+!> points are open, stick and slip. The states at the end of the last OUTER_KEPT outer iterations are kept, to tell of
+!> points that do not come to rest when a loop does not converge.
 module atrito_solve_history
    use atrito_kinds, only: ip, wp
    use atrito_iteration, only: iteration_t
-   use atrito_bound_qp, only: bound_qp_t, box_bounds_t, box_state_t, FREE, AT_LOWER, AT_UPPER
+   use atrito_bound_qp, only: bound_qp_t, box_bounds_t, box_state_t, FREE, FROZEN
    implicit none (type, external)
    private
    public :: solve_history_t, record_solve, restart_history, begin_outer, end_outer, state_letters, OUTER_KEPT
@@ -11,6 +17,8 @@ module atrito_solve_history
    !> State of a point: open, closed without a tangential unknown, sticking, slipping along T and against it.
    integer(ip), parameter :: IS_OPEN = 1, IS_CLOSED = 2, IS_STUCK = 3, SLIPS_ALONG = 4, SLIPS_AGAINST = 5
    character(len=1), parameter :: LETTERS(5) = ['o', 'c', '=', '+', '-']
+   !> State of a closed point by that of its tangential unknown.
+   integer(ip), parameter :: BY_TANGENTIAL(FREE:FROZEN) = [IS_STUCK, SLIPS_AGAINST, SLIPS_ALONG, IS_CLOSED]
 
    type :: solve_history_t
       integer(ip) :: n = 0
@@ -86,6 +94,7 @@ contains
       history%records(history%n) = record
    end subroutine record_solve
 
+   !> |now - before|/|now| in the largest norm; 0 where there is nothing now.
    pure real(wp) function relative_change(now, before) result(change)
       real(wp), intent(in) :: now(:), before(:)
       real(wp) :: scale
@@ -115,6 +124,7 @@ contains
       history%states(:, max(history%kept, 1_ip)) = now
    end subroutine count_states
 
+   !> The state of a point, IS_OPEN and so on; 0 of a bilateral row, which is no point of contact.
    pure integer(ip) function point_state(history, state, i) result(now)
       type(solve_history_t), intent(in) :: history
       type(box_state_t), intent(in) :: state
@@ -130,16 +140,7 @@ contains
       else if (t == 0) then
          now = IS_CLOSED
       else
-         select case (state%state(t))
-         case (FREE)
-            now = IS_STUCK
-         case (AT_UPPER)
-            now = SLIPS_ALONG
-         case (AT_LOWER)
-            now = SLIPS_AGAINST
-         case default
-            now = IS_CLOSED
-         end select
+         now = BY_TANGENTIAL(state%state(t))
       end if
    end function point_state
 

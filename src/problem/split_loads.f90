@@ -1,6 +1,17 @@
 !> What of the loads on an element acts on one side of a line that parts it.
 !>
 !> The element counts as the polygon of the nodes on its sides, a face as the chords between its nodes: exact for straight sides.
+!>
+!> Each corner has a height over the line. The part ahead of it is made by going round (clipping of a polygon by a
+!> half-plane): corners with a height >= 0 stay, and between two corners a, b on different sides comes the place where
+!> the height is 0,
+!>
+!>     x = (1 - s) x_a + s x_b,     s = h_a/(h_a - h_b).
+!>
+!> A part of an element is cut into triangles round its first corner, whose forces are those of a linear triangle; of a
+!> chord what is left is a chord. So force and moment of both parts add up to those of the whole load. Area and centre
+!> of a polygon are sums over the same triangles, with the corners taken from the first one: A = sum cross(a, b)/2, A
+!> (centre - x_1) = sum cross(a, b)/2 (a + b)/3.
 module atrito_split_loads
    use atrito_crossings, only: cut_line_t, height_over, slack_of, outline_of, MOST_OUTLINE
    use atrito_kinds, only: ip, wp
@@ -109,6 +120,7 @@ contains
       share = share/area
    end subroutine part_of_area
 
+   !> Area and centre of a polygon.
    pure subroutine measure_polygon(corners, area, centre)
       type(corner_t), intent(in) :: corners(:)      !< >= 3
       real(wp), intent(out) :: area                 !< [L^2]
@@ -128,6 +140,7 @@ contains
       centre = corners(1)%x + centre/area
    end subroutine measure_polygon
 
+   !> Nodes of an element as corners; one that is as near to the line as round-off lies on it.
    pure function corners_at(model, element, line, nodes) result(corners)
       type(model_t), intent(in) :: model
       integer(ip), intent(in) :: element

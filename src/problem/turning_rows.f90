@@ -20,9 +20,10 @@ module atrito_turning_rows
    use atrito_assembly, only: fem_t
    use atrito_bilateral_rows, only: bilateral_rows_t
    use atrito_contact_rows, only: contact_rows_t
+   use atrito_growth, only: make_room, resize
    use atrito_kinds, only: ip, wp
-   use atrito_left_motions, only: motions_left
    use atrito_points, only: contact_points_t, sliding_t
+   use atrito_sliding_bodies, only: motions_left
    use atrito_sliding_motions, only: first_of_master
    implicit none (type, external)
    private
@@ -63,6 +64,7 @@ contains
          end associate
       end do
       if (.not. any(may_turn)) return
+      allocate (turns%turn(2, 0))
       m = 0
       do i = 1, size(points, kind=ip)
          do j = 1, points(i)%n
@@ -70,7 +72,9 @@ contains
             if (points(i)%rigid .or. .not. rubs(i) .or. .not. is_curved(points(i)%sliding)) cycle
             call find_turn(points(i), j, fem, may_turn, rows%normal(:, m), node, turn, n)
             if (n == 0) cycle
-            call make_room(turns, n)
+            call make_room(turns%row, turns%n, turns%n + n)
+            call make_room(turns%node, turns%n, turns%n + n)
+            if (turns%n + n > size(turns%turn, 2)) call resize(turns%turn, turns%n, size(turns%row, kind=ip))
             turns%row(turns%n + 1:turns%n + n) = m
             turns%node(turns%n + 1:turns%n + n) = node(:n)
             turns%turn(:, turns%n + 1:turns%n + n) = turn(:, :n)
@@ -86,22 +90,6 @@ contains
 
       is_curved = sliding%exists .and. (sliding%is_round .or. sliding%meets_round)
    end function is_curved
-
-   pure subroutine make_room(turns, n)
-      type(turns_t), intent(inout) :: turns
-      integer(ip), intent(in) :: n                  !< entries that come
-      type(turns_t) :: larger
-
-      if (.not. allocated(turns%row)) allocate (turns%row(0), turns%node(0), turns%turn(2, 0))
-      if (turns%n + n <= size(turns%row)) return
-      allocate (larger%row(2*(turns%n + n)), larger%node(2*(turns%n + n)), larger%turn(2, 2*(turns%n + n)))
-      larger%row(:turns%n) = turns%row(:turns%n)
-      larger%node(:turns%n) = turns%node(:turns%n)
-      larger%turn(:, :turns%n) = turns%turn(:, :turns%n)
-      call move_alloc(larger%row, turns%row)
-      call move_alloc(larger%node, turns%node)
-      call move_alloc(larger%turn, turns%turn)
-   end subroutine make_room
 
    !> The nodes that tell the rotation of the master at a point, and what is n's in its rows; n = 0: nothing is.
    pure subroutine find_turn(points, j, fem, may_turn, normal, node, turn, n)
@@ -188,11 +176,10 @@ contains
          n = last
          do e = i, turns%n
             if (turns%row(e) /= m) exit
-            do k = first(m), n
-               if (node(k) == turns%node(e)) exit
-            end do
-            if (k > n) then
-               n = k
+            k = first(m) - 1 + findloc(node(first(m):n), turns%node(e), dim=1, kind=ip)
+            if (k < first(m)) then
+               n = n + 1
+               k = n
                node(n) = turns%node(e)
                coefficient(n) = 0.0_wp
                turn(:, n) = 0.0_wp
