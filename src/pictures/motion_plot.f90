@@ -20,7 +20,7 @@ module atrito_motion_plot
    use atrito_write_tables, only: origin_of
    implicit none (type, external)
    private
-   public :: has_motion_plot, write_motion_plot, image_frames, most_lines
+   public :: has_motion_plot, write_motion_plot, most_lines, MOST_IMAGES
 
    integer(ip), parameter :: MOST_IMAGES = 200
    !> Nodes times images up to which inner edges are drawn, too.
@@ -47,14 +47,6 @@ contains
       has_motion_plot = size(history%frames) > 1
    end function has_motion_plot
 
-   !> Places of the frames that have images: all, or evenly some of them, the first and the last among these.
-   pure function image_frames(n) result(list)
-      integer(ip), intent(in) :: n                  !< frames
-      integer(ip), allocatable :: list(:)
-
-      list = evenly(n, MOST_IMAGES)
-   end function image_frames
-
    !> Inner edges too, or outlines alone.
    pure logical function most_lines(n_nodes, n_images)
       integer(ip), intent(in) :: n_nodes, n_images
@@ -70,7 +62,7 @@ contains
       type(plot_view_t), intent(in) :: view
       type(images_t) :: images
 
-      images%frames = image_frames(size(history%frames, kind=ip))
+      images%frames = evenly(size(history%frames, kind=ip), MOST_IMAGES)
       call begin_drawing(model, .not. most_lines(model%mesh%n_nodes, size(images%frames, kind=ip)), view, images%drawing)
       images%drawing%heading = picture_title(origin_of(model, history))
       call measure(history, images)

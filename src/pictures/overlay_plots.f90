@@ -57,6 +57,7 @@ contains
       type(status_t), intent(out) :: status
       type(overlay_t) :: overlay
       type(plots_t) :: plots
+      type(range_t) :: summed                       ! of the parameter, in runs with a summary
       integer(ip) :: i
 
       allocate (names(0), overlay%runs(size(runs)))
@@ -83,7 +84,10 @@ contains
          call write_overlay(plots, overlay, i)
          call append_string(names, OVERLAY_PLOT//to_text(i))
       end do
-      if (overlay%by_value .and. has_summaries(overlay%runs)) then
+      do i = 1, size(overlay%runs, kind=ip)
+         if (allocated(overlay%runs(i)%quantity)) call cover(summed, [overlay%runs(i)%value])
+      end do
+      if (overlay%by_value .and. span(summed) > 0.0_wp) then
          call write_summary_plot(plots, overlay)
          call append_string(names, OVERLAY_SUMMARY)
       end if
@@ -103,18 +107,6 @@ contains
          path = '../'//run
       end if
    end function path_from_plots
-
-   !> There is something to draw against the parameter.
-   pure logical function has_summaries(list)
-      type(overlay_run_t), intent(in) :: list(:)
-      type(range_t) :: range
-      integer :: i
-
-      do i = 1, size(list)
-         if (allocated(list(i)%quantity)) call cover(range, [list(i)%value])
-      end do
-      has_summaries = span(range) > 0.0_wp
-   end function has_summaries
 
    !> The script of a pair: a panel a field, a curve a run. No shear and slip where no run has friction, no weighted pressure where
    !> it is the pressure.

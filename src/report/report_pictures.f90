@@ -66,22 +66,13 @@ contains
          call read_bytes(folder//'/'//name//endings(k), bytes, status)
          if (.not. is_ok(status) .or. len(bytes) == 0) cycle
          if (base64_length(len(bytes)) + FRAME_BYTES > room) cycle
-         if (allocated(picture%bytes)) then
-            if (.not. is_better(endings(k), len(bytes), len(picture%bytes))) cycle
+         if (allocated(picture%bytes)) then         ! lines are sharp at any size, as long as they are not too many
+            if (len(bytes) >= len(picture%bytes) .and. .not. (endings(k) == '.svg' .and. len(bytes) <= LARGE_DRAWING)) cycle
          end if
          picture%file = name//endings(k)
          call move_alloc(bytes, picture%bytes)
       end do
    end subroutine choose_picture
-
-   !> Lines are sharp at any size, as long as they are not too many.
-   pure logical function is_better(ending, n_bytes, n_other)
-      character(len=*), intent(in) :: ending
-      integer, intent(in) :: n_bytes, n_other       !< of this file, and of that which was chosen so far
-
-      is_better = n_bytes < n_other
-      if (ending == '.svg') is_better = is_better .or. n_bytes <= LARGE_DRAWING
-   end function is_better
 
    subroutine add_picture(page, folder, name, picture)
       type(page_t), intent(inout) :: page

@@ -65,12 +65,13 @@ contains
       end associate
    end subroutine speak_of_quantity
 
-   !> 0.0123 -> `1.2 %`.
+   !> 0.0123 -> `1.2 %`; what is no number -> `none`.
    pure function percent(x) result(text)
       real(wp), intent(in) :: x
       character(len=:), allocatable :: text
 
-      text = to_text(100*x, 2)//' %'
+      text = 'none'
+      if (.not. is_nan(x)) text = to_text(100*x, 2)//' %'
    end function percent
 
    !> Which element gives a good answer soonest: `1 % of strain_energy soonest: cpe9, level 0 (983 dofs, 0.0035 s); then cpe4, ...`.
@@ -95,7 +96,7 @@ contains
             told(n) = .false.
          else
             if (len(failed) > 0) failed = failed//', '
-            failed = failed//study%rows(k)%element//' ('//error_text(study%quantities(i)%error(k))//')'
+            failed = failed//study%rows(k)%element//' ('//percent(study%quantities(i)%error(k))//')'
          end if
       end do
       text = to_text(100*GOOD, 2)//' % of '//study%quantities(i)%name
@@ -107,7 +108,13 @@ contains
       do while (.not. all(told))
          next = minloc(seconds, dim=1, mask=.not. told)
          told(next) = .true.
-         if (before > 0) text = text//conjunction(study%rows(before), study%rows(next))
+         if (before > 0) then                       ! what the clock does not tell apart is as soon
+            if (seconds(next) < (1.0_wp + CLOCK_NOISE)*seconds(before)) then
+               text = text//', as soon as '
+            else
+               text = text//'; then '
+            end if
+         end if
          before = next
          associate (row => study%rows(next))
             text = text//row%element//', level '//to_text(row%level)//' ('//to_text(row%n_dofs)//' dofs, ' &
@@ -116,23 +123,6 @@ contains
       end do
       if (len(failed) > 0) text = text//'; not reached by '//failed
    end function soonest
-
-   !> Between two runs: what the clock does not tell apart is as soon.
-   pure function conjunction(first, second) result(text)
-      type(study_row_t), intent(in) :: first, second
-      character(len=:), allocatable :: text
-
-      text = '; then '
-      if (total_seconds(second, PROCESSOR) < (1.0_wp + CLOCK_NOISE)*total_seconds(first, PROCESSOR)) text = ', as soon as '
-   end function conjunction
-
-   pure function error_text(error) result(text)
-      real(wp), intent(in) :: error
-      character(len=:), allocatable :: text
-
-      text = 'none'
-      if (.not. is_nan(error)) text = percent(error)
-   end function error_text
 
    !> The coarsest row of an element from which on all its errors are small; 0: there is none.
    pure integer function first_good(study, i, last) result(n)
@@ -296,7 +286,10 @@ contains
       associate (rows => study%rows)
          do k = 3, size(rows)
             if (.not. is_last(rows, k) .or. rows(k)%element /= rows(k - 2)%element) cycle
-            if (.not. has_no_limit(rows(k - 2:k)%pressure)) cycle
+            associate (p => rows(k - 2:k)%pressure)
+               if (.not. (p(2) - p(1) > GROWTH*p(2) .and. p(3) - p(2) > GROWTH*p(3) .and. &
+                          p(3) - p(2) >= NOT_SHRINKING*(p(2) - p(1)))) cycle
+            end associate
             place = 'at ('//to_text(rows(k)%peak(1), 6)//', '//to_text(rows(k)%peak(2), 6)//')'
             if (rows(k)%peak_is_end) place = place//', an end of the contact surface'
             call append_string(study%words, rows(k)%element//': the largest pressure, '//place//', grows with every level (' &
@@ -307,11 +300,5 @@ contains
          end do
       end associate
    end subroutine speak_of_pressure
-
-   pure logical function has_no_limit(p)
-      real(wp), intent(in) :: p(3)                   !< coarse to fine
-
-      has_no_limit = p(2) - p(1) > GROWTH*p(2) .and. p(3) - p(2) > GROWTH*p(3) .and. p(3) - p(2) >= NOT_SHRINKING*(p(2) - p(1))
-   end function has_no_limit
 
 end module atrito_study_words

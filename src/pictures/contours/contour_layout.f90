@@ -5,7 +5,7 @@ module atrito_contour_layout
    use atrito_kinds, only: ip, wp
    use atrito_plot_scripts, only: plots_t, put, put_terminal
    use atrito_plot_text, only: range_t, range_text, span, LF
-   use atrito_strings, only: to_text
+   use atrito_strings, only: string_t, to_text
    implicit none (type, external)
    private
    public :: layout_t, make_layout, put_layout, put_bar_place
@@ -47,11 +47,16 @@ contains
       layout%height = layout%bottom + layout%n(2) + TOP(form)
    end function make_layout
 
-   !> Ranges, terminal, margins and axes.
+   !> Ranges, terminal, margins and axes. The marks of an axis are so far apart that their numbers do not touch.
    subroutine put_layout(plots, layout)
       type(plots_t), intent(inout) :: plots
       type(layout_t), intent(in) :: layout
+      type(string_t) :: tics(2)
+      integer :: i
 
+      do i = 1, 2
+         tics(i)%s = to_text(round_step(APART(i)*span(layout%window(i))/layout%n(i)), 6)
+      end do
       call put(plots, 'set xrange '//range_text(layout%window(1))//LF//'set yrange '//range_text(layout%window(2))//LF// &
                'width = '//to_text(WIDTH)//'.0; height = '//to_text(layout%height)//'.0   # of the picture in pixels'//LF// &
                'across(pixels) = pixels/width'//LF//'up(pixels) = pixels/height')
@@ -61,18 +66,9 @@ contains
                '); set tmargin at screen up('//to_text(layout%bottom + layout%n(2))//')'//LF//'set clip two'//LF// &
                'set border lt 1 lw 1 lc rgb "#A0A0A0"'//LF// &
                'set tics nomirror out scale 0.6 textcolor rgb "black" format "%h"'//LF// &
-               'set xtics '//tics_text(layout, 1)//'; set ytics '//tics_text(layout, 2)//LF//'unset key'//LF// &
+               'set xtics '//tics(1)%s//'; set ytics '//tics(2)%s//LF//'unset key'//LF// &
                'set xlabel "x [L]"; set ylabel "y [L]"')
    end subroutine put_layout
-
-   !> The step of the marks of an axis, so that their numbers do not touch in a narrow window.
-   pure function tics_text(layout, i) result(text)
-      type(layout_t), intent(in) :: layout
-      integer, intent(in) :: i                      !< 1 x, 2 y
-      character(len=:), allocatable :: text
-
-      text = to_text(round_step(APART(i)*span(layout%window(i))/layout%n(i)), 6)
-   end function tics_text
 
    !> Place of the bar, and what it is of: above a bar that stands, where long numbers at the bar are not in its way.
    subroutine put_bar_place(plots, layout, what)
