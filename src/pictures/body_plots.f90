@@ -6,7 +6,7 @@ module atrito_body_plots
    use atrito_bodies, only: bodies_t, find_bodies
    use atrito_body_names, only: name_bodies
    use atrito_drawing, only: drawing_t, begin_drawing, displace, displacement_scale, largest_length, write_lines, put_head, &
-                             put_plane, put_title, scale_title, put_scene, inner_runs, run_styles, body_style, body_title
+                             put_plane, put_title, scale_title, put_scene, run_styles, body_style, body_title
    use atrito_kinds, only: ip, wp
    use atrito_model, only: model_t, step_t, nodal_values_t
    use atrito_plot_files, only: MESH_PLOT, SCENE_PLOT, MECHANISM_PLOT
@@ -67,7 +67,7 @@ contains
       call put_title(plots, scale_title(drawing))
       is_big = drawing%model%mesh%n_nodes > FEW_NODES
       first = 0
-      if (is_big) first = inner_runs(drawing)
+      if (is_big) first = drawing%n_inner
       call put_scene(plots, drawing, first, 'undeformed', &
                      run_styles(drawing, names_of_run(drawing), trim(merge('0.5', '1  ', is_big)), '2.5'), symbols)
       call end_script(plots)

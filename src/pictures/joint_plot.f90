@@ -4,7 +4,7 @@
 !> mean, weighted by n: a straight line for two joints, a star for more. The script reads mesh.dat for the outlines.
 module atrito_joint_plot
    use atrito_contact_plot, only: state_of, N_STATES, STATE_WORD, STATE_COLOUR
-   use atrito_drawing, only: drawing_t, put_place, put_head, put_plane, put_title, scale_title, inner_runs, rigid_lines, MOVED
+   use atrito_drawing, only: drawing_t, put_place, put_head, put_plane, put_title, scale_title, MOVED
    use atrito_kinds, only: ip, wp, is_nan
    use atrito_model, only: model_t
    use atrito_number_text, only: trimmed_real
@@ -71,10 +71,10 @@ contains
       type(string_t), allocatable :: curves(:)
       character(len=:), allocatable :: lines
 
-      lines = '"'//MESH_PLOT//'.dat" index '//to_text(inner_runs(drawing))//':'//to_text(drawing%lines%n_runs - 1)
+      lines = '"'//MESH_PLOT//'.dat" index '//to_text(drawing%n_inner)//':'//to_text(drawing%lines%n_runs - 1)
       call append_string(curves, lines//' using 1:2 with lines lt 1 lw 1 lc rgb "#C8C8C8" title "undeformed"')
       call append_string(curves, lines//' using @moved with lines lt 1 lw 1 lc rgb "#707070"')
-      associate (n => drawing%lines%n_runs, n_rigid => rigid_lines(drawing%model))
+      associate (n => drawing%lines%n_runs, n_rigid => size(drawing%surface, kind=ip))
          if (n_rigid > 0) call append_string(curves, '"'//MESH_PLOT//'.dat" index '//to_text(n)//':'//to_text(n + n_rigid - 1)// &
                                              ' using 1:2 with lines lt 1 lw 4 lc rgb "#404040"')
       end associate

@@ -5,7 +5,7 @@
 module atrito_motion_plot
    use atrito_contact_plot, only: state_of, N_STATES, STATE_WORD, STATE_COLOUR
    use atrito_drawing, only: drawing_t, begin_drawing, displace, displacement_scale, largest_length, put_lines, put_rigid_lines, &
-                             put_place, put_head, put_window, put_axes, inner_runs, rigid_lines, MOVED
+                             put_place, put_head, put_window, put_axes, MOVED
    use atrito_increments, only: increment_name
    use atrito_kinds, only: ip, wp
    use atrito_model, only: model_t
@@ -112,7 +112,7 @@ contains
       do i = 1, size(images%frames, kind=ip)
          call view_frame(history, images%frames(i), frame)
          call put(plots, '# '//increment_name(frame%step, frame%increment, frame%time))
-         call put_rigid_lines(plots, images%drawing%model, frame%rigid)
+         call put_rigid_lines(plots, images%drawing, frame%rigid)
          call put_lines(plots, images%drawing, frame%u, .true.)
          if (.not. has_points(frame)) cycle
          do pair = 1, pair_count(frame)
@@ -183,9 +183,9 @@ contains
       character(len=:), allocatable :: block, outlines, colours, points
       integer(ip) :: n_rigid, n_lines, n_inner, i
 
-      n_rigid = rigid_lines(images%drawing%model)
+      n_rigid = size(images%drawing%surface, kind=ip)
       n_lines = images%drawing%lines%n_runs
-      n_inner = inner_runs(images%drawing)
+      n_inner = images%drawing%n_inner
       block = '"'//MOTION_PLOT//'.dat" index first'
       outlines = block//'+'//to_text(n_inner)//':first+'//to_text(n_lines - 1)//' using '
       call put(plots, 'first = '//to_text(n_rigid)//' + '//to_text(n_rigid + n_lines + merge(1, 0, has_contact))//'*(k - 1)')

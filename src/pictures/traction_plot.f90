@@ -2,7 +2,7 @@
 module atrito_traction_plot
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use atrito_contact_plot, only: state_of, N_STATES, STATE_WORD, STATE_COLOUR
-   use atrito_drawing, only: drawing_t, put_place, put_head, put_plane, put_title, add_lines, add_rigid_lines, inner_runs, &
+   use atrito_drawing, only: drawing_t, put_place, put_head, put_plane, put_title, add_lines, add_rigid_lines, &
                              displacement_text, largest_length, MOVED
    use atrito_kinds, only: ip, wp
    use atrito_number_text, only: trimmed_real
@@ -89,7 +89,7 @@ contains
                      displacement_text(drawing%scale)//'"')
       call put(plots, 'head = '//to_text(0.003_wp + 0.005_wp*shorter, 3)//'   # length of the arrows'' heads')
       allocate (curves(0))
-      call add_lines(MESH_PLOT, inner_runs(drawing), drawing%lines%n_runs - 1, 'lt 1 lw 1.2 lc rgb "#808080"', curves)
+      call add_lines(MESH_PLOT, drawing%n_inner, drawing%lines%n_runs - 1, 'lt 1 lw 1.2 lc rgb "#808080"', curves)
       call add_rigid_lines(MESH_PLOT, drawing, 'lt 1 lw 4 lc rgb "#404040"', .false., curves)
       do i = 0, N_STATES - 1
          if (has_state(i)) call append_string(curves, '"'//TRACTION_PLOT//'.dat" using '//MOVED//':($7 == '//to_text(i)// &

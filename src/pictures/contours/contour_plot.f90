@@ -9,7 +9,7 @@ module atrito_contour_plot
    use atrito_contour_fields, only: contour_t, contours_of, field_t, places_t, node_places, element_places, make_field
    use atrito_contour_layout, only: layout_t, make_layout, put_layout, put_bar_place
    use atrito_contour_raster, only: raster_t, lay_raster, nodal_values, element_values
-   use atrito_drawing, only: drawing_t, add_lines, add_rigid_lines, inner_runs, displacement_text
+   use atrito_drawing, only: drawing_t, add_lines, add_rigid_lines, displacement_text
    use atrito_files, only: open_text, put_lines
    use atrito_kinds, only: ip, wp
    use atrito_plot_files, only: MESH_PLOT
@@ -201,7 +201,7 @@ contains
                             to_text(window(1)%low + 0.5_wp*side(1), 10)//','//to_text(window(2)%low + 0.5_wp*side(2), 10)// &
                             ') format="%uint8" using (field($1)/unit) with image')
       end associate
-      n_inner = inner_runs(drawing)
+      n_inner = drawing%n_inner
       if (n_inner > 0 .and. drawing%model%mesh%n_nodes <= FEW_NODES) &
          call add_lines(MESH_PLOT, 0_ip, n_inner - 1, 'lt 1 lw 0.4 lc rgb "#606060"', curves)
       call add_lines(MESH_PLOT, n_inner, drawing%lines%n_runs - 1, 'lt 1 lw 1.2 lc rgb "#303030"', curves)
