@@ -8,15 +8,19 @@ module atrito_body_plots
    use atrito_drawing, only: drawing_t, begin_drawing, displace, displacement_scale, largest_length, write_lines, put_head, &
                              put_plane, put_title, scale_title, put_scene, run_styles, body_style, body_title
    use atrito_kinds, only: ip, wp
+   use atrito_link_symbols, only: put_links
+   use atrito_load_symbols, only: put_loads
    use atrito_model, only: model_t, step_t, nodal_values_t
    use atrito_plot_files, only: MESH_PLOT, SCENE_PLOT, MECHANISM_PLOT
-   use atrito_plot_scripts, only: plots_t, put, begin_script, end_script
+   use atrito_plot_scripts, only: plots_t, put, begin_script, end_script, end_data
    use atrito_plot_text, only: range_t, quoted, cleaned, picture_title, scene_title, colour_styles, LF
    use atrito_plot_view, only: plot_view_t, shows_none, warn_of_box
    use atrito_results, only: results_t
    use atrito_stability_result, only: stability_t, collapse_t
    use atrito_strings, only: string_t, to_text
-   use atrito_write_symbols, only: write_symbols, legend_lines
+   use atrito_support_symbols, only: put_supports
+   use atrito_surface_symbols, only: put_surfaces
+   use atrito_symbols, only: symbols_t, begin_symbols
    use atrito_write_tables, only: origin_of
    implicit none (type, external)
    private
@@ -208,5 +212,36 @@ contains
       turn = maxval(abs(collapse%motion(3, :)))
       if (turn*scale > LARGEST_TURN) scale = LARGEST_TURN/turn
    end function mechanism_scale
+
+   !> Writes <picture>-symbols.dat. The window of the drawing is widened to the symbols.
+   subroutine write_symbols(plots, picture, step, drawing, curves)
+      type(plots_t), intent(inout), target :: plots
+      character(len=*), intent(in) :: picture       !< without ending; that of a scene has surfaces too, undisplaced
+      integer(ip), intent(in) :: step               !< whose supports and loads they are, as at its end
+      type(drawing_t), intent(inout), target :: drawing
+      type(string_t), allocatable, intent(out) :: curves(:)   !< to be drawn over the bodies
+      type(symbols_t) :: symbols
+
+      call begin_symbols(plots, picture, step, drawing, symbols)
+      if (picture == SCENE_PLOT) call put_surfaces(drawing%model, symbols)
+      call put_links(symbols)
+      call put_supports(symbols)
+      call put_loads(symbols)
+      drawing%window = symbols%window
+      call move_alloc(symbols%curves, curves)
+      call end_data(plots)
+   end subroutine write_symbols
+
+   !> Lines of the legend: symbols have long names, so two stand side by side below those of the bodies.
+   pure integer(ip) function legend_lines(curves) result(n)
+      type(string_t), intent(in) :: curves(:)
+      integer :: i
+
+      n = 0
+      do i = 1, size(curves)
+         if (index(curves(i)%s, ' title ') > 0) n = n + 1
+      end do
+      n = 1 + (n + 1)/2
+   end function legend_lines
 
 end module atrito_body_plots

@@ -7,9 +7,9 @@ module atrito_write_plots
    use atrito_contour_fields, only: contour_t, contours_of
    use atrito_contour_plot, only: write_contour_plots
    use atrito_drawing, only: drawing_t
+   use atrito_force_plots, only: has_traction_plot, write_traction_plot, has_joint_plot, write_joint_plot
    use atrito_gnuplot, only: draw_written
    use atrito_history_plot, only: has_history_plot, has_loop_plot, write_history_plot, write_loop_plot
-   use atrito_joint_plot, only: write_joint_plot, has_joint_plot
    use atrito_kinds, only: ip
    use atrito_model, only: model_t
    use atrito_motion_plot, only: has_motion_plot, write_motion_plot
@@ -22,7 +22,6 @@ module atrito_write_plots
    use atrito_strings, only: string_t, append_string, to_text
    use atrito_summary, only: pair_count
    use atrito_timers, only: start_phase, stop_phase
-   use atrito_traction_plot, only: has_traction_plot, write_traction_plot
    implicit none (type, external)
    private
    public :: write_plots, write_plot_scripts, plot_names
