@@ -159,11 +159,21 @@ contains
       type(plot_view_t), intent(in) :: view
       type(drawing_t) :: drawing
       type(string_t), allocatable :: styles(:)
-      integer(ip) :: i, place                       ! among those that move, the fastest first; 0: it rests
+      integer(ip) :: i, k, place                    ! among those that move, the fastest first; 0: it rests
 
       call begin_drawing(model, .true., view, drawing)
       call displace(drawing, limit%collapse%u, 1.0_wp, mechanism_scale(limit%collapse, drawing%size))
-      call take_rigid_motions(limit%collapse, drawing)
+      allocate (drawing%rigid(0))
+      if (allocated(model%rigid_bodies)) then       ! rigid surfaces are bodies behind those of elements
+         deallocate (drawing%rigid)
+         allocate (drawing%rigid(size(model%rigid_bodies)))
+      end if
+      do i = 1, size(limit%collapse%bodies, kind=ip)
+         k = limit%collapse%bodies(i) - maxval(drawing%lines%body)
+         if (k < 1 .or. k > size(drawing%rigid)) cycle
+         drawing%rigid(k)%u = limit%collapse%motion(:2, i)
+         drawing%rigid(k)%rotation = limit%collapse%motion(3, i)
+      end do
       call write_lines(plots, MECHANISM_PLOT, 'outlines of the bodies as polylines; columns: x [L]  y [L]  u1 [L]  u2 [L], '// &
                        'the largest u is 1', drawing, .false.)
       call begin_script(plots, MECHANISM_PLOT, 'the mechanism of a scene at its limit', &
@@ -183,24 +193,6 @@ contains
       call put_scene(plots, drawing, 0_ip, 'undisplaced', styles, [string_t ::])
       call end_script(plots)
    end subroutine write_mechanism_plot
-
-   !> The motions of rigid surfaces, which are bodies behind those of elements.
-   pure subroutine take_rigid_motions(collapse, drawing)
-      type(collapse_t), intent(in) :: collapse
-      type(drawing_t), intent(inout) :: drawing
-      integer(ip) :: i, k
-
-      allocate (drawing%rigid(0))
-      if (.not. allocated(drawing%model%rigid_bodies)) return
-      deallocate (drawing%rigid)
-      allocate (drawing%rigid(size(drawing%model%rigid_bodies)))
-      do i = 1, size(collapse%bodies, kind=ip)
-         k = collapse%bodies(i) - maxval(drawing%lines%body)
-         if (k < 1) cycle
-         drawing%rigid(k)%u = collapse%motion(:2, i)
-         drawing%rigid(k)%rotation = collapse%motion(3, i)
-      end do
-   end subroutine take_rigid_motions
 
    !> The number with which a motion of one is drawn 3 to 8 % of the scene long, or less where bodies would turn much.
    pure real(wp) function mechanism_scale(collapse, size_of_scene) result(scale)

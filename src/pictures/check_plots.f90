@@ -66,8 +66,8 @@ contains
       type(string_t), allocatable :: names(:)
 
       call append_string(names, SCENE_PLOT)
-      if (has_set_plot(model)) call append_string(names, SET_PLOT)
-      if (has_gap_plot(model)) call append_string(names, GAP_PLOT)
+      if (size(shown_sets(model)) > 0) call append_string(names, SET_PLOT)
+      if (size(shown_pairs(model)) > 0) call append_string(names, GAP_PLOT)
    end function check_plot_names
 
    !> Writes scripts and data, which appear together or not at all.
@@ -82,17 +82,10 @@ contains
 
       call begin_plots(plots, folder)
       call write_scene_plot(plots, model, view)
-      if (has_set_plot(model)) call write_set_plot(plots, model, view)
-      if (has_gap_plot(model)) call write_gap_plot(plots, model)
+      if (size(shown_sets(model)) > 0) call write_set_plot(plots, model, view)
+      if (size(shown_pairs(model)) > 0) call write_gap_plot(plots, model)
       call end_plots(plots, status)
    end subroutine write_check_scripts
-
-   !> Whether the deck defines sets.
-   pure logical function has_set_plot(model)
-      type(model_t), intent(in) :: model
-
-      has_set_plot = set_count(model%node_sets) + set_count(model%element_sets) > 0
-   end function has_set_plot
 
    !> The sets that are drawn: of either kind the first ones, half of the room for each unless the other leaves some.
    pure function shown_sets(model) result(shown)
@@ -258,13 +251,6 @@ contains
                                      ' using 1:2 with lines lt 1 lw 0.8 lc rgb "#909090"'), &
                             string_t('"sets.dat" index '//to_text(n + place - 1)//' using 1:2 with '//drawn)])
    end subroutine put_small_picture
-
-   !> Whether there are points to draw.
-   pure logical function has_gap_plot(model)
-      type(model_t), intent(in) :: model
-
-      has_gap_plot = size(shown_pairs(model)) > 0
-   end function has_gap_plot
 
    !> The pairs that are drawn, those with the least gaps, in the order of the deck.
    pure function shown_pairs(model) result(shown)

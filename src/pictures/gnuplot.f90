@@ -110,10 +110,13 @@ contains
    pure function plot_command(folder, names) result(command)
       character(len=*), intent(in) :: folder
       type(string_t), intent(in) :: names(:)
-      character(len=:), allocatable :: command
+      character(len=:), allocatable :: command, path
       integer :: i
 
-      command = 'cd -- '//shell_quoted(anchored(folder))//' && { echo '//shell_quoted(LOG_MARK)//'; code=0; for name in'
+      ! a relative path that `cd` cannot take for something else: neither for an option nor for a folder of CDPATH
+      path = folder
+      if (index(path, '/') /= 1) path = './'//path
+      command = 'cd -- '//shell_quoted(path)//' && { echo '//shell_quoted(LOG_MARK)//'; code=0; for name in'
       do i = 1, size(names)
          command = command//' '//shell_quoted(names(i)%s)
       end do
@@ -121,15 +124,6 @@ contains
       command = 'set -C; { '//command//'; do gnuplot -d "$name.gp" || code=$?; done; exit $code; } </dev/null >'//LOG_NAME// &
                 ' 2>&1; } 2>/dev/null'
    end function plot_command
-
-   !> A relative path that `cd` cannot take for something else: neither for an option nor for a folder of CDPATH.
-   pure function anchored(path) result(text)
-      character(len=*), intent(in) :: path
-      character(len=:), allocatable :: text
-
-      text = path
-      if (index(path, '/') /= 1) text = './'//path
-   end function anchored
 
    !> A word of the shell, whatever the characters.
    pure function shell_quoted(text) result(word)

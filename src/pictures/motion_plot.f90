@@ -20,7 +20,7 @@ module atrito_motion_plot
    use atrito_write_tables, only: origin_of
    implicit none (type, external)
    private
-   public :: has_motion_plot, write_motion_plot, most_lines, MOST_IMAGES
+   public :: write_motion_plot, most_lines, MOST_IMAGES
 
    integer(ip), parameter :: MOST_IMAGES = 200
    !> Nodes times images up to which inner edges are drawn, too.
@@ -39,13 +39,6 @@ module atrito_motion_plot
    end type images_t
 
 contains
-
-   !> Whether there are several frames to show one after the other.
-   pure logical function has_motion_plot(history)
-      type(history_t), intent(in) :: history
-
-      has_motion_plot = size(history%frames) > 1
-   end function has_motion_plot
 
    !> Inner edges too, or outlines alone.
    pure logical function most_lines(n_nodes, n_images)

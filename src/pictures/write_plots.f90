@@ -12,7 +12,7 @@ module atrito_write_plots
    use atrito_history_plot, only: has_history_plot, has_loop_plot, write_history_plot, write_loop_plot
    use atrito_kinds, only: ip
    use atrito_model, only: model_t
-   use atrito_motion_plot, only: has_motion_plot, write_motion_plot
+   use atrito_motion_plot, only: write_motion_plot
    use atrito_plot_files, only: plot_folder, CONTACT_PLOT, MESH_PLOT, JOINT_PLOT, HISTORY_PLOT, LOOP_PLOT, MOTION_PLOT, &
                                 TRACTION_PLOT
    use atrito_plot_scripts, only: plots_t, begin_plots, end_plots
@@ -64,7 +64,7 @@ contains
          if (has_traction_plot(results)) call append_string(names, TRACTION_PLOT)
          if (has_history_plot(model, history)) call append_string(names, HISTORY_PLOT)
          if (has_loop_plot(model, history)) call append_string(names, LOOP_PLOT)
-         if (has_motion_plot(history)) call append_string(names, MOTION_PLOT)
+         if (size(history%frames) > 1) call append_string(names, MOTION_PLOT)
          if (has_joint_plot(model, results)) call append_string(names, JOINT_PLOT)
          do i = 1, plotted_pairs(model, results)
             if (results%contact(i)%n > 0) call append_string(names, CONTACT_PLOT//to_text(i))
@@ -108,7 +108,7 @@ contains
       end associate
       if (has_history_plot(model, history)) call write_history_plot(plots, model, history)
       if (has_loop_plot(model, history)) call write_loop_plot(plots, model, history)
-      if (has_motion_plot(history)) call write_motion_plot(plots, model, history, view)
+      if (size(history%frames) > 1) call write_motion_plot(plots, model, history, view)
       call end_plots(plots, status)
    end subroutine write_plot_scripts
 

@@ -8,7 +8,7 @@ module atrito_contour_plot
    use atrito_body_plots, only: FEW_NODES
    use atrito_contour_bar, only: round_step, bar_t, make_bar, usual_range, palette_text
    use atrito_contour_fields, only: contour_t, contours_of, field_t, places_t, node_places, element_places, make_field
-   use atrito_contour_raster, only: raster_t, lay_raster, nodal_values, element_values
+   use atrito_contour_raster, only: raster_t, lay_raster, pixel_values
    use atrito_drawing, only: drawing_t, add_lines, add_rigid_lines, displacement_text
    use atrito_files, only: open_text, put_lines
    use atrito_kinds, only: ip, wp
@@ -139,11 +139,7 @@ contains
       real(wp), allocatable :: pixels(:, :)
       type(bar_t) :: bar
 
-      if (field%contour%of_elements) then
-         pixels = element_values(raster, field%value)
-      else
-         pixels = nodal_values(raster, drawing%model%mesh, field%value)
-      end if
+      pixels = pixel_values(raster, drawing%model%mesh, field%value, field%contour%of_elements)
       if (.not. field%is_shown) call cover(field%range, reshape(pixels, [size(pixels)]))   ! the window lies within an element
       if (field%range%low > field%range%high) field%range = range_t(0.0_wp, 0.0_wp)        ! or beside all of them
       bar = make_bar(usual_range(reshape(pixels, [size(pixels)]), field%range))

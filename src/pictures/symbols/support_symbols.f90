@@ -8,8 +8,8 @@ module atrito_support_symbols
    use atrito_kinds, only: ip, wp
    use atrito_mesh, only: is_revolved
    use atrito_model, only: nodal_values_t
-   use atrito_strings, only: to_text
-   use atrito_symbols, only: symbols_t, begin_block, end_block, put_entry, put_stroke, put_arrow, thinned_nodes, places_of, &
+   use atrito_strings, only: append_string, to_text
+   use atrito_symbols, only: symbols_t, begin_block, end_block, put_stroke, put_arrow, thinned_nodes, places_of, &
                              find_outward, end_value, is_section_node, arrow_at, ARROW_LOOKS
    implicit none (type, external)
    private
@@ -91,7 +91,7 @@ contains
          call put_shape(symbols, fixed, i, TRIANGLE)
       end do
       call end_block(symbols)
-      call put_entry(symbols, 'with points pt 9 ps 1.6*dot lc rgb "'//GREY//'"', 'held in both directions')
+      call append_string(symbols%curves, 'NaN with points pt 9 ps 1.6*dot lc rgb "'//GREY//'" title "held in both directions"')
       call begin_block(symbols, 'their ground', '', LOOKS)
       do i = 1, size(fixed%node)
          call put_shape(symbols, fixed, i, GROUND)
@@ -122,7 +122,8 @@ contains
          end do
       end do
       call end_block(symbols)
-      call put_entry(symbols, 'with points pt 8 ps 1.6*dot lw 1.3 lc rgb "'//GREY//'"', 'held in one direction')
+      call append_string(symbols%curves, 'NaN with points pt 8 ps 1.6*dot lw 1.3 lc rgb "'//GREY// &
+                         '" title "held in one direction"')
    end subroutine put_rollers
 
    !> The nodes that are held so, thinned.

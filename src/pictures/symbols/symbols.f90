@@ -18,7 +18,7 @@ module atrito_symbols
    use atrito_strings, only: string_t, append_string, to_text
    implicit none (type, external)
    private
-   public :: symbols_t, begin_symbols, begin_block, end_block, put_entry, put_stroke, put_path, put_arrow, put_point
+   public :: symbols_t, begin_symbols, begin_block, end_block, put_stroke, put_path, put_arrow, put_point
    public :: pixel_of, thinned, thinned_nodes, places_of, find_outward, end_value, load_factor, place_of_node
    public :: is_section_node, arrow_at
    public :: ARROW_LOOKS, SLANT
@@ -103,15 +103,6 @@ contains
       symbols%n_blocks = symbols%n_blocks + 1
       deallocate (symbols%what)
    end subroutine open_block
-
-   !> An entry of the legend for the last block: a symbol of gnuplot's that is like those drawn.
-   subroutine put_entry(symbols, drawn, title)
-      type(symbols_t), intent(inout) :: symbols
-      character(len=*), intent(in) :: drawn         !< `with points ...`
-      character(len=*), intent(in) :: title
-
-      call append_string(symbols%curves, 'NaN '//drawn//' title "'//title//'"')
-   end subroutine put_entry
 
    !> Ends a block; one into which nothing was put has left no trace in the file.
    subroutine end_block(symbols)
