@@ -12,7 +12,7 @@ module atrito_body_plots
    use atrito_load_symbols, only: put_loads
    use atrito_model, only: model_t, step_t, nodal_values_t
    use atrito_plot_files, only: MESH_PLOT, SCENE_PLOT, MECHANISM_PLOT
-   use atrito_plot_scripts, only: plots_t, put, begin_script, end_script, end_data
+   use atrito_plot_scripts, only: plots_t, put, begin_script, end_script
    use atrito_plot_text, only: range_t, quoted, cleaned, picture_title, scene_title, colour_styles, LF
    use atrito_plot_view, only: plot_view_t, shows_none, warn_of_box
    use atrito_results, only: results_t
@@ -20,7 +20,7 @@ module atrito_body_plots
    use atrito_strings, only: string_t, to_text
    use atrito_support_symbols, only: put_supports
    use atrito_surface_symbols, only: put_surfaces
-   use atrito_symbols, only: symbols_t, begin_symbols
+   use atrito_symbols, only: symbols_t, begin_symbols, end_symbols
    use atrito_write_tables, only: origin_of
    implicit none (type, external)
    private
@@ -221,7 +221,7 @@ contains
       call put_loads(symbols)
       drawing%window = symbols%window
       call move_alloc(symbols%curves, curves)
-      call end_data(plots)
+      call end_symbols(symbols)
    end subroutine write_symbols
 
    !> Lines of the legend: symbols have long names, so two stand side by side below those of the bodies.

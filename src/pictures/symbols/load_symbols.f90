@@ -14,7 +14,7 @@ module atrito_load_symbols
    use atrito_model, only: nodal_values_t, LOAD_BODY, LOAD_LINEAR, is_on_volume, LOAD_TRACTION, LOAD_HYDROSTATIC
    use atrito_shape_functions, only: face_shape_values
    use atrito_strings, only: to_text
-   use atrito_symbols, only: symbols_t, begin_block, end_block, put_stroke, put_arrow, put_point, thinned, thinned_nodes, &
+   use atrito_symbols, only: symbols_t, begin_block, put_stroke, put_arrow, put_point, thinned, thinned_nodes, &
                              find_outward, end_value, load_factor, place_of_node, is_section_node, arrow_at, ARROW_LOOKS, &
                              put_path, SLANT
    implicit none (type, external)
@@ -108,7 +108,6 @@ contains
                        LONGEST_FORCE*symbols%pixel, from, arrow)
          call put_arrow(symbols, symbols%u(:, nodes(i)), from, arrow)
       end do
-      call end_block(symbols)
    end subroutine put_forces
 
    subroutine add_forces(symbols, list, force)
@@ -140,10 +139,8 @@ contains
             end do
             call begin_block(symbols, 'a moment', '', 'with lines lt 1'//FORCES)
             call put_stroke(symbols, symbols%u(:, loads%node(i)), arc)
-            call end_block(symbols)
             call begin_block(symbols, 'its head', ':5:6', ARROW_LOOKS//FORCES//' title "moment '//to_text(value, 4)//' [F L]"')
             call put_arrow(symbols, symbols%u(:, loads%node(i)), arc(:, PIECES - 1), 2*(arc(:, PIECES) - arc(:, PIECES - 1)))
-            call end_block(symbols)
          end do
       end associate
    end subroutine put_moments
@@ -174,7 +171,6 @@ contains
             arrow = LONGEST_BODY*symbols%pixel*share
             call put_arrow(symbols, mean_of(mesh, symbols%u, elements(i)), places(:, elements(i)) - 0.5_wp*arrow, arrow)
          end do
-         call end_block(symbols)
       end associate
    end subroutine put_body_loads
 
@@ -234,7 +230,6 @@ contains
             do i = 1, size(nodes, kind=ip)
                call put_point(symbols, symbols%u(:, nodes(i)), mesh%x(:, nodes(i)), [1.8_wp*sqrt(abs(heating(nodes(i)))/largest)])
             end do
-            call end_block(symbols)
          end do
       end associate
    end subroutine put_temperatures
@@ -405,7 +400,6 @@ contains
          end do
          call put_path(symbols, moves(:, :n), ends(:, :n))
       end do
-      call end_block(symbols)
    end subroutine put_lines_of_ends
 
    !> The arrows, so far apart that they can be told from each other.
@@ -434,7 +428,6 @@ contains
       do i = 1, size(spots, kind=ip)
          if (norm2(spots(i)%arrow) >= LEAST*symbols%pixel) call put_arrow(symbols, spots(i)%u, spots(i)%from, spots(i)%arrow)
       end do
-      call end_block(symbols)
    end subroutine put_arrows
 
 end module atrito_load_symbols

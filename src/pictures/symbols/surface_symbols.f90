@@ -6,7 +6,7 @@ module atrito_surface_symbols
    use atrito_model, only: model_t, surface_t, SURFACE_SEGMENTS
    use atrito_plot_text, only: range_t, span
    use atrito_strings, only: to_text
-   use atrito_symbols, only: symbols_t, begin_block, end_block, put_stroke, thinned
+   use atrito_symbols, only: symbols_t, begin_block, put_stroke, thinned
    implicit none (type, external)
    private
    public :: put_surfaces
@@ -133,7 +133,6 @@ contains
          do i = 1, strip%n
             if (is_line(i)) call put_stroke(symbols, RESTS, strip%x(:, :, i))
          end do
-         call end_block(symbols)
          title = ''
       end if
       if (is_crowded) return
@@ -143,7 +142,6 @@ contains
       do i = 1, size(ticks, 2, kind=ip)
          call put_stroke(symbols, RESTS, reshape([ticks(:2, i), ticks(:2, i) + TICK*symbols%pixel*ticks(3:, i)], [2, 2]))
       end do
-      call end_block(symbols)
    end subroutine put_strip
 
    !> Normals along the pieces, where the bodies are, and so far apart that they can be told from each other.

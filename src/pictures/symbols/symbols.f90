@@ -12,13 +12,13 @@ module atrito_symbols
    use atrito_model, only: model_t, nodal_values_t
    use atrito_number_text, only: trimmed_real
    use atrito_plot_files, only: SYMBOLS_OF
-   use atrito_plot_scripts, only: plots_t, put, begin_data
+   use atrito_plot_scripts, only: plots_t, put, begin_data, end_data
    use atrito_plot_text, only: range_t, cover, span
    use atrito_sorting, only: sorted_places, order_key
    use atrito_strings, only: string_t, append_string, to_text
    implicit none (type, external)
    private
-   public :: symbols_t, begin_symbols, begin_block, end_block, put_stroke, put_path, put_arrow, put_point
+   public :: symbols_t, begin_symbols, end_symbols, begin_block, put_stroke, put_path, put_arrow, put_point
    public :: pixel_of, thinned, thinned_nodes, places_of, find_outward, end_value, load_factor, place_of_node
    public :: is_section_node, arrow_at
    public :: ARROW_LOOKS, SLANT
@@ -46,6 +46,7 @@ module atrito_symbols
       type(range_t) :: window(2)                    !< what bodies and symbols cover as they are drawn [L]
       logical :: widens = .true.                    !< the window, by what is put
       integer(ip) :: n_blocks = 0
+      logical :: is_open = .false.                  !< the last block has something in it and may have more
       character(len=:), allocatable :: what, drawn  !< of a block that was begun and has nothing in it yet
       type(string_t), allocatable :: curves(:)      !< of the script: one a block, and entries of the legend
    end type symbols_t
@@ -81,13 +82,16 @@ contains
       if (.not. pixel > 0.0_wp) pixel = 1.0_wp
    end function pixel_of
 
-   !> Begins a block of symbols that are drawn alike. columns: what `using` has behind the place, with its colon, or nothing.
+   !> Begins a block of symbols that are drawn alike, which ends the one before it; one into which nothing is put leaves no trace.
+   !> columns: what `using` has behind the place, with its colon, or nothing.
    subroutine begin_block(symbols, what, columns, drawn)
       type(symbols_t), intent(inout) :: symbols
       character(len=*), intent(in) :: what          !< they are
       character(len=*), intent(in) :: columns
       character(len=*), intent(in) :: drawn         !< `with ...` and the title
 
+      if (symbols%is_open) call put(symbols%plots, '')
+      symbols%is_open = .false.
       symbols%what = what
       symbols%drawn = ' using '//MOVED//columns//' '//drawn
    end subroutine begin_block
@@ -101,19 +105,17 @@ contains
       call put(symbols%plots, '# block '//to_text(symbols%n_blocks)//': '//symbols%what)
       call append_string(symbols%curves, symbols%data//' index '//to_text(symbols%n_blocks)//symbols%drawn)
       symbols%n_blocks = symbols%n_blocks + 1
+      symbols%is_open = .true.
       deallocate (symbols%what)
    end subroutine open_block
 
-   !> Ends a block; one into which nothing was put has left no trace in the file.
-   subroutine end_block(symbols)
+   !> Ends the last block, and with it the file.
+   subroutine end_symbols(symbols)
       type(symbols_t), intent(inout) :: symbols
 
-      if (allocated(symbols%what)) then
-         deallocate (symbols%what)
-      else
-         call put(symbols%plots, '')
-      end if
-   end subroutine end_block
+      if (symbols%is_open) call put(symbols%plots, '')
+      call end_data(symbols%plots)
+   end subroutine end_symbols
 
    !> A line through some places that move together.
    subroutine put_stroke(symbols, u, places)
