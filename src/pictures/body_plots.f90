@@ -12,7 +12,7 @@ module atrito_body_plots
    use atrito_load_symbols, only: put_loads
    use atrito_model, only: model_t, step_t, nodal_values_t
    use atrito_plot_files, only: MESH_PLOT, SCENE_PLOT, MECHANISM_PLOT
-   use atrito_plot_scripts, only: plots_t, put, begin_script, end_script
+   use atrito_plot_scripts, only: plots_t, put, begin_script
    use atrito_plot_text, only: range_t, quoted, cleaned, picture_title, scene_title, colour_styles, LF
    use atrito_plot_view, only: plot_view_t, shows_none, warn_of_box
    use atrito_results, only: results_t
@@ -74,7 +74,6 @@ contains
       if (is_big) first = drawing%n_inner
       call put_scene(plots, drawing, first, 'undeformed', &
                      run_styles(drawing, names_of_run(drawing), trim(merge('0.5', '1  ', is_big)), '2.5'), symbols)
-      call end_script(plots)
       drawing%window = window
    end subroutine write_mesh_plot
 
@@ -125,7 +124,6 @@ contains
       end do
       call put_scene(plots, drawing, drawing%lines%n_runs, '', &
                      run_styles(drawing, names, merge('0.4', '0.7', model%mesh%n_nodes > FEW_NODES), '2'), symbols)
-      call end_script(plots)
    end subroutine write_scene_plot
 
    !> The first step in which something acts; the first one where nothing does.
@@ -191,7 +189,6 @@ contains
          if (place > 0) styles(i)%s = body_style(drawing%lines%body(i))//body_title(limit%collapse%names(place)%s, place)
       end do
       call put_scene(plots, drawing, 0_ip, 'undisplaced', styles, [string_t ::])
-      call end_script(plots)
    end subroutine write_mechanism_plot
 
    !> The number with which a motion of one is drawn 3 to 8 % of the scene long, or less where bodies would turn much.

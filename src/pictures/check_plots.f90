@@ -12,8 +12,8 @@ module atrito_check_plots
    use atrito_number_text, only: trimmed_real
    use atrito_page, only: plural
    use atrito_plot_files, only: plot_folder, remove_plots, PLOTS_OF_CHECK, SCENE_PLOT, SET_PLOT, GAP_PLOT
-   use atrito_plot_scripts, only: plots_t, begin_plots, end_plots, put, begin_data, end_data, begin_script, end_script, &
-                                  put_terminal, put_plot, put_frame, put_panel
+   use atrito_plot_scripts, only: plots_t, begin_plots, end_plots, put, begin_data, begin_script, put_terminal, put_plot, &
+                                  put_frame, put_panel
    use atrito_plot_text, only: range_t, range_text, span, quoted, cleaned, scene_title, COLOUR, LF, cover, padded, range_of
    use atrito_plot_view, only: plot_view_t, shown_window
    use atrito_sets, only: set_count, members_of, member_count
@@ -50,7 +50,7 @@ contains
    !> Writes the scripts of all pictures into <folder>/plots and draws them.
    subroutine write_check_plots(model, view, folder, drawn)
       type(model_t), intent(in) :: model                    !< with the points of its pairs
-      type(plot_view_t), intent(in) :: view                 !< of which the box is heeded: nothing is displaced
+      type(plot_view_t), intent(in) :: view                 !< its box alone is used: nothing is displaced
       character(len=*), intent(in) :: folder
       type(string_t), allocatable, intent(out) :: drawn(:)  !< pictures, names without ending
       type(status_t) :: status
@@ -121,7 +121,6 @@ contains
          call put_members(plots, model, shown(i), pixel_of(drawing%window)*columns_of(shown))
          call put(plots, '')
       end do
-      call end_data(plots)
       call write_set_script(plots, drawing, shown)
    end subroutine write_set_plot
 
@@ -227,7 +226,6 @@ contains
          call put_small_picture(plots, drawing, shown(i), i)
       end do
       call put(plots, 'unset multiplot')
-      call end_script(plots)
    end subroutine write_set_script
 
    !> Outlines in grey, and over them the members.
@@ -294,7 +292,6 @@ contains
          end associate
          call put(plots, LF)
       end do
-      call end_data(plots)
       if (along%high <= along%low) along = padded(along)
       call begin_script(plots, GAP_PLOT, 'initial gaps of the contact pairs along s', &
                         'Columns of pairs.dat: 1 s [L], 2 gap [L]; a block a pair')
@@ -310,7 +307,6 @@ contains
          call put_pair(plots, model, shown(i), i)
       end do
       call put(plots, 'unset multiplot')
-      call end_script(plots)
    end subroutine write_gap_plot
 
    !> The gap of a point; 0 where it is round-off.

@@ -9,7 +9,7 @@ module atrito_drawing
    use atrito_model, only: model_t, SURFACE_SEGMENTS
    use atrito_number_text, only: trimmed_real
    use atrito_plot_files, only: JOINT_PLOT
-   use atrito_plot_scripts, only: plots_t, put, begin_data, end_data, put_terminal, put_plot
+   use atrito_plot_scripts, only: plots_t, put, begin_data, put_terminal, put_plot
    use atrito_plot_text, only: range_t, cover, range_text, span, quoted, cleaned, LF, N_COLOURS, TIMES
    use atrito_plot_view, only: plot_view_t, shown_window
    use atrito_results, only: results_t, rigid_result_t
@@ -134,12 +134,11 @@ contains
       character(len=*), intent(in) :: name
       character(len=*), intent(in) :: what          !< the file holds
       type(drawing_t), intent(in) :: drawing
-      logical, intent(in) :: of_kinds               !< inner edges and outlines are told apart
+      logical, intent(in) :: of_kinds               !< the comments say which blocks are inner edges and which outlines
 
       call begin_data(plots, name, what)
       call put_lines(plots, drawing, drawing%u, of_kinds)
       call put_rigid_lines(plots, drawing, drawing%rigid)
-      call end_data(plots)
    end subroutine write_lines
 
    !> A block a run of edges.
@@ -162,7 +161,10 @@ contains
       end associate
    end subroutine put_lines
 
-   !> An edge from corner to corner; a curved one in pieces.
+   !> An edge from corner to corner; a curved one in pieces. Place and displacement go along it as its shape functions do: with v1,
+   !> v2 at the corners, v3 in the middle and t from -1 to 1,
+   !>    v(t) = t(t - 1)/2 v1 + t(t + 1)/2 v2 + (1 - t^2) v3.
+   !> It is straight where v3 is nearly the mean of v1 and v2, as it is without a node in the middle.
    subroutine put_edge(plots, drawing, u, element, face)
       type(plots_t), intent(inout) :: plots
       type(drawing_t), intent(in) :: drawing

@@ -12,7 +12,7 @@ module atrito_force_plots
    use atrito_model, only: model_t
    use atrito_number_text, only: trimmed_real
    use atrito_plot_files, only: TRACTION_PLOT, MESH_PLOT, JOINT_PLOT
-   use atrito_plot_scripts, only: plots_t, put, begin_data, end_data, begin_script, end_script, put_plot
+   use atrito_plot_scripts, only: plots_t, put, begin_data, begin_script, put_plot
    use atrito_plot_text, only: range_t, cover, COLOUR, LF
    use atrito_results, only: results_t, contact_result_t, joint_t
    use atrito_strings, only: string_t, append_string, to_text
@@ -108,7 +108,6 @@ contains
                                               ' lw 1.2 lc rgb "'//COLOUR(STATE_COLOUR(i))//'" title "'//trim(STATE_WORD(i))//'"')
       end do
       call put_plot(plots, curves)
-      call end_script(plots)
       drawing%window = window
    end subroutine write_traction_plot
 
@@ -145,7 +144,6 @@ contains
             end do
          end associate
       end do
-      call end_data(plots)
    end subroutine write_tractions
 
    !> Whether a run has this picture: the deck asks for its joints and there are some.
@@ -175,7 +173,6 @@ contains
          call put_states(plots, drawing%results, curves)
          call put_thrust(plots, joints, share, curves)
          call put_places(plots, joints, share, 'n up to '//to_text(largest, 4)//' [F]', curves)
-         call end_data(plots)
       end associate
       call begin_script(plots, JOINT_PLOT, 'the joints and the line of thrust', &
                         'Columns of '//MESH_PLOT//'.dat and '//JOINT_PLOT//'.dat: 1 x [L], 2 y [L], 3 u1 [L], 4 u2 [L]; '// &
@@ -186,7 +183,6 @@ contains
       call put(plots, 'marker = '//to_text(2.0_wp*smaller, 3)//'*dot'//LF//'thrust_width = '//to_text(0.8_wp*smaller, 3)//LF// &
                'joint_width = '//to_text(2.0_wp + 2.0_wp*smaller, 3))
       call put_plot(plots, [outlines(drawing), curves])
-      call end_script(plots)
    end subroutine write_joint_plot
 
    !> The outlines, undeformed and deformed, and rigid surfaces.

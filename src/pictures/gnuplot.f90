@@ -170,7 +170,7 @@ contains
       end do
    end function without_counts
 
-   !> The line of gnuplot's output that tells the error; the lines before it repeat the script.
+   !> The line of gnuplot's output that names the error; the lines before it repeat the script.
    pure function first_complaint(text) result(line)
       character(len=*), intent(in) :: text
       character(len=:), allocatable :: line, first_line

@@ -8,8 +8,7 @@ module atrito_history_plot
    use atrito_model, only: model_t, FRICTION_LOCAL, FRICTION_NONE
    use atrito_number_text, only: trimmed_real
    use atrito_plot_files, only: HISTORY_PLOT, LOOP_PLOT
-   use atrito_plot_scripts, only: plots_t, put, begin_data, end_data, begin_script, end_script, put_table, put_terminal, &
-                                  put_frame, put_panel
+   use atrito_plot_scripts, only: plots_t, put, begin_data, begin_script, put_table, put_terminal, put_frame, put_panel
    use atrito_plot_text, only: range_t, cover, padded, span, range_of, quoted, picture_title, engineering_exponent, power_text, &
                                colour_styles, LF, N_COLOURS, GREEK_NU, PLUS_MINUS
    use atrito_results, only: history_t, history_row_t, last_frame
@@ -21,7 +20,7 @@ module atrito_history_plot
 
    integer(ip), parameter :: MOST_PAIRS = N_COLOURS     !< curves in a picture
    integer(ip), parameter :: MOST_MARKED = 60       !< increments of a curve with a marker at each
-   integer(ip), parameter :: MOST_STEPS = 60        !< steps that are told apart by lines
+   integer(ip), parameter :: MOST_STEPS = 60        !< steps that are separated by lines
    !> A step at least so long, as a share of the time, has its number, and where all have this, the word before it.
    real(wp), parameter :: LEAST_NUMBERED = 0.02_wp, LEAST_WORDED = 0.07_wp
    !> The bound of the shear is drawn up to so many times the largest shear; a greater one would hide it.
@@ -174,7 +173,6 @@ contains
          call put_curves(plots, COLUMN_DISSIPATION, history%rows, '', with_legend=.false.)
       end if
       call put(plots, 'unset multiplot')
-      call end_script(plots)
    end subroutine write_history_plot
 
    subroutine put_titles(plots, model, history, which)
@@ -300,7 +298,6 @@ contains
          if (size(pairs) > 1) line = line//' title "pair '//to_text(pairs(i))//'"'
       end do
       call put(plots, 'plot '//line(3:)//LF//'unset multiplot')
-      call end_script(plots)
    end subroutine write_loop_plot
 
    subroutine put_loops(plots, rows, pairs)
@@ -320,7 +317,6 @@ contains
          end do
          call put(plots, LF)
       end do
-      call end_data(plots)
    end subroutine put_loops
 
    !> Marks the ends of the steps.

@@ -85,6 +85,9 @@ contains
    end subroutine find_kinds
 
    !> The places of a rigid surface from its first end to its last, arcs in pieces.
+   !>
+   !> With p and q from the centre c to the ends of an arc, the angle from p to q is atan2(p x q, p . q), between -180 and 180
+   !> degrees: the shorter way round. A share s of it leads to c + cos(s angle) p + sin(s angle) p', p' being p turned by 90 degrees.
    pure function rigid_places(surface) result(places)
       type(surface_t), intent(in) :: surface        !< of segments
       real(wp), allocatable :: places(:, :)         !< (2, n) [L]
@@ -101,7 +104,7 @@ contains
          do j = 1, merge(ARC_PIECES, 1, is_arc(i)) - 1
             n = n + 1
             share = real(j, wp)/real(ARC_PIECES, wp)
-            associate (centre => surface%centre(:, i))     ! an arc goes the shorter way round its centre
+            associate (centre => surface%centre(:, i))
                from = surface%points(:, i) - centre
                to = surface%points(:, i + 1) - centre
                angle = share*atan2(from(1)*to(2) - from(2)*to(1), dot_product(from, to))

@@ -11,7 +11,7 @@ module atrito_motion_plot
    use atrito_model, only: model_t
    use atrito_number_text, only: trimmed_real
    use atrito_plot_files, only: MOTION_PLOT
-   use atrito_plot_scripts, only: plots_t, put, begin_data, end_data, begin_script, end_script, put_plot
+   use atrito_plot_scripts, only: plots_t, put, begin_data, begin_script, put_plot
    use atrito_plot_text, only: quoted, picture_title, evenly, COLOUR, TIMES, LF
    use atrito_plot_view, only: plot_view_t
    use atrito_results, only: history_t, results_t, view_frame
@@ -119,7 +119,6 @@ contains
          end do
          call put(plots, LF)
       end do
-      call end_data(plots)
    end subroutine write_data
 
    pure logical function has_points(frame)
@@ -164,7 +163,6 @@ contains
                'set label 1 heading.sprintf("\n%s; displacements drawn %g '//TIMES//pressures//'", name[k], scale)'// &
                ' at screen 0.5, screen 1 - 20.0/(0.8*height) center noenhanced')
       call put_image(plots, images, has_points(history%frames(size(history%frames))))
-      call end_script(plots)
    end subroutine write_script
 
    !> One plot: outlines where they were, the lines of the image, rigid surfaces, pressures and points by state.

@@ -10,8 +10,8 @@ module atrito_overlay_plots
    use atrito_overlay_data, only: overlay_t, overlay_run_t, field_t, read_runs, is_logarithmic, FIELDS, LONGEST_LABEL, &
                                   FIELD_PRESSURE, FIELD_WEIGHTED, FIELD_SHEAR, FIELD_SLIP, FIELD_GAP, QUANTITIES
    use atrito_plot_files, only: plot_folder, OVERLAY_PLOT, OVERLAY_SUMMARY
-   use atrito_plot_scripts, only: plots_t, begin_plots, end_plots, put, begin_script, end_script, put_terminal, put_frame, &
-                                  put_panel, CSV_SEPARATOR, begin_data, end_data
+   use atrito_plot_scripts, only: plots_t, begin_plots, end_plots, put, begin_script, put_terminal, put_frame, put_panel, &
+                                  CSV_SEPARATOR, begin_data
    use atrito_plot_text, only: range_t, cover, padded, range_of, range_text, span, quoted, cleaned, LF, COLOUR, N_COLOURS, &
                                colour_styles
    use atrito_status, only: status_t
@@ -21,7 +21,7 @@ module atrito_overlay_plots
    private
    public :: write_overlay_plots, write_overlay_scripts, path_from_plots
 
-   integer(ip), parameter :: MOST_IN_LEGEND = 10    !< runs; more are told by a colour bar
+   integer(ip), parameter :: MOST_IN_LEGEND = 10    !< runs; of more a colour bar shows the parameter
    integer, parameter :: MOST_NAMED = 30            !< runs named beside the colour bar
    integer, parameter :: MOST_MARKED = 40           !< points of a curve that has markers
    integer, parameter :: LONGEST_TITLE = 100        !< characters
@@ -155,7 +155,6 @@ contains
          end do
       end associate
       call put(plots, 'unset multiplot')
-      call end_script(plots)
    end subroutine write_overlay
 
    !> Folder, name and value of each run.
@@ -274,7 +273,6 @@ contains
          end do
       end associate
       call put(plots, 'unset multiplot')
-      call end_script(plots)
    end subroutine write_summary_plot
 
    !> The runs with a summary, by growing value, so that lines go from left to right.
@@ -314,7 +312,6 @@ contains
          end do
          call put(plots, LF)
       end do
-      call end_data(plots)
    end subroutine write_quantities
 
    pure type(range_t) function parameter_range(values) result(range)

@@ -159,8 +159,8 @@ contains
       if (top%table%n_rows > 0) is_rounded = any(top%table%kind == ITEM_REAL)
    end function is_rounded
 
-   !> Dimension of a quantity of a table with a row a quantity, from remarks as `[F L]: strain_energy external_work`; '' where none
-   !> is told.
+   !> Dimension of a quantity of a table with a row a quantity, from remarks as `[F L]: strain_energy external_work`; '' where the
+   !> file names none.
    pure function dimension_of(top, quantity) result(dimension)
       type(table_top_t), intent(in) :: top
       character(len=*), intent(in) :: quantity

@@ -23,7 +23,7 @@ module atrito_report_pictures
 
 contains
 
-   !> Puts pictures onto a page, in their order, as long as there is room. Those that find none are told.
+   !> Puts pictures onto a page, in their order, as long as there is room. Those that find none are named.
    subroutine compose_pictures(folder, names, room, page)
       character(len=*), intent(in) :: folder        !< of the tables
       type(string_t), intent(in) :: names(:)        !< of pictures that were drawn, without ending
@@ -93,7 +93,7 @@ contains
       call add_line(page, '</figure>')
    end subroutine add_picture
 
-   !> What a picture shows: the first line of its script tells it behind the name of the program.
+   !> What a picture shows: the first line of its script says it behind the name of the program.
    function picture_caption(folder, name) result(caption)
       character(len=*), intent(in) :: folder        !< of the plots
       character(len=*), intent(in) :: name

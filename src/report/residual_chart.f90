@@ -11,7 +11,7 @@ module atrito_residual_chart
 
    real(wp), parameter :: LEFT = 70.0_wp, RIGHT = 700.0_wp, TOP = 16.0_wp, BOTTOM = 220.0_wp   !< of the frame, of 720 by 270
    real(wp), parameter :: LEAST = 1.0e-16_wp        !< drawn instead of less: round-off
-   integer, parameter :: MOST_POINTS = 600          !< that can be told apart
+   integer, parameter :: MOST_POINTS = 600          !< that can be seen one by one
    integer, parameter :: MOST_DOTS = 80
    integer, parameter :: MOST_MARKS = 8             !< of the axis
 

@@ -6,7 +6,7 @@ module atrito_stability_plot
    use atrito_model, only: model_t
    use atrito_number_text, only: trimmed_real
    use atrito_plot_files, only: plot_folder, LIMIT_PLOT, MECHANISM_PLOT
-   use atrito_plot_scripts, only: plots_t, begin_plots, end_plots, put, begin_data, end_data, begin_script, end_script, put_terminal
+   use atrito_plot_scripts, only: plots_t, begin_plots, end_plots, put, begin_data, begin_script, put_terminal
    use atrito_plot_text, only: range_t, cover, padded, range_of, range_text, quoted, cleaned, LF, COLOUR
    use atrito_plot_view, only: plot_view_t
    use atrito_stability_result, only: stability_t
@@ -37,7 +37,6 @@ contains
                       ', displacement [L]')
       call put_values(plots, limit, STATUS_OK)
       call put_values(plots, limit, STATUS_NOT_CONVERGED)
-      call end_data(plots)
       call write_script(plots, title, limit)
       call write_mechanism_plot(plots, model, limit, title, view)
       call end_plots(plots, status)
@@ -97,7 +96,6 @@ contains
                                                                  ' lw 1.5 pt 2 ps 1.1*dot lc rgb "#606060" title "undecided"'
       call put(plots, line//', NaN with lines lt 1 lw 1.5 lc rgb "#D55E00" title '// &
                quoted('falls from '//to_text(limit%falls, 8)//' on')//' noenhanced')
-      call end_script(plots)
    end subroutine write_script
 
 end module atrito_stability_plot

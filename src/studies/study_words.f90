@@ -27,16 +27,16 @@ contains
       if (.not. allocated(study%probes)) allocate (study%probes(0))
       call find_errors(study)
       do i = 1, size(study%quantities)
-         call speak_of_quantity(study, i)
+         call describe_quantity(study, i)
       end do
       do i = 1, size(study%probes)
-         call speak_of_probe(study, study%probes(i))
+         call describe_probe(study, study%probes(i))
       end do
-      call speak_of_estimate(study)
-      call speak_of_pressure(study)
+      call describe_estimate(study)
+      call describe_pressure(study)
    end subroutine judge_study
 
-   subroutine speak_of_quantity(study, i)
+   subroutine describe_quantity(study, i)
       type(study_t), intent(inout) :: study
       integer, intent(in) :: i
       character(len=:), allocatable :: text
@@ -59,11 +59,11 @@ contains
             call append_string(study%words, text)
             if (abs(quantity%reference) > 0.0_wp) call append_string(study%words, soonest(study, i))
             do k = 2, size(study%rows)
-               if (is_last(study%rows, k)) call speak_of_last_error(study, i, k)
+               if (is_last(study%rows, k)) call describe_last_error(study, i, k)
             end do
          end if
       end associate
-   end subroutine speak_of_quantity
+   end subroutine describe_quantity
 
    !> 0.0123 -> `1.2 %`; what is no number -> `none`.
    pure function percent(x) result(text)
@@ -79,13 +79,12 @@ contains
       type(study_t), intent(in) :: study
       integer, intent(in) :: i
       character(len=:), allocatable :: text
-      logical, allocatable :: told(:)
+      logical, allocatable :: is_listed(:)
       character(len=:), allocatable :: failed
       real(wp) :: seconds(size(study%rows))
       integer :: k, n, next, before
 
-      allocate (told(size(study%rows)))
-      told = .true.
+      allocate (is_listed(size(study%rows)), source=.true.)
       before = 0
       seconds = [(total_seconds(study%rows(k), PROCESSOR), k=1, size(study%rows))]
       failed = ''
@@ -93,22 +92,22 @@ contains
          if (.not. is_last(study%rows, k)) cycle
          n = first_good(study, i, k)
          if (n > 0) then
-            told(n) = .false.
+            is_listed(n) = .false.
          else
             if (len(failed) > 0) failed = failed//', '
             failed = failed//study%rows(k)%element//' ('//percent(study%quantities(i)%error(k))//')'
          end if
       end do
       text = to_text(100*GOOD, 2)//' % of '//study%quantities(i)%name
-      if (all(told)) then
+      if (all(is_listed)) then
          text = text//': in no run; at the last level '//failed
          return
       end if
       text = text//' soonest: '
-      do while (.not. all(told))
-         next = minloc(seconds, dim=1, mask=.not. told)
-         told(next) = .true.
-         if (before > 0) then                       ! what the clock does not tell apart is as soon
+      do while (.not. all(is_listed))
+         next = minloc(seconds, dim=1, mask=.not. is_listed)
+         is_listed(next) = .true.
+         if (before > 0) then                       ! times that differ by less than the noise of the clock count as equal
             if (seconds(next) < (1.0_wp + CLOCK_NOISE)*seconds(before)) then
                text = text//', as soon as '
             else
@@ -140,7 +139,7 @@ contains
    end function first_good
 
    !> Whether the error still falls at the finest level of an element, and if not the reason.
-   subroutine speak_of_last_error(study, i, k)
+   subroutine describe_last_error(study, i, k)
       type(study_t), intent(inout) :: study
       integer, intent(in) :: i, k
       character(len=:), allocatable :: text
@@ -169,7 +168,7 @@ contains
          end if
          call append_string(study%words, text)
       end associate
-   end subroutine speak_of_last_error
+   end subroutine describe_last_error
 
    !> The regularisation that moves a quantity most, if it moves it enough; its whole effect is about twice that of its half.
    function reason(study, i, k) result(text)
@@ -215,7 +214,7 @@ contains
    end function effect
 
    !> What half of a regularisation does: a limit that is extrapolated has it in itself, so its error never shows it.
-   subroutine speak_of_probe(study, probe)
+   subroutine describe_probe(study, probe)
       type(study_t), intent(inout) :: study
       type(study_probe_t), intent(in) :: probe
       character(len=:), allocatable :: text
@@ -241,10 +240,10 @@ contains
          text = text//'small beside the errors of these meshes'
       end if
       call append_string(study%words, text)
-   end subroutine speak_of_probe
+   end subroutine describe_probe
 
    !> The order of the estimate is that of the elements where the solution is smooth, and that of the worst singularity elsewhere.
-   subroutine speak_of_estimate(study)
+   subroutine describe_estimate(study)
       type(study_t), intent(inout) :: study
       character(len=:), allocatable :: found, smooth
       real(wp) :: order
@@ -275,10 +274,10 @@ contains
                  'gains more than one that is finer everywhere'
       end if
       call append_string(study%words, found)
-   end subroutine speak_of_estimate
+   end subroutine describe_estimate
 
    !> A largest pressure that grows from level to level, by steps that do not shrink, has no limit.
-   subroutine speak_of_pressure(study)
+   subroutine describe_pressure(study)
       type(study_t), intent(inout) :: study
       character(len=:), allocatable :: place
       integer :: k
@@ -299,6 +298,6 @@ contains
                                //': it looks singular, without a limit; compare resultants')
          end do
       end associate
-   end subroutine speak_of_pressure
+   end subroutine describe_pressure
 
 end module atrito_study_words

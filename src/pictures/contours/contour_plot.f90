@@ -10,13 +10,12 @@ module atrito_contour_plot
    use atrito_contour_fields, only: contour_t, contours_of, field_t, places_t, node_places, element_places, make_field
    use atrito_contour_raster, only: raster_t, lay_raster, pixel_values
    use atrito_drawing, only: drawing_t, add_lines, add_rigid_lines, displacement_text
-   use atrito_files, only: open_text, put_lines
+   use atrito_files, only: put_lines
    use atrito_kinds, only: ip, wp
    use atrito_plot_files, only: MESH_PLOT
-   use atrito_plot_scripts, only: plots_t, put, put_terminal, end_data, begin_script, end_script, put_plot
+   use atrito_plot_scripts, only: plots_t, put, begin_file, put_terminal, begin_script, put_plot
    use atrito_plot_text, only: range_t, range_text, span, LF, cover, quoted, power_text
    use atrito_plot_view, only: shown_window, warn_of_box
-   use atrito_status, only: is_ok
    use atrito_strings, only: string_t, to_text, append_string
    implicit none (type, external)
    private
@@ -157,7 +156,7 @@ contains
       real(wp) :: per_level
       integer :: i, j, level
 
-      if (is_ok(plots%status)) call open_text(plots%set, name//'.bin', plots%file)
+      call begin_file(plots, name//'.bin')
       per_level = bar%n_bands*levels_of(bar)/span(bar%range)
       do j = 1, size(pixels, 2)
          do i = 1, size(pixels, 1)
@@ -170,7 +169,6 @@ contains
          end do
          call put_lines(plots%file, row)
       end do
-      call end_data(plots)
    end subroutine write_raster
 
    !> Levels of a band.
@@ -205,7 +203,6 @@ contains
       call put_bar(plots, layout, field, bar)
       if (field%is_shown) call put_extremes(plots, layout, field, bar)
       call put_curves(plots, drawing, layout)
-      call end_script(plots)
    end subroutine write_script
 
    !> Colours, range and marks of the bar.
@@ -224,7 +221,7 @@ contains
                          trim(field%contour%dimension)//']')
    end subroutine put_bar
 
-   !> Marks at the largest and at the least, and lines that tell them.
+   !> Marks at the largest and at the least value, and lines that say where these are.
    subroutine put_extremes(plots, layout, field, bar)
       type(plots_t), intent(inout) :: plots
       type(layout_t), intent(in) :: layout

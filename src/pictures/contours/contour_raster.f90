@@ -2,6 +2,13 @@
 !>
 !> The work goes with the pixels, not with the elements, of which there may be millions: one that covers the centre of no pixel is
 !> passed over. An element is cut into so many triangles that their edges follow its curves, and places are linear in each of them.
+!>
+!> For a triangle with corners x1, x2, x3 in the picture and xi1, xi2, xi3 in the element, a pixel's centre x has the barycentric
+!> shares s1 + s2 + s3 = 1 with x = s1 x1 + s2 x2 + s3 x3. With b = x2 - x1, c = x3 - x1, d = x - x1 Cramer's rule gives
+!>    s2 = (d x c)/(b x c),  s3 = (b x d)/(b x c),  s1 = 1 - s2 - s3,
+!> where p x q = p1 q2 - p2 q1. The centre lies in the triangle where no share is negative, and its place in the element is
+!> s1 xi1 + s2 xi2 + s3 xi3: the inverse of the element's map, without Newton's method, up to the size of a piece. The field there
+!> follows from the shape functions at that place.
 module atrito_contour_raster
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_value, ieee_quiet_nan
    use atrito_element_table, only: MOST_NODES, CORNERS_OF, DEGREE_OF

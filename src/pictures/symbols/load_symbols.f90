@@ -25,7 +25,7 @@ module atrito_load_symbols
    real(wp), parameter :: LONGEST_FORCE = 52.0_wp, BETWEEN_FORCES = 10.0_wp, RADIUS = 16.0_wp, &
                           LONGEST_BODY = 32.0_wp, BETWEEN_BODY = 64.0_wp, BETWEEN_DISCS = 26.0_wp
    real(wp), parameter :: LEAST_SHARE = 0.3_wp      !< of the longest arrow over a body
-   real(wp), parameter :: ROUND_OFF = 1.0e-12_wp    !< of a resultant: a component below it is told as 0
+   real(wp), parameter :: ROUND_OFF = 1.0e-12_wp    !< of a resultant: a component below it is printed as 0
    integer, parameter :: PIECES = 24                !< of an arc
    character(len=*), parameter :: FORCES = ' lw 2 lc rgb "#C8102E"', BODY = ' lw 1.2 lc rgb "#8A1C5B"'
 
@@ -402,7 +402,7 @@ contains
       end do
    end subroutine put_lines_of_ends
 
-   !> The arrows, so far apart that they can be told from each other.
+   !> The arrows, so far apart that they can be seen one by one.
    subroutine put_arrows(faces, legend, symbols)
       type(loaded_faces_t), intent(in) :: faces
       character(len=*), intent(in) :: legend

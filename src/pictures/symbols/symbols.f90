@@ -1,7 +1,7 @@
 !> Symbols over the bodies of a picture: the file of their places, and the curves by which a script draws them.
 !>
 !> Places go with their displacements, as those of the bodies do, so that a script that draws bodies displaced has the symbols where
-!> the bodies are. Lengths are told in pixels of a picture that is 1000 wide.
+!> the bodies are. Lengths are given in pixels of a picture that is 1000 wide.
 module atrito_symbols
    use atrito_drawing, only: drawing_t, put_place, MOVED
    use atrito_id_map, only: id_map_t, add_id, find_id
@@ -12,7 +12,7 @@ module atrito_symbols
    use atrito_model, only: model_t, nodal_values_t
    use atrito_number_text, only: trimmed_real
    use atrito_plot_files, only: SYMBOLS_OF
-   use atrito_plot_scripts, only: plots_t, put, begin_data, end_data
+   use atrito_plot_scripts, only: plots_t, put, begin_data
    use atrito_plot_text, only: range_t, cover, span
    use atrito_sorting, only: sorted_places, order_key
    use atrito_strings, only: string_t, append_string, to_text
@@ -109,12 +109,11 @@ contains
       deallocate (symbols%what)
    end subroutine open_block
 
-   !> Ends the last block, and with it the file.
+   !> Ends the last block.
    subroutine end_symbols(symbols)
       type(symbols_t), intent(inout) :: symbols
 
       if (symbols%is_open) call put(symbols%plots, '')
-      call end_data(symbols%plots)
    end subroutine end_symbols
 
    !> A line through some places that move together.
@@ -202,7 +201,11 @@ contains
    end function thinned_nodes
 
    !> Which of some places are kept so that none is nearer to another than the spacing. They are gone through in an order that
-   !> begins a straight side at one of its ends.
+   !> begins a straight side at one of its ends: by their distance along a skew direction.
+   !>
+   !> A grid of squares with sides spacing/sqrt(2) makes this take a time that grows with the number of places alone: two places in
+   !> one square are nearer than the spacing, so a square holds one place that is kept at the most, and places nearer than the
+   !> spacing lie within two squares of each other, so 25 squares are looked at for each.
    pure function thinned(places, spacing) result(keep)
       real(wp), intent(in) :: places(:, :)          !< (2, n) [L]
       real(wp), intent(in) :: spacing               !< [L], > 0
@@ -249,6 +252,9 @@ contains
 
    !> The sum of the outward normals of the faces at each node, by their lengths, and the sum of the lengths [L]. Those inside
    !> cancel, so at a node inside the first is round-off. Faces count both of whose ends are in a class.
+   !>
+   !> The nodes of an element go round it to the left, so a face from x1 to x2, d = x2 - x1, has the outward normal (d2, -d1), whose
+   !> length is that of the face. The two elements on both sides of a face inside go through it in opposite directions.
    pure function find_outward(mesh, is_in) result(outward)
       type(mesh_t), intent(in) :: mesh
       logical, intent(in), optional :: is_in(:)     !< (n_nodes) the class; default: all nodes
