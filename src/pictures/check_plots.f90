@@ -12,7 +12,7 @@ module atrito_check_plots
    use atrito_number_text, only: trimmed_real
    use atrito_page, only: plural
    use atrito_plot_files, only: plot_folder, remove_plots, PLOTS_OF_CHECK, SCENE_PLOT, SET_PLOT, GAP_PLOT
-   use atrito_plot_scripts, only: plots_t, begin_plots, end_plots, put, begin_data, begin_script, put_terminal, put_plot, &
+   use atrito_plot_scripts, only: plots_t, begin_plots, end_plots, put, begin_data, begin_script, put_terminal, &
                                   put_frame, put_panel
    use atrito_plot_text, only: range_t, range_text, span, quoted, cleaned, scene_title, COLOUR, LF, cover, padded, range_of
    use atrito_plot_view, only: plot_view_t, shown_window
@@ -245,9 +245,8 @@ contains
          if (member_count(drawing%model%element_sets%sets(shown%place)) <= MOST_FILLED) &
             drawn = 'filledcurves closed lc rgb "#80'//COLOUR(1) (2:)//'"'
       end if
-      call put_plot(plots, [string_t('"sets.dat" index 0:'//to_text(n - 1)// &
-                                     ' using 1:2 with lines lt 1 lw 0.8 lc rgb "#909090"'), &
-                            string_t('"sets.dat" index '//to_text(n + place - 1)//' using 1:2 with '//drawn)])
+      call put(plots, 'plot "sets.dat" index 0:'//to_text(n - 1)//' using 1:2 with lines lt 1 lw 0.8 lc rgb "#909090", \'//LF// &
+               '   "sets.dat" index '//to_text(n + place - 1)//' using 1:2 with '//drawn)
    end subroutine put_small_picture
 
    !> The pairs that are drawn, those with the least gaps, in the order of the deck.
@@ -325,7 +324,7 @@ contains
       type(plots_t), intent(inout) :: plots
       type(model_t), intent(in) :: model
       integer(ip), intent(in) :: pair, place        !< place of the panel, 1 the uppermost
-      character(len=*), parameter :: ENTRY = 'NaN with lines lc rgb "white" title '
+      character(len=*), parameter :: ENTRY = '   NaN with lines lc rgb "white" title '
       type(range_t) :: range
       character(len=:), allocatable :: data, points_text
       real(wp), allocatable :: gaps(:)
@@ -341,12 +340,11 @@ contains
          data = '"'//GAP_PLOT//'.dat" index '//to_text(place - 1)//' using 1:($2/unit) '
          points_text = to_text(points%n)//' points'
          if (points%n_left_out > 0) points_text = points_text//'; '//to_text(points%n_left_out)//' faces alone'
-         call put_plot(plots, [string_t(data//'with filledcurves below y=0 lc rgb "'//COLOUR(2)//'"'), &
-                               string_t(data//'with linespoints lt 1 lw 1.8 pt 7 ps 0.6*dot lc rgb "'//COLOUR(1)//'" title '// &
-                                        quoted(cleaned(surfaces(it%slave)%name, LONGEST_SURFACE))//' noenhanced'), &
-                               string_t(ENTRY//quoted('on '//cleaned(surfaces(it%master)%name, LONGEST_SURFACE))//' noenhanced'), &
-                               string_t(ENTRY//'"least '//to_text(minval(gaps), 4)//'"'), &
-                               string_t(ENTRY//'"'//points_text//'"')])
+         call put(plots, 'plot '//data//'with filledcurves below y=0 lc rgb "'//COLOUR(2)//'", \'//LF// &
+                  '   '//data//'with linespoints lt 1 lw 1.8 pt 7 ps 0.6*dot lc rgb "'//COLOUR(1)//'" title '// &
+                  quoted(cleaned(surfaces(it%slave)%name, LONGEST_SURFACE))//' noenhanced, \'//LF// &
+                  ENTRY//quoted('on '//cleaned(surfaces(it%master)%name, LONGEST_SURFACE))//' noenhanced, \'//LF// &
+                  ENTRY//'"least '//to_text(minval(gaps), 4)//'", \'//LF//ENTRY//'"'//points_text//'"')
       end associate
    end subroutine put_pair
 

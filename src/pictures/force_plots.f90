@@ -159,7 +159,7 @@ contains
    subroutine write_joint_plot(plots, drawing)
       type(plots_t), intent(inout) :: plots
       type(drawing_t), intent(in) :: drawing        !< that of the mesh, with joints
-      type(string_t), allocatable :: curves(:)      ! of joints.dat, one a block
+      type(string_t), allocatable :: lines(:), curves(:)    ! curves: of joints.dat, one a block
       real(wp) :: share(size(drawing%results%joints)), smaller, largest
 
       associate (joints => drawing%results%joints)
@@ -182,7 +182,8 @@ contains
       call put_title(plots, scale_title(drawing))
       call put(plots, 'marker = '//to_text(2.0_wp*smaller, 3)//'*dot'//LF//'thrust_width = '//to_text(0.8_wp*smaller, 3)//LF// &
                'joint_width = '//to_text(2.0_wp + 2.0_wp*smaller, 3))
-      call put_plot(plots, [outlines(drawing), curves])
+      lines = outlines(drawing)                     ! gfortran 12 loses what a function in an array constructor allocates
+      call put_plot(plots, [lines, curves])
    end subroutine write_joint_plot
 
    !> The outlines, undeformed and deformed, and rigid surfaces.

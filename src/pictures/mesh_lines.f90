@@ -87,7 +87,8 @@ contains
    !> The places of a rigid surface from its first end to its last, arcs in pieces.
    !>
    !> With p and q from the centre c to the ends of an arc, the angle from p to q is atan2(p x q, p . q), between -180 and 180
-   !> degrees: the shorter way round. A share s of it leads to c + cos(s angle) p + sin(s angle) p', p' being p turned by 90 degrees.
+   !> degrees: the shorter way round. A share s of it leads to c + cos(s angle) p + sin(s angle) p', p' being p turned by 90
+   !> degrees.
    pure function rigid_places(surface) result(places)
       type(surface_t), intent(in) :: surface        !< of segments
       real(wp), allocatable :: places(:, :)         !< (2, n) [L]

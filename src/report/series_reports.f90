@@ -138,12 +138,13 @@ contains
       type(page_t), intent(inout) :: page
       type(string_t), intent(in) :: names(:)
       type(sweep_run_t), intent(in) :: runs(:)
-      type(string_t), allocatable :: titles(:), cells(:)
+      type(string_t), allocatable :: titles(:), columns(:), cells(:)
       integer :: i, k
 
       titles = names
       call append_string(titles, 'exit')
-      titles = [titles, columns_of(runs)]
+      columns = columns_of(runs)
+      titles = [titles, columns]
       call append_string(titles, 'folder')
       do i = 1, min(size(runs), MOST_RUNS)
          cells = runs(i)%texts

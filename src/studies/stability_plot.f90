@@ -31,6 +31,7 @@ contains
       type(string_t), allocatable, intent(out) :: drawn(:)
       type(plots_t) :: plots
       type(status_t) :: status
+      type(string_t) :: names(2)
 
       call begin_plots(plots, plot_folder(folder))
       call begin_data(plots, LIMIT_PLOT, 'blocks: solved and checked, not converged; columns: '//limit%parameter// &
@@ -40,7 +41,9 @@ contains
       call write_script(plots, title, limit)
       call write_mechanism_plot(plots, model, limit, title, view)
       call end_plots(plots, status)
-      call draw_written(folder, [string_t(LIMIT_PLOT), string_t(MECHANISM_PLOT)], status, drawn)
+      names(1)%s = LIMIT_PLOT
+      names(2)%s = MECHANISM_PLOT
+      call draw_written(folder, names, status, drawn)
    end subroutine write_stability_plots
 
    !> The block of the values that ended so.

@@ -28,12 +28,14 @@ contains
       type(string_t), allocatable, intent(out) :: drawn(:)
       type(plots_t) :: plots
       type(status_t) :: status
+      type(string_t) :: names(1)
 
       call begin_plots(plots, plot_folder(folder))
       call write_data(plots, study)
       call write_script(plots, title, study)
       call end_plots(plots, status)
-      call draw_written(folder, [string_t(STUDY_PLOT)], status, drawn)
+      names(1)%s = STUDY_PLOT
+      call draw_written(folder, names, status, drawn)
    end subroutine write_study_plot
 
    !> A block an element.
