@@ -6,17 +6,21 @@ module atrito_body_plots
    use atrito_bodies, only: bodies_t, find_bodies
    use atrito_body_names, only: name_bodies
    use atrito_drawing, only: drawing_t, begin_drawing, displace, displacement_scale, largest_length, write_lines, put_head, &
-                             put_plane, put_title, scale_title, put_scene, inner_runs, run_styles, body_style, body_title
+                             put_plane, put_title, scale_title, put_scene, run_styles, body_style, body_title
    use atrito_kinds, only: ip, wp
+   use atrito_link_symbols, only: put_links
+   use atrito_load_symbols, only: put_loads
    use atrito_model, only: model_t, step_t, nodal_values_t
    use atrito_plot_files, only: MESH_PLOT, SCENE_PLOT, MECHANISM_PLOT
-   use atrito_plot_scripts, only: plots_t, put, begin_script, end_script
+   use atrito_plot_scripts, only: plots_t, put, begin_script
    use atrito_plot_text, only: range_t, quoted, cleaned, picture_title, scene_title, colour_styles, LF
    use atrito_plot_view, only: plot_view_t, shows_none, warn_of_box
    use atrito_results, only: results_t
    use atrito_stability_result, only: stability_t, collapse_t
    use atrito_strings, only: string_t, to_text
-   use atrito_write_symbols, only: write_symbols, legend_lines
+   use atrito_support_symbols, only: put_supports
+   use atrito_surface_symbols, only: put_surfaces
+   use atrito_symbols, only: symbols_t, begin_symbols, end_symbols
    use atrito_write_tables, only: origin_of
    implicit none (type, external)
    private
@@ -67,10 +71,9 @@ contains
       call put_title(plots, scale_title(drawing))
       is_big = drawing%model%mesh%n_nodes > FEW_NODES
       first = 0
-      if (is_big) first = inner_runs(drawing)
+      if (is_big) first = drawing%n_inner
       call put_scene(plots, drawing, first, 'undeformed', &
                      run_styles(drawing, names_of_run(drawing), trim(merge('0.5', '1  ', is_big)), '2.5'), symbols)
-      call end_script(plots)
       drawing%window = window
    end subroutine write_mesh_plot
 
@@ -121,7 +124,6 @@ contains
       end do
       call put_scene(plots, drawing, drawing%lines%n_runs, '', &
                      run_styles(drawing, names, merge('0.4', '0.7', model%mesh%n_nodes > FEW_NODES), '2'), symbols)
-      call end_script(plots)
    end subroutine write_scene_plot
 
    !> The first step in which something acts; the first one where nothing does.
@@ -155,11 +157,21 @@ contains
       type(plot_view_t), intent(in) :: view
       type(drawing_t) :: drawing
       type(string_t), allocatable :: styles(:)
-      integer(ip) :: i, place                       ! among those that move, the fastest first; 0: it rests
+      integer(ip) :: i, k, place                    ! among those that move, the fastest first; 0: it rests
 
       call begin_drawing(model, .true., view, drawing)
       call displace(drawing, limit%collapse%u, 1.0_wp, mechanism_scale(limit%collapse, drawing%size))
-      call take_rigid_motions(limit%collapse, drawing)
+      allocate (drawing%rigid(0))
+      if (allocated(model%rigid_bodies)) then       ! rigid surfaces are bodies behind those of elements
+         deallocate (drawing%rigid)
+         allocate (drawing%rigid(size(model%rigid_bodies)))
+      end if
+      do i = 1, size(limit%collapse%bodies, kind=ip)
+         k = limit%collapse%bodies(i) - maxval(drawing%lines%body)
+         if (k < 1 .or. k > size(drawing%rigid)) cycle
+         drawing%rigid(k)%u = limit%collapse%motion(:2, i)
+         drawing%rigid(k)%rotation = limit%collapse%motion(3, i)
+      end do
       call write_lines(plots, MECHANISM_PLOT, 'outlines of the bodies as polylines; columns: x [L]  y [L]  u1 [L]  u2 [L], '// &
                        'the largest u is 1', drawing, .false.)
       call begin_script(plots, MECHANISM_PLOT, 'the mechanism of a scene at its limit', &
@@ -177,26 +189,7 @@ contains
          if (place > 0) styles(i)%s = body_style(drawing%lines%body(i))//body_title(limit%collapse%names(place)%s, place)
       end do
       call put_scene(plots, drawing, 0_ip, 'undisplaced', styles, [string_t ::])
-      call end_script(plots)
    end subroutine write_mechanism_plot
-
-   !> The motions of rigid surfaces, which are bodies behind those of elements.
-   pure subroutine take_rigid_motions(collapse, drawing)
-      type(collapse_t), intent(in) :: collapse
-      type(drawing_t), intent(inout) :: drawing
-      integer(ip) :: i, k
-
-      allocate (drawing%rigid(0))
-      if (.not. allocated(drawing%model%rigid_bodies)) return
-      deallocate (drawing%rigid)
-      allocate (drawing%rigid(size(drawing%model%rigid_bodies)))
-      do i = 1, size(collapse%bodies, kind=ip)
-         k = collapse%bodies(i) - maxval(drawing%lines%body)
-         if (k < 1) cycle
-         drawing%rigid(k)%u = collapse%motion(:2, i)
-         drawing%rigid(k)%rotation = collapse%motion(3, i)
-      end do
-   end subroutine take_rigid_motions
 
    !> The number with which a motion of one is drawn 3 to 8 % of the scene long, or less where bodies would turn much.
    pure real(wp) function mechanism_scale(collapse, size_of_scene) result(scale)
@@ -208,5 +201,36 @@ contains
       turn = maxval(abs(collapse%motion(3, :)))
       if (turn*scale > LARGEST_TURN) scale = LARGEST_TURN/turn
    end function mechanism_scale
+
+   !> Writes <picture>-symbols.dat. The window of the drawing is widened to the symbols.
+   subroutine write_symbols(plots, picture, step, drawing, curves)
+      type(plots_t), intent(inout), target :: plots
+      character(len=*), intent(in) :: picture       !< without ending; that of a scene has surfaces too, undisplaced
+      integer(ip), intent(in) :: step               !< whose supports and loads they are, as at its end
+      type(drawing_t), intent(inout), target :: drawing
+      type(string_t), allocatable, intent(out) :: curves(:)   !< to be drawn over the bodies
+      type(symbols_t) :: symbols
+
+      call begin_symbols(plots, picture, step, drawing, symbols)
+      if (picture == SCENE_PLOT) call put_surfaces(drawing%model, symbols)
+      call put_links(symbols)
+      call put_supports(symbols)
+      call put_loads(symbols)
+      drawing%window = symbols%window
+      call move_alloc(symbols%curves, curves)
+      call end_symbols(symbols)
+   end subroutine write_symbols
+
+   !> Lines of the legend: symbols have long names, so two stand side by side below those of the bodies.
+   pure integer(ip) function legend_lines(curves) result(n)
+      type(string_t), intent(in) :: curves(:)
+      integer :: i
+
+      n = 0
+      do i = 1, size(curves)
+         if (index(curves(i)%s, ' title ') > 0) n = n + 1
+      end do
+      n = 1 + (n + 1)/2
+   end function legend_lines
 
 end module atrito_body_plots

@@ -8,7 +8,7 @@ module atrito_contact_plot
    use atrito_kinds, only: ip, wp
    use atrito_model, only: model_t, interaction_t, FRICTION_NONE, FRICTION_LOCAL, FRICTION_NONLOCAL
    use atrito_plot_files, only: CONTACT_PLOT
-   use atrito_plot_scripts, only: plots_t, put, begin_script, end_script, put_table, put_terminal, put_frame, put_panel
+   use atrito_plot_scripts, only: plots_t, put, begin_script, put_table, put_terminal, put_frame, put_panel
    use atrito_plot_text, only: range_t, cover, padded, range_of, quoted, cleaned, picture_title, evenly, COLOUR, LF, GREEK_NU, &
                                GREEK_EPSILON, GREEK_RHO, GREEK_DELTA, PLUS_MINUS
    use atrito_results, only: results_t, contact_result_t, history_t, last_frame, view_frame, POINT_OPEN, POINT_SLIP
@@ -71,7 +71,6 @@ contains
          call put_panels(plots, history, shown, pair, law, friction)
       end associate
       call put(plots, 'unset multiplot')
-      call end_script(plots)
    end subroutine write_contact_plot
 
    !> Places of the frames that are drawn: the ends of the steps, evenly some of them where they are many, and the last frame.
@@ -250,7 +249,7 @@ contains
       call cover(range, [-shown, shown])
    end function shear_range
 
-   !> True where the lines +-eps tell something.
+   !> Whether the lines +-eps are drawn: eps is neither tiny nor huge beside the slip.
    pure logical function shows_slip_bound(contact, eps)
       type(contact_result_t), intent(in) :: contact
       real(wp), intent(in) :: eps

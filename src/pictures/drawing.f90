@@ -9,7 +9,7 @@ module atrito_drawing
    use atrito_model, only: model_t, SURFACE_SEGMENTS
    use atrito_number_text, only: trimmed_real
    use atrito_plot_files, only: JOINT_PLOT
-   use atrito_plot_scripts, only: plots_t, put, begin_data, end_data, put_terminal, put_plot
+   use atrito_plot_scripts, only: plots_t, put, begin_data, put_terminal, put_plot
    use atrito_plot_text, only: range_t, cover, range_text, span, quoted, cleaned, LF, N_COLOURS, TIMES
    use atrito_plot_view, only: plot_view_t, shown_window
    use atrito_results, only: results_t, rigid_result_t
@@ -18,7 +18,7 @@ module atrito_drawing
    private
    public :: drawing_t, begin_drawing, displace, displacement_scale, largest_length
    public :: write_lines, put_lines, put_rigid_lines, put_place, put_head, put_window, put_axes, put_plane, put_scene
-   public :: add_lines, add_rigid_lines, inner_runs, rigid_lines, put_title, scale_title, displacement_text
+   public :: add_lines, add_rigid_lines, put_title, scale_title, displacement_text
    public :: run_styles, body_style, body_title, MOVED
 
    integer, parameter :: DIGITS = 7                 !< of the data: a picture has a thousand pixels
@@ -42,6 +42,8 @@ module atrito_drawing
       character(len=:), allocatable :: heading          !< first line of the title
       real(wp), allocatable :: u(:, :)                  !< (2, n_nodes) [L]
       type(mesh_lines_t) :: lines
+      integer(ip) :: n_inner = 0                        !< runs of inner edges, which come first
+      integer(ip), allocatable :: surface(:), body(:)   !< rigid surfaces that are masters of pairs; their bodies, 0: they stay
       type(range_t) :: window(2)                        !< what both shapes cover [L]
       real(wp) :: size = 0.0_wp                         !< diagonal of the undisplaced bodies [L]
       real(wp) :: largest = 0.0_wp                      !< displacement [L]
@@ -70,6 +72,15 @@ contains
          end do
       end do
       drawing%size = hypot(span(drawing%window(1)), span(drawing%window(2)))
+      drawing%n_inner = count(drawing%lines%kind(:drawing%lines%n_runs) == LINE_INNER, kind=ip)
+      drawing%surface = pack([(i, i=1, size(model%surfaces, kind=ip))], model%surfaces%kind == SURFACE_SEGMENTS .and. &
+                             [(any(model%pairs%master == i) .and. allocated(model%surfaces(i)%points), &
+                               i=1, size(model%surfaces, kind=ip))])
+      allocate (drawing%body(size(drawing%surface)), source=0_ip)
+      if (.not. allocated(model%rigid_bodies)) return
+      do i = 1, size(drawing%surface, kind=ip)
+         drawing%body(i) = findloc(model%rigid_bodies%surface, drawing%surface(i), dim=1, kind=ip)
+      end do
    end subroutine begin_drawing
 
    !> Displaces the bodies, by the scale that is asked for, else by the one that is chosen, and widens the window to them.
@@ -123,12 +134,11 @@ contains
       character(len=*), intent(in) :: name
       character(len=*), intent(in) :: what          !< the file holds
       type(drawing_t), intent(in) :: drawing
-      logical, intent(in) :: of_kinds               !< inner edges and outlines are told apart
+      logical, intent(in) :: of_kinds               !< the comments say which blocks are inner edges and which outlines
 
       call begin_data(plots, name, what)
       call put_lines(plots, drawing, drawing%u, of_kinds)
-      call put_rigid_lines(plots, drawing%model, drawing%rigid)
-      call end_data(plots)
+      call put_rigid_lines(plots, drawing, drawing%rigid)
    end subroutine write_lines
 
    !> A block a run of edges.
@@ -151,7 +161,10 @@ contains
       end associate
    end subroutine put_lines
 
-   !> An edge from corner to corner; a curved one in pieces.
+   !> An edge from corner to corner; a curved one in pieces. Place and displacement go along it as its shape functions do: with v1,
+   !> v2 at the corners, v3 in the middle and t from -1 to 1,
+   !>    v(t) = t(t - 1)/2 v1 + t(t + 1)/2 v2 + (1 - t^2) v3.
+   !> It is straight where v3 is nearly the mean of v1 and v2, as it is without a node in the middle.
    subroutine put_edge(plots, drawing, u, element, face)
       type(plots_t), intent(inout) :: plots
       type(drawing_t), intent(in) :: drawing
@@ -194,63 +207,32 @@ contains
    end subroutine put_place
 
    !> A block a rigid surface of the pairs: its places, and the linear part of its motion there.
-   subroutine put_rigid_lines(plots, model, rigid)
+   subroutine put_rigid_lines(plots, drawing, rigid)
       type(plots_t), intent(inout) :: plots
-      type(model_t), intent(in) :: model
+      type(drawing_t), intent(in) :: drawing
       type(rigid_result_t), intent(in), optional :: rigid(:)   !< left out: they rest
       real(wp), allocatable :: x(:, :)
       real(wp) :: u(2), r(2)
-      integer(ip) :: i, k, body
+      integer(ip) :: i, k
 
-      do i = 1, size(model%surfaces, kind=ip)
-         if (.not. is_drawn_rigid(model, i)) cycle
-         call put(plots, '# a rigid surface')
-         body = 0
-         if (present(rigid)) body = body_of_surface(model, i)
-         x = rigid_places(model%surfaces(i))
-         do k = 1, size(x, 2, kind=ip)
-            u = 0.0_wp
-            if (body > 0) then
-               r = x(:, k) - model%mesh%x(:, model%rigid_bodies(body)%node)
-               u = rigid(body)%u + rigid(body)%rotation*[-r(2), r(1)]
-            end if
-            call put_place(plots, [x(:, k), u])
+      associate (model => drawing%model)
+         do i = 1, size(drawing%surface, kind=ip)
+            call put(plots, '# a rigid surface')
+            x = rigid_places(model%surfaces(drawing%surface(i)))
+            do k = 1, size(x, 2, kind=ip)
+               u = 0.0_wp
+               if (present(rigid) .and. drawing%body(i) > 0) then
+                  associate (body => drawing%body(i))
+                     r = x(:, k) - model%mesh%x(:, model%rigid_bodies(body)%node)
+                     u = rigid(body)%u + rigid(body)%rotation*[-r(2), r(1)]
+                  end associate
+               end if
+               call put_place(plots, [x(:, k), u])
+            end do
+            call put(plots, LF)
          end do
-         call put(plots, LF)
-      end do
+      end associate
    end subroutine put_rigid_lines
-
-   !> The rigid body of a surface; 0: it stays where it is.
-   pure integer(ip) function body_of_surface(model, surface) result(body)
-      type(model_t), intent(in) :: model
-      integer(ip), intent(in) :: surface
-
-      body = 0
-      if (allocated(model%rigid_bodies)) body = findloc(model%rigid_bodies%surface, surface, dim=1, kind=ip)
-   end function body_of_surface
-
-   !> A rigid surface that is the master of a pair.
-   pure logical function is_drawn_rigid(model, surface)
-      type(model_t), intent(in) :: model
-      integer(ip), intent(in) :: surface
-
-      is_drawn_rigid = model%surfaces(surface)%kind == SURFACE_SEGMENTS .and. any(model%pairs%master == surface)
-      if (is_drawn_rigid) is_drawn_rigid = allocated(model%surfaces(surface)%points)
-   end function is_drawn_rigid
-
-   !> How many blocks of lines are inner edges, which come first, and how many are rigid surfaces, behind the lines of the bodies.
-   pure integer(ip) function inner_runs(drawing) result(n)
-      type(drawing_t), intent(in) :: drawing
-
-      n = count(drawing%lines%kind(:drawing%lines%n_runs) == LINE_INNER, kind=ip)
-   end function inner_runs
-
-   pure integer(ip) function rigid_lines(model) result(n)
-      type(model_t), intent(in) :: model
-      integer(ip) :: i
-
-      n = count([(is_drawn_rigid(model, i), i=1, size(model%surfaces, kind=ip))], kind=ip)
-   end function rigid_lines
 
    !> What a script draws by: the scale of the displacements, more, and the first line of the title.
    subroutine put_head(plots, drawing, more)
@@ -376,17 +358,16 @@ contains
       logical, intent(in) :: has_title              !< each has its name in the key
       type(string_t), allocatable, intent(inout) :: curves(:)
       character(len=:), allocatable :: places, title
-      integer(ip) :: i, n
+      integer(ip) :: i
 
-      n = drawing%lines%n_runs
-      do i = 1, size(drawing%model%surfaces, kind=ip)
-         if (.not. is_drawn_rigid(drawing%model, i)) cycle
+      do i = 1, size(drawing%surface, kind=ip)
          places = '1:2'
-         if (body_of_surface(drawing%model, i) > 0) places = MOVED
+         if (drawing%body(i) > 0) places = MOVED
          title = ''
-         if (has_title) title = ' title '//quoted(cleaned(drawing%model%surfaces(i)%name, LONGEST_NAME)//' (rigid)')//' noenhanced'
-         call append_string(curves, '"'//name//'.dat" index '//to_text(n)//' using '//places//' with lines '//style//title)
-         n = n + 1
+         if (has_title) title = ' title '//quoted(cleaned(drawing%model%surfaces(drawing%surface(i))%name, LONGEST_NAME)// &
+                                                  ' (rigid)')//' noenhanced'
+         call append_string(curves, '"'//name//'.dat" index '//to_text(drawing%lines%n_runs + i - 1)//' using '//places// &
+                            ' with lines '//style//title)
       end do
    end subroutine add_rigid_lines
 

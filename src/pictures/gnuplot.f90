@@ -45,74 +45,78 @@ contains
       character(len=*), intent(in) :: folder
       type(string_t), intent(in) :: names(:)                    !< of the scripts, without .gp
       type(string_t), allocatable, intent(out) :: drawn(:)      !< names of those that have their pictures now
-      integer :: i, exit_code, k
-      character(len=4), allocatable :: endings(:)
+      type(string_t), allocatable :: paths(:)
+      integer, allocatable :: of(:)
+      integer :: i, k, exit_code
 
       allocate (drawn(0))
       if (size(names) == 0) return
+      call list_pictures(folder, names, paths, of)
       call remove_own_file(folder//'/'//LOG_NAME)
       call note_path(folder//'/'//LOG_NAME)
-      do i = 1, size(names)
+      do k = 1, size(paths)
          ! Removes old pictures of this name; new ones go when the run is interrupted.
-         endings = picture_endings(names(i)%s)
-         do k = 1, size(endings)
-            call remove_own_file(folder//'/'//names(i)%s//endings(k))
-            call note_path(folder//'/'//names(i)%s//endings(k))
-         end do
+         call remove_own_file(paths(k)%s)
+         call note_path(paths(k)%s)
       end do
       call run_command(plot_command(folder, names), SECONDS_OF_PICTURE*real(size(names), wp), exit_code)
-      if (exit_code == TOO_LATE) call remove_unfinished(folder, names)
+      if (exit_code == TOO_LATE) call remove_unfinished(paths, of)
       do i = 1, size(names)
-         if (has_pictures(folder, names(i)%s)) call append_string(drawn, names(i)%s)
+         if (all([(file_exists(paths(k)%s) .or. of(k) /= i, k=1, size(paths))])) call append_string(drawn, names(i)%s)
+      end do
+      do k = 1, size(paths)
+         call forget_path(paths(k)%s)
       end do
       call forget_path(folder//'/'//LOG_NAME)
       call judge_outcome(folder, exit_code, size(drawn) == size(names))
    end subroutine draw_pictures
 
-   !> Removes the pictures that gnuplot had begun last when it was ended: nobody knows how much of them is there.
-   subroutine remove_unfinished(folder, names)
+   !> The files of some pictures, one picture after the other.
+   pure subroutine list_pictures(folder, names, paths, of)
       character(len=*), intent(in) :: folder
       type(string_t), intent(in) :: names(:)
+      type(string_t), allocatable, intent(out) :: paths(:)
+      integer, allocatable, intent(out) :: of(:)                !< places in names
       character(len=4), allocatable :: endings(:)
-      character(len=:), allocatable :: path
-      logical :: is_begun
       integer :: i, k
 
-      is_begun = .false.
-      do i = size(names), 1, -1
+      allocate (of(0))
+      do i = 1, size(names)
          endings = picture_endings(names(i)%s)
          do k = 1, size(endings)
-            path = folder//'/'//names(i)%s//endings(k)
-            is_begun = is_begun .or. file_exists(path)
-            call remove_own_file(path)
+            call append_string(paths, folder//'/'//names(i)%s//endings(k))
+            of = [of, i]
          end do
-         if (is_begun) return
+      end do
+   end subroutine list_pictures
+
+   !> Removes the picture that gnuplot had begun last when it was ended: nobody knows how much of it is there.
+   subroutine remove_unfinished(paths, of)
+      type(string_t), intent(in) :: paths(:)
+      integer, intent(in) :: of(:)
+      integer :: k, last
+
+      last = 0
+      do k = 1, size(paths)
+         if (file_exists(paths(k)%s)) last = of(k)
+      end do
+      do k = 1, size(paths)
+         if (of(k) >= last) call remove_own_file(paths(k)%s)
       end do
    end subroutine remove_unfinished
-
-   !> Whether all pictures of a name are there. They stay, even if the run is interrupted later.
-   logical function has_pictures(folder, name)
-      character(len=*), intent(in) :: folder, name
-      character(len=4), allocatable :: endings(:)
-      integer :: k
-
-      has_pictures = .true.
-      endings = picture_endings(name)
-      do k = 1, size(endings)
-         has_pictures = has_pictures .and. file_exists(folder//'/'//name//endings(k))
-         call forget_path(folder//'/'//name//endings(k))
-      end do
-   end function has_pictures
 
    !> The command for the shell. Each script has a gnuplot of its own, so that one that fails does not stop the others; -d: without
    !> the settings that a user may have at home.
    pure function plot_command(folder, names) result(command)
       character(len=*), intent(in) :: folder
       type(string_t), intent(in) :: names(:)
-      character(len=:), allocatable :: command
+      character(len=:), allocatable :: command, path
       integer :: i
 
-      command = 'cd -- '//shell_quoted(anchored(folder))//' && { echo '//shell_quoted(LOG_MARK)//'; code=0; for name in'
+      ! a relative path that `cd` cannot take for something else: neither for an option nor for a folder of CDPATH
+      path = folder
+      if (index(path, '/') /= 1) path = './'//path
+      command = 'cd -- '//shell_quoted(path)//' && { echo '//shell_quoted(LOG_MARK)//'; code=0; for name in'
       do i = 1, size(names)
          command = command//' '//shell_quoted(names(i)%s)
       end do
@@ -120,15 +124,6 @@ contains
       command = 'set -C; { '//command//'; do gnuplot -d "$name.gp" || code=$?; done; exit $code; } </dev/null >'//LOG_NAME// &
                 ' 2>&1; } 2>/dev/null'
    end function plot_command
-
-   !> A relative path that `cd` cannot take for something else: neither for an option nor for a folder of CDPATH.
-   pure function anchored(path) result(text)
-      character(len=*), intent(in) :: path
-      character(len=:), allocatable :: text
-
-      text = path
-      if (index(path, '/') /= 1) text = './'//path
-   end function anchored
 
    !> A word of the shell, whatever the characters.
    pure function shell_quoted(text) result(word)
@@ -175,7 +170,7 @@ contains
       end do
    end function without_counts
 
-   !> The line of gnuplot's output that tells the error; the lines before it repeat the script.
+   !> The line of gnuplot's output that names the error; the lines before it repeat the script.
    pure function first_complaint(text) result(line)
       character(len=*), intent(in) :: text
       character(len=:), allocatable :: line, first_line

@@ -8,8 +8,7 @@ module atrito_history_plot
    use atrito_model, only: model_t, FRICTION_LOCAL, FRICTION_NONE
    use atrito_number_text, only: trimmed_real
    use atrito_plot_files, only: HISTORY_PLOT, LOOP_PLOT
-   use atrito_plot_scripts, only: plots_t, put, begin_data, end_data, begin_script, end_script, put_table, put_terminal, &
-                                  put_frame, put_panel
+   use atrito_plot_scripts, only: plots_t, put, begin_data, begin_script, put_table, put_terminal, put_frame, put_panel
    use atrito_plot_text, only: range_t, cover, padded, span, range_of, quoted, picture_title, engineering_exponent, power_text, &
                                colour_styles, LF, N_COLOURS, GREEK_NU, PLUS_MINUS
    use atrito_results, only: history_t, history_row_t, last_frame
@@ -21,7 +20,7 @@ module atrito_history_plot
 
    integer(ip), parameter :: MOST_PAIRS = N_COLOURS     !< curves in a picture
    integer(ip), parameter :: MOST_MARKED = 60       !< increments of a curve with a marker at each
-   integer(ip), parameter :: MOST_STEPS = 60        !< steps that are told apart by lines
+   integer(ip), parameter :: MOST_STEPS = 60        !< steps that are separated by lines
    !> A step at least so long, as a share of the time, has its number, and where all have this, the word before it.
    real(wp), parameter :: LEAST_NUMBERED = 0.02_wp, LEAST_WORDED = 0.07_wp
    !> The bound of the shear is drawn up to so many times the largest shear; a greater one would hide it.
@@ -44,7 +43,7 @@ contains
       has = .false.
       if (.not. allocated(history%rows)) return
       if (size(history%rows) < 2 .or. .not. has_history(model, history)) return
-      has = size(history%rows, kind=ip) > pairs_in(history%rows)
+      has = size(history%rows, kind=ip) > maxval(history%rows%pair)
    end function has_history_plot
 
    !> A loop needs shear, and slip that is more than rounding beside the displacements.
@@ -63,21 +62,13 @@ contains
             span(range_of(history%rows%shear)) > 0.0_wp
    end function has_loop_plot
 
-   pure integer(ip) function pairs_in(rows)
-      type(history_row_t), intent(in) :: rows(:)
-
-      pairs_in = maxval(rows%pair)
-   end function pairs_in
-
    pure logical function has_friction(model, rows)
       type(model_t), intent(in) :: model
       type(history_row_t), intent(in) :: rows(:)
-      integer(ip) :: i
 
-      has_friction = .false.
-      do i = 1, pairs_in(rows)
-         if (model%interactions(model%pairs(i)%interaction)%friction /= FRICTION_NONE) has_friction = .true.
-      end do
+      associate (pairs => model%pairs(:maxval(rows%pair)))
+         has_friction = any(model%interactions(pairs%interaction)%friction /= FRICTION_NONE)
+      end associate
    end function has_friction
 
    !> The pairs that are drawn, by number: where they are too many those with the largest forces, or those that slip most.
@@ -85,7 +76,7 @@ contains
       type(history_row_t), intent(in) :: rows(:)
       logical, intent(in) :: by_slip
       integer(ip), allocatable :: list(:)
-      real(wp) :: largest(pairs_in(rows)), here, least
+      real(wp) :: largest(maxval(rows%pair)), here, least
       logical :: is_in(size(largest))
       integer(ip) :: i
 
@@ -119,14 +110,10 @@ contains
    pure function step_ends(rows) result(places)
       type(history_row_t), intent(in) :: rows(:)
       integer(ip), allocatable :: places(:)
-      logical :: is_end(size(rows))
-      integer(ip) :: i
+      integer(ip) :: i, n
 
-      is_end = .true.
-      do i = 1, size(rows, kind=ip) - 1
-         is_end(i) = rows(i)%step /= rows(i + 1)%step
-      end do
-      places = pack([(i, i=1, size(rows, kind=ip))], is_end)
+      n = size(rows, kind=ip)
+      places = [pack([(i, i=1, n - 1)], rows(:n - 1)%step /= rows(2:)%step), n]
    end function step_ends
 
    !> Writes history.gp.
@@ -142,7 +129,7 @@ contains
       logical :: friction, many
 
       friction = has_friction(model, history%rows)
-      many = pairs_in(history%rows) > 1
+      many = maxval(history%rows%pair) > 1
       shown = shown_rows(history%rows, by_slip=.false.)
       call begin_script(plots, HISTORY_PLOT, 'what the contact pairs transmit, over time', &
                         'Columns of history.tab: 3 time, 4 pair, 5 normal resultant [F], 6 shear resultant [F], 8 contact '// &
@@ -186,7 +173,6 @@ contains
          call put_curves(plots, COLUMN_DISSIPATION, history%rows, '', with_legend=.false.)
       end if
       call put(plots, 'unset multiplot')
-      call end_script(plots)
    end subroutine write_history_plot
 
    subroutine put_titles(plots, model, history, which)
@@ -197,7 +183,7 @@ contains
       character(len=:), allocatable :: text
       integer(ip) :: n
 
-      n = pairs_in(history%rows)
+      n = maxval(history%rows%pair)
       text = pair_title(history%frames(last_frame(history)), 1_ip)
       if (n > 1) text = to_text(n)//' pairs'
       if (n > MOST_PAIRS) text = 'the '//to_text(MOST_PAIRS)//' of '//text//' '//which
@@ -211,7 +197,7 @@ contains
       character(len=:), allocatable :: points
 
       points = '0'
-      if (size(rows) <= MOST_MARKED*pairs_in(rows)) points = '0.6*dot'
+      if (size(rows) <= MOST_MARKED*maxval(rows%pair)) points = '0.6*dot'
       call put(plots, colour_styles(' lw 2 pt 7 ps '//points)//LF//'set style line 8 lw 1.5 dt (7,5) lc rgb "#404040"')
    end subroutine put_styles
 
@@ -245,7 +231,7 @@ contains
       type(model_t), intent(in) :: model
       type(history_row_t), intent(in) :: rows(:)
 
-      shows_bound = pairs_in(rows) == 1
+      shows_bound = maxval(rows%pair) == 1
       if (.not. shows_bound) return
       associate (law => model%interactions(model%pairs(1)%interaction))
          shows_bound = law%friction == FRICTION_LOCAL .and. law%nu*maxval(rows%normal) <= MOST_BOUND*maxval(abs(rows%shear))
@@ -266,7 +252,7 @@ contains
       pairs = shown_pairs(rows, by_slip=.false.)
       line = ''
       do i = 1, size(pairs, kind=ip)
-         line = line//', table every '//to_text(pairs_in(rows))//'::'//to_text(pairs(i) - 1_ip)//' using 3:(column('// &
+         line = line//', table every '//to_text(maxval(rows%pair))//'::'//to_text(pairs(i) - 1_ip)//' using 3:(column('// &
                 to_text(column)//')/unit) with linespoints ls '//to_text(i)
          if (with_legend) line = line//' title "pair '//to_text(pairs(i))//'"'
       end do
@@ -286,7 +272,7 @@ contains
       logical :: is_one
 
       pairs = shown_pairs(history%rows, by_slip=.true.)
-      is_one = pairs_in(history%rows) == 1
+      is_one = maxval(history%rows%pair) == 1
       call put_loops(plots, history%rows, pairs)
       rows = shown_rows(history%rows, by_slip=.true.)
       slip = range_of(rows%mean_slip)
@@ -312,7 +298,6 @@ contains
          if (size(pairs) > 1) line = line//' title "pair '//to_text(pairs(i))//'"'
       end do
       call put(plots, 'plot '//line(3:)//LF//'unset multiplot')
-      call end_script(plots)
    end subroutine write_loop_plot
 
    subroutine put_loops(plots, rows, pairs)
@@ -332,7 +317,6 @@ contains
          end do
          call put(plots, LF)
       end do
-      call end_data(plots)
    end subroutine put_loops
 
    !> Marks the ends of the steps.
@@ -365,7 +349,7 @@ contains
       integer(ip), intent(in) :: ends(:)
       character(len=LABEL_LENGTH) :: labels(size(ends))
       character(len=:), allocatable :: numbers
-      real(wp) :: size_of(2)
+      real(wp) :: size_of(2)                        ! of the picture [L], [F]
       integer :: i, j
 
       size_of = [span(range_of(rows%mean_slip)), span(range_of([0.0_wp, rows%shear]))]
@@ -374,7 +358,9 @@ contains
          if (labels(i) == '') cycle
          numbers = to_text(rows(ends(i))%step)
          do j = i + 1, size(ends)
-            if (.not. is_near(rows(ends(i)), rows(ends(j)), size_of)) cycle
+            associate (a => rows(ends(i)), b => rows(ends(j)))
+               if (abs(a%mean_slip - b%mean_slip) > SAME_PLACE*size_of(1) .or. abs(a%shear - b%shear) > SAME_PLACE*size_of(2)) cycle
+            end associate
             numbers = numbers//', '//to_text(rows(ends(j))%step)
             labels(j) = ''
          end do
@@ -383,12 +369,5 @@ contains
          if (len(numbers) > LABEL_LENGTH - 6) labels(i) (LABEL_LENGTH - 1:) = '..'
       end do
    end function end_labels
-
-   pure logical function is_near(a, b, size_of)
-      type(history_row_t), intent(in) :: a, b
-      real(wp), intent(in) :: size_of(2)            !< of the picture [L], [F]
-
-      is_near = abs(a%mean_slip - b%mean_slip) <= SAME_PLACE*size_of(1) .and. abs(a%shear - b%shear) <= SAME_PLACE*size_of(2)
-   end function is_near
 
 end module atrito_history_plot

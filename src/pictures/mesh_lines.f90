@@ -85,9 +85,14 @@ contains
    end subroutine find_kinds
 
    !> The places of a rigid surface from its first end to its last, arcs in pieces.
+   !>
+   !> With p and q from the centre c to the ends of an arc, the angle from p to q is atan2(p x q, p . q), between -180 and 180
+   !> degrees: the shorter way round. A share s of it leads to c + cos(s angle) p + sin(s angle) p', p' being p turned by 90
+   !> degrees.
    pure function rigid_places(surface) result(places)
       type(surface_t), intent(in) :: surface        !< of segments
       real(wp), allocatable :: places(:, :)         !< (2, n) [L]
+      real(wp) :: from(2), to(2), share, angle
       logical :: is_arc(size(surface%points, 2) - 1)
       integer :: i, j, n
 
@@ -99,26 +104,17 @@ contains
       do i = 1, size(is_arc)
          do j = 1, merge(ARC_PIECES, 1, is_arc(i)) - 1
             n = n + 1
-            places(:, n) = arc_place(surface, i, real(j, wp)/real(ARC_PIECES, wp))
+            share = real(j, wp)/real(ARC_PIECES, wp)
+            associate (centre => surface%centre(:, i))
+               from = surface%points(:, i) - centre
+               to = surface%points(:, i + 1) - centre
+               angle = share*atan2(from(1)*to(2) - from(2)*to(1), dot_product(from, to))
+               places(:, n) = centre + cos(angle)*from + sin(angle)*[-from(2), from(1)]
+            end associate
          end do
          n = n + 1
          places(:, n) = surface%points(:, i + 1)
       end do
    end function rigid_places
-
-   !> The place at a share of an arc, which goes the shorter way round its centre.
-   pure function arc_place(surface, segment, share) result(place)
-      type(surface_t), intent(in) :: surface
-      integer, intent(in) :: segment
-      real(wp), intent(in) :: share                 !< 0..1
-      real(wp) :: place(2), from(2), to(2), angle
-
-      associate (centre => surface%centre(:, segment))
-         from = surface%points(:, segment) - centre
-         to = surface%points(:, segment + 1) - centre
-         angle = share*atan2(from(1)*to(2) - from(2)*to(1), dot_product(from, to))
-         place = centre + cos(angle)*from + sin(angle)*[-from(2), from(1)]
-      end associate
-   end function arc_place
 
 end module atrito_mesh_lines

@@ -5,13 +5,13 @@
 module atrito_motion_plot
    use atrito_contact_plot, only: state_of, N_STATES, STATE_WORD, STATE_COLOUR
    use atrito_drawing, only: drawing_t, begin_drawing, displace, displacement_scale, largest_length, put_lines, put_rigid_lines, &
-                             put_place, put_head, put_window, put_axes, inner_runs, rigid_lines, MOVED
+                             put_place, put_head, put_window, put_axes, MOVED
    use atrito_increments, only: increment_name
    use atrito_kinds, only: ip, wp
    use atrito_model, only: model_t
    use atrito_number_text, only: trimmed_real
    use atrito_plot_files, only: MOTION_PLOT
-   use atrito_plot_scripts, only: plots_t, put, begin_data, end_data, begin_script, end_script, put_plot
+   use atrito_plot_scripts, only: plots_t, put, begin_data, begin_script, put_plot
    use atrito_plot_text, only: quoted, picture_title, evenly, COLOUR, TIMES, LF
    use atrito_plot_view, only: plot_view_t
    use atrito_results, only: history_t, results_t, view_frame
@@ -20,7 +20,7 @@ module atrito_motion_plot
    use atrito_write_tables, only: origin_of
    implicit none (type, external)
    private
-   public :: has_motion_plot, write_motion_plot, image_frames, most_lines
+   public :: write_motion_plot, most_lines, MOST_IMAGES
 
    integer(ip), parameter :: MOST_IMAGES = 200
    !> Nodes times images up to which inner edges are drawn, too.
@@ -40,21 +40,6 @@ module atrito_motion_plot
 
 contains
 
-   !> Whether there are several frames to show one after the other.
-   pure logical function has_motion_plot(history)
-      type(history_t), intent(in) :: history
-
-      has_motion_plot = size(history%frames) > 1
-   end function has_motion_plot
-
-   !> Places of the frames that have images: all, or evenly some of them, the first and the last among these.
-   pure function image_frames(n) result(list)
-      integer(ip), intent(in) :: n                  !< frames
-      integer(ip), allocatable :: list(:)
-
-      list = evenly(n, MOST_IMAGES)
-   end function image_frames
-
    !> Inner edges too, or outlines alone.
    pure logical function most_lines(n_nodes, n_images)
       integer(ip), intent(in) :: n_nodes, n_images
@@ -70,7 +55,7 @@ contains
       type(plot_view_t), intent(in) :: view
       type(images_t) :: images
 
-      images%frames = image_frames(size(history%frames, kind=ip))
+      images%frames = evenly(size(history%frames, kind=ip), MOST_IMAGES)
       call begin_drawing(model, .not. most_lines(model%mesh%n_nodes, size(images%frames, kind=ip)), view, images%drawing)
       images%drawing%heading = picture_title(origin_of(model, history))
       call measure(history, images)
@@ -120,7 +105,7 @@ contains
       do i = 1, size(images%frames, kind=ip)
          call view_frame(history, images%frames(i), frame)
          call put(plots, '# '//increment_name(frame%step, frame%increment, frame%time))
-         call put_rigid_lines(plots, images%drawing%model, frame%rigid)
+         call put_rigid_lines(plots, images%drawing, frame%rigid)
          call put_lines(plots, images%drawing, frame%u, .true.)
          if (.not. has_points(frame)) cycle
          do pair = 1, pair_count(frame)
@@ -134,7 +119,6 @@ contains
          end do
          call put(plots, LF)
       end do
-      call end_data(plots)
    end subroutine write_data
 
    pure logical function has_points(frame)
@@ -179,7 +163,6 @@ contains
                'set label 1 heading.sprintf("\n%s; displacements drawn %g '//TIMES//pressures//'", name[k], scale)'// &
                ' at screen 0.5, screen 1 - 20.0/(0.8*height) center noenhanced')
       call put_image(plots, images, has_points(history%frames(size(history%frames))))
-      call end_script(plots)
    end subroutine write_script
 
    !> One plot: outlines where they were, the lines of the image, rigid surfaces, pressures and points by state.
@@ -191,9 +174,9 @@ contains
       character(len=:), allocatable :: block, outlines, colours, points
       integer(ip) :: n_rigid, n_lines, n_inner, i
 
-      n_rigid = rigid_lines(images%drawing%model)
+      n_rigid = size(images%drawing%surface, kind=ip)
       n_lines = images%drawing%lines%n_runs
-      n_inner = inner_runs(images%drawing)
+      n_inner = images%drawing%n_inner
       block = '"'//MOTION_PLOT//'.dat" index first'
       outlines = block//'+'//to_text(n_inner)//':first+'//to_text(n_lines - 1)//' using '
       call put(plots, 'first = '//to_text(n_rigid)//' + '//to_text(n_rigid + n_lines + merge(1, 0, has_contact))//'*(k - 1)')

@@ -142,23 +142,17 @@ contains
          pair = nint(table%value(at(1), row), ip)
          if (pair < 1 .or. any(nint(table%value(at(3:), row), ip) /= [run%step, run%increment])) cycle
          n_points(pair) = n_points(pair) + 1
-         call cover_point(pairs(pair), table%value(at(2), row), table%value(c, row))
+         associate (it => pairs(pair), values => table%value(c, row))
+            call cover(it%s, [table%value(at(2), row)])
+            do i = 1, size(FIELDS, kind=ip)
+               call cover(it%field(i), [0.0_wp, values(i)])
+            end do
+            it%has_shear = it%has_shear .or. abs(values(FIELD_SHEAR)) > 0.0_wp
+            it%has_weighted = it%has_weighted .or. abs(values(FIELD_WEIGHTED) - values(FIELD_PRESSURE)) > 0.0_wp
+         end associate
       end do
       pairs%most_points = max(pairs%most_points, n_points)
    end subroutine cover_run
-
-   pure subroutine cover_point(pair, s, values)
-      type(overlay_pair_t), intent(inout) :: pair
-      real(wp), intent(in) :: s, values(:)          !< values: one a field
-      integer :: i
-
-      call cover(pair%s, [s])
-      do i = 1, size(values)
-         call cover(pair%field(i), [0.0_wp, values(i)])
-      end do
-      pair%has_shear = pair%has_shear .or. abs(values(FIELD_SHEAR)) > 0.0_wp
-      pair%has_weighted = pair%has_weighted .or. abs(values(FIELD_WEIGHTED) - values(FIELD_PRESSURE)) > 0.0_wp
-   end subroutine cover_point
 
    subroutine take_quantities(table, run)
       type(table_file_t), intent(in) :: table

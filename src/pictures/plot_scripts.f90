@@ -1,4 +1,5 @@
-!> The files of some pictures while they are written, one after the other, and the lines that all scripts share.
+!> The files of some pictures while they are written, one after the other, and the lines that all scripts share. Each file ends
+!> where the next one begins.
 !>
 !> Scripts and data of a command's pictures appear together or not at all.
 module atrito_plot_scripts
@@ -13,7 +14,7 @@ module atrito_plot_scripts
    use atrito_version, only: PROGRAM_NAME, PROGRAM_VERSION
    implicit none (type, external)
    private
-   public :: plots_t, begin_plots, end_plots, put, begin_data, end_data, begin_script, end_script
+   public :: plots_t, begin_plots, end_plots, put, begin_file, begin_data, begin_script
    public :: put_table, CSV_SEPARATOR, put_terminal, put_frame, put_panel, put_plot
 
    !> What a script has to say before it reads comma-separated values.
@@ -23,6 +24,7 @@ module atrito_plot_scripts
       type(file_set_t) :: set                       !< in the folder of the plots
       type(status_t) :: status                      !< the first failure: STATUS_FILE; no file is opened behind it
       type(text_file_t) :: file                     !< that is being written
+      logical :: is_script = .false.                !< it is one that draws both kinds of picture in a loop
       character(len=:), allocatable :: name         !< of the picture whose script it is, without ending
    end type plots_t
 
@@ -39,13 +41,32 @@ contains
 
    !> Gives all files their names, or removes them where one failed. status: STATUS_FILE.
    subroutine end_plots(plots, status)
-      type(plots_t), intent(in) :: plots
+      type(plots_t), intent(inout) :: plots
       type(status_t), intent(out) :: status
 
+      call end_file(plots)
       status = plots%status
       call check_scripts(plots%set, status)
       call end_files(plots%set, status)
    end subroutine end_plots
+
+   !> Ends the file that is being written, if there is one.
+   subroutine end_file(plots)
+      type(plots_t), intent(inout) :: plots
+
+      if (plots%is_script) call put(plots, '}'//LF//'set output')
+      plots%is_script = .false.
+      call close_text(plots%file, plots%status)
+   end subroutine end_file
+
+   !> Begins a file.
+   subroutine begin_file(plots, name)
+      type(plots_t), intent(inout) :: plots
+      character(len=*), intent(in) :: name
+
+      call end_file(plots)
+      if (is_ok(plots%status)) call open_text(plots%set, name, plots%file)
+   end subroutine begin_file
 
    !> Writes a line, or several with LF between them.
    subroutine put(plots, text)
@@ -61,15 +82,10 @@ contains
       character(len=*), intent(in) :: name          !< of the file, without .dat
       character(len=*), intent(in) :: what          !< stands in it: a comment
 
+      call end_file(plots)
       if (is_ok(plots%status)) call open_data(plots%set, name, plots%file)
       call put(plots, '# '//what)
    end subroutine begin_data
-
-   subroutine end_data(plots)
-      type(plots_t), intent(inout) :: plots
-
-      call close_text(plots%file, plots%status)
-   end subroutine end_data
 
    !> Begins a script: what it draws, how it is used, and what the columns of its data are.
    subroutine begin_script(plots, name, what, columns)
@@ -87,21 +103,14 @@ contains
          pictures = pictures//' and '//name//endings(i)
       end do
       plots%name = name
-      if (is_ok(plots%status)) call open_text(plots%set, name//'.gp', plots%file)
+      call begin_file(plots, name//'.gp')
+      plots%is_script = .true.
       call put(plots, '# '//PROGRAM_NAME//' '//PROGRAM_VERSION//': '//what)
       call put(plots, '# In this folder: gnuplot '//name//'.gp draws '//pictures//' again.')
       call put(plots, '# The next run removes this file: to keep changes, copy it under another name.'//LF//'reset'//LF// &
                'set encoding utf8')
       if (present(columns)) call put(plots, '# '//columns)
    end subroutine begin_script
-
-   !> Ends the loop over both kinds of picture, and the script.
-   subroutine end_script(plots)
-      type(plots_t), intent(inout) :: plots
-
-      call put(plots, '}'//LF//'set output')
-      call close_text(plots%file, plots%status)
-   end subroutine end_script
 
    !> Tells a script which table it draws: that in the folder above, in the form in which it is there.
    subroutine put_table(plots, name)
@@ -114,7 +123,7 @@ contains
       call put(plots, 'table = "..'//path(index(path, '/', back=.true.):)//'"')
    end subroutine put_table
 
-   !> The loop over both kinds of picture; what is drawn follows, then end_script.
+   !> The loop over both kinds of picture; what is drawn follows, and the end of the file ends it.
    subroutine put_terminal(plots, size_text)
       type(plots_t), intent(inout) :: plots
       character(len=*), intent(in) :: size_text     !< width,height in pixels

@@ -27,7 +27,7 @@ module atrito_plot_text
 
    integer, parameter :: LONGEST_TITLE = 100        !< characters that fit on a picture's width
    real(wp), parameter :: PADDING = 0.06_wp         !< share of a range that is left free on each side
-   real(wp), parameter :: LEAST_PLAIN = 0.05_wp, MOST_PLAIN = 1.0e5_wp   !< largest values told without a power of ten
+   real(wp), parameter :: LEAST_PLAIN = 0.05_wp, MOST_PLAIN = 1.0e5_wp   !< largest values that are written without a power of ten
 
    !> What an axis shall cover. Empty: low > high.
    type :: range_t
@@ -176,7 +176,7 @@ contains
       title = picture_title(origin)
    end function scene_title
 
-   !> The power of thousand by which numbers of a range are told, so that the marks of an axis are short; 0 for handy numbers.
+   !> The power of thousand by which numbers of a range are divided, so that the marks of an axis are short; 0 for handy numbers.
    pure integer(ip) function engineering_exponent(range) result(e)
       type(range_t), intent(in) :: range
       real(wp) :: largest

@@ -7,7 +7,7 @@ module atrito_plot_view
    use atrito_strings, only: to_text
    implicit none (type, external)
    private
-   public :: plot_view_t, asked_scale, shown_window, shows_none, warn_of_box, read_box
+   public :: plot_view_t, shown_window, shows_none, warn_of_box, read_box
 
    type :: plot_view_t
       real(wp), allocatable :: scale                !< of the displacements, not negative; not allocated: by their size
@@ -15,15 +15,6 @@ module atrito_plot_view
    end type plot_view_t
 
 contains
-
-   !> The scale of the displacements that is asked for, else the one that was chosen.
-   pure real(wp) function asked_scale(view, chosen) result(scale)
-      type(plot_view_t), intent(in) :: view
-      real(wp), intent(in) :: chosen
-
-      scale = chosen
-      if (allocated(view%scale)) scale = view%scale
-   end function asked_scale
 
    !> What a picture shows: the box that is asked for, else all with some room round it.
    pure function shown_window(view, window) result(shown)

@@ -7,12 +7,12 @@ module atrito_write_plots
    use atrito_contour_fields, only: contour_t, contours_of
    use atrito_contour_plot, only: write_contour_plots
    use atrito_drawing, only: drawing_t
+   use atrito_force_plots, only: has_traction_plot, write_traction_plot, has_joint_plot, write_joint_plot
    use atrito_gnuplot, only: draw_written
    use atrito_history_plot, only: has_history_plot, has_loop_plot, write_history_plot, write_loop_plot
-   use atrito_joint_plot, only: write_joint_plot, has_joint_plot
    use atrito_kinds, only: ip
    use atrito_model, only: model_t
-   use atrito_motion_plot, only: has_motion_plot, write_motion_plot
+   use atrito_motion_plot, only: write_motion_plot
    use atrito_plot_files, only: plot_folder, CONTACT_PLOT, MESH_PLOT, JOINT_PLOT, HISTORY_PLOT, LOOP_PLOT, MOTION_PLOT, &
                                 TRACTION_PLOT
    use atrito_plot_scripts, only: plots_t, begin_plots, end_plots
@@ -22,7 +22,6 @@ module atrito_write_plots
    use atrito_strings, only: string_t, append_string, to_text
    use atrito_summary, only: pair_count
    use atrito_timers, only: start_phase, stop_phase
-   use atrito_traction_plot, only: has_traction_plot, write_traction_plot
    implicit none (type, external)
    private
    public :: write_plots, write_plot_scripts, plot_names
@@ -65,7 +64,7 @@ contains
          if (has_traction_plot(results)) call append_string(names, TRACTION_PLOT)
          if (has_history_plot(model, history)) call append_string(names, HISTORY_PLOT)
          if (has_loop_plot(model, history)) call append_string(names, LOOP_PLOT)
-         if (has_motion_plot(history)) call append_string(names, MOTION_PLOT)
+         if (size(history%frames) > 1) call append_string(names, MOTION_PLOT)
          if (has_joint_plot(model, results)) call append_string(names, JOINT_PLOT)
          do i = 1, plotted_pairs(model, results)
             if (results%contact(i)%n > 0) call append_string(names, CONTACT_PLOT//to_text(i))
@@ -109,7 +108,7 @@ contains
       end associate
       if (has_history_plot(model, history)) call write_history_plot(plots, model, history)
       if (has_loop_plot(model, history)) call write_loop_plot(plots, model, history)
-      if (has_motion_plot(history)) call write_motion_plot(plots, model, history, view)
+      if (size(history%frames) > 1) call write_motion_plot(plots, model, history, view)
       call end_plots(plots, status)
    end subroutine write_plot_scripts
 

@@ -43,28 +43,22 @@ contains
       character(len=*), intent(in) :: bytes
       logical, intent(in) :: is_utf8
       character(len=:), allocatable :: html
+      character(len=*), parameter :: SIGNS = '&<>"'''
+      character(len=6), parameter :: NAMES(len(SIGNS)) = ['&amp; ', '&lt;  ', '&gt;  ', '&quot;', '&#39; ']
       character(len=3) :: code
 
-      select case (bytes)
-      case ('&')
-         html = '&amp;'
-      case ('<')
-         html = '&lt;'
-      case ('>')
-         html = '&gt;'
-      case ('"')
-         html = '&quot;'
-      case ('''')
-         html = '&#39;'
-      case default
-         html = bytes
+      html = bytes
+      if (index(SIGNS, bytes) > 0) then
+         html = trim(NAMES(index(SIGNS, bytes)))
+      else if (bytes == achar(9)) then
+         html = ' '
+      else if (is_utf8) then
          if (is_control(bytes)) html = NO_LETTER
-         if (bytes == achar(9)) html = ' '
-         if (is_utf8) return
+      else
          write (code, '(i3)') ichar(bytes)
          html = '&#'//code//';'
          if (ichar(bytes) < 160) html = NO_LETTER
-      end select
+      end if
    end function letter_of
 
    !> Control characters, those of UTF-8 with two bytes too, and letters that are for the use of programs alone.

@@ -1,13 +1,12 @@
 !> Key numbers and quantities of a run, from summary and extremes as they stand in the folder.
 module atrito_report_numbers
    use atrito_html, only: fact_t, add_fact, add_element, add_note, unbroken
-   use atrito_html_table, only: begin_rows, end_rows, add_named_row
+   use atrito_html_table, only: table_top_t, shown_item, dimension_of, begin_rows, end_rows, add_named_row
    use atrito_kinds, only: ip
    use atrito_page, only: page_t, add_line, number
    use atrito_read_table, only: find_column, item_text, ITEM_NAN
    use atrito_strings, only: string_t, to_text
    use atrito_summary, only: quantity_names
-   use atrito_table_top, only: table_top_t, shown_item, dimension_of
    implicit none (type, external)
    private
    public :: add_extremes, add_summary_numbers, add_quantities

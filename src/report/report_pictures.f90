@@ -23,7 +23,7 @@ module atrito_report_pictures
 
 contains
 
-   !> Puts pictures onto a page, in their order, as long as there is room. Those that find none are told.
+   !> Puts pictures onto a page, in their order, as long as there is room. Those that find none are named.
    subroutine compose_pictures(folder, names, room, page)
       character(len=*), intent(in) :: folder        !< of the tables
       type(string_t), intent(in) :: names(:)        !< of pictures that were drawn, without ending
@@ -66,22 +66,13 @@ contains
          call read_bytes(folder//'/'//name//endings(k), bytes, status)
          if (.not. is_ok(status) .or. len(bytes) == 0) cycle
          if (base64_length(len(bytes)) + FRAME_BYTES > room) cycle
-         if (allocated(picture%bytes)) then
-            if (.not. is_better(endings(k), len(bytes), len(picture%bytes))) cycle
+         if (allocated(picture%bytes)) then         ! lines are sharp at any size, as long as they are not too many
+            if (len(bytes) >= len(picture%bytes) .and. .not. (endings(k) == '.svg' .and. len(bytes) <= LARGE_DRAWING)) cycle
          end if
          picture%file = name//endings(k)
          call move_alloc(bytes, picture%bytes)
       end do
    end subroutine choose_picture
-
-   !> Lines are sharp at any size, as long as they are not too many.
-   pure logical function is_better(ending, n_bytes, n_other)
-      character(len=*), intent(in) :: ending
-      integer, intent(in) :: n_bytes, n_other       !< of this file, and of that which was chosen so far
-
-      is_better = n_bytes < n_other
-      if (ending == '.svg') is_better = is_better .or. n_bytes <= LARGE_DRAWING
-   end function is_better
 
    subroutine add_picture(page, folder, name, picture)
       type(page_t), intent(inout) :: page
@@ -102,7 +93,7 @@ contains
       call add_line(page, '</figure>')
    end subroutine add_picture
 
-   !> What a picture shows: the first line of its script tells it behind the name of the program.
+   !> What a picture shows: the first line of its script says it behind the name of the program.
    function picture_caption(folder, name) result(caption)
       character(len=*), intent(in) :: folder        !< of the plots
       character(len=*), intent(in) :: name

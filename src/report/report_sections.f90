@@ -2,7 +2,7 @@
 module atrito_report_sections
    use atrito_files, only: read_file
    use atrito_html, only: fact_t, add_fact, add_element, add_facts, add_note, add_pre, html_text, shortened
-   use atrito_html_table, only: add_table, MOST_ROWS
+   use atrito_html_table, only: table_top_t, read_top, ALL_ROWS, add_table, MOST_ROWS
    use atrito_kinds, only: ip
    use atrito_messages, only: count_messages, get_message, format_message
    use atrito_page, only: page_t, add_line, plural
@@ -12,7 +12,6 @@ module atrito_report_sections
    use atrito_residual_chart, only: add_residual_chart
    use atrito_status, only: status_t, is_ok
    use atrito_strings, only: string_t, append_string, join, to_text
-   use atrito_table_top, only: table_top_t, read_top, ALL_ROWS
    implicit none (type, external)
    private
    public :: contents_t, read_contents, add_numbers, add_results, add_messages, add_sources

@@ -1,7 +1,6 @@
 !> A drawing of the residuals of iterations.tab on a logarithmic axis, a polyline an increment: lines of SVG within the page.
 module atrito_residual_chart
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-   use atrito_html, only: html_text
    use atrito_kinds, only: ip, wp
    use atrito_page, only: page_t, add_line
    use atrito_read_table, only: table_file_t, find_column
@@ -12,7 +11,7 @@ module atrito_residual_chart
 
    real(wp), parameter :: LEFT = 70.0_wp, RIGHT = 700.0_wp, TOP = 16.0_wp, BOTTOM = 220.0_wp   !< of the frame, of 720 by 270
    real(wp), parameter :: LEAST = 1.0e-16_wp        !< drawn instead of less: round-off
-   integer, parameter :: MOST_POINTS = 600          !< that can be told apart
+   integer, parameter :: MOST_POINTS = 600          !< that can be seen one by one
    integer, parameter :: MOST_DOTS = 80
    integer, parameter :: MOST_MARKS = 8             !< of the axis
 
@@ -35,7 +34,9 @@ contains
       call collect(iterations, chart)
       if (size(chart%row) < 2) return
       call add_line(page, '<div class="scroll" tabindex="0" role="region" aria-label="residual over linear solves">')
-      call add_line(page, '<svg class="chart" viewBox="0 0 720 270" role="img" aria-label="'//html_text(words_of(chart))//'">')
+      call add_line(page, '<svg class="chart" viewBox="0 0 720 270" role="img" aria-label="residual over '// &
+                    to_text(chart%n_rows)//' linear solves, from '//to_text(10.0_wp**chart%power(1), 2)//' to '// &
+                    to_text(10.0_wp**chart%power(size(chart%power)), 2)//'">')
       call add_axes(page, chart)
       call add_curves(page, chart)
       call add_line(page, '<text x="385" y="262" text-anchor="middle">linear solve</text>')
@@ -72,17 +73,6 @@ contains
       chart%low = floor(minval(chart%power))
       chart%high = max(chart%low + 1, ceiling(maxval(chart%power)))
    end subroutine collect
-
-   !> The drawing for those who do not see it.
-   function words_of(chart) result(text)
-      type(chart_t), intent(in) :: chart
-      character(len=:), allocatable :: text
-      integer :: n
-
-      n = size(chart%power)
-      text = 'residual over '//to_text(chart%n_rows)//' linear solves, from '//to_text(10.0_wp**chart%power(1), 2)//' to '// &
-             to_text(10.0_wp**chart%power(n), 2)
-   end function words_of
 
    !> A line and a label every few powers of ten, and the ends of the axis below.
    subroutine add_axes(page, chart)

@@ -2,7 +2,7 @@
 module atrito_series_reports
    use atrito_files, only: file_exists
    use atrito_html, only: add_element, add_fact, add_list, add_note, unbroken
-   use atrito_html_table, only: begin_rows, end_rows, add_cells, MANY_COLUMNS
+   use atrito_html_table, only: table_top_t, read_top, begin_rows, end_rows, add_cells, MANY_COLUMNS
    use atrito_kinds, only: ip, wp, is_nan
    use atrito_libraries, only: version_lines
    use atrito_page, only: page_t, add_line, number, plural
@@ -15,7 +15,6 @@ module atrito_series_reports
    use atrito_study_errors, only: study_t, total_seconds, PROCESSOR
    use atrito_summary, only: quantity_names
    use atrito_sweep_tables, only: sweep_run_t, row_of_quantity, last_increment
-   use atrito_table_top, only: table_top_t, read_top
    implicit none (type, external)
    private
    public :: begin_series, take_heading, report_of_sweep, report_of_study, report_of_limit
@@ -139,12 +138,13 @@ contains
       type(page_t), intent(inout) :: page
       type(string_t), intent(in) :: names(:)
       type(sweep_run_t), intent(in) :: runs(:)
-      type(string_t), allocatable :: titles(:), cells(:)
+      type(string_t), allocatable :: titles(:), columns(:), cells(:)
       integer :: i, k
 
       titles = names
       call append_string(titles, 'exit')
-      titles = [titles, columns_of(runs)]
+      columns = columns_of(runs)
+      titles = [titles, columns]
       call append_string(titles, 'folder')
       do i = 1, min(size(runs), MOST_RUNS)
          cells = runs(i)%texts

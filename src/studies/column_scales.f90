@@ -184,7 +184,15 @@ contains
       column = find_column(table, 'quantity')
       do row = 1, table%n_rows
          name = item_text(table, column, row)
-         if (kind_of(table) == 'extremes') name = field_of(name)
+         if (kind_of(table) == 'extremes') then     ! u u1_max ..., contact_pressure ..., or stresses
+            if (index(name, 'u') == 1) then
+               name = 'u'
+            else if (index(name, 'contact') == 1) then
+               name = 'contact'
+            else
+               name = 'stress'
+            end if
+         end if
          do i = 1, size(names, kind=ip)
             if (names(i)%s == name) exit
          end do
@@ -192,16 +200,6 @@ contains
          number(row) = i
       end do
    end function quantities_of_rows
-
-   !> What a quantity of extremes is one of: u u1_max ..., contact_pressure ..., or stresses.
-   pure function field_of(quantity) result(field)
-      character(len=*), intent(in) :: quantity
-      character(len=:), allocatable :: field
-
-      field = 'stress'
-      if (index(quantity, 'u') == 1) field = 'u'
-      if (index(quantity, 'contact') == 1) field = 'contact'
-   end function field_of
 
    !> The pair or the step of each row; 0 for all where there is no such column, or none that a run writes.
    pure function numbers_of_rows(table, name) result(number)

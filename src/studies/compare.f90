@@ -20,7 +20,7 @@ module atrito_compare
    real(wp), parameter :: DEFAULT_RTOL = 1.0e-6_wp, DEFAULT_ATOL = 0.0_wp
    real(wp), parameter :: LARGEST_RESIDUAL = 1.0e-8_wp  !< of the equilibrium; its digits are rounding
    integer, parameter :: MOST_LINES = 20                !< differences printed; the rest is counted
-   !> Tables whose numbers tell of the machine and the way, not of the solution.
+   !> Tables of times and iterations: their numbers depend on the machine and on the method, not on the solution.
    character(len=*), parameter :: LEFT_OUT(2) = [character(len=10) :: 'timing', 'iterations']
 
    !> A comparison while it goes on.

@@ -6,7 +6,7 @@ module atrito_stability_plot
    use atrito_model, only: model_t
    use atrito_number_text, only: trimmed_real
    use atrito_plot_files, only: plot_folder, LIMIT_PLOT, MECHANISM_PLOT
-   use atrito_plot_scripts, only: plots_t, begin_plots, end_plots, put, begin_data, end_data, begin_script, end_script, put_terminal
+   use atrito_plot_scripts, only: plots_t, begin_plots, end_plots, put, begin_data, begin_script, put_terminal
    use atrito_plot_text, only: range_t, cover, padded, range_of, range_text, quoted, cleaned, LF, COLOUR
    use atrito_plot_view, only: plot_view_t
    use atrito_stability_result, only: stability_t
@@ -31,17 +31,19 @@ contains
       type(string_t), allocatable, intent(out) :: drawn(:)
       type(plots_t) :: plots
       type(status_t) :: status
+      type(string_t) :: names(2)
 
       call begin_plots(plots, plot_folder(folder))
       call begin_data(plots, LIMIT_PLOT, 'blocks: solved and checked, not converged; columns: '//limit%parameter// &
                       ', displacement [L]')
       call put_values(plots, limit, STATUS_OK)
       call put_values(plots, limit, STATUS_NOT_CONVERGED)
-      call end_data(plots)
       call write_script(plots, title, limit)
       call write_mechanism_plot(plots, model, limit, title, view)
       call end_plots(plots, status)
-      call draw_written(folder, [string_t(LIMIT_PLOT), string_t(MECHANISM_PLOT)], status, drawn)
+      names(1)%s = LIMIT_PLOT
+      names(2)%s = MECHANISM_PLOT
+      call draw_written(folder, names, status, drawn)
    end subroutine write_stability_plots
 
    !> The block of the values that ended so.
@@ -97,7 +99,6 @@ contains
                                                                  ' lw 1.5 pt 2 ps 1.1*dot lc rgb "#606060" title "undecided"'
       call put(plots, line//', NaN with lines lt 1 lw 1.5 lc rgb "#D55E00" title '// &
                quoted('falls from '//to_text(limit%falls, 8)//' on')//' noenhanced')
-      call end_script(plots)
    end subroutine write_script
 
 end module atrito_stability_plot

@@ -154,6 +154,12 @@ contains
    end function is_last
 
    !> Richardson's limit of three values at halved sizes; nan where their differences do not shrink with one sign.
+   !>
+   !> If q(h) = q + C h^p, the differences of values at h, h/2 and h/4 are
+   !>    d1 = q2 - q1 = -C h^p (1 - 2^-p),  d2 = q3 - q2 = d1 2^-p,
+   !> so the order is p = log2(d1/d2). The error of the last value is q3 - q = C (h/4)^p = -d2/(2^p - 1), hence the limit is
+   !> q = q3 + d2/(d1/d2 - 1).
+   !> Equal differences, growing ones or some of other sign belong to no such law; a d2 of 0 means that the limit is reached.
    subroutine richardson_limit(q, limit, order)
       real(wp), intent(in) :: q(3)                   !< coarse to fine
       real(wp), intent(out) :: limit, order

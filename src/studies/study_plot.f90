@@ -5,7 +5,7 @@ module atrito_study_plot
    use atrito_kinds, only: ip, wp, is_nan
    use atrito_number_text, only: trimmed_real
    use atrito_plot_files, only: plot_folder, STUDY_PLOT
-   use atrito_plot_scripts, only: plots_t, begin_plots, end_plots, put, begin_data, end_data, begin_script, end_script, put_terminal
+   use atrito_plot_scripts, only: plots_t, begin_plots, end_plots, put, begin_data, begin_script, put_terminal
    use atrito_plot_text, only: quoted, cleaned, LF, COLOUR, N_COLOURS
    use atrito_status, only: status_t
    use atrito_strings, only: string_t, to_text
@@ -28,12 +28,14 @@ contains
       type(string_t), allocatable, intent(out) :: drawn(:)
       type(plots_t) :: plots
       type(status_t) :: status
+      type(string_t) :: names(1)
 
       call begin_plots(plots, plot_folder(folder))
       call write_data(plots, study)
       call write_script(plots, title, study)
       call end_plots(plots, status)
-      call draw_written(folder, [string_t(STUDY_PLOT)], status, drawn)
+      names(1)%s = STUDY_PLOT
+      call draw_written(folder, names, status, drawn)
    end subroutine write_study_plot
 
    !> A block an element.
@@ -59,7 +61,6 @@ contains
          end do
          call put(plots, LF)
       end do
-      call end_data(plots)
    end subroutine write_data
 
    !> A panel a quantity that has errors, one of the estimate and one of the time.
@@ -92,7 +93,6 @@ contains
       call put_panel(plots, study, SECONDS, TIME, ESTIMATE, 'estimated error, energy norm [%]')
       call put_panel(plots, study, DOFS, 'displacements', SECONDS, TIME)
       call put(plots, 'unset multiplot')
-      call end_script(plots)
    end subroutine write_script
 
    !> One panel: column y against column x. Where no number can be drawn the panel is left empty. The label of the ordinate stands
@@ -136,7 +136,8 @@ contains
       end do
    end function has_points
 
-   !> `, slope -0.49` of the last two points; empty where there are none.
+   !> `, slope -0.49` of the last two points, the difference of the logarithms of y over that of x, which is the exponent where y
+   !> goes with a power of x; empty where there are none.
    pure function slope_text(study, element, x, y) result(text)
       type(study_t), intent(in) :: study
       character(len=*), intent(in) :: element

@@ -27,16 +27,16 @@ contains
       if (.not. allocated(study%probes)) allocate (study%probes(0))
       call find_errors(study)
       do i = 1, size(study%quantities)
-         call speak_of_quantity(study, i)
+         call describe_quantity(study, i)
       end do
       do i = 1, size(study%probes)
-         call speak_of_probe(study, study%probes(i))
+         call describe_probe(study, study%probes(i))
       end do
-      call speak_of_estimate(study)
-      call speak_of_pressure(study)
+      call describe_estimate(study)
+      call describe_pressure(study)
    end subroutine judge_study
 
-   subroutine speak_of_quantity(study, i)
+   subroutine describe_quantity(study, i)
       type(study_t), intent(inout) :: study
       integer, intent(in) :: i
       character(len=:), allocatable :: text
@@ -59,18 +59,19 @@ contains
             call append_string(study%words, text)
             if (abs(quantity%reference) > 0.0_wp) call append_string(study%words, soonest(study, i))
             do k = 2, size(study%rows)
-               if (is_last(study%rows, k)) call speak_of_last_error(study, i, k)
+               if (is_last(study%rows, k)) call describe_last_error(study, i, k)
             end do
          end if
       end associate
-   end subroutine speak_of_quantity
+   end subroutine describe_quantity
 
-   !> 0.0123 -> `1.2 %`.
+   !> 0.0123 -> `1.2 %`; what is no number -> `none`.
    pure function percent(x) result(text)
       real(wp), intent(in) :: x
       character(len=:), allocatable :: text
 
-      text = to_text(100*x, 2)//' %'
+      text = 'none'
+      if (.not. is_nan(x)) text = to_text(100*x, 2)//' %'
    end function percent
 
    !> Which element gives a good answer soonest: `1 % of strain_energy soonest: cpe9, level 0 (983 dofs, 0.0035 s); then cpe4, ...`.
@@ -78,13 +79,12 @@ contains
       type(study_t), intent(in) :: study
       integer, intent(in) :: i
       character(len=:), allocatable :: text
-      logical, allocatable :: told(:)
+      logical, allocatable :: is_listed(:)
       character(len=:), allocatable :: failed
       real(wp) :: seconds(size(study%rows))
       integer :: k, n, next, before
 
-      allocate (told(size(study%rows)))
-      told = .true.
+      allocate (is_listed(size(study%rows)), source=.true.)
       before = 0
       seconds = [(total_seconds(study%rows(k), PROCESSOR), k=1, size(study%rows))]
       failed = ''
@@ -92,22 +92,28 @@ contains
          if (.not. is_last(study%rows, k)) cycle
          n = first_good(study, i, k)
          if (n > 0) then
-            told(n) = .false.
+            is_listed(n) = .false.
          else
             if (len(failed) > 0) failed = failed//', '
-            failed = failed//study%rows(k)%element//' ('//error_text(study%quantities(i)%error(k))//')'
+            failed = failed//study%rows(k)%element//' ('//percent(study%quantities(i)%error(k))//')'
          end if
       end do
       text = to_text(100*GOOD, 2)//' % of '//study%quantities(i)%name
-      if (all(told)) then
+      if (all(is_listed)) then
          text = text//': in no run; at the last level '//failed
          return
       end if
       text = text//' soonest: '
-      do while (.not. all(told))
-         next = minloc(seconds, dim=1, mask=.not. told)
-         told(next) = .true.
-         if (before > 0) text = text//conjunction(study%rows(before), study%rows(next))
+      do while (.not. all(is_listed))
+         next = minloc(seconds, dim=1, mask=.not. is_listed)
+         is_listed(next) = .true.
+         if (before > 0) then                       ! times that differ by less than the noise of the clock count as equal
+            if (seconds(next) < (1.0_wp + CLOCK_NOISE)*seconds(before)) then
+               text = text//', as soon as '
+            else
+               text = text//'; then '
+            end if
+         end if
          before = next
          associate (row => study%rows(next))
             text = text//row%element//', level '//to_text(row%level)//' ('//to_text(row%n_dofs)//' dofs, ' &
@@ -116,23 +122,6 @@ contains
       end do
       if (len(failed) > 0) text = text//'; not reached by '//failed
    end function soonest
-
-   !> Between two runs: what the clock does not tell apart is as soon.
-   pure function conjunction(first, second) result(text)
-      type(study_row_t), intent(in) :: first, second
-      character(len=:), allocatable :: text
-
-      text = '; then '
-      if (total_seconds(second, PROCESSOR) < (1.0_wp + CLOCK_NOISE)*total_seconds(first, PROCESSOR)) text = ', as soon as '
-   end function conjunction
-
-   pure function error_text(error) result(text)
-      real(wp), intent(in) :: error
-      character(len=:), allocatable :: text
-
-      text = 'none'
-      if (.not. is_nan(error)) text = percent(error)
-   end function error_text
 
    !> The coarsest row of an element from which on all its errors are small; 0: there is none.
    pure integer function first_good(study, i, last) result(n)
@@ -150,7 +139,7 @@ contains
    end function first_good
 
    !> Whether the error still falls at the finest level of an element, and if not the reason.
-   subroutine speak_of_last_error(study, i, k)
+   subroutine describe_last_error(study, i, k)
       type(study_t), intent(inout) :: study
       integer, intent(in) :: i, k
       character(len=:), allocatable :: text
@@ -179,7 +168,7 @@ contains
          end if
          call append_string(study%words, text)
       end associate
-   end subroutine speak_of_last_error
+   end subroutine describe_last_error
 
    !> The regularisation that moves a quantity most, if it moves it enough; its whole effect is about twice that of its half.
    function reason(study, i, k) result(text)
@@ -225,7 +214,7 @@ contains
    end function effect
 
    !> What half of a regularisation does: a limit that is extrapolated has it in itself, so its error never shows it.
-   subroutine speak_of_probe(study, probe)
+   subroutine describe_probe(study, probe)
       type(study_t), intent(inout) :: study
       type(study_probe_t), intent(in) :: probe
       character(len=:), allocatable :: text
@@ -251,10 +240,10 @@ contains
          text = text//'small beside the errors of these meshes'
       end if
       call append_string(study%words, text)
-   end subroutine speak_of_probe
+   end subroutine describe_probe
 
    !> The order of the estimate is that of the elements where the solution is smooth, and that of the worst singularity elsewhere.
-   subroutine speak_of_estimate(study)
+   subroutine describe_estimate(study)
       type(study_t), intent(inout) :: study
       character(len=:), allocatable :: found, smooth
       real(wp) :: order
@@ -285,10 +274,10 @@ contains
                  'gains more than one that is finer everywhere'
       end if
       call append_string(study%words, found)
-   end subroutine speak_of_estimate
+   end subroutine describe_estimate
 
    !> A largest pressure that grows from level to level, by steps that do not shrink, has no limit.
-   subroutine speak_of_pressure(study)
+   subroutine describe_pressure(study)
       type(study_t), intent(inout) :: study
       character(len=:), allocatable :: place
       integer :: k
@@ -296,7 +285,10 @@ contains
       associate (rows => study%rows)
          do k = 3, size(rows)
             if (.not. is_last(rows, k) .or. rows(k)%element /= rows(k - 2)%element) cycle
-            if (.not. has_no_limit(rows(k - 2:k)%pressure)) cycle
+            associate (p => rows(k - 2:k)%pressure)
+               if (.not. (p(2) - p(1) > GROWTH*p(2) .and. p(3) - p(2) > GROWTH*p(3) .and. &
+                          p(3) - p(2) >= NOT_SHRINKING*(p(2) - p(1)))) cycle
+            end associate
             place = 'at ('//to_text(rows(k)%peak(1), 6)//', '//to_text(rows(k)%peak(2), 6)//')'
             if (rows(k)%peak_is_end) place = place//', an end of the contact surface'
             call append_string(study%words, rows(k)%element//': the largest pressure, '//place//', grows with every level (' &
@@ -306,12 +298,6 @@ contains
                                //': it looks singular, without a limit; compare resultants')
          end do
       end associate
-   end subroutine speak_of_pressure
-
-   pure logical function has_no_limit(p)
-      real(wp), intent(in) :: p(3)                   !< coarse to fine
-
-      has_no_limit = p(2) - p(1) > GROWTH*p(2) .and. p(3) - p(2) > GROWTH*p(3) .and. p(3) - p(2) >= NOT_SHRINKING*(p(2) - p(1))
-   end function has_no_limit
+   end subroutine describe_pressure
 
 end module atrito_study_words

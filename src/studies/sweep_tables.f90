@@ -189,25 +189,39 @@ contains
       if (row > 0 .and. run%is_whole) value = run%summary%value(find_column(run%summary, 'value'), row)
    end function value_at_end
 
-   !> The closing lines: a row a run, what is observed first, then of the first contact pair.
+   !> The closing lines: a row a run, what is observed first, as far as there is room, and the usual quantities of the first contact
+   !> pair behind it.
    subroutine compose_sweep(deck, names, observed, runs, folder, seconds, page, pictures)
       character(len=*), intent(in) :: deck, folder
       type(string_t), intent(in) :: names(:), observed(:)
       type(sweep_run_t), intent(in) :: runs(:)
       real(wp), intent(in) :: seconds(2)               !< wall clock and processor
       type(page_t), intent(out) :: page
-      type(string_t), intent(in) :: pictures(:) !< that were drawn, names without folder and ending
-      character(len=len(USUAL)) :: shown(size(USUAL))
-      character(len=VALUE_WIDTH) :: headings(size(USUAL))
-      integer(ip) :: i, n
+      type(string_t), intent(in) :: pictures(:)        !< that were drawn, names without folder and ending
+      type(string_t) :: shown(size(USUAL))             ! quantities
+      character(len=VALUE_WIDTH) :: cells(size(USUAL))
+      integer(ip) :: i, k, n, n_observed
 
       n = size(runs, kind=ip)
+      n_observed = min(size(observed, kind=ip), size(USUAL, kind=ip))
+      do k = 1, size(USUAL, kind=ip)
+         if (k <= n_observed) then
+            shown(k) = observed(k)
+            cells(k) = left(observed(k)%s, VALUE_WIDTH - 1)
+         else
+            shown(k)%s = trim(USUAL(k - n_observed))
+            cells(k) = USUAL_HEADINGS(k - n_observed)
+         end if
+      end do
       call begin_report(page, '   sweep of '//deck)
       call add_rule(page, '-')
-      call choose_columns(observed, shown, headings)
-      call add_line(page, row_of(join(names, ', '), 'outer', headings, 'exit'))
+      call add_line(page, row_of(join(names, ', '), 'outer', cells, 'exit'))
       do i = 1, min(n, MOST_ROWS)
-         call add_line(page, row_of_run(runs(i), shown))
+         do k = 1, size(shown, kind=ip)
+            cells(k) = amount(runs(i), shown(k)%s)
+         end do
+         call add_line(page, row_of(join(runs(i)%texts, ', '), trim(amount(runs(i), 'picard_iterations')), cells, &
+                                    to_text(int(runs(i)%code, ip))))
       end do
       if (n > MOST_ROWS) call add_line(page, '... and '//plural(n - MOST_ROWS, 'run', 'runs')//' more in sweep.tab')
       call add_rule(page, '-')
@@ -216,36 +230,6 @@ contains
       call add_item(page, 'time', number(seconds(1), 3)//' s ('//number(seconds(2), 3)//' s of processor)')
       call add_files(page, folder, 'sweep runs, and a folder a run', pictures)
    end subroutine compose_sweep
-
-   !> What is observed comes first, as far as there is room, and the usual quantities behind it.
-   pure subroutine choose_columns(observed, shown, headings)
-      type(string_t), intent(in) :: observed(:)
-      character(len=*), intent(out) :: shown(:)        !< quantities
-      character(len=*), intent(out) :: headings(:)     !< as many
-      integer :: i, n
-
-      n = min(size(observed), size(shown))
-      shown(n + 1:) = USUAL(:size(shown) - n)
-      headings(n + 1:) = USUAL_HEADINGS(:size(shown) - n)
-      do i = 1, n
-         shown(i) = observed(i)%s
-         headings(i) = left(observed(i)%s, VALUE_WIDTH - 1)
-      end do
-   end subroutine choose_columns
-
-   function row_of_run(run, shown) result(text)
-      type(sweep_run_t), intent(in) :: run
-      character(len=*), intent(in) :: shown(:)         !< quantities
-      character(len=:), allocatable :: text
-      character(len=VALUE_WIDTH) :: amounts(size(shown))
-      integer :: i
-
-      do i = 1, size(shown)
-         amounts(i) = amount(run, trim(shown(i)))
-      end do
-      text = row_of(join(run%texts, ', '), trim(amount(run, 'picard_iterations')), amounts, &
-                    to_text(int(run%code, ip)))
-   end function row_of_run
 
    !> Columns of the screen.
    pure function row_of(values, outer, amounts, code) result(text)

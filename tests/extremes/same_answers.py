@@ -118,7 +118,7 @@ def main():
     parser.add_argument('--tolerance', type=float, default=1e-12)
     parser.add_argument('--random', nargs=4, metavar=('PROGRAM', 'FIRST', 'LAST', 'SEED'))
     at = sys.argv.index('--') if '--' in sys.argv else len(sys.argv)
-    given = parser.parse_args(sys.argv[1:at])
+    given = parser.parse_intermixed_args(sys.argv[1:at])
     given.options = sys.argv[at + 1:]
     decks = decks_of(given.paths)
     if given.random:

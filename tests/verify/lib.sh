@@ -140,6 +140,27 @@ value() {
    awk "BEGIN { printf \"%.17g\", ($1) }" </dev/null
 }
 
+# quick_pictures: from here on contours are drawn coarsely, which takes a tenth of the time.
+# have_gnuplot: whether there are pictures at all.
+quick_pictures() {
+   have_gnuplot=no
+   REAL_GNUPLOT=$(command -v gnuplot) || return 0
+   have_gnuplot=yes
+   mkdir -p quick
+   cp "$here/../quick_gnuplot" quick/gnuplot
+   PATH=$PWD/quick:$PATH
+   export PATH REAL_GNUPLOT
+}
+
+# fine PATTERN COMMAND...: pictures whose scripts are of the pattern are drawn as they are.
+fine() {
+   FINE=$1
+   export FINE
+   shift
+   "$@"
+   FINE=none
+}
+
 finish() {
    [ "$failures" -eq 0 ] && echo "all hold"
    exit $((failures > 0))

@@ -110,12 +110,14 @@ contains
       type(bar_t), intent(in) :: bar
       logical, intent(in) :: is_signed              !< the field may be positive and negative
       character(len=:), allocatable :: text
+      character(len=6) :: digits
       integer(ip) :: i
 
       text = ''
       do i = 1, bar%n_bands
          if (i > 1) text = text//', '
-         text = text//to_text(i - 1)//' "#'//hexadecimal(band_colour(bar, i, is_signed))//'"'
+         write (digits, '(3z2.2)') band_colour(bar, i, is_signed)
+         text = text//to_text(i - 1)//' "#'//digits//'"'
       end do
    end function palette_text
 
@@ -135,12 +137,6 @@ contains
       largest = max(abs(bar%range%low), abs(bar%range%high)) - 0.5_wp*bar%step
       colour = mixed(SIGNED, 0.5_wp + 0.5_wp*max(-1.0_wp, min(1.0_wp, middle/largest)))
    end function band_colour
-
-   pure character(len=6) function hexadecimal(colour) result(digits)
-      integer, intent(in) :: colour(3)
-
-      write (digits, '(3z2.2)') colour
-   end function hexadecimal
 
    !> Between the colours of a list.
    pure function mixed(list, t) result(colour)

@@ -4,7 +4,7 @@ module atrito_contour_fields
    use atrito_kinds, only: ip, wp
    use atrito_mesh, only: mesh_t
    use atrito_plot_files, only: CONTOUR_PLOTS
-   use atrito_plot_text, only: range_t, cover
+   use atrito_plot_text, only: range_t, range_of
    use atrito_results, only: results_t, extreme_t
    implicit none (type, external)
    private
@@ -120,6 +120,7 @@ contains
       type(results_t), intent(in) :: results
       type(places_t), intent(in) :: nodes, elements
       type(field_t), intent(out) :: field
+      type(range_t) :: range, mises
 
       field%contour = contour
       select case (contour%source)
@@ -129,7 +130,9 @@ contains
          field%value = results%element_error
       case default
          field%value = results%nodal_stress(contour%source, :)
-         if (is_rounding(field%value, results%nodal_stress(5, :))) field%value = 0.0_wp
+         range = range_of(field%value)
+         mises = range_of(results%nodal_stress(5, :))
+         if (range%low <= range%high .and. max(-range%low, range%high) <= NO_STRESS*mises%high) field%value = 0.0_wp
       end select
       if (contour%of_elements) then
          call find_extremes(elements, field)
@@ -137,16 +140,6 @@ contains
          call find_extremes(nodes, field)
       end if
    end subroutine make_field
-
-   !> A stress that is nothing beside Mises'.
-   pure logical function is_rounding(value, mises)
-      real(wp), intent(in) :: value(:), mises(:)
-      type(range_t) :: range, largest
-
-      call cover(range, value)
-      call cover(largest, mises)
-      is_rounding = range%low <= range%high .and. max(-range%low, range%high) <= NO_STRESS*largest%high
-   end function is_rounding
 
    !> The largest and the least of what is shown.
    pure subroutine find_extremes(places, field)

@@ -1,31 +1,106 @@
 !> Contour pictures of a run: stresses recovered at the nodes, displacement and estimated error, on the displaced bodies.
 !>
 !> The colours are a raster, a value a pixel, which costs the same for a hundred elements and for a million, and is an image in the
-!> svg. What lies over it are lines of mesh.dat.
+!> svg. What lies over it are lines of mesh.dat. Things stand in pixels: the bodies, a bar of colours beside them or under wide
+!> ones, and two lines about the largest and the least.
 module atrito_contour_plot
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use atrito_body_plots, only: FEW_NODES
-   use atrito_contour_bar, only: bar_t, make_bar, usual_range, palette_text
+   use atrito_contour_bar, only: round_step, bar_t, make_bar, usual_range, palette_text
    use atrito_contour_fields, only: contour_t, contours_of, field_t, places_t, node_places, element_places, make_field
-   use atrito_contour_layout, only: layout_t, make_layout, put_layout, put_bar_place
-   use atrito_contour_raster, only: raster_t, lay_raster, nodal_values, element_values
-   use atrito_drawing, only: drawing_t, add_lines, add_rigid_lines, inner_runs, displacement_text
-   use atrito_files, only: open_text, put_lines
+   use atrito_contour_raster, only: raster_t, lay_raster, pixel_values
+   use atrito_drawing, only: drawing_t, add_lines, add_rigid_lines, displacement_text
+   use atrito_files, only: put_lines
    use atrito_kinds, only: ip, wp
    use atrito_plot_files, only: MESH_PLOT
-   use atrito_plot_scripts, only: plots_t, put, end_data, begin_script, end_script, put_plot
-   use atrito_plot_text, only: range_t, cover, span, quoted, power_text, LF
+   use atrito_plot_scripts, only: plots_t, put, begin_file, put_terminal, begin_script, put_plot
+   use atrito_plot_text, only: range_t, range_text, span, LF, cover, quoted, power_text
    use atrito_plot_view, only: shown_window, warn_of_box
-   use atrito_status, only: is_ok
-   use atrito_strings, only: string_t, append_string, to_text
+   use atrito_strings, only: string_t, to_text, append_string
    implicit none (type, external)
    private
-   public :: write_contour_plots
+   public :: layout_t, make_layout, write_contour_plots
+
+   type :: layout_t
+      type(range_t) :: window(2)                    !< that is shown [L]
+      integer(ip) :: n(2) = 1                       !< pixels of the window
+      integer(ip) :: left = 0, bottom = 0           !< of the window in the picture
+      integer(ip) :: height = 0                     !< of the picture
+      logical :: is_wide = .false.                  !< the bar lies under the bodies
+   end type layout_t
+
+   integer(ip), parameter :: WIDTH = 1000
+   !> Room round the window: with a bar beside it, whose label stands above it, and with one under it.
+   integer(ip), parameter :: LEFT = 95, RIGHT(2) = [135_ip, 35_ip], BOTTOM(2) = [128_ip, 238_ip], TOP(2) = [84_ip, 62_ip]
+   integer(ip), parameter :: APART(2) = [70_ip, 30_ip] !< the marks of the axes are no nearer
+   integer(ip), parameter :: MOST_HEIGHT = 900      !< of the window
+   real(wp), parameter :: WIDE = 0.32_wp            !< height over width below which a bar beside the window were too short
 
    integer(ip), parameter :: BESIDE = 255           !< the byte of a pixel beside the bodies
    integer, parameter :: DIGITS = 4                 !< of the largest and the least
 
 contains
+
+   !> Where the parts of a contour picture are, for the window that it shows: the raster as large as there is room, the bar below it
+   !> where the window is wide, else beside it.
+   pure type(layout_t) function make_layout(window) result(layout)
+      type(range_t), intent(in) :: window(2)        !< to be shown, of some length [L]
+      real(wp) :: side(2), pixel
+      integer :: form
+      integer(ip) :: room
+
+      side = [span(window(1)), span(window(2))]
+      layout%window = window
+      layout%is_wide = side(2) < WIDE*side(1)
+      form = merge(2, 1, layout%is_wide)
+      room = WIDTH - LEFT - RIGHT(form)
+      pixel = max(side(1)/room, side(2)/MOST_HEIGHT)
+      layout%n = max(1_ip, nint(side/pixel, ip))
+      layout%left = LEFT + (room - layout%n(1))/2
+      layout%bottom = BOTTOM(form)
+      layout%height = layout%bottom + layout%n(2) + TOP(form)
+   end function make_layout
+
+   !> Ranges, terminal, margins and axes. The marks of an axis are so far apart that their numbers do not touch.
+   subroutine put_layout(plots, layout)
+      type(plots_t), intent(inout) :: plots
+      type(layout_t), intent(in) :: layout
+      type(string_t) :: tics(2)
+      integer :: i
+
+      do i = 1, 2
+         tics(i)%s = to_text(round_step(APART(i)*span(layout%window(i))/layout%n(i)), 6)
+      end do
+      call put(plots, 'set xrange '//range_text(layout%window(1))//LF//'set yrange '//range_text(layout%window(2))//LF// &
+               'width = '//to_text(WIDTH)//'.0; height = '//to_text(layout%height)//'.0   # of the picture in pixels'//LF// &
+               'across(pixels) = pixels/width'//LF//'up(pixels) = pixels/height')
+      call put_terminal(plots, 'int(width),int(height)')
+      call put(plots, 'set lmargin at screen across('//to_text(layout%left)//'); set rmargin at screen across('// &
+               to_text(layout%left + layout%n(1))//')'//LF//'set bmargin at screen up('//to_text(layout%bottom)// &
+               '); set tmargin at screen up('//to_text(layout%bottom + layout%n(2))//')'//LF//'set clip two'//LF// &
+               'set border lt 1 lw 1 lc rgb "#A0A0A0"'//LF// &
+               'set tics nomirror out scale 0.6 textcolor rgb "black" format "%h"'//LF// &
+               'set xtics '//tics(1)%s//'; set ytics '//tics(2)%s//LF//'unset key'//LF// &
+               'set xlabel "x [L]"; set ylabel "y [L]"')
+   end subroutine put_layout
+
+   !> Place of the bar, and what it is of: above a bar that stands, where long numbers at the bar are not in its way.
+   subroutine put_bar_place(plots, layout, what)
+      type(plots_t), intent(inout) :: plots
+      type(layout_t), intent(in) :: layout
+      character(len=*), intent(in) :: what
+
+      if (layout%is_wide) then
+         call put(plots, 'set colorbox horizontal user origin screen across('//to_text(layout%left)//'), screen up(138)'// &
+                  ' size screen across('//to_text(layout%n(1))//'), screen up(16)'//LF//'set cblabel "'//what//'"')
+      else
+         call put(plots, 'set colorbox vertical user origin screen across('//to_text(layout%left + layout%n(1) + 22)// &
+                  '), screen up('//to_text(layout%bottom)//') size screen across(20), screen up('//to_text(layout%n(2))//')'//LF// &
+                  'set label 2 "'//what//'" at screen across('// &
+                  to_text(min(WIDTH - 10_ip, layout%left + layout%n(1) + 125))//'), screen up('// &
+                  to_text(layout%bottom + layout%n(2) + 14)//') right')
+      end if
+   end subroutine put_bar_place
 
    !> Writes .gp and .bin of all contours that there are, beside mesh.dat.
    subroutine write_contour_plots(plots, drawing)
@@ -63,11 +138,7 @@ contains
       real(wp), allocatable :: pixels(:, :)
       type(bar_t) :: bar
 
-      if (field%contour%of_elements) then
-         pixels = element_values(raster, field%value)
-      else
-         pixels = nodal_values(raster, drawing%model%mesh, field%value)
-      end if
+      pixels = pixel_values(raster, drawing%model%mesh, field%value, field%contour%of_elements)
       if (.not. field%is_shown) call cover(field%range, reshape(pixels, [size(pixels)]))   ! the window lies within an element
       if (field%range%low > field%range%high) field%range = range_t(0.0_wp, 0.0_wp)        ! or beside all of them
       bar = make_bar(usual_range(reshape(pixels, [size(pixels)]), field%range))
@@ -85,7 +156,7 @@ contains
       real(wp) :: per_level
       integer :: i, j, level
 
-      if (is_ok(plots%status)) call open_text(plots%set, name//'.bin', plots%file)
+      call begin_file(plots, name//'.bin')
       per_level = bar%n_bands*levels_of(bar)/span(bar%range)
       do j = 1, size(pixels, 2)
          do i = 1, size(pixels, 1)
@@ -98,7 +169,6 @@ contains
          end do
          call put_lines(plots%file, row)
       end do
-      call end_data(plots)
    end subroutine write_raster
 
    !> Levels of a band.
@@ -133,7 +203,6 @@ contains
       call put_bar(plots, layout, field, bar)
       if (field%is_shown) call put_extremes(plots, layout, field, bar)
       call put_curves(plots, drawing, layout)
-      call end_script(plots)
    end subroutine write_script
 
    !> Colours, range and marks of the bar.
@@ -152,7 +221,7 @@ contains
                          trim(field%contour%dimension)//']')
    end subroutine put_bar
 
-   !> Marks at the largest and at the least, and lines that tell them.
+   !> Marks at the largest and at the least value, and lines that say where these are.
    subroutine put_extremes(plots, layout, field, bar)
       type(plots_t), intent(inout) :: plots
       type(layout_t), intent(in) :: layout
@@ -201,7 +270,7 @@ contains
                             to_text(window(1)%low + 0.5_wp*side(1), 10)//','//to_text(window(2)%low + 0.5_wp*side(2), 10)// &
                             ') format="%uint8" using (field($1)/unit) with image')
       end associate
-      n_inner = inner_runs(drawing)
+      n_inner = drawing%n_inner
       if (n_inner > 0 .and. drawing%model%mesh%n_nodes <= FEW_NODES) &
          call add_lines(MESH_PLOT, 0_ip, n_inner - 1, 'lt 1 lw 0.4 lc rgb "#606060"', curves)
       call add_lines(MESH_PLOT, n_inner, drawing%lines%n_runs - 1, 'lt 1 lw 1.2 lc rgb "#303030"', curves)

@@ -2,6 +2,13 @@
 !>
 !> The work goes with the pixels, not with the elements, of which there may be millions: one that covers the centre of no pixel is
 !> passed over. An element is cut into so many triangles that their edges follow its curves, and places are linear in each of them.
+!>
+!> For a triangle with corners x1, x2, x3 in the picture and xi1, xi2, xi3 in the element, a pixel's centre x has the barycentric
+!> shares s1 + s2 + s3 = 1 with x = s1 x1 + s2 x2 + s3 x3. With b = x2 - x1, c = x3 - x1, d = x - x1 Cramer's rule gives
+!>    s2 = (d x c)/(b x c),  s3 = (b x d)/(b x c),  s1 = 1 - s2 - s3,
+!> where p x q = p1 q2 - p2 q1. The centre lies in the triangle where no share is negative, and its place in the element is
+!> s1 xi1 + s2 xi2 + s3 xi3: the inverse of the element's map, without Newton's method, up to the size of a piece. The field there
+!> follows from the shape functions at that place.
 module atrito_contour_raster
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_value, ieee_quiet_nan
    use atrito_element_table, only: MOST_NODES, CORNERS_OF, DEGREE_OF
@@ -11,7 +18,7 @@ module atrito_contour_raster
    use atrito_shape_functions, only: shape_values
    implicit none (type, external)
    private
-   public :: raster_t, lay_raster, nodal_values, element_values
+   public :: raster_t, lay_raster, pixel_values
 
    type :: raster_t
       integer(ip) :: n(2) = 0                       !< pixels along x and y
@@ -142,38 +149,29 @@ contains
       within = max(0.5_wp, min(n + 0.5_wp, place))
    end function within
 
-   !> A field that is interpolated between the nodes, at the pixels; NaN beside the bodies.
-   pure function nodal_values(raster, mesh, at_node) result(value)
+   !> A field at the pixels; NaN beside the bodies.
+   pure function pixel_values(raster, mesh, values, of_elements) result(pixels)
       type(raster_t), intent(in) :: raster
       type(mesh_t), intent(in) :: mesh
-      real(wp), intent(in) :: at_node(:)            !< (n_nodes)
-      real(wp), allocatable :: value(:, :)          !< (n(1), n(2))
+      real(wp), intent(in) :: values(:)             !< of the elements, or at the nodes, between which they are interpolated
+      logical, intent(in) :: of_elements
+      real(wp), allocatable :: pixels(:, :)         !< (n(1), n(2))
       integer(ip) :: i, j
 
-      allocate (value(raster%n(1), raster%n(2)), source=ieee_value(1.0_wp, ieee_quiet_nan))
+      allocate (pixels(raster%n(1), raster%n(2)), source=ieee_value(1.0_wp, ieee_quiet_nan))
       do j = 1, raster%n(2)
          do i = 1, raster%n(1)
             associate (e => raster%element(i, j))
                if (e == 0) cycle
-               value(i, j) = dot_product(shape_values(mesh%shape(e), raster%place(:, i, j)), at_node(mesh%nodes(:mesh%shape(e), e)))
+               if (of_elements) then
+                  pixels(i, j) = values(e)
+               else
+                  pixels(i, j) = dot_product(shape_values(mesh%shape(e), raster%place(:, i, j)), &
+                                             values(mesh%nodes(:mesh%shape(e), e)))
+               end if
             end associate
          end do
       end do
-   end function nodal_values
-
-   !> A field that is constant in the elements, at the pixels; NaN beside the bodies.
-   pure function element_values(raster, of_element) result(value)
-      type(raster_t), intent(in) :: raster
-      real(wp), intent(in) :: of_element(:)         !< (n_elements)
-      real(wp), allocatable :: value(:, :)          !< (n(1), n(2))
-      integer(ip) :: i, j
-
-      allocate (value(raster%n(1), raster%n(2)), source=ieee_value(1.0_wp, ieee_quiet_nan))
-      do j = 1, raster%n(2)
-         do i = 1, raster%n(1)
-            if (raster%element(i, j) > 0) value(i, j) = of_element(raster%element(i, j))
-         end do
-      end do
-   end function element_values
+   end function pixel_values
 
 end module atrito_contour_raster

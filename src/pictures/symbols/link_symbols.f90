@@ -7,7 +7,7 @@ module atrito_link_symbols
    use atrito_model, only: spring_t
    use atrito_plot_text, only: span
    use atrito_strings, only: to_text
-   use atrito_symbols, only: symbols_t, begin_block, end_block, put_stroke, put_path, put_arrow, put_point, thinned, &
+   use atrito_symbols, only: symbols_t, begin_block, put_stroke, put_path, put_arrow, put_point, thinned, &
                              place_of_node, end_value, ARROW_LOOKS
    implicit none (type, external)
    private
@@ -50,7 +50,6 @@ contains
       end associate
       call begin_block(symbols, 'the axis of revolution', '', AXIS//' title "axis of revolution"')
       call put_stroke(symbols, [0.0_wp, 0.0_wp], reshape([0.0_wp, low, 0.0_wp, high], [2, 2]))
-      call end_block(symbols)
    end subroutine put_axis
 
    subroutine put_springs(symbols)
@@ -63,7 +62,6 @@ contains
       do i = 1, size(symbols%model%springs, kind=ip)
          call put_spring(symbols%model%springs(i), symbols)
       end do
-      call end_block(symbols)
    end subroutine put_springs
 
    !> A zigzag between two nodes; from a node to the ground, or where both nodes coincide, along the direction of its dof.
@@ -122,7 +120,6 @@ contains
                end associate
             end do
          end do
-         call end_block(symbols)
       end associate
    end subroutine put_equations
 
@@ -146,7 +143,6 @@ contains
             do i = 1, size(nodes, kind=ip)
                call put_point(symbols, symbols%u(:, nodes(i)), symbols%model%mesh%x(:, nodes(i)), [1.0_wp])
             end do
-            call end_block(symbols)
             call put_pull(all_rows%vector(:, all_rows%first(rows(1))), nodes, symbols)
          end associate
       end do
@@ -184,7 +180,6 @@ contains
       call begin_block(symbols, 'its force', ':5:6', ARROW_LOOKS//' lw 1.8 '//SECTIONS)
       call put_arrow(symbols, move, middle - 1.2_wp*arrow, arrow)
       call put_arrow(symbols, move, middle + 1.2_wp*arrow, -arrow)
-      call end_block(symbols)
    end subroutine put_pull
 
    !> Reference nodes of rigid surfaces; a square round those whose rotation is held.
@@ -203,7 +198,6 @@ contains
             call put_point(symbols, symbols%u(:, body%node), place_of_node(symbols, body%node), [1.0_wp])
          end associate
       end do
-      call end_block(symbols)
       h = HALF_SQUARE*symbols%pixel
       associate (held => symbols%model%steps(symbols%step)%rigid_prescribed)
          if (count(held%dof(:held%n) > 2) == 0) return
@@ -214,7 +208,6 @@ contains
             call put_stroke(symbols, symbols%u(:, held%node(i)), reshape([place + [-h, -h], place + [h, -h], place + [h, h], &
                                                                           place + [-h, h], place + [-h, -h]], [2, 5]))
          end do
-         call end_block(symbols)
       end associate
    end subroutine put_references
 

@@ -8,8 +8,8 @@ module atrito_support_symbols
    use atrito_kinds, only: ip, wp
    use atrito_mesh, only: is_revolved
    use atrito_model, only: nodal_values_t
-   use atrito_strings, only: to_text
-   use atrito_symbols, only: symbols_t, begin_block, end_block, put_entry, put_stroke, put_arrow, thinned_nodes, places_of, &
+   use atrito_strings, only: append_string, to_text
+   use atrito_symbols, only: symbols_t, begin_block, put_stroke, put_arrow, thinned_nodes, places_of, &
                              find_outward, end_value, is_section_node, arrow_at, ARROW_LOOKS
    implicit none (type, external)
    private
@@ -90,8 +90,7 @@ contains
       do i = 1, size(fixed%node)
          call put_shape(symbols, fixed, i, TRIANGLE)
       end do
-      call end_block(symbols)
-      call put_entry(symbols, 'with points pt 9 ps 1.6*dot lc rgb "'//GREY//'"', 'held in both directions')
+      call append_string(symbols%curves, 'NaN with points pt 9 ps 1.6*dot lc rgb "'//GREY//'" title "held in both directions"')
       call begin_block(symbols, 'their ground', '', LOOKS)
       do i = 1, size(fixed%node)
          call put_shape(symbols, fixed, i, GROUND)
@@ -99,7 +98,6 @@ contains
             call put_shape(symbols, fixed, i, reshape([HEIGHT, k*HATCH, HEIGHT + HATCH, k*HATCH - HATCH], [2, 2]))
          end do
       end do
-      call end_block(symbols)
    end subroutine put_fixed
 
    !> Nodes with one direction held, inclined ones too.
@@ -121,8 +119,8 @@ contains
             call put_shape(symbols, rollers(k), i, GROUND + spread([GAP, 0.0_wp], 2, 2))
          end do
       end do
-      call end_block(symbols)
-      call put_entry(symbols, 'with points pt 8 ps 1.6*dot lw 1.3 lc rgb "'//GREY//'"', 'held in one direction')
+      call append_string(symbols%curves, 'NaN with points pt 8 ps 1.6*dot lw 1.3 lc rgb "'//GREY// &
+                         '" title "held in one direction"')
    end subroutine put_rollers
 
    !> The nodes that are held so, thinned.
@@ -242,7 +240,6 @@ contains
             call put_arrow(symbols, symbols%u(:, node), from, arrow)
          end associate
       end do
-      call end_block(symbols)
    end subroutine put_moved
 
 end module atrito_support_symbols

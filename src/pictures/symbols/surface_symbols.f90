@@ -6,7 +6,7 @@ module atrito_surface_symbols
    use atrito_model, only: model_t, surface_t, SURFACE_SEGMENTS
    use atrito_plot_text, only: range_t, span
    use atrito_strings, only: to_text
-   use atrito_symbols, only: symbols_t, begin_block, end_block, put_stroke, thinned
+   use atrito_symbols, only: symbols_t, begin_block, put_stroke, thinned
    implicit none (type, external)
    private
    public :: put_surfaces
@@ -133,7 +133,6 @@ contains
          do i = 1, strip%n
             if (is_line(i)) call put_stroke(symbols, RESTS, strip%x(:, :, i))
          end do
-         call end_block(symbols)
          title = ''
       end if
       if (is_crowded) return
@@ -143,10 +142,9 @@ contains
       do i = 1, size(ticks, 2, kind=ip)
          call put_stroke(symbols, RESTS, reshape([ticks(:2, i), ticks(:2, i) + TICK*symbols%pixel*ticks(3:, i)], [2, 2]))
       end do
-      call end_block(symbols)
    end subroutine put_strip
 
-   !> Normals along the pieces, where the bodies are, and so far apart that they can be told from each other.
+   !> Normals along the pieces, where the bodies are, and so far apart that they can be seen one by one.
    subroutine list_ticks(strip, spacing, window, ticks)
       type(strip_t), intent(in) :: strip
       real(wp), intent(in) :: spacing               !< [L]
@@ -175,7 +173,9 @@ contains
       ticks = ticks(:, pack([(i, i=1, total)], thinned(ticks(:2, :), spacing)))
    end subroutine list_ticks
 
-   !> The place at a share of a piece and its normal.
+   !> The place at a share t of a piece, and its normal. The piece is the parabola through its ends x1, x3 and its middle x2,
+   !>    x(t) = (1 - t)(1 - 2t) x1 + 4t(1 - t) x2 + t(2t - 1) x3,
+   !> and the normal is its derivative turned by 90 degrees, to the side on which the outside is.
    pure function tick_at(strip, i, t) result(tick)
       type(strip_t), intent(in) :: strip
       integer(ip), intent(in) :: i
@@ -190,6 +190,10 @@ contains
    end function tick_at
 
    !> From which share of a straight line on to which it lies in a window; the second is less than the first where nowhere.
+   !>
+   !> Clipping by Liang and Barsky: a + t (b - a) crosses the two sides of the window across axis k at t = (side - a_k)/(b_k - a_k).
+   !> The line is inside between the lesser and the greater of these; what is left after both axes is the answer. A line along an
+   !> axis crosses no side across the other one: it lies between them all along, or nowhere.
    pure function share_in(a, b, window) result(share)
       real(wp), intent(in) :: a(2), b(2)            !< its ends [L]
       type(range_t), intent(in) :: window(2)        !< [L]

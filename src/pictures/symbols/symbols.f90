@@ -1,7 +1,7 @@
 !> Symbols over the bodies of a picture: the file of their places, and the curves by which a script draws them.
 !>
 !> Places go with their displacements, as those of the bodies do, so that a script that draws bodies displaced has the symbols where
-!> the bodies are. Lengths are told in pixels of a picture that is 1000 wide.
+!> the bodies are. Lengths are given in pixels of a picture that is 1000 wide.
 module atrito_symbols
    use atrito_drawing, only: drawing_t, put_place, MOVED
    use atrito_id_map, only: id_map_t, add_id, find_id
@@ -18,7 +18,7 @@ module atrito_symbols
    use atrito_strings, only: string_t, append_string, to_text
    implicit none (type, external)
    private
-   public :: symbols_t, begin_symbols, begin_block, end_block, put_entry, put_stroke, put_path, put_arrow, put_point
+   public :: symbols_t, begin_symbols, end_symbols, begin_block, put_stroke, put_path, put_arrow, put_point
    public :: pixel_of, thinned, thinned_nodes, places_of, find_outward, end_value, load_factor, place_of_node
    public :: is_section_node, arrow_at
    public :: ARROW_LOOKS, SLANT
@@ -46,6 +46,7 @@ module atrito_symbols
       type(range_t) :: window(2)                    !< what bodies and symbols cover as they are drawn [L]
       logical :: widens = .true.                    !< the window, by what is put
       integer(ip) :: n_blocks = 0
+      logical :: is_open = .false.                  !< the last block has something in it and may have more
       character(len=:), allocatable :: what, drawn  !< of a block that was begun and has nothing in it yet
       type(string_t), allocatable :: curves(:)      !< of the script: one a block, and entries of the legend
    end type symbols_t
@@ -81,13 +82,16 @@ contains
       if (.not. pixel > 0.0_wp) pixel = 1.0_wp
    end function pixel_of
 
-   !> Begins a block of symbols that are drawn alike. columns: what `using` has behind the place, with its colon, or nothing.
+   !> Begins a block of symbols that are drawn alike, which ends the one before it; one into which nothing is put leaves no trace.
+   !> columns: what `using` has behind the place, with its colon, or nothing.
    subroutine begin_block(symbols, what, columns, drawn)
       type(symbols_t), intent(inout) :: symbols
       character(len=*), intent(in) :: what          !< they are
       character(len=*), intent(in) :: columns
       character(len=*), intent(in) :: drawn         !< `with ...` and the title
 
+      if (symbols%is_open) call put(symbols%plots, '')
+      symbols%is_open = .false.
       symbols%what = what
       symbols%drawn = ' using '//MOVED//columns//' '//drawn
    end subroutine begin_block
@@ -101,28 +105,16 @@ contains
       call put(symbols%plots, '# block '//to_text(symbols%n_blocks)//': '//symbols%what)
       call append_string(symbols%curves, symbols%data//' index '//to_text(symbols%n_blocks)//symbols%drawn)
       symbols%n_blocks = symbols%n_blocks + 1
+      symbols%is_open = .true.
       deallocate (symbols%what)
    end subroutine open_block
 
-   !> An entry of the legend for the last block: a symbol of gnuplot's that is like those drawn.
-   subroutine put_entry(symbols, drawn, title)
-      type(symbols_t), intent(inout) :: symbols
-      character(len=*), intent(in) :: drawn         !< `with points ...`
-      character(len=*), intent(in) :: title
-
-      call append_string(symbols%curves, 'NaN '//drawn//' title "'//title//'"')
-   end subroutine put_entry
-
-   !> Ends a block; one into which nothing was put has left no trace in the file.
-   subroutine end_block(symbols)
+   !> Ends the last block.
+   subroutine end_symbols(symbols)
       type(symbols_t), intent(inout) :: symbols
 
-      if (allocated(symbols%what)) then
-         deallocate (symbols%what)
-      else
-         call put(symbols%plots, '')
-      end if
-   end subroutine end_block
+      if (symbols%is_open) call put(symbols%plots, '')
+   end subroutine end_symbols
 
    !> A line through some places that move together.
    subroutine put_stroke(symbols, u, places)
@@ -209,7 +201,11 @@ contains
    end function thinned_nodes
 
    !> Which of some places are kept so that none is nearer to another than the spacing. They are gone through in an order that
-   !> begins a straight side at one of its ends.
+   !> begins a straight side at one of its ends: by their distance along a skew direction.
+   !>
+   !> A grid of squares with sides spacing/sqrt(2) makes this take a time that grows with the number of places alone: two places in
+   !> one square are nearer than the spacing, so a square holds one place that is kept at the most, and places nearer than the
+   !> spacing lie within two squares of each other, so 25 squares are looked at for each.
    pure function thinned(places, spacing) result(keep)
       real(wp), intent(in) :: places(:, :)          !< (2, n) [L]
       real(wp), intent(in) :: spacing               !< [L], > 0
@@ -256,6 +252,9 @@ contains
 
    !> The sum of the outward normals of the faces at each node, by their lengths, and the sum of the lengths [L]. Those inside
    !> cancel, so at a node inside the first is round-off. Faces count both of whose ends are in a class.
+   !>
+   !> The nodes of an element go round it to the left, so a face from x1 to x2, d = x2 - x1, has the outward normal (d2, -d1), whose
+   !> length is that of the face. The two elements on both sides of a face inside go through it in opposite directions.
    pure function find_outward(mesh, is_in) result(outward)
       type(mesh_t), intent(in) :: mesh
       logical, intent(in), optional :: is_in(:)     !< (n_nodes) the class; default: all nodes

@@ -2,8 +2,7 @@
 ex1=$input/ex1-plate-on-support.inp
 judge=$here/check_page.py
 
-have_gnuplot=yes
-command -v gnuplot >/dev/null 2>&1 || have_gnuplot=no
+quick_pictures
 [ "$have_gnuplot" = yes ] || echo 'gnuplot is not installed: pages without pictures are checked'
 
 # page FOLDER PICTURES [TEXT ...]: the page of a folder is sound and tells the texts.
@@ -33,7 +32,7 @@ series() {
 sh "$here/must_fail.sh" "$judge" || complain 'the judge of pages'
 
 # a run: what it tells
-run 0 "$ex1" plate --report --set nu=0.25
+fine contour-mises.gp run 0 "$ex1" plate --report --set nu=0.25
 page plate 9 'Plate on its support' 'run of ex1-plate-on-support.inp' 'Solved and checked' 'support reactions, sum' '0, 1.5' 'Contact pairs' \
    'pair 1: OVER-BOTTOM on SUPPORT-TOP' 'strain_energy' 'reactions' 'The first 20 of 145 rows; all are in nodes.tab' 'Convergence' 'Times' \
    'No warnings, no notes' '--set nu=0.25' 'BLAS' 'ex1-plate-on-support.lst' 'WHAT WAS UNDERSTOOD'
