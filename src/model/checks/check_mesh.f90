@@ -1,7 +1,6 @@
 !> Checks of the finished mesh: shapes, sections, loose nodes, materials in use.
 module atrito_check_mesh
    use atrito_check_shapes, only: check_shapes
-   use atrito_deck, only: deck_t, token_t
    use atrito_diagnostics, only: report_error, report_warning, report_note, report_deck_error
    use atrito_build_context, only: build_context_t, place_token, ids_text, has_errors
    use atrito_element_table, only: SHAPES, DEGREE_OF, can_average
@@ -20,6 +19,8 @@ module atrito_check_mesh
    !> From this ratio on fully integrated elements lock in plane strain: those with three or four nodes altogether, those with more
    !> in their pressures.
    real(wp), parameter :: LOCKING_RATIO = 0.49_wp
+   !> What elements do there: nothing, six and more nodes, four nodes of FORMULATION=STANDARD, three nodes; the worst is told.
+   integer(ip), parameter :: FITS = 0, OSCILLATES = 1, LOCKS = 2, TRIANGLE_LOCKS = 3
 
 contains
 
@@ -60,76 +61,69 @@ contains
    subroutine check_materials(model, context)
       type(model_t), intent(in) :: model
       type(build_context_t), intent(in) :: context
-      logical, dimension(size(model%materials)) :: locks, triangles, oscillates
-      integer(ip) :: state(size(model%materials)), e, i    ! state: of elements that mu = 1/2 makes incompressible; 0: none
+      integer(ip), dimension(size(model%materials)) :: state, trouble
+      integer(ip) :: e, i
 
-      state = 0
-      locks = .false.
-      triangles = .false.
-      oscillates = .false.
+      state = 0                                        ! of elements that mu = 1/2 makes incompressible; 0: none
+      trouble = FITS                                   ! the worst of such elements
       do e = 1, model%mesh%n_elements
          if (model%section_of(e) <= 0) cycle
          associate (section => model%sections(model%section_of(e)))
             if (STATES(model%mesh%state(e))%is_thin) cycle
-            state(section%material) = model%mesh%state(e)
-            if (IS_REDUCED(model%mesh%state(e))) cycle
+            i = section%material
+            state(i) = model%mesh%state(e)
+            if (IS_REDUCED(state(i))) cycle
             if (SHAPES(model%mesh%shape(e))%degree > 1) then
-               oscillates(section%material) = .true.
+               trouble(i) = max(trouble(i), OSCILLATES)
             else if (model%mesh%shape(e) == 3) then
-               triangles(section%material) = .true.
+               trouble(i) = max(trouble(i), TRIANGLE_LOCKS)
             else if (section%formulation == FORMULATION_STANDARD) then
-               locks(section%material) = .true.
+               trouble(i) = max(trouble(i), LOCKS)
             end if
          end associate
       end do
       do i = 1, size(model%materials, kind=ip)
-         associate (material => model%materials(i))
-            if (.not. context%elastic_given(i)) then
-               if (.not. (context%elastic_invalid(i) .and. has_errors())) then
-                  call report_error(context%deck, context%materials(i), 'E-MATERIAL', &
-                                    'material '//material%name//' has no *ELASTIC', &
-                                    expected='*ELASTIC below *MATERIAL: E [F/L^2], mu [-]', keyword='ELASTIC')
-               end if
-            else if (state(i) > 0 .and. .not. context%elastic_invalid(i)) then
-               call check_strained(context%deck, material%poisson, locks(i), triangles(i), oscillates(i), context%poisson(i), &
-                                   state(i))
-            end if
-         end associate
+         if (context%elastic_given(i)) then
+            if (state(i) > 0 .and. .not. context%elastic_invalid(i)) call check_strained(context, model%materials(i)%poisson, i, &
+                                                                                         state(i), trouble(i))
+         else if (.not. (context%elastic_invalid(i) .and. has_errors())) then
+            call report_error(context%deck, context%materials(i), 'E-MATERIAL', &
+                              'material '//model%materials(i)%name//' has no *ELASTIC', &
+                              expected='*ELASTIC below *MATERIAL: E [F/L^2], mu [-]', keyword='ELASTIC')
+         end if
       end do
    end subroutine check_materials
 
    !> Poisson's ratio of a material that cannot give way across the plane.
-   subroutine check_strained(deck, poisson, locks, triangles, oscillates, place, state)
-      type(deck_t), intent(in) :: deck
+   subroutine check_strained(context, poisson, i, state, trouble)
+      type(build_context_t), intent(in) :: context
       real(wp), intent(in) :: poisson
-      logical, intent(in) :: locks, triangles, oscillates !< STANDARD elements with four nodes; with three; with six and more
-      type(token_t), intent(in) :: place
-      integer(ip), intent(in) :: state                 !< place in STATES
+      integer(ip), intent(in) :: i                     !< the material
+      integer(ip), intent(in) :: state                 !< of its elements, place in STATES
+      integer(ip), intent(in) :: trouble               !< that they have where it is nearly incompressible
       character(len=:), allocatable :: there, what, instead
 
       there = ' in '//trim(STATES(state)%name)
       if (STATES(state)%has_hoop) there = there//' elements'
       if (poisson >= 0.5_wp) then
-         call report_error(deck, place, 'E-VALUE', 'mu = '//to_text(poisson, 15)//there, &
+         call report_error(context%deck, context%poisson(i), 'E-VALUE', 'mu = '//to_text(poisson, 15)//there, &
                            expected="Poisson's ratio mu, plane strain -1 < mu < 0.5, plane stress -1 < mu <= 0.5 [-]", &
                            keyword='ELASTIC')
-         return
       end if
-      if (poisson < LOCKING_RATIO) return
+      if (poisson >= 0.5_wp .or. poisson < LOCKING_RATIO .or. trouble == FITS) return
       instead = 'elements with four nodes and FORMULATION=BBAR'
-      if (triangles) then
+      select case (trouble)
+      case (TRIANGLE_LOCKS)
          what = ' triangles with three nodes are much too stiff'//there
          instead = instead//' of *SOLID SECTION'
-      else if (locks) then
+      case (LOCKS)
          what = ' fully integrated Q1 elements are much too stiff'//there
          instead = 'FORMULATION=BBAR of *SOLID SECTION'
-      else if (oscillates) then
+      case default
          what = there//' the pressures of elements with six, eight or nine nodes oscillate, in contact too'
-      else
-         return
-      end if
-      call report_warning(deck, place, 'W-LOCKING', 'nearly incompressible:'//what, expected=instead//', or mu < 0.49 [-]', &
-                          keyword='ELASTIC')
+      end select
+      call report_warning(context%deck, context%poisson(i), 'W-LOCKING', 'nearly incompressible:'//what, &
+                          expected=instead//', or mu < 0.49 [-]', keyword='ELASTIC')
    end subroutine check_strained
 
    !> BBAR is for four nodes where nothing gives way across the plane; elsewhere it changes nothing, told once a section.

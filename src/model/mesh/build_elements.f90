@@ -46,53 +46,41 @@ contains
       integer(ip), intent(in) :: i_card                !< place in deck%cards
       type(build_context_t), intent(inout) :: context
       character(len=:), allocatable :: name
-      integer(ip) :: i, first, n_nodes, state
-      logical :: ok
+      integer(ip), allocatable :: id(:), nodes(:, :)
+      logical, allocatable :: is_plain(:)
+      integer(ip) :: begin, last, i, k, first, n_nodes, state
+      logical :: ok, fits
 
       first = context%model%mesh%n_elements + 1
-      associate (card => context%deck%cards(i_card))
-         call read_element_type(context%deck, card, n_nodes, state, ok)
-         if (ok) ok = fits_memory(card%place, context, 0_lp, int(card%n_lines, lp), 'ELEMENT', n_nodes)
+      associate (card => context%deck%cards(i_card), lines => context%deck%lines)
+         call read_element_type(context%deck, card, n_nodes, state, fits)
+         if (fits) fits = fits_memory(card%place, context, 0_lp, int(card%n_lines, lp), 'ELEMENT', n_nodes)
          name = option_word(context%deck, card, 'TYPE')
-         if (ok .and. is_membrane(name) .and. .not. context%membranes_told) then
+         if (fits .and. is_membrane(name) .and. .not. context%membranes_told) then
             context%membranes_told = .true.
             call report_note(context%deck, card%place, 'N-MEMBRANE', 'membranes are taken as plane stress: '//name//' as CPS'// &
                              name(4:), keyword='ELEMENT')
          end if
-         do i = card%first_line, card%first_line + card%n_lines - 1
-            if (.not. ok) call spoil_number(context%deck, context%deck%lines(i), context%elements)
+         k = min(SLICE, card%n_lines)
+         allocate (id(k), nodes(n_nodes, k), is_plain(k))
+         do begin = card%first_line, card%first_line + card%n_lines - 1, SLICE
+            last = min(card%first_line + card%n_lines, begin + SLICE) - 1
+            if (fits) call read_plain_elements(context%deck, context%model%mesh, lines(begin:last), id, nodes, is_plain)
+            do i = begin, last
+               k = i - begin + 1
+               ok = fits
+               if (ok) ok = is_plain(k)
+               if (ok) then
+                  call place_element(context, id(k), state, nodes(:, k), lines(i)%first_token, ok, 'ELEMENT')
+               else if (fits .and. lines(i)%ok) then
+                  call read_element_line(lines(i), n_nodes, state, context, ok)
+               end if
+               if (.not. ok) call spoil_number(context%deck, lines(i), context%elements)
+            end do
          end do
-         if (ok) call read_element_lines(card%first_line, card%first_line + card%n_lines - 1, n_nodes, state, context)
       end associate
       call put_named_set(i_card, context, [(i, i=first, context%model%mesh%n_elements)])
    end subroutine read_element_card
-
-   subroutine read_element_lines(first, last, n_nodes, state, context)
-      integer(ip), intent(in) :: first, last           !< lines of the deck
-      integer(ip), intent(in) :: n_nodes, state
-      type(build_context_t), intent(inout) :: context
-      integer(ip) :: begin, i, k
-      integer(ip), allocatable :: id(:), nodes(:, :)
-      logical, allocatable :: is_plain(:)
-      logical :: ok
-
-      k = min(SLICE, max(last - first + 1, 0_ip))
-      allocate (id(k), nodes(n_nodes, k), is_plain(k))
-      do begin = first, last, SLICE
-         call read_plain_elements(context%deck, context%model%mesh, context%deck%lines(begin:min(last, begin + SLICE - 1)), &
-                                  id, nodes, is_plain)
-         do i = begin, min(last, begin + SLICE - 1)
-            k = i - begin + 1
-            ok = is_plain(k)
-            if (ok) then
-               call place_element(context, id(k), state, nodes(:, k), context%deck%lines(i)%first_token, ok, 'ELEMENT')
-            else if (context%deck%lines(i)%ok) then
-               call read_element_line(context%deck%lines(i), n_nodes, state, context, ok)
-            end if
-            if (.not. ok) call spoil_number(context%deck, context%deck%lines(i), context%elements)
-         end do
-      end do
-   end subroutine read_element_lines
 
    subroutine read_element_line(line, n_nodes, state, context, good)
       type(data_line_t), intent(in) :: line

@@ -1,11 +1,10 @@
 !> *SURFACE, and the surfaces that a *BLOCK has by itself.
 module atrito_build_surfaces
-   use atrito_arcs, only: centre_arc
+   use atrito_arcs, only: centre_arc, get_point
    use atrito_build_lines, only: put_curve_surfaces, take_node_surface, add_surface
-   use atrito_coordinates, only: get_coordinate
    use atrito_deck, only: deck_t, card_t, data_line_t, token_t, token_text, line_item, is_id_token, keyword_name
    use atrito_diagnostics, only: report_error
-   use atrito_build_context, only: build_context_t, block_t, BLOCK_SIDES, invalidate_name, place_text, count_cards, ids_text, &
+   use atrito_build_context, only: build_context_t, block_t, BLOCK_SIDES, define_name, invalidate_name, count_cards, ids_text, &
                                    MOST_IDS
    use atrito_element_table, only: MOST_SIDES
    use atrito_faces, only: is_outer_face, outer_faces, add_face, drop_repeated, face_list_t
@@ -121,19 +120,11 @@ contains
       type(card_t), intent(in) :: card
       type(build_context_t), intent(inout) :: context
       type(surface_t) :: surface
-      type(token_t) :: place
       integer(ip) :: i
-      logical :: found, ok
+      logical :: ok
 
-      call option_text(context%deck, card, 'NAME', surface%name, found, place)
-      if (.not. found) return
-      i = find_name(context%surface_names, surface%name)
-      if (i > 0) then
-         call report_error(context%deck, place, 'E-TWICE', 'surface '//surface%name//' is defined twice, first in '// &
-                           place_text(context%deck, context%surfaces(i), place), expected='a name that no other surface has', &
-                           keyword='SURFACE')
-         return
-      end if
+      call define_name(context%deck, card, 'surface', context%surface_names, context%surfaces, surface%name, i)
+      if (i == 0) return
       ok = card%ok
       if (.not. ok) then
          ! the reader has not checked the words of its lines
@@ -147,7 +138,7 @@ contains
          if (ok .and. card%scope > 0) call move_segments(context%motions(card%scope), surface)
       end if
       if (.not. ok) call invalidate_name(context, surface%name)
-      call add_surface(context, surface, place)
+      context%model%surfaces(i) = surface
    end subroutine read_surface_card
 
    !> TYPE=ELEMENT.
@@ -317,8 +308,8 @@ contains
       character(len=*), parameter :: WHAT(4) = ['x, a real [L] ', 'y, a real [L] ', 'xc, a real [L]', 'yc, a real [L]']
       character(len=:), allocatable :: word
       real(wp) :: x(4)                                 ! end of the segment, and the centre of an arc [L]
-      integer(ip) :: i, k, n
-      logical :: good, is_arc
+      integer(ip) :: i, n
+      logical :: is_arc
 
       ok = .true.
       n = 0
@@ -331,10 +322,8 @@ contains
             word = upper_case(token_text(deck, line_item(deck, line, 1_ip)))
             is_arc = word == 'CIRCL'
             x = 0.0_wp
-            do k = 1, merge(4_ip, 2_ip, is_arc)
-               call get_coordinate(deck, line_item(deck, line, k + 1), trim(WHAT(k)), x(k), good, 'SURFACE')
-               ok = ok .and. good
-            end do
+            call get_point(deck, line, 2_ip, WHAT(:2), x(:2), ok, 'SURFACE')
+            if (is_arc) call get_point(deck, line, 4_ip, WHAT(3:), x(3:), ok, 'SURFACE')
             if (i > card%first_line .and. word == 'START') then   ! that it is there once is checked by the reader
                ok = .false.
                call report_error(deck, line_item(deck, line, 1_ip), 'E-VALUE', 'START is not the first line', &

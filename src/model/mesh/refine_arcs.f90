@@ -28,7 +28,7 @@ contains
       real(wp), allocatable :: place(:, :)             ! of the new nodes there
       integer(ip), allocatable :: owner(:)             ! block that has placed a node; negative: elsewhere than its element; 0: none
       logical, allocatable :: is_done(:)               ! elements of blocks with arcs
-      integer(ip) :: b, e
+      integer(ip) :: b, e, i, j
 
       if (.not. any([(has_arcs(context%blocks(b)%map), b=1, context%n_blocks)])) return
       square = coarse
@@ -37,8 +37,12 @@ contains
       allocate (is_done(coarse%n_elements), source=.false.)
       do b = 1, context%n_blocks
          if (.not. has_arcs(context%blocks(b)%map)) cycle
-         call set_square(context, b, square)
          associate (block => context%blocks(b))
+            do j = 0, ubound(block%nodes, 2, kind=ip)
+               do i = 0, ubound(block%nodes, 1, kind=ip)
+                  if (block%nodes(i, j) > 0) square%x(:, block%nodes(i, j)) = [block%along(i), block%across(j)]
+               end do
+            end do
             do e = block%first_element, block%first_element + block%n_elements - 1
                is_done(e) = .true.
                call place_element(e, b, coarse, square, context, place, owner)
@@ -49,22 +53,6 @@ contains
          if (.not. is_done(e)) call check_neighbour(e, context, owner)
       end do
    end subroutine place_on_arcs
-
-   !> The nodes of a block in its unit square.
-   subroutine set_square(context, b, square)
-      type(build_context_t), intent(in) :: context
-      integer(ip), intent(in) :: b
-      type(mesh_t), intent(inout) :: square
-      integer(ip) :: i, j
-
-      associate (block => context%blocks(b))
-         do j = 0, ubound(block%nodes, 2, kind=ip)
-            do i = 0, ubound(block%nodes, 1, kind=ip)
-               if (block%nodes(i, j) > 0) square%x(:, block%nodes(i, j)) = [block%along(i), block%across(j)]
-            end do
-         end do
-      end associate
-   end subroutine set_square
 
    !> The new nodes of a coarse element. What another block has placed must lie where this one would place it.
    subroutine place_element(e, b, coarse, square, context, place, owner)

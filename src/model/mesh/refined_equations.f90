@@ -3,7 +3,6 @@
 !> stand edge by edge, and edges run either way.
 module atrito_refined_equations
    use atrito_build_context, only: build_context_t
-   use atrito_deck, only: keyword_name
    use atrito_diagnostics, only: report_note
    use atrito_kinds, only: ip
    use atrito_number_list, only: number_list_t, add_number, numbers_of
@@ -35,27 +34,17 @@ contains
             do dof = 1, PLANE_DOFS
                if (.not. all(has_equation(fine%edge_node(:n, edge), dof))) cycle
                if (any(has_equation(fine%edge_first(edge):fine%edge_first(edge + 1) - 1, dof))) cycle
-               call tell(context, fine%edge_node(:2, edge))
+               i = findloc(context%deck%cards(:context%deck%n_cards)%name, 'EQUATION', dim=1, kind=ip)
+               associate (id => context%model%mesh%node_id(fine%edge_node(:2, edge)))
+                  call report_note(context%deck, context%deck%cards(i)%place, 'N-REFINE', 'the finer mesh has nodes between '// &
+                                   'those with equations, as between '//to_text(id(1))//' and '//to_text(id(2))//', and they '// &
+                                   'have none; where equations name sets they have', keyword='EQUATION')
+               end associate
                return
             end do
          end do
       end associate
    end subroutine note_free_sides
-
-   subroutine tell(context, ends)
-      type(build_context_t), intent(in) :: context
-      integer(ip), intent(in) :: ends(2)               !< places of nodes
-      integer(ip) :: i
-
-      do i = 1, context%deck%n_cards
-         if (keyword_name(context%deck%cards(i)) == 'EQUATION') exit
-      end do
-      associate (id => context%model%mesh%node_id(ends))
-         call report_note(context%deck, context%deck%cards(i)%place, 'N-REFINE', 'the finer mesh has nodes between those with '// &
-                          'equations, as between '//to_text(id(1))//' and '//to_text(id(2))//', and they have none; where '// &
-                          'equations name sets they have', keyword='EQUATION')
-      end associate
-   end subroutine tell
 
    !> Puts the nodes of `other` into the order of those of `set`: the nodes of the deck correspond as they stand, new ones between
    !> two of them to those between their partners. ok: .false. where there are none.
