@@ -10,7 +10,7 @@ module atrito_check_contact
    use atrito_incidence, only: list_holders
    use atrito_kinds, only: ip, lp, wp, PI
    use atrito_mesh, only: mesh_t, face_end, face_nodes, side_count
-   use atrito_model, only: model_t, pair_t, SURFACE_SEGMENTS, QUADRATURE_AUTO, FRICTION_NONLOCAL, KERNEL_LINE
+   use atrito_model, only: model_t, SURFACE_SEGMENTS, QUADRATURE_AUTO, FRICTION_NONLOCAL, KERNEL_LINE
    use atrito_number_list, only: number_list_t, add_number, numbers_of
    use atrito_pairing, only: slave_stiffness
    use atrito_sorting, only: sorted_places, each_once
@@ -45,9 +45,15 @@ contains
       type(build_context_t), intent(in) :: context
       type(chain_report_t), intent(in) :: chains(:)    !< of each surface
       type(pairs_context_t) :: known
-      integer(ip) :: i
+      integer(lp) :: key(size(model%pairs))
+      integer(ip) :: order(size(model%pairs)), i
 
-      known%first_of = first_of_each(model%pairs)
+      key = int(model%pairs%slave, lp)*(int(huge(1_ip), lp) + 1_lp) + int(model%pairs%master, lp)
+      order = sorted_places(key)
+      known%first_of = [(i, i=1, size(key, kind=ip))]
+      do i = 2, size(key, kind=ip)
+         if (key(order(i)) == key(order(i - 1))) known%first_of(order(i)) = known%first_of(order(i - 1))
+      end do
       known%chains = chains
       allocate (known%is_judged(size(model%surfaces)), source=.false.)
       call list_masters(model, known)
@@ -70,23 +76,6 @@ contains
          end associate
       end do
    end subroutine check_surfaces_of_pairs
-
-   !> For each pair the first one that has the same two surfaces.
-   pure function first_of_each(pairs) result(first)
-      type(pair_t), intent(in) :: pairs(:)
-      integer(ip) :: first(size(pairs))
-      integer(lp) :: key(size(pairs))
-      integer(ip) :: order(size(pairs)), i
-
-      key = int(pairs%slave, lp)*(int(huge(1_ip), lp) + 1_lp) + int(pairs%master, lp)
-      order = sorted_places(key)
-      do i = 1, size(pairs, kind=ip)
-         first(i) = i
-      end do
-      do i = 2, size(pairs, kind=ip)
-         if (key(order(i)) == key(order(i - 1))) first(order(i)) = first(order(i - 1))
-      end do
-   end function first_of_each
 
    !> The faces of all masters, and which of them are at each node.
    subroutine list_masters(model, known)

@@ -239,8 +239,11 @@ contains
       type(interference_t), allocatable, intent(out) :: list(:)
       type(interference_t) :: one
       type(pair_index_t) :: pairs
+      type(string_t) :: names(2)
+      type(token_t) :: places(2)
       integer(ip), allocatable :: of_pair(:)           ! place in the list; 0: none so far
-      integer(ip) :: i, k, n, twin
+      integer(ip) :: i, j, k, n, twin
+      logical :: ok(2)
 
       allocate (list(size(context%model%pairs)))       ! a pair is resolved once
       allocate (of_pair(size(list)), source=0_ip)
@@ -252,7 +255,13 @@ contains
             if (.not. has_shrink(context, card)) cycle
             do k = card%first_line, card%first_line + card%n_lines - 1
                if (.not. context%deck%lines(k)%ok) cycle
-               call read_names(context, pairs, context%deck%lines(k), one)
+               do j = 1, 2                             ! slave, master
+                  places(j) = line_item(context%deck, context%deck%lines(k), j)
+                  call get_name(context%deck, places(j), 'name of a surface', names(j)%s, ok(j), SHRINK_KEYWORD)
+               end do
+               if (.not. all(ok)) cycle
+               one = interference_t(step=card%step, place=places(1))
+               call find_pair(context, pairs, names, places, names(2)%s//', '//names(1)%s, SHRINK_KEYWORD, one%pair)
                if (one%pair == 0) cycle
                twin = of_pair(one%pair)
                if (twin > 0) then
@@ -262,7 +271,6 @@ contains
                   cycle
                end if
                n = n + 1
-               one%step = card%step
                list(n) = one
                of_pair(one%pair) = n
                context%model%pairs(one%pair)%is_resolved = .true.
@@ -291,25 +299,6 @@ contains
                            expected='SHRINK without AMPLITUDE', keyword=SHRINK_KEYWORD)
       end if
    end function has_shrink
-
-   !> slave, master.
-   subroutine read_names(context, pairs, line, one)
-      type(build_context_t), intent(in) :: context
-      type(pair_index_t), intent(in) :: pairs
-      type(data_line_t), intent(in) :: line
-      type(interference_t), intent(out) :: one
-      type(string_t) :: names(2)
-      type(token_t) :: places(2)
-      integer(ip) :: i
-      logical :: ok(2)
-
-      do i = 1, 2
-         places(i) = line_item(context%deck, line, i)
-         call get_name(context%deck, places(i), 'name of a surface', names(i)%s, ok(i), SHRINK_KEYWORD)
-      end do
-      one%place = places(1)
-      if (all(ok)) call find_pair(context, pairs, names, places, names(2)%s//', '//names(1)%s, SHRINK_KEYWORD, one%pair)
-   end subroutine read_names
 
    !> Gives the steps what they allow; the points of the pairs are known.
    subroutine set_interferences(list, context)

@@ -173,13 +173,14 @@ contains
       surfaces = [ANY_BODY, search%surface_of(search%first_surface(face):search%first_surface(face + 1) - 1)]
    end function surfaces_at
 
-   !> One side of each two parties that look at each other is the slave: the softer, the finer, or the first.
+   !> One side of each two parties that look at each other is the slave: the softer, the finer, or the first. A side that finds the
+   !> other one nowhere with a whole face cannot be it, nor can a rigid surface.
    subroutine choose_slaves(model, search)
       type(model_t), intent(in) :: model
       type(search_t), intent(inout) :: search
       integer(lp) :: key(search%outlines%faces%n)            ! of the two parties; 0: none
-      integer(ip), allocatable :: order(:)
-      integer(ip) :: first, last
+      integer(ip), allocatable :: order(:), faces(:)         ! faces: of two parties, those of each in their order
+      integer(ip) :: first, last, side(2), n_partly, k
 
       associate (a => search%outlines%body, b => search%other)
          key = int(min(a, b), lp)*(size(search%masters, kind=lp) + 1_lp) + int(max(a, b), lp)
@@ -191,30 +192,23 @@ contains
          if (last < size(order)) then
             if (key(order(last + 1)) == key(order(last))) cycle
          end if
-         if (key(order(last)) > 0_lp) call choose_slave(model, order(first:last), search)
+         if (key(order(last)) > 0_lp) then
+            faces = order(first:last)
+            associate (a => search%outlines%body(faces(1)), b => search%other(faces(1)))
+               side = [min(a, b), max(a, b)]
+            end associate
+            if (side(2) <= search%bodies%n) then
+               if (comes_before(model, search, faces, side(2), side(1))) side = side([2, 1])
+            end if
+            do k = 1, 2
+               call mark_slave(model, pack(faces, search%outlines%body(faces) == side(k)), search, n_partly)
+               if (any(search%is_slave(faces))) exit
+            end do
+            search%n_partly = search%n_partly + n_partly
+         end if
          first = last + 1
       end do
    end subroutine choose_slaves
-
-   !> A side that finds the other one nowhere with a whole face cannot be the slave, nor can a rigid surface.
-   subroutine choose_slave(model, faces, search)
-      type(model_t), intent(in) :: model
-      integer(ip), intent(in) :: faces(:)                    !< of both, those of each in their order
-      type(search_t), intent(inout) :: search
-      integer(ip) :: side(2), n_partly, k
-
-      associate (a => search%outlines%body(faces(1)), b => search%other(faces(1)))
-         side = [min(a, b), max(a, b)]
-      end associate
-      if (side(2) <= search%bodies%n) then
-         if (comes_before(model, search, faces, side(2), side(1))) side = side([2, 1])
-      end if
-      do k = 1, 2
-         call mark_slave(model, pack(faces, search%outlines%body(faces) == side(k)), search, n_partly)
-         if (any(search%is_slave(faces))) exit
-      end do
-      search%n_partly = search%n_partly + n_partly
-   end subroutine choose_slave
 
    !> The second body is the slave for its stiffness or for its faces, and not just because it is the first in the deck.
    pure logical function comes_before(model, search, faces, b, a)

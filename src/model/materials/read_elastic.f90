@@ -152,7 +152,11 @@ contains
          wanted = 'nu12^2 < E1/E2, nu13^2 < E1/E3, nu23^2 < E2/E3, '// &
                   'nu12 nu21 + nu13 nu31 + nu23 nu32 + 2 nu21 nu32 nu13 < 1, where nu21 = nu12 E2/E1 ...'
       else
-         s = stiffness_of_constants(values)
+         s = 0.0_wp                                    ! D1111, D1122, D2222, D1133, D2233, D3333, D1212, ...
+         s(:3, 1) = values([1, 2, 4])
+         s(:3, 2) = values([2, 3, 5])
+         s(:3, 3) = values([4, 5, 6])
+         s(4, 4) = values(7)
          wanted = 'a positive definite matrix D1111, D1122, D1133; D1122, D2222, D2233; D1133, D2233, D3333, and D1212 > 0'
       end if
       ok = is_positive_definite(s)
@@ -193,17 +197,5 @@ contains
          ok = ok .and. good
       end do
    end subroutine read_constants
-
-   !> D1111, D1122, D2222, D1133, D2233, D3333, D1212, ...
-   pure function stiffness_of_constants(values) result(c)
-      real(wp), intent(in) :: values(N_CONSTANTS)      !< [F/L^2]
-      real(wp) :: c(SPATIAL, SPATIAL)
-
-      c = 0.0_wp
-      c(:3, 1) = values([1, 2, 4])
-      c(:3, 2) = values([2, 3, 5])
-      c(:3, 3) = values([4, 5, 6])
-      c(4, 4) = values(7)
-   end function stiffness_of_constants
 
 end module atrito_read_elastic

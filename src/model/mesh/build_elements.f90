@@ -134,29 +134,42 @@ contains
       if (found .and. len(name) > 0) call grow_set(context%model%element_sets, name, members)
    end subroutine put_named_set
 
-   !> *ELGEN: rows, and rows of rows, of copies of an element.
+   !> *ELGEN: rows, and rows of rows, of copies of an element. The first copy that cannot be made ends a line: the others would fail
+   !> for the same reason.
    subroutine read_elgen_card(i_card, context)
       integer(ip), intent(in) :: i_card
       type(build_context_t), intent(inout) :: context
       type(number_list_t) :: members
       type(repeat_t) :: repeats(3)
-      integer(lp) :: n
-      integer(ip) :: i, k, master, first_new
+      type(token_t) :: token
+      integer(lp) :: n, shift(3)
+      integer(ip) :: line, i, j, k, master, first_new
       logical :: ok
 
       associate (deck => context%deck, card => context%deck%cards(i_card))
-         do i = card%first_line, card%first_line + card%n_lines - 1
-            if (.not. deck%lines(i)%ok) cycle
-            call find_one_element(context, line_item(deck, deck%lines(i), 1_ip), master, ok, 'ELGEN')
-            if (ok) call read_repeats(deck, deck%lines(i), repeats, ok)
+         do line = card%first_line, card%first_line + card%n_lines - 1
+            if (.not. deck%lines(line)%ok) cycle
+            token = line_item(deck, deck%lines(line), 1_ip)
+            call find_one_element(context, token, master, ok, 'ELGEN')
+            if (ok) call read_repeats(deck, deck%lines(line), repeats, ok)
             if (.not. ok) cycle
             ! the product of three integers may be larger than any of them can be
             n = int(min(product(real(repeats%n, wp)), real(huge(1_ip), wp)), lp)
-            if (.not. fits_memory(deck%tokens(deck%lines(i)%first_token), context, 0_lp, n, 'ELGEN')) cycle
+            if (.not. fits_memory(token, context, 0_lp, n, 'ELGEN')) cycle
             first_new = context%model%mesh%n_elements + 1
-            call copy_element(deck%lines(i), context, master, repeats)
+            copies: do k = 0, repeats(3)%n - 1
+               do j = 0, repeats(2)%n - 1
+                  do i = 0, repeats(1)%n - 1
+                     shift = [i, j, k]
+                     if (all(shift == 0_lp)) cycle
+                     call copy_element_once(token, deck%lines(line)%first_token, 'ELGEN', context, master, &
+                                            [sum(shift*repeats%node_step), sum(shift*repeats%element_step)], ok)
+                     if (.not. ok) exit copies
+                  end do
+               end do
+            end do copies
             call add_number(members, master)
-            call add_numbers(members, [(k, k=first_new, context%model%mesh%n_elements)])
+            call add_numbers(members, [(i, i=first_new, context%model%mesh%n_elements)])
          end do
       end associate
       call put_named_set(i_card, context, numbers_of(members))
@@ -187,29 +200,6 @@ contains
          end associate
       end do
    end subroutine read_repeats
-
-   !> Stops at the first copy that cannot be made: the others would fail for the same reason.
-   subroutine copy_element(line, context, master, repeats)
-      type(data_line_t), intent(in) :: line
-      type(build_context_t), intent(inout) :: context
-      integer(ip), intent(in) :: master                !< place
-      type(repeat_t), intent(in) :: repeats(3)
-      integer(ip) :: i, j, k
-      integer(lp) :: shift(3)
-      logical :: ok
-
-      do k = 0, repeats(3)%n - 1
-         do j = 0, repeats(2)%n - 1
-            do i = 0, repeats(1)%n - 1
-               shift = [i, j, k]
-               if (all(shift == 0_lp)) cycle
-               call copy_element_once(line_item(context%deck, line, 1_ip), line%first_token, 'ELGEN', context, master, &
-                                      [sum(shift*repeats%node_step), sum(shift*repeats%element_step)], ok)
-               if (.not. ok) return
-            end do
-         end do
-      end do
-   end subroutine copy_element
 
    !> An element once more on other nodes.
    subroutine copy_element_once(token, place, keyword, context, master, shift, ok)

@@ -16,6 +16,7 @@ module atrito_build_gmsh
    use atrito_kinds, only: ip, lp
    use atrito_mesh, only: add_element, add_node, find_node, reserve_mesh
    use atrito_model_memory, only: fits_memory
+   use atrito_number_list, only: number_list_t, add_number, numbers_of
    use atrito_plane_state, only: PLANE_STRAIN, PLANE_STRESS, AXISYMMETRIC
    use atrito_sets, only: grow_set
    use atrito_strings, only: to_text
@@ -177,58 +178,43 @@ contains
       type(id_map_t), intent(in) :: map                !< from the file's numbers to the file's nodes
       integer(ip), intent(in) :: node(:)               !< places of the file's nodes in the mesh
       type(build_context_t), intent(inout) :: context
-      integer(ip), allocatable :: stamp(:), first(:), list(:), nodes(:), ends(:, :)
-      integer(ip) :: p, g
+      integer(ip), allocatable :: stamp(:)             ! of each node of the file the last part that took it
+      integer(ip), allocatable :: first(:), list(:), ends(:, :)
+      type(number_list_t) :: nodes                     ! of a part, each once
+      integer(ip) :: own(MOST_NODES)                   ! the file's nodes of an element
+      integer(ip) :: p, g, i, k, n_lines
       character(len=:), allocatable :: name
 
       call list_holders(mesh%n_parts, reshape(mesh%part, [1_ip, mesh%n_elements]), first, list)
       allocate (stamp(mesh%n_nodes), source=0_ip)
       do p = 1, mesh%n_parts
-         if (first(p + 1) == first(p)) cycle
-         call take_part(mesh, map, node, list(first(p):first(p + 1) - 1), p, stamp, nodes, ends)
-         if (size(nodes) == 0) cycle
-         do g = 0, size(mesh%parts(p)%groups, kind=ip)
+         nodes%n = 0
+         n_lines = 0
+         if (allocated(ends)) deallocate (ends)
+         allocate (ends(2, first(p + 1) - first(p)))
+         do i = first(p), first(p + 1) - 1
+            do k = 1, mesh%shape(list(i))
+               own(k) = find_id(map, mesh%nodes(k, list(i)))
+               if (stamp(own(k)) == p .or. node(own(k)) == 0) cycle
+               stamp(own(k)) = p
+               call add_number(nodes, node(own(k)))
+            end do
+            if (mesh%parts(p)%dim /= 1) cycle
+            if (any(node(own(:2)) == 0)) cycle
+            n_lines = n_lines + 1
+            ends(:, n_lines) = node(own(:2))
+         end do
+         do g = 0, merge(size(mesh%parts(p)%groups, kind=ip), -1_ip, nodes%n > 0)
             if (g == 0) then
                name = part_name(mesh%parts(p))
             else
                name = group_name(mesh, mesh%parts(p)%dim, mesh%parts(p)%groups(g))
             end if
-            call put_node_set(context, mesh%card, name, nodes)
-            if (mesh%parts(p)%dim == 1) call add_curve(context%curves, name, mesh%card, ends)
+            call put_node_set(context, mesh%card, name, numbers_of(nodes))
+            if (mesh%parts(p)%dim == 1) call add_curve(context%curves, name, mesh%card, ends(:, :n_lines))
          end do
       end do
    end subroutine put_sets
-
-   !> The nodes of a part, each once, and the ends of its lines; places in the mesh.
-   subroutine take_part(mesh, map, node, elements, p, stamp, nodes, ends)
-      type(gmsh_mesh_t), intent(in) :: mesh
-      type(id_map_t), intent(in) :: map
-      integer(ip), intent(in) :: node(:)
-      integer(ip), intent(in) :: elements(:), p        !< of the part, and the part itself
-      integer(ip), intent(inout) :: stamp(:)           !< of each node of the file the last part that took it
-      integer(ip), allocatable, intent(out) :: nodes(:), ends(:, :)
-      integer(ip) :: i, k, n, n_lines
-      integer(ip) :: own(MOST_NODES)                   ! the file's nodes of an element
-
-      allocate (nodes(sum(mesh%shape(elements))), ends(2, size(elements)))
-      n = 0
-      n_lines = 0
-      do i = 1, size(elements, kind=ip)
-         do k = 1, mesh%shape(elements(i))
-            own(k) = find_id(map, mesh%nodes(k, elements(i)))
-            if (stamp(own(k)) == p .or. node(own(k)) == 0) cycle
-            stamp(own(k)) = p
-            n = n + 1
-            nodes(n) = node(own(k))
-         end do
-         if (mesh%parts(p)%dim /= 1) cycle
-         if (any(node(own(:2)) == 0)) cycle
-         n_lines = n_lines + 1
-         ends(:, n_lines) = node(own(:2))
-      end do
-      nodes = nodes(:n)
-      ends = ends(:, :n_lines)
-   end subroutine take_part
 
    !> The elements of the mesh that a card names, and its element sets.
    subroutine read_mesh_elements(i_card, context)
@@ -312,7 +298,7 @@ contains
       has_same = all([(any(a == b(i)), i=1, size(b))])
    end function has_same
 
-   !> Adds the elements, in the plane state that ELEMENTS= of the card names.
+   !> Adds the elements, counter-clockwise, in the plane state that ELEMENTS= of the card names.
    subroutine place_elements(mesh, shift, first, context, place, ok)
       type(gmsh_mesh_t), intent(in) :: mesh
       integer(ip), intent(in) :: shift(2)              !< of the numbers of nodes and elements
@@ -320,7 +306,8 @@ contains
       type(build_context_t), intent(inout) :: context
       integer(ip), allocatable, intent(out) :: place(:)
       logical, intent(out) :: ok
-      integer(ip) :: e, before, state
+      integer(ip) :: e, k, before, state, nodes(MOST_NODES)
+      logical :: known
 
       ok = .true.
       state = PLANE_STRESS
@@ -330,44 +317,32 @@ contains
       allocate (place(mesh%n_elements), source=0_ip)
       call reserve_mesh(context%model%mesh, 0_ip, count(first > 0, kind=ip))
       do e = 1, mesh%n_elements
-         if (first(e) == e) then
-            call place_one(mesh, e, shift, state, context, ok)
-            if (.not. ok) exit
-            place(e) = context%model%mesh%n_elements
-         else if (first(e) > 0) then
-            place(e) = place(first(e))
-         end if
+         if (first(e) == 0) cycle
+         place(e) = place(first(e))
+         if (first(e) < e) cycle
+         associate (n => mesh%shape(e), id => mesh%element_id(e))
+            do k = 1, n
+               nodes(k) = find_node(context%model%mesh, mesh%nodes(k, e) + shift(1))
+               ok = ok .and. all(nodes(:k - 1) /= nodes(k))
+            end do
+            if (.not. ok) then
+               call refuse(mesh, context, 'E-SHAPE', 'element '//to_text(id)//' of '//mesh%file//' has a node twice', &
+                           'different nodes')
+               exit
+            end if
+            if (is_clockwise(context%model%mesh%x(:, nodes(:CORNERS_OF(n))))) nodes(:n) = turned_nodes(nodes(:n))
+            call add_element(context%model%mesh, id + shift(2), state, nodes(:n), known)
+            ok = .not. known
+            context%elements%greatest = max(context%elements%greatest, id + shift(2))
+            if (known) then
+               call refuse(mesh, context, 'E-TWICE', 'element '//to_text(id)//' stands twice in '//mesh%file, 'each element once')
+               exit
+            end if
+         end associate
+         place(e) = context%model%mesh%n_elements
       end do
       call note_places(context%elements%place, before + 1, context%model%mesh%n_elements, -mesh%card)
    end subroutine place_elements
-
-   !> Adds an element, counter-clockwise.
-   subroutine place_one(mesh, e, shift, state, context, ok)
-      type(gmsh_mesh_t), intent(in) :: mesh
-      integer(ip), intent(in) :: e, shift(2), state
-      type(build_context_t), intent(inout) :: context
-      logical, intent(out) :: ok
-      integer(ip) :: nodes(MOST_NODES), k, n
-      logical :: known
-
-      n = mesh%shape(e)
-      ok = .true.
-      do k = 1, n
-         nodes(k) = find_node(context%model%mesh, mesh%nodes(k, e) + shift(1))
-         ok = ok .and. all(nodes(:k - 1) /= nodes(k))
-      end do
-      if (.not. ok) then
-         call refuse(mesh, context, 'E-SHAPE', 'element '//to_text(mesh%element_id(e))//' of '//mesh%file// &
-                     ' has a node twice', 'different nodes')
-         return
-      end if
-      if (is_clockwise(context%model%mesh%x(:, nodes(:CORNERS_OF(n))))) nodes(:n) = turned_nodes(nodes(:n))
-      call add_element(context%model%mesh, mesh%element_id(e) + shift(2), state, nodes(:n), known)
-      ok = .not. known
-      context%elements%greatest = max(context%elements%greatest, mesh%element_id(e) + shift(2))
-      if (known) call refuse(mesh, context, 'E-TWICE', 'element '//to_text(mesh%element_id(e))//' stands twice in '// &
-                             mesh%file, 'each element once')
-   end subroutine place_one
 
    !> Element sets of the surfaces of the drawing and their physical groups.
    subroutine put_element_sets(mesh, place, context)

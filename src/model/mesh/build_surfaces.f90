@@ -120,8 +120,8 @@ contains
       type(card_t), intent(in) :: card
       type(build_context_t), intent(inout) :: context
       type(surface_t) :: surface
-      integer(ip) :: i
-      logical :: ok
+      integer(ip) :: i, k
+      logical :: ok, good
 
       call define_name(context%deck, card, 'surface', context%surface_names, context%surfaces, surface%name, i)
       if (i == 0) return
@@ -129,7 +129,13 @@ contains
       if (.not. ok) then
          ! the reader has not checked the words of its lines
       else if (option_word(context%deck, card, 'TYPE') == 'ELEMENT') then
-         call read_faces(card, context, has_name(context%section_surfaces, surface%name), surface%faces, ok)
+         do k = card%first_line, card%first_line + card%n_lines - 1
+            good = context%deck%lines(k)%ok
+            if (good) call read_face_line(context%deck%lines(k), context, has_name(context%section_surfaces, surface%name), &
+                                          surface%faces, good)
+            ok = ok .and. good
+         end do
+         call drop_repeated(surface%faces)
       else if (option_word(context%deck, card, 'TYPE') == 'NODE') then
          call take_node_surface(surface%name, context, surface%faces, ok)
       else
@@ -141,31 +147,12 @@ contains
       context%model%surfaces(i) = surface
    end subroutine read_surface_card
 
-   !> TYPE=ELEMENT.
-   subroutine read_faces(card, context, is_cut, faces, ok)
-      type(card_t), intent(in) :: card
-      type(build_context_t), intent(inout) :: context
-      logical, intent(in) :: is_cut                    !< a section of a bolt: faces may lie inside the mesh
-      type(face_list_t), intent(inout) :: faces
-      logical, intent(out) :: ok
-      integer(ip) :: i
-      logical :: good
-
-      ok = .true.
-      do i = card%first_line, card%first_line + card%n_lines - 1
-         good = context%deck%lines(i)%ok
-         if (good) call read_face_line(context%deck%lines(i), context, is_cut, faces, good)
-         ok = ok .and. good
-      end do
-      call drop_repeated(faces)
-   end subroutine read_faces
-
    !> Element or set, and the face of each element; without it all of their outer faces. Faces of a set on the outline are found
    !> without a look at each element, of which a large set has most inside.
    subroutine read_face_line(line, context, is_cut, faces, ok)
       type(data_line_t), intent(in) :: line
       type(build_context_t), intent(inout) :: context
-      logical, intent(in) :: is_cut
+      logical, intent(in) :: is_cut                    !< a section of a bolt: faces may lie inside the mesh
       type(face_list_t), intent(inout) :: faces
       logical, intent(out) :: ok
       type(token_t) :: token

@@ -5,7 +5,6 @@ module atrito_refined_equations
    use atrito_build_context, only: build_context_t
    use atrito_diagnostics, only: report_note
    use atrito_kinds, only: ip
-   use atrito_number_list, only: number_list_t, add_number, numbers_of
    use atrito_refinement, only: is_refined, refinement_t
    use atrito_strings, only: to_text
    implicit none (type, external)
@@ -59,7 +58,8 @@ contains
       associate (n => count(set <= refinement%n_nodes, kind=ip))
          ok = n == count(other <= refinement%n_nodes)
          if (.not. ok) return
-         edges = edges_of(refinement, other(n + 1:))
+         edges = [(edge_of(refinement, other(i)), i=n + 1, size(other, kind=ip))]   ! nodes of an edge stand together: each once
+         edges = pack(edges, edges > 0 .and. edges /= eoshift(edges, -1))
          partner(:n) = other(:n)
          edge = 0
          do i = n + 1, size(set, kind=ip)
@@ -97,23 +97,6 @@ contains
       if (node == 0) return
       if (node < refinement%edge_first(edges(i)) .or. node >= refinement%edge_first(edges(i) + 1)) node = 0
    end function node_between
-
-   !> The edges of some new nodes, each once; nodes of an edge stand together.
-   pure function edges_of(refinement, nodes) result(edges)
-      type(refinement_t), intent(in) :: refinement
-      integer(ip), intent(in) :: nodes(:)
-      integer(ip), allocatable :: edges(:)
-      type(number_list_t) :: list
-      integer(ip) :: i, edge, last
-
-      last = 0
-      do i = 1, size(nodes, kind=ip)
-         edge = edge_of(refinement, nodes(i))
-         if (edge > 0 .and. edge /= last) call add_number(list, edge)
-         last = edge
-      end do
-      edges = numbers_of(list)
-   end function edges_of
 
    !> The edge that a new node lies on; 0: none.
    pure integer(ip) function edge_of(refinement, node) result(edge)
