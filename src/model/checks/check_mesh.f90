@@ -28,34 +28,33 @@ contains
    subroutine check_mesh(model, context)
       type(model_t), intent(in) :: model
       type(build_context_t), intent(in) :: context
+      integer(ip), allocatable :: found(:)
+      integer(ip) :: i
 
-      if (model%mesh%n_elements == 0) then
-         if (.not. has_errors()) call report_deck_error(context%deck, 'E-EMPTY', 'the deck has no elements', &
-                                                        expected='*ELEMENT or *BLOCK', keyword='BLOCK')
-         return
-      end if
-      call check_shapes(model%mesh, context)
-      if (.not. is_refined(context%refinement)) call check_edges(model, context)
-      call check_sections(model, context)
-      call check_materials(model, context)
-      call note_formulations(model, context)
-      call note_loose_nodes(model, context)
+      associate (mesh => model%mesh, deck => context%deck, around => context%around%first)
+         if (mesh%n_elements == 0) then
+            if (.not. has_errors()) call report_deck_error(deck, 'E-EMPTY', 'the deck has no elements', &
+                                                           expected='*ELEMENT or *BLOCK', keyword='BLOCK')
+            return
+         end if
+         call check_shapes(mesh, context)
+         if (.not. is_refined(context%refinement)) call check_edges(mesh, context)
+         if (.not. (context%sections_undetermined .and. has_errors())) then
+            found = pack([(i, i=1, mesh%n_elements)], model%section_of == 0)
+            if (size(found) > 0) call report_error(deck, place_token(deck, context%elements%place(found(1))), 'E-SECTION', &
+                                                   'no *SOLID SECTION for element '//ids_text(mesh%element_id(found)), &
+                                                   expected='one *SOLID SECTION for each element', keyword='SOLID SECTION')
+         end if
+         call check_materials(model, context)
+         if (has_errors()) return
+         call note_formulations(model, context)
+         found = pack([(i, i=1, mesh%n_nodes)], around(2:mesh%n_nodes + 1) == around(:mesh%n_nodes))
+         found = pack(found, [(find_id(context%rigid_bodies, found(i)) == 0, i=1, size(found, kind=ip))])
+         if (size(found) > 0) call report_note(deck, place_token(deck, context%nodes%place(found(1))), 'N-NODE', 'node '// &
+                                               ids_text(mesh%node_id(found))//' belongs to no element and has no unknowns', &
+                                               keyword='NODE')
+      end associate
    end subroutine check_mesh
-
-   !> Every element has a section.
-   subroutine check_sections(model, context)
-      type(model_t), intent(in) :: model
-      type(build_context_t), intent(in) :: context
-      integer(ip), allocatable :: without(:)
-      integer(ip) :: e
-
-      if (context%sections_undetermined .and. has_errors()) return
-      without = pack([(e, e=1, model%mesh%n_elements)], model%section_of == 0)
-      if (size(without) == 0) return
-      call report_error(context%deck, place_token(context%deck, context%elements%place(without(1))), 'E-SECTION', &
-                        'no *SOLID SECTION for element '//ids_text(model%mesh%element_id(without)), &
-                        expected='one *SOLID SECTION for each element', keyword='SOLID SECTION')
-   end subroutine check_sections
 
    !> Materials in use have their constants, which fit the elements.
    subroutine check_materials(model, context)
@@ -133,7 +132,6 @@ contains
       type(number_list_t), allocatable :: elements(:)  ! of each section, those that it is not for
       integer(ip) :: i, e
 
-      if (has_errors()) return
       allocate (elements(size(model%sections)))
       do e = 1, model%mesh%n_elements
          i = model%section_of(e)
@@ -150,70 +148,44 @@ contains
       end do
    end subroutine note_formulations
 
-   subroutine note_loose_nodes(model, context)
-      type(model_t), intent(in) :: model
-      type(build_context_t), intent(in) :: context
-      integer(ip), allocatable :: loose(:)
-      integer(ip) :: i
-
-      if (has_errors()) return
-      associate (first => context%around%first, n => model%mesh%n_nodes)
-         loose = pack([(i, i=1, n)], first(2:n + 1) == first(:n))
-      end associate
-      loose = pack(loose, [(find_id(context%rigid_bodies, loose(i)) == 0, i=1, size(loose, kind=ip))])
-      if (size(loose) == 0) return
-      call report_note(context%deck, place_token(context%deck, context%nodes%place(loose(1))), 'N-NODE', 'node '// &
-                       ids_text(model%mesh%node_id(loose))//' belongs to no element and has no unknowns', keyword='NODE')
-   end subroutine note_loose_nodes
-
    !> Elements that have an edge in common have all nodes of it in common: four-node beside nine-node elements, or large ones of
    !> nine nodes beside small ones, would leave a crack between common corners that nobody sees in a list of nodes. Those that do
-   !> not fit their neighbours are told, all in one message.
-   subroutine check_edges(model, context)
-      type(model_t), intent(in) :: model
+   !> not fit their neighbours are told, all in one message: neighbours of an element of the second degree that have the corners of
+   !> its edge and not its middle, or its middle as something else than the middle of the same edge; of two such elements the one
+   !> that comes later.
+   subroutine check_edges(mesh, context)
+      type(mesh_t), intent(in) :: mesh
       type(build_context_t), intent(in) :: context
       logical, allocatable :: misfit(:)
       integer(ip), allocatable :: found(:)
-      integer(ip) :: e
+      integer(ip) :: e, face, k, other, middle
 
-      if (all(DEGREE_OF(model%mesh%shape(:model%mesh%n_elements)) == 1)) return
-      allocate (misfit(model%mesh%n_elements), source=.false.)
-      do e = 1, model%mesh%n_elements
-         if (SHAPES(model%mesh%shape(e))%degree > 1) call compare_neighbours(model%mesh, context, e, misfit)
+      if (all(DEGREE_OF(mesh%shape(:mesh%n_elements)) == 1)) return
+      allocate (misfit(mesh%n_elements), source=.false.)
+      do e = 1, mesh%n_elements
+         if (DEGREE_OF(mesh%shape(e)) == 1) cycle
+         do face = 1, side_count(mesh, e)
+            associate (a => mesh%nodes(face, e), b => mesh%nodes(face_end(mesh, e, face), e), first => context%around%first)
+               middle = middle_node(mesh, e, face)
+               do k = first(middle), first(middle + 1) - 1
+                  other = context%around%list(k)
+                  if (other == e .or. has_side(mesh, other, b, a, middle)) cycle
+                  misfit(max(e, other)) = .true.
+               end do
+               do k = first(a), first(a + 1) - 1
+                  other = context%around%list(k)
+                  if (.not. has_side(mesh, other, b, a) .or. has_side(mesh, other, b, a, middle)) cycle
+                  misfit(max(e, other)) = .true.
+               end do
+            end associate
+         end do
       end do
-      found = pack([(e, e=1, model%mesh%n_elements)], misfit)
+      found = pack([(e, e=1, mesh%n_elements)], misfit)
       if (size(found) == 0) return
       call report_error(context%deck, place_token(context%deck, context%elements%place(found(1))), 'E-EDGE', 'element '// &
-                        ids_text(model%mesh%element_id(found))//' and a neighbour share nodes of an edge, but not all of them', &
+                        ids_text(mesh%element_id(found))//' and a neighbour share nodes of an edge, but not all of them', &
                         expected='elements of one order and size on both sides of an edge (CPE3 and CPE4, or CPE6, CPE8 and '// &
                         'CPE9; so CPS), or no common nodes and a *CONTACT PAIR', keyword='ELEMENT')
    end subroutine check_edges
-
-   !> Marks the neighbours of an element of the second degree that have the corners of its edge and not its middle, or its middle
-   !> as something else than the middle of the same edge; of two such elements the one that comes later.
-   pure subroutine compare_neighbours(mesh, context, element, misfit)
-      type(mesh_t), intent(in) :: mesh
-      type(build_context_t), intent(in) :: context
-      integer(ip), intent(in) :: element
-      logical, intent(inout) :: misfit(:)
-      integer(ip) :: face, k, other, middle
-
-      do face = 1, side_count(mesh, element)
-         associate (a => mesh%nodes(face, element), b => mesh%nodes(face_end(mesh, element, face), element), &
-                    first => context%around%first)
-            middle = middle_node(mesh, element, face)
-            do k = first(middle), first(middle + 1) - 1
-               other = context%around%list(k)
-               if (other == element .or. has_side(mesh, other, b, a, middle)) cycle
-               misfit(max(element, other)) = .true.
-            end do
-            do k = first(a), first(a + 1) - 1
-               other = context%around%list(k)
-               if (.not. has_side(mesh, other, b, a) .or. has_side(mesh, other, b, a, middle)) cycle
-               misfit(max(element, other)) = .true.
-            end do
-         end associate
-      end do
-   end subroutine compare_neighbours
 
 end module atrito_check_mesh

@@ -71,17 +71,17 @@ contains
       type(contact_rules_t), intent(inout) :: rules
       type(search_t), intent(out) :: search
       logical :: is_named(0:size(context%model%surfaces))
-      integer(ip) :: i
+      integer(ip), allocatable :: place(:, :), surface(:), holder(:)
+      integer(ip) :: i, k, n
 
       associate (model => context%model)
          call find_bodies(model%mesh, search%bodies)
          call name_bodies(model, search%bodies)
          call list_outlines(model%mesh, context%around, search%bodies%of_element, search%outlines, context%cut_faces)
-         associate (n => search%outlines%faces%n)
-            call list_holders(search%bodies%n, reshape(search%outlines%body, [1_ip, n]), search%first, search%of_body)
-            allocate (search%other(n), search%law(n), source=0_ip)
-            allocate (search%is_slave(n), source=.false.)
-         end associate
+         n = search%outlines%faces%n
+         call list_holders(search%bodies%n, reshape(search%outlines%body, [1_ip, n]), search%first, search%of_body)
+         allocate (search%other(n), search%law(n), source=0_ip)
+         allocate (search%is_slave(n), source=.false.)
          ! the rigid surfaces that are included
          is_named = .false.
          is_named(numbers_of(rules%included%a)) = .true.
@@ -89,8 +89,8 @@ contains
          search%rigid = pack([(i, i=1, size(model%surfaces, kind=ip))], is_named(1:) .and. model%surfaces%kind == SURFACE_SEGMENTS)
          allocate (search%masters(search%bodies%n + size(search%rigid)))
          do i = 1, size(search%rigid, kind=ip)
-            associate (surface => model%surfaces(search%rigid(i)))
-               call master_of_segments(surface%points, search%masters(search%bodies%n + i), surface%is_arc, surface%centre)
+            associate (line => model%surfaces(search%rigid(i)))
+               call master_of_segments(line%points, search%masters(search%bodies%n + i), line%is_arc, line%centre)
             end associate
          end do
          ! what the deck gives as a pair is not to be found a second time
@@ -104,37 +104,27 @@ contains
          is_named(numbers_of(rules%excluded%b)) = .true.
          is_named(numbers_of(rules%assigned%a)) = .true.
          is_named(numbers_of(rules%assigned%b)) = .true.
-         call list_surfaces(model, is_named(1:), search)
+         ! to which surfaces that rules and pairs name each face belongs
+         n = sum(pack(model%surfaces%faces%n, is_named(1:)))
+         allocate (place(1, n), surface(n))
+         n = 0
+         do i = 1, size(model%surfaces, kind=ip)
+            if (.not. is_named(i)) cycle
+            associate (faces => model%surfaces(i)%faces)
+               do k = 1, faces%n
+                  n = n + 1
+                  place(1, n) = search%outlines%place(faces%face(k), faces%element(k))
+                  surface(n) = i
+               end do
+            end associate
+         end do
+         call list_holders(search%outlines%faces%n, place, search%first_surface, holder)
+         search%surface_of = surface(holder)
       end associate
       call sort_rules(rules%included)
       call sort_rules(rules%excluded)
       call sort_rules(rules%assigned)
    end subroutine begin_search
-
-   !> To which surfaces that rules and pairs name each face belongs.
-   subroutine list_surfaces(model, is_named, search)
-      type(model_t), intent(in) :: model
-      logical, intent(in) :: is_named(:)                     !< (surfaces)
-      type(search_t), intent(inout) :: search
-      integer(ip), allocatable :: place(:, :), surface(:), holder(:)
-      integer(ip) :: i, k, n
-
-      n = sum(pack(model%surfaces%faces%n, is_named))
-      allocate (place(1, n), surface(n))
-      n = 0
-      do i = 1, size(model%surfaces, kind=ip)
-         if (.not. is_named(i)) cycle
-         associate (faces => model%surfaces(i)%faces)
-            do k = 1, faces%n
-               n = n + 1
-               place(1, n) = search%outlines%place(faces%face(k), faces%element(k))
-               surface(n) = i
-            end do
-         end associate
-      end do
-      call list_holders(search%outlines%faces%n, place, search%first_surface, holder)
-      search%surface_of = surface(holder)
-   end subroutine list_surfaces
 
    !> The party that each face may touch, and by which law.
    subroutine choose_parties(model, rules, search)
@@ -180,7 +170,8 @@ contains
       type(search_t), intent(inout) :: search
       integer(lp) :: key(search%outlines%faces%n)            ! of the two parties; 0: none
       integer(ip), allocatable :: order(:), faces(:)         ! faces: of two parties, those of each in their order
-      integer(ip) :: first, last, side(2), n_partly, k
+      integer(ip), allocatable :: own(:)                     ! of one of them
+      integer(ip) :: first, last, side(2), i, k
 
       associate (a => search%outlines%body, b => search%other)
          key = int(min(a, b), lp)*(size(search%masters, kind=lp) + 1_lp) + int(max(a, b), lp)
@@ -201,10 +192,18 @@ contains
                if (comes_before(model, search, faces, side(2), side(1))) side = side([2, 1])
             end if
             do k = 1, 2
-               call mark_slave(model, pack(faces, search%outlines%body(faces) == side(k)), search, n_partly)
-               if (any(search%is_slave(faces))) exit
+               own = pack(faces, search%outlines%body(faces) == side(k))
+               if (size(own) == 0) cycle
+               associate (master => search%masters(search%other(own(1))))
+                  if (master%n == 0) call master_of_faces(model%mesh, outline_of(search, search%other(own(1))), master)
+                  do i = 1, size(own, kind=ip)
+                     search%is_slave(own(i)) = finds_master(model%mesh, some_faces(search, own(i:i)), 1_ip, master)
+                  end do
+               end associate
+               if (any(search%is_slave(own))) exit
             end do
-            search%n_partly = search%n_partly + n_partly
+            ! of the side that was looked at last, the slave if there is one: faces that find the other party in part only
+            search%n_partly = search%n_partly + count(.not. search%is_slave(own), kind=ip)
          end if
          first = last + 1
       end do
@@ -234,29 +233,6 @@ contains
       comes_before = means(2, 1) < (1 - ALIKE)*means(2, 2)
       if (abs(means(1, 1) - means(1, 2)) > ALIKE*means(1, 2)) comes_before = means(1, 1) < means(1, 2)
    end function comes_before
-
-   !> Which of the faces find the other party with all their points; only some of the others do with a part of them.
-   subroutine mark_slave(model, faces, search, n_partly)
-      type(model_t), intent(in) :: model
-      integer(ip), intent(in) :: faces(:)                    !< of one body, with the same other party
-      type(search_t), intent(inout) :: search
-      integer(ip), intent(out) :: n_partly
-      type(face_list_t) :: one
-      integer(ip) :: i
-
-      n_partly = 0
-      if (size(faces) == 0) return
-      associate (party => search%other(faces(1)))
-         if (search%masters(party)%n == 0) then
-            call master_of_faces(model%mesh, outline_of(search, party), search%masters(party))
-         end if
-         do i = 1, size(faces, kind=ip)
-            one = some_faces(search, [faces(i)])
-            search%is_slave(faces(i)) = finds_master(model%mesh, one, 1_ip, search%masters(party))
-            if (.not. search%is_slave(faces(i))) n_partly = n_partly + 1
-         end do
-      end associate
-   end subroutine mark_slave
 
    !> Some faces of the outlines.
    pure function some_faces(search, places) result(faces)

@@ -38,24 +38,17 @@ contains
    end subroutine order_slaves
 
    !> The points of all pairs. Each has two surfaces that are what a slave and a master must be, the slave in its order; a master is
-   !> made once for all of its pairs.
+   !> made once for all of its pairs. In the plane the sides of a pair may slide along themselves in a motion of the whole body:
+   !> pairs that have the same one but for digits, as rings in rings, take that of the one with the most chords.
    subroutine pair_all(model, points)
       type(model_t), intent(in) :: model
       type(contact_points_t), allocatable, intent(out) :: points(:)
       type(chords_t), allocatable :: chords(:)
+      type(sliding_t) :: motions(size(model%pairs))
+      integer(ip) :: order(size(model%pairs)), i, k, n
 
       call pair_surfaces(model, model%pairs%slave, model%pairs%master, model%pairs%quadrature, points, chords=chords)
-      if (.not. is_revolved(model%mesh)) call let_slide(chords, points)
-   end subroutine pair_all
-
-   !> The motions in which the sides of pairs slide along themselves. Pairs that have the same one but for digits, as rings in
-   !> rings, take that of the one with the most chords.
-   subroutine let_slide(chords, points)
-      type(chords_t), intent(in) :: chords(:)
-      type(contact_points_t), intent(inout) :: points(:)
-      type(sliding_t) :: motions(size(points))
-      integer(ip) :: order(size(points)), i, k, n
-
+      if (is_revolved(model%mesh)) return
       order = sorted_places(int(-chords%n, lp))
       n = 0
       do i = 1, size(points, kind=ip)
@@ -74,7 +67,7 @@ contains
             end if
          end associate
       end do
-   end subroutine let_slide
+   end subroutine pair_all
 
    !> The same of any pairs of surfaces, by their places.
    subroutine pair_surfaces(model, slaves, partners, quadrature, points, from_behind, chords)

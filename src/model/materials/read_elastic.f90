@@ -140,12 +140,26 @@ contains
       logical, intent(out) :: ok
       real(wp) :: values(N_CONSTANTS), s(SPATIAL, SPATIAL)
       character(len=:), allocatable :: wanted
-      logical :: is_engineering
+      type(token_t) :: item
+      integer(ip) :: i
+      logical :: is_engineering, good
 
       is_engineering = option_word(deck, card, 'TYPE') == 'ENGINEERING CONSTANTS'
       ok = .false.
       if (card%n_lines < 2) return
-      call read_constants(card, deck, is_engineering, values, ok)
+      if (.not. all(deck%lines(card%first_line:card%first_line + 1)%ok)) return
+      ok = .true.
+      do i = 1, N_CONSTANTS
+         item = line_item(deck, deck%lines(card%first_line + merge(0_ip, 1_ip, i <= N_FIRST)), merge(i, i - N_FIRST, i <= N_FIRST))
+         if (.not. is_engineering) then
+            call get_real(deck, item, 'elastic constant, a real [F/L^2]', values(i), good, keyword=KEYWORD)
+         else if (i > 3 .and. i < 7) then
+            call get_real(deck, item, "Poisson's ratio, a real [-]", values(i), good, keyword=KEYWORD)
+         else
+            call get_positive(deck, item, 'modulus, a real > 0 [F/L^2]', 'the modulus ', values(i), good, KEYWORD)
+         end if
+         ok = ok .and. good
+      end do
       if (.not. ok) return
       if (is_engineering) then
          s = compliance_of_constants(values(1:3), values(4:6), values(7))
@@ -172,30 +186,5 @@ contains
       material%young = 2/(s(1, 1) + s(2, 2))
       material%poisson = 0.0_wp
    end subroutine read_orthotropic
-
-   subroutine read_constants(card, deck, is_engineering, values, ok)
-      type(card_t), intent(in) :: card
-      type(deck_t), intent(in) :: deck
-      logical, intent(in) :: is_engineering
-      real(wp), intent(out) :: values(N_CONSTANTS)
-      logical, intent(out) :: ok
-      type(token_t) :: item
-      integer(ip) :: i
-      logical :: good
-
-      ok = all(deck%lines(card%first_line:card%first_line + 1)%ok)
-      if (.not. ok) return
-      do i = 1, N_CONSTANTS
-         item = line_item(deck, deck%lines(card%first_line + merge(0_ip, 1_ip, i <= N_FIRST)), merge(i, i - N_FIRST, i <= N_FIRST))
-         if (.not. is_engineering) then
-            call get_real(deck, item, 'elastic constant, a real [F/L^2]', values(i), good, keyword=KEYWORD)
-         else if (i > 3 .and. i < 7) then
-            call get_real(deck, item, "Poisson's ratio, a real [-]", values(i), good, keyword=KEYWORD)
-         else
-            call get_positive(deck, item, 'modulus, a real > 0 [F/L^2]', 'the modulus ', values(i), good, KEYWORD)
-         end if
-         ok = ok .and. good
-      end do
-   end subroutine read_constants
 
 end module atrito_read_elastic

@@ -222,7 +222,8 @@ contains
       type(build_context_t), intent(inout) :: context
       integer(ip), allocatable :: first(:)             ! of each element of the file the first with its nodes; 0: not of the plane
       integer(ip), allocatable :: place(:)             ! of each element of the file in the mesh
-      integer(ip) :: i, shift
+      integer(ip), allocatable :: from(:), members(:), places(:)
+      integer(ip) :: i, shift, p, g
       logical :: ok
 
       i = mesh_of_card(i_card, context)
@@ -239,7 +240,16 @@ contains
                              ' are taken as plane stress', expected='ELEMENTS=CPS, CPE (plane strain) or CAX (axisymmetric)', &
                              keyword='INCLUDE')
          end if
-         call put_element_sets(mesh, place, context)
+         ! element sets of the surfaces of the drawing and their physical groups
+         call list_holders(mesh%n_parts, reshape(merge(mesh%part, 0_ip, place > 0), [1_ip, mesh%n_elements]), from, members)
+         do p = 1, mesh%n_parts
+            if (from(p + 1) == from(p)) cycle
+            places = place(members(from(p):from(p + 1) - 1))
+            call grow_set(context%model%element_sets, part_name(mesh%parts(p)), places)
+            do g = 1, size(mesh%parts(p)%groups, kind=ip)
+               call grow_set(context%model%element_sets, group_name(mesh, 2_ip, mesh%parts(p)%groups(g)), places)
+            end do
+         end do
       end associate
    end subroutine read_mesh_elements
 
@@ -343,26 +353,5 @@ contains
       end do
       call note_places(context%elements%place, before + 1, context%model%mesh%n_elements, -mesh%card)
    end subroutine place_elements
-
-   !> Element sets of the surfaces of the drawing and their physical groups.
-   subroutine put_element_sets(mesh, place, context)
-      type(gmsh_mesh_t), intent(in) :: mesh
-      integer(ip), intent(in) :: place(:)
-      type(build_context_t), intent(inout) :: context
-      integer(ip), allocatable :: sets(:, :), members(:), from(:)
-      integer(ip) :: p, g
-
-      sets = reshape(merge(mesh%part, 0_ip, place > 0), [1_ip, mesh%n_elements])
-      call list_holders(mesh%n_parts, sets, from, members)
-      do p = 1, mesh%n_parts
-         if (from(p + 1) == from(p)) cycle
-         associate (places => place(members(from(p):from(p + 1) - 1)))
-            call grow_set(context%model%element_sets, part_name(mesh%parts(p)), places)
-            do g = 1, size(mesh%parts(p)%groups, kind=ip)
-               call grow_set(context%model%element_sets, group_name(mesh, 2_ip, mesh%parts(p)%groups(g)), places)
-            end do
-         end associate
-      end do
-   end subroutine put_element_sets
 
 end module atrito_build_gmsh

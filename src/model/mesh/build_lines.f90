@@ -65,60 +65,55 @@ contains
       end do
    end subroutine read_lines
 
+   !> Lines of number, first end[, middle], last end.
    subroutine read_line_card(i_card, context)
       integer(ip), intent(in) :: i_card
       type(build_context_t), intent(inout) :: context
       type(number_list_t) :: members
+      type(token_t) :: token
       character(len=:), allocatable :: name
-      integer(ip) :: i
-      logical :: found, ok, whole
+      integer(ip) :: id, nodes(3), i, k
+      logical :: found, ok, good, whole
 
       whole = .true.
-      associate (card => context%deck%cards(i_card))
-         if (context%lines%ids%n == 0) call report_note(context%deck, card%place, 'N-LINES', 'line elements have no stiffness '// &
-                                                        'here: each of their sets is a node set and a surface', keyword='ELEMENT')
+      associate (deck => context%deck, card => context%deck%cards(i_card), lines => context%lines)
+         if (lines%ids%n == 0) call report_note(deck, card%place, 'N-LINES', 'line elements have no stiffness here: each of '// &
+                                                'their sets is a node set and a surface', keyword='ELEMENT')
          do i = card%first_line, card%first_line + card%n_lines - 1
-            ok = card%ok .and. context%deck%lines(i)%ok
-            if (ok) call read_line(context%deck%lines(i), context, ok)
-            if (ok) call add_number(members, context%lines%ids%n)
-            if (.not. ok) call spoil_number(context%deck, context%deck%lines(i), context%elements)
+            ok = card%ok .and. deck%lines(i)%ok
+            if (ok) then
+               nodes = 0
+               token = line_item(deck, deck%lines(i), 1_ip)
+               call get_id(deck, token, 'element number', id, ok, 'ELEMENT')
+               do k = 1, deck%lines(i)%n_tokens - 1
+                  call find_one_node(context, line_item(deck, deck%lines(i), k + 1), nodes(k), good, 'ELEMENT')
+                  ok = ok .and. good
+               end do
+            end if
+            if (ok) then
+               call add_id(lines%ids, id, lines%ids%n + 1, found)
+               ok = .not. found
+               if (found) call report_error(deck, token, 'E-TWICE', 'element '//to_text(id)//' is given twice', &
+                                            expected='an element number that is free', keyword='ELEMENT')
+            end if
             whole = whole .and. ok
+            if (.not. ok) then
+               call spoil_number(deck, deck%lines(i), context%elements)
+               cycle
+            end if
+            associate (n => lines%ids%n)
+               if (.not. allocated(lines%nodes)) allocate (lines%nodes(4, 16))
+               if (n > size(lines%nodes, 2)) call resize(lines%nodes, n - 1, 2*n)
+               lines%nodes(:, n) = [nodes(1), merge(nodes(2), nodes(3), nodes(3) == 0), merge(nodes(2), 0_ip, nodes(3) > 0), id]
+               call add_number(members, n)
+            end associate
          end do
-         call option_text(context%deck, card, 'ELSET', name, found)
+         call option_text(deck, card, 'ELSET', name, found)
       end associate
       if (.not. found) return
       if (.not. whole) call invalidate_name(context, name)
       if (len(name) > 0) call put_line_set(name, numbers_of(members), i_card, context)
    end subroutine read_line_card
-
-   !> number, first end[, middle], last end
-   subroutine read_line(line, context, ok)
-      type(data_line_t), intent(in) :: line
-      type(build_context_t), intent(inout) :: context
-      logical, intent(out) :: ok
-      integer(ip) :: id, nodes(3), i
-      logical :: good, known
-
-      nodes = 0
-      call get_id(context%deck, context%deck%tokens(line%first_token), 'element number', id, ok, 'ELEMENT')
-      do i = 1, line%n_tokens - 1
-         call find_one_node(context, line_item(context%deck, line, i + 1), nodes(i), good, 'ELEMENT')
-         ok = ok .and. good
-      end do
-      if (.not. ok) return
-      call add_id(context%lines%ids, id, context%lines%ids%n + 1, known)
-      ok = .not. known
-      if (known) then
-         call report_error(context%deck, context%deck%tokens(line%first_token), 'E-TWICE', 'element '//to_text(id)// &
-                           ' is given twice', expected='an element number that is free', keyword='ELEMENT')
-         return
-      end if
-      associate (n => context%lines%ids%n)
-         if (.not. allocated(context%lines%nodes)) allocate (context%lines%nodes(4, 16))
-         if (n > size(context%lines%nodes, 2)) call resize(context%lines%nodes, n - 1, 2*n)
-         context%lines%nodes(:, n) = [nodes(1), merge(nodes(2), nodes(3), nodes(3) == 0), merge(nodes(2), 0_ip, nodes(3) > 0), id]
-      end associate
-   end subroutine read_line
 
    !> A set of lines is a node set and a curve.
    subroutine put_line_set(name, lines, i_card, context)

@@ -28,6 +28,7 @@ contains
       real(wp), allocatable :: place(:, :)             ! of the new nodes there
       integer(ip), allocatable :: owner(:)             ! block that has placed a node; negative: elsewhere than its element; 0: none
       logical, allocatable :: is_done(:)               ! elements of blocks with arcs
+      integer(ip), allocatable :: pieces(:)
       integer(ip) :: b, e, i, j
 
       if (.not. any([(has_arcs(context%blocks(b)%map), b=1, context%n_blocks)])) return
@@ -49,8 +50,18 @@ contains
             end do
          end associate
       end do
-      do e = 1, coarse%n_elements
-         if (.not. is_done(e)) call check_neighbour(e, context, owner)
+      do e = 1, coarse%n_elements                      ! an element of no block with arcs keeps the places of its nodes
+         if (is_done(e)) cycle
+         pieces = fine_elements(context%refinement, [e])
+         look: do i = 1, size(pieces, kind=ip)
+            do j = 1, context%model%mesh%shape(pieces(i))
+               b = -owner(context%model%mesh%nodes(j, pieces(i)))
+               if (b <= 0) cycle
+               call report_other_curve(b, 0_ip, context)
+               where (abs(owner) == b) owner = 0       ! told once
+               exit look
+            end do
+         end do look
       end do
    end subroutine place_on_arcs
 
@@ -85,28 +96,6 @@ contains
          end do
       end associate
    end subroutine place_element
-
-   !> An element of no block with arcs keeps the places of its nodes.
-   subroutine check_neighbour(e, context, owner)
-      integer(ip), intent(in) :: e
-      type(build_context_t), intent(inout) :: context
-      integer(ip), intent(inout) :: owner(:)
-      integer(ip), allocatable :: pieces(:)
-      integer(ip) :: i, k, b
-
-      pieces = fine_elements(context%refinement, [e])
-      associate (mesh => context%model%mesh)
-         do i = 1, size(pieces, kind=ip)
-            do k = 1, mesh%shape(pieces(i))
-               b = -owner(mesh%nodes(k, pieces(i)))
-               if (b <= 0) cycle
-               call report_other_curve(b, 0_ip, context)
-               where (abs(owner) == b) owner = 0       ! told once
-               return
-            end do
-         end do
-      end associate
-   end subroutine check_neighbour
 
    subroutine report_other_curve(b, other, context)
       integer(ip), intent(in) :: b
