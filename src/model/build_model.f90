@@ -6,7 +6,6 @@ module atrito_build_model
    use atrito_build_amplitudes, only: build_amplitudes
    use atrito_build_block, only: read_block_card, place_block_elements
    use atrito_build_contact, only: build_contact
-   use atrito_build_copies, only: read_ncopy_card, read_elcopy_card
    use atrito_build_elements, only: read_element_card, read_elgen_card
    use atrito_build_cuts, only: place_cuts
    use atrito_build_equations, only: build_equations
@@ -21,7 +20,7 @@ module atrito_build_model
    use atrito_build_requests, only: build_requests
    use atrito_build_springs, only: build_springs, is_spring_card
    use atrito_build_steps, only: build_steps, open_step
-   use atrito_build_sets, only: try_set_card, read_set_card
+   use atrito_build_sets, only: try_set_card, read_set_card, read_copy_card
    use atrito_build_supports, only: build_supports
    use atrito_build_ties, only: read_ties, check_ties, build_ties
    use atrito_build_surfaces, only: build_surfaces
@@ -241,7 +240,7 @@ contains
          case ('NGEN', 'NFILL')
             call read_fill_card(i, context)
          case ('NCOPY')
-            call read_ncopy_card(i, context)
+            call read_copy_card(i, context)
          case ('BLOCK')
             call read_block_card(i, context)
          case ('INCLUDE')
@@ -270,7 +269,7 @@ contains
          case ('ELGEN')
             call read_elgen_card(i, context)
          case ('ELCOPY')
-            call read_elcopy_card(i, context)
+            call read_copy_card(i, context)
          case ('INCLUDE')
             call read_mesh_elements(i, context)
          case ('BLOCK')

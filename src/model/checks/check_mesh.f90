@@ -19,7 +19,7 @@ module atrito_check_mesh
    !> From this ratio on fully integrated elements lock in plane strain: those with three or four nodes altogether, those with more
    !> in their pressures.
    real(wp), parameter :: LOCKING_RATIO = 0.49_wp
-   !> What elements do there: nothing, six and more nodes, four nodes of FORMULATION=STANDARD, three nodes; the worst is told.
+   !> What elements do there: nothing, six and more nodes, four nodes of FORMULATION=STANDARD, three nodes; the worst is reported.
    integer(ip), parameter :: FITS = 0, OSCILLATES = 1, LOCKS = 2, TRIANGLE_LOCKS = 3
 
 contains
@@ -60,11 +60,11 @@ contains
    subroutine check_materials(model, context)
       type(model_t), intent(in) :: model
       type(build_context_t), intent(in) :: context
-      integer(ip), dimension(size(model%materials)) :: state, trouble
+      integer(ip), dimension(size(model%materials)) :: state, response
       integer(ip) :: e, i
 
       state = 0                                        ! of elements that mu = 1/2 makes incompressible; 0: none
-      trouble = FITS                                   ! the worst of such elements
+      response = FITS                                   ! the worst of such elements
       do e = 1, model%mesh%n_elements
          if (model%section_of(e) <= 0) cycle
          associate (section => model%sections(model%section_of(e)))
@@ -73,18 +73,18 @@ contains
             state(i) = model%mesh%state(e)
             if (IS_REDUCED(state(i))) cycle
             if (SHAPES(model%mesh%shape(e))%degree > 1) then
-               trouble(i) = max(trouble(i), OSCILLATES)
+               response(i) = max(response(i), OSCILLATES)
             else if (model%mesh%shape(e) == 3) then
-               trouble(i) = max(trouble(i), TRIANGLE_LOCKS)
+               response(i) = max(response(i), TRIANGLE_LOCKS)
             else if (section%formulation == FORMULATION_STANDARD) then
-               trouble(i) = max(trouble(i), LOCKS)
+               response(i) = max(response(i), LOCKS)
             end if
          end associate
       end do
       do i = 1, size(model%materials, kind=ip)
          if (context%elastic_given(i)) then
             if (state(i) > 0 .and. .not. context%elastic_invalid(i)) call check_strained(context, model%materials(i)%poisson, i, &
-                                                                                         state(i), trouble(i))
+                                                                                         state(i), response(i))
          else if (.not. (context%elastic_invalid(i) .and. has_errors())) then
             call report_error(context%deck, context%materials(i), 'E-MATERIAL', &
                               'material '//model%materials(i)%name//' has no *ELASTIC', &
@@ -94,12 +94,12 @@ contains
    end subroutine check_materials
 
    !> Poisson's ratio of a material that cannot give way across the plane.
-   subroutine check_strained(context, poisson, i, state, trouble)
+   subroutine check_strained(context, poisson, i, state, response)
       type(build_context_t), intent(in) :: context
       real(wp), intent(in) :: poisson
       integer(ip), intent(in) :: i                     !< the material
       integer(ip), intent(in) :: state                 !< of its elements, place in STATES
-      integer(ip), intent(in) :: trouble               !< that they have where it is nearly incompressible
+      integer(ip), intent(in) :: response               !< that they have where it is nearly incompressible
       character(len=:), allocatable :: there, what, instead
 
       there = ' in '//trim(STATES(state)%name)
@@ -109,9 +109,9 @@ contains
                            expected="Poisson's ratio mu, plane strain -1 < mu < 0.5, plane stress -1 < mu <= 0.5 [-]", &
                            keyword='ELASTIC')
       end if
-      if (poisson >= 0.5_wp .or. poisson < LOCKING_RATIO .or. trouble == FITS) return
+      if (poisson >= 0.5_wp .or. poisson < LOCKING_RATIO .or. response == FITS) return
       instead = 'elements with four nodes and FORMULATION=BBAR'
-      select case (trouble)
+      select case (response)
       case (TRIANGLE_LOCKS)
          what = ' triangles with three nodes are much too stiff'//there
          instead = instead//' of *SOLID SECTION'
@@ -125,7 +125,7 @@ contains
                           expected=instead//', or mu < 0.49 [-]', keyword='ELASTIC')
    end subroutine check_strained
 
-   !> BBAR is for four nodes where nothing gives way across the plane; elsewhere it changes nothing, told once a section.
+   !> BBAR is for four nodes where nothing gives way across the plane; elsewhere it changes nothing, reported once a section.
    subroutine note_formulations(model, context)
       type(model_t), intent(in) :: model
       type(build_context_t), intent(in) :: context
@@ -149,10 +149,9 @@ contains
    end subroutine note_formulations
 
    !> Elements that have an edge in common have all nodes of it in common: four-node beside nine-node elements, or large ones of
-   !> nine nodes beside small ones, would leave a crack between common corners that nobody sees in a list of nodes. Those that do
-   !> not fit their neighbours are told, all in one message: neighbours of an element of the second degree that have the corners of
-   !> its edge and not its middle, or its middle as something else than the middle of the same edge; of two such elements the one
-   !> that comes later.
+   !> nine nodes beside small ones, would leave a crack between common corners that nobody sees in a list of nodes. Reports, in one
+   !> message, the neighbours of an element of the second degree that have the corners of its edge and not its middle, or its
+   !> middle as something else than the middle of the same edge; of two such elements the one that comes later.
    subroutine check_edges(mesh, context)
       type(mesh_t), intent(in) :: mesh
       type(build_context_t), intent(in) :: context

@@ -165,7 +165,8 @@ contains
       type(contact_points_t), intent(inout) :: points(:) !< of each pair
       real(wp), allocatable :: value(:)
       logical, allocatable :: is_given(:)
-      integer(ip) :: i, k
+      real(wp) :: total, weight
+      integer(ip) :: i, j, k
 
       do i = 1, size(list, kind=ip)
          if (list(i)%is_uniform) then
@@ -179,7 +180,21 @@ contains
             is_given(list(i)%node(k)) = .true.
          end do
          if (is_refined(refinement)) call fill_edges(refinement, points(list(i)%pair), value, is_given)
-         call set_by_nodes(value, is_given, points(list(i)%pair))
+         ! the gap of a point is that of its node; of MORTAR the mean over the nodes of its row that have one, as their
+         ! displacements are
+         associate (pair => points(list(i)%pair))
+            do j = 1, pair%n
+               if (.not. is_given(pair%node(j))) cycle
+               total = 0.0_wp
+               weight = 0.0_wp
+               do k = pair%first(j), pair%first(j + 1) - 1
+                  if (pair%coefficient(k) <= 0.0_wp .or. .not. is_given(pair%entry(k))) cycle
+                  total = total + pair%coefficient(k)*value(pair%entry(k))
+                  weight = weight + pair%coefficient(k)
+               end do
+               pair%gap(j) = total/weight
+            end do
+         end associate
       end do
    end subroutine set_clearances
 
@@ -210,28 +225,6 @@ contains
          end associate
       end do
    end subroutine fill_edges
-
-   !> The gap of a point is that of its node; of MORTAR the mean over the nodes of its row that have one, as their displacements
-   !> are.
-   pure subroutine set_by_nodes(value, is_given, points)
-      real(wp), intent(in) :: value(:)
-      logical, intent(in) :: is_given(:)
-      type(contact_points_t), intent(inout) :: points
-      real(wp) :: total, weight
-      integer(ip) :: j, k
-
-      do j = 1, points%n
-         if (.not. is_given(points%node(j))) cycle
-         total = 0.0_wp
-         weight = 0.0_wp
-         do k = points%first(j), points%first(j + 1) - 1
-            if (points%coefficient(k) <= 0.0_wp .or. .not. is_given(points%entry(k))) cycle
-            total = total + points%coefficient(k)*value(points%entry(k))
-            weight = weight + points%coefficient(k)
-         end do
-         points%gap(j) = total/weight
-      end do
-   end subroutine set_by_nodes
 
    !> All lines of a deck. The surfaces of its pairs are known.
    subroutine read_interferences(context, list)

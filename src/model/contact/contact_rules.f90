@@ -8,7 +8,7 @@ module atrito_contact_rules
    use atrito_model, only: SURFACE_SEGMENTS, QUADRATURE_AUTO, QUADRATURE_NODAL, QUADRATURE_MORTAR
    use atrito_name_list, only: find_name
    use atrito_number_list, only: number_list_t, add_number, numbers_of
-   use atrito_references, only: report_unknown
+   use atrito_references, only: find_surface, report_unknown
    use atrito_sorting, only: first_at_least, sorted_places
    use atrito_strings, only: to_text
    implicit none (type, external)
@@ -62,6 +62,7 @@ contains
                         expected='*CONTACT INCLUSIONS, ALL EXTERIOR, or lines of surfaces', keyword='CONTACT INCLUSIONS')
    end subroutine read_contact_rules
 
+   !> *CONTACT: there is one, with the distance of faces that may touch and the quadrature of all pairs.
    subroutine read_contact_card(deck, card, rules)
       type(deck_t), intent(in) :: deck
       type(card_t), intent(in) :: card
@@ -112,8 +113,8 @@ contains
       do i = card%first_line, card%first_line + card%n_lines - 1
          if (.not. context%deck%lines(i)%ok) cycle
          items = [(line_item(context%deck, context%deck%lines(i), k), k=1, 3)]
-         call find_surface(card, items(1), context, ANY_BODY, surface(1), ok(1))
-         call find_surface(card, items(2), context, surface(1), surface(2), ok(2))
+         call find_party(card, items(1), context, ANY_BODY, surface(1), ok(1))
+         call find_party(card, items(2), context, surface(1), surface(2), ok(2))
          value = 1
          if (keyword_name(card) == 'CONTACT PROPERTY ASSIGNMENT') then
             value = find_name(context%interaction_names, token_text(context%deck, items(3)))
@@ -136,7 +137,7 @@ contains
    end subroutine read_lines
 
    !> The surface that an item names; where the item is empty, another one.
-   subroutine find_surface(card, token, context, default, surface, ok)
+   subroutine find_party(card, token, context, default, surface, ok)
       type(card_t), intent(in) :: card
       type(token_t), intent(in) :: token
       type(build_context_t), intent(in) :: context
@@ -147,20 +148,16 @@ contains
       surface = default
       ok = .true.
       if (is_empty_token(token)) return
-      surface = find_name(context%surface_names, token_text(context%deck, token))
+      call find_surface(context, token, surface, keyword_name(card))
       ok = surface > 0
-      if (.not. ok) then
-         call report_unknown(context, token, 'surface', 'E-SURFACE', context%surface_names, keyword_name(card))
-      else if (context%model%surfaces(surface)%kind == SURFACE_SEGMENTS &
-               .and. .not. context%model%surfaces(surface)%is_rigid_body) then
-         if (context%rigid_undetermined .and. has_errors()) return
+      if (.not. ok) return
+      associate (line => context%model%surfaces(surface))
+         if (line%kind /= SURFACE_SEGMENTS .or. line%is_rigid_body .or. (context%rigid_undetermined .and. has_errors())) return
          ok = .false.
-         call report_error(context%deck, token, 'E-PAIR', 'the drawn surface '//context%model%surfaces(surface)%name// &
-                           ' belongs to no body', &
-                           expected='*RIGID BODY, ANALYTICAL SURFACE='//context%model%surfaces(surface)%name, &
-                           keyword='RIGID BODY')
-      end if
-   end subroutine find_surface
+         call report_error(context%deck, token, 'E-PAIR', 'the drawn surface '//line%name//' belongs to no body', &
+                           expected='*RIGID BODY, ANALYTICAL SURFACE='//line%name, keyword='RIGID BODY')
+      end associate
+   end subroutine find_party
 
    !> Adds a rule to those that there are.
    pure subroutine add_rule(rules, a, b, value)
@@ -182,6 +179,7 @@ contains
       rules%key = key(rules%order)
    end subroutine sort_rules
 
+   !> A number for two surfaces, in either order.
    elemental integer(lp) function key_of(a, b)
       integer(ip), intent(in) :: a, b
 

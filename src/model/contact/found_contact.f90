@@ -1,4 +1,13 @@
 !> Contact that is found: the pairs that *CONTACT makes of the outlines of the bodies.
+!>
+!>   1. The outline of each body is a list of faces; each face looks along its normal for a face of another body, or for a rigid
+!>      surface, no farther away than DISTANCE (look_around).
+!>   2. The rules say whether the two may touch, and by which law: *CONTACT INCLUSIONS, EXCLUSIONS and PROPERTY ASSIGNMENT name
+!>      surfaces, and a face belongs to several. Of several rules for two faces the last one counts.
+!>   3. Of two bodies that look at each other one is the slave: the softer one; of two alike the one of finer faces; else the first.
+!>      A face is a slave face where all of its points find the other body.
+!>   4. Slave faces that follow each other on the outline are a chain; each part of it with the same other body and the same law
+!>      becomes a pair.
 module atrito_found_contact
    use atrito_bodies, only: bodies_t, find_bodies
    use atrito_body_names, only: name_bodies
@@ -66,6 +75,7 @@ contains
                                              keyword='CONTACT')
    end subroutine find_contact
 
+   !> The bodies with their outlines, the rigid surfaces that are included, and the surfaces of rules to which each face belongs.
    subroutine begin_search(context, rules, search)
       type(build_context_t), intent(in) :: context
       type(contact_rules_t), intent(inout) :: rules
@@ -209,7 +219,8 @@ contains
       end do
    end subroutine choose_slaves
 
-   !> The second body is the slave for its stiffness or for its faces, and not just because it is the first in the deck.
+   !> The second body is the slave for its stiffness or for its faces, and not just because it is the first in the deck: its mean
+   !> modulus along the faces, E = sum E_i l_i / sum l_i, is less, or else the mean length of its faces, sum l_i / n.
    pure logical function comes_before(model, search, faces, b, a)
       type(model_t), intent(in) :: model
       type(search_t), intent(in) :: search
@@ -324,7 +335,8 @@ contains
       type(build_context_t), intent(inout) :: context
       type(surface_t), allocatable :: surfaces(:)
       type(pair_t) :: pairs(chains%n)
-      integer(ip) :: surface_of(size(search%masters)), number(chains%n), default_law, i, n
+      integer(ip) :: surface_of(size(search%masters)), number(chains%n), order(chains%n), default_law, i, n
+      integer(lp) :: key(chains%n)
 
       default_law = 0
       if (any(search%is_slave .and. search%law == 0)) then
@@ -339,7 +351,15 @@ contains
       surfaces(:n) = context%model%surfaces
       surface_of = 0
       surface_of(search%bodies%n + 1:) = search%rigid
-      number = count_alike(search, chains)
+      ! of the chains of the same slave and the same other party the first, the second, ...
+      associate (faces => chains%face(chains%first(:chains%n)))
+         key = int(search%outlines%body(faces), lp)*(size(search%masters, kind=lp) + 1_lp) + int(search%other(faces), lp)
+      end associate
+      order = sorted_places(key)
+      number = 1
+      do i = 2, chains%n
+         if (key(order(i)) == key(order(i - 1))) number(order(i)) = number(order(i - 1)) + 1
+      end do
       do i = 1, chains%n
          associate (first => chains%face(chains%first(i)), faces => chains%face(chains%first(i):chains%first(i + 1) - 1))
             n = n + 1
@@ -366,22 +386,5 @@ contains
       context%model%surfaces = surfaces(:n)
       context%model%pairs = [context%model%pairs, pairs]
    end subroutine make_pairs
-
-   !> Of the chains of the same slave and the same other party the first, the second, ...
-   pure function count_alike(search, chains) result(number)
-      type(search_t), intent(in) :: search
-      type(chains_t), intent(in) :: chains
-      integer(ip) :: number(chains%n), order(chains%n), i
-      integer(lp) :: key(chains%n)
-
-      associate (faces => chains%face(chains%first(:chains%n)))
-         key = int(search%outlines%body(faces), lp)*(size(search%masters, kind=lp) + 1_lp) + int(search%other(faces), lp)
-      end associate
-      order = sorted_places(key)
-      number = 1
-      do i = 2, chains%n
-         if (key(order(i)) == key(order(i - 1))) number(order(i)) = number(order(i - 1)) + 1
-      end do
-   end function count_alike
 
 end module atrito_found_contact

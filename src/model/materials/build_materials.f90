@@ -28,7 +28,7 @@ contains
    subroutine build_materials(context)
       type(build_context_t), intent(inout) :: context
       character(len=:), allocatable :: name
-      integer(ip) :: i, current, n_sections
+      integer(ip) :: i, current, place, n_sections
       logical :: is_open                               ! nothing but what belongs to it since the last *MATERIAL
 
       i = count_cards(context%deck, 'MATERIAL')
@@ -61,7 +61,13 @@ contains
          end select
       end do
       context%model%materials = context%model%materials(:context%material_names%n)
-      call build_orientations(context)
+      allocate (context%orientation_axis(2, count_cards(context%deck, ORIENTATION)), source=0.0_wp)
+      do i = 1, context%deck%n_cards
+         if (keyword_name(context%deck%cards(i)) /= ORIENTATION) cycle
+         call define_name(context%deck, context%deck%cards(i), 'orientation', context%orientation_names, context%orientations, &
+                          name, place)
+         if (place > 0) call read_axis(context%deck%cards(i), context%deck, context%orientation_axis(:, place))
+      end do
       n_sections = 0
       do i = 1, context%deck%n_cards
          if (keyword_name(context%deck%cards(i)) == 'SOLID SECTION') then
@@ -72,6 +78,7 @@ contains
       call taper_elements(context)
    end subroutine build_materials
 
+   !> *DENSITY: the mass per volume, which does not depend on the temperature.
    subroutine read_density_card(deck, card, material)
       type(deck_t), intent(in) :: deck
       type(card_t), intent(in) :: card
@@ -90,6 +97,7 @@ contains
       if (ok) call check_constant(deck, card, [material%density], 'densities', ok)
    end subroutine read_density_card
 
+   !> *EXPANSION: the coefficient alpha of the thermal strain alpha T, which does not depend on the temperature.
    subroutine read_expansion_card(deck, card, material)
       type(deck_t), intent(in) :: deck
       type(card_t), intent(in) :: card
@@ -205,7 +213,7 @@ contains
       section%thickness = 1.0_wp
    end subroutine read_thickness
 
-   !> Gives elements their section; those that have one already are an error, told in one message.
+   !> Gives elements their section; those that have one already are an error, reported in one message.
    subroutine assign_section(card, place, elset, context, elements, number)
       type(token_t), intent(in) :: card, place         !< of the section, and of its set
       character(len=*), intent(in) :: elset
@@ -226,25 +234,6 @@ contains
       end if
       context%model%section_of(elements) = number
    end subroutine assign_section
-
-   !> All *ORIENTATION cards: context%orientation_axis, 0 where a card is faulty.
-   subroutine build_orientations(context)
-      type(build_context_t), intent(inout) :: context
-      character(len=:), allocatable :: name
-      real(wp) :: axis(2)
-      integer(ip) :: i, place
-
-      allocate (context%orientation_axis(2, count_cards(context%deck, ORIENTATION)), source=0.0_wp)
-      if (size(context%orientation_axis) == 0) return
-      do i = 1, context%deck%n_cards
-         if (keyword_name(context%deck%cards(i)) /= ORIENTATION) cycle
-         call define_name(context%deck, context%deck%cards(i), 'orientation', context%orientation_names, context%orientations, &
-                          name, place)
-         if (place == 0) cycle
-         call read_axis(context%deck%cards(i), context%deck, axis)
-         context%orientation_axis(:, place) = axis
-      end do
-   end subroutine build_orientations
 
    !> The direction of the first axis, from two points in the plane that span it, and a rotation about one of the axes, the third
    !> one here; 0: it is faulty.

@@ -48,6 +48,7 @@ contains
       context%elastic_invalid(i) = .not. ok
    end subroutine read_elastic_card
 
+   !> E and mu in the first line; further lines, of other temperatures, say the same.
    subroutine read_isotropic(card, material, deck, all_ok)
       type(card_t), intent(in) :: card
       type(material_t), intent(inout) :: material

@@ -48,7 +48,7 @@ contains
                   call add_nodal_value(supports, i, 1_ip, 0.0_wp)
                   entry = supports%n
                else if (abs(supports%value(entry)) > 0.0_wp) then
-                  ! what is carried on has been told
+                  ! what is carried on has been reported
                   if (context%dof_token(1, i) >= context%open%first_token) call add_number(moved, mesh%node_id(i))
                end if
             end associate
@@ -110,10 +110,7 @@ contains
       logical, intent(in) :: has_hoop
       logical, parameter :: HAS(size(STATES)) = STATES%has_hoop
 
-      do e = 1, model%mesh%n_elements
-         if (HAS(model%mesh%state(e)) .eqv. has_hoop) return
-      end do
-      e = 0
+      e = findloc(HAS(model%mesh%state(:model%mesh%n_elements)), has_hoop, dim=1, kind=ip)
    end function first_of_kind
 
 end module atrito_axis

@@ -211,6 +211,7 @@ contains
       end associate
    end function outline_of
 
+   !> The shortest edge of the elements of a block, whose nodes stand row by row [L].
    pure real(wp) function shortest_edge(x, width) result(shortest)
       real(wp), intent(in) :: x(:, :)
       integer(ip), intent(in) :: width                 !< nodes in a row

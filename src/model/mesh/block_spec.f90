@@ -15,7 +15,7 @@ module atrito_block_spec
    use atrito_strings, only: same_name, to_text, upper_case
    implicit none (type, external)
    private
-   public :: block_spec_t, copies_t, read_block_spec, count_nodes, copy_offset
+   public :: block_spec_t, read_block_spec, count_nodes, copy_offset
 
    integer(ip), parameter :: CORNERS = 4
    !> Corners where each side begins and ends.
@@ -166,8 +166,9 @@ contains
       end if
    end subroutine read_arc
 
-   !> The map of a block is one to one: straight sides make a convex quadrilateral, counter-clockwise; with arcs the Jacobian is
-   !> looked at in a grid that has all of the sides. An angle of 180 degrees at a corner is none.
+   !> The map of a block is one to one where its Jacobian is positive. With straight sides it is least at a corner: they make a
+   !> convex quadrilateral, counter-clockwise. With arcs it is looked at in a grid that has all of the sides. An angle of 180
+   !> degrees at a corner is none.
    subroutine check_map(deck, card, corner_line, map, ok)
       type(deck_t), intent(in) :: deck
       type(card_t), intent(in) :: card

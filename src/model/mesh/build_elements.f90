@@ -82,6 +82,7 @@ contains
       call put_named_set(i_card, context, [(i, i=first, context%model%mesh%n_elements)])
    end subroutine read_element_card
 
+   !> A line of *ELEMENT that is not just plain numbers: number, nodes.
    subroutine read_element_line(line, n_nodes, state, context, good)
       type(data_line_t), intent(in) :: line
       integer(ip), intent(in) :: n_nodes, state
@@ -175,6 +176,7 @@ contains
       call put_named_set(i_card, context, numbers_of(members))
    end subroutine read_elgen_card
 
+   !> Of each direction, where it is given: number of elements, increments of the numbers of nodes and of elements.
    subroutine read_repeats(deck, line, repeats, ok)
       type(deck_t), intent(in) :: deck
       type(data_line_t), intent(in) :: line
@@ -203,7 +205,7 @@ contains
 
    !> An element once more on other nodes.
    subroutine copy_element_once(token, place, keyword, context, master, shift, ok)
-      type(token_t), intent(in) :: token               !< at which errors are told
+      type(token_t), intent(in) :: token               !< at which errors are reported
       integer(ip), intent(in) :: place                 !< token (> 0) or card (< 0) of the deck
       character(len=*), intent(in) :: keyword
       type(build_context_t), intent(inout) :: context

@@ -33,8 +33,8 @@ contains
       type(build_context_t), intent(inout) :: context
       integer(ip), allocatable :: node(:)              ! place in the mesh of each node of the file; 0: left out
       type(id_map_t) :: map                            ! from the file's numbers to the file's nodes
-      integer(ip) :: i, shift
-      logical :: ok
+      integer(ip) :: i, k, shift, first
+      logical :: ok, known
 
       i = mesh_of_card(i_card, context)
       if (i == 0) return
@@ -46,7 +46,19 @@ contains
                                  shift, ok)
          if (.not. ok) return
          context%mesh_shift(i) = shift
-         call place_nodes(mesh, shift, node, context)
+         first = context%model%mesh%n_nodes + 1
+         call reserve_mesh(context%model%mesh, mesh%n_nodes, 0_ip)
+         do k = 1, mesh%n_nodes
+            if (node(k) == 0) cycle
+            call add_node(context%model%mesh, mesh%node_id(k) + shift, mesh%x(:, k), known)
+            node(k) = context%model%mesh%n_nodes
+            context%nodes%greatest = max(context%nodes%greatest, mesh%node_id(k) + shift)
+         end do
+         call note_places(context%nodes%place, first, context%model%mesh%n_nodes, -i_card)
+         if (any(node == 0)) call report_note(context%deck, context%deck%cards(i_card)%place, 'N-NODE', 'node '// &
+                                              ids_text(pack(mesh%node_id(:mesh%n_nodes), node == 0))//' of '//mesh%file// &
+                                              ' belongs to no element and is left out', &
+                                              expected='a physical point, where such a node is meant', keyword='INCLUDE')
          call put_sets(mesh, map, node, context)
       end associate
    end subroutine read_mesh_nodes
@@ -110,32 +122,6 @@ contains
       if (.not. ok) call refuse(mesh, context, 'E-GMSH', mesh%file//' has no element of the plane', &
                                 'triangles or quadrilaterals, of a physical surface or of a drawing without physical groups')
    end subroutine choose_nodes
-
-   !> Adds the chosen nodes to the mesh.
-   subroutine place_nodes(mesh, shift, node, context)
-      type(gmsh_mesh_t), intent(in) :: mesh
-      integer(ip), intent(in) :: shift                 !< of the numbers
-      integer(ip), intent(inout) :: node(:)            !< in: as of choose_nodes; out: places in the mesh, 0: left out
-      type(build_context_t), intent(inout) :: context
-      integer(ip) :: i, before
-      logical :: known
-
-      before = context%model%mesh%n_nodes
-      call reserve_mesh(context%model%mesh, mesh%n_nodes, 0_ip)
-      do i = 1, mesh%n_nodes
-         if (node(i) == 0) cycle
-         call add_node(context%model%mesh, mesh%node_id(i) + shift, mesh%x(:, i), known)
-         node(i) = context%model%mesh%n_nodes
-         context%nodes%greatest = max(context%nodes%greatest, mesh%node_id(i) + shift)
-      end do
-      call note_places(context%nodes%place, before + 1, context%model%mesh%n_nodes, -mesh%card)
-      if (any(node == 0)) then
-         call report_note(context%deck, context%deck%cards(mesh%card)%place, 'N-NODE', 'node '// &
-                          ids_text(pack(mesh%node_id(:mesh%n_nodes), node == 0))//' of '//mesh%file// &
-                          ' belongs to no element and is left out', &
-                          expected='a physical point, where such a node is meant', keyword='INCLUDE')
-      end if
-   end subroutine place_nodes
 
    !> What is added to the numbers of a file, so that none is there already.
    subroutine find_shift(ids, taken, greatest, noun, mesh, context, shift, ok)
@@ -301,6 +287,7 @@ contains
       end do
    end subroutine find_twins
 
+   !> Two lists of as many different numbers have the same ones.
    pure logical function has_same(a, b)
       integer(ip), intent(in) :: a(:), b(:)
       integer(ip) :: i

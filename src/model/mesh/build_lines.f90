@@ -140,7 +140,8 @@ contains
       type(build_context_t), intent(inout) :: context
       type(number_list_t) :: members
       character(len=:), allocatable :: name
-      integer(ip) :: i, k
+      integer(ip) :: i, k, range(3), number
+      integer :: outcome
       logical :: found
 
       associate (card => context%deck%cards(i_card), deck => context%deck)
@@ -148,12 +149,22 @@ contains
          if (.not. found) return
          do i = card%first_line, card%first_line + card%n_lines - 1
             if (.not. deck%lines(i)%ok) cycle
-            if (has_option(deck, card, 'GENERATE')) then
-               call add_lines_of_range(context, deck%lines(i), members)
+            if (.not. has_option(deck, card, 'GENERATE')) then
+               do k = 1, deck%lines(i)%n_tokens
+                  call add_numbers(members, lines_of_item(context, line_item(deck, deck%lines(i), k)))
+               end do
                cycle
             end if
-            do k = 1, deck%lines(i)%n_tokens
-               call add_numbers(members, lines_of_item(context, line_item(deck, deck%lines(i), k)))
+            range = [0_ip, -1_ip, 1_ip]                ! first, last, increment
+            do k = 1, min(3_ip, deck%lines(i)%n_tokens)
+               if (is_empty_token(line_item(deck, deck%lines(i), k))) cycle
+               call read_integer(token_text(deck, line_item(deck, deck%lines(i), k)), number, outcome)
+               if (outcome == NUMBER_OK) range(k) = number
+            end do
+            do k = 1, context%lines%ids%n
+               number = context%lines%nodes(4, k)
+               if (number < range(1) .or. number > range(2) .or. range(3) < 1) cycle
+               if (modulo(number - range(1), range(3)) == 0) call add_number(members, k)
             end do
          end do
       end associate
@@ -181,27 +192,6 @@ contains
       end if
    end function lines_of_item
 
-   !> The lines in a range of numbers.
-   subroutine add_lines_of_range(context, line, members)
-      type(build_context_t), intent(in) :: context
-      type(data_line_t), intent(in) :: line
-      type(number_list_t), intent(inout) :: members
-      integer(ip) :: range(3), k, i
-      integer :: outcome
-
-      range = [0_ip, -1_ip, 1_ip]
-      do k = 1, min(3_ip, line%n_tokens)
-         if (is_empty_token(line_item(context%deck, line, k))) cycle
-         call read_integer(token_text(context%deck, line_item(context%deck, line, k)), i, outcome)
-         if (outcome == NUMBER_OK) range(k) = i
-      end do
-      do i = 1, context%lines%ids%n
-         k = context%lines%nodes(4, i)
-         if (k < range(1) .or. k > range(2) .or. range(3) < 1) cycle
-         if (modulo(k - range(1), range(3)) == 0) call add_number(members, i)
-      end do
-   end subroutine add_lines_of_range
-
    !> An item of an *ELSET names lines, and no elements.
    logical function is_line_item(context, token)
       type(build_context_t), intent(in) :: context
@@ -214,7 +204,7 @@ contains
       end if
    end function is_line_item
 
-   !> Beside lines of Gmsh elements may run clockwise, as the surfaces of a drawing do: they are turned, and it is told.
+   !> Beside lines of Gmsh elements may run clockwise, as the surfaces of a drawing do: they are turned, and it is reported.
    subroutine turn_elements(context)
       type(build_context_t), intent(inout) :: context
       integer(ip) :: e, turned

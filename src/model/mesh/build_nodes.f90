@@ -82,6 +82,7 @@ contains
       end associate
    end subroutine place_moved_node
 
+   !> A line of *NODE that is not just plain numbers: number, x, y[, z].
    subroutine read_node_line(line, context)
       type(data_line_t), intent(in) :: line
       type(build_context_t), intent(inout) :: context

@@ -13,7 +13,7 @@ module atrito_build_surfaces
    use atrito_mesh, only: elements_of_square, side_count
    use atrito_messages, only: has_room, SEVERITY_ERROR
    use atrito_model, only: surface_t, SURFACE_SEGMENTS
-   use atrito_motion, only: motion_t, moved
+   use atrito_motion, only: moved
    use atrito_name_list, only: add_name, find_name, has_name
    use atrito_number_list, only: number_list_t, add_number, numbers_of
    use atrito_numbers, only: read_integer
@@ -141,7 +141,11 @@ contains
       else
          surface%kind = SURFACE_SEGMENTS
          call read_segments(context%deck, card, surface, ok)
-         if (ok .and. card%scope > 0) call move_segments(context%motions(card%scope), surface)
+         do k = 1, merge(size(surface%points, 2, kind=ip), 0_ip, ok .and. card%scope > 0)   ! drawn in a part
+            surface%points(:, k) = moved(context%motions(card%scope), surface%points(:, k))
+            if (k > size(surface%is_arc)) cycle
+            if (surface%is_arc(k)) surface%centre(:, k) = moved(context%motions(card%scope), surface%centre(:, k))
+         end do
       end if
       if (.not. ok) call invalidate_name(context, surface%name)
       context%model%surfaces(i) = surface
@@ -157,8 +161,9 @@ contains
       logical, intent(out) :: ok
       type(token_t) :: token
       character(len=:), allocatable :: name, word
+      type(number_list_t) :: inside
       integer(ip), allocatable :: elements(:)
-      integer(ip) :: face, i_set
+      integer(ip) :: face, i_set, i
       integer :: outcome
 
       token = line_item(context%deck, line, 1_ip)
@@ -183,11 +188,21 @@ contains
          end if
       end if
       call find_elements(context, token, elements, ok, 'SURFACE')
-      if (ok .and. face == 0) then
+      if (ok .and. face > 0) call check_faces(context, line_item(context%deck, line, 2_ip), elements, face, 'SURFACE', ok)
+      if (.not. ok) return
+      if (face == 0) then
          call add_faces(outer_faces(context%model%mesh, context%around, elements), 0_ip, faces)
-      else if (ok) then
-         call take_faces(line, context, elements, is_cut, face, faces, ok)
+         return
       end if
+      do i = 1, size(elements, kind=ip)
+         if (.not. is_on_side(context%refinement, elements(i), face)) cycle
+         ok = is_cut
+         if (.not. ok) ok = is_outer_face(context%model%mesh, context%around, elements(i), face)
+         if (ok) call add_face(faces, elements(i), face)
+         if (.not. ok) call add_number(inside, context%model%mesh%element_id(elements(i)))
+      end do
+      ok = inside%n == 0
+      if (.not. ok) call report_inside(context, line, numbers_of(inside), inside%n)
    end subroutine read_face_line
 
    !> The elements on the outline.
@@ -248,6 +263,7 @@ contains
       end do
    end subroutine add_faces
 
+   !> Reports faces that were asked for and do not lie on the outline.
    subroutine report_inside(context, line, ids, n)
       type(build_context_t), intent(in) :: context
       type(data_line_t), intent(in) :: line
@@ -260,31 +276,6 @@ contains
                         ' lies inside the mesh, of element '//ids_text(ids, n), &
                         expected='faces on the outline of the body; without a face, all of them', keyword='SURFACE')
    end subroutine report_inside
-
-   !> The face of a number of each element.
-   subroutine take_faces(line, context, elements, is_cut, face, faces, ok)
-      type(data_line_t), intent(in) :: line
-      type(build_context_t), intent(in) :: context
-      integer(ip), intent(in) :: elements(:)
-      logical, intent(in) :: is_cut                    !< they may lie inside the mesh
-      integer(ip), intent(in) :: face
-      type(face_list_t), intent(inout) :: faces
-      logical, intent(out) :: ok
-      type(number_list_t) :: inside
-      integer(ip) :: i
-
-      call check_faces(context, line_item(context%deck, line, 2_ip), elements, face, 'SURFACE', ok)
-      if (.not. ok) return
-      do i = 1, size(elements, kind=ip)
-         if (.not. is_on_side(context%refinement, elements(i), face)) cycle
-         ok = is_cut
-         if (.not. ok) ok = is_outer_face(context%model%mesh, context%around, elements(i), face)
-         if (ok) call add_face(faces, elements(i), face)
-         if (.not. ok) call add_number(inside, context%model%mesh%element_id(elements(i)))
-      end do
-      ok = inside%n == 0
-      if (.not. ok) call report_inside(context, line, numbers_of(inside), inside%n)
-   end subroutine take_faces
 
    !> START, LINE and CIRCL.
    subroutine read_segments(deck, card, surface, ok)
@@ -336,24 +327,10 @@ contains
       surface%centre = surface%centre(:, :max(n - 1, 0))
       if (.not. ok .or. n /= 1) return
       ok = .false.
-      ! without START the reader has told it
+      ! without START the reader has reported it
       if (.not. same_name(token_text(deck, line_item(deck, deck%lines(card%first_line), 1_ip)), 'START')) return
       call report_error(deck, card%place, 'E-MISSING', 'the surface has no segment', &
                         expected='START, x, y and LINE, x, y or CIRCL, x, y, xc, yc [L]', keyword='SURFACE')
    end subroutine read_segments
-
-   !> A line that is drawn in a part stands where the instance is.
-   pure subroutine move_segments(motion, surface)
-      type(motion_t), intent(in) :: motion
-      type(surface_t), intent(inout) :: surface
-      integer(ip) :: i
-
-      do i = 1, size(surface%points, 2, kind=ip)
-         surface%points(:, i) = moved(motion, surface%points(:, i))
-      end do
-      do i = 1, size(surface%centre, 2, kind=ip)
-         if (surface%is_arc(i)) surface%centre(:, i) = moved(motion, surface%centre(:, i))
-      end do
-   end subroutine move_segments
 
 end module atrito_build_surfaces

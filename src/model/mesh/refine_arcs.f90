@@ -58,7 +58,7 @@ contains
                b = -owner(context%model%mesh%nodes(j, pieces(i)))
                if (b <= 0) cycle
                call report_other_curve(b, 0_ip, context)
-               where (abs(owner) == b) owner = 0       ! told once
+               where (abs(owner) == b) owner = 0       ! reported once
                exit look
             end do
          end do look
@@ -97,6 +97,7 @@ contains
       end associate
    end subroutine place_element
 
+   !> Reports a side that is an arc beside what follows another curve: nodes between those of the deck would lie in two places.
    subroutine report_other_curve(b, other, context)
       integer(ip), intent(in) :: b
       integer(ip), intent(in) :: other                 !< block; 0: elements of no block with arcs

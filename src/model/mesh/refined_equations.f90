@@ -15,7 +15,7 @@ module atrito_refined_equations
 
 contains
 
-   !> Tells the first such side, at the first *EQUATION.
+   !> Reports the first such side, at the first *EQUATION.
    subroutine note_free_sides(context)
       type(build_context_t), intent(in) :: context
       logical, allocatable :: has_equation(:, :)       ! (n_nodes, dof) of first terms
