@@ -46,7 +46,7 @@ module atrito_build_model
    use atrito_plane_state, only: FULL_STATE
    use atrito_points, only: contact_points_t
    use atrito_refine_model, only: refine_model
-   use atrito_refined_equations, only: note_free_sides
+   use atrito_refined_deck, only: note_free_sides
    use atrito_rigid_rows, only: add_rigid_rows
    use atrito_sources, only: keep_sources
    use atrito_strings, only: deck_name

@@ -1,6 +1,6 @@
 !> *CONTACT and what belongs to it: which surfaces may touch, and by which law.
 module atrito_contact_rules
-   use atrito_deck, only: deck_t, card_t, token_t, token_text, line_item, is_empty_token, keyword_name
+   use atrito_deck, only: card_t, token_t, token_text, line_item, is_empty_token, keyword_name
    use atrito_diagnostics, only: report_error
    use atrito_build_context, only: build_context_t, place_text, has_errors
    use atrito_items, only: has_option, option_real, option_text, option_word
@@ -41,51 +41,43 @@ contains
    subroutine read_contact_rules(context, rules)
       type(build_context_t), intent(in) :: context
       type(contact_rules_t), intent(out) :: rules
+      character(len=*), parameter :: WHAT = 'farthest distance of faces that may touch, a real > 0 [L]'
+      character(len=:), allocatable :: text
+      type(token_t) :: place
       integer(ip) :: i
+      logical :: found
 
       do i = 1, context%deck%n_cards
-         select case (keyword_name(context%deck%cards(i)))
-         case ('CONTACT')
-            call read_contact_card(context%deck, context%deck%cards(i), rules)
-         case ('CONTACT INCLUSIONS')
-            if (has_option(context%deck, context%deck%cards(i), 'ALL EXTERIOR')) call add_rule(rules%included, ANY_BODY, &
-                                                                                               ANY_BODY, 1_ip)
-            call read_lines(context%deck%cards(i), context, rules%included)
-         case ('CONTACT EXCLUSIONS')
-            call read_lines(context%deck%cards(i), context, rules%excluded)
-         case ('CONTACT PROPERTY ASSIGNMENT')
-            call read_lines(context%deck%cards(i), context, rules%assigned)
-         end select
+         associate (deck => context%deck, card => context%deck%cards(i))
+            select case (keyword_name(card))
+            case ('CONTACT')
+               if (rules%given) then
+                  call report_error(deck, card%place, 'E-TWICE', '*CONTACT is given twice, first in '// &
+                                    place_text(deck, rules%place, card%place), &
+                                    expected='one *CONTACT, with all that belongs to it', keyword='CONTACT')
+                  cycle
+               end if
+               rules%given = .true.
+               rules%place = card%place
+               rules%quadrature = quadrature_of(option_word(deck, card, 'QUADRATURE'))
+               call option_real(deck, card, 'DISTANCE', WHAT, rules%distance, found)
+               if (.not. found .or. rules%distance > 0.0_wp) cycle
+               call option_text(deck, card, 'DISTANCE', text, found, place)
+               call report_error(deck, place, 'E-VALUE', 'DISTANCE = '//to_text(rules%distance), expected=WHAT, keyword='CONTACT')
+            case ('CONTACT INCLUSIONS')
+               if (has_option(deck, card, 'ALL EXTERIOR')) call add_rule(rules%included, ANY_BODY, ANY_BODY, 1_ip)
+               call read_lines(card, context, rules%included)
+            case ('CONTACT EXCLUSIONS')
+               call read_lines(card, context, rules%excluded)
+            case ('CONTACT PROPERTY ASSIGNMENT')
+               call read_lines(card, context, rules%assigned)
+            end select
+         end associate
       end do
       if (.not. rules%given .or. rules%included%a%n > 0 .or. has_errors()) return
       call report_error(context%deck, rules%place, 'E-MISSING', '*CONTACT includes nothing', &
                         expected='*CONTACT INCLUSIONS, ALL EXTERIOR, or lines of surfaces', keyword='CONTACT INCLUSIONS')
    end subroutine read_contact_rules
-
-   !> *CONTACT: there is one, with the distance of faces that may touch and the quadrature of all pairs.
-   subroutine read_contact_card(deck, card, rules)
-      type(deck_t), intent(in) :: deck
-      type(card_t), intent(in) :: card
-      type(contact_rules_t), intent(inout) :: rules
-      character(len=*), parameter :: WHAT = 'farthest distance of faces that may touch, a real > 0 [L]'
-      character(len=:), allocatable :: text
-      type(token_t) :: place
-      logical :: found
-
-      if (rules%given) then
-         call report_error(deck, card%place, 'E-TWICE', '*CONTACT is given twice, first in '// &
-                           place_text(deck, rules%place, card%place), expected='one *CONTACT, with all that belongs to it', &
-                           keyword='CONTACT')
-         return
-      end if
-      rules%given = .true.
-      rules%place = card%place
-      rules%quadrature = quadrature_of(option_word(deck, card, 'QUADRATURE'))
-      call option_real(deck, card, 'DISTANCE', WHAT, rules%distance, found)
-      if (.not. found .or. rules%distance > 0.0_wp) return
-      call option_text(deck, card, 'DISTANCE', text, found, place)
-      call report_error(deck, place, 'E-VALUE', 'DISTANCE = '//to_text(rules%distance), expected=WHAT, keyword='CONTACT')
-   end subroutine read_contact_card
 
    !> By the words of QUADRATURE, and of TYPE in other programs; QUADRATURE_AUTO where there is none.
    pure integer(ip) function quadrature_of(word) result(quadrature)

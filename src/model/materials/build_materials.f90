@@ -92,7 +92,9 @@ contains
          call get_real(deck, line_item(deck, line, 1_ip), WHAT, material%density, ok, keyword='DENSITY')
          if (ok .and. material%density < 0.0_wp) call report_error(deck, line_item(deck, line, 1_ip), 'E-VALUE', &
                                         'the density '//to_text(material%density)//' is negative', expected=WHAT, keyword='DENSITY')
-         if (ok) ok = check_comma(deck, line, 1_ip, 'mass per volume [F T^2/L^4]; a temperature behind it as 20.', 'DENSITY')
+         if (ok .and. .not. is_empty_token(line_item(deck, line, 2_ip))) then
+            ok = check_comma(deck, line, 1_ip, 'mass per volume [F T^2/L^4]; a temperature behind it as 20.', 'DENSITY')
+         end if
       end associate
       if (ok) call check_constant(deck, card, [material%density], 'densities', ok)
    end subroutine read_density_card

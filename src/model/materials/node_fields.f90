@@ -44,7 +44,7 @@ contains
    subroutine read_temperatures(context)
       type(build_context_t), intent(inout) :: context
       type(temperatures_t) :: before, now
-      integer(ip) :: k
+      integer(ip) :: k, last
 
       allocate (before%token(context%model%mesh%n_nodes), source=0_ip)
       allocate (before%value(context%model%mesh%n_nodes), source=0.0_wp)
@@ -52,10 +52,25 @@ contains
       before%keyword = 'INITIAL CONDITIONS'
       now%keyword = 'TEMPERATURE'
       call read_cards(context, 0_ip, before)
-      do k = 1, size(context%model%steps, kind=ip)
-         call open_step(context, k)
-         call read_step(context, before, now)
-      end do
+      ! the temperatures of a step: those of the step before but for what its lines change
+      associate (steps => context%model%steps)
+         do k = 1, size(steps, kind=ip)
+            call open_step(context, k)
+            if (removes_all(context, 'TEMPERATURE')) now%token = 0
+            last = now%last
+            call read_cards(context, k, now)
+            if (now%last /= last) call warn_of_middles(context, now)
+            if (now%last == 0) cycle
+            where (now%token == 0) now%value = before%value
+            if (any(abs(now%value - before%value) > 0.0_wp)) steps(k)%heating = now%value - before%value
+            if (k == 1) cycle
+            if (.not. allocated(steps(k - 1)%heating)) cycle
+            if (any(abs(steps(k - 1)%heating) > 0.0_wp)) steps(k)%heating_from = steps(k - 1)%heating
+            if (.not. allocated(steps(k)%heating) .and. allocated(steps(k)%heating_from)) then
+               steps(k)%heating = now%value - before%value
+            end if
+         end do
+      end associate
       if (before%last == 0 .and. now%last == 0) return
       if (now%last == 0) then
          call report_note(context%deck, context%deck%tokens(before%last), 'N-TEMPERATURE', 'no *TEMPERATURE of the step makes' &
@@ -64,28 +79,6 @@ contains
       end if
       call warn_of_middles(context, before)
    end subroutine read_temperatures
-
-   !> The temperatures of a step: those of the step before but for what its lines change.
-   subroutine read_step(context, before, now)
-      type(build_context_t), intent(inout) :: context
-      type(temperatures_t), intent(in) :: before
-      type(temperatures_t), intent(inout) :: now
-      integer(ip) :: last
-
-      associate (steps => context%model%steps, k => context%open%number)
-         if (removes_all(context, 'TEMPERATURE')) now%token = 0
-         last = now%last
-         call read_cards(context, k, now)
-         if (now%last /= last) call warn_of_middles(context, now)
-         if (now%last == 0) return
-         where (now%token == 0) now%value = before%value
-         if (any(abs(now%value - before%value) > 0.0_wp)) steps(k)%heating = now%value - before%value
-         if (k == 1) return
-         if (.not. allocated(steps(k - 1)%heating)) return
-         if (any(abs(steps(k - 1)%heating) > 0.0_wp)) steps(k)%heating_from = steps(k - 1)%heating
-         if (.not. allocated(steps(k)%heating) .and. allocated(steps(k)%heating_from)) steps(k)%heating = now%value - before%value
-      end associate
-   end subroutine read_step
 
    !> All cards of a step; 0: of the model.
    subroutine read_cards(context, step, temperatures)

@@ -18,6 +18,9 @@ contains
       type(model_t), intent(in) :: model
       type(bodies_t), intent(inout) :: bodies
       integer(ip) :: section(bodies%n), sharing(size(model%sections)), i, b, s
+      integer(ip), allocatable :: n(:), last(:)       ! of each instance: its bodies, and the last of them
+      type(name_list_t) :: names
+      integer :: dot
       logical :: is_named(bodies%n)
 
       sharing = 0
@@ -40,34 +43,24 @@ contains
             if (is_named(b)) bodies%list(b)%name = it%name
          end associate
       end do
-      if (allocated(model%instances)) call name_after_instances(model, bodies)
-   end subroutine name_bodies
-
-   !> An instance that is one body gives it its name alone, without that of the set in its part.
-   pure subroutine name_after_instances(model, bodies)
-      type(model_t), intent(in) :: model
-      type(bodies_t), intent(inout) :: bodies
-      type(name_list_t) :: names
-      integer(ip), allocatable :: n(:), last(:)       ! of each instance: its bodies, and the last of them
-      integer(ip) :: i, k
-      integer :: dot
-
+      if (.not. allocated(model%instances)) return
+      ! an instance that is one body gives it its name alone, without that of the set in its part
       do i = 1, size(model%instances, kind=ip)
          call add_name(names, model%instances(i)%name)
       end do
       allocate (n(names%n), last(names%n), source=0_ip)
-      do k = 1, bodies%n
-         do dot = 1, len(bodies%list(k)%name)
-            if (bodies%list(k)%name(dot:dot) /= '.') cycle
-            i = find_name(names, bodies%list(k)%name(:dot - 1))
+      do b = 1, bodies%n
+         do dot = 1, len(bodies%list(b)%name)
+            if (bodies%list(b)%name(dot:dot) /= '.') cycle
+            i = find_name(names, bodies%list(b)%name(:dot - 1))
             if (i == 0) cycle
             n(i) = n(i) + 1
-            last(i) = k
+            last(i) = b
          end do
       end do
       do i = 1, names%n
          if (n(i) == 1) bodies%list(last(i))%name = model%instances(i)%name
       end do
-   end subroutine name_after_instances
+   end subroutine name_bodies
 
 end module atrito_body_names

@@ -246,7 +246,9 @@ contains
       integer(ip), allocatable, intent(out) :: first(:)
       logical :: is_shared(mesh%n_parts)               ! the entity of the part is that of others, too
       type(id_map_t) :: seen                           ! entities
-      integer(ip) :: p, e
+      type(id_map_t) :: last                           ! of each node the first element of which it is the least corner; then
+      integer(ip) :: next(mesh%n_elements)             ! another one: such a list has few elements
+      integer(ip) :: p, e, k, n, other
       logical :: known
 
       is_shared = .false.
@@ -257,43 +259,24 @@ contains
          if (known) is_shared(find_id(seen, mesh%parts(p)%tag)) = .true.
       end do
       first = [(merge(e, 0_ip, mesh%parts(mesh%part(e))%dim == 2), e=1, mesh%n_elements)]
-      if (any(is_shared)) call find_twins(mesh, is_shared, first)
-   end subroutine find_plane_elements
-
-   !> Elements of the same corners, of which each list by the least of their corners has few.
-   subroutine find_twins(mesh, is_shared, first)
-      type(gmsh_mesh_t), intent(in) :: mesh
-      logical, intent(in) :: is_shared(:)              !< of each part
-      integer(ip), intent(inout) :: first(:)
-      integer(ip), allocatable :: next(:)
-      type(id_map_t) :: last                           ! of each node the first element in its list
-      integer(ip) :: e, other, least, n
-      logical :: known
-
-      allocate (next(mesh%n_elements), source=0_ip)
+      if (.not. any(is_shared)) return
+      next = 0
       do e = 1, mesh%n_elements
          if (.not. is_shared(mesh%part(e))) cycle
          n = CORNERS_OF(mesh%shape(e))
-         least = minval(mesh%nodes(:n, e))
-         call add_id(last, least, e, known)
+         call add_id(last, minval(mesh%nodes(:n, e)), e, known)
          if (.not. known) cycle
-         other = find_id(last, least)
+         other = find_id(last, minval(mesh%nodes(:n, e)))
          do
-            if (mesh%shape(other) == mesh%shape(e) .and. has_same(mesh%nodes(:n, other), mesh%nodes(:n, e))) first(e) = other
+            if (mesh%shape(other) == mesh%shape(e)) then
+               if (all([(any(mesh%nodes(:n, other) == mesh%nodes(k, e)), k=1, n)])) first(e) = other
+            end if
             if (first(e) == other .or. next(other) == 0) exit
             other = next(other)
          end do
          if (first(e) /= other) next(other) = e
       end do
-   end subroutine find_twins
-
-   !> Two lists of as many different numbers have the same ones.
-   pure logical function has_same(a, b)
-      integer(ip), intent(in) :: a(:), b(:)
-      integer(ip) :: i
-
-      has_same = all([(any(a == b(i)), i=1, size(b))])
-   end function has_same
+   end subroutine find_plane_elements
 
    !> Adds the elements, counter-clockwise, in the plane state that ELEMENTS= of the card names.
    subroutine place_elements(mesh, shift, first, context, place, ok)
