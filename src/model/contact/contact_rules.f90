@@ -13,7 +13,7 @@ module atrito_contact_rules
    use atrito_strings, only: to_text
    implicit none (type, external)
    private
-   public :: contact_rules_t, rule_list_t, read_contact_rules, add_rule, last_rule, sort_rules, quadrature_of, ANY_BODY
+   public :: contact_rules_t, read_contact_rules, add_rule, last_rule, sort_rules, quadrature_of, ANY_BODY
 
    !> Stands for the outlines of all bodies in the place of a surface.
    integer(ip), parameter :: ANY_BODY = 0_ip

@@ -33,8 +33,7 @@ contains
          bodies%list(i)%name = model%sections(section(i))%elset
          if (.not. is_named(i)) bodies%list(i)%name = bodies%list(i)%name//'-'//to_text(i)
       end do
-      do s = 1, set_count(model%element_sets)
-         if (all(is_named)) exit
+      do s = 1, merge(0_ip, set_count(model%element_sets), all(is_named))
          associate (it => model%element_sets%sets(s))
             if (member_count(it) == 0) cycle
             b = bodies%of_element(first_member(it))

@@ -165,7 +165,7 @@ contains
       integer(ip), intent(in) :: node(:)               !< places of the file's nodes in the mesh
       type(build_context_t), intent(inout) :: context
       integer(ip), allocatable :: stamp(:)             ! of each node of the file the last part that took it
-      integer(ip), allocatable :: first(:), list(:), ends(:, :)
+      integer(ip), allocatable :: first(:), list(:), members(:), ends(:, :)
       type(number_list_t) :: nodes                     ! of a part, each once
       integer(ip) :: own(MOST_NODES)                   ! the file's nodes of an element
       integer(ip) :: p, g, i, k, n_lines
@@ -174,6 +174,7 @@ contains
       call list_holders(mesh%n_parts, reshape(mesh%part, [1_ip, mesh%n_elements]), first, list)
       allocate (stamp(mesh%n_nodes), source=0_ip)
       do p = 1, mesh%n_parts
+         if (first(p + 1) == first(p)) cycle
          nodes%n = 0
          n_lines = 0
          if (allocated(ends)) deallocate (ends)
@@ -190,13 +191,14 @@ contains
             n_lines = n_lines + 1
             ends(:, n_lines) = node(own(:2))
          end do
+         members = numbers_of(nodes)
          do g = 0, merge(size(mesh%parts(p)%groups, kind=ip), -1_ip, nodes%n > 0)
             if (g == 0) then
                name = part_name(mesh%parts(p))
             else
                name = group_name(mesh, mesh%parts(p)%dim, mesh%parts(p)%groups(g))
             end if
-            call put_node_set(context, mesh%card, name, numbers_of(nodes))
+            call put_node_set(context, mesh%card, name, members)
             if (mesh%parts(p)%dim == 1) call add_curve(context%curves, name, mesh%card, ends(:, :n_lines))
          end do
       end do
