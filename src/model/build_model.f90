@@ -6,7 +6,6 @@ module atrito_build_model
    use atrito_build_amplitudes, only: build_amplitudes
    use atrito_build_block, only: read_block_card, place_block_elements
    use atrito_build_contact, only: build_contact
-   use atrito_build_copies, only: read_ncopy_card, read_elcopy_card
    use atrito_build_elements, only: read_element_card, read_elgen_card
    use atrito_build_cuts, only: place_cuts
    use atrito_build_equations, only: build_equations
@@ -21,7 +20,7 @@ module atrito_build_model
    use atrito_build_requests, only: build_requests
    use atrito_build_springs, only: build_springs, is_spring_card
    use atrito_build_steps, only: build_steps, open_step
-   use atrito_build_sets, only: try_set_card, read_set_card
+   use atrito_build_sets, only: try_set_card, read_set_card, read_copy_card
    use atrito_build_supports, only: build_supports
    use atrito_build_ties, only: read_ties, check_ties, build_ties
    use atrito_build_surfaces, only: build_surfaces
@@ -47,7 +46,7 @@ module atrito_build_model
    use atrito_plane_state, only: FULL_STATE
    use atrito_points, only: contact_points_t
    use atrito_refine_model, only: refine_model
-   use atrito_refined_equations, only: note_free_sides
+   use atrito_refined_deck, only: note_free_sides
    use atrito_rigid_rows, only: add_rigid_rows
    use atrito_sources, only: keep_sources
    use atrito_strings, only: deck_name
@@ -234,7 +233,7 @@ contains
          case ('NGEN', 'NFILL')
             call read_fill_card(i, context)
          case ('NCOPY')
-            call read_ncopy_card(i, context)
+            call read_copy_card(i, context)
          case ('BLOCK')
             call read_block_card(i, context)
          case ('INCLUDE')
@@ -271,7 +270,7 @@ contains
          case ('ELGEN')
             call read_elgen_card(i, context)
          case ('ELCOPY')
-            call read_elcopy_card(i, context)
+            call read_copy_card(i, context)
          case ('INCLUDE')
             call read_mesh_elements(i, context)
          case ('BLOCK')

@@ -10,7 +10,7 @@ module atrito_refine_model
    use atrito_mesh, only: mesh_t
    use atrito_model_memory, only: fits_memory, most_nodes
    use atrito_node_fields, only: refine_node_fields
-   use atrito_refine_arcs, only: place_on_arcs
+   use atrito_refined_deck, only: place_on_arcs
    use atrito_refined_members, only: fine_nodes, fine_elements
    use atrito_refinement, only: refine_mesh, count_fine_nodes
    use atrito_sets, only: set_count, members_of, replace_members

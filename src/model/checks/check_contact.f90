@@ -2,15 +2,14 @@
 module atrito_check_contact
    use atrito_average, only: least_spacing
    use atrito_contact_roles, only: STIFFER
-   use atrito_deck, only: deck_t, token_t
+   use atrito_deck, only: token_t
    use atrito_diagnostics, only: report_error, report_warning, report_note
    use atrito_build_context, only: build_context_t, ids_text, place_text, has_errors, is_invalid
    use atrito_face_geometry, only: has_quarter_node
    use atrito_faces, only: chain_report_t, face_list_t, face_normal, node_elements_t
-   use atrito_incidence, only: list_holders
    use atrito_kinds, only: ip, lp, wp, PI
    use atrito_mesh, only: mesh_t, face_end, face_nodes, side_count
-   use atrito_model, only: model_t, pair_t, SURFACE_SEGMENTS, QUADRATURE_AUTO, FRICTION_NONLOCAL, KERNEL_LINE
+   use atrito_model, only: model_t, SURFACE_SEGMENTS, QUADRATURE_AUTO, FRICTION_NONLOCAL, KERNEL_LINE
    use atrito_number_list, only: number_list_t, add_number, numbers_of
    use atrito_pairing, only: slave_stiffness
    use atrito_sorting, only: sorted_places, each_once
@@ -18,17 +17,6 @@ module atrito_check_contact
    implicit none (type, external)
    private
    public :: check_surfaces_of_pairs, check_points_of_pairs, note_unused_interactions
-
-   integer(ip), parameter :: MOST_FACE_NODES = 3
-
-   !> What the checks of the pairs share: thousands of pairs may have surfaces in common.
-   type :: pairs_context_t
-      integer(ip), allocatable :: first_of(:)          !< (pairs) the first one of the same two surfaces
-      type(chain_report_t), allocatable :: chains(:)   !< (surfaces)
-      logical, allocatable :: is_judged(:)             !< (surfaces) it was the slave of an earlier pair
-      integer(ip), allocatable :: first(:), face(:)    !< face(first(i):first(i + 1) - 1): the faces of masters at node i
-      integer(ip), allocatable :: surface_of(:)        !< the surface of such a face
-   end type pairs_context_t
 
    real(wp), parameter :: LINE_SPACINGS = 3.0_wp       !< KERNEL=LINE needs so many spacings within rho
 
@@ -39,20 +27,27 @@ module atrito_check_contact
 
 contains
 
-   !> What can be told of each pair without looking for its points.
+   !> What can be reported of each pair without looking for its points.
    subroutine check_surfaces_of_pairs(model, context, chains)
       type(model_t), intent(in) :: model
       type(build_context_t), intent(in) :: context
       type(chain_report_t), intent(in) :: chains(:)    !< of each surface
-      type(pairs_context_t) :: known
-      integer(ip) :: i
+      logical :: is_judged(size(model%surfaces))       ! it was the slave of an earlier pair
+      type(number_list_t) :: shared(size(model%pairs)) ! nodes of both sides
+      integer(lp) :: key(size(model%pairs))
+      integer(ip) :: order(size(model%pairs)), i
+      integer(ip) :: first_of(size(model%pairs))       ! the first one of the same two surfaces
 
-      known%first_of = first_of_each(model%pairs)
-      known%chains = chains
-      allocate (known%is_judged(size(model%surfaces)), source=.false.)
-      call list_masters(model, known)
+      key = int(model%pairs%slave, lp)*(int(huge(1_ip), lp) + 1_lp) + int(model%pairs%master, lp)
+      order = sorted_places(key)
+      first_of = [(i, i=1, size(key, kind=ip))]
+      do i = 2, size(key, kind=ip)
+         if (key(order(i)) == key(order(i - 1))) first_of(order(i)) = first_of(order(i - 1))
+      end do
+      is_judged = .false.
+      call list_shared_nodes(model, shared)
       do i = 1, size(model%pairs, kind=ip)
-         associate (slave => model%pairs(i)%slave, master => model%pairs(i)%master, first => known%first_of(i))
+         associate (slave => model%pairs(i)%slave, master => model%pairs(i)%master, first => first_of(i))
             if (slave == master) then
                call report_error(context%deck, context%masters(i), 'E-PAIR', 'slave and master are the same surface', &
                                  expected='two surfaces that face each other', keyword='CONTACT PAIR')
@@ -61,85 +56,59 @@ contains
                                  place_text(context%deck, context%slaves(first), context%slaves(i)), &
                                  expected='each pair of surfaces once', keyword='CONTACT PAIR')
             else
-               call check_slave(model, context, slave, context%slaves(i), known)
-               call check_master(model, context, master, context%masters(i))
+               call check_side(model, context, slave, context%slaves(i), .true., chains(slave), is_judged(slave))
+               call check_side(model, context, master, context%masters(i), .false., chains(master), is_judged(master))
                if (model%surfaces(slave)%kind /= SURFACE_SEGMENTS .and. model%surfaces(master)%kind /= SURFACE_SEGMENTS) then
-                  call check_shared_nodes(context, model, slave, master, context%masters(i), known)
+                  call check_shared_nodes(context, model, slave, master, context%masters(i), shared(i))
                end if
             end if
          end associate
       end do
    end subroutine check_surfaces_of_pairs
 
-   !> For each pair the first one that has the same two surfaces.
-   pure function first_of_each(pairs) result(first)
-      type(pair_t), intent(in) :: pairs(:)
-      integer(ip) :: first(size(pairs))
-      integer(lp) :: key(size(pairs))
-      integer(ip) :: order(size(pairs)), i
-
-      key = int(pairs%slave, lp)*(int(huge(1_ip), lp) + 1_lp) + int(pairs%master, lp)
-      order = sorted_places(key)
-      do i = 1, size(pairs, kind=ip)
-         first(i) = i
-      end do
-      do i = 2, size(pairs, kind=ip)
-         if (key(order(i)) == key(order(i - 1))) first(order(i)) = first(order(i - 1))
-      end do
-   end function first_of_each
-
-   !> The faces of all masters, and which of them are at each node.
-   subroutine list_masters(model, known)
+   !> A side has faces. A drawn line can only be a master, and that of a rigid body.
+   subroutine check_side(model, context, i, place, is_slave, report, is_judged)
       type(model_t), intent(in) :: model
-      type(pairs_context_t), intent(inout) :: known
-      logical :: is_master(size(model%surfaces))
-      integer(ip), allocatable :: nodes(:, :)
-      integer(ip) :: i, k, n, n_nodes
+      type(build_context_t), intent(in) :: context
+      integer(ip), intent(in) :: i                     !< the surface
+      type(token_t), intent(in) :: place
+      logical, intent(in) :: is_slave
+      type(chain_report_t), intent(in) :: report       !< of the surface as a chain
+      logical, intent(inout) :: is_judged              !< it was a slave before
 
-      is_master = .false.
-      is_master(model%pairs%master) = .true.
-      n = sum(pack(model%surfaces%faces%n, is_master))
-      allocate (nodes(MOST_FACE_NODES, n), known%surface_of(n), source=0_ip)
-      n = 0
-      do i = 1, size(is_master, kind=ip)
-         if (.not. is_master(i)) cycle
-         associate (faces => model%surfaces(i)%faces)
-            do k = 1, faces%n
-               n = n + 1
-               known%surface_of(n) = i
-               n_nodes = size(face_nodes(model%mesh, faces%element(k), faces%face(k)), kind=ip)
-               nodes(:n_nodes, n) = face_nodes(model%mesh, faces%element(k), faces%face(k))
-            end do
-         end associate
-      end do
-      call list_holders(model%mesh%n_nodes, nodes, known%first, known%face)
-   end subroutine list_masters
+      associate (surface => model%surfaces(i), deck => context%deck)
+         if (is_invalid(context, surface%name)) return
+         if (surface%kind == SURFACE_SEGMENTS .and. is_slave) then
+            call report_error(deck, place, 'E-PAIR', 'surface '//surface%name//' is a drawn line and cannot be the slave', &
+                              expected='a surface of element faces as slave; the rigid surface is the master', &
+                              keyword='CONTACT PAIR')
+         else if (surface%kind == SURFACE_SEGMENTS) then
+            if (surface%is_rigid_body .or. (context%rigid_undetermined .and. has_errors())) return
+            call report_error(deck, place, 'E-PAIR', 'the drawn surface '//surface%name//' belongs to no body', &
+                              expected='*RIGID BODY, ANALYTICAL SURFACE='//surface%name, keyword='RIGID BODY')
+         else if (surface%faces%n > 0) then
+            if (is_slave .and. .not. is_judged) call check_slave(model, context, surface%faces, place, report)
+            is_judged = is_judged .or. is_slave
+         else if (.not. has_errors()) then              ! else elements are missing, and that was reported
+            call report_error(deck, place, 'E-SURFACE', 'surface '//surface%name//' has no faces: others join it everywhere', &
+                              expected='a surface on the outline of a body', keyword='CONTACT PAIR')
+         end if
+      end associate
+   end subroutine check_side
 
    !> A slave is one chain of faces, with the middle nodes of these in their middles: where one lies at a quarter of its face, as at
    !> the tip of a crack, a node of the face has no part of the surface.
-   subroutine check_slave(model, context, i, place, known)
+   subroutine check_slave(model, context, faces, place, report)
       type(model_t), intent(in) :: model
       type(build_context_t), intent(in) :: context
-      integer(ip), intent(in) :: i                     !< the slave's surface
+      type(face_list_t), intent(in) :: faces
       type(token_t), intent(in) :: place
-      type(pairs_context_t), intent(inout) :: known
+      type(chain_report_t), intent(in) :: report
       type(number_list_t) :: elements
       integer(ip) :: k
 
-      associate (surface => model%surfaces(i), faces => model%surfaces(i)%faces, report => known%chains(i), mesh => model%mesh)
-         if (is_invalid(context, surface%name)) return
-         if (surface%kind == SURFACE_SEGMENTS) then
-            call report_error(context%deck, place, 'E-PAIR', 'surface '//surface%name//' is a drawn line and cannot be the slave', &
-                              expected='a surface of element faces as slave; the rigid surface is the master', &
-                              keyword='CONTACT PAIR')
-            return
-         else if (faces%n == 0) then
-            call report_no_faces(context%deck, place, surface%name)
-            return
-         end if
-         if (known%is_judged(i)) return
-         known%is_judged(i) = .true.
-         if (has_errors()) return            ! the chain may be broken by what was told already
+      if (has_errors()) return               ! the chain may be broken by what was reported already
+      associate (mesh => model%mesh)
          if (report%branch_node > 0) then
             call report_error(context%deck, place, 'E-CHAIN', 'the slave branches at node '// &
                               to_text(mesh%node_id(report%branch_node)), expected='one connected chain of faces', &
@@ -161,61 +130,50 @@ contains
                                             expected='middle nodes in the middle of the faces of a slave', keyword='CONTACT PAIR')
    end subroutine check_slave
 
-   subroutine check_master(model, context, i, place)
+   !> Of each pair the nodes that both sides have. Pairs of one master come together: its nodes are marked once for all of them.
+   subroutine list_shared_nodes(model, shared)
       type(model_t), intent(in) :: model
-      type(build_context_t), intent(in) :: context
-      integer(ip), intent(in) :: i                     !< the master's surface
-      type(token_t), intent(in) :: place
+      type(number_list_t), intent(inout) :: shared(:)  !< (pairs)
+      integer(ip), allocatable :: master_of(:), nodes(:)   ! master_of: of each node the last master that has it
+      integer(ip) :: order(size(shared)), last, p, i, k
 
-      associate (surface => model%surfaces(i))
-         if (is_invalid(context, surface%name)) return
-         if (surface%kind == SURFACE_SEGMENTS) then
-            if (surface%is_rigid_body .or. (context%rigid_undetermined .and. has_errors())) return
-            call report_error(context%deck, place, 'E-PAIR', 'the drawn surface '//surface%name//' belongs to no body', &
-                              expected='*RIGID BODY, ANALYTICAL SURFACE='//surface%name, keyword='RIGID BODY')
-         else if (surface%faces%n == 0) then
-            call report_no_faces(context%deck, place, surface%name)
-         end if
-      end associate
-   end subroutine check_master
-
-   subroutine report_no_faces(deck, place, name)
-      type(deck_t), intent(in) :: deck
-      type(token_t), intent(in) :: place
-      character(len=*), intent(in) :: name
-
-      if (has_errors()) return               ! elements are missing, and that was told
-      call report_error(deck, place, 'E-SURFACE', 'surface '//name//' has no faces: others join it everywhere', &
-                        expected='a surface on the outline of a body', keyword='CONTACT PAIR')
-   end subroutine report_no_faces
+      allocate (master_of(model%mesh%n_nodes), source=0_ip)
+      order = sorted_places(int(model%pairs%master, lp))
+      last = 0
+      do p = 1, size(order, kind=ip)
+         associate (pair => model%pairs(order(p)), faces => model%surfaces(model%pairs(order(p))%slave)%faces, &
+                    others => model%surfaces(model%pairs(order(p))%master)%faces)
+            do k = 1, merge(others%n, 0_ip, pair%master /= last)
+               master_of(face_nodes(model%mesh, others%element(k), others%face(k))) = pair%master
+            end do
+            last = pair%master
+            do k = 1, faces%n
+               nodes = face_nodes(model%mesh, faces%element(k), faces%face(k))
+               do i = 1, size(nodes, kind=ip)
+                  if (master_of(nodes(i)) == pair%master) call add_number(shared(order(p)), nodes(i))
+               end do
+            end do
+         end associate
+      end do
+   end subroutine list_shared_nodes
 
    !> Nodes of both sides: the tips of a crack, where there is no contact, or an error.
-   subroutine check_shared_nodes(context, model, slave, master, place, known)
+   subroutine check_shared_nodes(context, model, slave, master, place, shared)
       type(build_context_t), intent(in) :: context
       type(model_t), intent(in) :: model
       integer(ip), intent(in) :: slave, master
       type(token_t), intent(in) :: place
-      type(pairs_context_t), intent(in) :: known
-      type(number_list_t) :: shared
+      type(number_list_t), intent(in) :: shared        !< of list_shared_nodes
       integer(ip), allocatable :: nodes(:)
       logical, allocatable :: is_tip(:)
-      integer(ip) :: i, k
+      integer(ip) :: k
 
-      associate (faces => model%surfaces(slave)%faces, others => model%surfaces(master)%faces)
-         do i = 1, faces%n
-            nodes = face_nodes(model%mesh, faces%element(i), faces%face(i))
-            do k = 1, size(nodes, kind=ip)
-               associate (at_node => known%face(known%first(nodes(k)):known%first(nodes(k) + 1) - 1))
-                  if (any(known%surface_of(at_node) == master)) call add_number(shared, nodes(k))
-               end associate
-            end do
-         end do
-         if (shared%n == 0) return
-         nodes = each_once(numbers_of(shared))
-         allocate (is_tip(size(nodes)), source=.false.)
-         ! a crack has two tips: where there are more, none of them needs to be looked at
-         if (size(nodes) <= 2) is_tip = [(is_crack_tip(model%mesh, context%around, nodes(k), faces, others), k=1, size(nodes))]
-      end associate
+      if (shared%n == 0) return
+      nodes = each_once(numbers_of(shared))
+      allocate (is_tip(size(nodes)), source=.false.)
+      ! a crack has two tips: where there are more, none of them needs to be looked at
+      if (size(nodes) <= 2) is_tip = [(is_crack_tip(model%mesh, context%around, nodes(k), model%surfaces(slave)%faces, &
+                                                    model%surfaces(master)%faces), k=1, size(nodes))]
       if (any(.not. is_tip)) then
          call report_error(context%deck, place, 'E-PAIR', 'slave and master share node '// &
                            ids_text(model%mesh%node_id(pack(nodes,.not. is_tip))), &
@@ -286,7 +244,7 @@ contains
       end do
    end function filled_angle
 
-   !> Tells of interactions that no pair has; for models without any error.
+   !> Reports interactions that no pair has; for models without any error.
    subroutine note_unused_interactions(model, context)
       type(model_t), intent(in) :: model
       type(build_context_t), intent(in) :: context
@@ -306,7 +264,7 @@ contains
    subroutine check_points_of_pairs(model, context)
       type(model_t), intent(in) :: model
       type(build_context_t), intent(in) :: context
-      logical :: is_judged(size(model%interactions))         ! its radius, too small for some points, was told of
+      logical :: is_judged(size(model%interactions))         ! its radius, too small for some points, was reported
       integer(ip) :: i
 
       is_judged = .false.
@@ -348,6 +306,7 @@ contains
       call report_error(context%deck, context%slaves(i), 'E-PAIR', text, expected=expected, keyword='CONTACT PAIR')
    end subroutine report_blind
 
+   !> Notes what the points of a pair leave out, and by which quadrature they are; warns of a coarse slave.
    subroutine judge_points(context, model, i)
       type(build_context_t), intent(in) :: context
       type(model_t), intent(in) :: model
@@ -376,21 +335,21 @@ contains
    end subroutine judge_points
 
    !> The radius of the average against the distance of the points.
-   subroutine judge_radius(context, model, i, is_told)
+   subroutine judge_radius(context, model, i, is_reported)
       type(build_context_t), intent(in) :: context
       type(model_t), intent(in) :: model
       integer(ip), intent(in) :: i                     !< the pair
-      logical, intent(inout) :: is_told
+      logical, intent(inout) :: is_reported
       real(wp) :: spacing
 
       associate (law => model%interactions(model%pairs(i)%interaction), place => context%interactions(model%pairs(i)%interaction))
          if (law%friction /= FRICTION_NONLOCAL .or. .not. law%rho > 0.0_wp) return
          spacing = least_spacing(model%points(i)%x)
-         is_told = law%rho < spacing .or. (law%kernel == KERNEL_LINE .and. law%rho < LINE_SPACINGS*spacing)
+         is_reported = law%rho < spacing .or. (law%kernel == KERNEL_LINE .and. law%rho < LINE_SPACINGS*spacing)
          if (law%rho < spacing) then
             call report_note(context%deck, place, 'N-RADIUS', 'rho = '//to_text(law%rho)//' is less than the least distance of '// &
                              'contact points, '//to_text(spacing)//': the average leaves the pressure as it is', keyword='FRICTION')
-         else if (is_told) then
+         else if (is_reported) then
             call report_warning(context%deck, place, 'W-RADIUS', 'rho = '//to_text(law%rho)//' is less than three distances of '// &
                                 'contact points, '//to_text(spacing)//': with KERNEL=LINE a uniform pressure does not stay '// &
                                 'uniform', expected='rho >= '//to_text(LINE_SPACINGS*spacing)//' [L], or KERNEL=POINTS', &

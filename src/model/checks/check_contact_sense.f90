@@ -37,15 +37,10 @@ contains
    subroutine warn_of_overlap(model, context)
       type(model_t), intent(in) :: model
       type(build_context_t), intent(in) :: context
-      real(wp) :: largest, least, overlap, slack
+      real(wp) :: largest, overlap, slack
       integer(ip) :: i, j, worst, n
       character(len=:), allocatable :: others
 
-      least = 0.0_wp
-      do i = 1, size(model%pairs, kind=ip)
-         least = min(least, minval(model%points(i)%gap))
-      end do
-      if (least >= 0.0_wp) return
       slack = ROUNDING*max(maxval(model%mesh%x), -minval(model%mesh%x))
       largest = slack
       worst = 0
@@ -99,18 +94,18 @@ contains
       type(model_t), intent(in) :: model
       type(build_context_t), intent(in) :: context
       integer(ip), allocatable :: pair_at(:, :)        ! of find_contact_faces; not listed before it is wanted
-      integer(ip) :: i, told
+      integer(ip) :: i, reported
 
       if (size(model%pairs) == 0) return
-      told = 0
+      reported = 0
       do i = 1, size(model%steps, kind=ip)
          associate (loads => model%steps(i)%element_loads)
             if (loads%n == 0) cycle
-            if (any(.not. is_on_volume(loads%kind) .and. loads%line > told)) then
+            if (any(.not. is_on_volume(loads%kind) .and. loads%line > reported)) then
                if (.not. allocated(pair_at)) call find_contact_faces(model, pair_at)
-               call warn_of_loads(model, context, loads, pair_at, told)
+               call warn_of_loads(model, context, loads, pair_at, reported)
             end if
-            told = max(told, maxval(loads%line))
+            reported = max(reported, maxval(loads%line))
          end associate
       end do
    end subroutine warn_of_loaded_contact
@@ -140,13 +135,13 @@ contains
       end do
    end subroutine find_contact_faces
 
-   !> The loads of a step; those that are inherited have been told of.
-   subroutine warn_of_loads(model, context, loads, pair_at, told)
+   !> The loads of a step; those that are inherited have been reported.
+   subroutine warn_of_loads(model, context, loads, pair_at, reported)
       type(model_t), intent(in) :: model
       type(build_context_t), intent(in) :: context
       type(element_load_t), intent(in) :: loads
       integer(ip), intent(in) :: pair_at(:, :)         !< as of find_contact_faces
-      integer(ip), intent(in) :: told                  !< last line of the steps before
+      integer(ip), intent(in) :: reported                  !< last line of the steps before
       type(number_list_t) :: elements                  ! of a line of the deck: those with loads on faces of pairs
       integer(ip) :: i, at, pair
 
@@ -160,7 +155,7 @@ contains
          if (i < loads%n) then
             if (loads%line(i + 1) == loads%line(i)) cycle
          end if
-         if (pair > 0 .and. loads%line(i) > told) then
+         if (pair > 0 .and. loads%line(i) > reported) then
             associate (place => line_item(context%deck, context%deck%lines(loads%line(i)), 1_ip), p => model%pairs(pair))
                call report_warning(context%deck, place, 'W-LOADED-CONTACT', 'the load acts on faces of the contact pair ' &
                                    //model%surfaces(p%slave)%name//' / '//model%surfaces(p%master)%name//', at element ' &
@@ -198,6 +193,7 @@ contains
                           keyword='CONTACT PAIR')
    end subroutine warn_of_pairs_twice
 
+   !> `slave on master`
    pure function pair_text(model, i) result(text)
       type(model_t), intent(in) :: model
       integer(ip), intent(in) :: i
@@ -212,36 +208,35 @@ contains
       type(sides_t), intent(in) :: sides(:)
       integer(ip), intent(in) :: i, k
       character(len=:), allocatable :: text
-      real(wp) :: young(2), length(2)                  ! means of the slaves of i and k [F/L^2], [L]
+      real(wp) :: a(2), b(2)
 
-      call measure_slave(model, sides(i)%slave, young(1), length(1))
-      call measure_slave(model, sides(k)%slave, young(2), length(2))
-      if (abs(young(1) - young(2)) > ALIKE*young(2)) then
-         text = 'one of them, '//pair_text(model, merge(i, k, young(1) < young(2)))//', whose slave is the softer side'
-      else if (abs(length(1) - length(2)) > ALIKE*length(2)) then
-         text = 'one of them, '//pair_text(model, merge(i, k, length(1) < length(2)))//', whose slave is the finer side'
+      a = slave_means(model, sides(i)%slave)
+      b = slave_means(model, sides(k)%slave)
+      if (abs(a(1) - b(1)) > ALIKE*b(1)) then
+         text = 'one of them, '//pair_text(model, merge(i, k, a(1) < b(1)))//', whose slave is the softer side'
+      else if (abs(a(2) - b(2)) > ALIKE*b(2)) then
+         text = 'one of them, '//pair_text(model, merge(i, k, a(2) < b(2)))//', whose slave is the finer side'
       else
          text = 'one of them; either will do'
       end if
    end function advice
 
-   pure subroutine measure_slave(model, faces, young, length)
+   !> Means over some faces: Young's modulus [F/L^2] behind them, and their length [L].
+   pure function slave_means(model, faces) result(means)
       type(model_t), intent(in) :: model
       integer(lp), intent(in) :: faces(:)
-      real(wp), intent(out) :: young                   !< [F/L^2] mean of the faces
-      real(wp), intent(out) :: length                  !< [L] mean of the faces
+      real(wp) :: means(2)
       integer(ip) :: i, element
 
-      young = 0.0_wp
-      length = 0.0_wp
+      means = 0.0_wp
       do i = 1, size(faces, kind=ip)
          element = int((faces(i) - 1_lp)/MOST_SIDES, ip)
          associate (nodes => face_nodes(model%mesh, element, int(faces(i) - int(element, lp)*MOST_SIDES, ip)))
-            length = length + norm2(model%mesh%x(:, nodes(2)) - model%mesh%x(:, nodes(1)))/real(size(faces), wp)
+            means = means + [model%materials(model%sections(model%section_of(element))%material)%young, &
+                             norm2(model%mesh%x(:, nodes(2)) - model%mesh%x(:, nodes(1)))]/real(size(faces), wp)
          end associate
-         young = young + model%materials(model%sections(model%section_of(element))%material)%young/real(size(faces), wp)
       end do
-   end subroutine measure_slave
+   end function slave_means
 
    !> The slave faces of the points; the faces of a master with both ends among the nodes of the points, none of a drawn line.
    pure subroutine list_sides(model, sides)
@@ -277,7 +272,8 @@ contains
       integer(lp), allocatable :: face(:)
       integer(ip), allocatable :: pair(:), order(:)
       logical, allocatable :: is_slave(:)
-      integer(ip) :: i, k, n, first, last
+      logical :: is_same
+      integer(ip) :: i, j, k, n, first, last
 
       n = sum([(size(sides(i)%slave, kind=ip) + size(sides(i)%master, kind=ip), i=1, size(sides, kind=ip))])
       allocate (face(n), pair(n), is_slave(n))
@@ -293,44 +289,33 @@ contains
       order = sorted_places(face)
       twin = 0
       first = 1
-      do last = 1, n
-         if (last < n) then
+      do last = 1, size(face, kind=ip)
+         if (last < size(face)) then
             if (face(order(last + 1)) == face(order(last))) cycle
          end if
-         do k = first, last
-            if (is_slave(order(k))) call compare(model, sides, pair(order(k)), pair(order(first:last)), &
-                                                 is_slave(order(first:last)), twin)
+         ! a pair with others that have one of its slave faces on one side or the other: they are the same where they share faces
+         ! of the other side, too
+         do n = first, last
+            if (.not. is_slave(order(n))) cycle
+            i = pair(order(n))
+            do j = first, last
+               k = pair(order(j))
+               if (k == i .or. twin(max(i, k)) > 0) cycle
+               if (.not. is_slave(order(j))) then
+                  is_same = share_a_face(sides(i)%master, sides(k)%slave)
+               else if (model%points(i)%rigid .or. model%points(k)%rigid) then
+                  is_same = model%pairs(i)%master == model%pairs(k)%master
+               else
+                  is_same = share_a_face(sides(i)%master, sides(k)%master)
+               end if
+               if (is_same) twin(max(i, k)) = min(i, k)
+            end do
          end do
          first = last + 1
       end do
    end subroutine find_twins
 
-   !> A pair with others that have one of its slave faces on one side or the other: they are the same where they share faces of the
-   !> other side, too.
-   pure subroutine compare(model, sides, i, others, as_slave, twin)
-      type(model_t), intent(in) :: model
-      type(sides_t), intent(in) :: sides(:)
-      integer(ip), intent(in) :: i, others(:)
-      logical, intent(in) :: as_slave(:)               !< (others)
-      integer(ip), intent(inout) :: twin(:)
-      logical :: is_same
-      integer(ip) :: j
-
-      do j = 1, size(others, kind=ip)
-         associate (k => others(j))
-            if (k == i .or. twin(max(i, k)) > 0) cycle
-            if (.not. as_slave(j)) then
-               is_same = share_a_face(sides(i)%master, sides(k)%slave)
-            else if (model%points(i)%rigid .or. model%points(k)%rigid) then
-               is_same = model%pairs(i)%master == model%pairs(k)%master
-            else
-               is_same = share_a_face(sides(i)%master, sides(k)%master)
-            end if
-            if (is_same) twin(max(i, k)) = min(i, k)
-         end associate
-      end do
-   end subroutine compare
-
+   !> Two lists of faces have one in common.
    pure logical function share_a_face(a, b) result(share)
       integer(lp), intent(in) :: a(:), b(:)
       integer(ip) :: k

@@ -1,7 +1,6 @@
 !> Checks of the finished mesh: shapes, sections, loose nodes, materials in use.
 module atrito_check_mesh
    use atrito_check_shapes, only: check_shapes
-   use atrito_deck, only: deck_t, token_t
    use atrito_diagnostics, only: report_error, report_warning, report_note, report_deck_error
    use atrito_build_context, only: build_context_t, place_token, ids_text, has_errors
    use atrito_element_table, only: SHAPES, DEGREE_OF, can_average
@@ -20,6 +19,8 @@ module atrito_check_mesh
    !> From this ratio on fully integrated elements lock in plane strain: those with three or four nodes altogether, those with more
    !> in their pressures.
    real(wp), parameter :: LOCKING_RATIO = 0.49_wp
+   !> What elements do there: nothing, six and more nodes, four nodes of FORMULATION=STANDARD, three nodes; the worst is reported.
+   integer(ip), parameter :: FITS = 0, OSCILLATES = 1, LOCKS = 2, TRIANGLE_LOCKS = 3
 
 contains
 
@@ -27,119 +28,110 @@ contains
    subroutine check_mesh(model, context)
       type(model_t), intent(in) :: model
       type(build_context_t), intent(in) :: context
+      integer(ip), allocatable :: found(:)
+      integer(ip) :: i
 
-      if (model%mesh%n_elements == 0) then
-         if (.not. has_errors()) call report_deck_error(context%deck, 'E-EMPTY', 'the deck has no elements', &
-                                                        expected='*ELEMENT or *BLOCK', keyword='BLOCK')
-         return
-      end if
-      call check_shapes(model%mesh, context)
-      if (.not. is_refined(context%refinement)) call check_edges(model, context)
-      call check_sections(model, context)
-      call check_materials(model, context)
-      call note_formulations(model, context)
-      call note_loose_nodes(model, context)
+      associate (mesh => model%mesh, deck => context%deck, around => context%around%first)
+         if (mesh%n_elements == 0) then
+            if (.not. has_errors()) call report_deck_error(deck, 'E-EMPTY', 'the deck has no elements', &
+                                                           expected='*ELEMENT or *BLOCK', keyword='BLOCK')
+            return
+         end if
+         call check_shapes(mesh, context)
+         if (.not. is_refined(context%refinement)) call check_edges(mesh, context)
+         if (.not. (context%sections_undetermined .and. has_errors())) then
+            found = pack([(i, i=1, mesh%n_elements)], model%section_of == 0)
+            if (size(found) > 0) call report_error(deck, place_token(deck, context%elements%place(found(1))), 'E-SECTION', &
+                                                   'no *SOLID SECTION for element '//ids_text(mesh%element_id(found)), &
+                                                   expected='one *SOLID SECTION for each element', keyword='SOLID SECTION')
+         end if
+         call check_materials(model, context)
+         if (has_errors()) return
+         call note_formulations(model, context)
+         found = pack([(i, i=1, mesh%n_nodes)], around(2:mesh%n_nodes + 1) == around(:mesh%n_nodes))
+         found = pack(found, [(find_id(context%rigid_bodies, found(i)) == 0, i=1, size(found, kind=ip))])
+         if (size(found) > 0) call report_note(deck, place_token(deck, context%nodes%place(found(1))), 'N-NODE', 'node '// &
+                                               ids_text(mesh%node_id(found))//' belongs to no element and has no unknowns', &
+                                               keyword='NODE')
+      end associate
    end subroutine check_mesh
-
-   !> Every element has a section.
-   subroutine check_sections(model, context)
-      type(model_t), intent(in) :: model
-      type(build_context_t), intent(in) :: context
-      integer(ip), allocatable :: without(:)
-      integer(ip) :: e
-
-      if (context%sections_undetermined .and. has_errors()) return
-      without = pack([(e, e=1, model%mesh%n_elements)], model%section_of == 0)
-      if (size(without) == 0) return
-      call report_error(context%deck, place_token(context%deck, context%elements%place(without(1))), 'E-SECTION', &
-                        'no *SOLID SECTION for element '//ids_text(model%mesh%element_id(without)), &
-                        expected='one *SOLID SECTION for each element', keyword='SOLID SECTION')
-   end subroutine check_sections
 
    !> Materials in use have their constants, which fit the elements.
    subroutine check_materials(model, context)
       type(model_t), intent(in) :: model
       type(build_context_t), intent(in) :: context
-      logical, dimension(size(model%materials)) :: locks, triangles, oscillates
-      integer(ip) :: state(size(model%materials)), e, i    ! state: of elements that mu = 1/2 makes incompressible; 0: none
+      integer(ip), dimension(size(model%materials)) :: state, response
+      integer(ip) :: e, i
 
-      state = 0
-      locks = .false.
-      triangles = .false.
-      oscillates = .false.
+      state = 0                                        ! of elements that mu = 1/2 makes incompressible; 0: none
+      response = FITS                                   ! the worst of such elements
       do e = 1, model%mesh%n_elements
          if (model%section_of(e) <= 0) cycle
          associate (section => model%sections(model%section_of(e)))
             if (STATES(model%mesh%state(e))%is_thin) cycle
-            state(section%material) = model%mesh%state(e)
-            if (IS_REDUCED(model%mesh%state(e))) cycle
+            i = section%material
+            state(i) = model%mesh%state(e)
+            if (IS_REDUCED(state(i))) cycle
             if (SHAPES(model%mesh%shape(e))%degree > 1) then
-               oscillates(section%material) = .true.
+               response(i) = max(response(i), OSCILLATES)
             else if (model%mesh%shape(e) == 3) then
-               triangles(section%material) = .true.
+               response(i) = max(response(i), TRIANGLE_LOCKS)
             else if (section%formulation == FORMULATION_STANDARD) then
-               locks(section%material) = .true.
+               response(i) = max(response(i), LOCKS)
             end if
          end associate
       end do
       do i = 1, size(model%materials, kind=ip)
-         associate (material => model%materials(i))
-            if (.not. context%elastic_given(i)) then
-               if (.not. (context%elastic_invalid(i) .and. has_errors())) then
-                  call report_error(context%deck, context%materials(i), 'E-MATERIAL', &
-                                    'material '//material%name//' has no *ELASTIC', &
-                                    expected='*ELASTIC below *MATERIAL: E [F/L^2], mu [-]', keyword='ELASTIC')
-               end if
-            else if (state(i) > 0 .and. .not. context%elastic_invalid(i)) then
-               call check_strained(context%deck, material%poisson, locks(i), triangles(i), oscillates(i), context%poisson(i), &
-                                   state(i))
-            end if
-         end associate
+         if (context%elastic_given(i)) then
+            if (state(i) > 0 .and. .not. context%elastic_invalid(i)) call check_strained(context, model%materials(i)%poisson, i, &
+                                                                                         state(i), response(i))
+         else if (.not. (context%elastic_invalid(i) .and. has_errors())) then
+            call report_error(context%deck, context%materials(i), 'E-MATERIAL', &
+                              'material '//model%materials(i)%name//' has no *ELASTIC', &
+                              expected='*ELASTIC below *MATERIAL: E [F/L^2], mu [-]', keyword='ELASTIC')
+         end if
       end do
    end subroutine check_materials
 
    !> Poisson's ratio of a material that cannot give way across the plane.
-   subroutine check_strained(deck, poisson, locks, triangles, oscillates, place, state)
-      type(deck_t), intent(in) :: deck
+   subroutine check_strained(context, poisson, i, state, response)
+      type(build_context_t), intent(in) :: context
       real(wp), intent(in) :: poisson
-      logical, intent(in) :: locks, triangles, oscillates !< STANDARD elements with four nodes; with three; with six and more
-      type(token_t), intent(in) :: place
-      integer(ip), intent(in) :: state                 !< place in STATES
+      integer(ip), intent(in) :: i                     !< the material
+      integer(ip), intent(in) :: state                 !< of its elements, place in STATES
+      integer(ip), intent(in) :: response               !< that they have where it is nearly incompressible
       character(len=:), allocatable :: there, what, instead
 
       there = ' in '//trim(STATES(state)%name)
       if (STATES(state)%has_hoop) there = there//' elements'
       if (poisson >= 0.5_wp) then
-         call report_error(deck, place, 'E-VALUE', 'mu = '//to_text(poisson, 15)//there, &
+         call report_error(context%deck, context%poisson(i), 'E-VALUE', 'mu = '//to_text(poisson, 15)//there, &
                            expected="Poisson's ratio mu, plane strain -1 < mu < 0.5, plane stress -1 < mu <= 0.5 [-]", &
                            keyword='ELASTIC')
-         return
       end if
-      if (poisson < LOCKING_RATIO) return
+      if (poisson >= 0.5_wp .or. poisson < LOCKING_RATIO .or. response == FITS) return
       instead = 'elements with four nodes and FORMULATION=BBAR'
-      if (triangles) then
+      select case (response)
+      case (TRIANGLE_LOCKS)
          what = ' triangles with three nodes are much too stiff'//there
          instead = instead//' of *SOLID SECTION'
-      else if (locks) then
+      case (LOCKS)
          what = ' fully integrated Q1 elements are much too stiff'//there
          instead = 'FORMULATION=BBAR of *SOLID SECTION'
-      else if (oscillates) then
+      case default
          what = there//' the pressures of elements with six, eight or nine nodes oscillate, in contact too'
-      else
-         return
-      end if
-      call report_warning(deck, place, 'W-LOCKING', 'nearly incompressible:'//what, expected=instead//', or mu < 0.49 [-]', &
-                          keyword='ELASTIC')
+      end select
+      call report_warning(context%deck, context%poisson(i), 'W-LOCKING', 'nearly incompressible:'//what, &
+                          expected=instead//', or mu < 0.49 [-]', keyword='ELASTIC')
    end subroutine check_strained
 
-   !> BBAR is for four nodes where nothing gives way across the plane; elsewhere it changes nothing, told once a section.
+   !> BBAR is for four nodes where nothing gives way across the plane; elsewhere it changes nothing, reported once a section.
    subroutine note_formulations(model, context)
       type(model_t), intent(in) :: model
       type(build_context_t), intent(in) :: context
       type(number_list_t), allocatable :: elements(:)  ! of each section, those that it is not for
       integer(ip) :: i, e
 
-      if (has_errors()) return
       allocate (elements(size(model%sections)))
       do e = 1, model%mesh%n_elements
          i = model%section_of(e)
@@ -156,70 +148,43 @@ contains
       end do
    end subroutine note_formulations
 
-   subroutine note_loose_nodes(model, context)
-      type(model_t), intent(in) :: model
-      type(build_context_t), intent(in) :: context
-      integer(ip), allocatable :: loose(:)
-      integer(ip) :: i
-
-      if (has_errors()) return
-      associate (first => context%around%first, n => model%mesh%n_nodes)
-         loose = pack([(i, i=1, n)], first(2:n + 1) == first(:n))
-      end associate
-      loose = pack(loose, [(find_id(context%rigid_bodies, loose(i)) == 0, i=1, size(loose, kind=ip))])
-      if (size(loose) == 0) return
-      call report_note(context%deck, place_token(context%deck, context%nodes%place(loose(1))), 'N-NODE', 'node '// &
-                       ids_text(model%mesh%node_id(loose))//' belongs to no element and has no unknowns', keyword='NODE')
-   end subroutine note_loose_nodes
-
    !> Elements that have an edge in common have all nodes of it in common: four-node beside nine-node elements, or large ones of
-   !> nine nodes beside small ones, would leave a crack between common corners that nobody sees in a list of nodes. Those that do
-   !> not fit their neighbours are told, all in one message.
-   subroutine check_edges(model, context)
-      type(model_t), intent(in) :: model
+   !> nine nodes beside small ones, would leave a crack between common corners that nobody sees in a list of nodes. Reports, in one
+   !> message, the neighbours of an element of the second degree that have the corners of its edge and not its middle, or its
+   !> middle as something else than the middle of the same edge; of two such elements the one that comes later.
+   subroutine check_edges(mesh, context)
+      type(mesh_t), intent(in) :: mesh
       type(build_context_t), intent(in) :: context
       logical, allocatable :: misfit(:)
       integer(ip), allocatable :: found(:)
-      integer(ip) :: e
+      integer(ip) :: e, face, k, other, middle
 
-      if (all(DEGREE_OF(model%mesh%shape(:model%mesh%n_elements)) == 1)) return
-      allocate (misfit(model%mesh%n_elements), source=.false.)
-      do e = 1, model%mesh%n_elements
-         if (SHAPES(model%mesh%shape(e))%degree > 1) call compare_neighbours(model%mesh, context, e, misfit)
+      if (all(DEGREE_OF(mesh%shape(:mesh%n_elements)) == 1)) return
+      allocate (misfit(mesh%n_elements), source=.false.)
+      do e = 1, mesh%n_elements
+         if (DEGREE_OF(mesh%shape(e)) == 1) cycle
+         do face = 1, side_count(mesh, e)
+            associate (a => mesh%nodes(face, e), b => mesh%nodes(face_end(mesh, e, face), e), first => context%around%first)
+               middle = middle_node(mesh, e, face)
+               do k = first(middle), first(middle + 1) - 1
+                  other = context%around%list(k)
+                  if (other == e .or. side_between(mesh, other, b, a, middle) > 0) cycle
+                  misfit(max(e, other)) = .true.
+               end do
+               do k = first(a), first(a + 1) - 1
+                  other = context%around%list(k)
+                  if (side_between(mesh, other, b, a) == 0 .or. side_between(mesh, other, b, a, middle) > 0) cycle
+                  misfit(max(e, other)) = .true.
+               end do
+            end associate
+         end do
       end do
-      found = pack([(e, e=1, model%mesh%n_elements)], misfit)
+      found = pack([(e, e=1, mesh%n_elements)], misfit)
       if (size(found) == 0) return
       call report_error(context%deck, place_token(context%deck, context%elements%place(found(1))), 'E-EDGE', 'element '// &
-                        ids_text(model%mesh%element_id(found))//' and a neighbour share nodes of an edge, but not all of them', &
+                        ids_text(mesh%element_id(found))//' and a neighbour share nodes of an edge, but not all of them', &
                         expected='elements of one order and size on both sides of an edge (CPE3 and CPE4, or CPE6, CPE8 and '// &
                         'CPE9; so CPS), or no common nodes and a *CONTACT PAIR', keyword='ELEMENT')
    end subroutine check_edges
-
-   !> Marks the neighbours of an element of the second degree that have the corners of its edge and not its middle, or its middle
-   !> as something else than the middle of the same edge; of two such elements the one that comes later.
-   pure subroutine compare_neighbours(mesh, context, element, misfit)
-      type(mesh_t), intent(in) :: mesh
-      type(build_context_t), intent(in) :: context
-      integer(ip), intent(in) :: element
-      logical, intent(inout) :: misfit(:)
-      integer(ip) :: face, k, other, middle
-
-      do face = 1, side_count(mesh, element)
-         associate (a => mesh%nodes(face, element), b => mesh%nodes(face_end(mesh, element, face), element), &
-                    first => context%around%first)
-            middle = middle_node(mesh, element, face)
-            do k = first(middle), first(middle + 1) - 1
-               other = context%around%list(k)
-               if (other == element .or. side_between(mesh, other, b, a, middle) > 0) cycle
-               misfit(max(element, other)) = .true.
-            end do
-            do k = first(a), first(a + 1) - 1
-               other = context%around%list(k)
-               if (side_between(mesh, other, b, a) == 0 .or. side_between(mesh, other, b, a, middle) > 0) cycle
-               misfit(max(element, other)) = .true.
-            end do
-         end associate
-      end do
-   end subroutine compare_neighbours
 
 end module atrito_check_mesh

@@ -1,4 +1,8 @@
 !> Shapes of the elements: the Jacobian is positive; where it is not, the likely cause.
+!>
+!> The Jacobian of the map x(xi) = sum N_k(xi) x_k is J = det(sum x_k grad N_k). With straight sides it is least at a corner, where
+!> it is in proportion to the cross product of the two sides that meet there: the corners say all. With bent sides it is looked at
+!> where it is used, at the integration points, and at the nodes.
 module atrito_check_shapes
    use atrito_deck, only: deck_t, token_t
    use atrito_diagnostics, only: report_error, report_deck_error
@@ -61,6 +65,7 @@ contains
                            ' further elements are clockwise or degenerate', expected='corners counter-clockwise', keyword='ELEMENT')
    end subroutine check_shapes
 
+   !> Reports an element of a bad shape, with what would do instead.
    subroutine report_shape(deck, mesh, e, shape, node, place)
       type(deck_t), intent(in) :: deck
       type(mesh_t), intent(in) :: mesh
@@ -117,6 +122,7 @@ contains
       end do
    end function nodes_text
 
+   !> What is wrong with the shape of an element, and at which of its nodes.
    pure subroutine judge_shape(mesh, e, shape, node)
       type(mesh_t), intent(in) :: mesh
       integer(ip), intent(in) :: e
@@ -142,6 +148,7 @@ contains
       node = 1
    end subroutine judge_shape
 
+   !> The same of straight sides: every corner turns to the left.
    pure subroutine judge_corners(x, shape, corner)
       real(wp), intent(in) :: x(:, :)                  !< (2, corners) [L]
       integer(ip), intent(out) :: shape                !< SHAPE_*

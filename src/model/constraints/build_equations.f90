@@ -11,7 +11,7 @@ module atrito_build_equations
    use atrito_references, only: find_nodes
    use atrito_refinement, only: is_refined
    use atrito_row_dofs, only: check_row_dof, check_row_nodes, row_terms, TERMS_A_DOF, WHAT_DOF
-   use atrito_refined_equations, only: order_like
+   use atrito_refined_deck, only: order_like
    use atrito_strings, only: to_text
    use atrito_turn_supports, only: row_weight
    implicit none (type, external)

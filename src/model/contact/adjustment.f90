@@ -73,6 +73,7 @@ contains
       call check_shapes(context%model%mesh, context)
    end subroutine adjust_pairs
 
+   !> Moves the nodes of a pair: those of its set, or those with an overlap or with a gap of at most ADJUST along their normal.
    subroutine adjust_pair(i, context, adjusted)
       integer(ip), intent(in) :: i
       type(build_context_t), intent(inout) :: context
@@ -80,7 +81,8 @@ contains
       type(master_t) :: master
       type(sight_t) :: sight
       real(wp), dimension(2, context%model%mesh%n_nodes) :: normal, foot
-      real(wp), dimension(context%model%mesh%n_nodes) :: length, turn
+      real(wp), dimension(context%model%mesh%n_nodes) :: length, turn, moves
+      character(len=:), allocatable :: text
       logical, allocatable :: is_member(:)
       integer(ip) :: k, n_blind
 
@@ -105,8 +107,18 @@ contains
             ! overlaps, however deep, and gaps up to the value
             if (dot_product(foot(:, k) - mesh%x(:, k), normal(:, k)) > pair%adjust) adjusted%node(k) = .false.
          end do
-         call tell_moves(context, i, adjusted%node, norm2(foot - mesh%x(:, :mesh%n_nodes), dim=1), &
-                         merge(n_blind, 0_ip, pair%adjust_set > 0))
+         moves = merge(norm2(foot - mesh%x(:, :mesh%n_nodes), dim=1), 0.0_wp, adjusted%node)
+         if (.not. any(adjusted%node)) then
+            text = 'ADJUST moves no node: none of the slave is near enough'
+         else if (.not. any(moves > 0.0_wp)) then
+            text = 'ADJUST moves no node: '//to_text(count(adjusted%node, kind=ip))//' of the slave lie on the master'
+         else
+            k = maxloc(moves, dim=1, kind=ip)
+            text = 'ADJUST moves '//to_text(count(moves > 0.0_wp, kind=ip))//' nodes of the slave onto the master, at most by '// &
+                   to_text(moves(k), 3)//' at node '//to_text(mesh%node_id(k))
+         end if
+         if (n_blind > 0 .and. pair%adjust_set > 0) text = text//'; '//to_text(n_blind)//' of the set face no master'
+         call report_note(context%deck, context%slaves(i), 'N-ADJUST', text, keyword='CONTACT PAIR')
          do k = 1, mesh%n_nodes
             if (adjusted%node(k)) mesh%x(:, k) = foot(:, k)
          end do
@@ -141,8 +153,10 @@ contains
       end do
    end subroutine measure_nodes
 
-   !> The place of the master that is nearest to a node: along the slave's normal first, then along the master's where that leads
-   !> to. Next to a node of the master it is that node, so that the ends of both sides stay together.
+   !> The place of the master that is nearest to a node x, where x - foot is along the master's smoothed normal n(foot): a fixed
+   !> point. Along the slave's normal first, then along the master's where that leads to, until the direction stays; the curvature
+   !> times the distance is small, so each turn is less than the one before by orders of magnitude. Next to a node of the master it
+   !> is that node, so that the ends of both sides stay together.
    pure function foot_of(x, normal, reach, master) result(foot)
       real(wp), intent(in) :: x(2), normal(2)
       real(wp), intent(in) :: reach                    !< length of the slave's faces [L]
@@ -169,31 +183,6 @@ contains
          end associate
       end do
    end function foot_of
-
-   subroutine tell_moves(context, i, is_chosen, distances, n_blind)
-      type(build_context_t), intent(in) :: context
-      integer(ip), intent(in) :: i                     !< the pair
-      logical, intent(in) :: is_chosen(:)
-      real(wp), intent(in) :: distances(:)             !< of each node from its foot [L]
-      integer(ip), intent(in) :: n_blind               !< members of its set that do not see the master
-      real(wp) :: moves(size(distances))
-      character(len=:), allocatable :: text
-      integer(ip) :: node
-
-      moves = merge(distances, 0.0_wp, is_chosen)
-      text = 'ADJUST moves no node: '
-      if (.not. any(is_chosen)) then
-         text = text//'none of the slave is near enough'
-      else if (.not. any(moves > 0.0_wp)) then
-         text = text//to_text(count(is_chosen, kind=ip))//' of the slave lie on the master'
-      else
-         node = maxloc(moves, dim=1, kind=ip)
-         text = 'ADJUST moves '//to_text(count(moves > 0.0_wp, kind=ip))//' nodes of the slave onto the master, at most by '// &
-                to_text(moves(node), 3)//' at node '//to_text(context%model%mesh%node_id(node))
-      end if
-      if (n_blind > 0) text = text//'; '//to_text(n_blind)//' of the set face no master'
-      call report_note(context%deck, context%slaves(i), 'N-ADJUST', text, keyword='CONTACT PAIR')
-   end subroutine tell_moves
 
    !> Points all of whose slave nodes lie on the master have no gap, of what shape its faces are.
    pure subroutine close_adjusted(adjusted, points)

@@ -68,6 +68,7 @@ contains
       given = .true.
    end subroutine take_once
 
+   !> *SURFACE BEHAVIOR: the compliance delta of the normal direction, p = -g/delta where the gap g < 0; 0 is hard contact.
    subroutine read_behavior_card(deck, card, interaction, given)
       type(deck_t), intent(in) :: deck
       type(card_t), intent(in) :: card
@@ -106,6 +107,7 @@ contains
                                       keyword=keyword_name(card))
    end subroutine get_value
 
+   !> *FRICTION: nu, and of NONLOCAL friction eps and rho, of local friction the slope of sticking.
    subroutine read_friction_card(deck, card, interaction, given)
       type(deck_t), intent(in) :: deck
       type(card_t), intent(in) :: card

@@ -165,7 +165,8 @@ contains
       type(contact_points_t), intent(inout) :: points(:) !< of each pair
       real(wp), allocatable :: value(:)
       logical, allocatable :: is_given(:)
-      integer(ip) :: i, k
+      real(wp) :: total, weight
+      integer(ip) :: i, j, k
 
       do i = 1, size(list, kind=ip)
          if (list(i)%is_uniform) then
@@ -179,7 +180,21 @@ contains
             is_given(list(i)%node(k)) = .true.
          end do
          if (is_refined(refinement)) call fill_edges(refinement, points(list(i)%pair), value, is_given)
-         call set_by_nodes(value, is_given, points(list(i)%pair))
+         ! the gap of a point is that of its node; of MORTAR the mean over the nodes of its row that have one, as their
+         ! displacements are
+         associate (pair => points(list(i)%pair))
+            do j = 1, pair%n
+               if (.not. is_given(pair%node(j))) cycle
+               total = 0.0_wp
+               weight = 0.0_wp
+               do k = pair%first(j), pair%first(j + 1) - 1
+                  if (pair%coefficient(k) <= 0.0_wp .or. .not. is_given(pair%entry(k))) cycle
+                  total = total + pair%coefficient(k)*value(pair%entry(k))
+                  weight = weight + pair%coefficient(k)
+               end do
+               pair%gap(j) = total/weight
+            end do
+         end associate
       end do
    end subroutine set_clearances
 
@@ -211,36 +226,17 @@ contains
       end do
    end subroutine fill_edges
 
-   !> The gap of a point is that of its node; of MORTAR the mean over the nodes of its row that have one, as their displacements
-   !> are.
-   pure subroutine set_by_nodes(value, is_given, points)
-      real(wp), intent(in) :: value(:)
-      logical, intent(in) :: is_given(:)
-      type(contact_points_t), intent(inout) :: points
-      real(wp) :: total, weight
-      integer(ip) :: j, k
-
-      do j = 1, points%n
-         if (.not. is_given(points%node(j))) cycle
-         total = 0.0_wp
-         weight = 0.0_wp
-         do k = points%first(j), points%first(j + 1) - 1
-            if (points%coefficient(k) <= 0.0_wp .or. .not. is_given(points%entry(k))) cycle
-            total = total + points%coefficient(k)*value(points%entry(k))
-            weight = weight + points%coefficient(k)
-         end do
-         points%gap(j) = total/weight
-      end do
-   end subroutine set_by_nodes
-
    !> All lines of a deck. The surfaces of its pairs are known.
    subroutine read_interferences(context, list)
       type(build_context_t), intent(inout) :: context
       type(interference_t), allocatable, intent(out) :: list(:)
       type(interference_t) :: one
       type(pair_index_t) :: pairs
+      type(string_t) :: names(2)
+      type(token_t) :: places(2)
       integer(ip), allocatable :: of_pair(:)           ! place in the list; 0: none so far
-      integer(ip) :: i, k, n, twin
+      integer(ip) :: i, j, k, n, twin
+      logical :: ok(2)
 
       allocate (list(size(context%model%pairs)))       ! a pair is resolved once
       allocate (of_pair(size(list)), source=0_ip)
@@ -252,7 +248,13 @@ contains
             if (.not. has_shrink(context, card)) cycle
             do k = card%first_line, card%first_line + card%n_lines - 1
                if (.not. context%deck%lines(k)%ok) cycle
-               call read_names(context, pairs, context%deck%lines(k), one)
+               do j = 1, 2                             ! slave, master
+                  places(j) = line_item(context%deck, context%deck%lines(k), j)
+                  call get_name(context%deck, places(j), 'name of a surface', names(j)%s, ok(j), SHRINK_KEYWORD)
+               end do
+               if (.not. all(ok)) cycle
+               one = interference_t(step=card%step, place=places(1))
+               call find_pair(context, pairs, names, places, names(2)%s//', '//names(1)%s, SHRINK_KEYWORD, one%pair)
                if (one%pair == 0) cycle
                twin = of_pair(one%pair)
                if (twin > 0) then
@@ -262,7 +264,6 @@ contains
                   cycle
                end if
                n = n + 1
-               one%step = card%step
                list(n) = one
                of_pair(one%pair) = n
                context%model%pairs(one%pair)%is_resolved = .true.
@@ -291,25 +292,6 @@ contains
                            expected='SHRINK without AMPLITUDE', keyword=SHRINK_KEYWORD)
       end if
    end function has_shrink
-
-   !> slave, master.
-   subroutine read_names(context, pairs, line, one)
-      type(build_context_t), intent(in) :: context
-      type(pair_index_t), intent(in) :: pairs
-      type(data_line_t), intent(in) :: line
-      type(interference_t), intent(out) :: one
-      type(string_t) :: names(2)
-      type(token_t) :: places(2)
-      integer(ip) :: i
-      logical :: ok(2)
-
-      do i = 1, 2
-         places(i) = line_item(context%deck, line, i)
-         call get_name(context%deck, places(i), 'name of a surface', names(i)%s, ok(i), SHRINK_KEYWORD)
-      end do
-      one%place = places(1)
-      if (all(ok)) call find_pair(context, pairs, names, places, names(2)%s//', '//names(1)%s, SHRINK_KEYWORD, one%pair)
-   end subroutine read_names
 
    !> Gives the steps what they allow; the points of the pairs are known.
    subroutine set_interferences(list, context)

@@ -1,6 +1,6 @@
 !> *CONTACT and what belongs to it: which surfaces may touch, and by which law.
 module atrito_contact_rules
-   use atrito_deck, only: deck_t, card_t, token_t, token_text, line_item, is_empty_token, keyword_name
+   use atrito_deck, only: card_t, token_t, token_text, line_item, is_empty_token, keyword_name
    use atrito_diagnostics, only: report_error
    use atrito_build_context, only: build_context_t, place_text, has_errors
    use atrito_items, only: has_option, option_real, option_text, option_word
@@ -8,12 +8,12 @@ module atrito_contact_rules
    use atrito_model, only: SURFACE_SEGMENTS, QUADRATURE_AUTO, QUADRATURE_NODAL, QUADRATURE_MORTAR
    use atrito_name_list, only: find_name
    use atrito_number_list, only: number_list_t, add_number, numbers_of
-   use atrito_references, only: report_unknown
+   use atrito_references, only: find_surface, report_unknown
    use atrito_sorting, only: first_at_least, sorted_places
    use atrito_strings, only: to_text
    implicit none (type, external)
    private
-   public :: contact_rules_t, rule_list_t, read_contact_rules, add_rule, last_rule, sort_rules, quadrature_of, ANY_BODY
+   public :: contact_rules_t, read_contact_rules, add_rule, last_rule, sort_rules, quadrature_of, ANY_BODY
 
    !> Stands for the outlines of all bodies in the place of a surface.
    integer(ip), parameter :: ANY_BODY = 0_ip
@@ -41,50 +41,43 @@ contains
    subroutine read_contact_rules(context, rules)
       type(build_context_t), intent(in) :: context
       type(contact_rules_t), intent(out) :: rules
+      character(len=*), parameter :: WHAT = 'farthest distance of faces that may touch, a real > 0 [L]'
+      character(len=:), allocatable :: text
+      type(token_t) :: place
       integer(ip) :: i
+      logical :: found
 
       do i = 1, context%deck%n_cards
-         select case (keyword_name(context%deck%cards(i)))
-         case ('CONTACT')
-            call read_contact_card(context%deck, context%deck%cards(i), rules)
-         case ('CONTACT INCLUSIONS')
-            if (has_option(context%deck, context%deck%cards(i), 'ALL EXTERIOR')) call add_rule(rules%included, ANY_BODY, &
-                                                                                               ANY_BODY, 1_ip)
-            call read_lines(context%deck%cards(i), context, rules%included)
-         case ('CONTACT EXCLUSIONS')
-            call read_lines(context%deck%cards(i), context, rules%excluded)
-         case ('CONTACT PROPERTY ASSIGNMENT')
-            call read_lines(context%deck%cards(i), context, rules%assigned)
-         end select
+         associate (deck => context%deck, card => context%deck%cards(i))
+            select case (keyword_name(card))
+            case ('CONTACT')
+               if (rules%given) then
+                  call report_error(deck, card%place, 'E-TWICE', '*CONTACT is given twice, first in '// &
+                                    place_text(deck, rules%place, card%place), &
+                                    expected='one *CONTACT, with all that belongs to it', keyword='CONTACT')
+                  cycle
+               end if
+               rules%given = .true.
+               rules%place = card%place
+               rules%quadrature = quadrature_of(option_word(deck, card, 'QUADRATURE'))
+               call option_real(deck, card, 'DISTANCE', WHAT, rules%distance, found)
+               if (.not. found .or. rules%distance > 0.0_wp) cycle
+               call option_text(deck, card, 'DISTANCE', text, found, place)
+               call report_error(deck, place, 'E-VALUE', 'DISTANCE = '//to_text(rules%distance), expected=WHAT, keyword='CONTACT')
+            case ('CONTACT INCLUSIONS')
+               if (has_option(deck, card, 'ALL EXTERIOR')) call add_rule(rules%included, ANY_BODY, ANY_BODY, 1_ip)
+               call read_lines(card, context, rules%included)
+            case ('CONTACT EXCLUSIONS')
+               call read_lines(card, context, rules%excluded)
+            case ('CONTACT PROPERTY ASSIGNMENT')
+               call read_lines(card, context, rules%assigned)
+            end select
+         end associate
       end do
       if (.not. rules%given .or. rules%included%a%n > 0 .or. has_errors()) return
       call report_error(context%deck, rules%place, 'E-MISSING', '*CONTACT includes nothing', &
                         expected='*CONTACT INCLUSIONS, ALL EXTERIOR, or lines of surfaces', keyword='CONTACT INCLUSIONS')
    end subroutine read_contact_rules
-
-   subroutine read_contact_card(deck, card, rules)
-      type(deck_t), intent(in) :: deck
-      type(card_t), intent(in) :: card
-      type(contact_rules_t), intent(inout) :: rules
-      character(len=*), parameter :: WHAT = 'farthest distance of faces that may touch, a real > 0 [L]'
-      character(len=:), allocatable :: text
-      type(token_t) :: place
-      logical :: found
-
-      if (rules%given) then
-         call report_error(deck, card%place, 'E-TWICE', '*CONTACT is given twice, first in '// &
-                           place_text(deck, rules%place, card%place), expected='one *CONTACT, with all that belongs to it', &
-                           keyword='CONTACT')
-         return
-      end if
-      rules%given = .true.
-      rules%place = card%place
-      rules%quadrature = quadrature_of(option_word(deck, card, 'QUADRATURE'))
-      call option_real(deck, card, 'DISTANCE', WHAT, rules%distance, found)
-      if (.not. found .or. rules%distance > 0.0_wp) return
-      call option_text(deck, card, 'DISTANCE', text, found, place)
-      call report_error(deck, place, 'E-VALUE', 'DISTANCE = '//to_text(rules%distance), expected=WHAT, keyword='CONTACT')
-   end subroutine read_contact_card
 
    !> By the words of QUADRATURE, and of TYPE in other programs; QUADRATURE_AUTO where there is none.
    pure integer(ip) function quadrature_of(word) result(quadrature)
@@ -112,8 +105,8 @@ contains
       do i = card%first_line, card%first_line + card%n_lines - 1
          if (.not. context%deck%lines(i)%ok) cycle
          items = [(line_item(context%deck, context%deck%lines(i), k), k=1, 3)]
-         call find_surface(card, items(1), context, ANY_BODY, surface(1), ok(1))
-         call find_surface(card, items(2), context, surface(1), surface(2), ok(2))
+         call find_party(card, items(1), context, ANY_BODY, surface(1), ok(1))
+         call find_party(card, items(2), context, surface(1), surface(2), ok(2))
          value = 1
          if (keyword_name(card) == 'CONTACT PROPERTY ASSIGNMENT') then
             value = find_name(context%interaction_names, token_text(context%deck, items(3)))
@@ -136,7 +129,7 @@ contains
    end subroutine read_lines
 
    !> The surface that an item names; where the item is empty, another one.
-   subroutine find_surface(card, token, context, default, surface, ok)
+   subroutine find_party(card, token, context, default, surface, ok)
       type(card_t), intent(in) :: card
       type(token_t), intent(in) :: token
       type(build_context_t), intent(in) :: context
@@ -147,20 +140,16 @@ contains
       surface = default
       ok = .true.
       if (is_empty_token(token)) return
-      surface = find_name(context%surface_names, token_text(context%deck, token))
+      call find_surface(context, token, surface, keyword_name(card))
       ok = surface > 0
-      if (.not. ok) then
-         call report_unknown(context, token, 'surface', 'E-SURFACE', context%surface_names, keyword_name(card))
-      else if (context%model%surfaces(surface)%kind == SURFACE_SEGMENTS &
-               .and. .not. context%model%surfaces(surface)%is_rigid_body) then
-         if (context%rigid_undetermined .and. has_errors()) return
+      if (.not. ok) return
+      associate (line => context%model%surfaces(surface))
+         if (line%kind /= SURFACE_SEGMENTS .or. line%is_rigid_body .or. (context%rigid_undetermined .and. has_errors())) return
          ok = .false.
-         call report_error(context%deck, token, 'E-PAIR', 'the drawn surface '//context%model%surfaces(surface)%name// &
-                           ' belongs to no body', &
-                           expected='*RIGID BODY, ANALYTICAL SURFACE='//context%model%surfaces(surface)%name, &
-                           keyword='RIGID BODY')
-      end if
-   end subroutine find_surface
+         call report_error(context%deck, token, 'E-PAIR', 'the drawn surface '//line%name//' belongs to no body', &
+                           expected='*RIGID BODY, ANALYTICAL SURFACE='//line%name, keyword='RIGID BODY')
+      end associate
+   end subroutine find_party
 
    !> Adds a rule to those that there are.
    pure subroutine add_rule(rules, a, b, value)
@@ -182,6 +171,7 @@ contains
       rules%key = key(rules%order)
    end subroutine sort_rules
 
+   !> A number for two surfaces, in either order.
    elemental integer(lp) function key_of(a, b)
       integer(ip), intent(in) :: a, b
 

@@ -1,4 +1,13 @@
 !> Contact that is found: the pairs that *CONTACT makes of the outlines of the bodies.
+!>
+!>   1. The outline of each body is a list of faces; each face looks along its normal for a face of another body, or for a rigid
+!>      surface, no farther away than DISTANCE (look_around).
+!>   2. The rules say whether the two may touch, and by which law: *CONTACT INCLUSIONS, EXCLUSIONS and PROPERTY ASSIGNMENT name
+!>      surfaces, and a face belongs to several. Of several rules for two faces the last one counts.
+!>   3. Of two bodies that look at each other one is the slave: the softer one; of two alike the one of finer faces; else the first.
+!>      A face is a slave face where all of its points find the other body.
+!>   4. Slave faces that follow each other on the outline are a chain; each part of it with the same other body and the same law
+!>      becomes a pair.
 module atrito_found_contact
    use atrito_bodies, only: bodies_t, find_bodies
    use atrito_body_names, only: name_bodies
@@ -66,22 +75,23 @@ contains
                                              keyword='CONTACT')
    end subroutine find_contact
 
+   !> The bodies with their outlines, the rigid surfaces that are included, and the surfaces of rules to which each face belongs.
    subroutine begin_search(context, rules, search)
       type(build_context_t), intent(in) :: context
       type(contact_rules_t), intent(inout) :: rules
       type(search_t), intent(out) :: search
       logical :: is_named(0:size(context%model%surfaces))
-      integer(ip) :: i
+      integer(ip), allocatable :: place(:, :), surface(:), holder(:)
+      integer(ip) :: i, k, n
 
       associate (model => context%model)
          call find_bodies(model%mesh, search%bodies)
          call name_bodies(model, search%bodies)
          call list_outlines(model%mesh, context%around, search%bodies%of_element, search%outlines, context%cut_faces)
-         associate (n => search%outlines%faces%n)
-            call list_holders(search%bodies%n, reshape(search%outlines%body, [1_ip, n]), search%first, search%of_body)
-            allocate (search%other(n), search%law(n), source=0_ip)
-            allocate (search%is_slave(n), source=.false.)
-         end associate
+         n = search%outlines%faces%n
+         call list_holders(search%bodies%n, reshape(search%outlines%body, [1_ip, n]), search%first, search%of_body)
+         allocate (search%other(n), search%law(n), source=0_ip)
+         allocate (search%is_slave(n), source=.false.)
          ! the rigid surfaces that are included
          is_named = .false.
          is_named(numbers_of(rules%included%a)) = .true.
@@ -89,8 +99,8 @@ contains
          search%rigid = pack([(i, i=1, size(model%surfaces, kind=ip))], is_named(1:) .and. model%surfaces%kind == SURFACE_SEGMENTS)
          allocate (search%masters(search%bodies%n + size(search%rigid)))
          do i = 1, size(search%rigid, kind=ip)
-            associate (surface => model%surfaces(search%rigid(i)))
-               call master_of_segments(surface%points, search%masters(search%bodies%n + i), surface%is_arc, surface%centre)
+            associate (line => model%surfaces(search%rigid(i)))
+               call master_of_segments(line%points, search%masters(search%bodies%n + i), line%is_arc, line%centre)
             end associate
          end do
          ! what the deck gives as a pair is not to be found a second time
@@ -104,37 +114,27 @@ contains
          is_named(numbers_of(rules%excluded%b)) = .true.
          is_named(numbers_of(rules%assigned%a)) = .true.
          is_named(numbers_of(rules%assigned%b)) = .true.
-         call list_surfaces(model, is_named(1:), search)
+         ! to which surfaces that rules and pairs name each face belongs
+         n = sum(pack(model%surfaces%faces%n, is_named(1:)))
+         allocate (place(1, n), surface(n))
+         n = 0
+         do i = 1, size(model%surfaces, kind=ip)
+            if (.not. is_named(i)) cycle
+            associate (faces => model%surfaces(i)%faces)
+               do k = 1, faces%n
+                  n = n + 1
+                  place(1, n) = search%outlines%place(faces%face(k), faces%element(k))
+                  surface(n) = i
+               end do
+            end associate
+         end do
+         call list_holders(search%outlines%faces%n, place, search%first_surface, holder)
+         search%surface_of = surface(holder)
       end associate
       call sort_rules(rules%included)
       call sort_rules(rules%excluded)
       call sort_rules(rules%assigned)
    end subroutine begin_search
-
-   !> To which surfaces that rules and pairs name each face belongs.
-   subroutine list_surfaces(model, is_named, search)
-      type(model_t), intent(in) :: model
-      logical, intent(in) :: is_named(:)                     !< (surfaces)
-      type(search_t), intent(inout) :: search
-      integer(ip), allocatable :: place(:, :), surface(:), holder(:)
-      integer(ip) :: i, k, n
-
-      n = sum(pack(model%surfaces%faces%n, is_named))
-      allocate (place(1, n), surface(n))
-      n = 0
-      do i = 1, size(model%surfaces, kind=ip)
-         if (.not. is_named(i)) cycle
-         associate (faces => model%surfaces(i)%faces)
-            do k = 1, faces%n
-               n = n + 1
-               place(1, n) = search%outlines%place(faces%face(k), faces%element(k))
-               surface(n) = i
-            end do
-         end associate
-      end do
-      call list_holders(search%outlines%faces%n, place, search%first_surface, holder)
-      search%surface_of = surface(holder)
-   end subroutine list_surfaces
 
    !> The party that each face may touch, and by which law.
    subroutine choose_parties(model, rules, search)
@@ -173,13 +173,15 @@ contains
       surfaces = [ANY_BODY, search%surface_of(search%first_surface(face):search%first_surface(face + 1) - 1)]
    end function surfaces_at
 
-   !> One side of each two parties that look at each other is the slave: the softer, the finer, or the first.
+   !> One side of each two parties that look at each other is the slave: the softer, the finer, or the first. A side that finds the
+   !> other one nowhere with a whole face cannot be it, nor can a rigid surface.
    subroutine choose_slaves(model, search)
       type(model_t), intent(in) :: model
       type(search_t), intent(inout) :: search
       integer(lp) :: key(search%outlines%faces%n)            ! of the two parties; 0: none
-      integer(ip), allocatable :: order(:)
-      integer(ip) :: first, last
+      integer(ip), allocatable :: order(:), faces(:)         ! faces: of two parties, those of each in their order
+      integer(ip), allocatable :: own(:)                     ! of one of them
+      integer(ip) :: first, last, side(2), i, k
 
       associate (a => search%outlines%body, b => search%other)
          key = int(min(a, b), lp)*(size(search%masters, kind=lp) + 1_lp) + int(max(a, b), lp)
@@ -191,32 +193,34 @@ contains
          if (last < size(order)) then
             if (key(order(last + 1)) == key(order(last))) cycle
          end if
-         if (key(order(last)) > 0_lp) call choose_slave(model, order(first:last), search)
+         if (key(order(last)) > 0_lp) then
+            faces = order(first:last)
+            associate (a => search%outlines%body(faces(1)), b => search%other(faces(1)))
+               side = [min(a, b), max(a, b)]
+            end associate
+            if (side(2) <= search%bodies%n) then
+               if (comes_before(model, search, faces, side(2), side(1))) side = side([2, 1])
+            end if
+            do k = 1, 2
+               own = pack(faces, search%outlines%body(faces) == side(k))
+               if (size(own) == 0) cycle
+               associate (master => search%masters(search%other(own(1))))
+                  if (master%n == 0) call master_of_faces(model%mesh, outline_of(search, search%other(own(1))), master)
+                  do i = 1, size(own, kind=ip)
+                     search%is_slave(own(i)) = finds_master(model%mesh, some_faces(search, own(i:i)), 1_ip, master)
+                  end do
+               end associate
+               if (any(search%is_slave(own))) exit
+            end do
+            ! of the side that was looked at last, the slave if there is one: faces that find the other party in part only
+            search%n_partly = search%n_partly + count(.not. search%is_slave(own), kind=ip)
+         end if
          first = last + 1
       end do
    end subroutine choose_slaves
 
-   !> A side that finds the other one nowhere with a whole face cannot be the slave, nor can a rigid surface.
-   subroutine choose_slave(model, faces, search)
-      type(model_t), intent(in) :: model
-      integer(ip), intent(in) :: faces(:)                    !< of both, those of each in their order
-      type(search_t), intent(inout) :: search
-      integer(ip) :: side(2), n_partly, k
-
-      associate (a => search%outlines%body(faces(1)), b => search%other(faces(1)))
-         side = [min(a, b), max(a, b)]
-      end associate
-      if (side(2) <= search%bodies%n) then
-         if (comes_before(model, search, faces, side(2), side(1))) side = side([2, 1])
-      end if
-      do k = 1, 2
-         call mark_slave(model, pack(faces, search%outlines%body(faces) == side(k)), search, n_partly)
-         if (any(search%is_slave(faces))) exit
-      end do
-      search%n_partly = search%n_partly + n_partly
-   end subroutine choose_slave
-
-   !> The second body is the slave for its stiffness or for its faces, and not just because it is the first in the deck.
+   !> The second body is the slave for its stiffness or for its faces, and not just because it is the first in the deck: its mean
+   !> modulus along the faces, E = sum E_i l_i / sum l_i, is less, or else the mean length of its faces, sum l_i / n.
    pure logical function comes_before(model, search, faces, b, a)
       type(model_t), intent(in) :: model
       type(search_t), intent(in) :: search
@@ -240,29 +244,6 @@ contains
       comes_before = means(2, 1) < (1 - ALIKE)*means(2, 2)
       if (abs(means(1, 1) - means(1, 2)) > ALIKE*means(1, 2)) comes_before = means(1, 1) < means(1, 2)
    end function comes_before
-
-   !> Which of the faces find the other party with all their points; only some of the others do with a part of them.
-   subroutine mark_slave(model, faces, search, n_partly)
-      type(model_t), intent(in) :: model
-      integer(ip), intent(in) :: faces(:)                    !< of one body, with the same other party
-      type(search_t), intent(inout) :: search
-      integer(ip), intent(out) :: n_partly
-      type(face_list_t) :: one
-      integer(ip) :: i
-
-      n_partly = 0
-      if (size(faces) == 0) return
-      associate (party => search%other(faces(1)))
-         if (search%masters(party)%n == 0) then
-            call master_of_faces(model%mesh, outline_of(search, party), search%masters(party))
-         end if
-         do i = 1, size(faces, kind=ip)
-            one = some_faces(search, [faces(i)])
-            search%is_slave(faces(i)) = finds_master(model%mesh, one, 1_ip, search%masters(party))
-            if (.not. search%is_slave(faces(i))) n_partly = n_partly + 1
-         end do
-      end associate
-   end subroutine mark_slave
 
    !> Some faces of the outlines.
    pure function some_faces(search, places) result(faces)
@@ -354,7 +335,8 @@ contains
       type(build_context_t), intent(inout) :: context
       type(surface_t), allocatable :: surfaces(:)
       type(pair_t) :: pairs(chains%n)
-      integer(ip) :: surface_of(size(search%masters)), number(chains%n), default_law, i, n
+      integer(ip) :: surface_of(size(search%masters)), number(chains%n), order(chains%n), default_law, i, n
+      integer(lp) :: key(chains%n)
 
       default_law = 0
       if (any(search%is_slave .and. search%law == 0)) then
@@ -369,7 +351,15 @@ contains
       surfaces(:n) = context%model%surfaces
       surface_of = 0
       surface_of(search%bodies%n + 1:) = search%rigid
-      number = count_alike(search, chains)
+      ! of the chains of the same slave and the same other party the first, the second, ...
+      associate (faces => chains%face(chains%first(:chains%n)))
+         key = int(search%outlines%body(faces), lp)*(size(search%masters, kind=lp) + 1_lp) + int(search%other(faces), lp)
+      end associate
+      order = sorted_places(key)
+      number = 1
+      do i = 2, chains%n
+         if (key(order(i)) == key(order(i - 1))) number(order(i)) = number(order(i - 1)) + 1
+      end do
       do i = 1, chains%n
          associate (first => chains%face(chains%first(i)), faces => chains%face(chains%first(i):chains%first(i + 1) - 1))
             n = n + 1
@@ -396,22 +386,5 @@ contains
       context%model%surfaces = surfaces(:n)
       context%model%pairs = [context%model%pairs, pairs]
    end subroutine make_pairs
-
-   !> Of the chains of the same slave and the same other party the first, the second, ...
-   pure function count_alike(search, chains) result(number)
-      type(search_t), intent(in) :: search
-      type(chains_t), intent(in) :: chains
-      integer(ip) :: number(chains%n), order(chains%n), i
-      integer(lp) :: key(chains%n)
-
-      associate (faces => chains%face(chains%first(:chains%n)))
-         key = int(search%outlines%body(faces), lp)*(size(search%masters, kind=lp) + 1_lp) + int(search%other(faces), lp)
-      end associate
-      order = sorted_places(key)
-      number = 1
-      do i = 2, chains%n
-         if (key(order(i)) == key(order(i - 1))) number(order(i)) = number(order(i - 1)) + 1
-      end do
-   end function count_alike
 
 end module atrito_found_contact

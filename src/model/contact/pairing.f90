@@ -14,7 +14,7 @@ module atrito_pairing
    use atrito_sorting, only: sorted_places
    implicit none (type, external)
    private
-   public :: order_slaves, pair_all, pair_surfaces, element_thickness, make_master, slave_stiffness
+   public :: order_slaves, pair_all, pair_surfaces, make_master, slave_stiffness
 
 contains
 
@@ -38,24 +38,17 @@ contains
    end subroutine order_slaves
 
    !> The points of all pairs. Each has two surfaces that are what a slave and a master must be, the slave in its order; a master is
-   !> made once for all of its pairs.
+   !> made once for all of its pairs. In the plane the sides of a pair may slide along themselves in a motion of the whole body:
+   !> pairs that have the same one but for digits, as rings in rings, take that of the one with the most chords.
    subroutine pair_all(model, points)
       type(model_t), intent(in) :: model
       type(contact_points_t), allocatable, intent(out) :: points(:)
       type(chords_t), allocatable :: chords(:)
+      type(sliding_t) :: motions(size(model%pairs))
+      integer(ip) :: order(size(model%pairs)), i, k, n
 
       call pair_surfaces(model, model%pairs%slave, model%pairs%master, model%pairs%quadrature, points, chords=chords)
-      if (.not. is_revolved(model%mesh)) call let_slide(chords, points)
-   end subroutine pair_all
-
-   !> The motions in which the sides of pairs slide along themselves. Pairs that have the same one but for digits, as rings in
-   !> rings, take that of the one with the most chords.
-   subroutine let_slide(chords, points)
-      type(chords_t), intent(in) :: chords(:)
-      type(contact_points_t), intent(inout) :: points(:)
-      type(sliding_t) :: motions(size(points))
-      integer(ip) :: order(size(points)), i, k, n
-
+      if (is_revolved(model%mesh)) return
       order = sorted_places(int(-chords%n, lp))
       n = 0
       do i = 1, size(points, kind=ip)
@@ -74,7 +67,7 @@ contains
             end if
          end associate
       end do
-   end subroutine let_slide
+   end subroutine pair_all
 
    !> The same of any pairs of surfaces, by their places.
    subroutine pair_surfaces(model, slaves, partners, quadrature, points, from_behind, chords)
@@ -84,10 +77,11 @@ contains
       type(contact_points_t), allocatable, intent(out) :: points(:)
       logical, intent(in), optional :: from_behind(:)  !< the master's outside is taken for its inside; default: nowhere
       type(chords_t), allocatable, intent(out), optional :: chords(:) !< of the pairs
-      type(master_t), allocatable :: masters(:)        ! of the surfaces
-      type(master_t) :: turned
-      logical :: is_master(size(model%surfaces)), turns
-      real(wp), allocatable :: thickness(:)
+      type(master_t), allocatable, target :: masters(:) ! of the surfaces
+      type(master_t), target :: turned
+      type(master_t), pointer :: master
+      logical :: is_master(size(model%surfaces)), is_done
+      real(wp), allocatable :: thickness(:)            ! of the elements [L]
       real(wp) :: grain                                ! of coordinates of few digits [L]
       integer(ip) :: i
 
@@ -96,27 +90,33 @@ contains
       if (size(points) == 0) return
       grain = printed_grain(model%mesh%x)
       if (grain <= EPS_MACH*maxval(abs(model%mesh%x))) grain = 0.0_wp
-      thickness = element_thickness(model)
+      thickness = model%sections(model%section_of)%thickness
       is_master = .false.
       is_master(partners) = .true.
       do i = 1, size(masters, kind=ip)
          if (is_master(i)) call make_master(model, i, masters(i), grain)
       end do
       do i = 1, size(points, kind=ip)
-         associate (slave => model%surfaces(slaves(i))%faces, surface => model%surfaces(partners(i)), &
-                    master => masters(partners(i)))
-            turns = .false.
-            if (present(from_behind)) turns = from_behind(i)
-            if (turns) then
-               turned = master
-               call turn_master(turned)
-               call make_points(model, thickness, quadrature(i), slave, surface%faces, turned, points(i))
-            else
-               call make_points(model, thickness, quadrature(i), slave, surface%faces, master, points(i))
+         associate (slave => model%surfaces(slaves(i))%faces, others => model%surfaces(partners(i))%faces, mesh => model%mesh)
+            master => masters(partners(i))
+            if (present(from_behind)) then
+               if (from_behind(i)) then
+                  turned = master
+                  call turn_master(turned)
+                  master => turned
+               end if
             end if
+            ! by the quadrature that is asked for; else MORTAR where the sides do not match
+            is_done = .false.
+            if (quadrature(i) /= QUADRATURE_MORTAR) then
+               call pair_with_master(mesh, thickness, slave, others, master, points(i))
+               is_done = quadrature(i) == QUADRATURE_NODAL .or. points(i)%rigid .or. (points(i)%matching .and. points(i)%n > 0)
+            end if
+            if (.not. is_done) call pair_by_mortar(mesh, thickness, slave, others, master, face_compliance(model, slave), &
+                                                   face_compliance(model, others), points(i))
             if (present(chords)) then
-               call list_chords(model%mesh, slave, surface%faces, master, points(i), grain, chords(i))
-               call note_doubt(model%mesh, slave, chords(i)%grain, points(i))
+               call list_chords(mesh, slave, others, masters(partners(i)), points(i), grain, chords(i))
+               call note_doubt(mesh, slave, chords(i)%grain, points(i))
             end if
          end associate
       end do
@@ -139,24 +139,8 @@ contains
       end associate
    end subroutine make_master
 
-   !> By the quadrature that is asked for; else MORTAR where the sides do not match.
-   subroutine make_points(model, thickness, quadrature, slave, master_faces, master, points)
-      type(model_t), intent(in) :: model
-      real(wp), intent(in) :: thickness(:)
-      integer(ip), intent(in) :: quadrature
-      type(face_list_t), intent(in) :: slave, master_faces
-      type(master_t), intent(in) :: master
-      type(contact_points_t), intent(out) :: points
-
-      if (quadrature /= QUADRATURE_MORTAR) then
-         call pair_with_master(model%mesh, thickness, slave, master_faces, master, points)
-         if (quadrature == QUADRATURE_NODAL .or. points%rigid .or. (points%matching .and. points%n > 0)) return
-      end if
-      call pair_by_mortar(model%mesh, thickness, slave, master_faces, master, face_compliance(model, slave), &
-                          face_compliance(model, master_faces), points)
-   end subroutine make_points
-
-   !> How much the surface of a half plane gives way [L^2/F], of the material behind each face: 1/E* of Hertz.
+   !> How much the surface of a half plane gives way [L^2/F], of the material behind each face: 1/E* of Hertz, which is
+   !> (1 - mu^2)/E in plane strain and 1/E in plane stress; of an orthotropic material the mean of its two axes.
    pure function face_compliance(model, faces) result(compliance)
       type(model_t), intent(in) :: model
       type(face_list_t), intent(in) :: faces
@@ -185,17 +169,5 @@ contains
                      /(sum(face_compliance(model, slave%faces))/slave%faces%n)
       end associate
    end function slave_stiffness
-
-   !> Thickness [L] of each element.
-   pure function element_thickness(model) result(thickness)
-      type(model_t), intent(in) :: model
-      real(wp), allocatable :: thickness(:)
-      integer(ip) :: e
-
-      allocate (thickness(model%mesh%n_elements))
-      do e = 1, model%mesh%n_elements
-         thickness(e) = model%sections(model%section_of(e))%thickness
-      end do
-   end function element_thickness
 
 end module atrito_pairing

@@ -20,14 +20,15 @@ module atrito_build_materials
    !> In model%section_of while the model is built: the element has a section, which is faulty.
    integer(ip), parameter :: SECTION_INVALID = -1
 
-   character(len=*), parameter :: KEYWORD = 'ORIENTATION'
+   character(len=*), parameter :: ORIENTATION = 'ORIENTATION'
 
 contains
 
    !> All materials and sections of a model.
    subroutine build_materials(context)
       type(build_context_t), intent(inout) :: context
-      integer(ip) :: i, current, n_sections
+      character(len=:), allocatable :: name
+      integer(ip) :: i, current, place, n_sections
       logical :: is_open                               ! nothing but what belongs to it since the last *MATERIAL
 
       i = count_cards(context%deck, 'MATERIAL')
@@ -39,8 +40,13 @@ contains
       do i = 1, context%deck%n_cards
          select case (keyword_name(context%deck%cards(i)))
          case ('MATERIAL')
-            call read_material_card(context%deck%cards(i), context, current)
+            call define_name(context%deck, context%deck%cards(i), 'material', context%material_names, context%materials, name, &
+                             current)
             is_open = current > 0
+            if (.not. is_open) cycle
+            context%model%materials(current)%name = name
+            context%elastic_invalid(current) = .not. context%deck%cards(i)%ok
+            call keep_token(context%poisson, current, context%materials(current))
          case ('ELASTIC')
             if (current > 0) call read_elastic_card(context%deck%cards(i), context%model%materials(current), context, current)
          case ('DENSITY')
@@ -55,7 +61,13 @@ contains
          end select
       end do
       context%model%materials = context%model%materials(:context%material_names%n)
-      call build_orientations(context)
+      allocate (context%orientation_axis(2, count_cards(context%deck, ORIENTATION)), source=0.0_wp)
+      do i = 1, context%deck%n_cards
+         if (keyword_name(context%deck%cards(i)) /= ORIENTATION) cycle
+         call define_name(context%deck, context%deck%cards(i), 'orientation', context%orientation_names, context%orientations, &
+                          name, place)
+         if (place > 0) call read_axis(context%deck%cards(i), context%deck, context%orientation_axis(:, place))
+      end do
       n_sections = 0
       do i = 1, context%deck%n_cards
          if (keyword_name(context%deck%cards(i)) == 'SOLID SECTION') then
@@ -66,19 +78,7 @@ contains
       call taper_elements(context)
    end subroutine build_materials
 
-   subroutine read_material_card(card, context, current)
-      type(card_t), intent(in) :: card
-      type(build_context_t), intent(inout) :: context
-      integer(ip), intent(out) :: current              !< the material that has begun; 0: none
-      character(len=:), allocatable :: name
-
-      call define_name(context%deck, card, 'material', context%material_names, context%materials, name, current)
-      if (current == 0) return
-      context%model%materials(current) = material_t(name=name)
-      context%elastic_invalid(current) = .not. card%ok
-      call keep_token(context%poisson, current, context%materials(current))
-   end subroutine read_material_card
-
+   !> *DENSITY: the mass per volume, which does not depend on the temperature.
    subroutine read_density_card(deck, card, material)
       type(deck_t), intent(in) :: deck
       type(card_t), intent(in) :: card
@@ -92,11 +92,14 @@ contains
          call get_real(deck, line_item(deck, line, 1_ip), WHAT, material%density, ok, keyword='DENSITY')
          if (ok .and. material%density < 0.0_wp) call report_error(deck, line_item(deck, line, 1_ip), 'E-VALUE', &
                                         'the density '//to_text(material%density)//' is negative', expected=WHAT, keyword='DENSITY')
-         if (ok) ok = check_comma(deck, line, 1_ip, 'mass per volume [F T^2/L^4]; a temperature behind it as 20.', 'DENSITY')
+         if (ok .and. .not. is_empty_token(line_item(deck, line, 2_ip))) then
+            ok = check_comma(deck, line, 1_ip, 'mass per volume [F T^2/L^4]; a temperature behind it as 20.', 'DENSITY')
+         end if
       end associate
       if (ok) call check_constant(deck, card, [material%density], 'densities', ok)
    end subroutine read_density_card
 
+   !> *EXPANSION: the coefficient alpha of the thermal strain alpha T, which does not depend on the temperature.
    subroutine read_expansion_card(deck, card, material)
       type(deck_t), intent(in) :: deck
       type(card_t), intent(in) :: card
@@ -212,7 +215,7 @@ contains
       section%thickness = 1.0_wp
    end subroutine read_thickness
 
-   !> Gives elements their section; those that have one already are an error, told in one message.
+   !> Gives elements their section; those that have one already are an error, reported in one message.
    subroutine assign_section(card, place, elset, context, elements, number)
       type(token_t), intent(in) :: card, place         !< of the section, and of its set
       character(len=*), intent(in) :: elset
@@ -234,44 +237,60 @@ contains
       context%model%section_of(elements) = number
    end subroutine assign_section
 
-   !> All *ORIENTATION cards: context%orientation_axis, 0 where a card is faulty.
-   subroutine build_orientations(context)
-      type(build_context_t), intent(inout) :: context
-      character(len=:), allocatable :: name
-      real(wp) :: axis(2)
-      integer(ip) :: i, place
-
-      allocate (context%orientation_axis(2, count_cards(context%deck, KEYWORD)), source=0.0_wp)
-      if (size(context%orientation_axis) == 0) return
-      do i = 1, context%deck%n_cards
-         if (keyword_name(context%deck%cards(i)) /= KEYWORD) cycle
-         call define_name(context%deck, context%deck%cards(i), 'orientation', context%orientation_names, context%orientations, &
-                          name, place)
-         if (place == 0) cycle
-         call read_axis(context%deck%cards(i), context%deck, axis)
-         context%orientation_axis(:, place) = axis
-      end do
-   end subroutine build_orientations
-
-   !> The direction of the first axis; 0: it is faulty.
+   !> The direction of the first axis, from two points in the plane that span it, and a rotation about one of the axes, the third
+   !> one here; 0: it is faulty.
    subroutine read_axis(card, deck, axis)
       type(card_t), intent(in) :: card
       type(deck_t), intent(in) :: deck
       real(wp), intent(out) :: axis(2)
-      real(wp) :: a(3), b(3), turn
-      logical :: ok
+      real(wp), parameter :: FLAT = 1.0e-10_wp         ! what rounding leaves of 0
+      type(data_line_t) :: line
+      real(wp) :: x(3, 2), turn
+      integer(ip) :: i, k, about
+      logical :: good(3, 2)
 
       axis = 0.0_wp
       if (card%n_lines == 0 .or. .not. card%ok) return
       if (.not. all(deck%lines(card%first_line:card%first_line + card%n_lines - 1)%ok)) return
-      call read_points(deck%lines(card%first_line), deck, a, b, ok)
-      if (.not. ok) return
-      turn = 0.0_wp
-      if (card%n_lines > 1) call read_turn(deck%lines(card%first_line + 1), deck, turn, ok)
-      if (.not. ok) return
-      a = a/norm2(a)
-      turn = sign(turn, turn*(a(1)*b(2) - a(2)*b(1)))   ! round the third axis, which points to the viewer or away
-      axis = [cosine(turn)*a(1) - cosine(90 - turn)*a(2), cosine(90 - turn)*a(1) + cosine(turn)*a(2)]
+      line = deck%lines(card%first_line)
+      do k = 1, 2
+         do i = 1, 3
+            call get_real(deck, line_item(deck, line, 3*k - 3 + i), 'coordinate, a real [L]', x(i, k), good(i, k), &
+                          keyword=ORIENTATION)
+         end do
+      end do
+      if (.not. all(good)) return
+      do k = 1, 2
+         if (abs(x(3, k)) <= FLAT*maxval(abs(x(:2, k)))) x(3, k) = 0.0_wp
+         if (abs(x(3, k)) > 0.0_wp) then
+            call report_error(deck, line_item(deck, line, 3*k), 'E-VALUE', 'the scene is plane: these axes leave it', &
+                              expected='za = zb = 0', keyword=ORIENTATION)
+            return
+         end if
+         if (maxval(abs(x(:, k))) > 0.0_wp) x(:, k) = x(:, k)/maxval(abs(x(:, k)))
+      end do
+      associate (a => x(:, 1), b => x(:, 2))
+         if (abs(a(1)*b(2) - a(2)*b(1)) <= 1.0e-12_wp*norm2(a)*norm2(b)) then
+            call report_error(deck, line_item(deck, line, 4_ip), 'E-VALUE', 'the points give no two axes', &
+                              expected='points a and b in two directions from the origin', keyword=ORIENTATION)
+            return
+         end if
+         turn = 0.0_wp
+         if (card%n_lines > 1) then
+            line = deck%lines(card%first_line + 1)
+            call get_integer(deck, line_item(deck, line, 1_ip), 'local axis, 1, 2 or 3', about, good(1, 1), keyword=ORIENTATION)
+            call get_real(deck, line_item(deck, line, 2_ip), 'angle, a real in degrees', turn, good(2, 1), 0.0_wp, ORIENTATION)
+            if (.not. all(good)) return
+            if (about /= 3 .and. abs(turn) > 0.0_wp) then
+               call report_error(deck, line_item(deck, line, 1_ip), 'E-VALUE', 'the scene is plane: this rotation leaves it', &
+                                 expected='3, the axis across the plane', keyword=ORIENTATION)
+               return
+            end if
+         end if
+         a = a/norm2(a)
+         turn = sign(turn, turn*(a(1)*b(2) - a(2)*b(1)))   ! round the third axis, which points to the viewer or away
+         axis = [cosine(turn)*a(1) - cosine(90 - turn)*a(2), cosine(90 - turn)*a(1) + cosine(turn)*a(2)]
+      end associate
    end subroutine read_axis
 
    !> Of an angle in degrees, exact at multiples of 90.
@@ -281,55 +300,5 @@ contains
       cosine = cos(angle*(PI/180))
       if (.not. abs(modulo(angle, 90.0_wp)) > 0.0_wp) cosine = anint(cosine)
    end function cosine
-
-   !> Two points in the plane that span it.
-   subroutine read_points(line, deck, a, b, ok)
-      type(data_line_t), intent(in) :: line
-      type(deck_t), intent(in) :: deck
-      real(wp), intent(out) :: a(3), b(3)
-      logical, intent(out) :: ok
-      character(len=*), parameter :: WHAT = 'coordinate, a real [L]'
-      real(wp), parameter :: FLAT = 1.0e-10_wp         ! what rounding leaves of 0
-      logical :: good(6)
-      integer(ip) :: i
-
-      do i = 1, 3
-         call get_real(deck, line_item(deck, line, i), WHAT, a(i), good(i), keyword=KEYWORD)
-         call get_real(deck, line_item(deck, line, i + 3), WHAT, b(i), good(i + 3), keyword=KEYWORD)
-      end do
-      ok = all(good)
-      if (.not. ok) return
-      if (abs(a(3)) <= FLAT*maxval(abs(a(:2)))) a(3) = 0.0_wp
-      if (abs(b(3)) <= FLAT*maxval(abs(b(:2)))) b(3) = 0.0_wp
-      ok = .not. (abs(a(3)) > 0.0_wp .or. abs(b(3)) > 0.0_wp)
-      if (.not. ok) then
-         call report_error(deck, line_item(deck, line, merge(3_ip, 6_ip, abs(a(3)) > 0.0_wp)), 'E-VALUE', &
-                           'the scene is plane: these axes leave it', expected='za = zb = 0', keyword=KEYWORD)
-         return
-      end if
-      if (maxval(abs(a)) > 0.0_wp) a = a/maxval(abs(a))
-      if (maxval(abs(b)) > 0.0_wp) b = b/maxval(abs(b))
-      ok = abs(a(1)*b(2) - a(2)*b(1)) > 1.0e-12_wp*norm2(a)*norm2(b)
-      if (.not. ok) call report_error(deck, line_item(deck, line, 4_ip), 'E-VALUE', 'the points give no two axes', &
-                                      expected='points a and b in two directions from the origin', keyword=KEYWORD)
-   end subroutine read_points
-
-   !> A rotation about one of the axes, the third one here.
-   subroutine read_turn(line, deck, turn, ok)
-      type(data_line_t), intent(in) :: line
-      type(deck_t), intent(in) :: deck
-      real(wp), intent(out) :: turn                    !< [degrees]
-      logical, intent(out) :: ok
-      integer(ip) :: about
-      logical :: good(2)
-
-      call get_integer(deck, line_item(deck, line, 1_ip), 'local axis, 1, 2 or 3', about, good(1), keyword=KEYWORD)
-      call get_real(deck, line_item(deck, line, 2_ip), 'angle, a real in degrees', turn, good(2), 0.0_wp, KEYWORD)
-      ok = all(good)
-      if (.not. ok .or. about == 3 .or. .not. abs(turn) > 0.0_wp) return
-      ok = .false.
-      call report_error(deck, line_item(deck, line, 1_ip), 'E-VALUE', 'the scene is plane: this rotation leaves it', &
-                        expected='3, the axis across the plane', keyword=KEYWORD)
-   end subroutine read_turn
 
 end module atrito_build_materials

@@ -43,7 +43,7 @@ contains
    subroutine read_temperatures(context)
       type(build_context_t), intent(inout) :: context
       type(temperatures_t) :: before, now
-      integer(ip) :: k
+      integer(ip) :: k, last
 
       allocate (before%token(context%model%mesh%n_nodes), source=0_ip)
       allocate (before%value(context%model%mesh%n_nodes), source=0.0_wp)
@@ -51,10 +51,25 @@ contains
       before%keyword = 'INITIAL CONDITIONS'
       now%keyword = 'TEMPERATURE'
       call read_cards(context, 0_ip, before)
-      do k = 1, size(context%model%steps, kind=ip)
-         call open_step(context, k)
-         call read_step(context, before, now)
-      end do
+      ! the temperatures of a step: those of the step before but for what its lines change
+      associate (steps => context%model%steps)
+         do k = 1, size(steps, kind=ip)
+            call open_step(context, k)
+            if (removes_all(context, 'TEMPERATURE')) now%token = 0
+            last = now%last
+            call read_cards(context, k, now)
+            if (now%last /= last) call warn_of_middles(context, now)
+            if (now%last == 0) cycle
+            where (now%token == 0) now%value = before%value
+            if (any(abs(now%value - before%value) > 0.0_wp)) steps(k)%heating = now%value - before%value
+            if (k == 1) cycle
+            if (.not. allocated(steps(k - 1)%heating)) cycle
+            if (any(abs(steps(k - 1)%heating) > 0.0_wp)) steps(k)%heating_from = steps(k - 1)%heating
+            if (.not. allocated(steps(k)%heating) .and. allocated(steps(k)%heating_from)) then
+               steps(k)%heating = now%value - before%value
+            end if
+         end do
+      end associate
       if (before%last == 0 .and. now%last == 0) return
       if (now%last == 0) then
          call report_note(context%deck, context%deck%tokens(before%last), 'N-TEMPERATURE', 'no *TEMPERATURE of the step makes' &
@@ -63,28 +78,6 @@ contains
       end if
       call warn_of_middles(context, before)
    end subroutine read_temperatures
-
-   !> The temperatures of a step: those of the step before but for what its lines change.
-   subroutine read_step(context, before, now)
-      type(build_context_t), intent(inout) :: context
-      type(temperatures_t), intent(in) :: before
-      type(temperatures_t), intent(inout) :: now
-      integer(ip) :: last
-
-      associate (steps => context%model%steps, k => context%open%number)
-         if (removes_all(context, 'TEMPERATURE')) now%token = 0
-         last = now%last
-         call read_cards(context, k, now)
-         if (now%last /= last) call warn_of_middles(context, now)
-         if (now%last == 0) return
-         where (now%token == 0) now%value = before%value
-         if (any(abs(now%value - before%value) > 0.0_wp)) steps(k)%heating = now%value - before%value
-         if (k == 1) return
-         if (.not. allocated(steps(k - 1)%heating)) return
-         if (any(abs(steps(k - 1)%heating) > 0.0_wp)) steps(k)%heating_from = steps(k - 1)%heating
-         if (.not. allocated(steps(k)%heating) .and. allocated(steps(k)%heating_from)) steps(k)%heating = now%value - before%value
-      end associate
-   end subroutine read_step
 
    !> All cards of a step; 0: of the model.
    subroutine read_cards(context, step, temperatures)
@@ -170,20 +163,20 @@ contains
       type(build_context_t), intent(in) :: context
       type(temperatures_t), intent(in) :: temperatures
       type(number_list_t) :: forgotten
-      logical, allocatable :: is_told(:)
+      logical, allocatable :: is_reported(:)
       integer(ip) :: e, i, k, n
 
       if (temperatures%last == 0) return
-      allocate (is_told(context%model%mesh%n_nodes), source=.false.)
+      allocate (is_reported(context%model%mesh%n_nodes), source=.false.)
       associate (mesh => context%model%mesh)
          do e = 1, mesh%n_elements
             n = CORNERS_OF(mesh%shape(e))
             if (DEGREE_OF(mesh%shape(e)) == 1) cycle
             do i = 1, n
                k = mesh%nodes(n + i, e)
-               if (temperatures%token(k) > 0 .or. is_told(k)) cycle
+               if (temperatures%token(k) > 0 .or. is_reported(k)) cycle
                if (any(temperatures%token(mesh%nodes([i, mod(i, n) + 1], e)) == 0)) cycle
-               is_told(k) = .true.
+               is_reported(k) = .true.
                call add_number(forgotten, mesh%node_id(k))
             end do
          end do
@@ -244,7 +237,7 @@ contains
       end do
    end subroutine double_temperatures
 
-   !> What grows warmer and has no *EXPANSION is told; where nothing expands there are no temperatures.
+   !> What grows warmer and has no *EXPANSION is reported; where nothing expands there are no temperatures.
    subroutine check_temperatures(context)
       type(build_context_t), intent(inout) :: context
       logical, allocatable :: is_heated(:)             ! of the materials
@@ -275,57 +268,50 @@ contains
       end associate
    end subroutine check_temperatures
 
-   !> The thickness of the nodes of the deck's mesh, 0 where there is none; unallocated where no card gives any.
+   !> The thickness of the nodes of the deck's mesh, 0 where there is none; unallocated where no card gives any. Data lines: node or
+   !> set, thickness.
    subroutine read_node_thickness(context)
       type(build_context_t), intent(inout) :: context
       integer(ip), allocatable :: given(:)             ! (n_nodes) token of the line that gives it; 0: none
+      integer(ip), allocatable :: nodes(:), clashes(:)
+      real(wp) :: value
       integer(ip) :: i, k
+      logical :: ok(2)
 
       do i = 1, context%deck%n_cards
-         associate (card => context%deck%cards(i))
-            if (keyword_name(card) /= THICKNESS) cycle
-            if (.not. allocated(given)) then
-               allocate (given(context%model%mesh%n_nodes), source=0_ip)
-               allocate (context%node_thickness(context%model%mesh%n_nodes), source=0.0_wp)
-            end if
+         if (keyword_name(context%deck%cards(i)) /= THICKNESS) cycle
+         if (.not. allocated(given)) then
+            allocate (given(context%model%mesh%n_nodes), source=0_ip)
+            allocate (context%node_thickness(context%model%mesh%n_nodes), source=0.0_wp)
+         end if
+         associate (card => context%deck%cards(i), deck => context%deck)
             do k = card%first_line, card%first_line + card%n_lines - 1
-               if (context%deck%lines(k)%ok) call read_thickness_line(context%deck%lines(k), context, given)
+               if (.not. deck%lines(k)%ok) cycle
+               associate (line => deck%lines(k), first => deck%tokens(deck%lines(k)%first_token))
+                  call find_nodes(context, first, nodes, ok(1), THICKNESS)
+                  call get_positive(deck, line_item(deck, line, 2_ip), 'thickness, a real > 0 [L]', 'the thickness ', value, &
+                                    ok(2), THICKNESS)
+                  context%thickness_undetermined = context%thickness_undetermined .or. .not. all(ok)
+                  if (.not. all(ok)) cycle
+                  call put_value(nodes, value, line%first_token, 0_ip, given, context%node_thickness, clashes)
+                  if (size(clashes) > 0) call report_error(deck, first, 'E-CONFLICT', 'node '// &
+                                                           ids_text(context%model%mesh%node_id(clashes))// &
+                                                           ' has another thickness in '// &
+                                                           place_text(deck, deck%tokens(given(clashes(1))), first), &
+                                                           expected='one thickness for each node', keyword=THICKNESS)
+               end associate
             end do
             context%thickness_undetermined = context%thickness_undetermined .or. .not. card%ok
          end associate
       end do
    end subroutine read_node_thickness
 
-   !> Node or set, thickness.
-   subroutine read_thickness_line(line, context, given)
-      type(data_line_t), intent(in) :: line
-      type(build_context_t), intent(inout) :: context
-      integer(ip), intent(inout) :: given(:)
-      integer(ip), allocatable :: nodes(:), clashes(:)
-      real(wp) :: value
-      logical :: ok(2)
-
-      associate (deck => context%deck)
-         call find_nodes(context, deck%tokens(line%first_token), nodes, ok(1), THICKNESS)
-         call get_positive(deck, line_item(deck, line, 2_ip), 'thickness, a real > 0 [L]', 'the thickness ', value, ok(2), &
-                           THICKNESS)
-         if (.not. all(ok)) context%thickness_undetermined = .true.
-         if (.not. all(ok)) return
-         call put_value(nodes, value, line%first_token, 0_ip, given, context%node_thickness, clashes)
-         if (size(clashes) == 0) return
-         call report_error(deck, line_item(deck, line, 1_ip), 'E-CONFLICT', 'node '// &
-                           ids_text(context%model%mesh%node_id(clashes))//' has another thickness in '// &
-                           place_text(deck, deck%tokens(given(clashes(1))), deck%tokens(line%first_token)), &
-                           expected='one thickness for each node', keyword=THICKNESS)
-      end associate
-   end subroutine read_thickness_line
-
    !> Elements of sections with NODAL THICKNESS become tapered; each of their nodes must have a thickness. One that no section asks
    !> for has no effect.
    subroutine taper_elements(context)
       type(build_context_t), intent(inout) :: context
       type(number_list_t) :: without
-      logical, allocatable :: is_told(:)
+      logical, allocatable :: is_reported(:)
       integer(ip) :: e, i, k, first
 
       if (.not. any(context%model%sections%is_tapered)) then
@@ -338,7 +324,7 @@ contains
       if (.not. allocated(context%node_thickness)) then
          allocate (context%node_thickness(context%model%mesh%n_nodes), source=0.0_wp)
       end if
-      allocate (is_told(context%model%mesh%n_nodes), source=.false.)
+      allocate (is_reported(context%model%mesh%n_nodes), source=.false.)
       first = 0
       associate (mesh => context%model%mesh)
          do e = 1, mesh%n_elements
@@ -348,8 +334,8 @@ contains
             if (.not. IS_TAPERED(mesh%state(e))) cycle ! a ring
             do k = 1, mesh%shape(e)
                associate (node => mesh%nodes(k, e))
-                  if (context%node_thickness(node) > 0.0_wp .or. is_told(node)) cycle
-                  is_told(node) = .true.
+                  if (context%node_thickness(node) > 0.0_wp .or. is_reported(node)) cycle
+                  is_reported(node) = .true.
                   if (first == 0) first = context%model%section_of(e)
                   call add_number(without, mesh%node_id(node))
                end associate

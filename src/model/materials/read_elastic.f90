@@ -1,7 +1,7 @@
 !> *ELASTIC: E and mu, engineering constants or stiffnesses of an orthotropic material.
 module atrito_read_elastic
    use atrito_build_context, only: build_context_t
-   use atrito_deck, only: card_t, deck_t, data_line_t, token_t, token_text, line_item, is_empty_token
+   use atrito_deck, only: card_t, deck_t, data_line_t, token_t, token_text, line_item
    use atrito_diagnostics, only: report_error
    use atrito_items, only: get_real, option_word
    use atrito_kinds, only: ip, wp
@@ -28,7 +28,8 @@ contains
       type(material_t), intent(inout) :: material
       type(build_context_t), intent(inout) :: context
       integer(ip), intent(in) :: i                     !< place of the material
-      logical :: ok
+      type(token_t) :: ratio
+      logical :: ok(2)
 
       if (context%elastic_given(i)) then
          if (card%ok) call report_error(context%deck, card%place, 'E-TWICE', 'material '//material%name//' has two *ELASTIC', &
@@ -38,39 +39,30 @@ contains
       context%elastic_given(i) = .true.
       context%elastic_invalid(i) = .true.
       if (card%n_lines == 0) return
-      select case (option_word(context%deck, card, 'TYPE'))
-      case ('ISOTROPIC', 'ISO')
-         call read_isotropic(card, material, context%deck, ok)
-         context%poisson(i) = line_item(context%deck, context%deck%lines(card%first_line), 2_ip)
-      case default
-         call read_orthotropic(card, material, context%deck, ok)
-      end select
-      context%elastic_invalid(i) = .not. ok
-   end subroutine read_elastic_card
-
-   subroutine read_isotropic(card, material, deck, all_ok)
-      type(card_t), intent(in) :: card
-      type(material_t), intent(inout) :: material
-      type(deck_t), intent(in) :: deck
-      logical, intent(out) :: all_ok
-      logical :: ok(2)
-
-      all_ok = .false.
-      associate (line => deck%lines(card%first_line))
-         if (.not. line%ok) return
-         call get_positive(deck, line_item(deck, line, 1_ip), WHAT_E, 'E = ', material%young, ok(1), KEYWORD)
-         call get_real(deck, line_item(deck, line, 2_ip), WHAT_MU, material%poisson, ok(2), keyword=KEYWORD)
-         if (ok(2) .and. (material%poisson <= -1.0_wp .or. material%poisson > 0.5_wp)) then
-            ok(2) = .false.
-            call report_error(deck, line_item(deck, line, 2_ip), 'E-VALUE', 'mu = '//to_text(material%poisson, 15)// &
-                              ' is out of range', expected=WHAT_MU, keyword=KEYWORD)
-         end if
-         all_ok = all(ok)
-         if (all_ok) all_ok = token_text(deck, line_item(deck, line, 2_ip)) /= '0' .or. &
-                              check_comma(deck, line, 2_ip, 'E [F/L^2], mu [-]; a temperature behind mu = 0 as 0., 20.', KEYWORD)
+      associate (deck => context%deck, line => context%deck%lines(card%first_line))
+         select case (option_word(deck, card, 'TYPE'))
+         case ('ISOTROPIC', 'ISO')                     ! E and mu; further lines, of other temperatures, say the same
+            ratio = line_item(deck, line, 2_ip)
+            context%poisson(i) = ratio
+            if (.not. line%ok) return
+            call get_positive(deck, line_item(deck, line, 1_ip), WHAT_E, 'E = ', material%young, ok(1), KEYWORD)
+            call get_real(deck, ratio, WHAT_MU, material%poisson, ok(2), keyword=KEYWORD)
+            if (ok(2) .and. (material%poisson <= -1.0_wp .or. material%poisson > 0.5_wp)) then
+               ok(2) = .false.
+               call report_error(deck, ratio, 'E-VALUE', 'mu = '//to_text(material%poisson, 15)//' is out of range', &
+                                 expected=WHAT_MU, keyword=KEYWORD)
+            end if
+            if (all(ok) .and. token_text(deck, ratio) == '0') then
+               ok(1) = check_comma(deck, line, 2_ip, 'E [F/L^2], mu [-]; a temperature behind mu = 0 as 0., 20.', KEYWORD)
+            end if
+            if (all(ok)) call check_constant(deck, card, [material%young, material%poisson], 'E and mu', ok(1))
+            context%elastic_invalid(i) = .not. all(ok)
+         case default
+            call read_orthotropic(card, material, deck, ok(1))
+            context%elastic_invalid(i) = .not. ok(1)
+         end select
       end associate
-      if (all_ok) call check_constant(deck, card, [material%young, material%poisson], 'E and mu', all_ok)
-   end subroutine read_isotropic
+   end subroutine read_elastic_card
 
    !> A real that must be positive.
    subroutine get_positive(deck, token, what, name, value, ok, keyword)
@@ -99,8 +91,7 @@ contains
       if (line%n_tokens <= n) return
       value = line_item(deck, line, n)
       next = line_item(deck, line, n + 1)
-      ok = next%first /= value%last + 2 .or. is_empty_token(next) .or. &
-           verify(token_text(deck, value)//token_text(deck, next), '0123456789') > 0
+      ok = next%first /= value%last + 2 .or. verify(token_text(deck, value)//token_text(deck, next), '0123456789') > 0
       if (.not. ok) call report_error(deck, next, 'E-ITEMS', to_text(n + 1)//' items, where '//to_text(n)//' belong'// &
                                       trim(merge('s', ' ', n == 1)), expected=expected, keyword=keyword)
    end function check_comma
@@ -140,19 +131,37 @@ contains
       logical, intent(out) :: ok
       real(wp) :: values(N_CONSTANTS), s(SPATIAL, SPATIAL)
       character(len=:), allocatable :: wanted
-      logical :: is_engineering
+      type(token_t) :: item
+      integer(ip) :: i
+      logical :: is_engineering, good
 
       is_engineering = option_word(deck, card, 'TYPE') == 'ENGINEERING CONSTANTS'
       ok = .false.
       if (card%n_lines < 2) return
-      call read_constants(card, deck, is_engineering, values, ok)
+      if (.not. all(deck%lines(card%first_line:card%first_line + 1)%ok)) return
+      ok = .true.
+      do i = 1, N_CONSTANTS
+         item = line_item(deck, deck%lines(card%first_line + merge(0_ip, 1_ip, i <= N_FIRST)), merge(i, i - N_FIRST, i <= N_FIRST))
+         if (.not. is_engineering) then
+            call get_real(deck, item, 'elastic constant, a real [F/L^2]', values(i), good, keyword=KEYWORD)
+         else if (i > 3 .and. i < 7) then
+            call get_real(deck, item, "Poisson's ratio, a real [-]", values(i), good, keyword=KEYWORD)
+         else
+            call get_positive(deck, item, 'modulus, a real > 0 [F/L^2]', 'the modulus ', values(i), good, KEYWORD)
+         end if
+         ok = ok .and. good
+      end do
       if (.not. ok) return
       if (is_engineering) then
          s = compliance_of_constants(values(1:3), values(4:6), values(7))
          wanted = 'nu12^2 < E1/E2, nu13^2 < E1/E3, nu23^2 < E2/E3, '// &
                   'nu12 nu21 + nu13 nu31 + nu23 nu32 + 2 nu21 nu32 nu13 < 1, where nu21 = nu12 E2/E1 ...'
       else
-         s = stiffness_of_constants(values)
+         s = 0.0_wp                                    ! D1111, D1122, D2222, D1133, D2233, D3333, D1212, ...
+         s(:3, 1) = values([1, 2, 4])
+         s(:3, 2) = values([2, 3, 5])
+         s(:3, 3) = values([4, 5, 6])
+         s(4, 4) = values(7)
          wanted = 'a positive definite matrix D1111, D1122, D1133; D1122, D2222, D2233; D1133, D2233, D3333, and D1212 > 0'
       end if
       ok = is_positive_definite(s)
@@ -168,42 +177,5 @@ contains
       material%young = 2/(s(1, 1) + s(2, 2))
       material%poisson = 0.0_wp
    end subroutine read_orthotropic
-
-   subroutine read_constants(card, deck, is_engineering, values, ok)
-      type(card_t), intent(in) :: card
-      type(deck_t), intent(in) :: deck
-      logical, intent(in) :: is_engineering
-      real(wp), intent(out) :: values(N_CONSTANTS)
-      logical, intent(out) :: ok
-      type(token_t) :: item
-      integer(ip) :: i
-      logical :: good
-
-      ok = all(deck%lines(card%first_line:card%first_line + 1)%ok)
-      if (.not. ok) return
-      do i = 1, N_CONSTANTS
-         item = line_item(deck, deck%lines(card%first_line + merge(0_ip, 1_ip, i <= N_FIRST)), merge(i, i - N_FIRST, i <= N_FIRST))
-         if (.not. is_engineering) then
-            call get_real(deck, item, 'elastic constant, a real [F/L^2]', values(i), good, keyword=KEYWORD)
-         else if (i > 3 .and. i < 7) then
-            call get_real(deck, item, "Poisson's ratio, a real [-]", values(i), good, keyword=KEYWORD)
-         else
-            call get_positive(deck, item, 'modulus, a real > 0 [F/L^2]', 'the modulus ', values(i), good, KEYWORD)
-         end if
-         ok = ok .and. good
-      end do
-   end subroutine read_constants
-
-   !> D1111, D1122, D2222, D1133, D2233, D3333, D1212, ...
-   pure function stiffness_of_constants(values) result(c)
-      real(wp), intent(in) :: values(N_CONSTANTS)      !< [F/L^2]
-      real(wp) :: c(SPATIAL, SPATIAL)
-
-      c = 0.0_wp
-      c(:3, 1) = values([1, 2, 4])
-      c(:3, 2) = values([2, 3, 5])
-      c(:3, 3) = values([4, 5, 6])
-      c(4, 4) = values(7)
-   end function stiffness_of_constants
 
 end module atrito_read_elastic

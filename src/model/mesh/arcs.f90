@@ -1,17 +1,36 @@
-!> Arcs that a deck gives by their ends and their centre.
+!> Points that a deck gives, and arcs by their ends and their centre.
 module atrito_arcs
-   use atrito_deck, only: deck_t, token_t
+   use atrito_coordinates, only: get_coordinate
+   use atrito_deck, only: deck_t, data_line_t, token_t, line_item
    use atrito_diagnostics, only: report_error
-   use atrito_kinds, only: wp
+   use atrito_kinds, only: ip, wp
    use atrito_strings, only: to_text
    implicit none (type, external)
    private
-   public :: centre_arc
+   public :: get_point, centre_arc
 
    !> Coordinates of a deck have a few digits: the centre of an arc lies as far from both ends within this part of the radius.
    real(wp), parameter :: RADIUS_TOLERANCE = 1.0e-4_wp
 
 contains
+
+   !> Two items of a line that are the coordinates of a point.
+   subroutine get_point(deck, line, first, what, x, ok, keyword)
+      type(deck_t), intent(in) :: deck
+      type(data_line_t), intent(in) :: line
+      integer(ip), intent(in) :: first                 !< item
+      character(len=*), intent(in) :: what(2)          !< what is expected
+      real(wp), intent(out) :: x(2)                    !< [L]
+      logical, intent(inout) :: ok                     !< false where there is an error
+      character(len=*), intent(in) :: keyword
+      integer(ip) :: k
+      logical :: good
+
+      do k = 1, 2
+         call get_coordinate(deck, line_item(deck, line, first + k - 1), trim(what(k)), x(k), good, keyword)
+         ok = ok .and. good
+      end do
+   end subroutine get_point
 
    !> The centre is as far from both ends, within the digits of a deck, and moved so that it is exactly; the arc is less than a half
    !> circle, else it could run on either side.

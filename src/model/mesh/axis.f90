@@ -49,7 +49,7 @@ contains
                   call add_condition(supports, condition_t(place=i, dof=1_ip))
                   entry = supports%n
                else if (abs(supports%list(entry)%value(1)) > 0.0_wp) then
-                  ! what is inherited has been told
+                  ! what is inherited has been reported
                   if (.not. is_inherited(context, supports%list(entry))) call add_number(moved, mesh%node_id(i))
                end if
             end associate
@@ -110,10 +110,7 @@ contains
       logical, intent(in) :: has_hoop
       logical, parameter :: HAS(size(STATES)) = STATES%has_hoop
 
-      do e = 1, model%mesh%n_elements
-         if (HAS(model%mesh%state(e)) .eqv. has_hoop) return
-      end do
-      e = 0
+      e = findloc(HAS(model%mesh%state(:model%mesh%n_elements)), has_hoop, dim=1, kind=ip)
    end function first_of_kind
 
 end module atrito_axis

@@ -34,9 +34,9 @@ contains
       logical, intent(out) :: ok
       type(token_t), allocatable :: names(:)
       character(len=:), allocatable :: own
-      integer(ip), allocatable :: named(:), near(:)
-      real(wp) :: reach
-      integer(ip) :: i, k
+      integer(ip), allocatable :: named(:), near(:), outline(:), theirs(:)
+      real(wp) :: reach, tolerance
+      integer(ip) :: i, k, n
       logical :: good
 
       ok = .true.
@@ -63,6 +63,10 @@ contains
          call join_blocks(context%joined, named(1), named(i))
       end do
       call option_text(context%deck, context%deck%cards(i_card), 'ELSET', own, good)
+      tolerance = MERGE_TOLERANCE*shortest_edge(x, size(block%nodes, 1, kind=ip))
+      outline = outline_of(block%nodes)
+      theirs = pack(block%nodes, .true.)
+      outline = pack(outline, theirs(outline) == 0)    ! not shared
       near = blocks_near(context%joined, block%low - reach, block%high + reach)
       do i = 1, size(near, kind=ip)
          associate (other => context%blocks(near(i)))
@@ -70,7 +74,15 @@ contains
             if (.not. are_joined_blocks(context%joined, named(1), near(i))) cycle
             k = first_at_least(int(named, lp), int(near(i), lp))
             if (named(min(k, size(named, kind=ip))) == near(i)) cycle
-            call warn_of_crack(names(1), own, x, context, other, block%nodes)
+            ! nodes that lie on those of a block of the same body that is not named are apart from them
+            theirs = [(side_nodes(other%nodes, k), k=1, size(BLOCK_SIDES, kind=ip))]
+            n = count(match_points(x(:, outline), context%model%mesh%x(:, theirs), tolerance) > 0, kind=ip)
+            if (n == 0) cycle
+            if (is_joint(context%deck, own, other%name)) cycle
+            call report_warning(context%deck, names(1), 'W-BLOCK', to_text(n)//' nodes of this block lie on nodes of '// &
+                                other%name//', a part of the same body, but are not shared: a crack', &
+                                expected='the data line MERGE, '//token_text(context%deck, names(1))//', '//other%name// &
+                                ' to close it', keyword='BLOCK')
          end associate
       end do
    end subroutine share_nodes
@@ -151,49 +163,41 @@ contains
       type(build_context_t), intent(in) :: context
       type(block_t), intent(in) :: block, other
       integer(ip), intent(in) :: shared(:, :)
+      character(len=:), allocatable :: names, text, expected
       integer(ip), allocatable :: own(:), theirs(:)
-      integer(ip) :: i, k, n, m
+      integer(ip) :: i, k, n, m, ends(2)
+      real(wp) :: apart, long
 
       are_joined = .true.
-      do i = 1, size(BLOCK_SIDES, kind=ip)
+      do i = 1, merge(size(BLOCK_SIDES, kind=ip), 0_ip, block%order == other%order)
          own = side_nodes(shared, i)
          n = size(own, kind=ip)
-         do k = 1, merge(size(BLOCK_SIDES, kind=ip), 0_ip, min(own(1), own(n)) > 0)
+         if (min(own(1), own(n)) == 0) cycle
+         do k = 1, size(BLOCK_SIDES, kind=ip)
             theirs = side_nodes(other%nodes, k)
             m = size(theirs, kind=ip)
-            if (.not. (own(1) == theirs(1) .and. own(n) == theirs(m) .or. own(1) == theirs(m) .and. own(n) == theirs(1))) cycle
-            if (block%order /= other%order .or. (n == m .and. all(own > 0))) cycle
+            ends = theirs([1_ip, m])
+            if (any(own([1_ip, n]) /= ends) .and. any(own([1_ip, n]) /= ends([2, 1]))) cycle
+            if (n == m .and. all(own > 0)) cycle
             are_joined = .false.
-            call report_side(context%deck, place, block, other, i, k)
+            names = block%name//trim(BLOCK_SIDES(i))//' and '//other%name//trim(BLOCK_SIDES(k))
+            apart = norm2(side_point(block%map, i, 0.5_wp) - side_point(other%map, k, 0.5_wp))
+            long = norm2(side_point(block%map, i, 1.0_wp) - side_point(block%map, i, 0.0_wp))
+            if (apart > SAME_CURVE*long) then
+               text = names//' join the same corners by different curves'
+               expected = 'the same ARC for both sides, or none'
+            else if (n /= m) then
+               text = block%name//trim(BLOCK_SIDES(i))//' has '//to_text((n - 1)/block%order)//' elements, '// &
+                      other%name//trim(BLOCK_SIDES(k))//' beside it '//to_text((m - 1)/other%order)
+               expected = 'as many elements on both sides'
+            else
+               text = names//' have as many elements, but their nodes lie elsewhere'
+               expected = 'the same grading or break points on both sides'
+            end if
+            call report_error(context%deck, place, 'E-BLOCK', text, expected=expected, keyword='BLOCK')
          end do
       end do
    end function are_joined
-
-   subroutine report_side(deck, place, block, other, i, k)
-      type(deck_t), intent(in) :: deck
-      type(token_t), intent(in) :: place
-      type(block_t), intent(in) :: block, other
-      integer(ip), intent(in) :: i, k                  !< sides of the two
-      character(len=:), allocatable :: own, theirs, text, expected
-      integer(ip) :: n, m
-
-      own = block%name//trim(BLOCK_SIDES(i))
-      theirs = other%name//trim(BLOCK_SIDES(k))
-      n = (size(side_nodes(block%nodes, i), kind=ip) - 1)/block%order
-      m = (size(side_nodes(other%nodes, k), kind=ip) - 1)/other%order
-      if (norm2(side_point(block%map, i, 0.5_wp) - side_point(other%map, k, 0.5_wp)) > &
-          SAME_CURVE*norm2(side_point(block%map, i, 1.0_wp) - side_point(block%map, i, 0.0_wp))) then
-         text = own//' and '//theirs//' join the same corners by different curves'
-         expected = 'the same ARC for both sides, or none'
-      else if (n /= m) then
-         text = own//' has '//to_text(n)//' elements, '//theirs//' beside it '//to_text(m)
-         expected = 'as many elements on both sides'
-      else
-         text = own//' and '//theirs//' have as many elements, but their nodes lie elsewhere'
-         expected = 'the same grading or break points on both sides'
-      end if
-      call report_error(deck, place, 'E-BLOCK', text, expected=expected, keyword='BLOCK')
-   end subroutine report_side
 
    !> Places of the nodes on the outline of a grid, counted row by row.
    pure function outline_of(grid) result(outline)
@@ -207,6 +211,7 @@ contains
       end associate
    end function outline_of
 
+   !> The shortest edge of the elements of a block, whose nodes stand row by row [L].
    pure real(wp) function shortest_edge(x, width) result(shortest)
       real(wp), intent(in) :: x(:, :)
       integer(ip), intent(in) :: width                 !< nodes in a row
@@ -228,31 +233,6 @@ contains
       n = 0
       if (first > 0) n = count(side(first:findloc(side > 0, .true., dim=1, back=.true.)) == 0, kind=ip)
    end function count_between
-
-   !> Nodes that lie on those of a block of the same body that is not named are apart from them.
-   subroutine warn_of_crack(place, own, x, context, other, nodes)
-      type(token_t), intent(in) :: place
-      character(len=*), intent(in) :: own              !< name of the block
-      real(wp), intent(in) :: x(:, :)
-      type(build_context_t), intent(in) :: context
-      type(block_t), intent(in) :: other
-      integer(ip), intent(in) :: nodes(:, :)           !< of the block; 0: not shared
-      integer(ip), allocatable :: outline(:), theirs(:)
-      integer(ip) :: i, n
-
-      outline = outline_of(nodes)
-      theirs = pack(nodes, .true.)
-      outline = pack(outline, theirs(outline) == 0)
-      theirs = [(side_nodes(other%nodes, i), i=1, size(BLOCK_SIDES, kind=ip))]
-      n = count(match_points(x(:, outline), context%model%mesh%x(:, theirs), &
-                             MERGE_TOLERANCE*shortest_edge(x, size(nodes, 1, kind=ip))) > 0, kind=ip)
-      if (n == 0) return
-      if (is_joint(context%deck, own, other%name)) return
-      call report_warning(context%deck, place, 'W-BLOCK', to_text(n)//' nodes of this block lie on nodes of '// &
-                          other%name//', a part of the same body, but are not shared: a crack', &
-                          expected='the data line MERGE, '//token_text(context%deck, place)//', '//other%name// &
-                          ' to close it', keyword='BLOCK')
-   end subroutine warn_of_crack
 
    !> Whether the deck ties sides of two blocks, or pairs them: then what lies between them is meant.
    pure logical function is_joint(deck, a, b)

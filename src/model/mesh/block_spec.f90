@@ -1,6 +1,6 @@
 !> What a *BLOCK says: its corners, sides that are arcs of circles, how it is divided, and its copies.
 module atrito_block_spec
-   use atrito_arcs, only: centre_arc
+   use atrito_arcs, only: centre_arc, get_point
    use atrito_block_map, only: block_map_t, map_jacobian, has_arcs
    use atrito_build_context, only: BLOCK_SIDES
    use atrito_build_elements, only: read_element_type
@@ -15,7 +15,7 @@ module atrito_block_spec
    use atrito_strings, only: same_name, to_text, upper_case
    implicit none (type, external)
    private
-   public :: block_spec_t, copies_t, read_block_spec, count_nodes, copy_offset
+   public :: block_spec_t, read_block_spec, count_nodes, copy_offset
 
    integer(ip), parameter :: CORNERS = 4
    !> Corners where each side begins and ends.
@@ -54,6 +54,7 @@ contains
       type(card_t), intent(in) :: card
       type(block_spec_t), intent(out) :: spec
       logical, intent(out) :: ok
+      character(len=*), parameter :: WHAT_CORNER(2) = 'coordinate of a corner, a real [L]'
       integer(ip) :: i, n, corner_line(CORNERS)
       logical :: is_good(4), is_counted(2), has_corners
 
@@ -65,8 +66,12 @@ contains
       n = 0
       do i = card%first_line, card%first_line + card%n_lines - 1
          select case (first_word(deck, i))
-         case ('GRADE', 'X', 'Y')
-            if (all(is_counted)) call read_division(deck, deck%lines(i), spec, is_good(2))
+         case ('GRADE')
+            if (all(is_counted)) call read_grade(deck, deck%lines(i), spec, is_good(2))
+         case ('X')
+            if (all(is_counted)) call read_breaks(deck, deck%lines(i), spec%n(1), spec%grade(1), spec%along, is_good(2))
+         case ('Y')
+            if (all(is_counted)) call read_breaks(deck, deck%lines(i), spec%n(2), spec%grade(2), spec%across, is_good(2))
          case ('COPY')
             if (.not. spec%copies%given) call read_copies(deck, card, deck%lines(i), spec%copies, is_good(3))
          case ('ARC', 'MERGE')                         ! read when the corners are known, and by atrito_block_joints
@@ -74,7 +79,9 @@ contains
             if (n == CORNERS) cycle
             n = n + 1
             corner_line(n) = i
-            call read_corner(deck, deck%lines(i), spec%map%corners(:, n), is_good(4))
+            is_good(4) = is_good(4) .and. deck%lines(i)%ok
+            if (deck%lines(i)%ok) call get_point(deck, deck%lines(i), 1_ip, WHAT_CORNER, spec%map%corners(:, n), is_good(4), &
+                                                 'BLOCK')
          end select
       end do
       has_corners = is_good(4) .and. n == CORNERS
@@ -130,32 +137,16 @@ contains
       call report_error(deck, place, 'E-VALUE', name//' = '//to_text(n), expected=WHAT, keyword='BLOCK')
    end subroutine read_count
 
-   subroutine read_corner(deck, line, corner, ok)
-      type(deck_t), intent(in) :: deck
-      type(data_line_t), intent(in) :: line
-      real(wp), intent(inout) :: corner(2)             !< [L]
-      logical, intent(inout) :: ok                     !< false where there is an error
-      integer(ip) :: k
-      logical :: good
-
-      ok = ok .and. line%ok
-      if (.not. line%ok) return
-      do k = 1, 2
-         call get_coordinate(deck, line_item(deck, line, k), 'coordinate of a corner, a real [L]', corner(k), good, 'BLOCK')
-         ok = ok .and. good
-      end do
-   end subroutine read_corner
-
    !> ARC, side, xc, yc.
    subroutine read_arc(deck, line, map, ok)
       type(deck_t), intent(in) :: deck
       type(data_line_t), intent(in) :: line
       type(block_map_t), intent(inout) :: map
       logical, intent(inout) :: ok                     !< false where there is an error
-      character(len=*), parameter :: WHAT = 'coordinate of the centre, a real [L]'
+      character(len=*), parameter :: WHAT(2) = 'coordinate of the centre, a real [L]'
       character(len=:), allocatable :: name
       integer(ip) :: k, side
-      logical :: good(2)
+      logical :: good
 
       name = token_text(deck, line_item(deck, line, 2_ip))
       side = findloc([(same_name('-'//name, trim(BLOCK_SIDES(k))), k=1, 4)], .true., dim=1, kind=ip)
@@ -166,18 +157,18 @@ contains
          call report_error(deck, line_item(deck, line, 2_ip), 'E-TWICE', name//' is an arc already', &
                            expected='one ARC a side', keyword='BLOCK')
       else
-         do k = 1, 2
-            call get_coordinate(deck, line_item(deck, line, k + 2_ip), WHAT, map%centre(k, side), good(k), 'BLOCK')
-         end do
-         if (all(good)) call centre_arc(deck, [line_item(deck, line, 3_ip), line_item(deck, line, 2_ip)], &
-                                        map%corners(:, FROM(side)), map%corners(:, TO(side)), map%centre(:, side), good(1), 'BLOCK')
+         good = .true.
+         call get_point(deck, line, 3_ip, WHAT, map%centre(:, side), good, 'BLOCK')
+         if (good) call centre_arc(deck, [line_item(deck, line, 3_ip), line_item(deck, line, 2_ip)], map%corners(:, FROM(side)), &
+                                   map%corners(:, TO(side)), map%centre(:, side), good, 'BLOCK')
          map%is_arc(side) = .true.
-         ok = ok .and. all(good)
+         ok = ok .and. good
       end if
    end subroutine read_arc
 
-   !> The map of a block is one to one: straight sides make a convex quadrilateral, counter-clockwise; with arcs the Jacobian is
-   !> looked at in a grid that has all of the sides. An angle of 180 degrees at a corner is none.
+   !> The map of a block is one to one where its Jacobian is positive. With straight sides it is least at a corner: they make a
+   !> convex quadrilateral, counter-clockwise. With arcs it is looked at in a grid that has all of the sides. An angle of 180
+   !> degrees at a corner is none.
    subroutine check_map(deck, card, corner_line, map, ok)
       type(deck_t), intent(in) :: deck
       type(card_t), intent(in) :: card
@@ -219,26 +210,7 @@ contains
                         'do not cross another side; several blocks make other shapes', keyword='BLOCK')
    end subroutine check_map
 
-   !> GRADE, X or Y: how the elements divide the block.
-   subroutine read_division(deck, line, spec, ok)
-      type(deck_t), intent(in) :: deck
-      type(data_line_t), intent(in) :: line
-      type(block_spec_t), intent(inout) :: spec
-      logical, intent(inout) :: ok                     !< false where there is an error
-      character(len=:), allocatable :: word
-
-      word = token_text(deck, line_item(deck, line, 1_ip))
-      if (.not. line%ok) then
-         ok = .false.
-      else if (same_name(word, 'GRADE')) then
-         call read_grade(deck, line, spec, ok)
-      else if (same_name(word, 'X')) then
-         call read_breaks(deck, line, spec%n(1), spec%grade(1), spec%along, ok)
-      else
-         call read_breaks(deck, line, spec%n(2), spec%grade(2), spec%across, ok)
-      end if
-   end subroutine read_division
-
+   !> GRADE, along, across.
    subroutine read_grade(deck, line, spec, ok)
       type(deck_t), intent(in) :: deck
       type(data_line_t), intent(in) :: line
@@ -248,7 +220,8 @@ contains
       integer(ip) :: k
       logical :: good
 
-      do k = 1, 2
+      ok = ok .and. line%ok
+      do k = 1, merge(2_ip, 0_ip, line%ok)
          call get_real(deck, line_item(deck, line, k + 1), WHAT, spec%grade(k), good, 1.0_wp, 'BLOCK')
          ok = ok .and. good
          if (.not. good .or. (spec%grade(k) >= 1/LARGEST_GRADE .and. spec%grade(k) <= LARGEST_GRADE)) cycle
@@ -263,6 +236,7 @@ contains
       end if
    end subroutine read_grade
 
+   !> X or Y, inner break points.
    subroutine read_breaks(deck, line, n, grade, breaks, ok)
       type(deck_t), intent(in) :: deck
       type(data_line_t), intent(in) :: line
@@ -275,6 +249,8 @@ contains
       integer(ip) :: i
       logical :: is_second, good
 
+      ok = ok .and. line%ok
+      if (.not. line%ok) return
       is_second = allocated(breaks) .or. abs(grade - 1) > 0
       if (is_second) call report_error(deck, line_item(deck, line, 1_ip), 'E-CONFLICT', &
                                        'this direction has its break points already', expected='GRADE or break points, once', &

@@ -17,71 +17,49 @@ contains
    pure subroutine name_bodies(model, bodies)
       type(model_t), intent(in) :: model
       type(bodies_t), intent(inout) :: bodies
-      integer(ip) :: section(bodies%n), set(bodies%n), sharing(size(model%sections)), i
+      integer(ip) :: section(bodies%n), sharing(size(model%sections)), i, b, s
+      integer(ip), allocatable :: n(:), last(:)       ! of each instance: its bodies, and the last of them
+      type(name_list_t) :: names
+      integer :: dot
+      logical :: is_named(bodies%n)
 
       sharing = 0
       do i = 1, bodies%n
          section(i) = model%section_of(bodies%list(i)%elements(1))
          sharing(section(i)) = sharing(section(i)) + 1
       end do
-      set = 0
-      if (any(sharing > 1)) set = sets_of_bodies(model, bodies)
+      is_named = sharing(section) == 1
       do i = 1, bodies%n
-         associate (elset => model%sections(section(i))%elset)
-            if (sharing(section(i)) == 1) then
-               bodies%list(i)%name = elset
-            else if (set(i) > 0) then
-               bodies%list(i)%name = model%element_sets%sets(set(i))%name
-            else
-               bodies%list(i)%name = elset//'-'//to_text(i)
-            end if
+         bodies%list(i)%name = model%sections(section(i))%elset
+         if (.not. is_named(i)) bodies%list(i)%name = bodies%list(i)%name//'-'//to_text(i)
+      end do
+      do s = 1, merge(0_ip, set_count(model%element_sets), all(is_named))
+         associate (it => model%element_sets%sets(s))
+            if (member_count(it) == 0) cycle
+            b = bodies%of_element(first_member(it))
+            if (is_named(b) .or. member_count(it) /= size(bodies%list(b)%elements)) cycle
+            is_named(b) = all(bodies%of_element(members_of(it)) == b)
+            if (is_named(b)) bodies%list(b)%name = it%name
          end associate
       end do
-      if (allocated(model%instances)) call name_after_instances(model, bodies)
-   end subroutine name_bodies
-
-   !> An instance that is one body gives it its name alone, without that of the set in its part.
-   pure subroutine name_after_instances(model, bodies)
-      type(model_t), intent(in) :: model
-      type(bodies_t), intent(inout) :: bodies
-      type(name_list_t) :: names
-      integer(ip), allocatable :: n(:), last(:)       ! of each instance: its bodies, and the last of them
-      integer(ip) :: i, k
-      integer :: dot
-
+      if (.not. allocated(model%instances)) return
+      ! an instance that is one body gives it its name alone, without that of the set in its part
       do i = 1, size(model%instances, kind=ip)
          call add_name(names, model%instances(i)%name)
       end do
       allocate (n(names%n), last(names%n), source=0_ip)
-      do k = 1, bodies%n
-         do dot = 1, len(bodies%list(k)%name)
-            if (bodies%list(k)%name(dot:dot) /= '.') cycle
-            i = find_name(names, bodies%list(k)%name(:dot - 1))
+      do b = 1, bodies%n
+         do dot = 1, len(bodies%list(b)%name)
+            if (bodies%list(b)%name(dot:dot) /= '.') cycle
+            i = find_name(names, bodies%list(b)%name(:dot - 1))
             if (i == 0) cycle
             n(i) = n(i) + 1
-            last(i) = k
+            last(i) = b
          end do
       end do
       do i = 1, names%n
          if (n(i) == 1) bodies%list(last(i))%name = model%instances(i)%name
       end do
-   end subroutine name_after_instances
-
-   !> The first set that holds all elements of a body and no others; 0: there is none.
-   pure function sets_of_bodies(model, bodies) result(set)
-      type(model_t), intent(in) :: model
-      type(bodies_t), intent(in) :: bodies
-      integer(ip) :: set(bodies%n), s, b
-
-      set = 0
-      do s = 1, set_count(model%element_sets)
-         associate (it => model%element_sets%sets(s))
-            if (member_count(it) == 0) cycle
-            b = bodies%of_element(first_member(it))
-            if (set(b) > 0 .or. member_count(it) /= size(bodies%list(b)%elements)) cycle
-            if (all(bodies%of_element(members_of(it)) == b)) set(b) = s
-         end associate
-      end do
-   end function sets_of_bodies
+   end subroutine name_bodies
 
 end module atrito_body_names

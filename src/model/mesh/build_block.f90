@@ -6,7 +6,7 @@ module atrito_build_block
    use atrito_block, only: graded_lines, block_nodes, curved_nodes
    use atrito_block_joints, only: share_nodes, side_nodes
    use atrito_block_map, only: has_arcs
-   use atrito_block_spec, only: block_spec_t, copies_t, read_block_spec, count_nodes, copy_offset
+   use atrito_block_spec, only: block_spec_t, read_block_spec, count_nodes, copy_offset
    use atrito_build_context, only: build_context_t, block_t, BLOCK_SIDES, add_context_block, note_places, invalidate_block
    use atrito_build_nodes, only: put_node_set
    use atrito_diagnostics, only: report_error
@@ -30,8 +30,9 @@ contains
       type(build_context_t), intent(inout) :: context
       type(block_spec_t) :: spec
       character(len=:), allocatable :: name
+      type(number_list_t) :: at_side
       integer(lp) :: n_copies
-      integer(ip) :: i, j
+      integer(ip) :: i, j, k
       logical :: ok, named
 
       call option_text(context%deck, context%deck%cards(i_card), 'ELSET', name, named)
@@ -47,8 +48,16 @@ contains
       end do
       if (.not. ok) then
          call invalidate_block(context, name)
-      else if (spec%copies%given) then
-         call put_array_sets(i_card, name, context)
+      else if (spec%copies%given) then                 ! the node sets of all copies together
+         j = context%block_of_card(i_card)
+         call put_node_set(context, i_card, name, [(k, k=context%blocks(j)%nodes(0, 0), context%model%mesh%n_nodes)])
+         do k = 1, size(BLOCK_SIDES, kind=ip)
+            at_side%n = 0
+            do i = j, context%n_blocks
+               if (context%blocks(i)%at_side(k)) call add_numbers(at_side, side_nodes(context%blocks(i)%nodes, k))
+            end do
+            call put_node_set(context, i_card, name//trim(BLOCK_SIDES(k)), numbers_of(at_side))
+         end do
       end if
    end subroutine read_block_card
 
@@ -89,6 +98,8 @@ contains
       context%elements_to_come = context%elements_to_come + count_elements(block)
    end subroutine place_copy
 
+   !> The nodes of a block: places x along and across its map, less those that earlier blocks share with it and those that its
+   !> elements do not have.
    subroutine place_block_nodes(i_card, spec, context, block, ok)
       integer(ip), intent(in) :: i_card
       type(block_spec_t), intent(in) :: spec
@@ -176,26 +187,6 @@ contains
       if (order == 2) t(1::2) = 0.5_wp*(lines(:n - 1) + lines(1:))
    end function node_lines
 
-   !> The node sets of all copies together.
-   subroutine put_array_sets(i_card, name, context)
-      integer(ip), intent(in) :: i_card
-      character(len=*), intent(in) :: name             !< of the *BLOCK
-      type(build_context_t), intent(inout) :: context
-      type(number_list_t) :: at_side
-      integer(ip) :: b, k
-
-      associate (first => context%block_of_card(i_card))
-         call put_node_set(context, i_card, name, [(k, k=context%blocks(first)%nodes(0, 0), context%model%mesh%n_nodes)])
-         do k = 1, size(BLOCK_SIDES, kind=ip)
-            at_side%n = 0
-            do b = first, context%n_blocks
-               if (context%blocks(b)%at_side(k)) call add_numbers(at_side, side_nodes(context%blocks(b)%nodes, k))
-            end do
-            call put_node_set(context, i_card, name//trim(BLOCK_SIDES(k)), numbers_of(at_side))
-         end do
-      end associate
-   end subroutine put_array_sets
-
    !> Makes the elements of a *BLOCK card, whose nodes are there, with their sets.
    subroutine place_block_elements(i_card, context)
       integer(ip), intent(in) :: i_card
@@ -237,6 +228,7 @@ contains
 
    end subroutine place_block_elements
 
+   !> The elements of a block: one or two for each square of order x order node intervals.
    pure integer(ip) function count_elements(block) result(n)
       type(block_t), intent(in) :: block
 

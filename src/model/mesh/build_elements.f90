@@ -46,54 +46,43 @@ contains
       integer(ip), intent(in) :: i_card                !< place in deck%cards
       type(build_context_t), intent(inout) :: context
       character(len=:), allocatable :: name
-      integer(ip) :: i, first, n_nodes, state
-      logical :: ok
+      integer(ip), allocatable :: id(:), nodes(:, :)
+      logical, allocatable :: is_plain(:)
+      integer(ip) :: begin, last, i, k, first, n_nodes, state
+      logical :: ok, fits
 
       first = context%model%mesh%n_elements + 1
-      associate (card => context%deck%cards(i_card))
-         call read_element_type(context%deck, card, n_nodes, state, ok)
-         if (ok) ok = fits_memory(card%place, context, 0_lp, int(card%n_lines, lp), 'ELEMENT', n_nodes)
+      associate (card => context%deck%cards(i_card), lines => context%deck%lines)
+         call read_element_type(context%deck, card, n_nodes, state, fits)
+         if (fits) fits = fits_memory(card%place, context, 0_lp, int(card%n_lines, lp), 'ELEMENT', n_nodes)
          name = option_word(context%deck, card, 'TYPE')
-         if (ok .and. is_membrane(name) .and. .not. context%membranes_told) then
+         if (fits .and. is_membrane(name) .and. .not. context%membranes_told) then
             context%membranes_told = .true.
             call report_note(context%deck, card%place, 'N-MEMBRANE', 'membranes are taken as plane stress: '//name//' as CPS'// &
                              name(4:), keyword='ELEMENT')
          end if
-         do i = card%first_line, card%first_line + card%n_lines - 1
-            if (.not. ok) call spoil_number(context%deck, context%deck%lines(i), context%elements)
+         k = min(SLICE, card%n_lines)
+         allocate (id(k), nodes(n_nodes, k), is_plain(k))
+         do begin = card%first_line, card%first_line + card%n_lines - 1, SLICE
+            last = min(card%first_line + card%n_lines, begin + SLICE) - 1
+            if (fits) call read_plain_elements(context%deck, context%model%mesh, lines(begin:last), id, nodes, is_plain)
+            do i = begin, last
+               k = i - begin + 1
+               ok = fits
+               if (ok) ok = is_plain(k)
+               if (ok) then
+                  call place_element(context, id(k), state, nodes(:, k), lines(i)%first_token, ok, 'ELEMENT')
+               else if (fits .and. lines(i)%ok) then
+                  call read_element_line(lines(i), n_nodes, state, context, ok)
+               end if
+               if (.not. ok) call spoil_number(context%deck, lines(i), context%elements)
+            end do
          end do
-         if (ok) call read_element_lines(card%first_line, card%first_line + card%n_lines - 1, n_nodes, state, context)
       end associate
       call put_named_set(i_card, context, [(i, i=first, context%model%mesh%n_elements)])
    end subroutine read_element_card
 
-   subroutine read_element_lines(first, last, n_nodes, state, context)
-      integer(ip), intent(in) :: first, last           !< lines of the deck
-      integer(ip), intent(in) :: n_nodes, state
-      type(build_context_t), intent(inout) :: context
-      integer(ip) :: begin, i, k
-      integer(ip), allocatable :: id(:), nodes(:, :)
-      logical, allocatable :: is_plain(:)
-      logical :: ok
-
-      k = min(SLICE, max(last - first + 1, 0_ip))
-      allocate (id(k), nodes(n_nodes, k), is_plain(k))
-      do begin = first, last, SLICE
-         call read_plain_elements(context%deck, context%model%mesh, context%deck%lines(begin:min(last, begin + SLICE - 1)), &
-                                  id, nodes, is_plain)
-         do i = begin, min(last, begin + SLICE - 1)
-            k = i - begin + 1
-            ok = is_plain(k)
-            if (ok) then
-               call place_element(context, id(k), state, nodes(:, k), context%deck%lines(i)%first_token, ok, 'ELEMENT')
-            else if (context%deck%lines(i)%ok) then
-               call read_element_line(context%deck%lines(i), n_nodes, state, context, ok)
-            end if
-            if (.not. ok) call spoil_number(context%deck, context%deck%lines(i), context%elements)
-         end do
-      end do
-   end subroutine read_element_lines
-
+   !> A line of *ELEMENT that is not just plain numbers: number, nodes.
    subroutine read_element_line(line, n_nodes, state, context, good)
       type(data_line_t), intent(in) :: line
       integer(ip), intent(in) :: n_nodes, state
@@ -146,34 +135,48 @@ contains
       if (found .and. len(name) > 0) call grow_set(context%model%element_sets, name, members)
    end subroutine put_named_set
 
-   !> *ELGEN: rows, and rows of rows, of copies of an element.
+   !> *ELGEN: rows, and rows of rows, of copies of an element. The first copy that cannot be made ends a line: the others would fail
+   !> for the same reason.
    subroutine read_elgen_card(i_card, context)
       integer(ip), intent(in) :: i_card
       type(build_context_t), intent(inout) :: context
       type(number_list_t) :: members
       type(repeat_t) :: repeats(3)
-      integer(lp) :: n
-      integer(ip) :: i, k, master, first_new
+      type(token_t) :: token
+      integer(lp) :: n, shift(3)
+      integer(ip) :: line, i, j, k, master, first_new
       logical :: ok
 
       associate (deck => context%deck, card => context%deck%cards(i_card))
-         do i = card%first_line, card%first_line + card%n_lines - 1
-            if (.not. deck%lines(i)%ok) cycle
-            call find_one_element(context, line_item(deck, deck%lines(i), 1_ip), master, ok, 'ELGEN')
-            if (ok) call read_repeats(deck, deck%lines(i), repeats, ok)
+         do line = card%first_line, card%first_line + card%n_lines - 1
+            if (.not. deck%lines(line)%ok) cycle
+            token = line_item(deck, deck%lines(line), 1_ip)
+            call find_one_element(context, token, master, ok, 'ELGEN')
+            if (ok) call read_repeats(deck, deck%lines(line), repeats, ok)
             if (.not. ok) cycle
             ! the product of three integers may be larger than any of them can be
             n = int(min(product(real(repeats%n, wp)), real(huge(1_ip), wp)), lp)
-            if (.not. fits_memory(deck%tokens(deck%lines(i)%first_token), context, 0_lp, n, 'ELGEN')) cycle
+            if (.not. fits_memory(token, context, 0_lp, n, 'ELGEN')) cycle
             first_new = context%model%mesh%n_elements + 1
-            call copy_element(deck%lines(i), context, master, repeats)
+            copies: do k = 0, repeats(3)%n - 1
+               do j = 0, repeats(2)%n - 1
+                  do i = 0, repeats(1)%n - 1
+                     shift = [i, j, k]
+                     if (all(shift == 0_lp)) cycle
+                     call copy_element_once(token, deck%lines(line)%first_token, 'ELGEN', context, master, &
+                                            [sum(shift*repeats%node_step), sum(shift*repeats%element_step)], ok)
+                     if (.not. ok) exit copies
+                  end do
+               end do
+            end do copies
             call add_number(members, master)
-            call add_numbers(members, [(k, k=first_new, context%model%mesh%n_elements)])
+            call add_numbers(members, [(i, i=first_new, context%model%mesh%n_elements)])
          end do
       end associate
       call put_named_set(i_card, context, numbers_of(members))
    end subroutine read_elgen_card
 
+   !> Of each direction, where it is given: number of elements, increments of the numbers of nodes and of elements.
    subroutine read_repeats(deck, line, repeats, ok)
       type(deck_t), intent(in) :: deck
       type(data_line_t), intent(in) :: line
@@ -200,32 +203,9 @@ contains
       end do
    end subroutine read_repeats
 
-   !> Stops at the first copy that cannot be made: the others would fail for the same reason.
-   subroutine copy_element(line, context, master, repeats)
-      type(data_line_t), intent(in) :: line
-      type(build_context_t), intent(inout) :: context
-      integer(ip), intent(in) :: master                !< place
-      type(repeat_t), intent(in) :: repeats(3)
-      integer(ip) :: i, j, k
-      integer(lp) :: shift(3)
-      logical :: ok
-
-      do k = 0, repeats(3)%n - 1
-         do j = 0, repeats(2)%n - 1
-            do i = 0, repeats(1)%n - 1
-               shift = [i, j, k]
-               if (all(shift == 0_lp)) cycle
-               call copy_element_once(line_item(context%deck, line, 1_ip), line%first_token, 'ELGEN', context, master, &
-                                      [sum(shift*repeats%node_step), sum(shift*repeats%element_step)], ok)
-               if (.not. ok) return
-            end do
-         end do
-      end do
-   end subroutine copy_element
-
    !> An element once more on other nodes.
    subroutine copy_element_once(token, place, keyword, context, master, shift, ok)
-      type(token_t), intent(in) :: token               !< at which errors are told
+      type(token_t), intent(in) :: token               !< at which errors are reported
       integer(ip), intent(in) :: place                 !< token (> 0) or card (< 0) of the deck
       character(len=*), intent(in) :: keyword
       type(build_context_t), intent(inout) :: context

@@ -16,6 +16,7 @@ module atrito_build_gmsh
    use atrito_kinds, only: ip, lp
    use atrito_mesh, only: add_element, add_node, find_node, reserve_mesh
    use atrito_model_memory, only: fits_memory
+   use atrito_number_list, only: number_list_t, add_number, numbers_of
    use atrito_plane_state, only: PLANE_STRAIN, PLANE_STRESS, AXISYMMETRIC
    use atrito_sets, only: grow_set
    use atrito_strings, only: to_text
@@ -32,8 +33,8 @@ contains
       type(build_context_t), intent(inout) :: context
       integer(ip), allocatable :: node(:)              ! place in the mesh of each node of the file; 0: left out
       type(id_map_t) :: map                            ! from the file's numbers to the file's nodes
-      integer(ip) :: i, shift
-      logical :: ok
+      integer(ip) :: i, k, shift, first
+      logical :: ok, known
 
       i = mesh_of_card(i_card, context)
       if (i == 0) return
@@ -45,7 +46,19 @@ contains
                                  shift, ok)
          if (.not. ok) return
          context%mesh_shift(i) = shift
-         call place_nodes(mesh, shift, node, context)
+         first = context%model%mesh%n_nodes + 1
+         call reserve_mesh(context%model%mesh, mesh%n_nodes, 0_ip)
+         do k = 1, mesh%n_nodes
+            if (node(k) == 0) cycle
+            call add_node(context%model%mesh, mesh%node_id(k) + shift, mesh%x(:, k), known)
+            node(k) = context%model%mesh%n_nodes
+            context%nodes%greatest = max(context%nodes%greatest, mesh%node_id(k) + shift)
+         end do
+         call note_places(context%nodes%place, first, context%model%mesh%n_nodes, -i_card)
+         if (any(node == 0)) call report_note(context%deck, context%deck%cards(i_card)%place, 'N-NODE', 'node '// &
+                                              ids_text(pack(mesh%node_id(:mesh%n_nodes), node == 0))//' of '//mesh%file// &
+                                              ' belongs to no element and is left out', &
+                                              expected='a physical point, where such a node is meant', keyword='INCLUDE')
          call put_sets(mesh, map, node, context)
       end associate
    end subroutine read_mesh_nodes
@@ -110,32 +123,6 @@ contains
                                 'triangles or quadrilaterals, of a physical surface or of a drawing without physical groups')
    end subroutine choose_nodes
 
-   !> Adds the chosen nodes to the mesh.
-   subroutine place_nodes(mesh, shift, node, context)
-      type(gmsh_mesh_t), intent(in) :: mesh
-      integer(ip), intent(in) :: shift                 !< of the numbers
-      integer(ip), intent(inout) :: node(:)            !< in: as of choose_nodes; out: places in the mesh, 0: left out
-      type(build_context_t), intent(inout) :: context
-      integer(ip) :: i, before
-      logical :: known
-
-      before = context%model%mesh%n_nodes
-      call reserve_mesh(context%model%mesh, mesh%n_nodes, 0_ip)
-      do i = 1, mesh%n_nodes
-         if (node(i) == 0) cycle
-         call add_node(context%model%mesh, mesh%node_id(i) + shift, mesh%x(:, i), known)
-         node(i) = context%model%mesh%n_nodes
-         context%nodes%greatest = max(context%nodes%greatest, mesh%node_id(i) + shift)
-      end do
-      call note_places(context%nodes%place, before + 1, context%model%mesh%n_nodes, -mesh%card)
-      if (any(node == 0)) then
-         call report_note(context%deck, context%deck%cards(mesh%card)%place, 'N-NODE', 'node '// &
-                          ids_text(pack(mesh%node_id(:mesh%n_nodes), node == 0))//' of '//mesh%file// &
-                          ' belongs to no element and is left out', &
-                          expected='a physical point, where such a node is meant', keyword='INCLUDE')
-      end if
-   end subroutine place_nodes
-
    !> What is added to the numbers of a file, so that none is there already.
    subroutine find_shift(ids, taken, greatest, noun, mesh, context, shift, ok)
       integer(ip), intent(in) :: ids(:)
@@ -177,58 +164,45 @@ contains
       type(id_map_t), intent(in) :: map                !< from the file's numbers to the file's nodes
       integer(ip), intent(in) :: node(:)               !< places of the file's nodes in the mesh
       type(build_context_t), intent(inout) :: context
-      integer(ip), allocatable :: stamp(:), first(:), list(:), nodes(:), ends(:, :)
-      integer(ip) :: p, g
+      integer(ip), allocatable :: stamp(:)             ! of each node of the file the last part that took it
+      integer(ip), allocatable :: first(:), list(:), members(:), ends(:, :)
+      type(number_list_t) :: nodes                     ! of a part, each once
+      integer(ip) :: own(MOST_NODES)                   ! the file's nodes of an element
+      integer(ip) :: p, g, i, k, n_lines
       character(len=:), allocatable :: name
 
       call list_holders(mesh%n_parts, reshape(mesh%part, [1_ip, mesh%n_elements]), first, list)
       allocate (stamp(mesh%n_nodes), source=0_ip)
       do p = 1, mesh%n_parts
          if (first(p + 1) == first(p)) cycle
-         call take_part(mesh, map, node, list(first(p):first(p + 1) - 1), p, stamp, nodes, ends)
-         if (size(nodes) == 0) cycle
-         do g = 0, size(mesh%parts(p)%groups, kind=ip)
+         nodes%n = 0
+         n_lines = 0
+         if (allocated(ends)) deallocate (ends)
+         allocate (ends(2, first(p + 1) - first(p)))
+         do i = first(p), first(p + 1) - 1
+            do k = 1, mesh%shape(list(i))
+               own(k) = find_id(map, mesh%nodes(k, list(i)))
+               if (stamp(own(k)) == p .or. node(own(k)) == 0) cycle
+               stamp(own(k)) = p
+               call add_number(nodes, node(own(k)))
+            end do
+            if (mesh%parts(p)%dim /= 1) cycle
+            if (any(node(own(:2)) == 0)) cycle
+            n_lines = n_lines + 1
+            ends(:, n_lines) = node(own(:2))
+         end do
+         members = numbers_of(nodes)
+         do g = 0, merge(size(mesh%parts(p)%groups, kind=ip), -1_ip, nodes%n > 0)
             if (g == 0) then
                name = part_name(mesh%parts(p))
             else
                name = group_name(mesh, mesh%parts(p)%dim, mesh%parts(p)%groups(g))
             end if
-            call put_node_set(context, mesh%card, name, nodes)
-            if (mesh%parts(p)%dim == 1) call add_curve(context%curves, name, mesh%card, ends)
+            call put_node_set(context, mesh%card, name, members)
+            if (mesh%parts(p)%dim == 1) call add_curve(context%curves, name, mesh%card, ends(:, :n_lines))
          end do
       end do
    end subroutine put_sets
-
-   !> The nodes of a part, each once, and the ends of its lines; places in the mesh.
-   subroutine take_part(mesh, map, node, elements, p, stamp, nodes, ends)
-      type(gmsh_mesh_t), intent(in) :: mesh
-      type(id_map_t), intent(in) :: map
-      integer(ip), intent(in) :: node(:)
-      integer(ip), intent(in) :: elements(:), p        !< of the part, and the part itself
-      integer(ip), intent(inout) :: stamp(:)           !< of each node of the file the last part that took it
-      integer(ip), allocatable, intent(out) :: nodes(:), ends(:, :)
-      integer(ip) :: i, k, n, n_lines
-      integer(ip) :: own(MOST_NODES)                   ! the file's nodes of an element
-
-      allocate (nodes(sum(mesh%shape(elements))), ends(2, size(elements)))
-      n = 0
-      n_lines = 0
-      do i = 1, size(elements, kind=ip)
-         do k = 1, mesh%shape(elements(i))
-            own(k) = find_id(map, mesh%nodes(k, elements(i)))
-            if (stamp(own(k)) == p .or. node(own(k)) == 0) cycle
-            stamp(own(k)) = p
-            n = n + 1
-            nodes(n) = node(own(k))
-         end do
-         if (mesh%parts(p)%dim /= 1) cycle
-         if (any(node(own(:2)) == 0)) cycle
-         n_lines = n_lines + 1
-         ends(:, n_lines) = node(own(:2))
-      end do
-      nodes = nodes(:n)
-      ends = ends(:, :n_lines)
-   end subroutine take_part
 
    !> The elements of the mesh that a card names, and its element sets.
    subroutine read_mesh_elements(i_card, context)
@@ -236,7 +210,8 @@ contains
       type(build_context_t), intent(inout) :: context
       integer(ip), allocatable :: first(:)             ! of each element of the file the first with its nodes; 0: not of the plane
       integer(ip), allocatable :: place(:)             ! of each element of the file in the mesh
-      integer(ip) :: i, shift
+      integer(ip), allocatable :: from(:), members(:), places(:)
+      integer(ip) :: i, shift, p, g
       logical :: ok
 
       i = mesh_of_card(i_card, context)
@@ -253,7 +228,16 @@ contains
                              ' are taken as plane stress', expected='ELEMENTS=CPS, CPE (plane strain) or CAX (axisymmetric)', &
                              keyword='INCLUDE')
          end if
-         call put_element_sets(mesh, place, context)
+         ! element sets of the surfaces of the drawing and their physical groups
+         call list_holders(mesh%n_parts, reshape(merge(mesh%part, 0_ip, place > 0), [1_ip, mesh%n_elements]), from, members)
+         do p = 1, mesh%n_parts
+            if (from(p + 1) == from(p)) cycle
+            places = place(members(from(p):from(p + 1) - 1))
+            call grow_set(context%model%element_sets, part_name(mesh%parts(p)), places)
+            do g = 1, size(mesh%parts(p)%groups, kind=ip)
+               call grow_set(context%model%element_sets, group_name(mesh, 2_ip, mesh%parts(p)%groups(g)), places)
+            end do
+         end do
       end associate
    end subroutine read_mesh_elements
 
@@ -264,7 +248,9 @@ contains
       integer(ip), allocatable, intent(out) :: first(:)
       logical :: is_shared(mesh%n_parts)               ! the entity of the part is that of others, too
       type(id_map_t) :: seen                           ! entities
-      integer(ip) :: p, e
+      type(id_map_t) :: last                           ! of each node the first element of which it is the least corner; then
+      integer(ip) :: next(mesh%n_elements)             ! another one: such a list has few elements
+      integer(ip) :: p, e, k, n, other
       logical :: known
 
       is_shared = .false.
@@ -275,44 +261,26 @@ contains
          if (known) is_shared(find_id(seen, mesh%parts(p)%tag)) = .true.
       end do
       first = [(merge(e, 0_ip, mesh%parts(mesh%part(e))%dim == 2), e=1, mesh%n_elements)]
-      if (any(is_shared)) call find_twins(mesh, is_shared, first)
-   end subroutine find_plane_elements
-
-   !> Elements of the same corners, of which each list by the least of their corners has few.
-   subroutine find_twins(mesh, is_shared, first)
-      type(gmsh_mesh_t), intent(in) :: mesh
-      logical, intent(in) :: is_shared(:)              !< of each part
-      integer(ip), intent(inout) :: first(:)
-      integer(ip), allocatable :: next(:)
-      type(id_map_t) :: last                           ! of each node the first element in its list
-      integer(ip) :: e, other, least, n
-      logical :: known
-
-      allocate (next(mesh%n_elements), source=0_ip)
+      if (.not. any(is_shared)) return
+      next = 0
       do e = 1, mesh%n_elements
          if (.not. is_shared(mesh%part(e))) cycle
          n = CORNERS_OF(mesh%shape(e))
-         least = minval(mesh%nodes(:n, e))
-         call add_id(last, least, e, known)
+         call add_id(last, minval(mesh%nodes(:n, e)), e, known)
          if (.not. known) cycle
-         other = find_id(last, least)
+         other = find_id(last, minval(mesh%nodes(:n, e)))
          do
-            if (mesh%shape(other) == mesh%shape(e) .and. has_same(mesh%nodes(:n, other), mesh%nodes(:n, e))) first(e) = other
+            if (mesh%shape(other) == mesh%shape(e)) then
+               if (all([(any(mesh%nodes(:n, other) == mesh%nodes(k, e)), k=1, n)])) first(e) = other
+            end if
             if (first(e) == other .or. next(other) == 0) exit
             other = next(other)
          end do
          if (first(e) /= other) next(other) = e
       end do
-   end subroutine find_twins
+   end subroutine find_plane_elements
 
-   pure logical function has_same(a, b)
-      integer(ip), intent(in) :: a(:), b(:)
-      integer(ip) :: i
-
-      has_same = all([(any(a == b(i)), i=1, size(b))])
-   end function has_same
-
-   !> Adds the elements, in the plane state that ELEMENTS= of the card names.
+   !> Adds the elements, counter-clockwise, in the plane state that ELEMENTS= of the card names.
    subroutine place_elements(mesh, shift, first, context, place, ok)
       type(gmsh_mesh_t), intent(in) :: mesh
       integer(ip), intent(in) :: shift(2)              !< of the numbers of nodes and elements
@@ -320,7 +288,8 @@ contains
       type(build_context_t), intent(inout) :: context
       integer(ip), allocatable, intent(out) :: place(:)
       logical, intent(out) :: ok
-      integer(ip) :: e, before, state
+      integer(ip) :: e, k, before, state, nodes(MOST_NODES)
+      logical :: known
 
       ok = .true.
       state = PLANE_STRESS
@@ -330,64 +299,31 @@ contains
       allocate (place(mesh%n_elements), source=0_ip)
       call reserve_mesh(context%model%mesh, 0_ip, count(first > 0, kind=ip))
       do e = 1, mesh%n_elements
-         if (first(e) == e) then
-            call place_one(mesh, e, shift, state, context, ok)
-            if (.not. ok) exit
-            place(e) = context%model%mesh%n_elements
-         else if (first(e) > 0) then
-            place(e) = place(first(e))
-         end if
+         if (first(e) == 0) cycle
+         place(e) = place(first(e))
+         if (first(e) < e) cycle
+         associate (n => mesh%shape(e), id => mesh%element_id(e))
+            do k = 1, n
+               nodes(k) = find_node(context%model%mesh, mesh%nodes(k, e) + shift(1))
+               ok = ok .and. all(nodes(:k - 1) /= nodes(k))
+            end do
+            if (.not. ok) then
+               call refuse(mesh, context, 'E-SHAPE', 'element '//to_text(id)//' of '//mesh%file//' has a node twice', &
+                           'different nodes')
+               exit
+            end if
+            if (is_clockwise(context%model%mesh%x(:, nodes(:CORNERS_OF(n))))) nodes(:n) = turned_nodes(nodes(:n))
+            call add_element(context%model%mesh, id + shift(2), state, nodes(:n), known)
+            ok = .not. known
+            context%elements%greatest = max(context%elements%greatest, id + shift(2))
+            if (known) then
+               call refuse(mesh, context, 'E-TWICE', 'element '//to_text(id)//' stands twice in '//mesh%file, 'each element once')
+               exit
+            end if
+         end associate
+         place(e) = context%model%mesh%n_elements
       end do
       call note_places(context%elements%place, before + 1, context%model%mesh%n_elements, -mesh%card)
    end subroutine place_elements
-
-   !> Adds an element, counter-clockwise.
-   subroutine place_one(mesh, e, shift, state, context, ok)
-      type(gmsh_mesh_t), intent(in) :: mesh
-      integer(ip), intent(in) :: e, shift(2), state
-      type(build_context_t), intent(inout) :: context
-      logical, intent(out) :: ok
-      integer(ip) :: nodes(MOST_NODES), k, n
-      logical :: known
-
-      n = mesh%shape(e)
-      ok = .true.
-      do k = 1, n
-         nodes(k) = find_node(context%model%mesh, mesh%nodes(k, e) + shift(1))
-         ok = ok .and. all(nodes(:k - 1) /= nodes(k))
-      end do
-      if (.not. ok) then
-         call refuse(mesh, context, 'E-SHAPE', 'element '//to_text(mesh%element_id(e))//' of '//mesh%file// &
-                     ' has a node twice', 'different nodes')
-         return
-      end if
-      if (is_clockwise(context%model%mesh%x(:, nodes(:CORNERS_OF(n))))) nodes(:n) = turned_nodes(nodes(:n))
-      call add_element(context%model%mesh, mesh%element_id(e) + shift(2), state, nodes(:n), known)
-      ok = .not. known
-      context%elements%greatest = max(context%elements%greatest, mesh%element_id(e) + shift(2))
-      if (known) call refuse(mesh, context, 'E-TWICE', 'element '//to_text(mesh%element_id(e))//' stands twice in '// &
-                             mesh%file, 'each element once')
-   end subroutine place_one
-
-   !> Element sets of the surfaces of the drawing and their physical groups.
-   subroutine put_element_sets(mesh, place, context)
-      type(gmsh_mesh_t), intent(in) :: mesh
-      integer(ip), intent(in) :: place(:)
-      type(build_context_t), intent(inout) :: context
-      integer(ip), allocatable :: sets(:, :), members(:), from(:)
-      integer(ip) :: p, g
-
-      sets = reshape(merge(mesh%part, 0_ip, place > 0), [1_ip, mesh%n_elements])
-      call list_holders(mesh%n_parts, sets, from, members)
-      do p = 1, mesh%n_parts
-         if (from(p + 1) == from(p)) cycle
-         associate (places => place(members(from(p):from(p + 1) - 1)))
-            call grow_set(context%model%element_sets, part_name(mesh%parts(p)), places)
-            do g = 1, size(mesh%parts(p)%groups, kind=ip)
-               call grow_set(context%model%element_sets, group_name(mesh, 2_ip, mesh%parts(p)%groups(g)), places)
-            end do
-         end associate
-      end do
-   end subroutine put_element_sets
 
 end module atrito_build_gmsh

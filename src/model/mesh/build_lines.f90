@@ -65,60 +65,55 @@ contains
       end do
    end subroutine read_lines
 
+   !> Lines of number, first end[, middle], last end.
    subroutine read_line_card(i_card, context)
       integer(ip), intent(in) :: i_card
       type(build_context_t), intent(inout) :: context
       type(number_list_t) :: members
+      type(token_t) :: token
       character(len=:), allocatable :: name
-      integer(ip) :: i
-      logical :: found, ok, whole
+      integer(ip) :: id, nodes(3), i, k
+      logical :: found, ok, good, whole
 
       whole = .true.
-      associate (card => context%deck%cards(i_card))
-         if (context%lines%ids%n == 0) call report_note(context%deck, card%place, 'N-LINES', 'line elements have no stiffness '// &
-                                                        'here: each of their sets is a node set and a surface', keyword='ELEMENT')
+      associate (deck => context%deck, card => context%deck%cards(i_card), lines => context%lines)
+         if (lines%ids%n == 0) call report_note(deck, card%place, 'N-LINES', 'line elements have no stiffness here: each of '// &
+                                                'their sets is a node set and a surface', keyword='ELEMENT')
          do i = card%first_line, card%first_line + card%n_lines - 1
-            ok = card%ok .and. context%deck%lines(i)%ok
-            if (ok) call read_line(context%deck%lines(i), context, ok)
-            if (ok) call add_number(members, context%lines%ids%n)
-            if (.not. ok) call spoil_number(context%deck, context%deck%lines(i), context%elements)
+            ok = card%ok .and. deck%lines(i)%ok
+            if (ok) then
+               nodes = 0
+               token = line_item(deck, deck%lines(i), 1_ip)
+               call get_id(deck, token, 'element number', id, ok, 'ELEMENT')
+               do k = 1, deck%lines(i)%n_tokens - 1
+                  call find_one_node(context, line_item(deck, deck%lines(i), k + 1), nodes(k), good, 'ELEMENT')
+                  ok = ok .and. good
+               end do
+            end if
+            if (ok) then
+               call add_id(lines%ids, id, lines%ids%n + 1, found)
+               ok = .not. found
+               if (found) call report_error(deck, token, 'E-TWICE', 'element '//to_text(id)//' is given twice', &
+                                            expected='an element number that is free', keyword='ELEMENT')
+            end if
             whole = whole .and. ok
+            if (.not. ok) then
+               call spoil_number(deck, deck%lines(i), context%elements)
+               cycle
+            end if
+            associate (n => lines%ids%n)
+               if (.not. allocated(lines%nodes)) allocate (lines%nodes(4, 16))
+               if (n > size(lines%nodes, 2)) call resize(lines%nodes, n - 1, 2*n)
+               lines%nodes(:, n) = [nodes(1), merge(nodes(2), nodes(3), nodes(3) == 0), merge(nodes(2), 0_ip, nodes(3) > 0), id]
+               call add_number(members, n)
+            end associate
          end do
-         call option_text(context%deck, card, 'ELSET', name, found)
+         call option_text(deck, card, 'ELSET', name, found)
       end associate
       if (.not. found) return
       if (.not. whole) call invalidate_name(context, name)
       if (len(name) > 0) call put_line_set(name, numbers_of(members), i_card, context)
    end subroutine read_line_card
-
-   !> number, first end[, middle], last end
-   subroutine read_line(line, context, ok)
-      type(data_line_t), intent(in) :: line
-      type(build_context_t), intent(inout) :: context
-      logical, intent(out) :: ok
-      integer(ip) :: id, nodes(3), i
-      logical :: good, known
-
-      nodes = 0
-      call get_id(context%deck, context%deck%tokens(line%first_token), 'element number', id, ok, 'ELEMENT')
-      do i = 1, line%n_tokens - 1
-         call find_one_node(context, line_item(context%deck, line, i + 1), nodes(i), good, 'ELEMENT')
-         ok = ok .and. good
-      end do
-      if (.not. ok) return
-      call add_id(context%lines%ids, id, context%lines%ids%n + 1, known)
-      ok = .not. known
-      if (known) then
-         call report_error(context%deck, context%deck%tokens(line%first_token), 'E-TWICE', 'element '//to_text(id)// &
-                           ' is given twice', expected='an element number that is free', keyword='ELEMENT')
-         return
-      end if
-      associate (n => context%lines%ids%n)
-         if (.not. allocated(context%lines%nodes)) allocate (context%lines%nodes(4, 16))
-         if (n > size(context%lines%nodes, 2)) call resize(context%lines%nodes, n - 1, 2*n)
-         context%lines%nodes(:, n) = [nodes(1), merge(nodes(2), nodes(3), nodes(3) == 0), merge(nodes(2), 0_ip, nodes(3) > 0), id]
-      end associate
-   end subroutine read_line
 
    !> A set of lines is a node set and a curve.
    subroutine put_line_set(name, lines, i_card, context)
@@ -145,7 +140,8 @@ contains
       type(build_context_t), intent(inout) :: context
       type(number_list_t) :: members
       character(len=:), allocatable :: name
-      integer(ip) :: i, k
+      integer(ip) :: i, k, range(3), number
+      integer :: outcome
       logical :: found
 
       associate (card => context%deck%cards(i_card), deck => context%deck)
@@ -153,12 +149,22 @@ contains
          if (.not. found) return
          do i = card%first_line, card%first_line + card%n_lines - 1
             if (.not. deck%lines(i)%ok) cycle
-            if (has_option(deck, card, 'GENERATE')) then
-               call add_lines_of_range(context, deck%lines(i), members)
+            if (.not. has_option(deck, card, 'GENERATE')) then
+               do k = 1, deck%lines(i)%n_tokens
+                  call add_numbers(members, lines_of_item(context, line_item(deck, deck%lines(i), k)))
+               end do
                cycle
             end if
-            do k = 1, deck%lines(i)%n_tokens
-               call add_numbers(members, lines_of_item(context, line_item(deck, deck%lines(i), k)))
+            range = [0_ip, -1_ip, 1_ip]                ! first, last, increment
+            do k = 1, min(3_ip, deck%lines(i)%n_tokens)
+               if (is_empty_token(line_item(deck, deck%lines(i), k))) cycle
+               call read_integer(token_text(deck, line_item(deck, deck%lines(i), k)), number, outcome)
+               if (outcome == NUMBER_OK) range(k) = number
+            end do
+            do k = 1, context%lines%ids%n
+               number = context%lines%nodes(4, k)
+               if (number < range(1) .or. number > range(2) .or. range(3) < 1) cycle
+               if (modulo(number - range(1), range(3)) == 0) call add_number(members, k)
             end do
          end do
       end associate
@@ -186,27 +192,6 @@ contains
       end if
    end function lines_of_item
 
-   !> The lines in a range of numbers.
-   subroutine add_lines_of_range(context, line, members)
-      type(build_context_t), intent(in) :: context
-      type(data_line_t), intent(in) :: line
-      type(number_list_t), intent(inout) :: members
-      integer(ip) :: range(3), k, i
-      integer :: outcome
-
-      range = [0_ip, -1_ip, 1_ip]
-      do k = 1, min(3_ip, line%n_tokens)
-         if (is_empty_token(line_item(context%deck, line, k))) cycle
-         call read_integer(token_text(context%deck, line_item(context%deck, line, k)), i, outcome)
-         if (outcome == NUMBER_OK) range(k) = i
-      end do
-      do i = 1, context%lines%ids%n
-         k = context%lines%nodes(4, i)
-         if (k < range(1) .or. k > range(2) .or. range(3) < 1) cycle
-         if (modulo(k - range(1), range(3)) == 0) call add_number(members, i)
-      end do
-   end subroutine add_lines_of_range
-
    !> An item of an *ELSET names lines, and no elements.
    logical function is_line_item(context, token)
       type(build_context_t), intent(in) :: context
@@ -219,7 +204,7 @@ contains
       end if
    end function is_line_item
 
-   !> Beside lines of Gmsh elements may run clockwise, as the surfaces of a drawing do: they are turned, and it is told.
+   !> Beside lines of Gmsh elements may run clockwise, as the surfaces of a drawing do: they are turned, and it is reported.
    subroutine turn_elements(context)
       type(build_context_t), intent(inout) :: context
       integer(ip) :: e, turned

@@ -36,42 +36,34 @@ contains
    subroutine read_node_card(i_card, context)
       integer(ip), intent(in) :: i_card                !< place in deck%cards
       type(build_context_t), intent(inout) :: context
-      integer(ip) :: i, first
-      logical :: fits
-
-      first = context%model%mesh%n_nodes + 1
-      associate (card => context%deck%cards(i_card))
-         fits = fits_memory(card%place, context, int(card%n_lines, lp), 0_lp, 'NODE')
-         do i = card%first_line, card%first_line + card%n_lines - 1
-            if (.not. fits) call spoil_number(context%deck, context%deck%lines(i), context%nodes)
-         end do
-         if (fits) call read_node_lines(card%first_line, card%first_line + card%n_lines - 1, context)
-      end associate
-      call put_named_set(i_card, context, [(i, i=first, context%model%mesh%n_nodes)])
-   end subroutine read_node_card
-
-   subroutine read_node_lines(first, last, context)
-      integer(ip), intent(in) :: first, last           !< lines of the deck
-      type(build_context_t), intent(inout) :: context
-      integer(ip) :: begin, i, k
       integer(ip), allocatable :: id(:)
       real(wp), allocatable :: x(:, :)
       logical, allocatable :: is_plain(:)
+      integer(ip) :: begin, last, i, k, first
+      logical :: fits
 
-      k = min(SLICE, max(last - first + 1, 0_ip))
-      allocate (id(k), x(2, k), is_plain(k))
-      do begin = first, last, SLICE
-         call read_plain_nodes(context%deck, context%deck%lines(begin:min(last, begin + SLICE - 1)), id, x, is_plain)
-         do i = begin, min(last, begin + SLICE - 1)
-            k = i - begin + 1
-            if (is_plain(k)) then
-               call place_moved_node(context, id(k), x(:, k), context%deck%lines(i)%first_token)
-            else
-               call read_node_line(context%deck%lines(i), context)
-            end if
+      first = context%model%mesh%n_nodes + 1
+      associate (card => context%deck%cards(i_card), lines => context%deck%lines)
+         fits = fits_memory(card%place, context, int(card%n_lines, lp), 0_lp, 'NODE')
+         k = min(SLICE, card%n_lines)
+         allocate (id(k), x(2, k), is_plain(k))
+         do begin = card%first_line, card%first_line + card%n_lines - 1, SLICE
+            last = min(card%first_line + card%n_lines, begin + SLICE) - 1
+            if (fits) call read_plain_nodes(context%deck, lines(begin:last), id, x, is_plain)
+            do i = begin, last
+               k = i - begin + 1
+               if (.not. fits) then
+                  call spoil_number(context%deck, lines(i), context%nodes)
+               else if (is_plain(k)) then
+                  call place_moved_node(context, id(k), x(:, k), lines(i)%first_token)
+               else
+                  call read_node_line(lines(i), context)
+               end if
+            end do
          end do
-      end do
-   end subroutine read_node_lines
+      end associate
+      call put_named_set(i_card, context, [(i, i=first, context%model%mesh%n_nodes)])
+   end subroutine read_node_card
 
    !> Adds a node that stands in a line of its own; that of an instance where the instance is.
    subroutine place_moved_node(context, id, x, token)
@@ -90,6 +82,7 @@ contains
       end associate
    end subroutine place_moved_node
 
+   !> A line of *NODE that is not just plain numbers: number, x, y[, z].
    subroutine read_node_line(line, context)
       type(data_line_t), intent(in) :: line
       type(build_context_t), intent(inout) :: context

@@ -1,23 +1,28 @@
-!> *NSET and *ELSET: lists of numbers and earlier sets, or ranges of numbers (GENERATE).
+!> *NSET and *ELSET: lists of numbers and earlier sets, or ranges of numbers (GENERATE); *NCOPY and *ELCOPY: the nodes and elements
+!> of a set once more, elsewhere and with other numbers.
 module atrito_build_sets
+   use atrito_build_context, only: build_context_t, place_text, ids_text, has_errors, invalidate_block
+   use atrito_build_elements, only: copy_element_once
    use atrito_build_lines, only: is_line_item
-   use atrito_build_nodes, only: put_node_set
+   use atrito_build_nodes, only: put_node_set, place_node
    use atrito_deck, only: deck_t, card_t, data_line_t, token_t, token_text, line_item, is_id_token, is_empty_token, keyword_name, &
                           scope_shift, scope_text, model_number
    use atrito_diagnostics, only: report_error, report_note
-   use atrito_build_context, only: build_context_t, place_text, ids_text, has_errors
+   use atrito_growth, only: make_room
    use atrito_id_map, only: id_map_t, find_id, is_whole_sequence
-   use atrito_items, only: get_integer, has_option, option_text
-   use atrito_kinds, only: ip
+   use atrito_items, only: get_integer, has_option, option_text, option_integer
+   use atrito_kinds, only: ip, lp, wp
+   use atrito_model_memory, only: fits_memory
+   use atrito_motion, only: motion_t, read_shift, read_rotation, moved
    use atrito_number_list, only: number_list_t, add_number, numbers_of
    use atrito_numbers, only: read_integer, NUMBER_OK
    use atrito_ranges, only: ranges_t, add_range, add_numbers, add_ranges, count_numbers
-   use atrito_references, only: get_id, find_nodes, find_elements
-   use atrito_sets, only: set_list_t, find_set, grow_set
+   use atrito_references, only: get_id, find_nodes, find_elements, report_unknown
+   use atrito_sets, only: set_list_t, find_set, grow_set, members_of
    use atrito_strings, only: to_text, upper_case
    implicit none (type, external)
    private
-   public :: try_set_card, read_set_card
+   public :: try_set_card, read_set_card, read_copy_card
 
 contains
 
@@ -44,6 +49,7 @@ contains
       context%card_done(i_card) = .true.
    end subroutine try_set_card
 
+   !> All numbers and sets in the lines of a card exist.
    pure logical function items_are_known(deck, card, map, sets) result(known)
       type(deck_t), intent(in) :: deck
       type(card_t), intent(in) :: card
@@ -68,6 +74,7 @@ contains
       end do
    end function items_are_known
 
+   !> All numbers in the ranges of a card exist.
    pure logical function ranges_are_known(deck, card, map) result(known)
       type(deck_t), intent(in) :: deck
       type(card_t), intent(in) :: card
@@ -89,7 +96,7 @@ contains
             range(k) = model_number(deck, deck%tokens(deck%lines(i)%first_token), range(k))
          end do
          if (is_whole_sequence(map, range(1), range(2))) cycle
-         do k = range(1), range(2), towards(range(1), range(2), range(3))
+         do k = range(1), range(2), merge(-abs(range(3)), range(3), range(2) < range(1))
             known = find_id(map, k) > 0
             if (.not. known) return
          end do
@@ -223,15 +230,7 @@ contains
                         expected='numbers that all exist', keyword=keyword)
    end subroutine read_range
 
-   !> The increment from first to last: of a range that goes down it is negative, however it is written.
-   pure integer(ip) function towards(first, last, step)
-      integer(ip), intent(in) :: first, last, step
-
-      towards = step
-      if (last < first) towards = -abs(step)
-   end function towards
-
-   !> Increments that lead from first towards last. What other programs read in another way, or silently, is told.
+   !> Increments that lead from first towards last. What other programs read in another way, or silently, is reported.
    logical function is_range(deck, line, first, last, step, keyword)
       type(deck_t), intent(in) :: deck
       type(data_line_t), intent(in) :: line
@@ -249,7 +248,7 @@ contains
                            ' to '//to_text(last - shift), expected='an increment > 0', keyword=keyword)
          return
       end if
-      step = towards(first, last, step)
+      if (last < first) step = -abs(step)              ! however it is written
       rest = mod(last - first, step)
       if (rest /= 0) call report_note(deck, place, 'N-RANGE', 'steps of '//to_text(abs(step))//' do not end at '// &
                                       to_text(last - shift)//'; the last number is '//to_text(last - rest - shift), keyword=keyword)
@@ -257,5 +256,149 @@ contains
                                          to_text(first - shift)//' to '//to_text(last - rest - shift)//' are taken', &
                                          keyword=keyword)
    end function is_range
+
+   !> *NCOPY: the nodes of a set, moved; *ELCOPY: the elements of a set on other nodes, which are there already. The first number
+   !> that cannot be ends it: the others would fail for the same reason.
+   subroutine read_copy_card(i_card, context)
+      integer(ip), intent(in) :: i_card              !< place in deck%cards
+      type(build_context_t), intent(inout) :: context
+      type(motion_t) :: motion
+      type(token_t) :: place
+      integer(ip), allocatable :: members(:)
+      character(len=:), allocatable :: name
+      integer(lp) :: id
+      integer(ip) :: shift, node_shift, i, first
+      logical :: ok(3), found, fits, is_of_nodes
+
+      associate (deck => context%deck, card => context%deck%cards(i_card), mesh => context%model%mesh)
+         is_of_nodes = keyword_name(card) == 'NCOPY'
+         if (is_of_nodes) then
+            call read_motion(deck, card, motion, ok(1))
+            call read_shift_of_numbers(deck, card, 'CHANGE NUMBER', shift, place, ok(2))
+            call find_old_set(card, 'node set', context%model%node_sets, context, members, ok(3))
+         else
+            ! sets of elements are read after all elements, those that are wanted here before
+            call try_pending_sets(i_card, context)
+            call read_shift_of_numbers(deck, card, 'ELEMENT SHIFT', shift, place, ok(1))
+            call read_shift_of_numbers(deck, card, 'SHIFT NODES', node_shift, place, ok(2))
+            call find_old_set(card, 'element set', context%model%element_sets, context, members, ok(3))
+         end if
+         call option_text(deck, card, 'NEW SET', name, found)
+         fits = all(ok)
+         if (fits) fits = fits_memory(place, context, merge(size(members, kind=lp), 0_lp, is_of_nodes), &
+                                      merge(0_lp, size(members, kind=lp), is_of_nodes), keyword_name(card))
+         first = merge(mesh%n_nodes, mesh%n_elements, is_of_nodes) + 1
+         do i = 1, size(members, kind=ip)
+            if (.not. fits) exit
+            if (.not. is_of_nodes) then
+               call copy_element_once(place, -i_card, 'ELCOPY', context, members(i), int([node_shift, shift], lp), fits)
+               cycle
+            end if
+            id = int(mesh%node_id(members(i)), lp) + int(shift, lp)
+            if (id > 0_lp .and. id <= int(huge(1_ip), lp)) then
+               call place_node(context, int(id, ip), moved(motion, mesh%x(:, members(i))), -i_card, fits, 'NCOPY')
+            else
+               fits = .false.
+               call report_error(deck, place, 'E-ID', 'node '//to_text(mesh%node_id(members(i)))//' would become '//to_text(id), &
+                                 expected='positive node numbers that are not too large', keyword='NCOPY')
+            end if
+         end do
+         if (.not. fits) call invalidate_block(context, name)
+         if (.not. found .or. .not. all(ok)) return
+         if (is_of_nodes) call put_node_set(context, i_card, name, [(i, i=first, mesh%n_nodes)])
+         if (.not. is_of_nodes) call grow_set(context%model%element_sets, name, [(i, i=first, mesh%n_elements)])
+      end associate
+   end subroutine read_copy_card
+
+   !> An option that must be there: what is added to numbers; and its place.
+   subroutine read_shift_of_numbers(deck, card, name, shift, place, ok)
+      type(deck_t), intent(in) :: deck
+      type(card_t), intent(in) :: card
+      character(len=*), intent(in) :: name
+      integer(ip), intent(out) :: shift
+      type(token_t), intent(out) :: place
+      logical, intent(out) :: ok
+      character(len=:), allocatable :: text
+
+      shift = 0
+      call option_text(deck, card, name, text, ok, place)
+      call option_integer(deck, card, name, 'difference of the numbers, an integer', shift, ok)
+   end subroutine read_shift_of_numbers
+
+   !> The members of OLD SET=, which is defined above.
+   subroutine find_old_set(card, noun, sets, context, members, ok)
+      type(card_t), intent(in) :: card
+      character(len=*), intent(in) :: noun           !< 'node set' or 'element set'
+      type(set_list_t), intent(in) :: sets
+      type(build_context_t), intent(in) :: context
+      integer(ip), allocatable, intent(out) :: members(:)
+      logical, intent(out) :: ok
+      character(len=:), allocatable :: name
+      type(token_t) :: place
+      integer(ip) :: i
+
+      allocate (members(0))
+      call option_text(context%deck, card, 'OLD SET', name, ok, place)
+      if (.not. ok) return
+      i = find_set(sets, name)
+      ok = i > 0
+      if (ok) then
+         members = members_of(sets%sets(i))
+      else
+         call report_unknown(context, place, 'earlier '//noun, 'E-SET', sets%names, keyword_name(card))
+      end if
+   end subroutine find_old_set
+
+   !> The translation, and the rotation as often as MULTIPLE= says.
+   subroutine read_motion(deck, card, motion, ok)
+      type(deck_t), intent(in) :: deck
+      type(card_t), intent(in) :: card
+      type(motion_t), intent(out) :: motion
+      logical, intent(out) :: ok
+      character(len=*), parameter :: WHAT = 'how often the rotation is done, a positive integer'
+      character(len=:), allocatable :: text
+      type(token_t) :: place
+      integer(ip) :: times
+      logical :: good
+
+      times = 1
+      call option_integer(deck, card, 'MULTIPLE', WHAT, times, good)
+      if (times < 1) then
+         call option_text(deck, card, 'MULTIPLE', text, good, place)
+         call report_error(deck, place, 'E-VALUE', 'MULTIPLE = '//to_text(times), expected=WHAT, keyword='NCOPY')
+      end if
+      ok = times >= 1 .and. card%n_lines > 0 .and. all(deck%lines(card%first_line:card%first_line + card%n_lines - 1)%ok)
+      if (.not. ok) return
+      call read_shift(deck, deck%lines(card%first_line), 'NCOPY', motion, ok)
+      if (card%n_lines > 1) then
+         call read_rotation(deck, deck%lines(card%first_line + 1), 'NCOPY', real(times, wp), motion, good)
+         ok = ok .and. good
+      end if
+   end subroutine read_motion
+
+   !> Reads the sets of elements above a card that can be read by now.
+   subroutine try_pending_sets(i_card, context)
+      integer(ip), intent(in) :: i_card
+      type(build_context_t), intent(inout) :: context
+      integer(ip) :: i, n
+
+      do i = context%last_elset + 1, i_card - 1
+         if (keyword_name(context%deck%cards(i)) /= 'ELSET') cycle
+         call make_room(context%pending_elsets, context%n_pending, context%n_pending + 1)
+         context%n_pending = context%n_pending + 1
+         context%pending_elsets(context%n_pending) = i
+      end do
+      context%last_elset = max(context%last_elset, i_card - 1)
+      n = 0
+      do i = 1, context%n_pending
+         associate (card => context%pending_elsets(i))
+            if (.not. context%card_done(card)) call try_set_card(card, context)
+            if (context%card_done(card)) cycle
+            n = n + 1
+            context%pending_elsets(n) = card
+         end associate
+      end do
+      context%n_pending = n
+   end subroutine try_pending_sets
 
 end module atrito_build_sets

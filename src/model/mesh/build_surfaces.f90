@@ -1,11 +1,10 @@
 !> *SURFACE, and the surfaces that a *BLOCK has by itself.
 module atrito_build_surfaces
-   use atrito_arcs, only: centre_arc
+   use atrito_arcs, only: centre_arc, get_point
    use atrito_build_lines, only: put_curve_surfaces, take_node_surface, add_surface
-   use atrito_coordinates, only: get_coordinate
    use atrito_deck, only: deck_t, card_t, data_line_t, token_t, token_text, line_item, is_id_token, keyword_name
    use atrito_diagnostics, only: report_error
-   use atrito_build_context, only: build_context_t, block_t, BLOCK_SIDES, invalidate_name, place_text, count_cards, ids_text, &
+   use atrito_build_context, only: build_context_t, block_t, BLOCK_SIDES, define_name, invalidate_name, count_cards, ids_text, &
                                    MOST_IDS
    use atrito_element_table, only: MOST_SIDES
    use atrito_faces, only: is_outer_face, outer_faces, add_face, drop_repeated, face_list_t
@@ -14,7 +13,7 @@ module atrito_build_surfaces
    use atrito_mesh, only: elements_of_square, side_count
    use atrito_messages, only: has_room, SEVERITY_ERROR
    use atrito_model, only: surface_t, SURFACE_SEGMENTS
-   use atrito_motion, only: motion_t, moved
+   use atrito_motion, only: moved
    use atrito_name_list, only: add_name, find_name, has_name
    use atrito_number_list, only: number_list_t, add_number, numbers_of
    use atrito_numbers, only: read_integer
@@ -121,66 +120,50 @@ contains
       type(card_t), intent(in) :: card
       type(build_context_t), intent(inout) :: context
       type(surface_t) :: surface
-      type(token_t) :: place
-      integer(ip) :: i
-      logical :: found, ok
+      integer(ip) :: i, k
+      logical :: ok, good
 
-      call option_text(context%deck, card, 'NAME', surface%name, found, place)
-      if (.not. found) return
-      i = find_name(context%surface_names, surface%name)
-      if (i > 0) then
-         call report_error(context%deck, place, 'E-TWICE', 'surface '//surface%name//' is defined twice, first in '// &
-                           place_text(context%deck, context%surfaces(i), place), expected='a name that no other surface has', &
-                           keyword='SURFACE')
-         return
-      end if
+      call define_name(context%deck, card, 'surface', context%surface_names, context%surfaces, surface%name, i)
+      if (i == 0) return
       ok = card%ok
       if (.not. ok) then
          ! the reader has not checked the words of its lines
       else if (option_word(context%deck, card, 'TYPE') == 'ELEMENT') then
-         call read_faces(card, context, has_name(context%section_surfaces, surface%name), surface%faces, ok)
+         do k = card%first_line, card%first_line + card%n_lines - 1
+            good = context%deck%lines(k)%ok
+            if (good) call read_face_line(context%deck%lines(k), context, has_name(context%section_surfaces, surface%name), &
+                                          surface%faces, good)
+            ok = ok .and. good
+         end do
+         call drop_repeated(surface%faces)
       else if (option_word(context%deck, card, 'TYPE') == 'NODE') then
          call take_node_surface(surface%name, context, surface%faces, ok)
       else
          surface%kind = SURFACE_SEGMENTS
          call read_segments(context%deck, card, surface, ok)
-         if (ok .and. card%scope > 0) call move_segments(context%motions(card%scope), surface)
+         do k = 1, merge(size(surface%points, 2, kind=ip), 0_ip, ok .and. card%scope > 0)   ! drawn in a part
+            surface%points(:, k) = moved(context%motions(card%scope), surface%points(:, k))
+            if (k > size(surface%is_arc)) cycle
+            if (surface%is_arc(k)) surface%centre(:, k) = moved(context%motions(card%scope), surface%centre(:, k))
+         end do
       end if
       if (.not. ok) call invalidate_name(context, surface%name)
-      call add_surface(context, surface, place)
+      context%model%surfaces(i) = surface
    end subroutine read_surface_card
-
-   !> TYPE=ELEMENT.
-   subroutine read_faces(card, context, is_cut, faces, ok)
-      type(card_t), intent(in) :: card
-      type(build_context_t), intent(inout) :: context
-      logical, intent(in) :: is_cut                    !< a section of a bolt: faces may lie inside the mesh
-      type(face_list_t), intent(inout) :: faces
-      logical, intent(out) :: ok
-      integer(ip) :: i
-      logical :: good
-
-      ok = .true.
-      do i = card%first_line, card%first_line + card%n_lines - 1
-         good = context%deck%lines(i)%ok
-         if (good) call read_face_line(context%deck%lines(i), context, is_cut, faces, good)
-         ok = ok .and. good
-      end do
-      call drop_repeated(faces)
-   end subroutine read_faces
 
    !> Element or set, and the face of each element; without it all of their outer faces. Faces of a set on the outline are found
    !> without a look at each element, of which a large set has most inside.
    subroutine read_face_line(line, context, is_cut, faces, ok)
       type(data_line_t), intent(in) :: line
       type(build_context_t), intent(inout) :: context
-      logical, intent(in) :: is_cut
+      logical, intent(in) :: is_cut                    !< a section of a bolt: faces may lie inside the mesh
       type(face_list_t), intent(inout) :: faces
       logical, intent(out) :: ok
       type(token_t) :: token
       character(len=:), allocatable :: name, word
+      type(number_list_t) :: inside
       integer(ip), allocatable :: elements(:)
-      integer(ip) :: face, i_set
+      integer(ip) :: face, i_set, i
       integer :: outcome
 
       token = line_item(context%deck, line, 1_ip)
@@ -205,11 +188,21 @@ contains
          end if
       end if
       call find_elements(context, token, elements, ok, 'SURFACE')
-      if (ok .and. face == 0) then
+      if (ok .and. face > 0) call check_faces(context, line_item(context%deck, line, 2_ip), elements, face, 'SURFACE', ok)
+      if (.not. ok) return
+      if (face == 0) then
          call add_faces(outer_faces(context%model%mesh, context%around, elements), 0_ip, faces)
-      else if (ok) then
-         call take_faces(line, context, elements, is_cut, face, faces, ok)
+         return
       end if
+      do i = 1, size(elements, kind=ip)
+         if (.not. is_on_side(context%refinement, elements(i), face)) cycle
+         ok = is_cut
+         if (.not. ok) ok = is_outer_face(context%model%mesh, context%around, elements(i), face)
+         if (ok) call add_face(faces, elements(i), face)
+         if (.not. ok) call add_number(inside, context%model%mesh%element_id(elements(i)))
+      end do
+      ok = inside%n == 0
+      if (.not. ok) call report_inside(context, line, numbers_of(inside), inside%n)
    end subroutine read_face_line
 
    !> The elements on the outline.
@@ -270,6 +263,7 @@ contains
       end do
    end subroutine add_faces
 
+   !> Reports faces that were asked for and do not lie on the outline.
    subroutine report_inside(context, line, ids, n)
       type(build_context_t), intent(in) :: context
       type(data_line_t), intent(in) :: line
@@ -283,31 +277,6 @@ contains
                         expected='faces on the outline of the body; without a face, all of them', keyword='SURFACE')
    end subroutine report_inside
 
-   !> The face of a number of each element.
-   subroutine take_faces(line, context, elements, is_cut, face, faces, ok)
-      type(data_line_t), intent(in) :: line
-      type(build_context_t), intent(in) :: context
-      integer(ip), intent(in) :: elements(:)
-      logical, intent(in) :: is_cut                    !< they may lie inside the mesh
-      integer(ip), intent(in) :: face
-      type(face_list_t), intent(inout) :: faces
-      logical, intent(out) :: ok
-      type(number_list_t) :: inside
-      integer(ip) :: i
-
-      call check_faces(context, line_item(context%deck, line, 2_ip), elements, face, 'SURFACE', ok)
-      if (.not. ok) return
-      do i = 1, size(elements, kind=ip)
-         if (.not. is_on_side(context%refinement, elements(i), face)) cycle
-         ok = is_cut
-         if (.not. ok) ok = is_outer_face(context%model%mesh, context%around, elements(i), face)
-         if (ok) call add_face(faces, elements(i), face)
-         if (.not. ok) call add_number(inside, context%model%mesh%element_id(elements(i)))
-      end do
-      ok = inside%n == 0
-      if (.not. ok) call report_inside(context, line, numbers_of(inside), inside%n)
-   end subroutine take_faces
-
    !> START, LINE and CIRCL.
    subroutine read_segments(deck, card, surface, ok)
       type(deck_t), intent(in) :: deck
@@ -317,8 +286,8 @@ contains
       character(len=*), parameter :: WHAT(4) = ['x, a real [L] ', 'y, a real [L] ', 'xc, a real [L]', 'yc, a real [L]']
       character(len=:), allocatable :: word
       real(wp) :: x(4)                                 ! end of the segment, and the centre of an arc [L]
-      integer(ip) :: i, k, n
-      logical :: good, is_arc
+      integer(ip) :: i, n
+      logical :: is_arc
 
       ok = .true.
       n = 0
@@ -331,10 +300,8 @@ contains
             word = upper_case(token_text(deck, line_item(deck, line, 1_ip)))
             is_arc = word == 'CIRCL'
             x = 0.0_wp
-            do k = 1, merge(4_ip, 2_ip, is_arc)
-               call get_coordinate(deck, line_item(deck, line, k + 1), trim(WHAT(k)), x(k), good, 'SURFACE')
-               ok = ok .and. good
-            end do
+            call get_point(deck, line, 2_ip, WHAT(:2), x(:2), ok, 'SURFACE')
+            if (is_arc) call get_point(deck, line, 4_ip, WHAT(3:), x(3:), ok, 'SURFACE')
             if (i > card%first_line .and. word == 'START') then   ! that it is there once is checked by the reader
                ok = .false.
                call report_error(deck, line_item(deck, line, 1_ip), 'E-VALUE', 'START is not the first line', &
@@ -360,24 +327,10 @@ contains
       surface%centre = surface%centre(:, :max(n - 1, 0))
       if (.not. ok .or. n /= 1) return
       ok = .false.
-      ! without START the reader has told it
+      ! without START the reader has reported it
       if (.not. same_name(token_text(deck, line_item(deck, deck%lines(card%first_line), 1_ip)), 'START')) return
       call report_error(deck, card%place, 'E-MISSING', 'the surface has no segment', &
                         expected='START, x, y and LINE, x, y or CIRCL, x, y, xc, yc [L]', keyword='SURFACE')
    end subroutine read_segments
-
-   !> A line that is drawn in a part stands where the instance is.
-   pure subroutine move_segments(motion, surface)
-      type(motion_t), intent(in) :: motion
-      type(surface_t), intent(inout) :: surface
-      integer(ip) :: i
-
-      do i = 1, size(surface%points, 2, kind=ip)
-         surface%points(:, i) = moved(motion, surface%points(:, i))
-      end do
-      do i = 1, size(surface%centre, 2, kind=ip)
-         if (surface%is_arc(i)) surface%centre(:, i) = moved(motion, surface%centre(:, i))
-      end do
-   end subroutine move_segments
 
 end module atrito_build_surfaces

@@ -10,8 +10,10 @@ module atrito_joined_blocks
    private
    public :: joined_blocks_t, add_joined_block, blocks_named, join_blocks, are_joined_blocks, blocks_near
 
-   !> Blocks are numbered as they come. The boxes round them lie in grids of squares: a box in the grid whose squares have the
-   !> least power of two that is longer than its sides, so in four squares at most.
+   !> Blocks are numbered as they come. Bodies are a forest (union by size): each block has a parent, the root stands for its
+   !> body, and the way from a block to its root has log2(n) steps at the most. The boxes round the blocks lie in grids of squares:
+   !> a box in the grid whose squares have the least power of two that is longer than its sides, so in four squares at most; only
+   !> squares that have a box are kept, in a table by a hash of their place.
    type :: joined_blocks_t
       integer(ip) :: n = 0
       type(name_list_t), private :: names
@@ -36,7 +38,9 @@ contains
       type(joined_blocks_t), intent(inout) :: blocks
       character(len=*), intent(in) :: name
       real(wp), intent(in) :: low(2), high(2)              !< the box round it [L]
-      integer(ip) :: first
+      integer(lp) :: square(2), n(2), i, j
+      integer(ip) :: first, side, g, hash, slot
+      logical :: known
 
       blocks%n = blocks%n + 1
       call add_name(blocks%names, name)
@@ -46,7 +50,32 @@ contains
       blocks%last_of%values(first) = blocks%n
       call add_number(blocks%parent, blocks%n)
       call add_number(blocks%in_body, 1_ip)
-      call enter_box(blocks, low, high)
+      ! the box goes into the squares of its grid
+      side = max(exponent(max(maxval(high - low), tiny(1.0_wp))), exponent(max(maxval(abs([low, high])), tiny(1.0_wp))) - FINEST)
+      g = 0
+      if (blocks%grid%n > 0) g = findloc(blocks%grid%values(:blocks%grid%n), side, dim=1, kind=ip)
+      if (g == 0) then
+         call add_number(blocks%grid, side)
+         call add_number(blocks%filled, 0_ip)
+         g = blocks%grid%n
+      end if
+      square = square_of(low, side)
+      n = square_of(high, side) - square + 1_lp
+      do j = square(2), square(2) + n(2) - 1
+         do i = square(1), square(1) + n(1) - 1
+            hash = square_hash(side, i, j)
+            slot = find_id(blocks%squares, hash)
+            if (slot == 0) then
+               call add_number(blocks%head, 0_ip)
+               slot = blocks%head%n
+               call add_id(blocks%squares, hash, slot, known)
+            end if
+            call add_number(blocks%block, blocks%n)
+            call add_number(blocks%next, blocks%head%values(slot))
+            blocks%head%values(slot) = blocks%block%n
+            blocks%filled%values(g) = blocks%filled%values(g) + 1
+         end do
+      end do
    end subroutine add_joined_block
 
    !> The blocks of a name, in rising order.
@@ -92,6 +121,7 @@ contains
       are_joined_blocks = body_of(blocks, a) == body_of(blocks, b)
    end function are_joined_blocks
 
+   !> The block that stands for the body of a block: the root of its tree.
    pure integer(ip) function body_of(blocks, b) result(body)
       type(joined_blocks_t), intent(in) :: blocks
       integer(ip), intent(in) :: b
@@ -133,41 +163,6 @@ contains
       end do
       near = each_once(numbers_of(found))
    end function blocks_near
-
-   !> Puts the box of the last block into the squares of its grid.
-   pure subroutine enter_box(blocks, low, high)
-      type(joined_blocks_t), intent(inout) :: blocks
-      real(wp), intent(in) :: low(2), high(2)
-      integer(lp) :: first(2), n(2), i, j
-      integer(ip) :: side, g, hash, slot
-      logical :: known
-
-      side = max(exponent(max(maxval(high - low), tiny(1.0_wp))), exponent(max(maxval(abs([low, high])), tiny(1.0_wp))) - FINEST)
-      g = 0
-      if (blocks%grid%n > 0) g = findloc(blocks%grid%values(:blocks%grid%n), side, dim=1, kind=ip)
-      if (g == 0) then
-         call add_number(blocks%grid, side)
-         call add_number(blocks%filled, 0_ip)
-         g = blocks%grid%n
-      end if
-      first = square_of(low, side)
-      n = square_of(high, side) - first + 1_lp
-      do j = first(2), first(2) + n(2) - 1
-         do i = first(1), first(1) + n(1) - 1
-            hash = square_hash(side, i, j)
-            slot = find_id(blocks%squares, hash)
-            if (slot == 0) then
-               call add_number(blocks%head, 0_ip)
-               slot = blocks%head%n
-               call add_id(blocks%squares, hash, slot, known)
-            end if
-            call add_number(blocks%block, blocks%n)
-            call add_number(blocks%next, blocks%head%values(slot))
-            blocks%head%values(slot) = blocks%block%n
-            blocks%filled%values(g) = blocks%filled%values(g) + 1
-         end do
-      end do
-   end subroutine enter_box
 
    !> Number of the square along an axis. Those far beyond all that a grid has are one.
    pure elemental integer(lp) function square_of(x, side) result(square)

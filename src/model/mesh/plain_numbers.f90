@@ -23,35 +23,25 @@ contains
       integer(ip), intent(inout) :: id(:)              !< (>= lines) in the model
       real(wp), intent(inout) :: x(:, :)               !< (2, >= lines) [L]
       logical, intent(inout) :: is_plain(:)            !< (>= lines) what is not has no numbers here
+      real(wp) :: z
       integer(ip) :: i
 
-      !$omp parallel do schedule(static) if (is_shared(size(lines, kind=ip)))
+      !$omp parallel do schedule(static) private(z) if (is_shared(size(lines, kind=ip)))
       do i = 1, size(lines, kind=ip)
-         call read_plain_node(deck, lines(i), id(i), x(:, i), is_plain(i))
+         id(i) = 0
+         x(:, i) = 0.0_wp
+         z = 0.0_wp
+         is_plain(i) = lines(i)%ok .and. (lines(i)%n_tokens == 3 .or. lines(i)%n_tokens == 4)
+         if (.not. is_plain(i)) cycle
+         associate (first => lines(i)%first_token)
+            call read_id(deck, deck%tokens(first), id(i), is_plain(i))
+            if (is_plain(i)) call read_coordinate(deck, deck%tokens(first + 1), x(1, i), is_plain(i))
+            if (is_plain(i)) call read_coordinate(deck, deck%tokens(first + 2), x(2, i), is_plain(i))
+            if (is_plain(i) .and. lines(i)%n_tokens == 4) call read_coordinate(deck, deck%tokens(first + 3), z, is_plain(i))
+         end associate
+         is_plain(i) = is_plain(i) .and. .not. abs(z) > 0.0_wp
       end do
    end subroutine read_plain_nodes
-
-   pure subroutine read_plain_node(deck, line, id, x, is_plain)
-      type(deck_t), intent(in) :: deck
-      type(data_line_t), intent(in) :: line
-      integer(ip), intent(out) :: id
-      real(wp), intent(out) :: x(2)
-      logical, intent(out) :: is_plain
-      real(wp) :: z
-
-      id = 0
-      x = 0.0_wp
-      z = 0.0_wp
-      is_plain = line%ok .and. (line%n_tokens == 3 .or. line%n_tokens == 4)
-      if (.not. is_plain) return
-      associate (first => line%first_token)
-         call read_id(deck, deck%tokens(first), id, is_plain)
-         if (is_plain) call read_coordinate(deck, deck%tokens(first + 1), x(1), is_plain)
-         if (is_plain) call read_coordinate(deck, deck%tokens(first + 2), x(2), is_plain)
-         if (is_plain .and. line%n_tokens == 4) call read_coordinate(deck, deck%tokens(first + 3), z, is_plain)
-      end associate
-      is_plain = is_plain .and. .not. abs(z) > 0.0_wp
-   end subroutine read_plain_node
 
    !> The numbers of lines of *ELEMENT, and the places of their nodes, which are there and different.
    subroutine read_plain_elements(deck, mesh, lines, id, nodes, is_plain)
@@ -61,34 +51,22 @@ contains
       integer(ip), intent(inout) :: id(:)              !< (>= lines) in the model
       integer(ip), intent(inout) :: nodes(:, :)        !< (nodes of an element, >= lines)
       logical, intent(inout) :: is_plain(:)            !< (>= lines) what is not has no numbers here
-      integer(ip) :: i
+      integer(ip) :: i, k, node_id
 
-      !$omp parallel do schedule(static) if (is_shared(size(lines, kind=ip)))
+      !$omp parallel do schedule(static) private(k, node_id) if (is_shared(size(lines, kind=ip)))
       do i = 1, size(lines, kind=ip)
-         call read_plain_element(deck, mesh, lines(i), id(i), nodes(:, i), is_plain(i))
+         id(i) = 0
+         nodes(:, i) = 0
+         is_plain(i) = lines(i)%ok .and. lines(i)%n_tokens == size(nodes, 1) + 1
+         if (is_plain(i)) call read_id(deck, deck%tokens(lines(i)%first_token), id(i), is_plain(i))
+         do k = 1, size(nodes, 1, kind=ip)
+            if (is_plain(i)) call read_id(deck, deck%tokens(lines(i)%first_token + k), node_id, is_plain(i))
+            if (.not. is_plain(i)) exit
+            nodes(k, i) = find_node(mesh, node_id)
+            is_plain(i) = nodes(k, i) > 0 .and. all(nodes(:k - 1, i) /= nodes(k, i))
+         end do
       end do
    end subroutine read_plain_elements
-
-   pure subroutine read_plain_element(deck, mesh, line, id, nodes, is_plain)
-      type(deck_t), intent(in) :: deck
-      type(mesh_t), intent(in) :: mesh
-      type(data_line_t), intent(in) :: line
-      integer(ip), intent(out) :: id
-      integer(ip), intent(out) :: nodes(:)
-      logical, intent(out) :: is_plain
-      integer(ip) :: i, node_id
-
-      id = 0
-      nodes = 0
-      is_plain = line%ok .and. line%n_tokens == size(nodes) + 1
-      if (is_plain) call read_id(deck, deck%tokens(line%first_token), id, is_plain)
-      do i = 1, size(nodes, kind=ip)
-         if (is_plain) call read_id(deck, deck%tokens(line%first_token + i), node_id, is_plain)
-         if (is_plain) nodes(i) = find_node(mesh, node_id)
-         is_plain = is_plain .and. nodes(i) > 0 .and. all(nodes(:i - 1) /= nodes(i))
-         if (.not. is_plain) return
-      end do
-   end subroutine read_plain_element
 
    !> The number in the model of a node or element.
    pure subroutine read_id(deck, token, id, is_plain)
@@ -107,6 +85,7 @@ contains
       end associate
    end subroutine read_id
 
+   !> A coordinate that is a plain number.
    pure subroutine read_coordinate(deck, token, x, is_plain)
       type(deck_t), intent(in) :: deck
       type(token_t), intent(in) :: token

@@ -1,5 +1,6 @@
 !> Elements whose corners run clockwise, turned over: meshes of other programs have both.
 module atrito_turned_elements
+   use atrito_element_table, only: CORNERS_OF
    use atrito_kinds, only: ip, wp
    implicit none (type, external)
    private
@@ -12,19 +13,11 @@ contains
       integer(ip), intent(in) :: nodes(:)              !< as many as the shape has: corners, mid-sides, centre
       integer(ip) :: turned(size(nodes))
 
-      turned = nodes
-      select case (size(nodes))
-      case (3)
-         turned = nodes([1, 3, 2])
-      case (4)
-         turned = nodes([1, 4, 3, 2])
-      case (6)
-         turned = nodes([1, 3, 2, 6, 5, 4])
-      case (8)
-         turned = nodes([1, 4, 3, 2, 8, 7, 6, 5])
-      case (9)
-         turned = nodes([1, 4, 3, 2, 8, 7, 6, 5, 9])
-      end select
+      associate (n => CORNERS_OF(size(nodes)))
+         turned = nodes
+         turned(2:n) = nodes(n:2:-1)
+         if (size(nodes) > n) turned(n + 1:2*n) = nodes(2*n:n + 1:-1)
+      end associate
    end function turned_nodes
 
    !> The polygon of the corners has a negative area.

@@ -1,0 +1,221 @@
+!> What --refine and --elements mean for things that a deck says of single blocks, nodes and sides.
+!>
+!> Blocks with arcs: new nodes lie on the map of the block, not on that of their coarse element, so that a side stays the circle
+!> that it is. The places of the new nodes in the block's unit square are those of a refined mesh whose coordinates they are: there
+!> every element is a rectangle, and the map of the element is exact.
+!>
+!> Equations: those that a deck gives node by node along a side have none at the nodes between; of those between two sets the nodes
+!> are put into corresponding orders, since the new nodes of a set stand edge by edge, and edges run either way.
+module atrito_refined_deck
+   use atrito_block_map, only: map_point, has_arcs
+   use atrito_build_context, only: build_context_t
+   use atrito_diagnostics, only: report_error, report_note
+   use atrito_kinds, only: ip, wp
+   use atrito_mesh, only: mesh_t
+   use atrito_refined_members, only: fine_elements
+   use atrito_refinement, only: map_element, is_refined, refinement_t
+   use atrito_strings, only: to_text
+   implicit none (type, external)
+   private
+   public :: place_on_arcs, note_free_sides, order_like
+
+   !> Places of one node by two elements are two if they differ by more than this part of the coarse element.
+   real(wp), parameter :: SAME_PLACE = 1.0e-5_wp
+
+   integer(ip), parameter :: PLANE_DOFS = 2
+
+contains
+
+   !> Moves the new nodes of all blocks with arcs.
+   subroutine place_on_arcs(coarse, context)
+      type(mesh_t), intent(in) :: coarse
+      type(build_context_t), intent(inout) :: context
+      type(mesh_t) :: square                           ! the coarse mesh in the unit square of a block
+      real(wp), allocatable :: place(:, :)             ! of the new nodes there
+      integer(ip), allocatable :: owner(:)             ! block that has placed a node; negative: elsewhere than its element; 0: none
+      logical, allocatable :: is_done(:)               ! elements of blocks with arcs
+      integer(ip), allocatable :: pieces(:)
+      integer(ip) :: b, e, i, j
+
+      if (.not. any([(has_arcs(context%blocks(b)%map), b=1, context%n_blocks)])) return
+      square = coarse
+      allocate (place(2, context%model%mesh%n_nodes))
+      allocate (owner(context%model%mesh%n_nodes), source=0_ip)
+      allocate (is_done(coarse%n_elements), source=.false.)
+      do b = 1, context%n_blocks
+         if (.not. has_arcs(context%blocks(b)%map)) cycle
+         associate (block => context%blocks(b))
+            do j = 0, ubound(block%nodes, 2, kind=ip)
+               do i = 0, ubound(block%nodes, 1, kind=ip)
+                  if (block%nodes(i, j) > 0) square%x(:, block%nodes(i, j)) = [block%along(i), block%across(j)]
+               end do
+            end do
+            do e = block%first_element, block%first_element + block%n_elements - 1
+               is_done(e) = .true.
+               call place_element(e, b, coarse, square, context, place, owner)
+            end do
+         end associate
+      end do
+      do e = 1, coarse%n_elements                      ! an element of no block with arcs keeps the places of its nodes
+         if (is_done(e)) cycle
+         pieces = fine_elements(context%refinement, [e])
+         look: do i = 1, size(pieces, kind=ip)
+            do j = 1, context%model%mesh%shape(pieces(i))
+               b = -owner(context%model%mesh%nodes(j, pieces(i)))
+               if (b <= 0) cycle
+               call report_other_curve(b, 0_ip, context)
+               where (abs(owner) == b) owner = 0       ! reported once
+               exit look
+            end do
+         end do look
+      end do
+   end subroutine place_on_arcs
+
+   !> The new nodes of a coarse element. What another block has placed must lie where this one would place it.
+   subroutine place_element(e, b, coarse, square, context, place, owner)
+      integer(ip), intent(in) :: e, b
+      type(mesh_t), intent(in) :: coarse, square
+      type(build_context_t), intent(inout) :: context
+      real(wp), intent(inout) :: place(:, :)
+      integer(ip), intent(inout) :: owner(:)
+      integer(ip), allocatable :: grid(:, :), pieces(:)
+      real(wp) :: x(2), reach
+      integer(ip) :: i, k, node
+
+      call map_element(square, context%refinement, e, place, grid)
+      reach = SAME_PLACE*norm2(coarse%x(:, coarse%nodes(3, e)) - coarse%x(:, coarse%nodes(1, e)))
+      pieces = fine_elements(context%refinement, [e])
+      associate (mesh => context%model%mesh)
+         do i = 1, size(pieces, kind=ip)
+            do k = 1, mesh%shape(pieces(i))
+               node = mesh%nodes(k, pieces(i))
+               if (node <= coarse%n_nodes .or. abs(owner(node)) == b) cycle
+               x = map_point(context%blocks(b)%map, place(1, node), place(2, node))
+               if (owner(node) == 0) then
+                  owner(node) = merge(b, -b, norm2(x - mesh%x(:, node)) <= reach)
+                  mesh%x(:, node) = x
+               else if (norm2(x - mesh%x(:, node)) > reach) then
+                  call report_other_curve(b, abs(owner(node)), context)
+                  return
+               end if
+            end do
+         end do
+      end associate
+   end subroutine place_element
+
+   !> Reports a side that is an arc beside what follows another curve: nodes between those of the deck would lie in two places.
+   subroutine report_other_curve(b, other, context)
+      integer(ip), intent(in) :: b
+      integer(ip), intent(in) :: other                 !< block; 0: elements of no block with arcs
+      type(build_context_t), intent(in) :: context
+      character(len=:), allocatable :: what
+
+      what = 'elements beside it'
+      if (other > 0) what = 'block '//context%blocks(other)%name//' beside it'
+      call report_error(context%deck, context%deck%cards(context%blocks(b)%card)%place, 'E-BLOCK', 'a side of block '// &
+                        context%blocks(b)%name//' is an arc, but the '//what//' share its nodes and follow another curve', &
+                        expected='the same ARC for the sides of both blocks; --refine puts nodes between those of the deck', &
+                        keyword='BLOCK')
+   end subroutine report_other_curve
+
+   !> Reports the first such side, at the first *EQUATION.
+   subroutine note_free_sides(context)
+      type(build_context_t), intent(in) :: context
+      logical, allocatable :: has_equation(:, :)       ! (n_nodes, dof) of first terms
+      integer(ip) :: dof, edge, i, n
+
+      if (.not. is_refined(context%refinement) .or. context%model%equations%n == 0) return
+      allocate (has_equation(context%model%mesh%n_nodes, PLANE_DOFS), source=.false.)
+      associate (equations => context%model%equations, fine => context%refinement)
+         do i = 1, equations%n
+            if (equations%dof(i) <= PLANE_DOFS) has_equation(equations%node(i), equations%dof(i)) = .true.
+         end do
+         do edge = 1, fine%n_edges
+            if (fine%edge_element(2, edge) > 0) cycle  ! inside
+            n = merge(3_ip, 2_ip, fine%edge_node(3, edge) > 0)
+            do dof = 1, PLANE_DOFS
+               if (.not. all(has_equation(fine%edge_node(:n, edge), dof))) cycle
+               if (any(has_equation(fine%edge_first(edge):fine%edge_first(edge + 1) - 1, dof))) cycle
+               i = findloc(context%deck%cards(:context%deck%n_cards)%name, 'EQUATION', dim=1, kind=ip)
+               associate (id => context%model%mesh%node_id(fine%edge_node(:2, edge)))
+                  call report_note(context%deck, context%deck%cards(i)%place, 'N-REFINE', 'the finer mesh has nodes between '// &
+                                   'those with equations, as between '//to_text(id(1))//' and '//to_text(id(2))//', and they '// &
+                                   'have none; where equations name sets they have', keyword='EQUATION')
+               end associate
+               return
+            end do
+         end do
+      end associate
+   end subroutine note_free_sides
+
+   !> Puts the nodes of `other` into the order of those of `set`: the nodes of the deck correspond as they stand, new ones between
+   !> two of them to those between their partners. ok: .false. where there are none.
+   pure subroutine order_like(refinement, set, other, ok)
+      type(refinement_t), intent(in) :: refinement
+      integer(ip), intent(in) :: set(:)
+      integer(ip), intent(inout) :: other(:)           !< as many
+      logical, intent(out) :: ok
+      integer(ip), allocatable :: edges(:)
+      integer(ip) :: partner(size(set)), ends(2), i, k, edge
+
+      associate (n => count(set <= refinement%n_nodes, kind=ip))
+         ok = n == count(other <= refinement%n_nodes)
+         if (.not. ok) return
+         edges = [(edge_of(refinement, other(i)), i=n + 1, size(other, kind=ip))]   ! nodes of an edge stand together: each once
+         edges = pack(edges, edges > 0 .and. edges /= eoshift(edges, -1))
+         partner(:n) = other(:n)
+         do i = n + 1, size(set, kind=ip)
+            edge = edge_of(refinement, set(i))
+            ok = edge > 0
+            if (.not. ok) return
+            ends = [(findloc(set(:n), refinement%edge_node(k, edge), dim=1, kind=ip), k=1, 2)]
+            ok = all(ends > 0)
+            if (.not. ok) return
+            partner(i) = node_between(refinement, edges, other(ends), set(i) - refinement%edge_first(edge))
+            ok = partner(i) > 0
+            if (.not. ok) return
+         end do
+      end associate
+      other = partner
+   end subroutine order_like
+
+   !> The new node of an edge between two nodes, so many after the first of them; 0 where there is no such edge.
+   pure integer(ip) function node_between(refinement, edges, ends, before) result(node)
+      type(refinement_t), intent(in) :: refinement
+      integer(ip), intent(in) :: edges(:), ends(2), before
+      integer(ip) :: i
+
+      node = 0
+      do i = 1, size(edges, kind=ip)
+         associate (own => refinement%edge_node(:2, edges(i)))
+            if (all(own == ends)) node = refinement%edge_first(edges(i)) + before
+            if (all(own == ends([2, 1]))) node = refinement%edge_first(edges(i) + 1) - 1 - before
+         end associate
+         if (node > 0) exit
+      end do
+      if (node == 0) return
+      if (node < refinement%edge_first(edges(i)) .or. node >= refinement%edge_first(edges(i) + 1)) node = 0
+   end function node_between
+
+   !> The edge that a new node lies on; 0: none.
+   pure integer(ip) function edge_of(refinement, node) result(edge)
+      type(refinement_t), intent(in) :: refinement
+      integer(ip), intent(in) :: node
+      integer(ip) :: low, high, middle
+
+      edge = 0
+      if (node >= refinement%edge_first(refinement%n_edges + 1) .or. node < refinement%edge_first(1)) return
+      low = 1
+      high = refinement%n_edges
+      do while (low < high)
+         middle = (low + high + 1)/2
+         if (refinement%edge_first(middle) <= node) then
+            low = middle
+         else
+            high = middle - 1
+         end if
+      end do
+      edge = low
+   end function edge_of
+
+end module atrito_refined_deck
