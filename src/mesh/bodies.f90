@@ -52,7 +52,7 @@ contains
    subroutine find_bodies(mesh, bodies)
       type(mesh_t), intent(in) :: mesh
       type(bodies_t), intent(out) :: bodies
-      integer(ip), allocatable :: component(:), number(:)
+      integer(ip), allocatable :: component(:), number(:), first(:), member(:)
       integer(ip) :: n_components, e, i
 
       allocate (component(mesh%n_nodes))
@@ -73,29 +73,18 @@ contains
       !$omp end parallel do
       allocate (bodies%list(bodies%n))
       allocate (bodies%equation(2, mesh%n_nodes), source=0_ip)
-      call list_members(bodies)
+      call list_parts(bodies%n, mesh%n_elements, bodies%of_element, first, member)
       do i = 1, bodies%n
+         bodies%list(i)%elements = member(first(i):first(i + 1) - 1)
+      end do
+      call list_parts(bodies%n, mesh%n_nodes, bodies%of_node, first, member)
+      do i = 1, bodies%n
+         bodies%list(i)%nodes = member(first(i):first(i + 1) - 1)
          call measure_body(mesh, bodies%list(i))
       end do
    end subroutine find_bodies
 
-   !> The elements and nodes of each body, in their order, in linear time for any number of bodies.
-   subroutine list_members(bodies)
-      type(bodies_t), intent(inout) :: bodies
-      integer(ip), allocatable :: first(:), member(:)
-      integer(ip) :: i
-
-      call list_parts(bodies%n, size(bodies%of_element, kind=ip), bodies%of_element, first, member)
-      do i = 1, bodies%n
-         bodies%list(i)%elements = member(first(i):first(i + 1) - 1)
-      end do
-      call list_parts(bodies%n, size(bodies%of_node, kind=ip), bodies%of_node, first, member)
-      do i = 1, bodies%n
-         bodies%list(i)%nodes = member(first(i):first(i + 1) - 1)
-      end do
-   end subroutine list_members
-
-   !> The members of parts that have none in common.
+   !> The members of parts that have none in common, in their order, in linear time for any number of parts.
    subroutine list_parts(n_parts, n, part_of, first, member)
       integer(ip), intent(in) :: n_parts, n
       integer(ip), intent(in) :: part_of(1, n)      !< 0 .. n_parts; 0: in none

@@ -41,6 +41,7 @@ contains
       type(cross_section_t), intent(out) :: section
       type(crossing_t), allocatable, intent(out) :: crossings(:)
       type(piece_t), allocatable :: pieces(:)
+      real(wp), allocatable :: place(:), weight(:)  ! of each crossing
       integer(ip) :: i
 
       section%line = line_through(ends)
@@ -53,7 +54,11 @@ contains
          end associate
       end do
       call take_crossings(crossings)
-      call measure(crossings, section)
+      place = 0.5_wp*(crossings%from + crossings%to)
+      weight = merge(crossings%to - crossings%from, 0.0_wp, crossings%is_taken)
+      section%length = sum(weight)
+      if (.not. section%length > 0.0_wp) weight = merge(1.0_wp, 0.0_wp, crossings%is_taken)   ! of points the middle is their mean
+      if (any(crossings%is_taken)) section%middle = point_at(section%line, sum(weight/sum(weight)*place))
       call collect_parts(mesh, around, pieces, crossings, section)
    end subroutine find_cross_section
 
@@ -73,19 +78,6 @@ contains
       if (any(crossings%is_taken)) return
       crossings%is_taken = crossings%is_met .and. crossings%is_wanted .and. crossings%kind == EDGE_AHEAD
    end subroutine take_crossings
-
-   !> Length and middle; of points without length their mean.
-   pure subroutine measure(crossings, section)
-      type(crossing_t), intent(in) :: crossings(:)
-      type(cross_section_t), intent(inout) :: section
-      real(wp) :: place(size(crossings)), weight(size(crossings))
-
-      place = 0.5_wp*(crossings%from + crossings%to)
-      weight = merge(crossings%to - crossings%from, 0.0_wp, crossings%is_taken)
-      section%length = sum(weight)
-      if (.not. section%length > 0.0_wp) weight = merge(1.0_wp, 0.0_wp, crossings%is_taken)
-      if (any(crossings%is_taken)) section%middle = point_at(section%line, sum(weight/sum(weight)*place))
-   end subroutine measure
 
    !> Elements and nodes of the crossings that are taken.
    pure subroutine collect_parts(mesh, around, pieces, crossings, section)

@@ -94,7 +94,7 @@ contains
    subroutine prepare_context(deck, context)
       type(deck_t), intent(in), target :: deck
       type(build_context_t), intent(out) :: context
-      integer(ip) :: i
+      integer(ip) :: i, k
 
       context%deck => deck
       allocate (context%blocks(64), context%set_card(0))
@@ -113,7 +113,12 @@ contains
          if (deck%cards(i)%ok .and. len(keyword_name(deck%cards(i))) > 0) cycle
          if (any(keyword_name(deck%cards(i)) == ['ELEMENT', 'ELSET  '])) context%sections_undetermined = .true.
          call invalidate_options(deck%cards(i), context)
-         if (len(keyword_name(deck%cards(i))) == 0) call invalidate_numbers(deck%cards(i), context)
+         if (len(keyword_name(deck%cards(i))) > 0) cycle
+         do k = deck%cards(i)%first_line, deck%cards(i)%first_line + deck%cards(i)%n_lines - 1
+            ! what an unknown keyword would have defined begins each of its lines
+            call spoil_number(deck, deck%lines(k), context%nodes)
+            call spoil_number(deck, deck%lines(k), context%elements)
+         end do
       end do
    end subroutine prepare_context
 
@@ -148,7 +153,13 @@ contains
       case ('BLOCK')
          if (is_nameless(context%deck, card, 'ELSET')) call note_undetermined_mesh(context)
       case ('INCLUDE')
-         if (.not. card%ok) call note_undetermined_file(context)
+         if (card%ok) return
+         call note_undetermined_mesh(context)          ! a file that could not be read may have defined anything
+         call note_undetermined(context, 'material')
+         call note_undetermined(context, 'amplitude')
+         call note_undetermined(context, 'surface interaction')
+         context%sections_undetermined = .true.
+         context%pairs_undetermined = .true.
       end select
    end subroutine note_nameless
 
@@ -163,18 +174,6 @@ contains
          call note_undetermined(context, trim(NOUNS(i)))
       end do
    end subroutine note_undetermined_mesh
-
-   !> A file that could not be read may have defined anything.
-   subroutine note_undetermined_file(context)
-      type(build_context_t), intent(inout) :: context
-
-      call note_undetermined_mesh(context)
-      call note_undetermined(context, 'material')
-      call note_undetermined(context, 'amplitude')
-      call note_undetermined(context, 'surface interaction')
-      context%sections_undetermined = .true.
-      context%pairs_undetermined = .true.
-   end subroutine note_undetermined_file
 
    !> The option that names a thing is not there or cannot be read; misspelt options are left to invalidate_options.
    logical function is_nameless(deck, card, option)
@@ -215,19 +214,6 @@ contains
                                                                                                    card%options(i)%value))
       end do
    end subroutine invalidate_options
-
-   !> What an unknown keyword would have defined begins each of its lines.
-   subroutine invalidate_numbers(card, context)
-      type(card_t), intent(in) :: card
-      type(build_context_t), intent(inout) :: context
-      integer(ip) :: i
-
-      do i = card%first_line, card%first_line + card%n_lines - 1
-         if (context%deck%lines(i)%n_tokens == 0) cycle
-         call spoil_number(context%deck, context%deck%lines(i), context%nodes)
-         call spoil_number(context%deck, context%deck%lines(i), context%elements)
-      end do
-   end subroutine invalidate_numbers
 
    subroutine note_undetermined(context, noun)
       type(build_context_t), intent(inout) :: context

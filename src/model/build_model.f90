@@ -52,7 +52,7 @@ module atrito_build_model
    use atrito_points, only: contact_points_t
    use atrito_refine_model, only: refine_model
    use atrito_refined_equations, only: note_free_sides
-   use atrito_rigid_rows, only: add_rigid_rows
+   use atrito_row_dofs, only: add_rigid_rows
    use atrito_sources, only: keep_sources
    use atrito_strings, only: deck_name
    use atrito_turn_supports, only: turn_supports

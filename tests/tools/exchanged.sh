@@ -52,7 +52,7 @@ bilateral_rows_t   model/fingerprint.f90 digest_of_rows rows n_groups
 step_t             model/fingerprint.f90 * step title,began
 nodal_values_t     model/fingerprint.f90 add_nodal_values values source
 element_load_t     model/fingerprint.f90 add_element_loads loads line,source
-amplitude_t        model/fingerprint.f90 add_amplitude amplitude name
+amplitude_t        model/fingerprint.f90 add_amplitudes amplitude name
 increments_t       model/fingerprint.f90 add_way way
 controls_t         model/fingerprint.f90 add_way controls is_brief,is_first
 requests_t         model/fingerprint.f90 add_requests requests

@@ -23,7 +23,7 @@ module atrito_build_pretension
    use atrito_model, only: rigid_body_t, SURFACE_ELEMENTS
    use atrito_references, only: find_surface
    use atrito_strings, only: to_text
-   use atrito_turn_supports, only: row_weight
+   use atrito_row_dofs, only: row_weight
    implicit none (type, external)
    private
    public :: build_pretension, add_pretension_rows

@@ -15,12 +15,12 @@ module atrito_build_loads
    use atrito_number_list, only: number_list_t, add_number, numbers_of
    use atrito_numbers, only: read_integer
    use atrito_plane_state, only: STATES
-   use atrito_propagation, only: is_of_step, removes_all, propagate, list_inherited, apply_condition, set_to_zero
+   use atrito_propagation, only: is_of_step, removes_all, propagate, list_inherited, apply_condition, set_to_zero, &
+                                 warn_of_replaced
    use atrito_read_load, only: read_face_load, read_direction, read_spin, has_no_rest, magnitude_of
    use atrito_references, only: find_nodes, find_elements, find_surface, check_faces
    use atrito_refined_members, only: is_on_side
    use atrito_refinement, only: is_refined
-   use atrito_replaced_loads, only: warn_of_replaced
    use atrito_row_dofs, only: has_no_unknowns, WHAT_DOF, AT_REFERENCE
    use atrito_sources, only: open_source
    use atrito_strings, only: to_text, upper_case
@@ -136,6 +136,7 @@ contains
       type(data_line_t), intent(in) :: line
       type(build_context_t), intent(inout) :: context
       integer(ip), allocatable :: nodes(:)
+      logical, allocatable :: held(:)
       type(condition_t) :: force
       logical :: ok(3), turns
       integer(ip) :: i
@@ -169,7 +170,10 @@ contains
          force%place = nodes(i)
          call apply_condition(force, slot_of(force), context%open%old_forces, context%open%forces, context%open%replaced)
       end do
-      call note_supported(line, context, nodes, force%dof)
+      held = context%dof_entry(dof_slot(force%dof), nodes) > 0 ! a force there moves nothing
+      if (any(held)) call report_note(context%deck, line_item(context%deck, line, 2_ip), 'N-SUPPORT', 'dof '//to_text(force%dof)// &
+                                      ' of node '//ids_text(pack(context%model%mesh%node_id(nodes), held))// &
+                                      ' is prescribed: the force goes into the reaction', keyword='CLOAD')
    end subroutine read_cload_line
 
    !> A dof that there is not in the plane: harmless where the force is 0.
@@ -213,20 +217,6 @@ contains
       end do
       loads = nodal_values_of(turned)
    end subroutine turn_forces
-
-   !> A force on a prescribed dof moves nothing.
-   subroutine note_supported(line, context, nodes, dof)
-      type(data_line_t), intent(in) :: line
-      type(build_context_t), intent(in) :: context
-      integer(ip), intent(in) :: nodes(:), dof
-      logical :: held(size(nodes))
-
-      held = context%dof_entry(dof_slot(dof), nodes) > 0
-      if (any(held)) call report_note(context%deck, line_item(context%deck, line, 2_ip), 'N-SUPPORT', 'dof '//to_text(dof)// &
-                                      ' of node '//ids_text(pack(context%model%mesh%node_id(nodes), &
-                                                                 held))//' is prescribed: the force goes into the reaction', &
-                                      keyword='CLOAD')
-   end subroutine note_supported
 
    !> Element or set, label, magnitude[, direction or levels].
    subroutine read_dload_line(line, context)

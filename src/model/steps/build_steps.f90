@@ -137,7 +137,7 @@ contains
       type(data_line_t), intent(in) :: line
       logical, intent(in) :: is_direct
       type(increments_t), intent(inout) :: increments
-      logical :: ok(4)
+      logical :: ok(4), reaches_end
 
       associate (this => increments)
          call get_time(deck, line, 2_ip, WHAT_PERIOD, 1.0_wp, this%period, ok(2))
@@ -150,33 +150,18 @@ contains
             this%greatest = this%initial
             return
          end if
-         call get_time(deck, line, 4_ip, WHAT_GREATEST, default_greatest(this), this%greatest, ok(4))
-         if (ok(4)) call bound_first(deck, line, this)
+         ! where as many increments as the step may have do not reach its end, they may grow, as in Abaqus and CalculiX
+         reaches_end = real(this%most, wp)*this%initial >= (1.0_wp - ROUND_OFF)*this%period
+         call get_time(deck, line, 4_ip, WHAT_GREATEST, merge(this%initial, this%period, reaches_end), this%greatest, ok(4))
+         if (ok(4) .and. this%initial > this%greatest) then      ! it is the greatest, as in CalculiX
+            call report_note(deck, line_item(deck, line, 4_ip), 'N-INCREMENT', 'the first increment, '//to_text(this%initial)// &
+                             ', is longer than the greatest, '//to_text(this%greatest)//', and becomes it')
+            this%initial = this%greatest
+         end if
          call get_time(deck, line, 3_ip, WHAT_LEAST, min(this%initial, LEAST_PART*this%period), this%least, ok(3))
          if (ok(3)) call check_time(deck, line, 3_ip, this%least <= this%initial, this%least, WHAT_LEAST, ok(3))
       end associate
    end subroutine read_times
-
-   !> The first increment; where as many as the step may have do not reach its end, they may grow, as in Abaqus and CalculiX.
-   pure real(wp) function default_greatest(increments) result(greatest)
-      type(increments_t), intent(in) :: increments
-
-      greatest = increments%period
-      if (real(increments%most, wp)*increments%initial >= (1.0_wp - ROUND_OFF)*increments%period) greatest = increments%initial
-   end function default_greatest
-
-   !> A first increment longer than the greatest is the greatest, as in CalculiX.
-   subroutine bound_first(deck, line, increments)
-      type(deck_t), intent(in) :: deck
-      type(data_line_t), intent(in) :: line
-      type(increments_t), intent(inout) :: increments
-
-      if (increments%initial <= increments%greatest) return
-      call report_note(deck, line_item(deck, line, 4_ip), 'N-INCREMENT', 'the first increment, '// &
-                       to_text(increments%initial)//', is longer than the greatest, '//to_text(increments%greatest)// &
-                       ', and becomes it')
-      increments%initial = increments%greatest
-   end subroutine bound_first
 
    !> A time; 0 is its default, as in Abaqus and CalculiX.
    subroutine get_time(deck, line, item, what, default, time, ok)
