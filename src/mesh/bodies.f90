@@ -131,7 +131,9 @@ contains
          if (by_profile) then
             call order_by_profile(mesh, contact_nodes, body, bodies%equation(1, :))
          else
-            call put_last(contact_nodes, body%nodes, bodies%equation(1, :))
+            bodies%equation(1, body%nodes) = 0
+            bodies%equation(1, contact_nodes) = 1
+            body%nodes = [pack(body%nodes, bodies%equation(1, body%nodes) == 0), contact_nodes]
          end if
          body%n = 0
          body%n_retained = 0
@@ -171,24 +173,6 @@ contains
       call order_contact_last(graph, local(contact_nodes), order, connected=.true.)
       body%nodes = body%nodes(order)
    end subroutine order_by_profile
-
-   !> Moves some of the nodes to the end of a list, in their own order.
-   pure subroutine put_last(last, nodes, mark)
-      integer(ip), intent(in) :: last(:)
-      integer(ip), intent(inout) :: nodes(:)
-      integer(ip), intent(inout) :: mark(:)         !< (nodes of the mesh) used for the nodes of the list
-      integer(ip) :: i, n
-
-      mark(nodes) = 0
-      mark(last) = 1
-      n = 0
-      do i = 1, size(nodes, kind=ip)
-         if (mark(nodes(i)) == 1) cycle
-         n = n + 1
-         nodes(n) = nodes(i)
-      end do
-      nodes(n + 1:) = last
-   end subroutine put_last
 
    !> The order of elimination of the sparse solver: nested dissection of the nodes, the retained equations last.
    subroutine order_by_dissection(mesh, bodies, i_body, elimination)

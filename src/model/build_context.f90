@@ -56,6 +56,7 @@ module atrito_build_context
       integer(ip), allocatable :: mesh_shift(:)        !< of the node numbers of each mesh of the deck; < 0: it is refused
       integer(ip), allocatable :: set_card(:)          !< for each node set the card that made it
       type(open_step_t) :: open
+      integer(ip), allocatable :: step_cards(:, :)     !< (2, 0:steps) first and last card of each step; 0: those outside of steps
       logical, allocatable :: card_done(:)             !< *NSET and *ELSET cards that are read already
       type(node_elements_t) :: around                  !< elements round each node
       type(section_cut_t), allocatable :: cuts(:)

@@ -152,7 +152,9 @@ contains
             call get_integer(context%deck, dof_place, WHAT_DOF, terms(i)%dof, good(2), keyword=KEYWORD)
             call get_real(context%deck, line_item(context%deck, line, item + 3), 'coefficient, a real', terms(i)%coefficient, &
                           good(3), keyword=KEYWORD)
-            if (all(good) .and. is_out_of_plane(context, terms(i))) then
+            ! where there are reference nodes dof 6 is a rotation, which the node may not have
+            if (all(good) .and. terms(i)%dof > PLANE_DOFS .and. &
+                terms(i)%dof <= merge(LAST_DOF, LAST_DOF - 1_ip, size(context%model%rigid_bodies) == 0)) then
                call report_note(context%deck, dof_place, 'N-DOF', 'the dofs 3 to 6 do not exist in the plane; this term is 0', &
                                 keyword=KEYWORD)
                terms(i)%dof = NO_DOF
@@ -164,17 +166,6 @@ contains
          ok = ok .and. all(good)
       end do
    end subroutine read_term_line
-
-   !> A displacement or rotation of three dimensions, which is 0. Where there are reference nodes, whose dof 6 is a rotation, it is
-   !> one that the node does not have.
-   pure logical function is_out_of_plane(context, term)
-      type(build_context_t), intent(in) :: context
-      type(term_t), intent(in) :: term
-
-      is_out_of_plane = term%dof > PLANE_DOFS .and. term%dof <= LAST_DOF
-      if (term%dof /= LAST_DOF .or. .not. allocated(context%model%rigid_bodies)) return
-      is_out_of_plane = size(context%model%rigid_bodies) == 0
-   end function is_out_of_plane
 
    !> On a refined mesh the nodes of sets are put into the order of those of the first.
    subroutine order_sets(context, place, terms, ok)

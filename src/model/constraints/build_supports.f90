@@ -124,7 +124,13 @@ contains
             if (keyword_name(card) /= 'BOUNDARY' .or. card%step /= step) cycle
             if (card%level == LEVEL_MODEL) call refuse_step_options(context%deck, card)
             call take_amplitude(context, card)
-            call begin_numbers(context, numbered)
+            if (is_refined(context%refinement) .and. .not. allocated(numbered%line)) then
+               allocate (numbered%line(PLANE_DOFS, context%refinement%n_nodes), source=0_ip)
+               allocate (numbered%value(PLANE_DOFS, context%refinement%n_nodes), source=0.0_wp)
+            else if (numbered%n > 0) then
+               numbered%line = 0
+            end if
+            numbered%n = 0
             do k = card%first_line, card%first_line + card%n_lines - 1
                if (.not. context%deck%lines(k)%ok) cycle
                context%open%line = k
@@ -244,20 +250,6 @@ contains
       held = .false.
       if (is_ok) held(first:last) = .true.
    end subroutine read_function_line
-
-   pure subroutine begin_numbers(context, numbered)
-      type(build_context_t), intent(in) :: context
-      type(by_number_t), intent(inout) :: numbered
-
-      if (.not. is_refined(context%refinement)) return
-      if (.not. allocated(numbered%line)) then
-         allocate (numbered%line(PLANE_DOFS, context%refinement%n_nodes), source=0_ip)
-         allocate (numbered%value(PLANE_DOFS, context%refinement%n_nodes), source=0.0_wp)
-      else if (numbered%n > 0) then
-         numbered%line = 0
-      end if
-      numbered%n = 0
-   end subroutine begin_numbers
 
    !> An edge of the outline all of whose nodes a card prescribes one by one is prescribed between them, too.
    subroutine hold_edges(context, numbered)

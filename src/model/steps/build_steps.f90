@@ -36,13 +36,15 @@ contains
       logical :: found
 
       n = max(1_ip, maxval(context%deck%cards(:context%deck%n_cards)%step))
-      allocate (static_card(0:n), source=0_ip)
+      allocate (static_card(0:n), context%step_cards(2, 0:n), source=0_ip)
       allocate (context%model%steps(n))
       do i = 1, n
          context%model%steps(i)%title = ''
       end do
       do i = 1, context%deck%n_cards
          associate (card => context%deck%cards(i), step => context%model%steps(max(1_ip, context%deck%cards(i)%step)))
+            if (context%step_cards(1, card%step) == 0) context%step_cards(1, card%step) = i
+            context%step_cards(2, card%step) = i
             select case (keyword_name(card))
             case ('STEP')
                call read_step_card(context%deck, card, step)
@@ -66,6 +68,7 @@ contains
       type(deck_t), intent(in) :: deck
       type(card_t), intent(in) :: card
       type(step_t), intent(inout) :: step
+      type(token_t) :: whole, last
       integer(ip) :: k
       logical :: found
 
@@ -74,7 +77,11 @@ contains
       if (found .and. step%increments%most < 1) call refuse_option(deck, card, 'INC', WHAT_MOST)
       do k = card%first_line, card%first_line + card%n_lines - 1
          if (k > card%first_line) step%title = step%title//' '
-         step%title = step%title//line_text(deck, deck%lines(k))
+         if (deck%lines(k)%n_tokens == 0) cycle
+         whole = line_item(deck, deck%lines(k), 1_ip)   ! a whole line, its commas, too
+         last = last_item(deck, deck%lines(k))
+         whole%last = last%last
+         step%title = step%title//token_text(deck, whole)
       end do
    end subroutine read_step_card
 
@@ -94,21 +101,6 @@ contains
                                                  'ones; at the end W-LARGE tells where that matters, or N-SMALL that it does not', &
                                                  keyword='STEP')
    end subroutine read_nlgeom
-
-   !> A whole line, its commas, too.
-   pure function line_text(deck, line) result(text)
-      type(deck_t), intent(in) :: deck
-      type(data_line_t), intent(in) :: line
-      character(len=:), allocatable :: text
-      type(token_t) :: whole, last
-
-      text = ''
-      if (line%n_tokens == 0) return
-      whole = line_item(deck, line, 1_ip)
-      last = last_item(deck, line)
-      whole%last = last%last
-      text = token_text(deck, whole)
-   end function line_text
 
    !> Without a data line the step is one increment, which is not cut.
    subroutine read_static_card(deck, i, first, increments)
@@ -240,37 +232,17 @@ contains
       context%open%amplitude = 0
       context%open%cut_names = name_list_t()
       context%open%first_token = huge(1_ip)
-      call find_cards(context)
+      context%open%first_card = context%step_cards(1, number)
+      context%open%last_card = context%step_cards(2, number)
+      if (number == 1) then                            ! with what stands outside of all steps
+         context%open%first_card = 1
+         context%open%last_card = context%deck%n_cards
+      end if
       do i = context%open%first_card, context%open%last_card
          if (context%deck%cards(i)%step /= number .or. context%deck%cards(i)%n_lines == 0) cycle
          context%open%first_token = context%deck%lines(context%deck%cards(i)%first_line)%first_token
          return
       end do
    end subroutine open_step
-
-   !> Where the cards of the open step are: steps are opened one after the other, and their cards stand together. What stands
-   !> outside of all steps is read with the first.
-   pure subroutine find_cards(context)
-      type(build_context_t), intent(inout) :: context
-
-      associate (open => context%open, cards => context%deck%cards, n => context%deck%n_cards)
-         if (open%number == 1) then
-            open%first_card = 1
-            open%last_card = n
-            return
-         end if
-         if (open%number == 2) open%last_card = 0
-         open%first_card = open%last_card + 1
-         do while (open%first_card < n)
-            if (cards(open%first_card)%step == open%number) exit
-            open%first_card = open%first_card + 1
-         end do
-         open%last_card = open%first_card
-         do while (open%last_card < n)
-            if (cards(open%last_card + 1)%step /= open%number) exit
-            open%last_card = open%last_card + 1
-         end do
-      end associate
-   end subroutine find_cards
 
 end module atrito_build_steps
