@@ -114,8 +114,11 @@ contains
       body%slenderness = minval(high - low)/maxval(high - low)
    end subroutine measure_body
 
-   !> Numbers the equations of a body so that the profile is small and the contact nodes come last, in their chain order. A solver
-   !> with an order of its own does not need the former: without `by_profile` the other nodes stay in the order they have.
+   !> Numbers the equations of a body, one for each dof that is not prescribed.
+   !>
+   !> The contact nodes come last, in their chain order: elimination of all equations before them leaves the Schur complement of the
+   !> stiffness on the contact line. The others are ordered so that the profile is small. A solver with an order of its own does not
+   !> need that: without `by_profile` they stay in the order they have.
    subroutine number_equations(mesh, bodies, i_body, held, contact_nodes, by_profile)
       type(mesh_t), intent(in) :: mesh
       type(bodies_t), intent(inout) :: bodies
@@ -175,6 +178,10 @@ contains
    end subroutine order_by_profile
 
    !> The order of elimination of the sparse solver: nested dissection of the nodes, the retained equations last.
+   !>
+   !> Dissection gives parts, lists of nodes, in the order of elimination, and the parent of each part. The positions of a part's
+   !> equations follow those of the part before it: last(p) is the number of equations of the parts 1 to p. Retained equations keep
+   !> their numbers, which are the last ones of the body.
    subroutine order_by_dissection(mesh, bodies, i_body, elimination)
       type(mesh_t), intent(in) :: mesh
       type(bodies_t), intent(in) :: bodies
@@ -253,7 +260,14 @@ contains
       !$omp end parallel do
    end function is_eliminated
 
-   !> The rigid motions that the supports of a body leave free: the null space of the prescribed dofs' motions.
+   !> The rigid motions that the supports of a body leave free.
+   !>
+   !> A rigid motion m = (m1, m2, m3), two translations and the rotation about the centre c times the size R of the body, displaces
+   !> the point x by
+   !>    u1 = m1 - m3 (x2 - c2)/R,   u2 = m2 + m3 (x1 - c1)/R,
+   !> so that its three entries are lengths of like size. Each prescribed dof asks for u = 0 there, a row of a matrix with three
+   !> columns; so does each motion that strains the body, as that along the radius of a body of revolution does. What is left free
+   !> is the null space of the matrix. Its basis is reduced to the simplest one, so that a motion can be named.
    subroutine find_rigid_modes(mesh, body, held)
       type(mesh_t), intent(in) :: mesh
       type(body_t), intent(inout) :: body

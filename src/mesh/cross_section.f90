@@ -1,4 +1,4 @@
-!> A cross-section of bodies along a straight cut: which elements and nodes tell the force that goes through it.
+!> A cross-section of bodies along a straight cut: the elements and nodes from which the force through it is summed.
 !>
 !> The elements count as behind or ahead of the line by the mean of their corners. What the part ahead does to the part behind goes
 !> through the nodes that elements of both sides share. Elements that the line parts are behind or ahead as a whole, and so is

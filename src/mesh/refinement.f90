@@ -192,8 +192,12 @@ contains
       end do
    end subroutine place_nodes
 
-   !> Places the new nodes of an element. An edge is mapped by its own nodes alone, hence alike from both sides, and the differences
-   !> are formed first, so that a constant coordinate stays constant to the last bit.
+   !> Places the new nodes of an element where its isoparametric map takes the points of a uniform grid.
+   !>
+   !> With s along side 1-2 and t along side 1-4, both 0..1, the map of a quadrilateral is a line (or a parabola, of the second
+   !> degree) in s through points that lie on lines (parabolas) in t: through nodes 1 and 4, nodes 2 and 3, and the middles. An edge
+   !> is mapped by its own nodes alone, hence alike from both sides. The differences are formed first, so that a constant coordinate
+   !> stays constant to the last bit.
    pure subroutine map_element(mesh, refinement, element, x, grid)
       type(mesh_t), intent(in) :: mesh
       type(refinement_t), intent(in) :: refinement
@@ -280,6 +284,8 @@ contains
       end if
    end function along
 
+   !> The point t = 0..1 of the parabola that is at a for t = 0, at `middle` for t = 1/2 and at b for t = 1: the straight line, and
+   !> 4 t (1 - t) times what the middle is off its chord by.
    pure function parabola(a, b, middle, t) result(x)
       real(wp), intent(in) :: a(2), b(2), middle(2), t
       real(wp) :: x(2)
@@ -408,7 +414,7 @@ contains
       end if
    end subroutine take_piece
 
-   !> Whether this tells of a refinement at all.
+   !> Whether the mesh is a refined one.
    pure logical function is_refined(refinement)
       type(refinement_t), intent(in) :: refinement
 

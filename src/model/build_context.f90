@@ -2,7 +2,7 @@
 !> and which names and numbers an error has invalid.
 !>
 !> One mistake, one message: whoever refers to a thing whose definition was faulty is passed over in silence. Silence is allowed
-!> only once an error has been told, so a deck is never accepted with something left out.
+!> only once an error has been reported, so a deck is never accepted with something left out.
 module atrito_build_context
    use atrito_build_parts, only: open_step_t, inherited_t, replaced_t, numbered_t, block_t, section_cut_t, &
                                  BLOCK_SIDES, LOOSE_HELD, LOOSE_RELEASED, LOOSE_MOVES
@@ -87,7 +87,7 @@ module atrito_build_context
       real(wp), allocatable :: axes(:, :, :)           !< (2, dof, n_nodes) local axes; 0: along x and y; not allocated: nowhere
    end type build_context_t
 
-   integer(ip), parameter :: MOST_IDS = 8              !< numbers told in a message
+   integer(ip), parameter :: MOST_IDS = 8              !< numbers that a message lists
 
 contains
 
@@ -306,7 +306,7 @@ contains
       if (has_errors()) is_undetermined = has_name(context%undetermined, noun)
    end function is_undetermined
 
-   !> Elements are missing, which has been told: what belongs to none may belong to one of them.
+   !> Elements are missing, which has been reported: what belongs to none may belong to one of them.
    logical function has_lost_elements(context)
       type(build_context_t), intent(in) :: context
 

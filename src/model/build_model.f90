@@ -69,7 +69,7 @@ contains
    !> are made in the order of the deck, since they follow from each other.
    !>
    !> With levels > 0 every element is refined into 4**levels, and with a shape all become elements of that shape. The model is
-   !> built without it first: what is wrong with a deck is told of the elements that stand in it.
+   !> built without it first: messages name the elements that stand in the deck.
    subroutine build_model(deck, model, levels, memory, shape, state)
       type(deck_t), intent(in) :: deck                 !< read and checked by read_deck
       type(model_t), intent(out) :: model

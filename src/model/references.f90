@@ -54,7 +54,7 @@ contains
       character(len=:), allocatable :: noun
 
       associate (scope => deck%scopes(token%scope))
-         ok = scope%ok                                 ! if not, that is told
+         ok = scope%ok                                 ! if not, that is reported
          if (.not. ok) return
          ok = id <= scope%span
          if (ok) then

@@ -45,32 +45,28 @@ contains
       type(build_context_t), intent(inout) :: context
       type(token_t) :: place
       character(len=:), allocatable :: name
-      integer(ip) :: surface
-      logical :: found, has_nodes
+      integer(ip) :: i, surface
+      logical :: found
 
-      has_nodes = any([(has_option(context%deck, card, trim(NODE_OPTIONS(surface))), surface=1, size(NODE_OPTIONS))])
+      surface = 0
       call option_text(context%deck, card, 'ANALYTICAL SURFACE', name, found, place)
-      if (.not. found) then
-         if (has_nodes) then
-            call read_reference(card, 0_ip, context)
-         else if (card%ok) then
-            call report_error(context%deck, card%place, 'E-OPTION-MISSING', '*RIGID BODY has neither a surface nor nodes', &
-                              expected='ANALYTICAL SURFACE=, or REF NODE= and one of NSET=, TIE NSET=, ELSET=', &
-                              keyword='RIGID BODY')
-         end if
-         return
-      end if
-      call find_surface(context, place, surface, 'RIGID BODY')
-      if (surface > 0) then
-         if (context%model%surfaces(surface)%kind == SURFACE_SEGMENTS) then
-            context%model%surfaces(surface)%is_rigid_body = .true.
-            call read_reference(card, surface, context)
+      if (found) then
+         call find_surface(context, place, surface, 'RIGID BODY')
+         if (surface > 0) found = context%model%surfaces(surface)%kind == SURFACE_SEGMENTS
+         if (.not. found) call report_error(context%deck, place, 'E-SURFACE', 'surface '//name//' is made of element faces', &
+                                            expected='a surface of TYPE=SEGMENTS', keyword='RIGID BODY')
+         if (surface == 0 .or. .not. found) then
+            context%rigid_undetermined = .true.
             return
          end if
-         call report_error(context%deck, place, 'E-SURFACE', 'surface '//name//' is made of element faces', &
-                           expected='a surface of TYPE=SEGMENTS', keyword='RIGID BODY')
+         context%model%surfaces(surface)%is_rigid_body = .true.
+      else if (.not. any([(has_option(context%deck, card, trim(NODE_OPTIONS(i))), i=1, size(NODE_OPTIONS, kind=ip))])) then
+         if (card%ok) call report_error(context%deck, card%place, 'E-OPTION-MISSING', &
+                                        '*RIGID BODY has neither a surface nor nodes', keyword='RIGID BODY', &
+                                        expected='ANALYTICAL SURFACE=, or REF NODE= and one of NSET=, TIE NSET=, ELSET=')
+         return
       end if
-      context%rigid_undetermined = .true.
+      call read_reference(card, surface, context)
    end subroutine read_card
 
    !> REF NODE=: one node of no element, of one surface alone.

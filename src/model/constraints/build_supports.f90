@@ -23,7 +23,8 @@ module atrito_build_supports
 
    integer(ip), parameter :: PLANE_DOFS = 2, LAST_DOF = 6
 
-   !> Two values of one dof are the same when they differ by less than this part of the values: expressions are rounded.
+   !> Two values of one dof are the same when they differ by less than this part of the largest: expressions are rounded, as 0.3 x
+   !> and 0.1 x + 0.2 at x = 1.
    real(wp), parameter :: SAME_VALUE = 1.0e-12_wp
 
    !> A refined mesh: what the lines of a card prescribe at single nodes, one after the other along an edge.
@@ -85,7 +86,7 @@ contains
       if (before%n > 0) call note_released(before, context)
    end subroutine build_supports
 
-   !> What stands before the first *STEP holds in every step, until OP=NEW lets go of it: that is told.
+   !> What stands before the first *STEP holds in every step, until OP=NEW removes it, which is noted.
    subroutine note_released(before, context)
       type(condition_list_t), intent(in) :: before
       type(build_context_t), intent(in) :: context
@@ -338,7 +339,7 @@ contains
    end subroutine hold_loose
 
    !> Prescribes a dof of some nodes; a line of a later step takes the place of an earlier one. A value that differs from an earlier
-   !> one of the step is an error, told once a line.
+   !> one of the step is an error, reported once a line.
    subroutine prescribe(nodes, dof, value, context)
       integer(ip), intent(in) :: nodes(:), dof         !< dof 1, 2, or 6: the rotation of reference nodes
       real(wp), intent(in) :: value(:)                 !< of each node [L], or [-]
@@ -375,7 +376,7 @@ contains
                   old%value(1) = value(i)
                   old%amplitude = open%amplitude
                   old%line = open%line
-               else if (.not. is_same(old%value(1), value(i), scale)) then
+               else if (abs(old%value(1) - value(i)) > SAME_VALUE*max(abs(old%value(1)), scale)) then
                   if (clashes%n == 0) first_value = value(i)
                   call add_number(clashes, nodes(i))
                else if (abs(value(i)) > 0.0_wp .and. old%amplitude /= open%amplitude) then
@@ -388,14 +389,6 @@ contains
       if (curves%n > 0) call report_conflict(context, numbers_of(curves), dof, 'has another amplitude here than', &
                                              'one AMPLITUDE= for each dof in a step')
    end subroutine prescribe
-
-   !> Equal but for round-off: 0.3 x and 0.1 x + 0.2 at x = 1.
-   pure logical function is_same(earlier, value, scale)
-      real(wp), intent(in) :: earlier, value
-      real(wp), intent(in) :: scale                    !< largest value of the line
-
-      is_same = abs(earlier - value) <= SAME_VALUE*max(abs(earlier), scale)
-   end function is_same
 
    !> Two values of one dof, with as many digits as tell them apart.
    subroutine report_clash(context, nodes, dof, value)

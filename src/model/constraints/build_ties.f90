@@ -78,7 +78,7 @@ contains
       end do
    end subroutine read_tie_card
 
-   !> What can be told of each tie without looking for its points.
+   !> Checks of each tie that need none of its points.
    subroutine check_ties(context, chains)
       type(build_context_t), intent(in) :: context
       type(chain_report_t), intent(in) :: chains(:)    !< of each surface
@@ -128,7 +128,7 @@ contains
       type(token_t), intent(in) :: place
       type(face_list_t), intent(in) :: slave, master
       type(number_list_t) :: shared
-      type(id_map_t) :: masters, told
+      type(id_map_t) :: masters, found
       integer(ip), allocatable :: nodes(:)
       integer(ip) :: i, k
       logical :: known
@@ -144,7 +144,7 @@ contains
             nodes = face_nodes(mesh, slave%element(i), slave%face(i))
             do k = 1, size(nodes, kind=ip)
                if (find_id(masters, nodes(k)) == 0) cycle
-               call add_id(told, nodes(k), 1_ip, known)
+               call add_id(found, nodes(k), 1_ip, known)
                if (.not. known) call add_number(shared, mesh%node_id(nodes(k)))
             end do
          end do

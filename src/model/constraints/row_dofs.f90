@@ -34,7 +34,7 @@ contains
       loose = in_no_element(context, nodes) .and. .not. is_reference(context, nodes)
    end function has_no_unknowns
 
-   !> ok is false, and an error told, where some nodes have no unknowns.
+   !> ok is false, and an error reported, where some nodes have no unknowns.
    subroutine check_row_nodes(context, place, nodes, expected, keyword, ok)
       type(build_context_t), intent(in) :: context
       type(token_t), intent(in) :: place
@@ -49,7 +49,7 @@ contains
                         expected=expected, keyword=keyword)
    end subroutine check_row_nodes
 
-   !> ok is false, and an error told, where some nodes do not have a dof.
+   !> ok is false, and an error reported, where some nodes do not have a dof.
    subroutine check_row_dof(context, place, nodes, dof, keyword, ok)
       type(build_context_t), intent(in) :: context
       type(token_t), intent(in) :: place               !< of the dof

@@ -18,8 +18,11 @@ module atrito_turn_supports
 
 contains
 
-   !> Prescribed displacements of a step along local axes: both of a node become prescribed ones along x and y, a single one a row,
-   !> which holds in all steps.
+   !> Prescribed displacements of a step along local axes e1 and e2 of a node.
+   !>
+   !> Where both are prescribed the displacement is u = u1 e1 + u2 e2, whose components along x and y are prescribed. A single one
+   !> asks for e . u = value: where e is an axis of the scene a component is prescribed, else it is a bilateral row, which holds in
+   !> all steps.
    subroutine turn_supports(context)
       type(build_context_t), intent(inout) :: context
       type(condition_list_t) :: inclined

@@ -135,7 +135,7 @@ contains
                               bodies%list(crossings(k)%body)%name, expected='a line through the whole of '// &
                               span_text(context, bodies, i, crossings(k)), keyword=KEYWORD)
          else
-            call tell_of_several(context, bodies, i, pack(crossings, crossings%is_taken))
+            call warn_of_several(context, bodies, i, pack(crossings, crossings%is_taken))
          end if
       end associate
    end subroutine place_cut
@@ -185,7 +185,7 @@ contains
    end function point_text
 
    !> What may not be meant: several bodies, one body several times, more than the set, an edge.
-   subroutine tell_of_several(context, bodies, i, taken)
+   subroutine warn_of_several(context, bodies, i, taken)
       type(build_context_t), intent(in) :: context
       type(bodies_t), intent(in) :: bodies
       integer(ip), intent(in) :: i
@@ -214,6 +214,6 @@ contains
                              ': what acts on the edge is told', keyword=KEYWORD)
          end if
       end associate
-   end subroutine tell_of_several
+   end subroutine warn_of_several
 
 end module atrito_build_cuts

@@ -384,7 +384,7 @@ contains
                               ' is a drawn line, which carries no pressure', expected='a surface of TYPE=ELEMENT', &
                               keyword='DSLOAD')
          else if (surface%faces%n == 0) then
-            if (is_invalid(context, surface%name) .or. has_errors()) return   ! elements are missing, and that was told
+            if (is_invalid(context, surface%name) .or. has_errors()) return   ! elements are missing, and that was reported
             call report_error(context%deck, token, 'E-SURFACE', 'surface '//surface%name// &
                               ' has no faces: others join it everywhere', expected='a surface on the outline of a body', &
                               keyword='DSLOAD')

@@ -1,5 +1,9 @@
 !> How supports and loads propagate from step to step: a step has those of the one before with the values that they had at its end,
-!> but for those whose place its own lines take.
+!> but for those whose place its own lines take (*BOUNDARY, *CLOAD, *DLOAD, *DSLOAD with OP=MOD) or that OP=NEW removes.
+!>
+!> A condition has two values, at the beginning and at the end of its step, between which it goes linearly. In the next step it
+!> begins with the value that it has come to, and stays there: with an amplitude a that is value times a(end of the step). What is
+!> removed or replaced goes from there to 0 or to the new value.
 module atrito_propagation
    use atrito_amplitudes, only: factor_at, time_before
    use atrito_build_context, only: build_context_t, inherited_t, place_text, replaced_t
@@ -168,7 +172,7 @@ contains
       end if
    end subroutine apply_condition
 
-   !> Each line that ends is told once of each line that takes its place.
+   !> Each line that ends is reported once for each line that takes its place.
    pure subroutine note_replaced(old, new, replaced)
       integer(ip), intent(in) :: old, new              !< lines of the deck
       type(replaced_t), intent(inout) :: replaced

@@ -335,7 +335,7 @@ contains
       real(wp) :: factor
 
       factor = 1.0_wp
-      if (amplitude_of(list, i) > 0) factor = last_factor(symbols%model, symbols%step, amplitude_of(list, i))
+      if (amplitude_of(list%amplitude, i) > 0) factor = last_factor(symbols%model, symbols%step, amplitude_of(list%amplitude, i))
       value = list%value(i)
       if (abs(factor) > 0.0_wp) value = value*factor
    end function end_value
