@@ -92,7 +92,7 @@ contains
       type(build_context_t), intent(in) :: context
       type(number_list_t) :: released
       type(token_t) :: place
-      integer(ip) :: i, of_model
+      integer(ip) :: i, pass, of_model
 
       of_model = 0                                     ! last line of the model
       do i = context%deck%n_cards, 1, -1
@@ -102,11 +102,14 @@ contains
             if (card%step == 0) of_model = max(of_model, card%first_line + card%n_lines - 1)
          end associate
       end do
-      do i = 1, before%n
-         associate (old => before%list(i))
-            if (context%dof_entry(dof_slot(old%dof), old%place) > 0 .or. old%line == 0 .or. old%line > of_model) cycle
-            call add_number(released, context%model%mesh%node_id(old%place))
-         end associate
+      do pass = 1, 2                                   ! reference nodes last
+         do i = 1, before%n
+            associate (old => before%list(i))
+               if (is_reference(context, old%place) .neqv. pass == 2) cycle
+               if (context%dof_entry(dof_slot(old%dof), old%place) > 0 .or. old%line == 0 .or. old%line > of_model) cycle
+               call add_number(released, context%model%mesh%node_id(old%place))
+            end associate
+         end do
       end do
       if (released%n > 0 .and. .not. has_errors()) call report_note(context%deck, place, 'N-RELEASED', &
                                         'OP=NEW lets go of what is held before *STEP, too: node '//ids_text(numbers_of(released)), &
@@ -153,7 +156,8 @@ contains
       type(by_number_t), intent(inout) :: numbered
       integer(ip), allocatable :: nodes(:)
       real(wp), allocatable :: values(:)               ! of the nodes
-      integer(ip) :: dof
+      logical, allocatable :: turns(:)                 ! those that are reference nodes
+      integer(ip) :: dof, i
       logical :: held(LAST_DOF), ok
 
       if (is_function) then
@@ -167,8 +171,13 @@ contains
       end if
       if (.not. ok) return
       call note_loose(line, context, nodes)
+      turns = is_reference(context, nodes)
       do dof = 1, LAST_DOF
-         if (held(dof) .and. (dof <= PLANE_DOFS .or. dof == ROTATION_DOF)) call prescribe(nodes, dof, values, context)
+         if (.not. held(dof) .or. (dof > PLANE_DOFS .and. dof /= ROTATION_DOF)) cycle
+         do i = 1, size(nodes, kind=ip)
+            if (turns(i)) call prescribe([nodes(i)], dof, [values(i)], context)
+         end do
+         call prescribe(pack(nodes,.not. turns), dof, pack(values,.not. turns), context)
       end do
       if (size(nodes) /= 1 .or. .not. is_refined(context%refinement)) return
       where (held(:PLANE_DOFS))

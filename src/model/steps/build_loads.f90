@@ -136,7 +136,6 @@ contains
       type(data_line_t), intent(in) :: line
       type(build_context_t), intent(inout) :: context
       integer(ip), allocatable :: nodes(:)
-      logical, allocatable :: held(:)
       type(condition_t) :: force
       logical :: ok(3), turns
       integer(ip) :: i
@@ -169,11 +168,9 @@ contains
          end if
          force%place = nodes(i)
          call apply_condition(force, slot_of(force), context%open%old_forces, context%open%forces, context%open%replaced)
+         if (is_reference(context, nodes(i))) call note_supported(line, context, [nodes(i)], force%dof)
       end do
-      held = context%dof_entry(dof_slot(force%dof), nodes) > 0 ! a force there moves nothing
-      if (any(held)) call report_note(context%deck, line_item(context%deck, line, 2_ip), 'N-SUPPORT', 'dof '//to_text(force%dof)// &
-                                      ' of node '//ids_text(pack(context%model%mesh%node_id(nodes), held))// &
-                                      ' is prescribed: the force goes into the reaction', keyword='CLOAD')
+      call note_supported(line, context, pack(nodes,.not. is_reference(context, nodes)), force%dof)
    end subroutine read_cload_line
 
    !> A dof that there is not in the plane: harmless where the force is 0.
@@ -217,6 +214,19 @@ contains
       end do
       loads = nodal_values_of(turned)
    end subroutine turn_forces
+
+   !> A force on a prescribed dof moves nothing.
+   subroutine note_supported(line, context, nodes, dof)
+      type(data_line_t), intent(in) :: line
+      type(build_context_t), intent(in) :: context
+      integer(ip), intent(in) :: nodes(:), dof
+      logical :: held(size(nodes))
+
+      held = context%dof_entry(dof_slot(dof), nodes) > 0
+      if (any(held)) call report_note(context%deck, line_item(context%deck, line, 2_ip), 'N-SUPPORT', 'dof '//to_text(dof)// &
+                                      ' of node '//ids_text(pack(context%model%mesh%node_id(nodes), held))// &
+                                      ' is prescribed: the force goes into the reaction', keyword='CLOAD')
+   end subroutine note_supported
 
    !> Element or set, label, magnitude[, direction or levels].
    subroutine read_dload_line(line, context)
