@@ -89,8 +89,7 @@ contains
       logical :: is_known(mesh%n_nodes)
       integer(ip) :: i
 
-      allocate (section%node(0), section%share(0), section%shared(0), section%split(0), section%is_behind(0), &
-                section%edge_share(0))
+      allocate (section%node(0), section%share(0), section%shared(0), section%split(0), section%is_behind(0), section%edge_share(0))
       is_known = .false.
       do i = 1, size(pieces, kind=ip)
          associate (piece => pieces(i), e => pieces(i)%element)

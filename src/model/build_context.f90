@@ -7,7 +7,7 @@ module atrito_build_context
    use atrito_build_parts, only: open_step_t, inherited_t, replaced_t, numbered_t, block_t, section_cut_t, &
                                  BLOCK_SIDES, LOOSE_HELD, LOOSE_RELEASED, LOOSE_MOVES
    use atrito_curves, only: curve_list_t, line_list_t
-   use atrito_deck, only: deck_t, card_t, token_t, data_line_t, token_text, is_empty_token, keyword_name, scope_shift, &
+   use atrito_deck, only: deck_t, card_t, token_t, data_line_t, token_text, is_empty_token, line_item, keyword_name, scope_shift, &
                           scope_text, model_number
    use atrito_diagnostics, only: report_error
    use atrito_faces, only: face_list_t, node_elements_t
@@ -28,7 +28,7 @@ module atrito_build_context
    public :: LOOSE_HELD, LOOSE_RELEASED, LOOSE_MOVES
    public :: build_context_t, open_step_t, inherited_t, replaced_t, numbered_t, block_t, section_cut_t
    public :: BLOCK_SIDES
-   public :: prepare_context, add_context_block, note_undetermined_mesh
+   public :: prepare_context, add_context_block, note_undetermined_mesh, line_token, open_line
    public :: invalidate_block, invalidate_name, spoil_number, is_invalid, is_undetermined, has_errors, has_lost_elements
    public :: place_token, place_text, note_number, note_place, note_places, keep_token, define_name, count_cards, ids_text, MOST_IDS
 
@@ -317,6 +317,21 @@ contains
    logical function has_errors()
       has_errors = count_messages(SEVERITY_ERROR) > 0
    end function has_errors
+
+   !> The line that is being read.
+   pure type(data_line_t) function open_line(context)
+      type(build_context_t), intent(in) :: context
+
+      open_line = context%deck%lines(context%open%line)
+   end function open_line
+
+   !> An item of the line that is being read; an empty one where it has none.
+   pure type(token_t) function line_token(context, k)
+      type(build_context_t), intent(in) :: context
+      integer(ip), intent(in) :: k
+
+      line_token = line_item(context%deck, open_line(context), k)
+   end function line_token
 
    !> The item at a place kept by note_place.
    pure function place_token(deck, place) result(token)

@@ -96,8 +96,7 @@ contains
       if (own > 0) then                                ! only how the same state is integrated may change
          if (any(FULL_STATE(model%mesh%state) /= FULL_STATE(own))) own = 0
       end if
-      if (depth == 0 .and. (kind == 0 .or. all(model%mesh%shape == kind)) &
-          .and. (own == 0 .or. all(model%mesh%state == own))) return
+      if (depth == 0 .and. (kind == 0 .or. all(model%mesh%shape == kind)) .and. (own == 0 .or. all(model%mesh%state == own))) return
       call forget_messages(mark)
       call build_once(deck, depth, kind, own, limit, model)
    end subroutine build_model

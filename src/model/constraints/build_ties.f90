@@ -243,8 +243,7 @@ contains
       far = count(.not. is_near(points%gap, tolerance, points%length), kind=ip)
       context%model%ties(i)%n_far = far
       if (points%n == 0) then
-         call refuse(context, context%ties(i), 'the surfaces of tie '//name//' do not face each other', &
-                     IN_FRONT)
+         call refuse(context, context%ties(i), 'the surfaces of tie '//name//' do not face each other', IN_FRONT)
       else if (far == points%n) then
          call refuse(context, context%ties(i), 'no node of the slave lies within the tolerance of the master: the least '// &
                      'distance is '//to_text(minval(abs(points%gap)), 4), 'POSITION TOLERANCE='// &

@@ -176,8 +176,7 @@ contains
          do axis = 1, 2
             vectors = 0.0_wp
             vectors(axis, :) = part
-            call add_row([nodes(i), places], vectors, 0.0_wp, 0.0_wp, weight, [ROW_RIGID, group, b], &
-                         context%model%bilateral)
+            call add_row([nodes(i), places], vectors, 0.0_wp, 0.0_wp, weight, [ROW_RIGID, group, b], context%model%bilateral)
          end do
       end do
    end subroutine tie_nodes
