@@ -160,14 +160,12 @@ contains
       integer(ip) :: dof, i
       logical :: held(LAST_DOF), ok
 
-      if (is_function) then
-         call read_function_line(in_model, context, nodes, held, values, ok)
-      else if (is_support_word(context)) then
+      if (is_support_word(context) .and. .not. is_function) then
          call find_dofs_of_word(context, held, ok)
          if (ok) call find_nodes(context, line_token(context, 1_ip), nodes, ok, 'BOUNDARY')
          if (ok) values = spread(0.0_wp, 1, size(nodes))
       else
-         call read_value_line(in_model, context, nodes, held, values, ok)
+         call read_values(is_function, in_model, context, nodes, held, values, ok)
       end if
       if (.not. ok) return
       call note_loose(context, nodes)
@@ -187,77 +185,51 @@ contains
       numbered%n = numbered%n + 1
    end subroutine read_line
 
-   !> Node or set, first dof[, last dof]: what lines without a word begin with.
-   subroutine read_place(context, nodes, first, last, ok)
-      type(build_context_t), intent(in) :: context
-      integer(ip), allocatable, intent(out) :: nodes(:)
-      integer(ip), intent(out) :: first, last
-      logical, intent(out) :: ok(3)
-
-      call find_nodes(context, line_token(context, 1_ip), nodes, ok(1), 'BOUNDARY')
-      call get_integer(context%deck, line_token(context, 2_ip), 'first '//WHAT_DOF, first, ok(2), keyword='BOUNDARY')
-      call get_integer(context%deck, line_token(context, 3_ip), 'last '//WHAT_DOF, last, ok(3), first, 'BOUNDARY')
-   end subroutine read_place
-
-   !> Node or set, first dof[, last dof[, value]].
-   subroutine read_value_line(in_model, context, nodes, held, values, is_ok)
+   !> Node or set, first dof[, last dof[, value]], or in the place of the value an expression in x and y.
+   subroutine read_values(is_function, in_model, context, nodes, held, values, is_ok)
+      logical, intent(in) :: is_function
       logical, intent(in) :: in_model                  !< before *STEP
       type(build_context_t), intent(in) :: context
       integer(ip), allocatable, intent(out) :: nodes(:)
       logical, intent(out) :: held(LAST_DOF)           !< dofs
-      real(wp), allocatable, intent(out) :: values(:)
+      real(wp), allocatable, intent(out) :: values(:)  !< of the nodes [L], or [-]
       logical, intent(out) :: is_ok
+      type(token_t) :: place, last_token
       real(wp) :: value
       integer(ip) :: first, last
-      logical :: ok(4), turns
+      logical :: ok(4)
 
       is_ok = .false.
-      call read_place(context, nodes, first, last, ok(:3))
-      call get_real(context%deck, line_token(context, 4_ip), 'displacement, a real [L]', value, ok(4), 0.0_wp, 'BOUNDARY')
-      if (.not. all(ok(2:))) return
+      call find_nodes(context, line_token(context, 1_ip), nodes, ok(1), 'BOUNDARY')
+      call get_integer(context%deck, line_token(context, 2_ip), 'first '//WHAT_DOF, first, ok(2), keyword='BOUNDARY')
+      call get_integer(context%deck, line_token(context, 3_ip), 'last '//WHAT_DOF, last, ok(3), first, 'BOUNDARY')
+      place = line_token(context, 4_ip)
+      if (is_function) then
+         last_token = last_item(context%deck, open_line(context))
+         place%last = last_token%last                  ! commas belong to the expression: max(x, y)
+         value = 1.0_wp                                ! a function is not 0, whatever it is: there are no harmless dofs
+         ok(4) = .true.
+      else
+         call get_real(context%deck, place, 'displacement, a real [L]', value, ok(4), 0.0_wp, 'BOUNDARY')
+         if (.not. all(ok(2:))) return
+      end if
       if (in_model .and. abs(value) > 0.0_wp) then
          ok(4) = .false.
-         call report_error(context%deck, line_token(context, 4_ip), 'E-VALUE', &
-                           'a displacement other than 0 before *STEP', &
-                           expected='0 [L] here; other values in the step', keyword='BOUNDARY')
+         call report_error(context%deck, place, 'E-VALUE', 'a displacement other than 0 before *STEP', &
+                           expected=trim(merge('*BOUNDARY, FUNCTION in the step     ', '0 [L] here; other values in the step', &
+                                               is_function)), keyword='BOUNDARY')
       end if
-      turns = size(nodes) > 0 .and. all(is_reference(context, nodes))
-      is_ok = are_dofs(context, first, last, value, turns) .and. all(ok)
+      if (all(ok(2:3))) ok(2) = are_dofs(context, first, last, value, .not. is_function .and. size(nodes) > 0 .and. &
+                                         all(is_reference(context, nodes)))
+      values = spread(value, 1, size(nodes))
+      if (is_function .and. ok(4)) call evaluate_function(context%deck, place, context%model%mesh%x(:, nodes), values, ok(4), &
+                                                          'BOUNDARY')
+      is_ok = all(ok)
       if (.not. is_ok) return
       held = .false.
       held(first:last) = .true.
       held(ROTATION_DOF) = last == ROTATION_DOF
-      values = spread(value, 1, size(nodes))
-   end subroutine read_value_line
-
-   !> Node or set, first dof[, last dof], expression in x and y.
-   subroutine read_function_line(in_model, context, nodes, held, values, is_ok)
-      logical, intent(in) :: in_model                  !< before *STEP
-      type(build_context_t), intent(in) :: context
-      integer(ip), allocatable, intent(out) :: nodes(:)
-      logical, intent(out) :: held(LAST_DOF)           !< dofs
-      real(wp), allocatable, intent(out) :: values(:)
-      logical, intent(out) :: is_ok
-      type(token_t) :: expression, last_token
-      integer(ip) :: first, last
-      logical :: ok(4)
-
-      call read_place(context, nodes, first, last, ok(:3))
-      ! commas belong to the expression: max(x, y)
-      expression = line_token(context, 4_ip)
-      last_token = last_item(context%deck, open_line(context))
-      expression%last = last_token%last
-      ok(4) = .not. in_model
-      if (in_model) call report_error(context%deck, expression, 'E-VALUE', 'a displacement other than 0 before *STEP', &
-                                      expected='*BOUNDARY, FUNCTION in the step', keyword='BOUNDARY')
-      ! a function is not 0, whatever it is: there are no harmless dofs
-      if (all(ok(2:3))) ok(2) = are_dofs(context, first, last, 1.0_wp, .false.)
-      allocate (values(size(nodes)))
-      if (ok(4)) call evaluate_function(context%deck, expression, context%model%mesh%x(:, nodes), values, ok(4), 'BOUNDARY')
-      is_ok = all(ok)
-      held = .false.
-      if (is_ok) held(first:last) = .true.
-   end subroutine read_function_line
+   end subroutine read_values
 
    !> An edge of the outline all of whose nodes a card prescribes one by one is prescribed between them, too.
    subroutine prescribe_edges(context, numbered)
