@@ -255,10 +255,8 @@ contains
          do i = 1, size(elements, kind=ip)
             call add_load(context, load, elements(i), value(:2))
          end do
-      case ('GRAV')
-         call weigh_elements(context, elements, load, magnitude, ok)
-      case ('CENTRIF')
-         call spin_elements(context, elements, load, magnitude, ok)
+      case ('GRAV', 'CENTRIF')
+         call load_masses(context, elements, load, label == 'CENTRIF', magnitude, ok)
       end select
    end subroutine read_dload_line
 
@@ -290,50 +288,39 @@ contains
                                             expected='elements on the outline of the body', keyword='DLOAD')
    end subroutine load_faces
 
-   !> GRAV: density times acceleration, along a direction of any length.
-   subroutine weigh_elements(context, elements, load, acceleration, good)
+   !> Loads upon the mass of elements, as a force per volume. GRAV: density times acceleration along a direction g, rho a g. CENTRIF:
+   !> density times the square of the angular velocity times the way from the axis, rho w^2 S (x - x0), as a linear and a constant
+   !> force.
+   subroutine load_masses(context, elements, load, turns, magnitude, good)
       type(build_context_t), intent(inout) :: context
       integer(ip), intent(in) :: elements(:)
       type(condition_t), intent(inout) :: load
-      real(wp), intent(in) :: acceleration             !< [L/T^2]
-      logical, intent(in) :: good                      !< elements and acceleration are known
-      real(wp) :: direction(2)
-      integer(ip) :: i
-      logical :: ok
-
-      call read_direction(context, 'gravity', 'DLOAD', direction, ok)
-      if (.not. (ok .and. good)) return
-      call need_density(context, elements)
-      do i = 1, size(elements, kind=ip)
-         call add_load(context, load, elements(i), density_of(context%model, elements(i))*acceleration*direction)
-      end do
-   end subroutine weigh_elements
-
-   !> Of CENTRIF: density times the square of the angular velocity times the way from the axis, S (x - x0), as a linear and a
-   !> constant force per volume.
-   subroutine spin_elements(context, elements, load, square, good)
-      type(build_context_t), intent(inout) :: context
-      integer(ip), intent(in) :: elements(:)
-      type(condition_t), intent(inout) :: load
-      real(wp), intent(in) :: square                   !< of the angular velocity [1/T^2]
-      logical, intent(in) :: good                      !< elements and square are known
-      real(wp) :: way(3), there(2), force
+      logical, intent(in) :: turns                     !< CENTRIF
+      real(wp), intent(in) :: magnitude                !< acceleration [L/T^2], or square of the angular velocity [1/T^2]
+      logical, intent(in) :: good                      !< elements and magnitude are known
+      real(wp) :: way(3), constant(2), force
       integer(ip) :: i
       logical :: ok, is_ring
 
-      is_ring = .false.
-      if (size(elements) > 0) is_ring = STATES(context%model%mesh%state(elements(1)))%has_hoop
-      call read_spin(context, square, is_ring, way, there, ok)
+      if (turns) then
+         is_ring = .false.
+         if (size(elements) > 0) is_ring = STATES(context%model%mesh%state(elements(1)))%has_hoop
+         call read_spin(context, magnitude, is_ring, way, constant, ok)
+      else
+         call read_direction(context, 'gravity', 'DLOAD', constant, ok)
+      end if
       if (.not. (ok .and. good)) return
       call need_density(context, elements)
       do i = 1, size(elements, kind=ip)
-         force = density_of(context%model, elements(i))*square
-         load%kind = LOAD_LINEAR
-         call add_load(context, load, elements(i), force*way)
-         load%kind = LOAD_BODY
-         if (any(abs(there) > 0.0_wp)) call add_load(context, load, elements(i), force*there)
+         force = density_of(context%model, elements(i))*magnitude
+         if (turns) then
+            load%kind = LOAD_LINEAR
+            call add_load(context, load, elements(i), force*way)
+            load%kind = LOAD_BODY
+         end if
+         if (.not. turns .or. any(abs(constant) > 0.0_wp)) call add_load(context, load, elements(i), force*constant)
       end do
-   end subroutine spin_elements
+   end subroutine load_masses
 
    pure real(wp) function density_of(model, element) result(density)
       type(model_t), intent(in) :: model
