@@ -66,11 +66,7 @@ contains
          end if
          bodies%of_element(e) = number(i)
       end do
-      !$omp parallel do default(none) shared(mesh, bodies, number, component) if(is_shared(mesh%n_nodes))
-      do i = 1, mesh%n_nodes
-         bodies%of_node(i) = number(component(i))
-      end do
-      !$omp end parallel do
+      bodies%of_node = number(component)
       allocate (bodies%list(bodies%n))
       allocate (bodies%equation(2, mesh%n_nodes), source=0_ip)
       call list_parts(bodies%n, mesh%n_elements, bodies%of_element, first, member)
@@ -188,59 +184,31 @@ contains
       integer(ip), intent(in) :: i_body
       type(elimination_t), intent(out) :: elimination
       type(dissection_t) :: parts
-      integer(ip) :: k, p
+      integer(ip) :: dof, i, k, n, p
 
       associate (body => bodies%list(i_body))
          call order_elements(body%elements, mesh%nodes, mesh%shape, mesh%x, is_eliminated(mesh, bodies, body), parts, &
                              elimination%text)
          allocate (elimination%position(body%n), elimination%last(parts%n))
          elimination%parent = parts%parent(:parts%n)
-         !$omp parallel do default(none) shared(parts, bodies, elimination) if(is_shared(parts%n))
+         n = 0
+         i = 1
          do p = 1, parts%n
-            elimination%last(p) = count(bodies%equation(:, parts%order(first_node(parts, p):parts%last(p))) > 0, kind=ip)
+            do i = i, parts%last(p)
+               do dof = 1, 2
+                  k = bodies%equation(dof, parts%order(i))
+                  if (k == 0) cycle
+                  n = n + 1
+                  elimination%position(k) = n
+               end do
+            end do
+            elimination%last(p) = n
          end do
-         !$omp end parallel do
-         do p = 2, parts%n
-            elimination%last(p) = elimination%last(p) + elimination%last(p - 1)
-         end do
-         !$omp parallel do default(none) shared(parts, bodies, elimination) if(is_shared(parts%n))
-         do p = 1, parts%n
-            call place_part(bodies, parts%order(first_node(parts, p):parts%last(p)), elimination%last(p), elimination%position)
-         end do
-         !$omp end parallel do
          do k = body%n - body%n_retained + 1, body%n
             elimination%position(k) = k
          end do
       end associate
    end subroutine order_by_dissection
-
-   !> Where the nodes of a part begin in the order.
-   pure integer(ip) function first_node(parts, p)
-      type(dissection_t), intent(in) :: parts
-      integer(ip), intent(in) :: p
-
-      first_node = 1
-      if (p > 1) first_node = parts%last(p - 1) + 1
-   end function first_node
-
-   !> The places of the equations of some nodes, the last of which is given.
-   pure subroutine place_part(bodies, nodes, last, place)
-      type(bodies_t), intent(in) :: bodies
-      integer(ip), intent(in) :: nodes(:)
-      integer(ip), intent(in) :: last
-      integer(ip), intent(inout) :: place(:)        !< of all equations of the body
-      integer(ip) :: i, dof, k, next
-
-      next = last
-      do i = size(nodes, kind=ip), 1, -1
-         do dof = 2, 1, -1
-            k = bodies%equation(dof, nodes(i))
-            if (k == 0) cycle
-            place(k) = next
-            next = next - 1
-         end do
-      end do
-   end subroutine place_part
 
    !> Which nodes of the mesh are the body's and have equations that are not kept.
    function is_eliminated(mesh, bodies, body) result(eliminated)
@@ -251,13 +219,11 @@ contains
       integer(ip) :: i
 
       allocate (eliminated(mesh%n_nodes), source=.false.)
-      !$omp parallel do default(none) shared(bodies, body, eliminated) if(is_shared(size(body%nodes, kind=ip)))
       do i = 1, size(body%nodes, kind=ip)
          associate (node => body%nodes(i))
             eliminated(node) = any(bodies%equation(:, node) > 0) .and. all(bodies%equation(:, node) <= body%n - body%n_retained)
          end associate
       end do
-      !$omp end parallel do
    end function is_eliminated
 
    !> The rigid motions that the supports of a body leave free.
