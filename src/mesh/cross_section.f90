@@ -8,7 +8,6 @@ module atrito_cross_section
    use atrito_crossings, only: cut_line_t, piece_t, crossing_t, line_through, height_over, point_at, is_ahead, slack_of, &
                                find_crossings, INSIDE, EDGE_BEHIND, EDGE_AHEAD
    use atrito_faces, only: face_list_t, node_elements_t, add_face
-   use atrito_growth, only: make_room
    use atrito_kinds, only: ip, wp
    use atrito_mesh, only: mesh_t, face_nodes
    implicit none (type, external)
@@ -175,23 +174,19 @@ contains
       type(node_elements_t), intent(in) :: around
       type(cross_section_t), intent(inout) :: section
       logical :: is_in(mesh%n_elements)
-      integer(ip) :: i, k, n
+      integer(ip) :: i, k
 
       is_in = .false.
-      n = 0
+      allocate (section%behind(0))
       do i = 1, size(section%shared, kind=ip)
          do k = around%first(section%shared(i)), around%first(section%shared(i) + 1) - 1
             associate (e => around%list(k))
                if (is_in(e) .or. is_ahead(mesh, section%line, e)) cycle
                is_in(e) = .true.
-               n = n + 1
-               call make_room(section%behind, n - 1, n)
-               section%behind(n) = e
+               section%behind = [section%behind, e]
             end associate
          end do
       end do
-      if (.not. allocated(section%behind)) allocate (section%behind(0))
-      section%behind = section%behind(:n)
    end subroutine collect_behind
 
 end module atrito_cross_section
