@@ -1,6 +1,6 @@
 !> A four-sided block of elements: lines of nodes in the unit square, and where they lie.
 module atrito_block
-   use atrito_block_map, only: block_map_t, map_point
+   use atrito_block_map, only: block_map_t, between, map_point
    use atrito_kinds, only: ip, wp
    use atrito_threads, only: is_shared
    implicit none (type, external)
@@ -68,15 +68,5 @@ contains
       end do
       !$omp end parallel do
    end subroutine curved_nodes
-
-   !> a at t = 0, b at t = 1, and a all the way where a = b: sides that lie on each other must not be apart by round-off, which is
-   !> no less a gap than any other.
-   pure elemental real(wp) function between(a, b, t)
-      real(wp), intent(in) :: a, b                   !< [L]
-      real(wp), intent(in) :: t                      !< 0..1
-
-      between = a + t*(b - a)
-      if (t > 0.5_wp) between = b - (1 - t)*(b - a)
-   end function between
 
 end module atrito_block

@@ -3,7 +3,7 @@ module atrito_block_map
    use atrito_kinds, only: ip, wp
    implicit none (type, external)
    private
-   public :: block_map_t, side_point, map_point, map_jacobian, has_arcs
+   public :: block_map_t, between, side_point, map_point, map_jacobian, has_arcs
 
    !> The four sides in the order of the faces, BOTTOM from corner 1 to 2, RIGHT from 2 to 3, TOP from 4 to 3, LEFT from 1 to 4.
    type :: block_map_t
@@ -38,8 +38,7 @@ contains
          else if (map%is_arc(side)) then
             x = arc_point(a, b, map%centre(:, side), t)
          else
-            x = a + t*(b - a)
-            if (t > 0.5_wp) x = b - (1 - t)*(b - a)
+            x = between(a, b, t)
          end if
       end associate
    end function side_point
@@ -88,8 +87,10 @@ contains
       cross = a(1)*b(2) - a(2)*b(1)
    end function cross
 
-   !> The point (u, v) of the unit square: on the sides exactly theirs, inside the sum of what each pair of sides gives less what
-   !> the corners alone would give.
+   !> The point (u, v) of the unit square: on the sides exactly theirs, inside the Coons patch
+   !>    x(u, v) = (1 - v) B(u) + v T(u) + (1 - u) L(v) + u R(v) - [(1 - v)((1 - u) c1 + u c2) + v ((1 - u) c4 + u c3)]
+   !> of the sides bottom, top, left and right: the sum of what each pair of sides gives, less what the corners c alone would give,
+   !> which both pairs have.
    pure function map_point(map, u, v) result(x)
       type(block_map_t), intent(in) :: map
       real(wp), intent(in) :: u, v
@@ -112,7 +113,8 @@ contains
       end if
    end function map_point
 
-   !> The Jacobian of the map [L^2]; not positive where the block is folded.
+   !> The Jacobian of the map, dx/du x dx/dv [L^2], from the derivatives of the patch of map_point; not positive where the block is
+   !> folded.
    pure real(wp) function map_jacobian(map, u, v)
       type(block_map_t), intent(in) :: map
       real(wp), intent(in) :: u, v
@@ -126,5 +128,15 @@ contains
       end associate
       map_jacobian = cross(along, across)
    end function map_jacobian
+
+   !> a at t = 0, b at t = 1, and a all the way where a = b: sides that lie on each other must not be apart by round-off, which is
+   !> no less a gap than any other.
+   pure elemental real(wp) function between(a, b, t)
+      real(wp), intent(in) :: a, b                   !< [L]
+      real(wp), intent(in) :: t                      !< 0..1
+
+      between = a + t*(b - a)
+      if (t > 0.5_wp) between = b - (1 - t)*(b - a)
+   end function between
 
 end module atrito_block_map

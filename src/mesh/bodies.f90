@@ -52,7 +52,7 @@ contains
    subroutine find_bodies(mesh, bodies)
       type(mesh_t), intent(in) :: mesh
       type(bodies_t), intent(out) :: bodies
-      integer(ip), allocatable :: component(:), number(:)
+      integer(ip), allocatable :: component(:), number(:), first(:), member(:)
       integer(ip) :: n_components, e, i
 
       allocate (component(mesh%n_nodes))
@@ -66,36 +66,21 @@ contains
          end if
          bodies%of_element(e) = number(i)
       end do
-      !$omp parallel do default(none) shared(mesh, bodies, number, component) if(is_shared(mesh%n_nodes))
-      do i = 1, mesh%n_nodes
-         bodies%of_node(i) = number(component(i))
-      end do
-      !$omp end parallel do
+      bodies%of_node = number(component)
       allocate (bodies%list(bodies%n))
       allocate (bodies%equation(2, mesh%n_nodes), source=0_ip)
-      call list_members(bodies)
+      call list_parts(bodies%n, mesh%n_elements, bodies%of_element, first, member)
       do i = 1, bodies%n
+         bodies%list(i)%elements = member(first(i):first(i + 1) - 1)
+      end do
+      call list_parts(bodies%n, mesh%n_nodes, bodies%of_node, first, member)
+      do i = 1, bodies%n
+         bodies%list(i)%nodes = member(first(i):first(i + 1) - 1)
          call measure_body(mesh, bodies%list(i))
       end do
    end subroutine find_bodies
 
-   !> The elements and nodes of each body, in their order, in linear time for any number of bodies.
-   subroutine list_members(bodies)
-      type(bodies_t), intent(inout) :: bodies
-      integer(ip), allocatable :: first(:), member(:)
-      integer(ip) :: i
-
-      call list_parts(bodies%n, size(bodies%of_element, kind=ip), bodies%of_element, first, member)
-      do i = 1, bodies%n
-         bodies%list(i)%elements = member(first(i):first(i + 1) - 1)
-      end do
-      call list_parts(bodies%n, size(bodies%of_node, kind=ip), bodies%of_node, first, member)
-      do i = 1, bodies%n
-         bodies%list(i)%nodes = member(first(i):first(i + 1) - 1)
-      end do
-   end subroutine list_members
-
-   !> The members of parts that have none in common.
+   !> The members of parts that have none in common, in their order, in linear time for any number of parts.
    subroutine list_parts(n_parts, n, part_of, first, member)
       integer(ip), intent(in) :: n_parts, n
       integer(ip), intent(in) :: part_of(1, n)      !< 0 .. n_parts; 0: in none
@@ -125,8 +110,11 @@ contains
       body%slenderness = minval(high - low)/maxval(high - low)
    end subroutine measure_body
 
-   !> Numbers the equations of a body so that the profile is small and the contact nodes come last, in their chain order. A solver
-   !> with an order of its own does not need the former: without `by_profile` the other nodes stay in the order they have.
+   !> Numbers the equations of a body, one for each dof that is not prescribed.
+   !>
+   !> The contact nodes come last, in their chain order: elimination of all equations before them leaves the Schur complement of the
+   !> stiffness on the contact line. The others are ordered so that the profile is small. A solver with an order of its own does not
+   !> need that: without `by_profile` they stay in the order they have.
    subroutine number_equations(mesh, bodies, i_body, held, contact_nodes, by_profile)
       type(mesh_t), intent(in) :: mesh
       type(bodies_t), intent(inout) :: bodies
@@ -142,7 +130,9 @@ contains
          if (by_profile) then
             call order_by_profile(mesh, contact_nodes, body, bodies%equation(1, :))
          else
-            call put_last(contact_nodes, body%nodes, bodies%equation(1, :))
+            bodies%equation(1, body%nodes) = 0
+            bodies%equation(1, contact_nodes) = 1
+            body%nodes = [pack(body%nodes, bodies%equation(1, body%nodes) == 0), contact_nodes]
          end if
          body%n = 0
          body%n_retained = 0
@@ -183,84 +173,42 @@ contains
       body%nodes = body%nodes(order)
    end subroutine order_by_profile
 
-   !> Moves some of the nodes to the end of a list, in their own order.
-   pure subroutine put_last(last, nodes, mark)
-      integer(ip), intent(in) :: last(:)
-      integer(ip), intent(inout) :: nodes(:)
-      integer(ip), intent(inout) :: mark(:)         !< (nodes of the mesh) used for the nodes of the list
-      integer(ip) :: i, n
-
-      mark(nodes) = 0
-      mark(last) = 1
-      n = 0
-      do i = 1, size(nodes, kind=ip)
-         if (mark(nodes(i)) == 1) cycle
-         n = n + 1
-         nodes(n) = nodes(i)
-      end do
-      nodes(n + 1:) = last
-   end subroutine put_last
-
    !> The order of elimination of the sparse solver: nested dissection of the nodes, the retained equations last.
+   !>
+   !> Dissection gives parts, lists of nodes, in the order of elimination, and the parent of each part. The positions of a part's
+   !> equations follow those of the part before it: last(p) is the number of equations of the parts 1 to p. Retained equations keep
+   !> their numbers, which are the last ones of the body.
    subroutine order_by_dissection(mesh, bodies, i_body, elimination)
       type(mesh_t), intent(in) :: mesh
       type(bodies_t), intent(in) :: bodies
       integer(ip), intent(in) :: i_body
       type(elimination_t), intent(out) :: elimination
       type(dissection_t) :: parts
-      integer(ip) :: k, p
+      integer(ip) :: dof, i, k, n, p
 
       associate (body => bodies%list(i_body))
          call order_elements(body%elements, mesh%nodes, mesh%shape, mesh%x, is_eliminated(mesh, bodies, body), parts, &
                              elimination%text)
          allocate (elimination%position(body%n), elimination%last(parts%n))
          elimination%parent = parts%parent(:parts%n)
-         !$omp parallel do default(none) shared(parts, bodies, elimination) if(is_shared(parts%n))
+         n = 0
+         i = 1
          do p = 1, parts%n
-            elimination%last(p) = count(bodies%equation(:, parts%order(first_node(parts, p):parts%last(p))) > 0, kind=ip)
+            do i = i, parts%last(p)
+               do dof = 1, 2
+                  k = bodies%equation(dof, parts%order(i))
+                  if (k == 0) cycle
+                  n = n + 1
+                  elimination%position(k) = n
+               end do
+            end do
+            elimination%last(p) = n
          end do
-         !$omp end parallel do
-         do p = 2, parts%n
-            elimination%last(p) = elimination%last(p) + elimination%last(p - 1)
-         end do
-         !$omp parallel do default(none) shared(parts, bodies, elimination) if(is_shared(parts%n))
-         do p = 1, parts%n
-            call place_part(bodies, parts%order(first_node(parts, p):parts%last(p)), elimination%last(p), elimination%position)
-         end do
-         !$omp end parallel do
          do k = body%n - body%n_retained + 1, body%n
             elimination%position(k) = k
          end do
       end associate
    end subroutine order_by_dissection
-
-   !> Where the nodes of a part begin in the order.
-   pure integer(ip) function first_node(parts, p)
-      type(dissection_t), intent(in) :: parts
-      integer(ip), intent(in) :: p
-
-      first_node = 1
-      if (p > 1) first_node = parts%last(p - 1) + 1
-   end function first_node
-
-   !> The places of the equations of some nodes, the last of which is given.
-   pure subroutine place_part(bodies, nodes, last, place)
-      type(bodies_t), intent(in) :: bodies
-      integer(ip), intent(in) :: nodes(:)
-      integer(ip), intent(in) :: last
-      integer(ip), intent(inout) :: place(:)        !< of all equations of the body
-      integer(ip) :: i, dof, k, next
-
-      next = last
-      do i = size(nodes, kind=ip), 1, -1
-         do dof = 2, 1, -1
-            k = bodies%equation(dof, nodes(i))
-            if (k == 0) cycle
-            place(k) = next
-            next = next - 1
-         end do
-      end do
-   end subroutine place_part
 
    !> Which nodes of the mesh are the body's and have equations that are not kept.
    function is_eliminated(mesh, bodies, body) result(eliminated)
@@ -271,16 +219,21 @@ contains
       integer(ip) :: i
 
       allocate (eliminated(mesh%n_nodes), source=.false.)
-      !$omp parallel do default(none) shared(bodies, body, eliminated) if(is_shared(size(body%nodes, kind=ip)))
       do i = 1, size(body%nodes, kind=ip)
          associate (node => body%nodes(i))
             eliminated(node) = any(bodies%equation(:, node) > 0) .and. all(bodies%equation(:, node) <= body%n - body%n_retained)
          end associate
       end do
-      !$omp end parallel do
    end function is_eliminated
 
-   !> The rigid motions that the supports of a body leave free: the null space of the prescribed dofs' motions.
+   !> The rigid motions that the supports of a body leave free.
+   !>
+   !> A rigid motion m = (m1, m2, m3), two translations and the rotation about the centre c times the size R of the body, displaces
+   !> the point x by
+   !>    u1 = m1 - m3 (x2 - c2)/R,   u2 = m2 + m3 (x1 - c1)/R,
+   !> so that its three entries are lengths of like size. Each prescribed dof asks for u = 0 there, a row of a matrix with three
+   !> columns; so does each motion that strains the body, as that along the radius of a body of revolution does. What is left free
+   !> is the null space of the matrix. Its basis is reduced to the simplest one, so that a motion can be named.
    subroutine find_rigid_modes(mesh, body, held)
       type(mesh_t), intent(in) :: mesh
       type(body_t), intent(inout) :: body

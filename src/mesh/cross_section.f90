@@ -1,4 +1,4 @@
-!> A cross-section of bodies along a straight cut: which elements and nodes tell the force that goes through it.
+!> A cross-section of bodies along a straight cut: the elements and nodes from which the force through it is summed.
 !>
 !> The elements count as behind or ahead of the line by the mean of their corners. What the part ahead does to the part behind goes
 !> through the nodes that elements of both sides share. Elements that the line parts are behind or ahead as a whole, and so is
@@ -8,7 +8,6 @@ module atrito_cross_section
    use atrito_crossings, only: cut_line_t, piece_t, crossing_t, line_through, height_over, point_at, is_ahead, slack_of, &
                                find_crossings, INSIDE, EDGE_BEHIND, EDGE_AHEAD
    use atrito_faces, only: face_list_t, node_elements_t, add_face
-   use atrito_growth, only: make_room
    use atrito_kinds, only: ip, wp
    use atrito_mesh, only: mesh_t, face_nodes
    implicit none (type, external)
@@ -41,6 +40,7 @@ contains
       type(cross_section_t), intent(out) :: section
       type(crossing_t), allocatable, intent(out) :: crossings(:)
       type(piece_t), allocatable :: pieces(:)
+      real(wp), allocatable :: place(:), weight(:)  ! of each crossing
       integer(ip) :: i
 
       section%line = line_through(ends)
@@ -53,7 +53,11 @@ contains
          end associate
       end do
       call take_crossings(crossings)
-      call measure(crossings, section)
+      place = 0.5_wp*(crossings%from + crossings%to)
+      weight = merge(crossings%to - crossings%from, 0.0_wp, crossings%is_taken)
+      section%length = sum(weight)
+      if (.not. section%length > 0.0_wp) weight = merge(1.0_wp, 0.0_wp, crossings%is_taken)   ! of points the middle is their mean
+      if (any(crossings%is_taken)) section%middle = point_at(section%line, sum(weight/sum(weight)*place))
       call collect_parts(mesh, around, pieces, crossings, section)
    end subroutine find_cross_section
 
@@ -74,19 +78,6 @@ contains
       crossings%is_taken = crossings%is_met .and. crossings%is_wanted .and. crossings%kind == EDGE_AHEAD
    end subroutine take_crossings
 
-   !> Length and middle; of points without length their mean.
-   pure subroutine measure(crossings, section)
-      type(crossing_t), intent(in) :: crossings(:)
-      type(cross_section_t), intent(inout) :: section
-      real(wp) :: place(size(crossings)), weight(size(crossings))
-
-      place = 0.5_wp*(crossings%from + crossings%to)
-      weight = merge(crossings%to - crossings%from, 0.0_wp, crossings%is_taken)
-      section%length = sum(weight)
-      if (.not. section%length > 0.0_wp) weight = merge(1.0_wp, 0.0_wp, crossings%is_taken)
-      if (any(crossings%is_taken)) section%middle = point_at(section%line, sum(weight/sum(weight)*place))
-   end subroutine measure
-
    !> Elements and nodes of the crossings that are taken.
    pure subroutine collect_parts(mesh, around, pieces, crossings, section)
       type(mesh_t), intent(in) :: mesh
@@ -97,8 +88,7 @@ contains
       logical :: is_known(mesh%n_nodes)
       integer(ip) :: i
 
-      allocate (section%node(0), section%share(0), section%shared(0), section%split(0), section%is_behind(0), &
-                section%edge_share(0))
+      allocate (section%node(0), section%share(0), section%shared(0), section%split(0), section%is_behind(0), section%edge_share(0))
       is_known = .false.
       do i = 1, size(pieces, kind=ip)
          associate (piece => pieces(i), e => pieces(i)%element)
@@ -184,23 +174,19 @@ contains
       type(node_elements_t), intent(in) :: around
       type(cross_section_t), intent(inout) :: section
       logical :: is_in(mesh%n_elements)
-      integer(ip) :: i, k, n
+      integer(ip) :: i, k
 
       is_in = .false.
-      n = 0
+      allocate (section%behind(0))
       do i = 1, size(section%shared, kind=ip)
          do k = around%first(section%shared(i)), around%first(section%shared(i) + 1) - 1
             associate (e => around%list(k))
                if (is_in(e) .or. is_ahead(mesh, section%line, e)) cycle
                is_in(e) = .true.
-               n = n + 1
-               call make_room(section%behind, n - 1, n)
-               section%behind(n) = e
+               section%behind = [section%behind, e]
             end associate
          end do
       end do
-      if (.not. allocated(section%behind)) allocate (section%behind(0))
-      section%behind = section%behind(:n)
    end subroutine collect_behind
 
 end module atrito_cross_section

@@ -143,7 +143,8 @@ contains
       type(piece_t), allocatable, intent(out) :: pieces(:)
       type(crossing_t), allocatable, intent(out) :: crossings(:)
       type(piece_t), allocatable :: list(:)
-      integer(ip) :: e, n
+      real(wp) :: common, size_of
+      integer(ip) :: e, i, n
 
       allocate (list(64))
       n = 0
@@ -152,7 +153,14 @@ contains
       end do
       pieces = list(:n)
       call join_pieces(mesh, of_element, pieces, crossings)
-      call compare_with_points(line, crossings)
+      do i = 1, size(crossings, kind=ip)             ! how much of each lies between the points of the line?
+         associate (c => crossings(i))
+            size_of = c%to - c%from
+            common = min(c%to, line%length) - max(c%from, 0.0_wp)
+            c%is_met = common > SLACK*size_of .or. (size_of <= SLACK*line%length .and. common >= -SLACK*line%length)
+            c%is_whole = c%is_met .and. (common >= (1 - SHORT)*size_of .or. size_of <= SLACK*line%length)
+         end associate
+      end do
    end subroutine find_crossings
 
    !> The pieces of an element: most have none.
@@ -284,22 +292,5 @@ contains
       end do
       crossings = found(:n)
    end subroutine join_pieces
-
-   !> How much of each crossing lies between the points of the line.
-   pure subroutine compare_with_points(line, crossings)
-      type(cut_line_t), intent(in) :: line
-      type(crossing_t), intent(inout) :: crossings(:)
-      real(wp) :: common, size_of
-      integer(ip) :: i
-
-      do i = 1, size(crossings, kind=ip)
-         associate (c => crossings(i))
-            size_of = c%to - c%from
-            common = min(c%to, line%length) - max(c%from, 0.0_wp)
-            c%is_met = common > SLACK*size_of .or. (size_of <= SLACK*line%length .and. common >= -SLACK*line%length)
-            c%is_whole = c%is_met .and. (common >= (1 - SHORT)*size_of .or. size_of <= SLACK*line%length)
-         end associate
-      end do
-   end subroutine compare_with_points
 
 end module atrito_crossings

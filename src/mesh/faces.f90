@@ -39,7 +39,7 @@ contains
    end function list_node_elements
 
    !> The element that shares a face, and which of its faces that is; 0: none. It joins the same corners the other way round, by the
-   !> same middle, which tells two curved faces that close a circle.
+   !> same middle: two curved faces that close a circle share both corners, but not the middle.
    pure subroutine find_across(mesh, around, element, face, other, other_face)
       type(mesh_t), intent(in) :: mesh
       type(node_elements_t), intent(in) :: around

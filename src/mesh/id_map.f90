@@ -1,8 +1,8 @@
 !> From the user's numbers (any positive integers) to places in an array.
 !>
-!> As long as the numbers come one after the other, as do their places, their beginning tells all. From the first that does not on
-!> there is a table: of all numbers up to the greatest, where many of these are there, else a hash table. Either becomes the other
-!> when it is full.
+!> As long as the numbers come one after the other, and their places too, only the first number and its place are kept. From the
+!> first that does not on there is a table: of all numbers up to the greatest, where many of these are there, else a hash table.
+!> Either becomes the other when it is full.
 module atrito_id_map
    use atrito_kinds, only: ip, lp
    implicit none (type, external)

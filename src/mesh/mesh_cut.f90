@@ -20,7 +20,7 @@ module atrito_mesh_cut
 
 contains
 
-   !> What a cut along faces changes; outer_face and tip tell what keeps it from being one.
+   !> What a cut along faces changes; outer_face and tip say what keeps it from being one.
    pure subroutine find_cut(mesh, around, faces, cut)
       type(mesh_t), intent(in) :: mesh
       type(node_elements_t), intent(in) :: around

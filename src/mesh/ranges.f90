@@ -142,6 +142,10 @@ contains
    end function cleaned
 
    !> Leaves of each run what no earlier one has, and joins runs that go on with each other.
+   !>
+   !> Where the runs do not rise one behind the other, the ends of all runs cut the numbers into pieces, each of which a run has as
+   !> a whole or not at all. The runs take their pieces in turn. next(piece) leads to the first piece from there on that is still
+   !> free, as in a union-find structure, so that n runs take some n log n operations however much they overlap.
    pure subroutine clean(ranges)
       type(ranges_t), intent(inout) :: ranges
       type(ranges_t) :: all_once
@@ -151,7 +155,6 @@ contains
 
       associate (n => ranges%n)
          if (any(ranges%first(2:n) <= ranges%last(:n - 1))) then
-            ! the ends of all runs cut the numbers into pieces; next leads from a piece to the next one that no run has taken yet
             bounds = each_once([ranges%first(:n), ranges%last(:n) + 1])
             key = bounds
             next = [(i, i=1, size(bounds, kind=ip))]

@@ -192,35 +192,44 @@ contains
       end do
    end subroutine place_nodes
 
-   !> Places the new nodes of an element. An edge is mapped by its own nodes alone, hence alike from both sides, and the differences
-   !> are formed first, so that a constant coordinate stays constant to the last bit.
+   !> Places the new nodes of an element where its isoparametric map takes the points of a uniform grid.
+   !>
+   !> With s along side 1-2 and t along side 1-4, both 0..1, the map of a quadrilateral is a line (or a parabola, of the second
+   !> degree) in s through points that lie on lines (parabolas) in t: through nodes 1 and 4, nodes 2 and 3, and the middles. An edge
+   !> is mapped by its own nodes alone, hence alike from both sides. The differences are formed first, so that a constant coordinate
+   !> stays constant to the last bit.
    pure subroutine map_element(mesh, refinement, element, x, grid)
       type(mesh_t), intent(in) :: mesh
       type(refinement_t), intent(in) :: refinement
       integer(ip), intent(in) :: element
       real(wp), intent(inout) :: x(:, :)
       integer(ip), allocatable, intent(inout) :: grid(:, :)   !< room
-      real(wp) :: line(2, 3), s, t
+      real(wp) :: corners(2, mesh%shape(element)), line(2, 3), s, t
       integer(ip) :: i, j, k, n
 
       call fill_grid(mesh, refinement, element, grid)
       n = ubound(grid, 1, kind=ip)
-      if (refinement%is_triangle(element)) then
-         call map_triangle(mesh, element, grid, x)
-         n = -1
-      end if
-      associate (nodes => mesh%nodes(:, element), degree => DEGREE_OF(mesh%shape(element)))
+      corners = element_coordinates(mesh, element)
+      associate (nodes => mesh%nodes(:, element), degree => DEGREE_OF(mesh%shape(element)), &
+                 is_triangle => refinement%is_triangle(element))
          do j = 0, n
             t = real(j, wp)/real(n, wp)
-            line(:, 1) = along(mesh, nodes(1), nodes(4), nodes(8), t)
-            line(:, 2) = along(mesh, nodes(2), nodes(3), nodes(6), t)
-            if (degree > 1) line(:, 3) = parabola(mesh%x(:, nodes(5)), mesh%x(:, nodes(7)), centre_of(mesh, element), t)
-            do i = 0, n
+            if (.not. is_triangle) then
+               line(:, 1) = along(mesh, nodes(1), nodes(4), nodes(8), t)
+               line(:, 2) = along(mesh, nodes(2), nodes(3), nodes(6), t)
+               if (degree > 1) line(:, 3) = parabola(corners(:, 5), corners(:, 7), centre_of(mesh, element), t)
+            end if
+            do i = 0, merge(n - j, n, is_triangle)
                k = grid(i, j)
                if (k <= mesh%n_nodes) cycle
                s = real(i, wp)/real(n, wp)
-               x(:, k) = line(:, 1) + s*(line(:, 2) - line(:, 1))
-               if (degree > 1) x(:, k) = parabola(line(:, 1), line(:, 2), line(:, 3), s)
+               if (is_triangle) then
+                  x(:, k) = triangle_point(corners, [s, t])
+               else if (degree > 1) then
+                  x(:, k) = parabola(line(:, 1), line(:, 2), line(:, 3), s)
+               else
+                  x(:, k) = line(:, 1) + s*(line(:, 2) - line(:, 1))
+               end if
             end do
          end do
       end associate
@@ -232,23 +241,6 @@ contains
          end associate
       end do
    end subroutine map_element
-
-   !> Places the new nodes inside a triangle.
-   pure subroutine map_triangle(mesh, element, grid, x)
-      type(mesh_t), intent(in) :: mesh
-      integer(ip), intent(in) :: element, grid(0:, 0:)
-      real(wp), intent(inout) :: x(:, :)
-      integer(ip) :: i, j, n
-
-      n = ubound(grid, 1, kind=ip)
-      associate (corners => element_coordinates(mesh, element))
-         do j = 1, n - 2
-            do i = 1, n - 1 - j
-               x(:, grid(i, j)) = triangle_point(corners, real([i, j], wp)/real(n, wp))
-            end do
-         end do
-      end associate
-   end subroutine map_triangle
 
    !> The middle of an element of the second degree [L]; of eight nodes where their shape functions have it.
    pure function centre_of(mesh, element) result(x)
@@ -292,6 +284,8 @@ contains
       end if
    end function along
 
+   !> The point t = 0..1 of the parabola that is at a for t = 0, at `middle` for t = 1/2 and at b for t = 1: the straight line, and
+   !> 4 t (1 - t) times what the middle is off its chord by.
    pure function parabola(a, b, middle, t) result(x)
       real(wp), intent(in) :: a(2), b(2), middle(2), t
       real(wp) :: x(2)
@@ -306,6 +300,7 @@ contains
       type(refinement_t), intent(in) :: refinement
       integer(ip), intent(in) :: element
       integer(ip), allocatable, intent(inout) :: grid(:, :)   !< kept where its size is right: there are many elements
+      integer(ip), allocatable :: line(:)
       integer(ip) :: i, j, k, n
 
       n = element_intervals(mesh, refinement, element)
@@ -313,52 +308,34 @@ contains
          if (ubound(grid, 1) /= n) deallocate (grid)
       end if
       if (.not. allocated(grid)) allocate (grid(0:n, 0:n))
-      if (refinement%is_triangle(element)) then
-         call fill_triangle(mesh, refinement, element, grid)
-         return
-      end if
-      call put_edge(mesh, refinement, element, 1_ip, grid(:, 0))
-      call put_edge(mesh, refinement, element, 2_ip, grid(n, :))
-      call put_edge(mesh, refinement, element, 3_ip, grid(n:0:-1, n))
-      call put_edge(mesh, refinement, element, 4_ip, grid(0, n:0:-1))
-      k = refinement%inner_first(element)
-      do j = 1, n - 1
-         do i = 1, n - 1
-            if (is_hollow(fine_shape(mesh, refinement%shape, element), i, j)) then
-               grid(i, j) = 0
-            else if (has_centre(mesh, element) .and. 2*i == n .and. 2*j == n) then
-               grid(i, j) = mesh%nodes(mesh%shape(element), element)
-            else
-               grid(i, j) = k
-               k = k + 1
-            end if
+      associate (is_triangle => refinement%is_triangle(element))
+         call put_edge(mesh, refinement, element, 1_ip, grid(:, 0))
+         if (is_triangle) then                         ! its second side is the diagonal: half of the grid is used
+            allocate (line(0:n))
+            call put_edge(mesh, refinement, element, 2_ip, line)
+            do i = 0, n
+               grid(n - i, i) = line(i)
+            end do
+         else
+            call put_edge(mesh, refinement, element, 2_ip, grid(n, :))
+            call put_edge(mesh, refinement, element, 3_ip, grid(n:0:-1, n))
+         end if
+         call put_edge(mesh, refinement, element, side_count(mesh, element), grid(0, n:0:-1))
+         k = refinement%inner_first(element)
+         do j = 1, n - 1
+            do i = 1, merge(n - j, n, is_triangle) - 1
+               if (is_hollow(fine_shape(mesh, refinement%shape, element), i, j)) then
+                  grid(i, j) = 0
+               else if (has_centre(mesh, element) .and. 2*i == n .and. 2*j == n) then
+                  grid(i, j) = mesh%nodes(mesh%shape(element), element)
+               else
+                  grid(i, j) = k
+                  k = k + 1
+               end if
+            end do
          end do
-      end do
+      end associate
    end subroutine fill_grid
-
-   !> Of a triangle half of the grid is used.
-   pure subroutine fill_triangle(mesh, refinement, element, grid)
-      type(mesh_t), intent(in) :: mesh
-      type(refinement_t), intent(in) :: refinement
-      integer(ip), intent(in) :: element
-      integer(ip), intent(inout) :: grid(0:, 0:)
-      integer(ip) :: line(0:ubound(grid, 1)), i, j, k, n
-
-      n = ubound(grid, 1, kind=ip)
-      call put_edge(mesh, refinement, element, 1_ip, grid(:, 0))
-      call put_edge(mesh, refinement, element, 3_ip, grid(0, n:0:-1))
-      call put_edge(mesh, refinement, element, 2_ip, line)
-      do i = 0, n
-         grid(n - i, i) = line(i)
-      end do
-      k = refinement%inner_first(element)
-      do j = 1, n - 2
-         do i = 1, n - 1 - j
-            grid(i, j) = k
-            k = k + 1
-         end do
-      end do
-   end subroutine fill_triangle
 
    !> The nodes of an edge in the direction in which an element travels it.
    pure subroutine put_edge(mesh, refinement, element, face, line)
@@ -437,7 +414,7 @@ contains
       end if
    end subroutine take_piece
 
-   !> Whether this tells of a refinement at all.
+   !> Whether the mesh is a refined one.
    pure logical function is_refined(refinement)
       type(refinement_t), intent(in) :: refinement
 

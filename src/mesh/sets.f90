@@ -92,36 +92,28 @@ contains
       call add_ranges(list%sets(i)%members, members)
    end subroutine grow_by_ranges
 
+   !> The place of a set; a new one has no members. Where there is no room the list doubles, the sets handed on without a copy.
    pure subroutine find_or_append(list, name, i)
       type(set_list_t), intent(inout) :: list
       character(len=*), intent(in) :: name
       integer(ip), intent(out) :: i
+      type(set_t), allocatable :: longer(:)
+      integer(ip) :: k
 
       i = find_set(list, name)
       if (i > 0) return
-      call append_set(list, name)
-      i = set_count(list)
-   end subroutine find_or_append
-
-   !> A new set without members. Where there is no room the list doubles, the sets handed on without a copy.
-   pure subroutine append_set(list, name)
-      type(set_list_t), intent(inout) :: list
-      character(len=*), intent(in) :: name
-      type(set_t), allocatable :: longer(:)
-      integer(ip) :: i, n
-
-      n = set_count(list)
+      i = set_count(list) + 1
       if (.not. allocated(list%sets)) allocate (list%sets(FIRST_LENGTH))
-      if (n == size(list%sets)) then
-         allocate (longer(2*n))
-         do i = 1, n
-            call move_alloc(list%sets(i)%name, longer(i)%name)
-            call move_ranges(list%sets(i)%members, longer(i)%members)
+      if (i > size(list%sets)) then
+         allocate (longer(2*i))
+         do k = 1, i - 1
+            call move_alloc(list%sets(k)%name, longer(k)%name)
+            call move_ranges(list%sets(k)%members, longer(k)%members)
          end do
          call move_alloc(longer, list%sets)
       end if
-      list%sets(n + 1)%name = name
+      list%sets(i)%name = name
       call add_name(list%names, name)
-   end subroutine append_set
+   end subroutine find_or_append
 
 end module atrito_sets

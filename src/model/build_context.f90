@@ -2,12 +2,12 @@
 !> and which names and numbers an error has invalid.
 !>
 !> One mistake, one message: whoever refers to a thing whose definition was faulty is passed over in silence. Silence is allowed
-!> only once an error has been told, so a deck is never accepted with something left out.
+!> only once an error has been reported, so a deck is never accepted with something left out.
 module atrito_build_context
    use atrito_build_parts, only: open_step_t, inherited_t, replaced_t, numbered_t, block_t, section_cut_t, &
                                  BLOCK_SIDES, LOOSE_HELD, LOOSE_RELEASED, LOOSE_MOVES
    use atrito_curves, only: curve_list_t, line_list_t
-   use atrito_deck, only: deck_t, card_t, token_t, data_line_t, token_text, is_empty_token, keyword_name, scope_shift, &
+   use atrito_deck, only: deck_t, card_t, token_t, data_line_t, token_text, is_empty_token, line_item, keyword_name, scope_shift, &
                           scope_text, model_number
    use atrito_diagnostics, only: report_error
    use atrito_faces, only: face_list_t, node_elements_t
@@ -28,7 +28,7 @@ module atrito_build_context
    public :: LOOSE_HELD, LOOSE_RELEASED, LOOSE_MOVES
    public :: build_context_t, open_step_t, inherited_t, replaced_t, numbered_t, block_t, section_cut_t
    public :: BLOCK_SIDES
-   public :: prepare_context, add_context_block, note_undetermined_mesh
+   public :: prepare_context, add_context_block, note_undetermined_mesh, line_token, open_line
    public :: invalidate_block, invalidate_name, spoil_number, is_invalid, is_undetermined, has_errors, has_lost_elements
    public :: place_token, place_text, note_number, note_place, note_places, keep_token, define_name, count_cards, ids_text, MOST_IDS
 
@@ -56,6 +56,7 @@ module atrito_build_context
       integer(ip), allocatable :: mesh_shift(:)        !< of the node numbers of each mesh of the deck; < 0: it is refused
       integer(ip), allocatable :: set_card(:)          !< for each node set the card that made it
       type(open_step_t) :: open
+      integer(ip), allocatable :: step_cards(:, :)     !< (2, 0:steps) first and last card of each step; 0: those outside of steps
       logical, allocatable :: card_done(:)             !< *NSET and *ELSET cards that are read already
       type(node_elements_t) :: around                  !< elements round each node
       type(section_cut_t), allocatable :: cuts(:)
@@ -86,7 +87,7 @@ module atrito_build_context
       real(wp), allocatable :: axes(:, :, :)           !< (2, dof, n_nodes) local axes; 0: along x and y; not allocated: nowhere
    end type build_context_t
 
-   integer(ip), parameter :: MOST_IDS = 8              !< numbers told in a message
+   integer(ip), parameter :: MOST_IDS = 8              !< numbers that a message lists
 
 contains
 
@@ -94,7 +95,7 @@ contains
    subroutine prepare_context(deck, context)
       type(deck_t), intent(in), target :: deck
       type(build_context_t), intent(out) :: context
-      integer(ip) :: i
+      integer(ip) :: i, k
 
       context%deck => deck
       allocate (context%blocks(64), context%set_card(0))
@@ -113,7 +114,12 @@ contains
          if (deck%cards(i)%ok .and. len(keyword_name(deck%cards(i))) > 0) cycle
          if (any(keyword_name(deck%cards(i)) == ['ELEMENT', 'ELSET  '])) context%sections_undetermined = .true.
          call invalidate_options(deck%cards(i), context)
-         if (len(keyword_name(deck%cards(i))) == 0) call invalidate_numbers(deck%cards(i), context)
+         if (len(keyword_name(deck%cards(i))) > 0) cycle
+         do k = deck%cards(i)%first_line, deck%cards(i)%first_line + deck%cards(i)%n_lines - 1
+            ! what an unknown keyword would have defined begins each of its lines
+            call spoil_number(deck, deck%lines(k), context%nodes)
+            call spoil_number(deck, deck%lines(k), context%elements)
+         end do
       end do
    end subroutine prepare_context
 
@@ -148,7 +154,13 @@ contains
       case ('BLOCK')
          if (is_nameless(context%deck, card, 'ELSET')) call note_undetermined_mesh(context)
       case ('INCLUDE')
-         if (.not. card%ok) call note_undetermined_file(context)
+         if (card%ok) return
+         call note_undetermined_mesh(context)          ! a file that could not be read may have defined anything
+         call note_undetermined(context, 'material')
+         call note_undetermined(context, 'amplitude')
+         call note_undetermined(context, 'surface interaction')
+         context%sections_undetermined = .true.
+         context%pairs_undetermined = .true.
       end select
    end subroutine note_nameless
 
@@ -163,18 +175,6 @@ contains
          call note_undetermined(context, trim(NOUNS(i)))
       end do
    end subroutine note_undetermined_mesh
-
-   !> A file that could not be read may have defined anything.
-   subroutine note_undetermined_file(context)
-      type(build_context_t), intent(inout) :: context
-
-      call note_undetermined_mesh(context)
-      call note_undetermined(context, 'material')
-      call note_undetermined(context, 'amplitude')
-      call note_undetermined(context, 'surface interaction')
-      context%sections_undetermined = .true.
-      context%pairs_undetermined = .true.
-   end subroutine note_undetermined_file
 
    !> The option that names a thing is not there or cannot be read; misspelt options are left to invalidate_options.
    logical function is_nameless(deck, card, option)
@@ -215,19 +215,6 @@ contains
                                                                                                    card%options(i)%value))
       end do
    end subroutine invalidate_options
-
-   !> What an unknown keyword would have defined begins each of its lines.
-   subroutine invalidate_numbers(card, context)
-      type(card_t), intent(in) :: card
-      type(build_context_t), intent(inout) :: context
-      integer(ip) :: i
-
-      do i = card%first_line, card%first_line + card%n_lines - 1
-         if (context%deck%lines(i)%n_tokens == 0) cycle
-         call spoil_number(context%deck, context%deck%lines(i), context%nodes)
-         call spoil_number(context%deck, context%deck%lines(i), context%elements)
-      end do
-   end subroutine invalidate_numbers
 
    subroutine note_undetermined(context, noun)
       type(build_context_t), intent(inout) :: context
@@ -319,7 +306,7 @@ contains
       if (has_errors()) is_undetermined = has_name(context%undetermined, noun)
    end function is_undetermined
 
-   !> Elements are missing, which has been told: what belongs to none may belong to one of them.
+   !> Elements are missing, which has been reported: what belongs to none may belong to one of them.
    logical function has_lost_elements(context)
       type(build_context_t), intent(in) :: context
 
@@ -330,6 +317,21 @@ contains
    logical function has_errors()
       has_errors = count_messages(SEVERITY_ERROR) > 0
    end function has_errors
+
+   !> The line that is being read.
+   pure type(data_line_t) function open_line(context)
+      type(build_context_t), intent(in) :: context
+
+      open_line = context%deck%lines(context%open%line)
+   end function open_line
+
+   !> An item of the line that is being read; an empty one where it has none.
+   pure type(token_t) function line_token(context, k)
+      type(build_context_t), intent(in) :: context
+      integer(ip), intent(in) :: k
+
+      line_token = line_item(context%deck, open_line(context), k)
+   end function line_token
 
    !> The item at a place kept by note_place.
    pure function place_token(deck, place) result(token)

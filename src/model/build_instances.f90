@@ -5,7 +5,7 @@ module atrito_build_instances
    use atrito_diagnostics, only: report_error
    use atrito_items, only: option_text
    use atrito_kinds, only: ip, wp
-   use atrito_motion, only: motion_t, read_shift, read_rotation
+   use atrito_motion, only: read_shift, read_rotation
    implicit none (type, external)
    private
    public :: build_instances
@@ -15,6 +15,7 @@ contains
    !> The motions of all instances and, for people, where their numbers begin. Of a deck without parts there are none.
    subroutine build_instances(context)
       type(build_context_t), intent(inout) :: context
+      type(card_t) :: card
       integer(ip) :: i, n
       logical :: found
 
@@ -24,9 +25,18 @@ contains
       do i = 1, n
          associate (scope => context%deck%scopes(i), instance => context%model%instances(i))
             if (.not. scope%ok) cycle
-            call read_motion(context%deck%cards(scope%card), context, context%motions(i))
+            card = context%deck%cards(scope%card)      ! a line of the translation, and one of the rotation
+            associate (deck => context%deck, motion => context%motions(i))
+               if (card%n_lines > 0) then
+                  if (deck%lines(card%first_line)%ok) call read_shift(deck, deck%lines(card%first_line), 'INSTANCE', motion, found)
+               end if
+               if (card%n_lines > 1) then
+                  if (deck%lines(card%first_line + 1)%ok) call read_rotation(deck, deck%lines(card%first_line + 1), 'INSTANCE', &
+                                                                             1.0_wp, motion, found)
+               end if
+            end associate
             instance%name = scope%name
-            call option_text(context%deck, context%deck%cards(scope%card), 'PART', instance%part, found)
+            call option_text(context%deck, card, 'PART', instance%part, found)
             instance%first_number = min(scope%shift, huge(scope%shift) - 1) + 1 ! too many are refused
             instance%shift = context%motions(i)%shift
             instance%angle = context%motions(i)%angle
@@ -34,23 +44,6 @@ contains
       end do
       if (n > 0) call refuse_turned_dofs(context)
    end subroutine build_instances
-
-   !> A line of the translation, and one of the rotation.
-   subroutine read_motion(card, context, motion)
-      type(card_t), intent(in) :: card
-      type(build_context_t), intent(in) :: context
-      type(motion_t), intent(inout) :: motion
-      logical :: ok
-
-      associate (deck => context%deck, first => card%first_line)
-         if (card%n_lines > 0) then
-            if (deck%lines(first)%ok) call read_shift(deck, deck%lines(first), 'INSTANCE', motion, ok)
-         end if
-         if (card%n_lines > 1) then
-            if (deck%lines(first + 1)%ok) call read_rotation(deck, deck%lines(first + 1), 'INSTANCE', 1.0_wp, motion, ok)
-         end if
-      end associate
-   end subroutine read_motion
 
    !> In a part the axes turn with the instance, but dofs are along those of the scene.
    subroutine refuse_turned_dofs(context)

@@ -47,7 +47,7 @@ module atrito_build_model
    use atrito_points, only: contact_points_t
    use atrito_refine_model, only: refine_model
    use atrito_refined_deck, only: note_free_sides
-   use atrito_rigid_rows, only: add_rigid_rows
+   use atrito_row_dofs, only: add_rigid_rows
    use atrito_sources, only: keep_sources
    use atrito_strings, only: deck_name
    use atrito_turn_supports, only: turn_supports
@@ -64,7 +64,7 @@ contains
    !> are made in the order of the deck, since they follow from each other.
    !>
    !> With levels > 0 every element is refined into 4**levels, and with a shape all become elements of that shape. The model is
-   !> built without it first: what is wrong with a deck is told of the elements that stand in it.
+   !> built without it first: messages name the elements that stand in the deck.
    subroutine build_model(deck, model, levels, memory, shape, state)
       type(deck_t), intent(in) :: deck                 !< read and checked by read_deck
       type(model_t), intent(out) :: model
@@ -91,8 +91,7 @@ contains
       if (own > 0) then                                ! only how the same state is integrated may change
          if (any(FULL_STATE(model%mesh%state) /= FULL_STATE(own))) own = 0
       end if
-      if (depth == 0 .and. (kind == 0 .or. all(model%mesh%shape == kind)) &
-          .and. (own == 0 .or. all(model%mesh%state == own))) return
+      if (depth == 0 .and. (kind == 0 .or. all(model%mesh%shape == kind)) .and. (own == 0 .or. all(model%mesh%state == own))) return
       call forget_messages(mark)
       call build_once(deck, depth, kind, own, limit, model)
    end subroutine build_model

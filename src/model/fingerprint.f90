@@ -347,8 +347,10 @@ contains
       do i = 1, size(in_deck%parts)
          associate (part => in_deck%parts(i))
             if (part%step > step) cycle
-            k = find_part(in_file, part%name)
-            if (k == 0) then
+            do k = 1, size(in_file%parts)
+               if (in_file%parts(k)%name == part%name) exit
+            end do
+            if (k > size(in_file%parts)) then
                text = 'it has no '//part%name
             else if (in_file%parts(k)%digest /= part%digest) then
                text = part%name//': not the same'
@@ -359,15 +361,5 @@ contains
          if (len(text) > 0) return
       end do
    end function find_difference
-
-   pure integer function find_part(fingerprint, name) result(k)
-      type(fingerprint_t), intent(in) :: fingerprint
-      character(len=*), intent(in) :: name
-
-      do k = 1, size(fingerprint%parts)
-         if (fingerprint%parts(k)%name == name) return
-      end do
-      k = 0
-   end function find_part
 
 end module atrito_fingerprint

@@ -33,7 +33,7 @@ contains
       end associate
       pairs%pair = sorted_places(pairs%key)
       pairs%key = pairs%key(pairs%pair)
-      ! Each line of *CONTACT PAIR has made a pair; where one has not, an error has been told.
+      ! Each line of *CONTACT PAIR has made a pair; where one has not, an error has been reported.
       pairs%is_complete = size(context%model%pairs) == count_lines(context%deck, 'CONTACT PAIR')
    end subroutine index_pairs
 
@@ -57,7 +57,7 @@ contains
       if (pairs%key(i) == key_of(context, surfaces)) pair = pairs%pair(i)
    end function pair_of
 
-   !> The pair of a slave and a master. What is wrong is told of the place of the name.
+   !> The pair of a slave and a master. What is wrong is reported at the place of the name.
    subroutine find_pair(context, pairs, names, places, turned, keyword, pair)
       type(build_context_t), intent(in) :: context
       type(pair_index_t), intent(in) :: pairs

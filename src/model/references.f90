@@ -4,12 +4,12 @@ module atrito_references
    use atrito_deck, only: card_t, deck_t, token_t, token_text, is_id_token, keyword_name, scope_shift, scope_text
    use atrito_diagnostics, only: report_error
    use atrito_build_context, only: build_context_t, numbered_t, is_invalid, is_undetermined, has_errors, ids_text
+   use atrito_element_table, only: CORNERS_OF
    use atrito_id_map, only: find_id
    use atrito_items, only: get_integer, get_name, option_text
    use atrito_kinds, only: ip
-   use atrito_mesh, only: find_node, find_element, side_count
+   use atrito_mesh, only: find_node, find_element
    use atrito_name_list, only: name_list_t, find_name
-   use atrito_number_list, only: number_list_t, add_number, numbers_of
    use atrito_refined_members, only: fine_elements
    use atrito_refinement, only: is_refined
    use atrito_sets, only: set_list_t, find_set, members_of
@@ -54,7 +54,7 @@ contains
       character(len=:), allocatable :: noun
 
       associate (scope => deck%scopes(token%scope))
-         ok = scope%ok                                 ! if not, that is told
+         ok = scope%ok                                 ! if not, that is reported
          if (.not. ok) return
          ok = id <= scope%span
          if (ok) then
@@ -267,18 +267,16 @@ contains
       integer(ip), intent(in) :: elements(:), face
       character(len=*), intent(in) :: keyword
       logical, intent(out) :: ok
-      type(number_list_t) :: without
-      integer(ip) :: i
+      integer(ip), allocatable :: without(:)
 
       ok = face <= 3 .or. is_refined(context%refinement)
       if (ok) return
-      do i = 1, size(elements, kind=ip)
-         if (side_count(context%model%mesh, elements(i)) >= face) cycle
-         call add_number(without, context%model%mesh%element_id(elements(i)))
-      end do
-      ok = without%n == 0
+      associate (mesh => context%model%mesh)
+         without = pack(mesh%element_id(elements), CORNERS_OF(mesh%shape(elements)) < face)
+      end associate
+      ok = size(without) == 0
       if (ok) return
-      call report_error(context%deck, token, 'E-FACE', 'element '//ids_text(numbers_of(without))//' has no face '//to_text(face), &
+      call report_error(context%deck, token, 'E-FACE', 'element '//ids_text(without)//' has no face '//to_text(face), &
                         expected='a face that each of the elements has: triangles have 1-2, 2-3 and 3-1', keyword=keyword)
    end subroutine check_faces
 

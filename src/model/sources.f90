@@ -20,34 +20,26 @@ contains
       character(len=*), intent(in) :: keyword          !< without blanks
       type(token_t), intent(in) :: token
       character(len=:), allocatable :: name
+      type(token_t) :: inner
+      real(wp) :: value
+      logical :: known
 
       name = ALL_ELEMENTS
-      if (.not. is_empty_token(token)) name = name_of(context, token)
+      if (.not. is_empty_token(token)) name = token_text(context%deck, token)
+      if (index(name, '<') == 1) then                  ! of an expression the number that it is
+         inner = token
+         inner%first = token%first + 1
+         inner%last = token%last - 1
+         call try_expression(context%deck, inner, value, known)
+         if (known) known = abs(value) < real(huge(1_ip), wp)
+         if (known) name = to_text(nint(value, ip))
+      end if
       name = keyword//' '//name
       context%open%source = find_name(context%source_names, name)
       if (context%open%source > 0) return
       call add_name(context%source_names, name)
       context%open%source = context%source_names%n
    end subroutine open_source
-
-   !> A name or a number as it stands there, of an expression the number that it is.
-   function name_of(context, token) result(name)
-      type(build_context_t), intent(in) :: context
-      type(token_t), intent(in) :: token
-      character(len=:), allocatable :: name
-      type(token_t) :: inner
-      real(wp) :: value
-      logical :: known
-
-      name = token_text(context%deck, token)
-      if (index(name, '<') /= 1) return
-      inner = token
-      inner%first = token%first + 1
-      inner%last = token%last - 1
-      call try_expression(context%deck, inner, value, known)
-      if (known) known = abs(value) < real(huge(1_ip), wp)
-      if (known) name = to_text(nint(value, ip))
-   end function name_of
 
    !> The model has them all.
    pure subroutine keep_sources(context)

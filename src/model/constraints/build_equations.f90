@@ -10,10 +10,9 @@ module atrito_build_equations
    use atrito_load_lists, only: add_nodal_value
    use atrito_references, only: find_nodes
    use atrito_refinement, only: is_refined
-   use atrito_row_dofs, only: check_row_dof, check_row_nodes, row_terms, TERMS_A_DOF, WHAT_DOF
+   use atrito_row_dofs, only: check_row_dof, check_row_nodes, row_terms, row_weight, TERMS_A_DOF, WHAT_DOF
    use atrito_refined_deck, only: order_like
    use atrito_strings, only: to_text
-   use atrito_turn_supports, only: row_weight
    implicit none (type, external)
    private
    public :: build_equations
@@ -68,7 +67,7 @@ contains
       type(term_t), allocatable, intent(out) :: terms(:)
       logical, intent(out) :: ok
       type(token_t) :: place
-      integer(ip) :: n, filled, more
+      integer(ip) :: n, filled, items, more
 
       place = line_item(context%deck, context%deck%lines(k), 1_ip)
       call read_count(context, context%deck%lines(k), n, ok)
@@ -84,8 +83,16 @@ contains
             ok = .false.
             return
          end if
-         call count_terms(context, context%deck%lines(k), n - filled, more, ok)
-         if (ok) call read_term_line(context, context%deck%lines(k), terms(filled + 1:filled + more), ok)
+         items = item_count(context, context%deck%lines(k))
+         more = items/ITEMS_A_TERM
+         ok = more > 0 .and. more <= n - filled .and. mod(items, ITEMS_A_TERM) == 0
+         if (.not. ok) then
+            call report_error(context%deck, line_item(context%deck, context%deck%lines(k), 1_ip), 'E-ITEMS', to_text(items)// &
+                              ' items, where '//to_text(n - filled)//trim(merge(' term is  ', ' terms are', n - filled == 1))// &
+                              ' missing', expected=TERM, keyword=KEYWORD)
+            return
+         end if
+         call read_term_line(context, context%deck%lines(k), terms(filled + 1:filled + more), ok)
          if (.not. ok) return
          filled = filled + more
       end do
@@ -114,22 +121,6 @@ contains
       ok = .false.
       call report_error(context%deck, place, 'E-VALUE', to_text(n)//' terms', expected=WHAT, keyword=KEYWORD)
    end subroutine read_count
-
-   !> How many terms a line has, of which so many are missing.
-   subroutine count_terms(context, line, missing, n, ok)
-      type(build_context_t), intent(in) :: context
-      type(data_line_t), intent(in) :: line
-      integer(ip), intent(in) :: missing
-      integer(ip), intent(out) :: n
-      logical, intent(out) :: ok
-
-      n = item_count(context, line)/ITEMS_A_TERM
-      ok = n > 0 .and. n <= missing .and. mod(item_count(context, line), ITEMS_A_TERM) == 0
-      if (ok) return
-      call report_error(context%deck, line_item(context%deck, line, 1_ip), 'E-ITEMS', to_text(item_count(context, line))// &
-                        ' items, where '//to_text(missing)//trim(merge(' term is  ', ' terms are', missing == 1))//' missing', &
-                        expected=TERM, keyword=KEYWORD)
-   end subroutine count_terms
 
    !> Items of a line without empty ones at its end.
    pure integer(ip) function item_count(context, line) result(n)
@@ -161,7 +152,9 @@ contains
             call get_integer(context%deck, dof_place, WHAT_DOF, terms(i)%dof, good(2), keyword=KEYWORD)
             call get_real(context%deck, line_item(context%deck, line, item + 3), 'coefficient, a real', terms(i)%coefficient, &
                           good(3), keyword=KEYWORD)
-            if (all(good) .and. is_out_of_plane(context, terms(i))) then
+            ! where there are reference nodes dof 6 is a rotation, which the node may not have
+            if (all(good) .and. terms(i)%dof > PLANE_DOFS .and. &
+                terms(i)%dof <= merge(LAST_DOF, LAST_DOF - 1_ip, size(context%model%rigid_bodies) == 0)) then
                call report_note(context%deck, dof_place, 'N-DOF', 'the dofs 3 to 6 do not exist in the plane; this term is 0', &
                                 keyword=KEYWORD)
                terms(i)%dof = NO_DOF
@@ -173,17 +166,6 @@ contains
          ok = ok .and. all(good)
       end do
    end subroutine read_term_line
-
-   !> A displacement or rotation of three dimensions, which is 0. Where there are reference nodes, whose dof 6 is a rotation, it is
-   !> one that the node does not have.
-   pure logical function is_out_of_plane(context, term)
-      type(build_context_t), intent(in) :: context
-      type(term_t), intent(in) :: term
-
-      is_out_of_plane = term%dof > PLANE_DOFS .and. term%dof <= LAST_DOF
-      if (term%dof /= LAST_DOF .or. .not. allocated(context%model%rigid_bodies)) return
-      is_out_of_plane = size(context%model%rigid_bodies) == 0
-   end function is_out_of_plane
 
    !> On a refined mesh the nodes of sets are put into the order of those of the first.
    subroutine order_sets(context, place, terms, ok)

@@ -23,7 +23,7 @@ module atrito_build_pretension
    use atrito_node_fields, only: double_temperatures
    use atrito_references, only: find_surface
    use atrito_strings, only: to_text
-   use atrito_turn_supports, only: row_weight
+   use atrito_row_dofs, only: row_weight
    implicit none (type, external)
    private
    public :: build_pretension, add_pretension_rows
@@ -63,8 +63,7 @@ contains
       if (node == 0) return
       if (is_reference(context, node)) then
          call report_error(context%deck, node_place, 'E-NODE', 'node '//to_text(context%model%mesh%node_id(node)) &
-                           //' is that of another section, or of a rigid surface', &
-                           expected=WHAT_NODE, keyword=KEYWORD)
+                           //' is that of another section, or of a rigid surface', expected=WHAT_NODE, keyword=KEYWORD)
          return
       end if
       if (context%model%surfaces(surface)%kind /= SURFACE_ELEMENTS .or. context%model%surfaces(surface)%faces%n == 0) then
@@ -128,8 +127,7 @@ contains
       normal = normal/norm2(normal)
       if (dot_product(normal, outward) >= 0.0_wp) return
       call report_warning(context%deck, place, 'W-CUT', 'the normal points into the elements of the surface: a positive '// &
-                          'force pushes the sides apart', expected='a normal that points away from these elements', &
-                          keyword=KEYWORD)
+                          'force pushes the sides apart', expected='a normal that points away from these elements', keyword=KEYWORD)
    end subroutine read_normal
 
    !> Cuts the mesh, and gives the new nodes what the old ones have.

@@ -3,6 +3,7 @@ module atrito_build_rigid_bodies
    use atrito_build_context, only: build_context_t, count_cards
    use atrito_deck, only: card_t, token_t, keyword_name
    use atrito_diagnostics, only: report_error
+   use atrito_growth, only: resize
    use atrito_id_map, only: add_id, find_id
    use atrito_items, only: has_option, option_text
    use atrito_kinds, only: ip, wp
@@ -45,32 +46,28 @@ contains
       type(build_context_t), intent(inout) :: context
       type(token_t) :: place
       character(len=:), allocatable :: name
-      integer(ip) :: surface
-      logical :: found, has_nodes
+      integer(ip) :: i, surface
+      logical :: found
 
-      has_nodes = any([(has_option(context%deck, card, trim(NODE_OPTIONS(surface))), surface=1, size(NODE_OPTIONS))])
+      surface = 0
       call option_text(context%deck, card, 'ANALYTICAL SURFACE', name, found, place)
-      if (.not. found) then
-         if (has_nodes) then
-            call read_reference(card, 0_ip, context)
-         else if (card%ok) then
-            call report_error(context%deck, card%place, 'E-OPTION-MISSING', '*RIGID BODY has neither a surface nor nodes', &
-                              expected='ANALYTICAL SURFACE=, or REF NODE= and one of NSET=, TIE NSET=, ELSET=', &
-                              keyword='RIGID BODY')
-         end if
-         return
-      end if
-      call find_surface(context, place, surface, 'RIGID BODY')
-      if (surface > 0) then
-         if (context%model%surfaces(surface)%kind == SURFACE_SEGMENTS) then
-            context%model%surfaces(surface)%is_rigid_body = .true.
-            call read_reference(card, surface, context)
+      if (found) then
+         call find_surface(context, place, surface, 'RIGID BODY')
+         if (surface > 0) found = context%model%surfaces(surface)%kind == SURFACE_SEGMENTS
+         if (.not. found) call report_error(context%deck, place, 'E-SURFACE', 'surface '//name//' is made of element faces', &
+                                            expected='a surface of TYPE=SEGMENTS', keyword='RIGID BODY')
+         if (surface == 0 .or. .not. found) then
+            context%rigid_undetermined = .true.
             return
          end if
-         call report_error(context%deck, place, 'E-SURFACE', 'surface '//name//' is made of element faces', &
-                           expected='a surface of TYPE=SEGMENTS', keyword='RIGID BODY')
+         context%model%surfaces(surface)%is_rigid_body = .true.
+      else if (.not. any([(has_option(context%deck, card, trim(NODE_OPTIONS(i))), i=1, size(NODE_OPTIONS, kind=ip))])) then
+         if (card%ok) call report_error(context%deck, card%place, 'E-OPTION-MISSING', &
+                                        '*RIGID BODY has neither a surface nor nodes', keyword='RIGID BODY', &
+                                        expected='ANALYTICAL SURFACE=, or REF NODE= and one of NSET=, TIE NSET=, ELSET=')
+         return
       end if
-      context%rigid_undetermined = .true.
+      call read_reference(card, surface, context)
    end subroutine read_card
 
    !> REF NODE=: one node of no element, of one surface alone.
@@ -147,7 +144,6 @@ contains
 
       ok = .true.
       allocate (nodes(0))
-      if (.not. any([(has_option(context%deck, card, trim(NODE_OPTIONS(i))), i=1, size(NODE_OPTIONS, kind=ip))])) return
       do i = 1, size(NODE_OPTIONS, kind=ip)
          call option_text(context%deck, card, trim(NODE_OPTIONS(i)), set, found, place)
          if (.not. found .or. .not. ok) cycle
@@ -280,28 +276,25 @@ contains
    !> its barycentric coordinates: so a contact point sees a rigid master as it sees a face of elements.
    pure subroutine make_solver_mesh(model)
       type(model_t), intent(inout) :: model
-      real(wp), allocatable :: x(:, :)
-      integer(ip), allocatable :: id(:)
-      integer(ip) :: i, first, n
+      integer(ip) :: i, nodes(CARRIERS), before
 
-      n = size(model%rigid_bodies, kind=ip)
-      if (n == 0) return
-      allocate (x(2, model%mesh%n_nodes + CARRIERS*n), id(model%mesh%n_nodes + CARRIERS*n))
-      x(:, :model%mesh%n_nodes) = model%mesh%x(:, :model%mesh%n_nodes)
-      id(:model%mesh%n_nodes) = model%mesh%node_id(:model%mesh%n_nodes)
-      do i = 1, n
-         first = model%mesh%n_nodes + CARRIERS*(i - 1) + 1
-         associate (body => model%rigid_bodies(i))
-            x(:, first:first + CARRIERS - 1) = spread(x(:, body%node), 2, CARRIERS)
-            x(1, first + 1) = x(1, first + 1) + body%size
-            x(2, first + 2) = x(2, first + 2) + body%size
-            id(first:first + CARRIERS - 1) = id(body%node)
-         end associate
-      end do
+      if (size(model%rigid_bodies) == 0) return
       model%solver_mesh = model%mesh
-      model%solver_mesh%n_nodes = size(id, kind=ip)
-      call move_alloc(x, model%solver_mesh%x)
-      call move_alloc(id, model%solver_mesh%node_id)
+      before = model%mesh%n_nodes
+      associate (mesh => model%solver_mesh)
+         mesh%n_nodes = before + CARRIERS*size(model%rigid_bodies, kind=ip)
+         call resize(mesh%x, before, mesh%n_nodes)
+         call resize(mesh%node_id, before, mesh%n_nodes)
+         do i = 1, size(model%rigid_bodies, kind=ip)
+            nodes = carriers_of(model, i)
+            associate (body => model%rigid_bodies(i))
+               mesh%x(:, nodes) = spread(mesh%x(:, body%node), 2, CARRIERS)
+               mesh%x(1, nodes(2)) = mesh%x(1, nodes(2)) + body%size
+               mesh%x(2, nodes(3)) = mesh%x(2, nodes(3)) + body%size
+               mesh%node_id(nodes) = mesh%node_id(body%node)
+            end associate
+         end do
+      end associate
    end subroutine make_solver_mesh
 
 end module atrito_build_rigid_bodies

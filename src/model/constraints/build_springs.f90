@@ -3,7 +3,6 @@ module atrito_build_springs
    use atrito_bilateral_rows, only: add_row, ROW_SPRING
    use atrito_build_context, only: build_context_t, has_errors, LOOSE_HELD
    use atrito_build_rigid_bodies, only: ROTATION_DOF
-   use atrito_turn_supports, only: row_weight
    use atrito_deck, only: card_t, data_line_t, token_t, line_item, keyword_name
    use atrito_diagnostics, only: report_error
    use atrito_id_map, only: id_map_t, add_id
@@ -14,7 +13,8 @@ module atrito_build_springs
    use atrito_model, only: spring_t
    use atrito_name_list, only: name_list_t, add_name, find_name, names_of
    use atrito_references, only: element_of_deck, find_one_node, get_id, report_unknown
-   use atrito_row_dofs, only: arm_of, check_row_dof, check_row_nodes, has_no_unknowns, row_node, row_terms, TERMS_A_DOF, WHAT_DOF
+   use atrito_row_dofs, only: arm_of, check_row_dof, check_row_nodes, has_no_unknowns, row_node, row_terms, &
+                              row_weight, TERMS_A_DOF, WHAT_DOF
    use atrito_strings, only: string_t, to_text
    implicit none (type, external)
    private
@@ -177,7 +177,7 @@ contains
          call report_error(context%deck, place, 'E-SPRING', 'the springs of '//name//' are SPRINGA and others', &
                            expected='a set for each type', keyword='SPRING')
       end if
-      if (ok) call add_springs(context, places, reading%place, dof, stiffness, reading%weight)
+      if (ok) call add_springs(context, places, reading, dof, stiffness)
    end subroutine read_spring_card
 
    !> Dofs, and below them the stiffness. Of SPRINGA the last line has the stiffness; one before it says nothing.
@@ -244,12 +244,11 @@ contains
 
    !> Rows of the springs at some places. The first end gets the direction, the second one the opposite; along SPRINGA both point
    !> outwards, so that the force is a tension. An end that is the ground has no part in the row.
-   subroutine add_springs(context, places, tokens, dof, stiffness, weight)
+   subroutine add_springs(context, places, reading, dof, stiffness)
       type(build_context_t), intent(inout) :: context
       integer(ip), intent(in) :: places(:), dof(2)
-      type(token_t), intent(in) :: tokens(:)           !< of all springs
+      type(reading_t), intent(in) :: reading
       real(wp), intent(in) :: stiffness
-      real(wp), intent(in) :: weight                   !< of the rows [L^2]
       integer(ip) :: i, group
       real(wp) :: vectors(2, 2)
       logical :: ok
@@ -259,14 +258,16 @@ contains
          associate (spring => context%model%springs(places(i)))
             spring%dof = dof
             spring%stiffness = stiffness
-            call find_directions(context, spring, tokens(places(i)), vectors, ok)
-            if (ok) call ground_ends(context, tokens(places(i)), spring, vectors, ok)
-            if (ok) call add_spring(context, spring, vectors, [ROW_SPRING, group, places(i)], weight)
+            call find_directions(context, spring, reading%place(places(i)), vectors, ok)
+            if (ok) call ground_ends(context, reading%place(places(i)), spring, vectors, ok)
+            if (ok) call add_spring(context, spring, vectors, [ROW_SPRING, group, places(i)], reading%weight)
          end associate
       end do
    end subroutine add_springs
 
-   !> The row of a spring. One of rotations takes them times an arm: its force is a moment over that.
+   !> The row of a spring between two ends, v1 . u1 + v2 . u2 = q/k: the force q pulls the ends along -v1 and -v2, k is the
+   !> stiffness. A spring of rotations takes them times an arm, the larger of the sizes of its rigid bodies, so that its row has the
+   !> unit of the others: q is its moment over the arm, and the compliance is arm**2/k.
    subroutine add_spring(context, spring, vectors, identity, weight)
       type(build_context_t), intent(inout) :: context
       type(spring_t), intent(inout) :: spring

@@ -1,10 +1,11 @@
-!> *BOUNDARY: prescribed displacements.
+!> *BOUNDARY: prescribed displacements, and the words ENCASTRE, XSYMM, ... that hold several dofs at once.
 module atrito_build_supports
    use atrito_build_amplitudes, only: take_amplitude, refuse_step_options
    use atrito_build_rigid_bodies, only: can_move, is_reference, ROTATION_DOF
-   use atrito_deck, only: deck_t, data_line_t, token_t, line_item, keyword_name, is_empty_token, LEVEL_MODEL
+   use atrito_deck, only: data_line_t, last_item, token_t, token_text, keyword_name, is_empty_token, LEVEL_MODEL
    use atrito_diagnostics, only: report_error, report_note
-   use atrito_build_context, only: build_context_t, place_text, ids_text, has_errors, LOOSE_HELD, LOOSE_RELEASED, LOOSE_MOVES
+   use atrito_build_context, only: build_context_t, line_token, open_line, place_text, ids_text, has_errors, LOOSE_HELD, &
+                                   LOOSE_RELEASED, LOOSE_MOVES
    use atrito_items, only: get_integer, get_real, has_option
    use atrito_kinds, only: ip, wp
    use atrito_load_lists, only: condition_t, condition_list_t, add_condition, dof_slot, SLOTS
@@ -16,15 +17,15 @@ module atrito_build_supports
    use atrito_number_list, only: number_list_t, add_number, numbers_of
    use atrito_row_dofs, only: has_no_unknowns, WHAT_DOF, AT_REFERENCE
    use atrito_sources, only: open_source
-   use atrito_strings, only: to_text
-   use atrito_support_words, only: is_support_word, find_dofs_of_word
+   use atrito_strings, only: same_name, string_t, to_text
    implicit none (type, external)
    private
    public :: build_supports
 
    integer(ip), parameter :: PLANE_DOFS = 2, LAST_DOF = 6
 
-   !> Two values of one dof are the same when they differ by less than this part of the values: expressions are rounded.
+   !> Two values of one dof are the same when they differ by less than this part of the largest: expressions are rounded, as 0.3 x
+   !> and 0.1 x + 0.2 at x = 1.
    real(wp), parameter :: SAME_VALUE = 1.0e-12_wp
 
    !> A refined mesh: what the lines of a card prescribe at single nodes, one after the other along an edge.
@@ -33,6 +34,23 @@ module atrito_build_supports
       real(wp), allocatable :: value(:, :)             !< [L]
       integer(ip) :: n = 0                             !< lines
    end type by_number_t
+
+   !> Words that hold several dofs at once.
+   type :: support_word_t
+      character(len=8) :: name
+      logical :: holds(LAST_DOF)
+   end type support_word_t
+
+   logical, parameter :: T = .true., F = .false.
+   type(support_word_t), parameter :: WORDS(8) = [ &
+                                      support_word_t('ENCASTRE', [T, T, T, T, T, T]), &
+                                      support_word_t('PINNED  ', [T, T, T, F, F, F]), &
+                                      support_word_t('XSYMM   ', [T, F, F, F, T, T]), &
+                                      support_word_t('YSYMM   ', [F, T, F, T, F, T]), &
+                                      support_word_t('ZSYMM   ', [F, F, T, T, T, F]), &
+                                      support_word_t('XASYMM  ', [F, T, T, T, F, F]), &
+                                      support_word_t('YASYMM  ', [T, F, T, F, T, F]), &
+                                      support_word_t('ZASYMM  ', [T, T, F, F, F, T])]
 
 contains
 
@@ -69,13 +87,13 @@ contains
       if (before%n > 0) call note_released(before, context)
    end subroutine build_supports
 
-   !> What stands before the first *STEP holds in every step, until OP=NEW lets go of it: that is told.
+   !> What stands before the first *STEP holds in every step, until OP=NEW removes it, which is noted.
    subroutine note_released(before, context)
       type(condition_list_t), intent(in) :: before
       type(build_context_t), intent(in) :: context
       type(number_list_t) :: released
       type(token_t) :: place
-      integer(ip) :: i, of_model
+      integer(ip) :: i, pass, of_model
 
       of_model = 0                                     ! last line of the model
       do i = context%deck%n_cards, 1, -1
@@ -85,11 +103,14 @@ contains
             if (card%step == 0) of_model = max(of_model, card%first_line + card%n_lines - 1)
          end associate
       end do
-      do i = 1, before%n
-         associate (old => before%list(i))
-            if (context%dof_entry(dof_slot(old%dof), old%place) > 0 .or. old%line == 0 .or. old%line > of_model) cycle
-            call add_number(released, context%model%mesh%node_id(old%place))
-         end associate
+      do pass = 1, 2                                   ! reference nodes last
+         do i = 1, before%n
+            associate (old => before%list(i))
+               if (is_reference(context, old%place) .neqv. pass == 2) cycle
+               if (context%dof_entry(dof_slot(old%dof), old%place) > 0 .or. old%line == 0 .or. old%line > of_model) cycle
+               call add_number(released, context%model%mesh%node_id(old%place))
+            end associate
+         end do
       end do
       if (released%n > 0 .and. .not. has_errors()) call report_note(context%deck, place, 'N-RELEASED', &
                                         'OP=NEW lets go of what is held before *STEP, too: node '//ids_text(numbers_of(released)), &
@@ -108,44 +129,53 @@ contains
             if (keyword_name(card) /= 'BOUNDARY' .or. card%step /= step) cycle
             if (card%level == LEVEL_MODEL) call refuse_step_options(context%deck, card)
             call take_amplitude(context, card)
-            call begin_numbers(context, numbered)
+            if (is_refined(context%refinement) .and. .not. allocated(numbered%line)) then
+               allocate (numbered%line(PLANE_DOFS, context%refinement%n_nodes), source=0_ip)
+               allocate (numbered%value(PLANE_DOFS, context%refinement%n_nodes), source=0.0_wp)
+            else if (numbered%n > 0) then
+               numbered%line = 0
+            end if
+            numbered%n = 0
             do k = card%first_line, card%first_line + card%n_lines - 1
                if (.not. context%deck%lines(k)%ok) cycle
                context%open%line = k
-               call open_source(context, 'BOUNDARY', context%deck%tokens(context%deck%lines(k)%first_token))
-               call read_line(context%deck%lines(k), has_option(context%deck, card, 'FUNCTION'), &
-                              card%level == LEVEL_MODEL .and. card%ok, context, numbered)
+               call open_source(context, 'BOUNDARY', line_token(context, 1_ip))
+               call read_line(has_option(context%deck, card, 'FUNCTION'), card%level == LEVEL_MODEL .and. card%ok, context, &
+                              numbered)
             end do
-            call hold_edges(context, numbered)
+            call prescribe_edges(context, numbered)
          end associate
       end do
    end subroutine read_cards
 
    !> Node or set, and a word in the place of the dofs, or first dof[, last dof[, value]], or these and a function of x and y.
-   subroutine read_line(line, is_function, in_model, context, numbered)
-      type(data_line_t), intent(in) :: line
+   subroutine read_line(is_function, in_model, context, numbered)
       logical, intent(in) :: is_function
       logical, intent(in) :: in_model                  !< before *STEP
       type(build_context_t), intent(inout) :: context
       type(by_number_t), intent(inout) :: numbered
       integer(ip), allocatable :: nodes(:)
       real(wp), allocatable :: values(:)               ! of the nodes
-      integer(ip) :: dof
+      logical, allocatable :: turns(:)                 ! those that are reference nodes
+      integer(ip) :: dof, i
       logical :: held(LAST_DOF), ok
 
-      if (is_function) then
-         call read_function_line(line, in_model, context, nodes, held, values, ok)
-      else if (is_support_word(context%deck, line)) then
-         call find_dofs_of_word(context%deck, line, held, ok)
-         if (ok) call find_nodes(context, context%deck%tokens(line%first_token), nodes, ok, 'BOUNDARY')
+      if (is_support_word(context) .and. .not. is_function) then
+         call find_dofs_of_word(context, held, ok)
+         if (ok) call find_nodes(context, line_token(context, 1_ip), nodes, ok, 'BOUNDARY')
          if (ok) values = spread(0.0_wp, 1, size(nodes))
       else
-         call read_value_line(line, in_model, context, nodes, held, values, ok)
+         call read_values(is_function, in_model, context, nodes, held, values, ok)
       end if
       if (.not. ok) return
-      call note_loose(line, context, nodes)
+      call note_loose(context, nodes)
+      turns = is_reference(context, nodes)
       do dof = 1, LAST_DOF
-         if (held(dof) .and. (dof <= PLANE_DOFS .or. dof == ROTATION_DOF)) call prescribe(nodes, dof, values, context)
+         if (.not. held(dof) .or. (dof > PLANE_DOFS .and. dof /= ROTATION_DOF)) cycle
+         do i = 1, size(nodes, kind=ip)
+            if (turns(i)) call prescribe([nodes(i)], dof, [values(i)], context)
+         end do
+         call prescribe(pack(nodes,.not. turns), dof, pack(values,.not. turns), context)
       end do
       if (size(nodes) /= 1 .or. .not. is_refined(context%refinement)) return
       where (held(:PLANE_DOFS))
@@ -155,96 +185,54 @@ contains
       numbered%n = numbered%n + 1
    end subroutine read_line
 
-   !> Node or set, first dof[, last dof]: what lines without a word begin with.
-   subroutine read_place(line, context, nodes, first, last, ok)
-      type(data_line_t), intent(in) :: line
-      type(build_context_t), intent(in) :: context
-      integer(ip), allocatable, intent(out) :: nodes(:)
-      integer(ip), intent(out) :: first, last
-      logical, intent(out) :: ok(3)
-
-      call find_nodes(context, context%deck%tokens(line%first_token), nodes, ok(1), 'BOUNDARY')
-      call get_integer(context%deck, line_item(context%deck, line, 2_ip), 'first '//WHAT_DOF, first, ok(2), keyword='BOUNDARY')
-      call get_integer(context%deck, line_item(context%deck, line, 3_ip), 'last '//WHAT_DOF, last, ok(3), first, 'BOUNDARY')
-   end subroutine read_place
-
-   !> Node or set, first dof[, last dof[, value]].
-   subroutine read_value_line(line, in_model, context, nodes, held, values, is_ok)
-      type(data_line_t), intent(in) :: line
+   !> Node or set, first dof[, last dof[, value]], or in the place of the value an expression in x and y.
+   subroutine read_values(is_function, in_model, context, nodes, held, values, is_ok)
+      logical, intent(in) :: is_function
       logical, intent(in) :: in_model                  !< before *STEP
       type(build_context_t), intent(in) :: context
       integer(ip), allocatable, intent(out) :: nodes(:)
       logical, intent(out) :: held(LAST_DOF)           !< dofs
-      real(wp), allocatable, intent(out) :: values(:)
+      real(wp), allocatable, intent(out) :: values(:)  !< of the nodes [L], or [-]
       logical, intent(out) :: is_ok
+      type(token_t) :: place, last_token
       real(wp) :: value
       integer(ip) :: first, last
-      logical :: ok(4), turns
+      logical :: ok(4)
 
       is_ok = .false.
-      call read_place(line, context, nodes, first, last, ok(:3))
-      call get_real(context%deck, line_item(context%deck, line, 4_ip), 'displacement, a real [L]', value, ok(4), 0.0_wp, 'BOUNDARY')
-      if (.not. all(ok(2:))) return
+      call find_nodes(context, line_token(context, 1_ip), nodes, ok(1), 'BOUNDARY')
+      call get_integer(context%deck, line_token(context, 2_ip), 'first '//WHAT_DOF, first, ok(2), keyword='BOUNDARY')
+      call get_integer(context%deck, line_token(context, 3_ip), 'last '//WHAT_DOF, last, ok(3), first, 'BOUNDARY')
+      place = line_token(context, 4_ip)
+      if (is_function) then
+         last_token = last_item(context%deck, open_line(context))
+         place%last = last_token%last                  ! commas belong to the expression: max(x, y)
+         value = 1.0_wp                                ! a function is not 0, whatever it is: there are no harmless dofs
+         ok(4) = .true.
+      else
+         call get_real(context%deck, place, 'displacement, a real [L]', value, ok(4), 0.0_wp, 'BOUNDARY')
+         if (.not. all(ok(2:))) return
+      end if
       if (in_model .and. abs(value) > 0.0_wp) then
          ok(4) = .false.
-         call report_error(context%deck, line_item(context%deck, line, 4_ip), 'E-VALUE', &
-                           'a displacement other than 0 before *STEP', &
-                           expected='0 [L] here; other values in the step', keyword='BOUNDARY')
+         call report_error(context%deck, place, 'E-VALUE', 'a displacement other than 0 before *STEP', &
+                           expected=trim(merge('*BOUNDARY, FUNCTION in the step     ', '0 [L] here; other values in the step', &
+                                               is_function)), keyword='BOUNDARY')
       end if
-      turns = size(nodes) > 0 .and. all(is_reference(context, nodes))
-      is_ok = are_dofs(context%deck, line, first, last, value, turns) .and. all(ok)
+      if (all(ok(2:3))) ok(2) = are_dofs(context, first, last, value, .not. is_function .and. size(nodes) > 0 .and. &
+                                         all(is_reference(context, nodes)))
+      values = spread(value, 1, size(nodes))
+      if (is_function .and. ok(4)) call evaluate_function(context%deck, place, context%model%mesh%x(:, nodes), values, ok(4), &
+                                                          'BOUNDARY')
+      is_ok = all(ok)
       if (.not. is_ok) return
       held = .false.
       held(first:last) = .true.
       held(ROTATION_DOF) = last == ROTATION_DOF
-      values = spread(value, 1, size(nodes))
-   end subroutine read_value_line
-
-   !> Node or set, first dof[, last dof], expression in x and y.
-   subroutine read_function_line(line, in_model, context, nodes, held, values, is_ok)
-      type(data_line_t), intent(in) :: line
-      logical, intent(in) :: in_model                  !< before *STEP
-      type(build_context_t), intent(in) :: context
-      integer(ip), allocatable, intent(out) :: nodes(:)
-      logical, intent(out) :: held(LAST_DOF)           !< dofs
-      real(wp), allocatable, intent(out) :: values(:)
-      logical, intent(out) :: is_ok
-      type(token_t) :: expression
-      integer(ip) :: first, last
-      logical :: ok(4)
-
-      call read_place(line, context, nodes, first, last, ok(:3))
-      ! commas belong to the expression: max(x, y)
-      expression = line_item(context%deck, line, 4_ip)
-      expression%last = context%deck%tokens(line%first_token + line%n_tokens - 1)%last
-      ok(4) = .not. in_model
-      if (in_model) call report_error(context%deck, expression, 'E-VALUE', 'a displacement other than 0 before *STEP', &
-                                      expected='*BOUNDARY, FUNCTION in the step', keyword='BOUNDARY')
-      ! a function is not 0, whatever it is: there are no harmless dofs
-      if (all(ok(2:3))) ok(2) = are_dofs(context%deck, line, first, last, 1.0_wp, .false.)
-      allocate (values(size(nodes)))
-      if (ok(4)) call evaluate_function(context%deck, expression, context%model%mesh%x(:, nodes), values, ok(4), 'BOUNDARY')
-      is_ok = all(ok)
-      held = .false.
-      if (is_ok) held(first:last) = .true.
-   end subroutine read_function_line
-
-   pure subroutine begin_numbers(context, numbered)
-      type(build_context_t), intent(in) :: context
-      type(by_number_t), intent(inout) :: numbered
-
-      if (.not. is_refined(context%refinement)) return
-      if (.not. allocated(numbered%line)) then
-         allocate (numbered%line(PLANE_DOFS, context%refinement%n_nodes), source=0_ip)
-         allocate (numbered%value(PLANE_DOFS, context%refinement%n_nodes), source=0.0_wp)
-      else if (numbered%n > 0) then
-         numbered%line = 0
-      end if
-      numbered%n = 0
-   end subroutine begin_numbers
+   end subroutine read_values
 
    !> An edge of the outline all of whose nodes a card prescribes one by one is prescribed between them, too.
-   subroutine hold_edges(context, numbered)
+   subroutine prescribe_edges(context, numbered)
       type(build_context_t), intent(inout) :: context
       type(by_number_t), intent(in) :: numbered
       integer(ip) :: edge, dof, k, n
@@ -258,8 +246,7 @@ contains
                associate (nodes => fine%edge_node(:n, edge))
                   if (any(numbered%line(dof, nodes) == 0)) cycle
                   context%open%line = numbered%line(dof, nodes(1))
-                  call open_source(context, 'BOUNDARY', &
-                                   context%deck%tokens(context%deck%lines(context%open%line)%first_token))
+                  call open_source(context, 'BOUNDARY', line_token(context, 1_ip))
                   do k = fine%edge_first(edge), fine%edge_first(edge + 1) - 1
                      call prescribe([k], dof, [edge_value(numbered%value(dof, nodes), edge_place(fine, edge, k))], context)
                   end do
@@ -267,12 +254,11 @@ contains
             end do
          end do
       end associate
-   end subroutine hold_edges
+   end subroutine prescribe_edges
 
    !> The dofs of a line exist, or are those of three dimensions and harmless.
-   logical function are_dofs(deck, line, first, last, value, turns)
-      type(deck_t), intent(in) :: deck
-      type(data_line_t), intent(in) :: line
+   logical function are_dofs(context, first, last, value, turns)
+      type(build_context_t), intent(in) :: context
       integer(ip), intent(in) :: first, last
       real(wp), intent(in) :: value
       logical, intent(in) :: turns                     !< they are of reference nodes, which have a dof 6
@@ -282,40 +268,39 @@ contains
       are_dofs = .false.
       expected = WHAT_DOF
       if (turns .or. last == ROTATION_DOF) expected = WHAT_DOF//AT_REFERENCE
-      item = merge(2_ip, 3_ip, first < 1 .or. first > LAST_DOF .or. is_empty_token(line_item(deck, line, 3_ip)))
+      item = merge(2_ip, 3_ip, first < 1 .or. first > LAST_DOF .or. is_empty_token(line_token(context, 3_ip)))
       if (turns .and. first >= 1 .and. first < ROTATION_DOF .and. last > PLANE_DOFS .and. last <= LAST_DOF .and. &
           abs(value) > 0.0_wp) then
-         call report_error(deck, line_item(deck, line, 2_ip), 'E-DOF', 'the dofs 3 to 5 do not exist in the plane', &
+         call report_error(context%deck, line_token(context, 2_ip), 'E-DOF', 'the dofs 3 to 5 do not exist in the plane', &
                            expected=expected, keyword='BOUNDARY')
       else if (first < 1 .or. max(first, last) > LAST_DOF .or. (last > PLANE_DOFS .and. abs(value) > 0.0_wp .and. .not. turns)) then
-         call report_error(deck, line_item(deck, line, item), 'E-DOF', 'dof '//to_text(merge(first, last, item == 2))// &
+         call report_error(context%deck, line_token(context, item), 'E-DOF', 'dof '//to_text(merge(first, last, item == 2))// &
                            ' does not exist in the plane', expected=expected, keyword='BOUNDARY')
       else if (last < first) then
-         call report_error(deck, line_item(deck, line, 3_ip), 'E-DOF', 'the last dof, '//to_text(last)// &
+         call report_error(context%deck, line_token(context, 3_ip), 'E-DOF', 'the last dof, '//to_text(last)// &
                            ', is less than the first', expected=WHAT_DOF//', not less than the first', keyword='BOUNDARY')
       else
          are_dofs = .true.
          if (last <= PLANE_DOFS .or. turns .and. first == ROTATION_DOF) return
-         call report_note(deck, line_item(deck, line, item), 'N-DOF', 'the dofs 3 to '//trim(merge('5', '6', turns)) &
+         call report_note(context%deck, line_token(context, item), 'N-DOF', 'the dofs 3 to '//trim(merge('5', '6', turns)) &
                           //' do not exist in the plane; their value is 0', keyword='BOUNDARY')
       end if
    end function are_dofs
 
-   subroutine note_loose(line, context, nodes)
-      type(data_line_t), intent(in) :: line
+   subroutine note_loose(context, nodes)
       type(build_context_t), intent(in) :: context
       integer(ip), intent(in) :: nodes(:)
       logical :: loose(size(nodes))
 
       loose = has_no_unknowns(context, nodes)
       if (.not. any(loose) .or. has_errors()) return
-      call report_note(context%deck, line_item(context%deck, line, 1_ip), 'N-NODE', 'node '// &
+      call report_note(context%deck, line_token(context, 1_ip), 'N-NODE', 'node '// &
                        ids_text(pack(context%model%mesh%node_id(nodes), loose))// &
                        ' belongs to no element; the support has no effect there but on springs', keyword='BOUNDARY')
    end subroutine note_loose
 
    !> A node of no element that is held at 0 in all steps is the ground, for springs.
-   pure subroutine hold_loose(context, node, dof, value)
+   pure subroutine note_ground(context, node, dof, value)
       type(build_context_t), intent(inout) :: context
       integer(ip), intent(in) :: node, dof
       real(wp), intent(in) :: value
@@ -327,10 +312,10 @@ contains
             held = LOOSE_HELD
          end if
       end associate
-   end subroutine hold_loose
+   end subroutine note_ground
 
    !> Prescribes a dof of some nodes; a line of a later step takes the place of an earlier one. A value that differs from an earlier
-   !> one of the step is an error, told once a line.
+   !> one of the step is an error, reported once a line.
    subroutine prescribe(nodes, dof, value, context)
       integer(ip), intent(in) :: nodes(:), dof         !< dof 1, 2, or 6: the rotation of reference nodes
       real(wp), intent(in) :: value(:)                 !< of each node [L], or [-]
@@ -341,15 +326,15 @@ contains
       logical :: loose(size(nodes))
       integer(ip) :: i, entry
 
-      associate (open => context%open, place => context%deck%tokens(context%deck%lines(context%open%line)%first_token))
+      associate (open => context%open)
          new = condition_t(dof=dof, line=open%line, amplitude=open%amplitude, source=open%source)
          loose = in_no_element(context, nodes)
          scale = 0.0_wp
          if (size(nodes) > 0) scale = maxval(abs(value))
          do i = 1, size(nodes, kind=ip)
-            if (loose(i)) call hold_loose(context, nodes(i), dof, value(i))
+            if (loose(i)) call note_ground(context, nodes(i), dof, value(i))
             if (is_reference(context, nodes(i))) then
-               if (.not. can_move(context, place, nodes(i), dof, value(i), 'BOUNDARY')) cycle
+               if (.not. can_move(context, line_token(context, 1_ip), nodes(i), dof, value(i), 'BOUNDARY')) cycle
             else if (loose(i) .or. dof == ROTATION_DOF) then
                cycle
             end if
@@ -367,7 +352,7 @@ contains
                   old%value(1) = value(i)
                   old%amplitude = open%amplitude
                   old%line = open%line
-               else if (.not. is_same(old%value(1), value(i), scale)) then
+               else if (abs(old%value(1) - value(i)) > SAME_VALUE*max(abs(old%value(1)), scale)) then
                   if (clashes%n == 0) first_value = value(i)
                   call add_number(clashes, nodes(i))
                else if (abs(value(i)) > 0.0_wp .and. old%amplitude /= open%amplitude) then
@@ -380,14 +365,6 @@ contains
       if (curves%n > 0) call report_conflict(context, numbers_of(curves), dof, 'has another amplitude here than', &
                                              'one AMPLITUDE= for each dof in a step')
    end subroutine prescribe
-
-   !> Equal but for round-off: 0.3 x and 0.1 x + 0.2 at x = 1.
-   pure logical function is_same(earlier, value, scale)
-      real(wp), intent(in) :: earlier, value
-      real(wp), intent(in) :: scale                    !< largest value of the line
-
-      is_same = abs(earlier - value) <= SAME_VALUE*max(abs(earlier), scale)
-   end function is_same
 
    !> Two values of one dof, with as many digits as tell them apart.
    subroutine report_clash(context, nodes, dof, value)
@@ -412,12 +389,56 @@ contains
       integer(ip) :: earlier
 
       earlier = context%open%supports%list(context%dof_entry(dof_slot(dof), nodes(1)))%line
-      associate (deck => context%deck, line => context%deck%lines(context%open%line))
-         call report_error(deck, deck%tokens(line%first_token), 'E-CONFLICT', 'dof '//to_text(dof)//' of node '// &
+      associate (deck => context%deck, place => line_token(context, 1_ip))
+         call report_error(deck, place, 'E-CONFLICT', 'dof '//to_text(dof)//' of node '// &
                            ids_text(context%model%mesh%node_id(nodes))//' '//what//' in '// &
-                           place_text(deck, deck%tokens(deck%lines(earlier)%first_token), deck%tokens(line%first_token)), &
+                           place_text(deck, deck%tokens(deck%lines(earlier)%first_token), place), &
                            expected=expected, keyword='BOUNDARY')
       end associate
    end subroutine report_conflict
+
+   !> The second item of a line begins with a letter: no dof does.
+   pure logical function is_support_word(context)
+      type(build_context_t), intent(in) :: context
+      character(len=1) :: first
+      type(token_t) :: token
+
+      token = line_token(context, 2_ip)
+      is_support_word = .not. is_empty_token(token)
+      if (.not. is_support_word) return
+      first = context%deck%sources(token%source)%text(token%first:token%first)
+      is_support_word = (first >= 'A' .and. first <= 'Z') .or. (first >= 'a' .and. first <= 'z')
+   end function is_support_word
+
+   !> The dofs that the word of a line holds.
+   subroutine find_dofs_of_word(context, holds, ok)
+      type(build_context_t), intent(in) :: context
+      logical, intent(out) :: holds(LAST_DOF)
+      logical, intent(out) :: ok
+      type(data_line_t) :: line
+      type(string_t) :: known(size(WORDS))
+      type(token_t) :: token
+      integer :: i
+
+      token = line_token(context, 2_ip)
+      line = open_line(context)
+      holds = .false.
+      ok = .false.
+      do i = 1, size(WORDS)
+         known(i)%s = trim(WORDS(i)%name)
+         if (.not. same_name(token_text(context%deck, token), known(i)%s)) cycle
+         holds = WORDS(i)%holds
+         ok = .true.
+      end do
+      if (.not. ok) then
+         call report_error(context%deck, token, 'E-DOF', token_text(context%deck, token)// &
+                           ' is neither a dof nor a word for several', expected='degree of freedom: 1 (x) or 2 (y), or a word: '// &
+                           'ENCASTRE and PINNED hold both, XSYMM dof 1, YSYMM dof 2', known=known, keyword='BOUNDARY')
+      else if (line%n_tokens > 2) then
+         ok = .false.
+         call report_error(context%deck, line_token(context, 3_ip), 'E-ITEMS', 'items behind '//token_text(context%deck, token), &
+                           expected='nothing: what a word holds is 0', keyword='BOUNDARY')
+      end if
+   end subroutine find_dofs_of_word
 
 end module atrito_build_supports

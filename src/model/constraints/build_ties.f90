@@ -6,15 +6,15 @@ module atrito_build_ties
    use atrito_deck, only: card_t, option_t, token_t, count_lines, line_item, keyword_name
    use atrito_diagnostics, only: report_error, report_note, report_warning
    use atrito_faces, only: face_list_t, chain_report_t
+   use atrito_id_map, only: id_map_t, add_id, find_id
    use atrito_items, only: find_option, option_text, option_real, option_word
-   use atrito_kinds, only: ip, lp, wp
+   use atrito_kinds, only: ip, wp
    use atrito_mesh, only: face_nodes
    use atrito_model, only: model_t, tie_t, QUADRATURE_NODAL, QUADRATURE_MORTAR, SURFACE_SEGMENTS
-   use atrito_number_list, only: number_list_t, add_number, add_numbers, numbers_of
+   use atrito_number_list, only: number_list_t, add_number, numbers_of
    use atrito_pairing, only: pair_surfaces
    use atrito_points, only: contact_points_t
    use atrito_references, only: find_surface
-   use atrito_sorting, only: each_once, first_at_least
    use atrito_strings, only: to_text
    implicit none (type, external)
    private
@@ -78,7 +78,7 @@ contains
       end do
    end subroutine read_tie_card
 
-   !> What can be told of each tie without looking for its points.
+   !> Checks of each tie that need none of its points.
    subroutine check_ties(context, chains)
       type(build_context_t), intent(in) :: context
       type(chain_report_t), intent(in) :: chains(:)    !< of each surface
@@ -127,26 +127,25 @@ contains
       type(build_context_t), intent(in) :: context
       type(token_t), intent(in) :: place
       type(face_list_t), intent(in) :: slave, master
-      type(number_list_t) :: shared, of_master
-      integer(lp), allocatable :: masters(:)
+      type(number_list_t) :: shared
+      type(id_map_t) :: masters, found
       integer(ip), allocatable :: nodes(:)
-      logical, allocatable :: is_told(:)               !< of each of the master's nodes
-      integer(ip) :: i, k, m
+      integer(ip) :: i, k
+      logical :: known
 
       associate (mesh => context%model%mesh)
          do i = 1, master%n
-            call add_numbers(of_master, face_nodes(mesh, master%element(i), master%face(i)))
+            nodes = face_nodes(mesh, master%element(i), master%face(i))
+            do k = 1, size(nodes, kind=ip)
+               call add_id(masters, nodes(k), 1_ip, known)
+            end do
          end do
-         masters = int(each_once(numbers_of(of_master)), lp)
-         allocate (is_told(size(masters)), source=.false.)
          do i = 1, slave%n
             nodes = face_nodes(mesh, slave%element(i), slave%face(i))
             do k = 1, size(nodes, kind=ip)
-               m = first_at_least(masters, int(nodes(k), lp))
-               if (m > size(masters)) cycle
-               if (masters(m) /= nodes(k) .or. is_told(m)) cycle
-               is_told(m) = .true.
-               call add_number(shared, mesh%node_id(nodes(k)))
+               if (find_id(masters, nodes(k)) == 0) cycle
+               call add_id(found, nodes(k), 1_ip, known)
+               if (.not. known) call add_number(shared, mesh%node_id(nodes(k)))
             end do
          end do
       end associate
@@ -244,8 +243,7 @@ contains
       far = count(.not. is_near(points%gap, tolerance, points%length), kind=ip)
       context%model%ties(i)%n_far = far
       if (points%n == 0) then
-         call refuse(context, context%ties(i), 'the surfaces of tie '//name//' do not face each other', &
-                     IN_FRONT)
+         call refuse(context, context%ties(i), 'the surfaces of tie '//name//' do not face each other', IN_FRONT)
       else if (far == points%n) then
          call refuse(context, context%ties(i), 'no node of the slave lies within the tolerance of the master: the least '// &
                      'distance is '//to_text(minval(abs(points%gap)), 4), 'POSITION TOLERANCE='// &

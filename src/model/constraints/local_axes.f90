@@ -179,12 +179,8 @@ contains
       integer(ip), intent(in) :: node, dof
       real(wp) :: direction(2)
 
-      if (has_local_axes(context, node)) then
-         direction = context%axes(:, dof, node)
-      else
-         direction = 0.0_wp
-         direction(dof) = 1.0_wp
-      end if
+      direction = merge([1.0_wp, 0.0_wp], [0.0_wp, 1.0_wp], dof == 1)
+      if (has_local_axes(context, node)) direction = context%axes(:, dof, node)
    end function dof_direction
 
 end module atrito_local_axes

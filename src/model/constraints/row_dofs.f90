@@ -1,17 +1,21 @@
 !> Dofs in bilateral rows: displacements of nodes of elements, and of reference nodes the displacements of those that carry their
-!> motion.
+!> motion; the rows of nodes of elements that belong to rigid bodies.
 module atrito_row_dofs
+   use atrito_bilateral_rows, only: add_row, ROW_RIGID
    use atrito_build_context, only: build_context_t, has_lost_elements, ids_text
-   use atrito_build_rigid_bodies, only: carriers_of, is_reference, rigid_body_of, ROTATION_DOF
-   use atrito_deck, only: token_t
+   use atrito_build_rigid_bodies, only: carriers_of, is_reference, read_tied_nodes, rigid_body_of, CARRIERS, ROTATION_DOF
+   use atrito_deck, only: token_t, keyword_name
    use atrito_diagnostics, only: report_error
+   use atrito_items, only: option_text
    use atrito_kinds, only: ip, wp
    use atrito_local_axes, only: dof_direction
    use atrito_mesh, only: is_revolved
-   use atrito_references, only: in_no_element
+   use atrito_model, only: model_t
+   use atrito_references, only: find_nodes, in_no_element
    use atrito_strings, only: to_text
    implicit none (type, external)
    private
+   public :: add_rigid_rows, row_weight
    public :: check_row_nodes, check_row_dof, has_no_unknowns, row_node, row_terms, arm_of, TERMS_A_DOF, WHAT_DOF, AT_REFERENCE
 
    !> A rotation is a difference of two displacements.
@@ -30,7 +34,7 @@ contains
       loose = in_no_element(context, nodes) .and. .not. is_reference(context, nodes)
    end function has_no_unknowns
 
-   !> ok is false, and an error told, where some nodes have no unknowns.
+   !> ok is false, and an error reported, where some nodes have no unknowns.
    subroutine check_row_nodes(context, place, nodes, expected, keyword, ok)
       type(build_context_t), intent(in) :: context
       type(token_t), intent(in) :: place
@@ -45,7 +49,7 @@ contains
                         expected=expected, keyword=keyword)
    end subroutine check_row_nodes
 
-   !> ok is false, and an error told, where some nodes do not have a dof.
+   !> ok is false, and an error reported, where some nodes do not have a dof.
    subroutine check_row_dof(context, place, nodes, dof, keyword, ok)
       type(build_context_t), intent(in) :: context
       type(token_t), intent(in) :: place               !< of the dof
@@ -118,5 +122,63 @@ contains
 
       arm = context%model%rigid_bodies(rigid_body_of(context, node))%size
    end function arm_of
+
+   !> What forces of rows are divided by where several may share a load [L^2].
+   pure real(wp) function row_weight(model) result(weight)
+      type(model_t), intent(in) :: model
+
+      weight = 0.0_wp
+      associate (x => model%mesh%x(:, :model%mesh%n_nodes))
+         if (size(x) > 0) weight = norm2(maxval(x, dim=2) - minval(x, dim=2))
+      end associate
+      if (.not. weight > 0.0_wp) weight = 1.0_wp
+      if (size(model%sections) > 0) weight = weight*model%sections(1)%thickness
+      if (allocated(model%mesh%thickness)) weight = weight*maxval(model%mesh%thickness)
+   end function row_weight
+
+   !> The rows by which nodes of elements move as their rigid bodies do; no nodes are made any more, and all are where they stay.
+   subroutine add_rigid_rows(context)
+      type(build_context_t), intent(inout) :: context
+      type(token_t) :: place
+      character(len=:), allocatable :: name
+      integer(ip), allocatable :: nodes(:), reference(:)
+      real(wp) :: weight
+      integer(ip) :: i
+      logical :: ok
+
+      weight = row_weight(context%model)
+      do i = 1, context%deck%n_cards
+         if (keyword_name(context%deck%cards(i)) /= 'RIGID BODY') cycle
+         call read_tied_nodes(context%deck%cards(i), context, name, nodes, ok)
+         if (.not. allocated(name)) cycle
+         call option_text(context%deck, context%deck%cards(i), 'REF NODE', name, ok, place)
+         call find_nodes(context, place, reference, ok, 'RIGID BODY')
+         call tie_nodes(context, rigid_body_of(context, reference(1)), nodes, weight)
+      end do
+   end subroutine add_rigid_rows
+
+   !> u = sum N_i u_i along x and y, with the barycentric coordinates N_i of a node in the triangle of those that carry the motion.
+   subroutine tie_nodes(context, b, nodes, weight)
+      type(build_context_t), intent(inout) :: context
+      integer(ip), intent(in) :: b                     !< of the rigid bodies
+      integer(ip), intent(in) :: nodes(:)
+      real(wp), intent(in) :: weight                   !< of the rows [L^2]
+      integer(ip) :: places(CARRIERS), i, axis, group
+      real(wp) :: arm(2), part(CARRIERS + 1), vectors(2, CARRIERS + 1)
+
+      places = carriers_of(context%model, b)
+      group = context%model%bilateral%n_groups + 1
+      do i = 1, size(nodes, kind=ip)
+         associate (body => context%model%rigid_bodies(b), x => context%model%mesh%x)
+            arm = (x(:, nodes(i)) - x(:, body%node))/body%size
+         end associate
+         part = [1.0_wp, -(1 - arm(1) - arm(2)), -arm(1), -arm(2)]
+         do axis = 1, 2
+            vectors = 0.0_wp
+            vectors(axis, :) = part
+            call add_row([nodes(i), places], vectors, 0.0_wp, 0.0_wp, weight, [ROW_RIGID, group, b], context%model%bilateral)
+         end do
+      end do
+   end subroutine tie_nodes
 
 end module atrito_row_dofs

@@ -8,31 +8,21 @@ module atrito_turn_supports
    use atrito_kinds, only: ip, wp
    use atrito_load_lists, only: condition_t, condition_list_t, add_condition, add_part, nodal_values_of
    use atrito_local_axes, only: dof_direction, has_local_axes
-   use atrito_model, only: model_t, nodal_values_t
+   use atrito_model, only: nodal_values_t
    use atrito_propagation, only: is_inherited
-   use atrito_row_dofs, only: row_node
+   use atrito_row_dofs, only: row_node, row_weight
    use atrito_strings, only: to_text
    implicit none (type, external)
    private
-   public :: turn_supports, row_weight
+   public :: turn_supports
 
 contains
 
-   !> What forces of rows are divided by where several may share a load [L^2].
-   pure real(wp) function row_weight(model) result(weight)
-      type(model_t), intent(in) :: model
-
-      weight = 0.0_wp
-      associate (x => model%mesh%x(:, :model%mesh%n_nodes))
-         if (size(x) > 0) weight = norm2(maxval(x, dim=2) - minval(x, dim=2))
-      end associate
-      if (.not. weight > 0.0_wp) weight = 1.0_wp
-      if (size(model%sections) > 0) weight = weight*model%sections(1)%thickness
-      if (allocated(model%mesh%thickness)) weight = weight*maxval(model%mesh%thickness)
-   end function row_weight
-
-   !> Prescribed displacements of a step along local axes: both of a node become prescribed ones along x and y, a single one a row,
-   !> which holds in all steps.
+   !> Prescribed displacements of a step along local axes e1 and e2 of a node.
+   !>
+   !> Where both are prescribed the displacement is u = u1 e1 + u2 e2, whose components along x and y are prescribed. A single one
+   !> asks for e . u = value: where e is an axis of the scene a component is prescribed, else it is a bilateral row, which holds in
+   !> all steps.
    subroutine turn_supports(context)
       type(build_context_t), intent(inout) :: context
       type(condition_list_t) :: inclined

@@ -113,7 +113,7 @@ contains
                                       keyword='AMPLITUDE')
    end subroutine check_time
 
-   !> The amplitude that a card names becomes that of its lines; 0 where it is unknown, which is told.
+   !> The amplitude that a card names becomes that of its lines; 0 where it is unknown, which is reported.
    subroutine take_amplitude(context, card)
       type(build_context_t), intent(inout) :: context
       type(card_t), intent(in) :: card

@@ -121,6 +121,7 @@ contains
       integer(ip), intent(in) :: i                         !< place in the model's cuts
       type(crossing_t), allocatable :: crossings(:)
       logical, allocatable :: wanted(:)
+      integer(ip) :: k
 
       associate (model => context%model, cut => context%model%cuts(i))
          allocate (wanted(model%mesh%n_elements), source=cut%elset == 0)
@@ -128,10 +129,13 @@ contains
          call find_cross_section(model%mesh, context%around, bodies%of_element, cut%ends, wanted, cut%section, crossings)
          if (.not. any(crossings%is_taken)) then
             call report_miss(context, bodies, i, crossings)
-         else if (.not. all(crossings%is_whole .or. .not. crossings%is_taken)) then
-            call report_part(context, bodies, i, crossings)
+         else if (.not. all(crossings%is_whole .or. .not. crossings%is_taken)) then   ! through what is left forces go, too
+            k = findloc(crossings%is_taken .and. .not. crossings%is_whole, .true., dim=1, kind=ip)
+            call report_error(context%deck, context%cut_lines(i), 'E-CROSSING', 'cut '//cut%name//' ends within body '// &
+                              bodies%list(crossings(k)%body)%name, expected='a line through the whole of '// &
+                              span_text(context, bodies, i, crossings(k)), keyword=KEYWORD)
          else
-            call tell_of_several(context, bodies, i, pack(crossings, crossings%is_taken))
+            call warn_of_several(context, bodies, i, pack(crossings, crossings%is_taken))
          end if
       end associate
    end subroutine place_cut
@@ -159,20 +163,6 @@ contains
       call report_error(context%deck, context%cut_lines(i), 'E-CROSSING', text, expected=hint, keyword=KEYWORD)
    end subroutine report_miss
 
-   !> The cut ends within a body: through what is left of it forces go, too.
-   subroutine report_part(context, bodies, i, crossings)
-      type(build_context_t), intent(in) :: context
-      type(bodies_t), intent(in) :: bodies
-      integer(ip), intent(in) :: i
-      type(crossing_t), intent(in) :: crossings(:)
-      integer(ip) :: k
-
-      k = findloc(crossings%is_taken .and. .not. crossings%is_whole, .true., dim=1, kind=ip)
-      call report_error(context%deck, context%cut_lines(i), 'E-CROSSING', 'cut '//context%model%cuts(i)%name// &
-                        ' ends within body '//bodies%list(crossings(k)%body)%name, expected='a line through the whole of '// &
-                        span_text(context, bodies, i, crossings(k)), keyword=KEYWORD)
-   end subroutine report_part
-
    !> `BODY from (x, y) to (x, y)`.
    function span_text(context, bodies, i, crossing) result(text)
       type(build_context_t), intent(in) :: context
@@ -195,7 +185,7 @@ contains
    end function point_text
 
    !> What may not be meant: several bodies, one body several times, more than the set, an edge.
-   subroutine tell_of_several(context, bodies, i, taken)
+   subroutine warn_of_several(context, bodies, i, taken)
       type(build_context_t), intent(in) :: context
       type(bodies_t), intent(in) :: bodies
       integer(ip), intent(in) :: i
@@ -224,6 +214,6 @@ contains
                              ': what acts on the edge is told', keyword=KEYWORD)
          end if
       end associate
-   end subroutine tell_of_several
+   end subroutine warn_of_several
 
 end module atrito_build_cuts

@@ -1,9 +1,9 @@
 !> *CLOAD, *DLOAD and *DSLOAD.
 module atrito_build_loads
-   use atrito_deck, only: is_empty_token, data_line_t, token_t, token_text, line_item, keyword_name
+   use atrito_deck, only: is_empty_token, token_t, token_text, keyword_name
    use atrito_diagnostics, only: report_error, report_warning, report_note
    use atrito_build_amplitudes, only: take_amplitude
-   use atrito_build_context, only: build_context_t, replaced_t, ids_text, is_invalid, has_errors, has_lost_elements
+   use atrito_build_context, only: build_context_t, line_token, replaced_t, ids_text, is_invalid, has_errors, has_lost_elements
    use atrito_build_rigid_bodies, only: can_move, is_reference, ROTATION_DOF
    use atrito_faces, only: is_outer_face
    use atrito_items, only: get_integer, get_real
@@ -15,12 +15,11 @@ module atrito_build_loads
    use atrito_number_list, only: number_list_t, add_number, numbers_of
    use atrito_numbers, only: read_integer
    use atrito_plane_state, only: STATES
-   use atrito_propagation, only: is_of_step, removes_all, propagate, list_inherited, apply_condition, set_to_zero
+   use atrito_propagation, only: is_of_step, removes_all, propagate, list_inherited, apply_condition, set_to_zero, warn_of_replaced
    use atrito_read_load, only: read_face_load, read_direction, read_spin, has_no_rest, magnitude_of
    use atrito_references, only: find_nodes, find_elements, find_surface, check_faces
    use atrito_refined_members, only: is_on_side
    use atrito_refinement, only: is_refined
-   use atrito_replaced_loads, only: warn_of_replaced
    use atrito_row_dofs, only: has_no_unknowns, WHAT_DOF, AT_REFERENCE
    use atrito_sources, only: open_source
    use atrito_strings, only: to_text, upper_case
@@ -53,19 +52,17 @@ contains
             if (.not. is_of_step(context, i) .or. all(keyword_name(card) /= LOAD_KEYWORDS)) cycle
             call take_amplitude(context, card)
             do k = card%first_line, card%first_line + card%n_lines - 1
-               associate (line => context%deck%lines(k))
-                  if (.not. line%ok) cycle
-                  context%open%line = k
-                  call open_source(context, keyword_name(card), context%deck%tokens(line%first_token))
-                  select case (keyword_name(card))
-                  case ('CLOAD')
-                     call read_cload_line(line, context)
-                  case ('DLOAD')
-                     call read_dload_line(line, context)
-                  case ('DSLOAD')
-                     call read_dsload_line(line, context)
-                  end select
-               end associate
+               if (.not. context%deck%lines(k)%ok) cycle
+               context%open%line = k
+               call open_source(context, keyword_name(card), line_token(context, 1_ip))
+               select case (keyword_name(card))
+               case ('CLOAD')
+                  call read_cload_line(context)
+               case ('DLOAD')
+                  call read_dload_line(context)
+               case ('DSLOAD')
+                  call read_dsload_line(context)
+               end select
             end do
          end associate
       end do
@@ -132,8 +129,7 @@ contains
    end subroutine add_load
 
    !> Node or set, dof, force.
-   subroutine read_cload_line(line, context)
-      type(data_line_t), intent(in) :: line
+   subroutine read_cload_line(context)
       type(build_context_t), intent(inout) :: context
       integer(ip), allocatable :: nodes(:)
       type(condition_t) :: force
@@ -143,46 +139,46 @@ contains
       force%line = context%open%line
       force%amplitude = context%open%amplitude
       force%source = context%open%source
-      call find_nodes(context, context%deck%tokens(line%first_token), nodes, ok(1), 'CLOAD')
+      call find_nodes(context, line_token(context, 1_ip), nodes, ok(1), 'CLOAD')
       ! a concentrated force stays where the deck puts it
       if (is_refined(context%refinement)) nodes = pack(nodes, nodes <= context%refinement%n_nodes)
-      call get_integer(context%deck, line_item(context%deck, line, 2_ip), WHAT_DOF, force%dof, ok(2), keyword='CLOAD')
-      call get_real(context%deck, line_item(context%deck, line, 3_ip), 'force, a real [F]', force%value(1), ok(3), keyword='CLOAD')
+      call get_integer(context%deck, line_token(context, 2_ip), WHAT_DOF, force%dof, ok(2), keyword='CLOAD')
+      call get_real(context%deck, line_token(context, 3_ip), 'force, a real [F]', force%value(1), ok(3), keyword='CLOAD')
       if (.not. all(ok(2:))) return
       turns = force%dof == ROTATION_DOF .and. size(nodes) > 0 .and. all(is_reference(context, nodes))
       if ((force%dof < 1 .or. force%dof > 2) .and. .not. turns) then
-         call refuse_dof(line, context, force)
+         call refuse_dof(context, force)
          return
       end if
       if (.not. ok(1)) return
       if (any(has_no_unknowns(context, nodes)) .and. abs(force%value(1)) > 0.0_wp) then
          if (has_lost_elements(context)) return
-         call report_error(context%deck, line_item(context%deck, line, 1_ip), 'E-NODE', 'node '// &
+         call report_error(context%deck, line_token(context, 1_ip), 'E-NODE', 'node '// &
                            ids_text(pack(context%model%mesh%node_id(nodes), has_no_unknowns(context, nodes)))// &
                            ' belongs to no element and cannot carry a force', expected='nodes of elements', keyword='CLOAD')
          return
       end if
       do i = 1, size(nodes, kind=ip)
          if (is_reference(context, nodes(i))) then
-            if (.not. can_move(context, line_item(context%deck, line, 1_ip), nodes(i), force%dof, force%value(1), 'CLOAD')) cycle
+            if (.not. can_move(context, line_token(context, 1_ip), nodes(i), force%dof, force%value(1), 'CLOAD')) cycle
          end if
          force%place = nodes(i)
          call apply_condition(force, slot_of(force), context%open%old_forces, context%open%forces, context%open%replaced)
+         if (is_reference(context, nodes(i))) call note_supported(context, [nodes(i)], force%dof)
       end do
-      call note_supported(line, context, nodes, force%dof)
+      call note_supported(context, pack(nodes,.not. is_reference(context, nodes)), force%dof)
    end subroutine read_cload_line
 
    !> A dof that there is not in the plane: harmless where the force is 0.
-   subroutine refuse_dof(line, context, force)
-      type(data_line_t), intent(in) :: line
+   subroutine refuse_dof(context, force)
       type(build_context_t), intent(in) :: context
       type(condition_t), intent(in) :: force
 
       associate (deck => context%deck, what => 'dof '//to_text(force%dof)//' does not exist in the plane')
          if (force%dof > 2 .and. force%dof <= LAST_DOF .and. .not. abs(force%value(1)) > 0.0_wp) then
-            call report_note(deck, line_item(deck, line, 2_ip), 'N-DOF', what//'; its force is 0', keyword='CLOAD')
+            call report_note(deck, line_token(context, 2_ip), 'N-DOF', what//'; its force is 0', keyword='CLOAD')
          else
-            call report_error(deck, line_item(deck, line, 2_ip), 'E-DOF', what, &
+            call report_error(deck, line_token(context, 2_ip), 'E-DOF', what, &
                               expected=WHAT_DOF//repeat(AT_REFERENCE, merge(1, 0, force%dof == ROTATION_DOF)), keyword='CLOAD')
          end if
       end associate
@@ -215,22 +211,19 @@ contains
    end subroutine turn_forces
 
    !> A force on a prescribed dof moves nothing.
-   subroutine note_supported(line, context, nodes, dof)
-      type(data_line_t), intent(in) :: line
+   subroutine note_supported(context, nodes, dof)
       type(build_context_t), intent(in) :: context
       integer(ip), intent(in) :: nodes(:), dof
       logical :: held(size(nodes))
 
       held = context%dof_entry(dof_slot(dof), nodes) > 0
-      if (any(held)) call report_note(context%deck, line_item(context%deck, line, 2_ip), 'N-SUPPORT', 'dof '//to_text(dof)// &
-                                      ' of node '//ids_text(pack(context%model%mesh%node_id(nodes), &
-                                                                 held))//' is prescribed: the force goes into the reaction', &
-                                      keyword='CLOAD')
+      if (any(held)) call report_note(context%deck, line_token(context, 2_ip), 'N-SUPPORT', 'dof '//to_text(dof)// &
+                                      ' of node '//ids_text(pack(context%model%mesh%node_id(nodes), held))// &
+                                      ' is prescribed: the force goes into the reaction', keyword='CLOAD')
    end subroutine note_supported
 
    !> Element or set, label, magnitude[, direction or levels].
-   subroutine read_dload_line(line, context)
-      type(data_line_t), intent(in) :: line
+   subroutine read_dload_line(context)
       type(build_context_t), intent(inout) :: context
       type(condition_t) :: load
       character(len=:), allocatable :: label
@@ -239,21 +232,21 @@ contains
       real(wp) :: magnitude, value(3)
       logical :: ok, good
 
-      label = upper_case(token_text(context%deck, line_item(context%deck, line, 2_ip)))
+      label = upper_case(token_text(context%deck, line_token(context, 2_ip)))
       load = load_of_line(context, label)
-      if (is_empty_token(context%deck%tokens(line%first_token)) .and. any(label == VOLUME_LABELS)) then
+      if (is_empty_token(line_token(context, 1_ip)) .and. any(label == VOLUME_LABELS)) then
          elements = [(i, i=1, context%model%mesh%n_elements)]
          ok = .true.
       else
-         call find_elements(context, context%deck%tokens(line%first_token), elements, ok, 'DLOAD')
+         call find_elements(context, line_token(context, 1_ip), elements, ok, 'DLOAD')
       end if
       if (.not. any(label == VOLUME_LABELS)) then
-         call read_face_load(line, context, label, 'DLOAD', load%kind, value, good)
-         if (ok .and. good) call load_faces(line, context, elements, label(len(label):), load, value)
+         call read_face_load(context, label, 'DLOAD', load%kind, value, good)
+         if (ok .and. good) call load_faces(context, elements, label(len(label):), load, value)
          return
       end if
-      call get_real(context%deck, line_item(context%deck, line, 3_ip), magnitude_of(label), magnitude, good, keyword='DLOAD')
-      ok = ok .and. good .and. has_no_rest(line, context, label, 'DLOAD')
+      call get_real(context%deck, line_token(context, 3_ip), magnitude_of(label), magnitude, good, keyword='DLOAD')
+      ok = ok .and. good .and. has_no_rest(context, label, 'DLOAD')
       load%kind = LOAD_BODY
       select case (label)
       case ('BX', 'BY')
@@ -262,16 +255,13 @@ contains
          do i = 1, size(elements, kind=ip)
             call add_load(context, load, elements(i), value(:2))
          end do
-      case ('GRAV')
-         call weigh_elements(line, context, elements, load, magnitude, ok)
-      case ('CENTRIF')
-         call spin_elements(line, context, elements, load, magnitude, ok)
+      case ('GRAV', 'CENTRIF')
+         call load_masses(context, elements, load, label == 'CENTRIF', magnitude, ok)
       end select
    end subroutine read_dload_line
 
    !> A load on the face of each element that the label ends with.
-   subroutine load_faces(line, context, elements, digit, load, value)
-      type(data_line_t), intent(in) :: line
+   subroutine load_faces(context, elements, digit, load, value)
       type(build_context_t), intent(inout) :: context
       integer(ip), intent(in) :: elements(:)
       character(len=1), intent(in) :: digit            !< of the label
@@ -283,7 +273,7 @@ contains
       logical :: ok
 
       call read_integer(digit, load%face, outcome)
-      call check_faces(context, line_item(context%deck, line, 2_ip), elements, load%face, 'DLOAD', ok)
+      call check_faces(context, line_token(context, 2_ip), elements, load%face, 'DLOAD', ok)
       if (.not. ok) return
       do i = 1, size(elements, kind=ip)
          if (.not. is_on_side(context%refinement, elements(i), load%face)) cycle
@@ -292,58 +282,45 @@ contains
             call add_number(inside, context%model%mesh%element_id(elements(i)))
          end if
       end do
-      if (inside%n > 0) call report_warning(context%deck, line_item(context%deck, line, 2_ip), 'W-FACE', 'the ' &
+      if (inside%n > 0) call report_warning(context%deck, line_token(context, 2_ip), 'W-FACE', 'the ' &
                          //trim(merge('traction', 'pressure', load%kind == LOAD_TRACTION))//' acts inside the mesh, too, on face ' &
                                             //digit//' of element '//ids_text(numbers_of(inside)), &
                                             expected='elements on the outline of the body', keyword='DLOAD')
    end subroutine load_faces
 
-   !> GRAV: density times acceleration, along a direction of any length.
-   subroutine weigh_elements(line, context, elements, load, acceleration, good)
-      type(data_line_t), intent(in) :: line
+   !> Loads upon the mass of elements, as a force per volume. GRAV: density times acceleration along a direction g, rho a g. CENTRIF:
+   !> density times the square of the angular velocity times the way from the axis, rho w^2 S (x - x0), as a linear and a constant
+   !> force.
+   subroutine load_masses(context, elements, load, turns, magnitude, good)
       type(build_context_t), intent(inout) :: context
       integer(ip), intent(in) :: elements(:)
       type(condition_t), intent(inout) :: load
-      real(wp), intent(in) :: acceleration             !< [L/T^2]
-      logical, intent(in) :: good                      !< elements and acceleration are known
-      real(wp) :: direction(2)
-      integer(ip) :: i
-      logical :: ok
-
-      call read_direction(line, context, 'gravity', 'DLOAD', direction, ok)
-      if (.not. (ok .and. good)) return
-      call need_density(line, context, elements)
-      do i = 1, size(elements, kind=ip)
-         call add_load(context, load, elements(i), density_of(context%model, elements(i))*acceleration*direction)
-      end do
-   end subroutine weigh_elements
-
-   !> Of CENTRIF: density times the square of the angular velocity times the way from the axis, S (x - x0), as a linear and a
-   !> constant force per volume.
-   subroutine spin_elements(line, context, elements, load, square, good)
-      type(data_line_t), intent(in) :: line
-      type(build_context_t), intent(inout) :: context
-      integer(ip), intent(in) :: elements(:)
-      type(condition_t), intent(inout) :: load
-      real(wp), intent(in) :: square                   !< of the angular velocity [1/T^2]
-      logical, intent(in) :: good                      !< elements and square are known
-      real(wp) :: way(3), there(2), force
+      logical, intent(in) :: turns                     !< CENTRIF
+      real(wp), intent(in) :: magnitude                !< acceleration [L/T^2], or square of the angular velocity [1/T^2]
+      logical, intent(in) :: good                      !< elements and magnitude are known
+      real(wp) :: way(3), constant(2), force
       integer(ip) :: i
       logical :: ok, is_ring
 
-      is_ring = .false.
-      if (size(elements) > 0) is_ring = STATES(context%model%mesh%state(elements(1)))%has_hoop
-      call read_spin(line, context, square, is_ring, way, there, ok)
+      if (turns) then
+         is_ring = .false.
+         if (size(elements) > 0) is_ring = STATES(context%model%mesh%state(elements(1)))%has_hoop
+         call read_spin(context, magnitude, is_ring, way, constant, ok)
+      else
+         call read_direction(context, 'gravity', 'DLOAD', constant, ok)
+      end if
       if (.not. (ok .and. good)) return
-      call need_density(line, context, elements)
+      call need_density(context, elements)
       do i = 1, size(elements, kind=ip)
-         force = density_of(context%model, elements(i))*square
-         load%kind = LOAD_LINEAR
-         call add_load(context, load, elements(i), force*way)
-         load%kind = LOAD_BODY
-         if (any(abs(there) > 0.0_wp)) call add_load(context, load, elements(i), force*there)
+         force = density_of(context%model, elements(i))*magnitude
+         if (turns) then
+            load%kind = LOAD_LINEAR
+            call add_load(context, load, elements(i), force*way)
+            load%kind = LOAD_BODY
+         end if
+         if (.not. turns .or. any(abs(constant) > 0.0_wp)) call add_load(context, load, elements(i), force*constant)
       end do
-   end subroutine spin_elements
+   end subroutine load_masses
 
    pure real(wp) function density_of(model, element) result(density)
       type(model_t), intent(in) :: model
@@ -353,8 +330,7 @@ contains
       if (model%section_of(element) > 0) density = model%materials(model%sections(model%section_of(element))%material)%density
    end function density_of
 
-   subroutine need_density(line, context, elements)
-      type(data_line_t), intent(in) :: line
+   subroutine need_density(context, elements)
       type(build_context_t), intent(in) :: context
       integer(ip), intent(in) :: elements(:)
       integer(ip) :: i, material
@@ -364,7 +340,7 @@ contains
          material = context%model%sections(context%model%section_of(elements(i)))%material
          if (context%model%materials(material)%density > 0.0_wp .or. is_invalid(context, &
                                                                                 context%model%materials(material)%name)) cycle
-         call report_error(context%deck, line_item(context%deck, line, 2_ip), 'E-DENSITY', 'material '// &
+         call report_error(context%deck, line_token(context, 2_ip), 'E-DENSITY', 'material '// &
                            context%model%materials(material)%name//' has no density', &
                            expected='*DENSITY in this material [F T^2/L^4]', keyword='DENSITY')
          return
@@ -372,8 +348,7 @@ contains
    end subroutine need_density
 
    !> Surface, label, magnitude[, direction or levels].
-   subroutine read_dsload_line(line, context)
-      type(data_line_t), intent(in) :: line
+   subroutine read_dsload_line(context)
       type(build_context_t), intent(inout) :: context
       type(token_t) :: token
       type(condition_t) :: load
@@ -382,19 +357,18 @@ contains
       integer(ip) :: i, s
       logical :: ok
 
-      token = context%deck%tokens(line%first_token)
-      label = upper_case(token_text(context%deck, line_item(context%deck, line, 2_ip)))
+      token = line_token(context, 1_ip)
+      label = upper_case(token_text(context%deck, line_token(context, 2_ip)))
       load = load_of_line(context, label)
-      call read_face_load(line, context, label, 'DSLOAD', load%kind, value, ok)
+      call read_face_load(context, label, 'DSLOAD', load%kind, value, ok)
       call find_surface(context, token, s, 'DSLOAD')
       if (s == 0) return
       associate (surface => context%model%surfaces(s))
          if (surface%kind /= SURFACE_ELEMENTS) then
             call report_error(context%deck, token, 'E-SURFACE', 'surface '//surface%name// &
-                              ' is a drawn line, which carries no pressure', expected='a surface of TYPE=ELEMENT', &
-                              keyword='DSLOAD')
+                              ' is a drawn line, which carries no pressure', expected='a surface of TYPE=ELEMENT', keyword='DSLOAD')
          else if (surface%faces%n == 0) then
-            if (is_invalid(context, surface%name) .or. has_errors()) return   ! elements are missing, and that was told
+            if (is_invalid(context, surface%name) .or. has_errors()) return   ! elements are missing, and that was reported
             call report_error(context%deck, token, 'E-SURFACE', 'surface '//surface%name// &
                               ' has no faces: others join it everywhere', expected='a surface on the outline of a body', &
                               keyword='DSLOAD')

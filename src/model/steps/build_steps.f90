@@ -36,13 +36,15 @@ contains
       logical :: found
 
       n = max(1_ip, maxval(context%deck%cards(:context%deck%n_cards)%step))
-      allocate (static_card(0:n), source=0_ip)
+      allocate (static_card(0:n), context%step_cards(2, 0:n), source=0_ip)
       allocate (context%model%steps(n))
       do i = 1, n
          context%model%steps(i)%title = ''
       end do
       do i = 1, context%deck%n_cards
          associate (card => context%deck%cards(i), step => context%model%steps(max(1_ip, context%deck%cards(i)%step)))
+            if (context%step_cards(1, card%step) == 0) context%step_cards(1, card%step) = i
+            context%step_cards(2, card%step) = i
             select case (keyword_name(card))
             case ('STEP')
                call read_step_card(context%deck, card, step)
@@ -66,6 +68,7 @@ contains
       type(deck_t), intent(in) :: deck
       type(card_t), intent(in) :: card
       type(step_t), intent(inout) :: step
+      type(token_t) :: whole, last
       integer(ip) :: k
       logical :: found
 
@@ -74,7 +77,11 @@ contains
       if (found .and. step%increments%most < 1) call refuse_option(deck, card, 'INC', WHAT_MOST)
       do k = card%first_line, card%first_line + card%n_lines - 1
          if (k > card%first_line) step%title = step%title//' '
-         step%title = step%title//line_text(deck, deck%lines(k))
+         if (deck%lines(k)%n_tokens == 0) cycle
+         whole = line_item(deck, deck%lines(k), 1_ip)   ! a whole line, its commas, too
+         last = last_item(deck, deck%lines(k))
+         whole%last = last%last
+         step%title = step%title//token_text(deck, whole)
       end do
    end subroutine read_step_card
 
@@ -94,21 +101,6 @@ contains
                                                  'ones; at the end W-LARGE tells where that matters, or N-SMALL that it does not', &
                                                  keyword='STEP')
    end subroutine read_nlgeom
-
-   !> A whole line, its commas, too.
-   pure function line_text(deck, line) result(text)
-      type(deck_t), intent(in) :: deck
-      type(data_line_t), intent(in) :: line
-      character(len=:), allocatable :: text
-      type(token_t) :: whole, last
-
-      text = ''
-      if (line%n_tokens == 0) return
-      whole = line_item(deck, line, 1_ip)
-      last = last_item(deck, line)
-      whole%last = last%last
-      text = token_text(deck, whole)
-   end function line_text
 
    !> Without a data line the step is one increment, which is not cut.
    subroutine read_static_card(deck, i, first, increments)
@@ -137,7 +129,7 @@ contains
       type(data_line_t), intent(in) :: line
       logical, intent(in) :: is_direct
       type(increments_t), intent(inout) :: increments
-      logical :: ok(4)
+      logical :: ok(4), reaches_end
 
       associate (this => increments)
          call get_time(deck, line, 2_ip, WHAT_PERIOD, 1.0_wp, this%period, ok(2))
@@ -150,33 +142,18 @@ contains
             this%greatest = this%initial
             return
          end if
-         call get_time(deck, line, 4_ip, WHAT_GREATEST, default_greatest(this), this%greatest, ok(4))
-         if (ok(4)) call bound_first(deck, line, this)
+         ! where as many increments as the step may have do not reach its end, they may grow, as in Abaqus and CalculiX
+         reaches_end = real(this%most, wp)*this%initial >= (1.0_wp - ROUND_OFF)*this%period
+         call get_time(deck, line, 4_ip, WHAT_GREATEST, merge(this%initial, this%period, reaches_end), this%greatest, ok(4))
+         if (ok(4) .and. this%initial > this%greatest) then      ! it is the greatest, as in CalculiX
+            call report_note(deck, line_item(deck, line, 4_ip), 'N-INCREMENT', 'the first increment, '//to_text(this%initial)// &
+                             ', is longer than the greatest, '//to_text(this%greatest)//', and becomes it')
+            this%initial = this%greatest
+         end if
          call get_time(deck, line, 3_ip, WHAT_LEAST, min(this%initial, LEAST_PART*this%period), this%least, ok(3))
          if (ok(3)) call check_time(deck, line, 3_ip, this%least <= this%initial, this%least, WHAT_LEAST, ok(3))
       end associate
    end subroutine read_times
-
-   !> The first increment; where as many as the step may have do not reach its end, they may grow, as in Abaqus and CalculiX.
-   pure real(wp) function default_greatest(increments) result(greatest)
-      type(increments_t), intent(in) :: increments
-
-      greatest = increments%period
-      if (real(increments%most, wp)*increments%initial >= (1.0_wp - ROUND_OFF)*increments%period) greatest = increments%initial
-   end function default_greatest
-
-   !> A first increment longer than the greatest is the greatest, as in CalculiX.
-   subroutine bound_first(deck, line, increments)
-      type(deck_t), intent(in) :: deck
-      type(data_line_t), intent(in) :: line
-      type(increments_t), intent(inout) :: increments
-
-      if (increments%initial <= increments%greatest) return
-      call report_note(deck, line_item(deck, line, 4_ip), 'N-INCREMENT', 'the first increment, '// &
-                       to_text(increments%initial)//', is longer than the greatest, '//to_text(increments%greatest)// &
-                       ', and becomes it')
-      increments%initial = increments%greatest
-   end subroutine bound_first
 
    !> A time; 0 is its default, as in Abaqus and CalculiX.
    subroutine get_time(deck, line, item, what, default, time, ok)
@@ -255,37 +232,17 @@ contains
       context%open%amplitude = 0
       context%open%cut_names = name_list_t()
       context%open%first_token = huge(1_ip)
-      call find_cards(context)
+      context%open%first_card = context%step_cards(1, number)
+      context%open%last_card = context%step_cards(2, number)
+      if (number == 1) then                            ! with what stands outside of all steps
+         context%open%first_card = 1
+         context%open%last_card = context%deck%n_cards
+      end if
       do i = context%open%first_card, context%open%last_card
          if (context%deck%cards(i)%step /= number .or. context%deck%cards(i)%n_lines == 0) cycle
          context%open%first_token = context%deck%lines(context%deck%cards(i)%first_line)%first_token
          return
       end do
    end subroutine open_step
-
-   !> Where the cards of the open step are: steps are opened one after the other, and their cards stand together. What stands
-   !> outside of all steps is read with the first.
-   pure subroutine find_cards(context)
-      type(build_context_t), intent(inout) :: context
-
-      associate (open => context%open, cards => context%deck%cards, n => context%deck%n_cards)
-         if (open%number == 1) then
-            open%first_card = 1
-            open%last_card = n
-            return
-         end if
-         if (open%number == 2) open%last_card = 0
-         open%first_card = open%last_card + 1
-         do while (open%first_card < n)
-            if (cards(open%first_card)%step == open%number) exit
-            open%first_card = open%first_card + 1
-         end do
-         open%last_card = open%first_card
-         do while (open%last_card < n)
-            if (cards(open%last_card + 1)%step /= open%number) exit
-            open%last_card = open%last_card + 1
-         end do
-      end associate
-   end subroutine find_cards
 
 end module atrito_build_steps

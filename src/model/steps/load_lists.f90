@@ -140,12 +140,12 @@ contains
    end function element_loads_of
 
    !> The amplitude of the i-th value; 0: none.
-   pure integer(ip) function amplitude_of(list, i) result(amplitude)
-      type(nodal_values_t), intent(in) :: list
+   pure integer(ip) function amplitude_of(amplitude, i) result(a)
+      integer(ip), allocatable, intent(in) :: amplitude(:) !< component of nodal_values_t or element_load_t
       integer(ip), intent(in) :: i
 
-      amplitude = 0
-      if (allocated(list%amplitude)) amplitude = list%amplitude(i)
+      a = 0
+      if (allocated(amplitude)) a = amplitude(i)
    end function amplitude_of
 
 end module atrito_load_lists

@@ -5,9 +5,9 @@
 !> lies in it. An oblique axis would push out of the plane.
 module atrito_read_load
    use atrito_coordinates, only: get_reals
-   use atrito_deck, only: data_line_t, line_item
+   use atrito_deck, only: data_line_t
    use atrito_diagnostics, only: report_error
-   use atrito_build_context, only: build_context_t
+   use atrito_build_context, only: build_context_t, line_token, open_line
    use atrito_items, only: get_real
    use atrito_kinds, only: ip, wp
    use atrito_model, only: LOAD_PRESSURE, LOAD_TRACTION, LOAD_HYDROSTATIC
@@ -29,8 +29,7 @@ contains
 
    !> The kind and the values of a load on faces from the third item on: P magnitude; TRVEC magnitude, t1, t2[, 0]; HP magnitude,
    !> level of zero pressure, level of the magnitude.
-   subroutine read_face_load(line, context, label, keyword, kind, value, ok)
-      type(data_line_t), intent(in) :: line
+   subroutine read_face_load(context, label, keyword, kind, value, ok)
       type(build_context_t), intent(in) :: context
       character(len=*), intent(in) :: label            !< P, TRVEC or HP, of *DLOAD with a digit behind
       character(len=*), intent(in) :: keyword
@@ -41,24 +40,24 @@ contains
       logical :: good(3)
 
       value = 0.0_wp
-      call get_real(context%deck, line_item(context%deck, line, 3_ip), magnitude_of(label), magnitude, good(1), keyword=keyword)
-      good(2) = has_no_rest(line, context, label, keyword)
+      call get_real(context%deck, line_token(context, 3_ip), magnitude_of(label), magnitude, good(1), keyword=keyword)
+      good(2) = has_no_rest(context, label, keyword)
       good(3) = .true.
       select case (label(1:1))
       case ('T')
          kind = LOAD_TRACTION
-         call read_direction(line, context, 'traction', keyword, direction, good(3))
+         call read_direction(context, 'traction', keyword, direction, good(3))
          if (good(3)) value(:2) = magnitude*direction
       case ('H')
          kind = LOAD_HYDROSTATIC
          value(1) = magnitude
          if (good(2)) then
-            call get_real(context%deck, line_item(context%deck, line, 4_ip), LEVEL, value(2), good(3), keyword=keyword)
-            call get_real(context%deck, line_item(context%deck, line, 5_ip), LEVEL_OF_MAGNITUDE, value(3), ok, keyword=keyword)
+            call get_real(context%deck, line_token(context, 4_ip), LEVEL, value(2), good(3), keyword=keyword)
+            call get_real(context%deck, line_token(context, 5_ip), LEVEL_OF_MAGNITUDE, value(3), ok, keyword=keyword)
             good(3) = good(3) .and. ok
             if (good(3) .and. .not. abs(value(2) - value(3)) > 0.0_wp) then
                good(3) = .false.
-               call report_error(context%deck, line_item(context%deck, line, 5_ip), 'E-VALUE', &
+               call report_error(context%deck, line_token(context, 5_ip), 'E-VALUE', &
                                  'the pressure is zero at this level', expected=LEVEL_OF_MAGNITUDE, keyword=keyword)
             end if
          end if
@@ -70,10 +69,10 @@ contains
    end subroutine read_face_load
 
    !> How many items a load has: 1,5 is no pressure of 1.5.
-   logical function has_no_rest(line, context, label, keyword)
-      type(data_line_t), intent(in) :: line
+   logical function has_no_rest(context, label, keyword)
       type(build_context_t), intent(in) :: context
       character(len=*), intent(in) :: label, keyword
+      type(data_line_t) :: line
       integer(ip) :: most
       character(len=:), allocatable :: rest
 
@@ -87,9 +86,10 @@ contains
       else if (label(1:1) == 'C') then
          most = 9
       end if
+      line = open_line(context)
       has_no_rest = line%n_tokens <= most
       if (has_no_rest) return
-      call report_error(context%deck, line_item(context%deck, line, most + 1), 'E-ITEMS', to_text(line%n_tokens) &
+      call report_error(context%deck, line_token(context, most + 1), 'E-ITEMS', to_text(line%n_tokens) &
                         //' items, where '//to_text(most)//' belong', expected=trim(merge('surface', 'element', &
                                                keyword == 'DSLOAD'))//', '//label//', '//magnitude_of(label)//rest, keyword=keyword)
    end function has_no_rest
@@ -116,8 +116,7 @@ contains
    end function magnitude_of
 
    !> The unit vector of items 4 to 6, of any length.
-   subroutine read_direction(line, context, what, keyword, direction, ok)
-      type(data_line_t), intent(in) :: line
+   subroutine read_direction(context, what, keyword, direction, ok)
       type(build_context_t), intent(in) :: context
       character(len=*), intent(in) :: what             !< has the direction
       character(len=*), intent(in) :: keyword
@@ -129,16 +128,16 @@ contains
       direction = 0.0_wp
       wanted = 'direction of '//what//', two components, not both 0 [-]'
       if (what == 'gravity') wanted = 'direction of gravity, gx, gy, not both 0 [-]'
-      call get_reals(context%deck, line, 4_ip, wanted, d, ok, keyword, spread(0.0_wp, 1, 3))
+      call get_reals(context%deck, open_line(context), 4_ip, wanted, d, ok, keyword, spread(0.0_wp, 1, 3))
       if (.not. ok) return
       if (abs(d(3)) <= FLAT*maxval(abs(d(:2)))) d(3) = 0.0_wp ! what a cosine of 90 degrees leaves
       ok = .not. abs(d(3)) > 0.0_wp .and. maxval(abs(d)) > 0.0_wp
       if (abs(d(3)) > 0.0_wp) then
-         call report_error(context%deck, line_item(context%deck, line, 6_ip), 'E-VALUE', 'the scene is plane: ' &
+         call report_error(context%deck, line_token(context, 6_ip), 'E-VALUE', 'the scene is plane: ' &
                            //trim(merge('gz                 ', 'the third component', what == 'gravity'))//' is not 0', &
                            expected=trim(merge('gz = 0', '0     ', what == 'gravity')), keyword=keyword)
       else if (.not. ok) then
-         call report_error(context%deck, line_item(context%deck, line, min(4_ip, line%n_tokens + 1)), 'E-VALUE', &
+         call report_error(context%deck, line_token(context, 4_ip), 'E-VALUE', &
                            what//' has no direction', expected=wanted, keyword=keyword)
       else
          d = d/maxval(abs(d))
@@ -147,8 +146,7 @@ contains
    end subroutine read_direction
 
    !> The axis of items 4 to 9, and the way from it: way(1:3) are S11, S12, S22, and S x0 is -there.
-   subroutine read_spin(line, context, square, is_ring, way, there, ok)
-      type(data_line_t), intent(in) :: line
+   subroutine read_spin(context, square, is_ring, way, there, ok)
       type(build_context_t), intent(in) :: context
       real(wp), intent(in) :: square                   !< item 3, of the angular velocity [1/T^2]
       logical, intent(in) :: is_ring                   !< axisymmetric elements: the axis is x2
@@ -160,15 +158,15 @@ contains
       way = 0.0_wp
       there = 0.0_wp
       ok = square >= 0.0_wp
-      if (.not. ok) call report_error(context%deck, line_item(context%deck, line, 3_ip), 'E-VALUE', &
+      if (.not. ok) call report_error(context%deck, line_token(context, 3_ip), 'E-VALUE', &
                                       'the square of an angular velocity is negative', expected=magnitude_of('CENTRIF'), &
                                       keyword='DLOAD')
-      call get_reals(context%deck, line, FIRST, WHAT_POINT, point, good(1), 'DLOAD', spread(0.0_wp, 1, 3))
-      call get_reals(context%deck, line, AXIS, WHAT_AXIS, a, good(2), 'DLOAD', spread(0.0_wp, 1, 3))
+      call get_reals(context%deck, open_line(context), FIRST, WHAT_POINT, point, good(1), 'DLOAD', spread(0.0_wp, 1, 3))
+      call get_reals(context%deck, open_line(context), AXIS, WHAT_AXIS, a, good(2), 'DLOAD', spread(0.0_wp, 1, 3))
       ok = ok .and. all(good)
       if (.not. ok) return
       if (maxval(abs(a)) > 0.0_wp) a = a/maxval(abs(a))
-      call check_axis(line, context, is_ring, point, a, ok)
+      call check_axis(context, is_ring, point, a, ok)
       if (.not. ok) return
       if (is_ring) then
          way(1) = 1.0_wp
@@ -181,8 +179,7 @@ contains
       there = -[way(1)*point(1) + way(2)*point(2), way(2)*point(1) + way(3)*point(2)]
    end subroutine read_spin
 
-   subroutine check_axis(line, context, is_ring, point, a, ok)
-      type(data_line_t), intent(in) :: line
+   subroutine check_axis(context, is_ring, point, a, ok)
       type(build_context_t), intent(in) :: context
       logical, intent(in) :: is_ring
       real(wp), intent(in) :: point(3), a(3)
@@ -192,17 +189,17 @@ contains
       ok = .false.
       is_across = abs(a(3)) > 0.0_wp
       if (.not. any(abs(a) > 0.0_wp)) then
-         call report_error(context%deck, line_item(context%deck, line, min(AXIS, line%n_tokens + 1)), 'E-VALUE', &
+         call report_error(context%deck, line_token(context, AXIS), 'E-VALUE', &
                            'the axis of CENTRIF has no direction', expected=WHAT_AXIS, keyword='DLOAD')
       else if (is_ring .and. (is_across .or. abs(a(1)) > 0.0_wp .or. abs(point(1)) > 0.0_wp .or. abs(point(3)) > 0.0_wp)) then
-         call report_error(context%deck, line_item(context%deck, line, FIRST), 'E-VALUE', &
+         call report_error(context%deck, line_token(context, FIRST), 'E-VALUE', &
                            'axisymmetric elements turn about the axis y alone', &
                            expected='0, 0, 0, 0, 1, 0: a point of the axis and its direction', keyword='DLOAD')
       else if (is_across .and. any(abs(a(:2)) > 0.0_wp)) then
-         call report_error(context%deck, line_item(context%deck, line, AXIS), 'E-VALUE', &
+         call report_error(context%deck, line_token(context, AXIS), 'E-VALUE', &
                            'an oblique axis of CENTRIF pushes out of the plane', expected=WHAT_AXIS, keyword='DLOAD')
       else if (.not. is_across .and. abs(point(3)) > 0.0_wp) then
-         call report_error(context%deck, line_item(context%deck, line, FIRST + 2), 'E-VALUE', &
+         call report_error(context%deck, line_token(context, FIRST + 2), 'E-VALUE', &
                            'an axis of CENTRIF beside the plane pushes out of it', expected='z = 0 [L]', keyword='DLOAD')
       else
          ok = .true.

@@ -6,7 +6,7 @@
 module atrito_step_loads
    use atrito_amplitudes, only: factor_at
    use atrito_kinds, only: ip, wp
-   use atrito_load_lists, only: scaled
+   use atrito_load_lists, only: amplitude_of, scaled
    use atrito_model, only: element_load_t, model_t, nodal_values_t, step_t, LOAD_HYDROSTATIC
    implicit none (type, external)
    private
@@ -120,14 +120,6 @@ contains
       now%value = values%value
       if (allocated(values%source)) now%source = values%source
    end subroutine take_values
-
-   pure integer(ip) function amplitude_of(amplitude, i) result(a)
-      integer(ip), allocatable, intent(in) :: amplitude(:)
-      integer(ip), intent(in) :: i
-
-      a = 0
-      if (allocated(amplitude)) a = amplitude(i)
-   end function amplitude_of
 
    pure subroutine element_loads_at(loads, factor, share, now)
       type(element_load_t), intent(in) :: loads

@@ -76,50 +76,31 @@ contains
       type(model_t), intent(in) :: model
       integer(ip), intent(in) :: k                  !< the step
       real(wp), allocatable :: times(:)             !< of the step
-      real(wp) :: began
+      real(wp) :: began, time
       logical :: is_used(size(model%amplitudes))
-      integer :: i
+      integer :: i, j
 
       associate (step => model%steps(k))
          times = [step%increments%period]
          if (step%increments%initial >= step%increments%period) return
          is_used = .false.
-         call mark(step%node_loads%amplitude, is_used)
-         call mark(step%element_loads%amplitude, is_used)
+         do i = 1, size(is_used)
+            if (allocated(step%node_loads%amplitude)) is_used(i) = any(step%node_loads%amplitude == i)
+            if (allocated(step%element_loads%amplitude)) is_used(i) = is_used(i) .or. any(step%element_loads%amplitude == i)
+         end do
          if (.not. any(is_used)) return
-         began = time_before(model%steps, k)
          call add_time(step%increments%initial, times)    ! loads may be there at once
          do i = 1, size(is_used)
-            if (is_used(i)) call add_points(model%amplitudes(i), began, step%increments%initial, times)
+            if (.not. is_used(i)) cycle
+            began = 0.0_wp
+            if (model%amplitudes(i)%is_total_time) began = time_before(model%steps, k)
+            do j = 1, size(model%amplitudes(i)%time)
+               time = model%amplitudes(i)%time(j) - began
+               if (time > step%increments%initial .and. time < times(size(times))) call add_time(time, times)
+            end do
          end do
       end associate
    end function load_breakpoints
-
-   pure subroutine mark(amplitude, is_used)
-      integer(ip), allocatable, intent(in) :: amplitude(:)
-      logical, intent(inout) :: is_used(:)
-      integer :: i
-
-      if (.not. allocated(amplitude)) return
-      do i = 1, size(amplitude)
-         if (amplitude(i) > 0) is_used(amplitude(i)) = .true.
-      end do
-   end subroutine mark
-
-   !> The points of a curve behind the first increment of the step.
-   pure subroutine add_points(amplitude, began, first, times)
-      type(amplitude_t), intent(in) :: amplitude
-      real(wp), intent(in) :: began, first
-      real(wp), allocatable, intent(inout) :: times(:)
-      real(wp) :: time
-      integer :: i
-
-      do i = 1, size(amplitude%time)
-         time = amplitude%time(i)
-         if (amplitude%is_total_time) time = time - began
-         if (time > first .and. time < times(size(times))) call add_time(time, times)
-      end do
-   end subroutine add_points
 
    !> Puts a time at its place, once.
    pure subroutine add_time(time, times)

@@ -16,8 +16,8 @@ contains
       integer(ip) :: match(size(points, 2))
       integer(ip), allocatable :: near(:)
       integer(lp), allocatable :: key(:)
-      real(wp) :: low(2), high(2)
-      integer(ip) :: i, k, n
+      real(wp) :: low(2), high(2), least, distance
+      integer(ip) :: i, j, k, n
 
       match = 0
       if (size(points, 2) == 0) return
@@ -30,27 +30,15 @@ contains
       near = near(sorted_places(order_key(others(k, near))))
       key = order_key(others(k, near))
       do i = 1, size(points, 2, kind=ip)
-         match(i) = nearest_of(points(:, i), others, near, first_at_least(key, order_key(points(k, i) - reach)), k, reach)
+         least = reach
+         do j = first_at_least(key, order_key(points(k, i) - reach)), n
+            if (others(k, near(j)) > points(k, i) + reach) exit
+            distance = norm2(others(:, near(j)) - points(:, i))
+            if (distance > least) cycle
+            least = distance
+            match(i) = near(j)
+         end do
       end do
    end function match_points
-
-   !> The nearest of the sorted candidates from the first-th on.
-   pure integer(ip) function nearest_of(x, others, near, first, k, reach) result(match)
-      real(wp), intent(in) :: x(2), others(:, :)
-      integer(ip), intent(in) :: near(:), first, k
-      real(wp), intent(in) :: reach
-      real(wp) :: least, distance
-      integer(ip) :: i
-
-      match = 0
-      least = reach
-      do i = first, size(near, kind=ip)
-         if (others(k, near(i)) > x(k) + reach) return
-         distance = norm2(others(:, near(i)) - x)
-         if (distance > least) cycle
-         least = distance
-         match = near(i)
-      end do
-   end function nearest_of
 
 end module atrito_coincidence

@@ -41,11 +41,17 @@ contains
       character(len=*), intent(in) :: name
       integer(ip), intent(in) :: card
       integer(ip), intent(in) :: ends(:, :)            !< (2, lines) places of nodes
+      type(curve_t), allocatable :: longer(:)
       integer(ip) :: i, n
 
       if (find_name(curves%names, name) == 0) call add_name(curves%names, name)
       i = find_name(curves%names, name)
-      call reserve(curves, i)
+      if (.not. allocated(curves%list)) allocate (curves%list(8))
+      if (i > size(curves%list)) then
+         allocate (longer(2*i))
+         longer(:curves%n) = curves%list(:curves%n)
+         call move_alloc(longer, curves%list)
+      end if
       associate (curve => curves%list(i))
          if (i > curves%n) then
             curves%n = i
@@ -60,28 +66,23 @@ contains
       end associate
    end subroutine add_curve
 
-   !> Room for so many; the list doubles.
-   subroutine reserve(curves, n)
-      type(curve_list_t), intent(inout) :: curves
-      integer(ip), intent(in) :: n
-      type(curve_t), allocatable :: longer(:)
-
-      if (.not. allocated(curves%list)) allocate (curves%list(8))
-      if (n <= size(curves%list)) return
-      allocate (longer(2*n))
-      longer(:curves%n) = curves%list(:curves%n)
-      call move_alloc(longer, curves%list)
-   end subroutine reserve
-
    !> The faces on the outline that lie on the lines of a curve; each once.
    subroutine find_curve_faces(mesh, around, curve)
       type(mesh_t), intent(in) :: mesh
       type(node_elements_t), intent(in) :: around
       type(curve_t), intent(inout) :: curve
-      integer(ip) :: i, place(2), n_sides
+      integer(ip) :: i, k, side, place(2), n_sides
 
       do i = 1, curve%n
-         call find_side(mesh, around, curve%ends(:, i), place, n_sides)
+         n_sides = 0                                   ! of elements that join the ends of the line: inside a mesh there are two
+         associate (from => curve%ends(1, i), to => curve%ends(2, i))
+            do k = around%first(from), around%first(from + 1) - 1
+               side = max(side_between(mesh, around%list(k), from, to), side_between(mesh, around%list(k), to, from))
+               if (side == 0) cycle
+               place = [around%list(k), side]
+               n_sides = n_sides + 1
+            end do
+         end associate
          if (n_sides == 1) then
             call add_face(curve%faces, place(1), place(2))
          else
@@ -89,25 +90,6 @@ contains
          end if
       end do
    end subroutine find_curve_faces
-
-   !> The element and the side that join two corners, and how many do: inside a mesh there are two.
-   pure subroutine find_side(mesh, around, ends, place, n_sides)
-      type(mesh_t), intent(in) :: mesh
-      type(node_elements_t), intent(in) :: around
-      integer(ip), intent(in) :: ends(2)
-      integer(ip), intent(out) :: place(2), n_sides
-      integer(ip) :: k, e, side
-
-      place = 0
-      n_sides = 0
-      do k = around%first(ends(1)), around%first(ends(1) + 1) - 1
-         e = around%list(k)
-         side = max(side_between(mesh, e, ends(1), ends(2)), side_between(mesh, e, ends(2), ends(1)))
-         if (side == 0) cycle
-         place = [e, side]
-         n_sides = n_sides + 1
-      end do
-   end subroutine find_side
 
    !> The nodes of a list that belong to none of the faces.
    pure function nodes_of_no_face(mesh, nodes, faces) result(loose)

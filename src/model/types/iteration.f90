@@ -1,4 +1,4 @@
-!> A linear solve of the contact line as iterations.tab tells of it.
+!> A linear solve of the contact line as a row of iterations.tab.
 module atrito_iteration
    use atrito_kinds, only: ip, wp
    implicit none (type, external)

@@ -181,7 +181,7 @@ module atrito_model
       type(frequencies_t) :: every
    end type requests_t
 
-   !> A cut through bodies, of which the forces in the cross-section are told: *SECTION PRINT.
+   !> A cut through bodies, with the forces in the cross-section: *SECTION PRINT.
    type :: cut_t
       character(len=:), allocatable :: name
       real(wp) :: ends(2, 2) = 0.0_wp               !< two points of its line [L]
@@ -227,7 +227,7 @@ module atrito_model
       character(len=:), allocatable :: deck_path    !< as the user wrote it
       character(len=:), allocatable :: deck_name    !< without folder and .inp
       type(string_t), allocatable :: heading(:)
-      type(provenance_t) :: provenance              !< for the heads of tables; empty: nothing is told
+      type(provenance_t) :: provenance              !< for the heads of tables; empty: the heads have none of it
       type(named_text_t), allocatable :: as_run(:)  !< the deck as it is run, for the writer alone; not allocated: it is not kept
       type(parameter_value_t), allocatable :: parameters(:)
       type(instance_t), allocatable :: instances(:)

@@ -1,7 +1,7 @@
 !> A translation and a rotation in the plane: of *NCOPY and of *INSTANCE.
 module atrito_motion
    use atrito_coordinates, only: get_coordinate
-   use atrito_deck, only: deck_t, data_line_t, line_item, is_empty_token
+   use atrito_deck, only: deck_t, data_line_t, line_item
    use atrito_diagnostics, only: report_error
    use atrito_items, only: get_real
    use atrito_kinds, only: ip, wp
@@ -52,11 +52,7 @@ contains
 
       call get_coordinate(deck, line_item(deck, line, 1_ip), 'translation along x, a real [L]', motion%shift(1), good(1), keyword)
       call get_coordinate(deck, line_item(deck, line, 2_ip), 'translation along y, a real [L]', motion%shift(2), good(2), keyword)
-      z = 0.0_wp
-      good(3) = .true.
-      if (.not. is_empty_token(line_item(deck, line, 3_ip))) then
-         call get_coordinate(deck, line_item(deck, line, 3_ip), 'translation along z, 0 [L]', z, good(3), keyword)
-      end if
+      call get_coordinate(deck, line_item(deck, line, 3_ip), 'translation along z, 0 [L]', z, good(3), keyword, 0.0_wp)
       ok = all(good)
       if (.not. ok .or. .not. abs(z) > 0.0_wp) return
       ok = .false.

@@ -1,10 +1,10 @@
-!> Where results come from, in words: what the head of every table tells beside the deck's name and heading.
+!> Where results come from, in words: what the head of every table has beside the deck's name and heading.
 module atrito_provenance
    implicit none (type, external)
    private
    public :: provenance_t
 
-   !> A component that is not allocated has nothing to tell, and no line in a head.
+   !> A component that is not allocated has no line in a head.
    type :: provenance_t
       character(len=:), allocatable :: parameters    !< of the deck with their values: 'nu = 0.3, q = 10 (--set)'
       character(len=:), allocatable :: options       !< of the command line that change results or tables: '--refine 1'

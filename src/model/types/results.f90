@@ -287,23 +287,16 @@ contains
    subroutine put_aside(i, history)
       integer(ip), intent(in) :: i
       type(history_t), intent(inout) :: history
+      type(results_t) :: numbers
       logical :: done
 
       if (.not. associated(history%store) .or. history%n_stored /= i - 1) return
       call history%store%put(i, history%frames(i), done)
       if (.not. done) return
-      call drop_fields(history%frames(i))
+      numbers%frame_numbers_t = history%frames(i)%frame_numbers_t
+      history%frames(i) = numbers                   ! the fields are gone
       history%n_stored = i
    end subroutine put_aside
-
-   !> Leaves the numbers of a frame alone.
-   pure subroutine drop_fields(frame)
-      type(results_t), intent(inout) :: frame
-      type(results_t) :: numbers
-
-      numbers%frame_numbers_t = frame%frame_numbers_t
-      frame = numbers
-   end subroutine drop_fields
 
    !> Shows a whole frame, until the next one is shown. The last is always there.
    subroutine view_frame(history, i, frame)
@@ -315,7 +308,7 @@ contains
       if (i > history%n_stored) return
       call history%store%get(i, frame)
       if (associated(frame)) return
-      history%store%has_failed = .true.             ! write_results tells it; what is shown instead has the right sizes
+      history%store%has_failed = .true.             ! write_results reports it; what is shown instead has the right sizes
       frame => history%frames(last_frame(history))
    end subroutine view_frame
 

@@ -335,7 +335,7 @@ contains
       type(nodal_values_t), intent(in) :: list
       integer(ip), intent(in) :: i                  !< place in the list
 
-      value = end_factor(symbols, amplitude_of(list, i))*list%value(i)
+      value = end_factor(symbols, amplitude_of(list%amplitude, i))*list%value(i)
    end function end_value
 
    !> The factor by which an amplitude multiplies at the end of the step; 1 where it has come to 0, and without one.
