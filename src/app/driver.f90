@@ -50,7 +50,7 @@ contains
    subroutine run_program(n_on_host, code)
       integer(ip), intent(in) :: n_on_host          !< ranks of the first one's host, itself among them
       integer, intent(out) :: code                  !< one of STATUS_*
-      type(string_t), allocatable :: arguments(:)
+      type(string_t), allocatable :: arguments(:), lines(:)
       type(command_t) :: command
       type(message_t) :: error
       type(page_t) :: page
@@ -96,7 +96,10 @@ contains
          call print_page(page, output_unit)
          code = STATUS_OK
       case (TASK_VERSION)
-         call print_version()
+         if (has_mpi()) call name_libraries(.true.)
+         call version_lines(lines)
+         call print_line(PROGRAM_NAME//' '//PROGRAM_VERSION, output_unit)
+         call print_lines(lines, output_unit)
          code = STATUS_OK
       case (TASK_USAGE)
          call compose_usage(page)
@@ -198,16 +201,6 @@ contains
       if (status%code == STATUS_FILE .and. comparison%n_differences > 0) call print_status(status, PROGRAM_NAME, command%json)
       code = status%code
    end subroutine compare_tables
-
-   !> The name and version of the program, then compiler and libraries, a line each.
-   subroutine print_version()
-      type(string_t), allocatable :: lines(:)
-
-      if (has_mpi()) call name_libraries(.true.)
-      call version_lines(lines)
-      call print_line(PROGRAM_NAME//' '//PROGRAM_VERSION, output_unit)
-      call print_lines(lines, output_unit)
-   end subroutine print_version
 
    !> `atrito help`: a keyword, or one of the pages that are made of the tables.
    subroutine print_help(command, code)

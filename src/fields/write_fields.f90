@@ -63,7 +63,11 @@ contains
       call begin_xdmf(PROGRAM_NAME//' '//PROGRAM_VERSION, warning_of(history), lines)
       call put_origin(file, model, history)
       call put_mesh(file, model%mesh, mesh_grids)
-      call put_increments(file, history, due)
+      associate (frames => history%frames(due))        ! which increments there are, and at what time: a row each
+         call put_integers(file, '/increments/step', 'number of the step', frames%step)
+         call put_integers(file, '/increments/increment', 'number of the increment in its step', frames%increment)
+         call put_rows(file, '/increments/time', 'time of the history', '-', reshape(frames%time, [1, size(due)]))
+      end associate
       do i = 1, size(due)
          call view_frame(history, due(i), results)
          frame%grids = mesh_grids
@@ -141,19 +145,6 @@ contains
          if (allocated(last%verdict)) text = text//': '//last%verdict
       end associate
    end function warning_of
-
-   !> Which increments there are, and at what time: a row each.
-   subroutine put_increments(file, history, due)
-      type(hdf5_file_t), intent(inout) :: file
-      type(history_t), intent(in) :: history
-      integer(ip), intent(in) :: due(:)                !< places of the frames
-
-      associate (frames => history%frames(due))
-         call put_integers(file, '/increments/step', 'number of the step', frames%step)
-         call put_integers(file, '/increments/increment', 'number of the increment in its step', frames%increment)
-         call put_rows(file, '/increments/time', 'time of the history', '-', reshape(frames%time, [1, size(due)]))
-      end associate
-   end subroutine put_increments
 
    !> The fields of one increment, into its own group.
    subroutine put_frame(file, model, results, frame)

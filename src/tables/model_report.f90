@@ -124,6 +124,7 @@ contains
    subroutine describe_materials(page, model)
       type(page_t), intent(inout) :: page
       type(model_t), intent(in) :: model
+      character(len=:), allocatable :: thickness
       integer(ip) :: elements(size(model%sections, kind=ip)), i
 
       elements = 0
@@ -152,28 +153,23 @@ contains
                     left('material', 24)//'formulation')
       do i = 1, size(model%sections, kind=ip)
          associate (section => model%sections(i))
+            thickness = number(section%thickness, DIGITS)
+            if (section%is_tapered) thickness = 'of nodes'
             call add_line(page, '   '//left(section%elset, 24)//right(to_text(elements(i)), 16)// &
-                          right(thickness_text(section), 12)//'    '//left(model%materials(section%material)%name, 24)// &
+                          right(thickness, 12)//'    '//left(model%materials(section%material)%name, 24)// &
                           trim(FORMULATION_NAME(section%formulation)))
          end associate
       end do
    end subroutine describe_materials
 
-   !> The thickness of a section, or that it is the nodes'.
-   pure function thickness_text(section) result(text)
-      type(section_t), intent(in) :: section
-      character(len=:), allocatable :: text
-
-      text = number(section%thickness, DIGITS)
-      if (section%is_tapered) text = 'of nodes'
-   end function thickness_text
-
    !> Moduli and Poisson's ratios of orthotropic materials, and the axes of the sections that have them.
    subroutine describe_orthotropic(page, model)
       type(page_t), intent(inout) :: page
       type(model_t), intent(in) :: model
-      real(wp) :: s(SPATIAL, SPATIAL)
+      real(wp) :: s(SPATIAL, SPATIAL), moduli(7)
+      character(len=:), allocatable :: text
       integer(ip) :: i
+      integer :: k
 
       call add_blank(page)
       call add_line(page, '   '//left('orthotropic', 16)//right('E1', 12)//right('E2', 12)//right('E3', 12)//right('nu12', 12)// &
@@ -181,8 +177,12 @@ contains
       do i = 1, size(model%materials, kind=ip)
          if (.not. model%materials(i)%is_orthotropic) cycle
          s = inverse_of(model%materials(i)%stiffness)
-         call add_line(page, '   '//left(model%materials(i)%name, 16)//in_columns([1/s(1, 1), 1/s(2, 2), 1/s(3, 3), &
-                                                                  -s(1, 2)/s(1, 1), -s(1, 3)/s(1, 1), -s(2, 3)/s(2, 2), 1/s(4, 4)]))
+         moduli = [1/s(1, 1), 1/s(2, 2), 1/s(3, 3), -s(1, 2)/s(1, 1), -s(1, 3)/s(1, 1), -s(2, 3)/s(2, 2), 1/s(4, 4)]
+         text = ''
+         do k = 1, size(moduli)
+            text = text//right(number(moduli(k), DIGITS), 12)
+         end do
+         call add_line(page, '   '//left(model%materials(i)%name, 16)//text)
       end do
       do i = 1, size(model%sections, kind=ip)
          associate (section => model%sections(i))
@@ -193,17 +193,6 @@ contains
          end associate
       end do
    end subroutine describe_orthotropic
-
-   function in_columns(values) result(text)
-      real(wp), intent(in) :: values(:)
-      character(len=:), allocatable :: text
-      integer :: i
-
-      text = ''
-      do i = 1, size(values)
-         text = text//right(number(values(i), DIGITS), 12)
-      end do
-   end function in_columns
 
    subroutine describe_expansions(page, model)
       type(page_t), intent(inout) :: page
@@ -242,6 +231,7 @@ contains
       type(page_t), intent(inout) :: page
       type(model_t), intent(in) :: model
       integer(ip), intent(in), optional :: most      !< so many of the first; left out: all
+      character(len=:), allocatable :: title
       integer(ip) :: k, n
 
       n = size(model%steps, kind=ip)
@@ -251,7 +241,10 @@ contains
          end if
          if (n > 1) then
             call add_blank(page)
-            call add_line(page, '   step '//to_text(k)//step_title(model%steps(k)))
+            title = ''
+            if (allocated(model%steps(k)%title)) title = model%steps(k)%title
+            if (len(title) > 0) title = ': '//title
+            call add_line(page, '   step '//to_text(k)//title)
          end if
          call describe_increments(page, model%steps(k), n)
          call describe_overlaps(page, model, model%steps(k))
@@ -270,15 +263,6 @@ contains
       is_history = size(model%steps) > 1
       if (.not. is_history) is_history = model%steps(1)%increments%initial < model%steps(1)%increments%period
    end function is_history
-
-   pure function step_title(step) result(text)
-      type(step_t), intent(in) :: step
-      character(len=:), allocatable :: text
-
-      text = ''
-      if (.not. allocated(step%title)) return
-      if (len(step%title) > 0) text = ': '//step%title
-   end function step_title
 
    subroutine describe_increments(page, step, n_steps)
       type(page_t), intent(inout) :: page

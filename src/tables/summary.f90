@@ -4,7 +4,7 @@ module atrito_summary
    use atrito_kinds, only: ip, wp
    use atrito_strings, only: string_t, append_string
    use atrito_model, only: model_t
-   use atrito_results, only: results_t, history_t, scene_t, contact_result_t, observed_t, view_frame, &
+   use atrito_results, only: results_t, history_t, scene_t, contact_result_t, view_frame, &
                              POINT_OPEN, POINT_STICK, POINT_SLIP
    use atrito_threads, only: is_shared
    implicit none (type, external)
@@ -134,6 +134,7 @@ contains
    pure function step_quantities(results) result(list)
       type(results_t), intent(in) :: results
       type(quantity_t), allocatable :: list(:)
+      integer :: i
 
       list = [counted('picard_iterations', int(results%outer_iterations, ip)), &
               counted('linear_solves', int(results%linear_solves, ip)), &
@@ -142,17 +143,10 @@ contains
               quantity_t('external_work', 'F L', results%external_work, 0.0_wp), &
               quantity_t('error_estimate_percent', '-', results%error_estimate, 0.0_wp), &
               large_quantities(results)]
-      if (allocated(results%observed)) list = [list, observed_quantities(results%observed)]
+      if (.not. allocated(results%observed)) return
+      ! what --observe asks for: nothing is rounding, for of an expression no scale is known
+      list = [list, [(quantity_t(results%observed(i)%name, '-', results%observed(i)%value, 0.0_wp), i=1, size(results%observed))]]
    end function step_quantities
-
-   !> What --observe asks for. Nothing is rounding: of an expression no scale is known.
-   pure function observed_quantities(observed) result(list)
-      type(observed_t), intent(in) :: observed(:)
-      type(quantity_t) :: list(size(observed))
-      integer :: i
-
-      list = [(quantity_t(observed(i)%name, '-', observed(i)%value, 0.0_wp), i=1, size(observed))]
-   end function observed_quantities
 
    !> What passes the bounds of a linear theory (W-LARGE), and only that.
    pure function large_quantities(results) result(list)

@@ -34,7 +34,7 @@ module atrito_observations
       procedure :: observe => evaluate_all
    end type observations_t
 
-   integer, parameter :: MOST_NEAREST = 3
+   integer, parameter :: MOST_NEAREST = 3, FEW = 20  !< names that are told: near ones, or all where they are few
    !> Other columns of the tables in which the names stand.
    character(len=*), parameter :: COLUMNS(19) = [character(len=14) :: 'step', 'increment', 'pair', 'quantity', 'value', 'run', &
                                                          'exit', 'factorisations', 'folder', 'moment', 'contact_length', 'centre', &
@@ -157,7 +157,9 @@ contains
             if (is_ok) cycle
             error = complaint(one, wrong%text, wrong%expected)
             call put_place(one%text, wrong%first, wrong%last, error)
-            if (allocated(wrong%known)) call put_known(one%text(wrong%first:wrong%last), wrong%known, error)
+            if (.not. allocated(wrong%known)) return
+            error%nearest = nearest_names(one%text(wrong%first:wrong%last), wrong%known, MOST_NEAREST)
+            if (size(error%nearest) == 0 .and. size(wrong%known) <= FEW) error%known = wrong%known
             return
          end do
       end associate
@@ -187,17 +189,6 @@ contains
       error%column = int(first, ip)
       error%length = int(last - first + 1, ip)
    end subroutine put_place
-
-   !> The nearest names, or all where none is near and they are few.
-   subroutine put_known(name, known, error)
-      character(len=*), intent(in) :: name
-      type(string_t), intent(in) :: known(:)
-      type(message_t), intent(inout) :: error
-      integer, parameter :: FEW = 20
-
-      error%nearest = nearest_names(name, known, MOST_NEAREST)
-      if (size(error%nearest) == 0 .and. size(known) <= FEW) error%known = known
-   end subroutine put_known
 
    !> Whether terms want what costs a recovery of stresses.
    pure logical function wants_stress(terms)
