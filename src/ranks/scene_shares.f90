@@ -8,7 +8,7 @@
 !> rank, so that what lies between them is not shared.
 module atrito_scene_shares
    use atrito_assembly, only: fem_t
-   use atrito_kinds, only: ip, lp, wp
+   use atrito_kinds, only: ip, wp
    use atrito_multifrontal, only: elimination_t
    use atrito_scene_elimination, only: scene_numbering_t
    implicit none (type, external)

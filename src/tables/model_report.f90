@@ -10,7 +10,7 @@ module atrito_model_report
    use atrito_mesh, only: is_revolved
    use atrito_orthotropy, only: SPATIAL, inverse_of
    use atrito_sets, only: set_count
-   use atrito_model, only: model_t, section_t, step_t, requested_t, increments_t, interaction_t, FORMULATION_NAME, FRICTION_NAME, &
+   use atrito_model, only: model_t, step_t, requested_t, increments_t, interaction_t, FORMULATION_NAME, FRICTION_NAME, &
                            KERNEL_NAME, FRICTION_NONE, FRICTION_NONLOCAL, LOAD_TRACTION, SURFACE_SEGMENTS
    use atrito_page, only: page_t, add_line, add_blank, add_entry, left, right, number, plural
    implicit none (type, external)

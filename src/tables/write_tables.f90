@@ -20,9 +20,9 @@ module atrito_write_tables
 
    !> Every table that atrito can write.
    character(len=12), parameter :: TABLE_NAMES(18) = [character(len=12) :: 'contact', 'summary', 'extremes', 'resultants', &
-                                                              'history', 'nodes', 'reactions', 'stress', 'nodal_stress', 'bodies', &
-                                                                    'rigid', 'joints', 'sections', 'ties', 'equations', 'springs', &
-                                                                                                             'iterations', 'timing']
+                                                      'history', 'nodes', 'reactions', 'stress', 'nodal_stress', 'bodies', &
+                                                      'rigid', 'joints', 'sections', 'ties', 'equations', 'springs', &
+                                                      'iterations', 'timing']
 
    !> What all tables of a run have in common.
    type :: common_t
@@ -89,7 +89,7 @@ contains
    !>
    !> status: STATUS_FILE when one could not be written.
    subroutine write_tables(model, history, digits, set, status, is_csv)
-      type(model_t), intent(in) :: model
+      type(model_t), intent(in), target :: model
       type(history_t), intent(in), target :: history
       integer, intent(in) :: digits                 !< significant digits, 6..17
       type(file_set_t), intent(inout) :: set
@@ -98,6 +98,7 @@ contains
       type(common_t) :: whole
       type(series_t) :: series(size(TABLE_NAMES))
       type(results_t), pointer :: frame
+      type(table_t) :: piece
       type(status_t) :: of_file
       integer(ip) :: i
       integer :: k
@@ -122,7 +123,9 @@ contains
       do i = 1, merge(last_frame(history), 0_ip, is_ok(status))
          call view_frame(history, i, frame)
          do k = 1, size(series)
-            if (series(k)%is_due(i)) call put_frame(model, frame, whole, series(k))
+            if (.not. series(k)%is_due(i)) cycle
+            call build_piece(model, frame, whole, series(k)%name, piece)
+            call put_table(series(k)%file, piece, whole%origin, whole%digits, series(k)%remarks)
          end do
       end do
       do k = 1, size(series)
@@ -177,17 +180,6 @@ contains
          if (any(series%is_due)) call open_table(set, series%name, series%file, whole%is_csv)
       end select
    end subroutine begin_series
-
-   subroutine put_frame(model, frame, whole, series)
-      type(model_t), intent(in), target :: model
-      type(results_t), intent(in), target :: frame
-      type(common_t), intent(in) :: whole
-      type(series_t), intent(inout) :: series
-      type(table_t) :: piece
-
-      call build_piece(model, frame, whole, series%name, piece)
-      call put_table(series%file, piece, whole%origin, whole%digits, series%remarks)
-   end subroutine put_frame
 
    !> The rows of a frame; they may point at the fields of model and frame.
    subroutine build_piece(model, frame, whole, name, piece)

@@ -17,12 +17,11 @@ module atrito_stability_limit
    use atrito_messages, only: clear_messages
    use atrito_model, only: model_t
    use atrito_page, only: page_t
-   use atrito_provenance, only: provenance_t
    use atrito_report, only: report_t
    use atrito_reporter, only: reporter_t, report_progress
    use atrito_results, only: history_t, results_t
    use atrito_series_reports, only: begin_series, report_of_limit
-   use atrito_series, only: claim_output, find_provenance, series_origin, begin_pictures, tell_series, seconds_since
+   use atrito_series, only: claim_output, find_origin, begin_pictures, tell_series, seconds_since
    use atrito_stability_plot, only: write_stability_plots
    use atrito_run, only: take_threads, load_model, solve_options, agree_on_outcome
    use atrito_sweep_plan, only: read_range
@@ -71,14 +70,14 @@ contains
       type(search_t) :: search
       type(status_t) :: status
       type(model_t) :: model
-      type(provenance_t) :: provenance
+      type(origin_t) :: origin
       integer(lp) :: began
       integer(ip) :: told
       integer :: answer
       real(wp) :: excess
 
       call system_clock(began)
-      call find_provenance(command, provenance)
+      call find_origin(command, origin)
       limit%watched = 'largest displacement'
       if (command%watched(1) > 0) limit%watched = 'u'//to_text(command%watched(2))//' of node '//to_text(command%watched(1))
       allocate (limit%values(0))
@@ -91,7 +90,7 @@ contains
          if (code /= STATUS_OK) return
          call probe_balance(model, answer, excess, status, limit%collapse)
       end if
-      if (is_ok(status)) call finish(command, provenance, model, limit, seconds_since(began), status)
+      if (is_ok(status)) call finish(command, origin, model, limit, seconds_since(began), status)
       if (.not. is_ok(status)) call print_status(status, command%names(1)%s, command%json)
       code = status%code
       if (is_ok(status) .and. .not. limit%is_close) code = STATUS_NOT_CONVERGED
@@ -341,19 +340,18 @@ contains
    end function end_text
 
    !> Tables, pictures and closing lines.
-   subroutine finish(command, provenance, model, limit, seconds, status)
+   subroutine finish(command, origin, model, limit, seconds, status)
       type(command_t), intent(in) :: command
-      type(provenance_t), intent(in) :: provenance
+      type(origin_t), intent(inout) :: origin
       type(model_t), intent(in) :: model            !< at the value that falls
       type(stability_t), intent(in) :: limit
       real(wp), intent(in) :: seconds(2)             !< wall clock and processor
       type(status_t), intent(out) :: status
-      type(origin_t) :: origin
       type(page_t) :: page
       type(report_t) :: report
       type(string_t), allocatable :: pictures(:)
 
-      origin = series_origin(command, provenance,.not. limit%is_close)
+      origin%not_converged = .not. limit%is_close
       call write_stability(output_folder(command), origin, limit, int(command%digits), status, command%is_csv)
       if (.not. is_ok(status)) return
       call begin_pictures(command)
