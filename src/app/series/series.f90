@@ -25,7 +25,7 @@ module atrito_series
    use atrito_system, only: processor_seconds
    implicit none (type, external)
    private
-   public :: claim_output, find_origin, begin_pictures, tell_series, seconds_since
+   public :: claim_output, find_origin, begin_pictures, print_closing, seconds_since
 
    !> Whose the pictures of a command are.
    integer, parameter :: WHOSE(TASK_SWEEP:TASK_LIMIT) = [PLOTS_OF_SWEEP, PLOTS_OF_STUDY, PLOTS_OF_LIMIT]
@@ -110,7 +110,7 @@ contains
    end subroutine begin_pictures
 
    !> Writes the report, where one is asked for, and prints the closing lines.
-   subroutine tell_series(command, page, report)
+   subroutine print_closing(command, page, report)
       type(command_t), intent(in) :: command
       type(page_t), intent(inout) :: page
       type(report_t), intent(inout) :: report
@@ -121,7 +121,7 @@ contains
       if (has_report) call add_above_rule(page, 'report', output_folder(command)//'/'//REPORT_NAME)
       call print_messages(command%quiet, 1_ip, command%json)
       if (.not. command%quiet) call print_page(page, output_unit)
-   end subroutine tell_series
+   end subroutine print_closing
 
    !> Wall clock since a count of system_clock, and processor time of the process.
    function seconds_since(began) result(seconds)

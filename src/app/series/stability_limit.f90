@@ -21,7 +21,7 @@ module atrito_stability_limit
    use atrito_reporter, only: reporter_t, report_progress
    use atrito_results, only: history_t, results_t
    use atrito_series_reports, only: begin_series, report_of_limit
-   use atrito_series, only: claim_output, find_origin, begin_pictures, tell_series, seconds_since
+   use atrito_series, only: claim_output, find_origin, begin_pictures, print_closing, seconds_since
    use atrito_stability_plot, only: write_stability_plots
    use atrito_run, only: take_threads, load_model, solve_options, agree_on_outcome
    use atrito_sweep_plan, only: read_range
@@ -72,7 +72,7 @@ contains
       type(model_t) :: model
       type(origin_t) :: origin
       integer(lp) :: began
-      integer(ip) :: told
+      integer(ip) :: n_printed
       integer :: answer
       real(wp) :: excess
 
@@ -86,7 +86,7 @@ contains
       if (code /= STATUS_OK) return
       call judge_search(search, limit, status)
       if (is_ok(status)) then
-         call load_value(command, limit%parameter, limit%falls, .true., model, code, told)
+         call load_value(command, limit%parameter, limit%falls, .true., model, code, n_printed)
          if (code /= STATUS_OK) return
          call probe_balance(model, answer, excess, status, limit%collapse)
       end if
@@ -97,7 +97,7 @@ contains
    end subroutine find_limit
 
    !> Asks until the search has what it needs: at a value of the parameter whether the loads can be balanced, or what the solution
-   !> is. code: of a deck that has errors at a value, and the like; told.
+   !> is. code: of a deck that has errors at a value, and the like; printed.
    subroutine ask_all(command, search, limit, code)
       type(command_t), intent(in) :: command
       type(search_t), intent(inout) :: search
@@ -137,10 +137,10 @@ contains
       integer, intent(out) :: code
       type(model_t) :: model
       type(status_t) :: status
-      integer(ip) :: told
+      integer(ip) :: n_printed
       integer :: verdict
 
-      call load_value(command, limit%parameter, one%value, size(search%tried) > 0, model, code, told)
+      call load_value(command, limit%parameter, one%value, size(search%tried) > 0, model, code, n_printed)
       if (code /= STATUS_OK) return
       call probe_balance(model, verdict, one%excess, status)
       code = status%code
@@ -169,11 +169,11 @@ contains
       type(history_t) :: history
       type(frame_spool_t) :: frames
       type(reporter_t) :: reporter
-      integer(ip) :: told
+      integer(ip) :: n_printed
       integer :: n
 
       one%displacement = ieee_value(1.0_wp, ieee_quiet_nan)
-      call load_value(command, limit%parameter, one%value, .true., model, code, told)
+      call load_value(command, limit%parameter, one%value, .true., model, code, n_printed)
       if (code /= STATUS_OK) return
       reporter%quiet = .true.
       call begin_frames(output_folder(command), frames)
@@ -184,7 +184,7 @@ contains
       if (status%code == STATUS_SINGULAR .and. n > 0) status%code = STATUS_NOT_CONVERGED
       if (status%code == STATUS_OK .or. status%code == STATUS_NOT_CONVERGED) then
          if (all(limit%values%code == CODE_NOT_RUN .or. limit%values%code == STATUS_SINGULAR)) then
-            call print_messages(command%quiet, told + 1, command%json)
+            call print_messages(command%quiet, n_printed + 1, command%json)
          end if
          one%code = status%code
          status = status_t()
@@ -231,15 +231,15 @@ contains
       end if
    end subroutine watch
 
-   !> Reads the deck with a value. code: STATUS_DECK and the like, told.
-   subroutine load_value(command, parameter, x, only_errors, model, code, told)
+   !> Reads the deck with a value. code: STATUS_DECK and the like; printed.
+   subroutine load_value(command, parameter, x, only_errors, model, code, n_printed)
       type(command_t), intent(in) :: command
       character(len=*), intent(in) :: parameter
       real(wp), intent(in) :: x
-      logical, intent(in) :: only_errors            !< what else there is to say of the deck has been told
+      logical, intent(in) :: only_errors            !< what else there is to say of the deck has been printed
       type(model_t), intent(out) :: model
       integer, intent(out) :: code
-      integer(ip), intent(out) :: told              !< messages of the deck
+      integer(ip), intent(out) :: n_printed         !< messages of the deck
       type(command_t) :: one
       type(reporter_t) :: reporter
 
@@ -247,7 +247,7 @@ contains
       reporter%quiet = .true.
       call append_string(one%settings, parameter//'='//to_text(x, ALL_DIGITS))
       call clear_messages()
-      call load_model(one, reporter, model, told, code, only_errors)
+      call load_model(one, reporter, model, n_printed, code, only_errors)
    end subroutine load_value
 
    subroutine print_failure(command, parameter, x, status)
@@ -364,7 +364,7 @@ contains
          report%heading = model%heading
          call report_of_limit(limit, seconds, report)
       end if
-      call tell_series(command, page, report)
+      call print_closing(command, page, report)
    end subroutine finish
 
 end module atrito_stability_limit

@@ -13,7 +13,7 @@ module atrito_study
    use atrito_reporter, only: reporter_t, report_progress
    use atrito_run_request, only: make_tasks, print_lost
    use atrito_series_reports, only: begin_series, take_heading, report_of_study
-   use atrito_series, only: claim_output, find_origin, begin_pictures, tell_series
+   use atrito_series, only: claim_output, find_origin, begin_pictures, print_closing
    use atrito_status, only: status_t, is_ok, STATUS_OK, STATUS_USAGE, STATUS_NOT_CONVERGED, STATUS_INTERNAL
    use atrito_strings, only: string_t, join, to_text
    use atrito_study_errors, only: study_t, study_probe_t
@@ -221,7 +221,7 @@ contains
          call take_heading(one%folder, report)
          call report_of_study(study, report)
       end if
-      call tell_series(command, page, report)
+      call print_closing(command, page, report)
    end subroutine finish
 
 end module atrito_study

@@ -24,7 +24,7 @@ module atrito_sweep
    use atrito_run, only: run_deck
    use atrito_run_request, only: make_tasks, is_sound, print_lost
    use atrito_series_reports, only: begin_series, report_of_sweep
-   use atrito_series, only: claim_output, find_origin, begin_pictures, tell_series, seconds_since
+   use atrito_series, only: claim_output, find_origin, begin_pictures, print_closing, seconds_since
    use atrito_status, only: status_t, set_status, is_ok, STATUS_USAGE, STATUS_NOT_CONVERGED, STATUS_INTERNAL
    use atrito_strings, only: string_t, append_string, to_text
    use atrito_study_errors, only: run_facts_t
@@ -294,7 +294,7 @@ contains
                                                        number(times%longest_idle, 3)//' s at most; longest run '// &
                                                        number(times%longest_task, 3)//' s')
          end associate
-         call tell_series(command, page, report)
+         call print_closing(command, page, report)
       end associate
    end subroutine finish
 
