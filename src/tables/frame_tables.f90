@@ -5,7 +5,7 @@ module atrito_frame_tables
    use atrito_kinds, only: ip, wp
    use atrito_plane_state, only: STRESS_NAMES
    use atrito_strings, only: string_t
-   use atrito_model, only: model_t, requests_t, is_due
+   use atrito_model, only: model_t, is_due
    use atrito_results, only: results_t, contact_result_t
    use atrito_resultant_report, only: has_resultants, build_resultants
    use atrito_rigid_report, only: build_rigid_table
@@ -32,10 +32,18 @@ contains
       type(results_t), intent(in) :: frame
       character(len=*), intent(in) :: name
       logical, intent(in) :: is_last
+      character(len=*), parameter :: ALONE(7) = [character(len=12) :: 'nodes', 'reactions', 'stress', 'nodal_stress', 'bodies', &
+                                                 'joints', 'sections']
+      integer(ip) :: frequencies(0:size(ALONE))
 
       has = has_table(model, frame, name)
       if (is_last .or. is_of_all(name) .or. .not. has) return
-      has = is_due(frequency_of(model%steps(frame%step)%requests, name), frame%increment, frame%ends_step)
+      associate (every => model%steps(frame%step)%requests%every)
+         ! what ties, equations and springs transmit and rigid surfaces do is printed as often as the contact
+         frequencies = [every%contact, every%nodes, every%reactions, every%stress, every%nodal_stress, every%bodies, every%joints, &
+                        every%sections]
+      end associate
+      has = is_due(frequencies(findloc(ALONE == name, .true., dim=1)), frame%increment, frame%ends_step)
    end function has_frame_rows
 
    !> Whether a table has rows of every frame.
@@ -66,21 +74,6 @@ contains
       if (i > 0) has_table = is_there(i)
       if (i == 0) has_table = has_rows(model, frame, name)
    end function has_table
-
-   !> How often a table is printed. What ties, equations and springs transmit and rigid surfaces do goes with the contact.
-   pure integer(ip) function frequency_of(requests, name) result(every)
-      type(requests_t), intent(in) :: requests
-      character(len=*), intent(in) :: name
-      character(len=*), parameter :: ALONE(7) = [character(len=12) :: 'nodes', 'reactions', 'stress', 'nodal_stress', 'bodies', &
-                                                 'joints', 'sections']
-      integer(ip) :: frequencies(0:size(ALONE))
-
-      associate (every_of => requests%every)
-         frequencies = [every_of%contact, every_of%nodes, every_of%reactions, every_of%stress, every_of%nodal_stress, &
-                        every_of%bodies, every_of%joints, every_of%sections]
-      end associate
-      every = frequencies(findloc(ALONE == name, .true., dim=1))
-   end function frequency_of
 
    !> The rows of a frame in a table; the table may point at the fields of model and frame.
    subroutine build_frame_table(model, frame, scales, own, name, table)

@@ -40,6 +40,8 @@ contains
    subroutine describe_counts(page, model)
       type(page_t), intent(inout) :: page
       type(model_t), intent(in) :: model
+      character(len=:), allocatable :: text
+      integer(ip) :: rigid
 
       call add_entry(page, 'nodes', to_text(model%mesh%n_nodes))
       call add_entry(page, 'elements', to_text(model%mesh%n_elements)//element_types(model))
@@ -47,7 +49,10 @@ contains
                                            ': each element of the deck is '//to_text(4_ip**model%levels)//' now')
       call add_entry(page, 'node sets, element sets', &
                      to_text(set_count(model%node_sets))//', '//to_text(set_count(model%element_sets)))
-      call add_entry(page, 'surfaces', surface_counts(model))
+      text = to_text(size(model%surfaces, kind=ip))
+      rigid = count(model%surfaces%kind == SURFACE_SEGMENTS, kind=ip)
+      if (rigid > 0) text = text//' ('//to_text(rigid)//' of rigid segments)'
+      call add_entry(page, 'surfaces', text)
       call add_entry(page, 'materials, sections', to_text(size(model%materials, kind=ip))//', '// &
                      to_text(size(model%sections, kind=ip)))
       call add_entry(page, 'contact pairs', to_text(size(model%pairs, kind=ip)))
@@ -71,19 +76,6 @@ contains
       end do
       if (len(text) > 0) text = ' ('//text(3:)//')'
    end function element_types
-
-   pure function surface_counts(model) result(text)
-      type(model_t), intent(in) :: model
-      character(len=:), allocatable :: text
-      integer(ip) :: i, rigid
-
-      rigid = 0
-      do i = 1, size(model%surfaces, kind=ip)
-         if (model%surfaces(i)%kind == SURFACE_SEGMENTS) rigid = rigid + 1
-      end do
-      text = to_text(size(model%surfaces, kind=ip))
-      if (rigid > 0) text = text//' ('//to_text(rigid)//' of rigid segments)'
-   end function surface_counts
 
    !> The instances of parts: what their numbers are here, and where they stand.
    subroutine describe_instances(page, model)

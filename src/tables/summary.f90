@@ -200,23 +200,12 @@ contains
       end do
       scales%stress = scales%pressure
       if (allocated(results%stress)) scales%stress = max(scales%stress, largest(results%stress))
-      scales%nodal_stress = largest_nodal_stress(results)
-   end function measure_fields
-
-   !> No stress at a node is larger than the largest of these.
-   pure real(wp) function largest_nodal_stress(results) result(largest)
-      type(results_t), intent(in) :: results
-      integer :: i
-
-      largest = 0.0_wp
       if (.not. allocated(results%extremes)) return
-      do i = 1, size(results%extremes)
-         select case (results%extremes(i)%quantity)
-         case ('mises', 's1_max', 's3_min')
-            largest = max(largest, abs(results%extremes(i)%value))
-         end select
-      end do
-   end function largest_nodal_stress
+      associate (name => results%extremes%quantity)   ! no stress at a node is larger than the largest of these
+         scales%nodal_stress = max(0.0_wp, maxval(abs(results%extremes%value), &
+                                                  mask=name == 'mises' .or. name == 's1_max' .or. name == 's3_min'))
+      end associate
+   end function measure_fields
 
    !> The scales of one pair's fields: its own pressure and area, and the displacements that meet there.
    pure function scales_of_pair(scales, contact) result(own)
