@@ -9,7 +9,7 @@ module atrito_write_tables
    use atrito_model, only: model_t
    use atrito_results, only: results_t, history_t, last_frame, view_frame
    use atrito_frame_tables, only: has_frame_rows, build_frame_table
-   use atrito_history_tables, only: build_summary, join_remarks, build_history, build_iterations
+   use atrito_history_tables, only: build_summary, note_quantities, dimension_remarks, build_history, build_iterations
    use atrito_increments, only: has_history, ending_text
    use atrito_summary, only: scales_t, measure_history
    use atrito_table, only: table_t, origin_t, begin_table, add_reals, add_words, one_word, TAB_ENDING, CSV_ENDING
@@ -37,6 +37,7 @@ module atrito_write_tables
    type :: series_t
       character(len=:), allocatable :: name
       logical, allocatable :: is_due(:)             !< (frames) that have rows in it
+      type(string_t), allocatable :: quantities(:)  !< of the summary, by dimension
       type(string_t), allocatable :: remarks(:)     !< that all frames have a part in; not allocated: there are none
       type(growing_table_t) :: file
    end type series_t
@@ -124,6 +125,7 @@ contains
          call view_frame(history, i, frame)
          do k = 1, size(series)
             if (.not. series(k)%is_due(i)) cycle
+            if (allocated(series(k)%quantities)) series(k)%remarks = dimension_remarks(series(k)%quantities)
             call build_piece(model, frame, whole, series(k)%name, piece)
             call put_table(series(k)%file, piece, whole%origin, whole%digits, series(k)%remarks)
          end do
@@ -149,10 +151,10 @@ contains
       associate (name => series%name)
          series%is_due(i) = .not. any(name == [character(len=10) :: 'history', 'iterations', 'timing'])
          if (series%is_due(i) .and. name /= 'summary') series%is_due(i) = has_frame_rows(model, frame, name, i == n)
+         if (name == 'summary') call note_quantities(frame, whole%own, series%quantities)
          if (n == 1 .or. .not. series%is_due(i)) return
          call build_piece(model, frame, whole, name, piece)
          call measure_rows(series%file, piece, whole%digits)
-         if (name == 'summary') call join_remarks(series%remarks, piece%remarks)
       end associate
    end subroutine measure_series
 
