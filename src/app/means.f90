@@ -61,11 +61,11 @@ contains
          if (blas_buffer_bytes() > 0) call claim_blas_buffers(fits)
       else if (fits == 0) then
          call print_problem(command, SEVERITY_ERROR, 'E-MEMORY', 'the linear algebra needs '//memory_text(bytes_of(1_ip))// &
-                   ' of address space to begin with; ulimit -v is '//memory_text(address_space_limit())//', and does not leave it')
+                    ' of address space to begin with; ulimit -v is '//memory_text(address_space_limit())//', and does not leave it')
       else
          call print_problem(command, SEVERITY_ERROR, 'E-MEMORY', to_text(command%threads)//' threads need '// &
-                   memory_text(bytes_of(command%threads))//' of address space to begin with; ulimit -v is '// &
-                   memory_text(address_space_limit())//', and does not leave it; --threads '//to_text(fits)//' fits')
+                            memory_text(bytes_of(command%threads))//' of address space to begin with; ulimit -v is '// &
+                            memory_text(address_space_limit())//', and does not leave it; --threads '//to_text(fits)//' fits')
       end if
 
    contains

@@ -20,9 +20,9 @@ module atrito_frame_tables
    !> The reals of contact.tab, as copy_fields has them. The column status stands among them.
    integer, parameter :: BEFORE_STATUS = 8
    character(len=17), parameter :: CONTACT_NAMES(*) = [character(len=17) :: 's', 'x', 'y', 'gap', 'pressure', 'weighted_pressure', &
-                                                       'shear', 'slip', 'weight', 'slip_increment']
+                                                                                        'shear', 'slip', 'weight', 'slip_increment']
    character(len=5), parameter :: CONTACT_DIMENSIONS(*) = [character(len=5) :: 'L', 'L', 'L', 'L', 'F/L^2', 'F/L^2', 'F/L^2', 'L', &
-                                                           'L^2', 'L']
+                                                                                                                         'L^2', 'L']
 
 contains
 
@@ -33,7 +33,7 @@ contains
       character(len=*), intent(in) :: name
       logical, intent(in) :: is_last
       character(len=*), parameter :: ALONE(7) = [character(len=12) :: 'nodes', 'reactions', 'stress', 'nodal_stress', 'bodies', &
-                                                 'joints', 'sections']
+                                                                                                               'joints', 'sections']
       integer(ip) :: frequencies(0:size(ALONE))
 
       has = has_table(model, frame, name)
@@ -59,7 +59,7 @@ contains
       type(results_t), intent(in) :: frame
       character(len=*), intent(in) :: name
       character(len=*), parameter :: NAMES(11) = [character(len=12) :: 'contact', 'nodes', 'reactions', 'stress', 'nodal_stress', &
-                                                  'bodies', 'joints', 'sections', 'rigid', 'extremes', 'resultants']
+                                                                  'bodies', 'joints', 'sections', 'rigid', 'extremes', 'resultants']
       logical :: is_there(size(NAMES))
       integer :: i
 
