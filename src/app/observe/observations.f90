@@ -142,6 +142,7 @@ contains
       logical, intent(out) :: is_ok
       type(message_t), intent(inout) :: error
       type(expression_fault_t) :: fault
+      type(message_t) :: wrong
       integer :: k
 
       associate (one => observations%list(i))
@@ -150,9 +151,11 @@ contains
          if (is_ok) then
             allocate (one%terms(size(one%calls)))
             do k = 1, size(one%calls)
-               call find_term(model, one%calls(k), one%terms(k), error)
-               is_ok = .not. allocated(error%text)
-               if (.not. is_ok) exit
+               call find_term(model, one%calls(k), one%terms(k), wrong)
+               is_ok = .not. allocated(wrong%text)
+               if (is_ok) cycle
+               error = wrong
+               exit
             end do
          else
             error%text = fault%text
