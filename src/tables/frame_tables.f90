@@ -9,7 +9,7 @@ module atrito_frame_tables
    use atrito_results, only: results_t, contact_result_t
    use atrito_resultant_report, only: has_resultants, build_resultants
    use atrito_rigid_report, only: build_rigid_table
-   use atrito_row_tables, only: has_rows, build_row_table
+   use atrito_row_tables, only: has_rows, build_ties, build_equations, build_springs
    use atrito_summary, only: scales_t, pair_count
    use atrito_table, only: table_t, begin_step_table, add_reals, add_real_columns, add_field, add_integers, add_integer_field, &
                            add_words, clear_small, one_word
@@ -105,8 +105,12 @@ contains
          call build_joints(frame, scales, own, table)
       case ('sections')
          call build_sections(frame, scales, table)
-      case default
-         call build_row_table(model, frame, scales, name, table)
+      case ('ties')
+         call build_ties(model, frame, scales, table)
+      case ('equations')
+         call build_equations(model, frame, scales, table)
+      case ('springs')
+         call build_springs(model, frame, scales, table)
       end select
       call add_integers(table, 'increment', [frame%increment])
    end subroutine build_frame_table

@@ -367,11 +367,9 @@ contains
          if (list(i)%is_count .or. list(i)%name == 'error_estimate_percent') cycle
          call add_quantity(page, list(i))
       end do
-      if (results%converged .and. results%law_holds) then
-         call add_entry(page, 'contact law, checked anew', 'holds at every point')
-      else
-         call add_entry(page, 'contact law, checked anew', 'DOES NOT HOLD, or was not reached')
-      end if
+      call add_entry(page, 'contact law, checked anew', trim(merge('holds at every point             ', &
+                                                                   'DOES NOT HOLD, or was not reached', &
+                                                                   results%converged .and. results%law_holds)))
    end subroutine add_equilibrium
 
    pure function force_line(name, f) result(text)

@@ -116,7 +116,7 @@ contains
    subroutine describe_materials(page, model)
       type(page_t), intent(inout) :: page
       type(model_t), intent(in) :: model
-      character(len=:), allocatable :: thickness
+      character(len=:), allocatable :: thickness, elastic
       integer(ip) :: elements(size(model%sections, kind=ip)), i
 
       elements = 0
@@ -129,13 +129,9 @@ contains
       call add_line(page, '   '//left('material', 24)//right('E [F/L^2]', 16)//right('mu', 12)//right('density', 16))
       do i = 1, size(model%materials, kind=ip)
          associate (material => model%materials(i))
-            if (material%is_orthotropic) then
-               call add_line(page, '   '//left(material%name, 24)//right('orthotropic', 16)//right('', 12)// &
-                             right(number(material%density, DIGITS), 16))
-            else
-               call add_line(page, '   '//left(material%name, 24)//right(number(material%young, DIGITS), 16)// &
-                             right(number(material%poisson, DIGITS), 12)//right(number(material%density, DIGITS), 16))
-            end if
+            elastic = right(number(material%young, DIGITS), 16)//right(number(material%poisson, DIGITS), 12)
+            if (material%is_orthotropic) elastic = right('orthotropic', 16)//right('', 12)
+            call add_line(page, '   '//left(material%name, 24)//elastic//right(number(material%density, DIGITS), 16))
          end associate
       end do
       if (any(model%materials%is_orthotropic)) call describe_orthotropic(page, model)

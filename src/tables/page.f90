@@ -255,11 +255,8 @@ contains
       character(len=*), intent(in) :: one, many
       character(len=:), allocatable :: text
 
-      if (n == 1_ip) then
-         text = '1 '//one
-      else
-         text = to_text(n)//' '//many
-      end if
+      text = to_text(n)//' '//many
+      if (n == 1_ip) text = '1 '//one
    end function plural
 
 end module atrito_page

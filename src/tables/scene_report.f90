@@ -29,11 +29,7 @@ contains
       call add_entry(page, 'tangential unknowns', to_text(scene%n_tangential))
       if (scene%n_rows > 0) call add_entry(page, 'of ties, equations, springs', to_text(scene%n_rows))
       call add_entry(page, 'rigid motions as unknowns', to_text(scene%n_rigid))
-      if (scene%outer_loop) then
-         call add_entry(page, 'outer loop', 'on the friction bound')
-      else
-         call add_entry(page, 'outer loop', 'none')
-      end if
+      call add_entry(page, 'outer loop', trim(merge('on the friction bound', 'none                 ', scene%outer_loop)))
       if (allocated(scene%contact_form)) then
          call add_entry(page, 'contact system', scene%contact_form//', '//text_of(scene%contact_reason))
          if (allocated(scene%order)) call add_entry(page, 'order of elimination', scene%order)

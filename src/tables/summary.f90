@@ -95,11 +95,8 @@ contains
    pure real(wp) function ratio(a, b)
       real(wp), intent(in) :: a, b
 
-      if (b > 0.0_wp) then
-         ratio = a/b
-      else
-         ratio = ieee_value(1.0_wp, ieee_quiet_nan)
-      end if
+      ratio = ieee_value(1.0_wp, ieee_quiet_nan)
+      if (b > 0.0_wp) ratio = a/b
    end function ratio
 
    !> The rows of a pair, in the order of summary.tab.
