@@ -37,7 +37,8 @@ contains
       integer(ip) :: frequencies(0:size(ALONE))
 
       has = has_table(model, frame, name)
-      if (is_last .or. is_of_all(name) .or. .not. has) return
+      if (name == 'extremes' .or. name == 'resultants') return      ! they have rows of every frame
+      if (is_last .or. .not. has) return
       associate (every => model%steps(frame%step)%requests%every)
          ! what ties, equations and springs transmit and rigid surfaces do is printed as often as the contact
          frequencies = [every%contact, every%nodes, every%reactions, every%stress, every%nodal_stress, every%bodies, every%joints, &
@@ -45,13 +46,6 @@ contains
       end associate
       has = is_due(frequencies(findloc(ALONE == name, .true., dim=1)), frame%increment, frame%ends_step)
    end function has_frame_rows
-
-   !> Whether a table has rows of every frame.
-   pure logical function is_of_all(name)
-      character(len=*), intent(in) :: name
-
-      is_of_all = name == 'extremes' .or. name == 'resultants'
-   end function is_of_all
 
    !> Whether a frame can have rows in a table, and its step asks for them.
    pure logical function has_table(model, frame, name)

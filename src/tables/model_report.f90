@@ -317,6 +317,7 @@ contains
       type(model_t), intent(in) :: model
       integer(ip), intent(in) :: k                  !< the step
       type(force_t) :: concentrated, pressure, body
+      integer(ip) :: n_loads
 
       call load_resultants(model, concentrated, pressure, body, k)
       if (is_revolved(model%mesh)) then              ! the circle has no resultant along a radius, and no moment
@@ -326,7 +327,10 @@ contains
       end if
       call describe_references(page, model, k)
       call add_blank(page)
-      if (size(model%steps) > 1 .and. .not. has_loads(model%steps(k))) then
+      associate (step => model%steps(k))
+         n_loads = step%node_loads%n + step%element_loads%n + step%rigid_loads%n
+      end associate
+      if (size(model%steps) > 1 .and. n_loads == 0) then
          call add_entry(page, 'loads', 'none')
       else
          call add_line(page, '   '//left('loads, resultants', 24)//right('F1 [F]', 16)//right('F2 [F]', 16)// &
@@ -344,12 +348,6 @@ contains
                      number(maxval(model%steps(k)%heating), DIGITS)//' at the nodes, '// &
                      to_text(count(abs(model%steps(k)%heating) > 0.0_wp, kind=ip))//' not zero')
    end subroutine describe_loads
-
-   pure logical function has_loads(step)
-      type(step_t), intent(in) :: step
-
-      has_loads = step%node_loads%n + step%element_loads%n + step%rigid_loads%n > 0
-   end function has_loads
 
    subroutine add_force(page, name, force)
       type(page_t), intent(inout) :: page
