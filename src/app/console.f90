@@ -93,7 +93,7 @@ contains
       logical, intent(in) :: json
       type(message_t) :: message
       character(len=*), parameter :: IDS(STATUS_FILE) = [character(len=15) :: 'E-COMMAND', 'E-DECK', 'E-NOT-CONVERGED', &
-                                                         'E-SINGULAR', 'E-FILE']
+                                                                                                             'E-SINGULAR', 'E-FILE']
 
       if (.not. allocated(status%text)) return
       message%id = 'E-INTERNAL'

@@ -50,7 +50,7 @@ contains
    subroutine run_program(n_on_host, code)
       integer(ip), intent(in) :: n_on_host          !< ranks of the first one's host, itself among them
       integer, intent(out) :: code                  !< one of STATUS_*
-      type(string_t), allocatable :: arguments(:)
+      type(string_t), allocatable :: arguments(:), lines(:)
       type(command_t) :: command
       type(message_t) :: error
       type(page_t) :: page
@@ -96,7 +96,10 @@ contains
          call print_page(page, output_unit)
          code = STATUS_OK
       case (TASK_VERSION)
-         call print_version()
+         if (has_mpi()) call name_libraries(.true.)
+         call version_lines(lines)
+         call print_line(PROGRAM_NAME//' '//PROGRAM_VERSION, output_unit)
+         call print_lines(lines, output_unit)
          code = STATUS_OK
       case (TASK_USAGE)
          call compose_usage(page)
@@ -119,7 +122,7 @@ contains
 
    !> MUMPS and MPI, of a program that has them.
    subroutine name_libraries(are_tried)
-      logical, intent(in) :: are_tried              !< what cannot be loaded is told
+      logical, intent(in) :: are_tried              !< what cannot be loaded is printed
       type(library_t) :: list(2)
 
       list%name = [character(len=8) :: 'MUMPS', 'MPI']
@@ -142,16 +145,16 @@ contains
       type(status_t) :: status
       type(page_t) :: page
       type(string_t), allocatable :: pictures(:)
-      integer(ip) :: told
+      integer(ip) :: n_printed
 
       reporter%quiet = .true.
       call set_threads(command%threads)             ! each has a place for fronts
-      call load_model(command, reporter, model, told, code)
+      call load_model(command, reporter, model, n_printed, code)
       if (code == STATUS_OK) call prepare_observations(command, model, observations, code)
       if (code /= STATUS_OK) return
       call survey_scene(model, solve_options(command), scene, status)
       if (command%plot) call draw_scene(command, model, pictures)
-      call print_messages(command%quiet, told + 1, command%json)
+      call print_messages(command%quiet, n_printed + 1, command%json)
       code = status%code
       if (.not. is_ok(status)) then
          call print_status(status, model%deck_path, command%json)
@@ -193,21 +196,11 @@ contains
       call begin_comparison(comparison, command%rtol, command%atol)
       call compare_paths(command%names(1)%s, command%names(2)%s, comparison, status)
       if (.not. command%quiet) call print_page(comparison%page, output_unit)
-      ! tables that differ are told on standard output; anything else is an error
+      ! tables that differ are printed on standard output; anything else is an error
       if (.not. is_ok(status) .and. comparison%n_differences == 0) call print_status(status, PROGRAM_NAME, command%json)
       if (status%code == STATUS_FILE .and. comparison%n_differences > 0) call print_status(status, PROGRAM_NAME, command%json)
       code = status%code
    end subroutine compare_tables
-
-   !> The name and version of the program, then compiler and libraries, a line each.
-   subroutine print_version()
-      type(string_t), allocatable :: lines(:)
-
-      if (has_mpi()) call name_libraries(.true.)
-      call version_lines(lines)
-      call print_line(PROGRAM_NAME//' '//PROGRAM_VERSION, output_unit)
-      call print_lines(lines, output_unit)
-   end subroutine print_version
 
    !> `atrito help`: a keyword, or one of the pages that are made of the tables.
    subroutine print_help(command, code)

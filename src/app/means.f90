@@ -32,8 +32,8 @@ contains
 
       code = STATUS_DECK
       if (stack_limit() >= 0 .and. stack_limit() < LEAST_STACK) then
-         call tell(command, SEVERITY_ERROR, 'E-MEMORY', 'the stack may have '//memory_text(stack_limit())//' (ulimit -s), '// &
-                   memory_text(LEAST_STACK)//' are needed')
+         call print_problem(command, SEVERITY_ERROR, 'E-MEMORY', 'the stack may have '//memory_text(stack_limit())// &
+                            ' (ulimit -s), '//memory_text(LEAST_STACK)//' are needed')
          return
       end if
       if (address_space_limit() >= 0) then
@@ -43,8 +43,8 @@ contains
       if (command%threads <= 1) return
       n = 1 + int(c_count_threads(int(command%threads - 1, c_int)), ip)
       if (n == command%threads) return
-      call tell(command, SEVERITY_WARNING, 'W-THREADS', 'the system gives '//to_text(n)//' of '//to_text(command%threads)// &
-                ' threads (ulimit -u, or the limit of a job); the results are the same')
+      call print_problem(command, SEVERITY_WARNING, 'W-THREADS', 'the system gives '//to_text(n)//' of '// &
+                         to_text(command%threads)//' threads (ulimit -u, or the limit of a job); the results are the same')
       command%threads = n
    end subroutine secure_means
 
@@ -60,12 +60,12 @@ contains
       if (has_buffers) then
          if (blas_buffer_bytes() > 0) call claim_blas_buffers(fits)
       else if (fits == 0) then
-         call tell(command, SEVERITY_ERROR, 'E-MEMORY', 'the linear algebra needs '//memory_text(bytes_of(1_ip))// &
-                   ' of address space to begin with; ulimit -v is '//memory_text(address_space_limit())//', and does not leave it')
+         call print_problem(command, SEVERITY_ERROR, 'E-MEMORY', 'the linear algebra needs '//memory_text(bytes_of(1_ip))// &
+                    ' of address space to begin with; ulimit -v is '//memory_text(address_space_limit())//', and does not leave it')
       else
-         call tell(command, SEVERITY_ERROR, 'E-MEMORY', to_text(command%threads)//' threads need '// &
-                   memory_text(bytes_of(command%threads))//' of address space to begin with; ulimit -v is '// &
-                   memory_text(address_space_limit())//', and does not leave it; --threads '//to_text(fits)//' fits')
+         call print_problem(command, SEVERITY_ERROR, 'E-MEMORY', to_text(command%threads)//' threads need '// &
+                            memory_text(bytes_of(command%threads))//' of address space to begin with; ulimit -v is '// &
+                            memory_text(address_space_limit())//', and does not leave it; --threads '//to_text(fits)//' fits')
       end if
 
    contains
@@ -78,7 +78,7 @@ contains
 
    end function has_buffers
 
-   subroutine tell(command, severity, id, text)
+   subroutine print_problem(command, severity, id, text)
       type(command_t), intent(in) :: command
       integer, intent(in) :: severity
       character(len=*), intent(in) :: id, text
@@ -89,6 +89,6 @@ contains
       message%file = PROGRAM_NAME
       message%text = text
       call print_message(message, command%json)
-   end subroutine tell
+   end subroutine print_problem
 
 end module atrito_means

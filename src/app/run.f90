@@ -63,12 +63,12 @@ contains
       type(restart_recorder_t) :: recorder
       type(frame_spool_t), target :: frames
       type(status_t) :: status
-      integer(ip) :: told
+      integer(ip) :: n_printed
 
       call forget_inputs()
       call take_threads(command)                    ! the other ranks have nothing to do yet
       reporter%quiet = command%quiet .or. command%json
-      call load_model(command, reporter, model, told, code, keeps_deck=.true.)
+      call load_model(command, reporter, model, n_printed, code, keeps_deck=.true.)
       if (code == STATUS_OK) call prepare_observations(command, model, observations, code)
       if (code == STATUS_OK) then
          call check_folder(output_folder(command), status)
@@ -92,7 +92,7 @@ contains
          type(history_t) :: history
 
          call solve_history(model, solve_options(command), reporter, history, status, store, recorder, observations, frames)
-         call print_messages(command%quiet, told + 1, command%json)
+         call print_messages(command%quiet, n_printed + 1, command%json)
          associate (n => last_frame(history))
             if (n > 0) call agree_on_outcome(status, history%frames(n), history%ending%is_early)
             if (.not. is_ok(status)) call print_status(status, model%deck_path, command%json)
@@ -185,11 +185,11 @@ contains
       type(page_t) :: page
       type(string_t), allocatable :: written(:), pictures(:)
       character(len=:), allocatable :: folder
-      integer(ip) :: told
+      integer(ip) :: n_printed
 
       folder = output_folder(command)
       call report_progress(reporter, 'write '//folder)
-      told = count_messages()
+      n_printed = count_messages()
       ! not allocated: an optional argument that is not there
       if (command%plot) pictures = plot_names(model, history)
       call claim_folder(folder, claim, status, silent=command%json)
@@ -208,20 +208,20 @@ contains
       end if
       if (command%report) call make_run_report(command, model, history, written, pictures)
       call release_folder(claim)
-      call print_messages(command%quiet, told + 1, command%json)
+      call print_messages(command%quiet, n_printed + 1, command%json)
       if (command%quiet) return
       call compose_summary(model, history, folder, written, page, pictures)
       call print_page(page, output_unit)
    end subroutine write_run
 
-   !> Reads a deck and builds its model. All messages are told; errors of the deck give STATUS_DECK.
-   subroutine load_model(command, reporter, model, told, code, only_errors, keeps_deck)
+   !> Reads a deck and builds its model. All messages are printed; errors of the deck give STATUS_DECK.
+   subroutine load_model(command, reporter, model, n_printed, code, only_errors, keeps_deck)
       type(command_t), intent(in) :: command
       type(reporter_t), intent(in) :: reporter
       type(model_t), intent(out) :: model
-      integer(ip), intent(out) :: told              !< messages printed so far
+      integer(ip), intent(out) :: n_printed         !< messages printed so far
       integer, intent(out) :: code
-      logical, intent(in), optional :: only_errors  !< the others of this deck have been told
+      logical, intent(in), optional :: only_errors  !< the others of this deck have been printed
       logical, intent(in), optional :: keeps_deck   !< as it is run, in the model; left out: .false.
       type(deck_t) :: deck
       type(status_t) :: status
@@ -231,7 +231,7 @@ contains
       call start_phase('read')
       call read_deck(command%names(1)%s, command%settings, deck, status)
       call stop_phase('read')
-      told = 0
+      n_printed = 0
       code = STATUS_DECK
       if (is_ok(status) .or. status%code == STATUS_DECK) then
          call start_phase('mesh')
@@ -242,7 +242,7 @@ contains
          silent = .false.
          if (present(only_errors)) silent = only_errors .and. count_messages(SEVERITY_ERROR) == 0
          if (.not. silent) call print_messages(command%quiet, 1_ip, command%json)
-         told = count_messages()
+         n_printed = count_messages()
          if (count_messages(SEVERITY_ERROR) > 0) return
          if (is_ok(status) .and. .not. has_state(model, command%element)) then
             call set_status(status, STATUS_USAGE, '--elements '//trim(command%element)// &
@@ -256,7 +256,7 @@ contains
       if (.not. is_ok(status)) call print_status(status, command%names(1)%s, command%json)
    end subroutine load_model
 
-   !> The model of a command of which nothing is told. ok: its deck has no errors.
+   !> The model of a command of which nothing is printed. ok: its deck has no errors.
    subroutine read_model(command, model, ok)
       type(command_t), intent(in) :: command
       type(model_t), intent(out) :: model
@@ -271,7 +271,7 @@ contains
       ok = count_messages(SEVERITY_ERROR) == 0
    end subroutine read_model
 
-   !> Reads the expressions of --observe. code: STATUS_USAGE for one that is wrong, which is told.
+   !> Reads the expressions of --observe. code: STATUS_USAGE for one that is wrong, which is printed.
    subroutine prepare_observations(command, model, observations, code)
       type(command_t), intent(in) :: command
       type(model_t), intent(in) :: model

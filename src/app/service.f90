@@ -21,6 +21,8 @@ contains
    !> Comes back when nothing more is wanted.
    subroutine serve()
       type(buffer_t) :: request
+      type(command_t) :: command
+      type(status_t) :: status
       integer(ip) :: service
 
       do
@@ -37,27 +39,14 @@ contains
          case (SERVICE_MEMORY)
             call serve_memory()
          case (SERVICE_RUNS)
-            call serve_runs(request)
+            call take_request(request, command)
+            call confine_command(command, status)   ! rank 0 has told what is wrong
+            if (command%task == TASK_SWEEP) call serve_sweep(command)
+            if (command%task == TASK_STUDY) call serve_study(command)
          case default
             error stop 'atrito_service: an unknown service is wanted'
          end select
       end do
    end subroutine serve
-
-   !> The runs of a sweep or a study.
-   subroutine serve_runs(request)
-      type(buffer_t), intent(inout) :: request
-      type(command_t) :: command
-      type(status_t) :: status
-
-      call take_request(request, command)
-      call confine_command(command, status)         ! rank 0 has told what is wrong
-      select case (command%task)
-      case (TASK_SWEEP)
-         call serve_sweep(command)
-      case (TASK_STUDY)
-         call serve_study(command)
-      end select
-   end subroutine serve_runs
 
 end module atrito_service

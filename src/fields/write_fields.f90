@@ -50,6 +50,7 @@ contains
       type(string_t) :: names(2)
       type(string_t), allocatable :: lines(:)
       type(status_t) :: of_text
+      type(origin_t) :: origin
       character(len=:), allocatable :: path
       integer(ip), allocatable :: due(:)
       integer :: i
@@ -61,9 +62,18 @@ contains
       call create_hdf5(path, set%folder//'/'//names(1)%s, .false., file)
       call open_text(set, names(2)%s, text)
       call begin_xdmf(PROGRAM_NAME//' '//PROGRAM_VERSION, warning_of(history), lines)
-      call put_origin(file, model, history)
+      origin = origin_of(model, history)
+      call put_attribute(file, '/', 'program', PROGRAM_NAME//' '//PROGRAM_VERSION)
+      call put_attribute(file, '/', 'deck', origin%deck)
+      call put_attribute(file, '/', 'heading', join(origin%heading, achar(10)))
+      call put_attribute(file, '/', 'converged', merge(0_ip, 1_ip, origin%not_converged))
+      if (origin%not_converged) call put_attribute(file, '/', 'NOT CONVERGED', warning_of(history))
       call put_mesh(file, model%mesh, mesh_grids)
-      call put_increments(file, history, due)
+      associate (frames => history%frames(due))        ! which increments there are, and at what time: a row each
+         call put_integers(file, '/increments/step', 'number of the step', frames%step)
+         call put_integers(file, '/increments/increment', 'number of the increment in its step', frames%increment)
+         call put_rows(file, '/increments/time', 'time of the history', '-', reshape(frames%time, [1, size(due)]))
+      end associate
       do i = 1, size(due)
          call view_frame(history, due(i), results)
          frame%grids = mesh_grids
@@ -110,21 +120,6 @@ contains
       list = pack([(i, i=1, n)], is_in)
    end function due_frames
 
-   !> The attributes of the whole file.
-   subroutine put_origin(file, model, history)
-      type(hdf5_file_t), intent(inout) :: file
-      type(model_t), intent(in) :: model
-      type(history_t), intent(in) :: history
-      type(origin_t) :: origin
-
-      origin = origin_of(model, history)
-      call put_attribute(file, '/', 'program', PROGRAM_NAME//' '//PROGRAM_VERSION)
-      call put_attribute(file, '/', 'deck', origin%deck)
-      call put_attribute(file, '/', 'heading', join(origin%heading, achar(10)))
-      call put_attribute(file, '/', 'converged', merge(0_ip, 1_ip, origin%not_converged))
-      if (origin%not_converged) call put_attribute(file, '/', 'NOT CONVERGED', warning_of(history))
-   end subroutine put_origin
-
    !> Why a run did not converge, or where its history ended; '' when all went well.
    function warning_of(history) result(text)
       type(history_t), intent(in) :: history
@@ -141,19 +136,6 @@ contains
          if (allocated(last%verdict)) text = text//': '//last%verdict
       end associate
    end function warning_of
-
-   !> Which increments there are, and at what time: a row each.
-   subroutine put_increments(file, history, due)
-      type(hdf5_file_t), intent(inout) :: file
-      type(history_t), intent(in) :: history
-      integer(ip), intent(in) :: due(:)                !< places of the frames
-
-      associate (frames => history%frames(due))
-         call put_integers(file, '/increments/step', 'number of the step', frames%step)
-         call put_integers(file, '/increments/increment', 'number of the increment in its step', frames%increment)
-         call put_rows(file, '/increments/time', 'time of the history', '-', reshape(frames%time, [1, size(due)]))
-      end associate
-   end subroutine put_increments
 
    !> The fields of one increment, into its own group.
    subroutine put_frame(file, model, results, frame)

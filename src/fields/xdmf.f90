@@ -153,11 +153,7 @@ contains
 
       line = '<DataItem Dimensions="'//to_text(sizes(1))
       if (sizes(2) > 1) line = line//' '//to_text(sizes(2))
-      if (is_real) then
-         line = line//'" NumberType="Float" Precision="8"'
-      else
-         line = line//'" NumberType="Int" Precision="4"'
-      end if
+      line = line//'" '//trim(merge('NumberType="Float" Precision="8"', 'NumberType="Int" Precision="4"  ', is_real))
       line = line//' Format="HDF">'//xml_text(data_file)//':'//path//'</DataItem>'
    end function data_item
 

@@ -237,7 +237,10 @@ contains
       end do
    end subroutine run_with_room
 
-   !> The status, and the weakest unknown where there is no factor, from what MUMPS says.
+   !> The status, and the weakest unknown where there is no factor, from what MUMPS says. A pivot that is negative, or no larger
+   !> than the rounding errors of the elimination (smallest_ratio of the scaled diagonal, which is about 1), is none. Where MUMPS
+   !> could not finish the factor, the matrix is factored once more with its diagonal raised by SHIFT, which leaves its softest
+   !> motion as it is.
    subroutine judge_pivots(system, values, status)
       type(mumps_system_t), intent(inout) :: system
       real(wp), intent(inout) :: values(:)
@@ -271,7 +274,9 @@ contains
       end associate
    end subroutine judge_failure
 
-   !> By inverse iteration. 0 where the matrix has no factor.
+   !> The unknown that moves most in the softest motion of a matrix that is singular but for round-off, by inverse iteration: x <-
+   !> K^-1 x, three times from a vector without symmetry. Each time the eigenvector of the smallest eigenvalue grows against the
+   !> others by the ratio of their eigenvalues to it. 0 where the matrix has no factor.
    subroutine find_weakest(system)
       type(mumps_system_t), intent(inout) :: system
       integer(ip) :: i

@@ -75,7 +75,7 @@ contains
       call forecast_ranks(data, size(ranks, kind=ip), growth)
       short = find_shortage(ranks, growth, limit)
       scene%memory = max(scene%peak_before, ranks(0)%held + growth(0))
-      if (short%is_there) call tell(data, scene, who_text(ranks, short), short, status)
+      if (short%is_there) call add_shortage(data, scene, who_text(ranks, short), short, status)
    end subroutine check_ranks
 
    !> Asks all ranks.
@@ -218,7 +218,7 @@ contains
       together = left + min(held, huge(left) - left)
    end function together
 
-   subroutine tell(data, scene, who, short, status)
+   subroutine add_shortage(data, scene, who, short, status)
       class(scene_data_t), intent(in) :: data
       type(scene_t), intent(in) :: scene
       character(len=*), intent(in) :: who            !< e.g. 'rank 1 of 2 needs'
@@ -237,7 +237,7 @@ contains
       message%expected = 'a coarser mesh or fewer contact points, or more memory'
       if (short%first > 0 .or. short%n > 1) message%expected = 'more ranks, '//message%expected//' for each'
       call add_message(message)
-   end subroutine tell
+   end subroutine add_shortage
 
    !> 'rank 1 (host node7) of 4 needs'
    function who_text(ranks, short) result(text)

@@ -94,7 +94,7 @@ contains
             next = next + 1
             call tasks%begin(task_of(rank))
             call system_clock(given(rank))
-            if (rank > 0) call tell(task_of(rank), rank)
+            if (rank > 0) call send_number(task_of(rank), rank)
             if (rank == 0) call begin_own(tasks, process, task_of(0))
          end do
          if (all(task_of == 0)) exit
@@ -111,19 +111,19 @@ contains
       end do
       times%longest_idle = seconds_from(began) - minval(busy)
       do rank = 1, rank_count() - 1
-         call tell(LAST_TASK, rank)
+         call send_number(LAST_TASK, rank)
       end do
       call end_task_process(process)
    end subroutine hand_out
 
    !> A number for another rank.
-   subroutine tell(number, rank)
+   subroutine send_number(number, rank)
       integer(ip), intent(in) :: number, rank
       type(buffer_t) :: buffer
 
       call put(buffer, number)
       call send_buffer(buffer, rank)
-   end subroutine tell
+   end subroutine send_number
 
    !> What came of a task, of another rank or of rank 0's own.
    subroutine look_for_outcome(tasks, process, own_task, outcome, rank, is_done)

@@ -56,7 +56,7 @@ contains
       integer(ip), intent(in) :: part_of_element(:)  !< (n_elements) 1..n_parts
       integer(ip), intent(in) :: n_parts
       type(scene_cut_t), intent(out) :: cut
-      integer(ip) :: home(fem%mesh%n_nodes), e, i
+      integer(ip) :: home(fem%mesh%n_nodes), part(1, line%n), node(numbering%k), e, i
 
       cut%n_parts = n_parts
       home = 0
@@ -64,33 +64,23 @@ contains
          home(fem%mesh%nodes(:fem%mesh%shape(e), e)) = part_of_element(e)
       end do
       call list_holders(n_parts, reshape(part_of_element, [1_ip, fem%mesh%n_elements]), cut%first_element, cut%element)
-      call share_points(rows, line, home, n_parts, cut)
+      part = 0
+      do i = 1, line%n
+         if (line%normal(i) > 0 .or. line%tangential(i) > 0) part(1, i) = part_of_point(rows, i, home)
+      end do
+      call list_holders(n_parts, part, cut%first_point, cut%point)
       call find_shared(fem, rows, numbering, cut)
       call place_pulls(fem, numbering, part_of_element, cut)
-      call place_springs(fem, numbering, home, cut)
+      allocate (cut%spring_part(numbering%k), source=0_ip)
       allocate (cut%spring_stiffness(numbering%k), source=0.0_wp)
+      node = spring_nodes(fem, numbering)
       do i = 1, numbering%k
+         if (node(i) > 0) cut%spring_part(i) = home(node(i))
          if (numbering%spring(i) > 0) cut%spring_stiffness(i) = diagonal(numbering%spring(i))
       end do
       call number_shared(fem, numbering, cut)
       allocate (cut%place(fem%mesh%n_nodes + fem%bodies%n), cut%unknown_at(numbering%n), source=0_ip)
    end subroutine plan_cut
-
-   !> The parts of the points that have a row.
-   subroutine share_points(rows, line, home, n_parts, cut)
-      type(contact_rows_t), intent(in) :: rows
-      type(contact_line_t), intent(in) :: line
-      integer(ip), intent(in) :: home(:)             !< (n_nodes) part of the first element there; 0: none
-      integer(ip), intent(in) :: n_parts
-      type(scene_cut_t), intent(inout) :: cut
-      integer(ip) :: part(1, line%n), j
-
-      part = 0
-      do j = 1, line%n
-         if (line%normal(j) > 0 .or. line%tangential(j) > 0) part(1, j) = part_of_point(rows, j, home)
-      end do
-      call list_holders(n_parts, part, cut%first_point, cut%point)
-   end subroutine share_points
 
    !> The part of the first slave node with elements, else of any node; 1 where rigid bodies meet alone.
    pure integer(ip) function part_of_point(rows, j, home) result(part)
@@ -160,20 +150,6 @@ contains
          if (.not. fem%bodies%list(b)%is_rigid) cut%pull_part(b) = part_of_element(fem%bodies%list(b)%elements(1))
       end do
    end subroutine place_pulls
-
-   pure subroutine place_springs(fem, numbering, home, cut)
-      type(fem_t), intent(in) :: fem
-      type(scene_numbering_t), intent(in) :: numbering
-      integer(ip), intent(in) :: home(:)
-      type(scene_cut_t), intent(inout) :: cut
-      integer(ip) :: node(numbering%k), s
-
-      node = spring_nodes(fem, numbering)
-      allocate (cut%spring_part(numbering%k), source=0_ip)
-      do s = 1, numbering%k
-         if (node(s) > 0) cut%spring_part(s) = home(node(s))
-      end do
-   end subroutine place_springs
 
    !> The node of each spring; 0 where there is none.
    pure function spring_nodes(fem, numbering) result(node)

@@ -11,7 +11,6 @@ module atrito_scene_part
    use atrito_assembled_scene, only: assembled_scene_t, assemble_part
    use atrito_assembly, only: fem_t
    use atrito_bodies, only: bodies_t
-   use atrito_constraint_rows, only: constraint_rows_t
    use atrito_contact_line, only: contact_line_t
    use atrito_contact_rows, only: contact_rows_t
    use atrito_kinds, only: ip, wp

@@ -8,7 +8,7 @@
 !> rank, so that what lies between them is not shared.
 module atrito_scene_shares
    use atrito_assembly, only: fem_t
-   use atrito_kinds, only: ip, lp, wp
+   use atrito_kinds, only: ip, wp
    use atrito_multifrontal, only: elimination_t
    use atrito_scene_elimination, only: scene_numbering_t
    implicit none (type, external)
@@ -51,6 +51,11 @@ contains
    end subroutine share_elements
 
    !> Whose the supernodes of the subtrees are; -1: above them.
+   !>
+   !> The weight of a supernode is the number of unknowns of the subtree below it, itself included. The subtrees begin as whole
+   !> trees. As long as some rank has more than (1 + MARGIN) of the mean, the heaviest subtree is replaced by those of its
+   !> children, and its own supernode goes to those that the ranks share; a subtree lighter than LEAST_CUT of the mean is not cut
+   !> any more.
    pure subroutine share_supernodes(elimination, n_ranks, rank_of)
       type(elimination_t), intent(in) :: elimination
       integer(ip), intent(in) :: n_ranks
@@ -93,7 +98,8 @@ contains
 
    end subroutine share_supernodes
 
-   !> Subtrees to ranks in their order: each where its middle lies in the sum of all.
+   !> Subtrees to ranks in their order: with the weights w_s and their sum W, subtree s goes to the rank floor(n (sum of w before s
+   !> + w_s/2)/W), where its middle lies in the sum of all.
    pure subroutine give_to_ranks(n_ranks, weight, is_root, rank_of)
       integer(ip), intent(in) :: n_ranks
       real(wp), intent(in) :: weight(:)

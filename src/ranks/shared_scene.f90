@@ -233,6 +233,11 @@ contains
       self%is_stale = .not. is_ok(status)
    end subroutine factor_shared
 
+   !> Solves A x = f in three rounds (the equations are those of atrito_part_service). Each part eliminates its interior unknowns
+   !> from its own loads; f at the shared unknowns, which several parts have, is added once, here, so what is handed to the parts
+   !> has zeros there. The sum of what the parts leave is the right-hand side of the Schur complement, whose solution they get back
+   !> to find their interior unknowns. Ranks are asked from the last to the first, which works itself while the others do, and
+   !> heard from the first to the last, so that sums do not depend on who is quick.
    subroutine solve_shared(self, x)
       class(shared_scene_t), intent(in) :: self
       real(wp), intent(inout) :: x(:)

@@ -5,11 +5,11 @@ module atrito_frame_tables
    use atrito_kinds, only: ip, wp
    use atrito_plane_state, only: STRESS_NAMES
    use atrito_strings, only: string_t
-   use atrito_model, only: model_t, requests_t, is_due
+   use atrito_model, only: model_t, is_due
    use atrito_results, only: results_t, contact_result_t
    use atrito_resultant_report, only: has_resultants, build_resultants
    use atrito_rigid_report, only: build_rigid_table
-   use atrito_row_tables, only: has_rows, build_row_table
+   use atrito_row_tables, only: has_rows, build_ties, build_equations, build_springs
    use atrito_summary, only: scales_t, pair_count
    use atrito_table, only: table_t, begin_step_table, add_reals, add_real_columns, add_field, add_integers, add_integer_field, &
                            add_words, clear_small, one_word
@@ -20,9 +20,9 @@ module atrito_frame_tables
    !> The reals of contact.tab, as copy_fields has them. The column status stands among them.
    integer, parameter :: BEFORE_STATUS = 8
    character(len=17), parameter :: CONTACT_NAMES(*) = [character(len=17) :: 's', 'x', 'y', 'gap', 'pressure', 'weighted_pressure', &
-                                                       'shear', 'slip', 'weight', 'slip_increment']
+                                                                                        'shear', 'slip', 'weight', 'slip_increment']
    character(len=5), parameter :: CONTACT_DIMENSIONS(*) = [character(len=5) :: 'L', 'L', 'L', 'L', 'F/L^2', 'F/L^2', 'F/L^2', 'L', &
-                                                           'L^2', 'L']
+                                                                                                                         'L^2', 'L']
 
 contains
 
@@ -32,18 +32,20 @@ contains
       type(results_t), intent(in) :: frame
       character(len=*), intent(in) :: name
       logical, intent(in) :: is_last
+      character(len=*), parameter :: ALONE(7) = [character(len=12) :: 'nodes', 'reactions', 'stress', 'nodal_stress', 'bodies', &
+                                                                                                               'joints', 'sections']
+      integer(ip) :: frequencies(0:size(ALONE))
 
       has = has_table(model, frame, name)
-      if (is_last .or. is_of_all(name) .or. .not. has) return
-      has = is_due(frequency_of(model%steps(frame%step)%requests, name), frame%increment, frame%ends_step)
+      if (name == 'extremes' .or. name == 'resultants') return      ! they have rows of every frame
+      if (is_last .or. .not. has) return
+      associate (every => model%steps(frame%step)%requests%every)
+         ! what ties, equations and springs transmit and rigid surfaces do is printed as often as the contact
+         frequencies = [every%contact, every%nodes, every%reactions, every%stress, every%nodal_stress, every%bodies, every%joints, &
+                        every%sections]
+      end associate
+      has = is_due(frequencies(findloc(ALONE == name, .true., dim=1)), frame%increment, frame%ends_step)
    end function has_frame_rows
-
-   !> Whether a table has rows of every frame.
-   pure logical function is_of_all(name)
-      character(len=*), intent(in) :: name
-
-      is_of_all = name == 'extremes' .or. name == 'resultants'
-   end function is_of_all
 
    !> Whether a frame can have rows in a table, and its step asks for them.
    pure logical function has_table(model, frame, name)
@@ -51,7 +53,7 @@ contains
       type(results_t), intent(in) :: frame
       character(len=*), intent(in) :: name
       character(len=*), parameter :: NAMES(11) = [character(len=12) :: 'contact', 'nodes', 'reactions', 'stress', 'nodal_stress', &
-                                                  'bodies', 'joints', 'sections', 'rigid', 'extremes', 'resultants']
+                                                                  'bodies', 'joints', 'sections', 'rigid', 'extremes', 'resultants']
       logical :: is_there(size(NAMES))
       integer :: i
 
@@ -66,21 +68,6 @@ contains
       if (i > 0) has_table = is_there(i)
       if (i == 0) has_table = has_rows(model, frame, name)
    end function has_table
-
-   !> How often a table is printed. What ties, equations and springs transmit and rigid surfaces do goes with the contact.
-   pure integer(ip) function frequency_of(requests, name) result(every)
-      type(requests_t), intent(in) :: requests
-      character(len=*), intent(in) :: name
-      character(len=*), parameter :: ALONE(7) = [character(len=12) :: 'nodes', 'reactions', 'stress', 'nodal_stress', 'bodies', &
-                                                 'joints', 'sections']
-      integer(ip) :: frequencies(0:size(ALONE))
-
-      associate (every_of => requests%every)
-         frequencies = [every_of%contact, every_of%nodes, every_of%reactions, every_of%stress, every_of%nodal_stress, &
-                        every_of%bodies, every_of%joints, every_of%sections]
-      end associate
-      every = frequencies(findloc(ALONE == name, .true., dim=1))
-   end function frequency_of
 
    !> The rows of a frame in a table; the table may point at the fields of model and frame.
    subroutine build_frame_table(model, frame, scales, own, name, table)
@@ -112,8 +99,12 @@ contains
          call build_joints(frame, scales, own, table)
       case ('sections')
          call build_sections(frame, scales, table)
-      case default
-         call build_row_table(model, frame, scales, name, table)
+      case ('ties')
+         call build_ties(model, frame, scales, table)
+      case ('equations')
+         call build_equations(model, frame, scales, table)
+      case ('springs')
+         call build_springs(model, frame, scales, table)
       end select
       call add_integers(table, 'increment', [frame%increment])
    end subroutine build_frame_table

@@ -9,7 +9,7 @@ module atrito_history_tables
    use atrito_table, only: table_t, begin_table, add_reals, add_integers, add_words, abs_is_below, ZERO_SHARE
    implicit none (type, external)
    private
-   public :: build_summary, join_remarks, build_history, build_iterations
+   public :: build_summary, note_quantities, dimension_remarks, build_history, build_iterations
 
    !> Of quantities, in the order in which summary.tab has them.
    character(len=8), parameter :: DIMENSIONS(5) = [character(len=8) :: 'L', 'L^2', 'F', 'F/L^2', 'F L']
@@ -26,7 +26,6 @@ contains
       integer(ip), allocatable :: pair(:)
       type(string_t), allocatable :: names(:), values(:)
       integer(ip) :: i, n
-      integer :: j, k
 
       call list_quantities(frame, own, list, pair)
       n = size(list, kind=ip)
@@ -41,12 +40,6 @@ contains
       call add_words(table, 'quantity', '-', names, on_the_left=.true.)
       call add_words(table, 'value', 'mixed', values, on_the_left=.false.)
       call add_integers(table, 'increment', [frame%increment])
-      ! The dimensions of the column `value`, one comment line a dimension.
-      do k = 1, size(DIMENSIONS)
-         do j = 1, size(list)
-            if (list(j)%dimension == DIMENSIONS(k)) call note_name(mark_of(k), trim(list(j)%name), table%remarks)
-         end do
-      end do
    end subroutine build_summary
 
    subroutine list_quantities(frame, own, list, pair)
@@ -83,62 +76,40 @@ contains
       end if
    end function quantity_text
 
-   pure function mark_of(i) result(mark)
-      integer, intent(in) :: i                      !< place in DIMENSIONS
-      character(len=:), allocatable :: mark
+   !> Notes the names of a frame's quantities by their dimensions, each once, in the order in which they come.
+   subroutine note_quantities(frame, own, names)
+      type(results_t), intent(in) :: frame
+      type(scales_t), intent(in) :: own(:)          !< of each pair
+      type(string_t), allocatable, intent(inout) :: names(:) !< (dimensions) with blanks before each; not allocated: none so far
+      type(quantity_t), allocatable :: list(:)
+      integer(ip), allocatable :: pair(:)
+      integer :: i, k
 
-      mark = '['//trim(DIMENSIONS(i))//']:'
-   end function mark_of
+      if (.not. allocated(names)) then
+         allocate (names(size(DIMENSIONS)))
+         do k = 1, size(names)
+            names(k)%s = ''
+         end do
+      end if
+      call list_quantities(frame, own, list, pair)
+      do i = 1, size(list)
+         k = findloc(DIMENSIONS == list(i)%dimension, .true., dim=1)
+         if (k == 0) cycle
+         if (index(names(k)%s//' ', ' '//trim(list(i)%name)//' ') == 0) names(k)%s = names(k)%s//' '//trim(list(i)%name)
+      end do
+   end subroutine note_quantities
 
-   !> Puts a name behind its dimension, once.
-   pure subroutine note_name(mark, name, remarks)
-      character(len=*), intent(in) :: mark, name
-      type(string_t), allocatable, intent(inout) :: remarks(:)
+   !> The dimensions of the column `value`, one comment line a dimension.
+   pure function dimension_remarks(names) result(remarks)
+      type(string_t), intent(in) :: names(:)        !< by note_quantities
+      type(string_t), allocatable :: remarks(:)
       integer :: k
 
-      do k = 1, size(remarks)
-         if (index(remarks(k)%s, mark//' ') /= 1) cycle
-         if (index(remarks(k)%s//' ', ' '//name//' ') == 0) remarks(k)%s = remarks(k)%s//' '//name
-         return
-      end do
-      call append_string(remarks, mark//' '//name)
-   end subroutine note_name
-
-   !> The remarks of summaries as one: of each dimension the names in the order in which they come.
-   subroutine join_remarks(remarks, more)
-      type(string_t), allocatable, intent(inout) :: remarks(:) !< not allocated: none so far
-      type(string_t), intent(in) :: more(:)
-      type(string_t), allocatable :: before(:)
-      integer :: i
-
-      allocate (before(0))
-      if (allocated(remarks)) before = remarks
-      if (allocated(remarks)) deallocate (remarks)
       allocate (remarks(0))
-      do i = 1, size(DIMENSIONS)
-         call take(before)
-         call take(more)
+      do k = 1, size(names)
+         if (len(names(k)%s) > 0) call append_string(remarks, '['//trim(DIMENSIONS(k))//']:'//names(k)%s)
       end do
-
-   contains
-
-      subroutine take(lines)
-         type(string_t), intent(in) :: lines(:)
-         character(len=:), allocatable :: rest
-         integer :: k, blank
-
-         do k = 1, size(lines)
-            if (index(lines(k)%s, mark_of(i)//' ') /= 1) cycle
-            rest = lines(k)%s(len(mark_of(i)) + 2:)//' '
-            do while (len(rest) > 0)
-               blank = index(rest, ' ')
-               call note_name(mark_of(i), rest(:blank - 1), remarks)
-               rest = rest(blank + 1:)
-            end do
-         end do
-      end subroutine take
-
-   end subroutine join_remarks
+   end function dimension_remarks
 
    !> A row an increment and pair, and what is observed; without a pair a row an increment with what is observed.
    subroutine build_history(history, length, table)

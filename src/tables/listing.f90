@@ -14,7 +14,7 @@ module atrito_listing
    use atrito_increments, only: increment_t, list_increments, has_history, increment_name, ending_text, time_text
    use atrito_libraries, only: library_t, list_libraries
    use atrito_model, only: model_t
-   use atrito_results, only: unsettled_t, results_t, history_t, scene_t, balance_t, iteration_t, last_frame, view_frame
+   use atrito_results, only: unsettled_t, results_t, history_t, scene_t, balance_t, last_frame, view_frame
    use atrito_page, only: page_t, begin_page, add_line, add_blank, add_rule, add_heading, add_entry, add_paragraph, left, right, &
                           number, bytes
    use atrito_model_report, only: describe_model
@@ -249,7 +249,12 @@ contains
       call add_line(page, right('outer', 8)//right('inner', 6)//right('open', 7)//right('stick', 7)//right('slip', 7)// &
                     right('d displ.', 14)//right('d pressure', 14)//right('d friction', 14)//right('residual', 14))
       do i = 1, size(results%iterations)
-         call add_line(page, iteration_line(results%iterations(i)))
+         associate (row => results%iterations(i))
+            call add_line(page, right(to_text(row%outer), 8)//right(to_text(row%inner), 6)//right(to_text(row%open), 7)// &
+                          right(to_text(row%stick), 7)//right(to_text(row%slip), 7)// &
+                          right(number(row%change_displacement, 4), 14)//right(number(row%change_pressure, 4), 14)// &
+                          right(number(row%change_friction, 4), 14)//right(number(row%residual, 4), 14))
+         end associate
       end do
       if (allocated(results%unsettled)) call add_unsettled(page, results%unsettled)
    end subroutine add_iterations
@@ -273,16 +278,6 @@ contains
          end associate
       end do
    end subroutine add_unsettled
-
-   pure function iteration_line(row) result(text)
-      type(iteration_t), intent(in) :: row
-      character(len=:), allocatable :: text
-
-      text = right(to_text(row%outer), 8)//right(to_text(row%inner), 6)//right(to_text(row%open), 7)// &
-             right(to_text(row%stick), 7)//right(to_text(row%slip), 7)//right(number(row%change_displacement, 4), 14)// &
-             right(number(row%change_pressure, 4), 14)//right(number(row%change_friction, 4), 14)// &
-             right(number(row%residual, 4), 14)
-   end function iteration_line
 
    !> The pairs of each increment whose contact is printed.
    subroutine add_contact(page, model, history, own)
@@ -346,6 +341,7 @@ contains
       type(scales_t), intent(in) :: scales
       type(quantity_t), allocatable :: list(:)
       type(balance_t) :: b
+      real(wp) :: total(2)
       integer :: i
 
       b = results%balance
@@ -360,7 +356,9 @@ contains
       call add_line(page, force_line('reactions of the supports', b%reactions)//right(number(b%reaction_moment, DIGITS), 20))
       call add_line(page, force_line('from rigid surfaces', -b%rigid))
       if (any(abs(b%rows) > 0.0_wp)) call add_line(page, force_line('from springs and equations', -b%rows))
-      call add_line(page, force_line('sum', balance_sum(b)))
+      total = b%applied + b%reactions - b%rigid - b%rows     ! equilibrium makes it zero; rounding of its parts is nothing
+      where (abs(total) < ZERO_SHARE*(abs(b%applied) + abs(b%reactions) + abs(b%rigid) + abs(b%rows))) total = 0.0_wp
+      call add_line(page, force_line('sum', total))
       call describe_resultants(page, model, results, scales)
       call describe_rigid_bodies(page, results)
       call add_blank(page)
@@ -369,21 +367,10 @@ contains
          if (list(i)%is_count .or. list(i)%name == 'error_estimate_percent') cycle
          call add_quantity(page, list(i))
       end do
-      if (results%converged .and. results%law_holds) then
-         call add_entry(page, 'contact law, checked anew', 'holds at every point')
-      else
-         call add_entry(page, 'contact law, checked anew', 'DOES NOT HOLD, or was not reached')
-      end if
+      call add_entry(page, 'contact law, checked anew', trim(merge('holds at every point             ', &
+                                                                   'DOES NOT HOLD, or was not reached', &
+                                                                   results%converged .and. results%law_holds)))
    end subroutine add_equilibrium
-
-   !> What equilibrium makes zero; rounding of the parts is written as 0.
-   pure function balance_sum(b) result(total)
-      type(balance_t), intent(in) :: b
-      real(wp) :: total(2)
-
-      total = b%applied + b%reactions - b%rigid - b%rows
-      where (abs(total) < ZERO_SHARE*(abs(b%applied) + abs(b%reactions) + abs(b%rigid) + abs(b%rows))) total = 0.0_wp
-   end function balance_sum
 
    pure function force_line(name, f) result(text)
       character(len=*), intent(in) :: name

@@ -10,7 +10,7 @@ module atrito_model_report
    use atrito_mesh, only: is_revolved
    use atrito_orthotropy, only: SPATIAL, inverse_of
    use atrito_sets, only: set_count
-   use atrito_model, only: model_t, section_t, step_t, requested_t, increments_t, interaction_t, FORMULATION_NAME, FRICTION_NAME, &
+   use atrito_model, only: model_t, step_t, requested_t, increments_t, interaction_t, FORMULATION_NAME, FRICTION_NAME, &
                            KERNEL_NAME, FRICTION_NONE, FRICTION_NONLOCAL, LOAD_TRACTION, SURFACE_SEGMENTS
    use atrito_page, only: page_t, add_line, add_blank, add_entry, left, right, number, plural
    implicit none (type, external)
@@ -40,6 +40,8 @@ contains
    subroutine describe_counts(page, model)
       type(page_t), intent(inout) :: page
       type(model_t), intent(in) :: model
+      character(len=:), allocatable :: text
+      integer(ip) :: rigid
 
       call add_entry(page, 'nodes', to_text(model%mesh%n_nodes))
       call add_entry(page, 'elements', to_text(model%mesh%n_elements)//element_types(model))
@@ -47,7 +49,10 @@ contains
                                            ': each element of the deck is '//to_text(4_ip**model%levels)//' now')
       call add_entry(page, 'node sets, element sets', &
                      to_text(set_count(model%node_sets))//', '//to_text(set_count(model%element_sets)))
-      call add_entry(page, 'surfaces', surface_counts(model))
+      text = to_text(size(model%surfaces, kind=ip))
+      rigid = count(model%surfaces%kind == SURFACE_SEGMENTS, kind=ip)
+      if (rigid > 0) text = text//' ('//to_text(rigid)//' of rigid segments)'
+      call add_entry(page, 'surfaces', text)
       call add_entry(page, 'materials, sections', to_text(size(model%materials, kind=ip))//', '// &
                      to_text(size(model%sections, kind=ip)))
       call add_entry(page, 'contact pairs', to_text(size(model%pairs, kind=ip)))
@@ -71,19 +76,6 @@ contains
       end do
       if (len(text) > 0) text = ' ('//text(3:)//')'
    end function element_types
-
-   pure function surface_counts(model) result(text)
-      type(model_t), intent(in) :: model
-      character(len=:), allocatable :: text
-      integer(ip) :: i, rigid
-
-      rigid = 0
-      do i = 1, size(model%surfaces, kind=ip)
-         if (model%surfaces(i)%kind == SURFACE_SEGMENTS) rigid = rigid + 1
-      end do
-      text = to_text(size(model%surfaces, kind=ip))
-      if (rigid > 0) text = text//' ('//to_text(rigid)//' of rigid segments)'
-   end function surface_counts
 
    !> The instances of parts: what their numbers are here, and where they stand.
    subroutine describe_instances(page, model)
@@ -124,6 +116,7 @@ contains
    subroutine describe_materials(page, model)
       type(page_t), intent(inout) :: page
       type(model_t), intent(in) :: model
+      character(len=:), allocatable :: thickness, elastic
       integer(ip) :: elements(size(model%sections, kind=ip)), i
 
       elements = 0
@@ -136,13 +129,9 @@ contains
       call add_line(page, '   '//left('material', 24)//right('E [F/L^2]', 16)//right('mu', 12)//right('density', 16))
       do i = 1, size(model%materials, kind=ip)
          associate (material => model%materials(i))
-            if (material%is_orthotropic) then
-               call add_line(page, '   '//left(material%name, 24)//right('orthotropic', 16)//right('', 12)// &
-                             right(number(material%density, DIGITS), 16))
-            else
-               call add_line(page, '   '//left(material%name, 24)//right(number(material%young, DIGITS), 16)// &
-                             right(number(material%poisson, DIGITS), 12)//right(number(material%density, DIGITS), 16))
-            end if
+            elastic = right(number(material%young, DIGITS), 16)//right(number(material%poisson, DIGITS), 12)
+            if (material%is_orthotropic) elastic = right('orthotropic', 16)//right('', 12)
+            call add_line(page, '   '//left(material%name, 24)//elastic//right(number(material%density, DIGITS), 16))
          end associate
       end do
       if (any(model%materials%is_orthotropic)) call describe_orthotropic(page, model)
@@ -152,28 +141,23 @@ contains
                     left('material', 24)//'formulation')
       do i = 1, size(model%sections, kind=ip)
          associate (section => model%sections(i))
+            thickness = number(section%thickness, DIGITS)
+            if (section%is_tapered) thickness = 'of nodes'
             call add_line(page, '   '//left(section%elset, 24)//right(to_text(elements(i)), 16)// &
-                          right(thickness_text(section), 12)//'    '//left(model%materials(section%material)%name, 24)// &
+                          right(thickness, 12)//'    '//left(model%materials(section%material)%name, 24)// &
                           trim(FORMULATION_NAME(section%formulation)))
          end associate
       end do
    end subroutine describe_materials
 
-   !> The thickness of a section, or that it is the nodes'.
-   pure function thickness_text(section) result(text)
-      type(section_t), intent(in) :: section
-      character(len=:), allocatable :: text
-
-      text = number(section%thickness, DIGITS)
-      if (section%is_tapered) text = 'of nodes'
-   end function thickness_text
-
    !> Moduli and Poisson's ratios of orthotropic materials, and the axes of the sections that have them.
    subroutine describe_orthotropic(page, model)
       type(page_t), intent(inout) :: page
       type(model_t), intent(in) :: model
-      real(wp) :: s(SPATIAL, SPATIAL)
+      real(wp) :: s(SPATIAL, SPATIAL), moduli(7)
+      character(len=:), allocatable :: text
       integer(ip) :: i
+      integer :: k
 
       call add_blank(page)
       call add_line(page, '   '//left('orthotropic', 16)//right('E1', 12)//right('E2', 12)//right('E3', 12)//right('nu12', 12)// &
@@ -181,8 +165,12 @@ contains
       do i = 1, size(model%materials, kind=ip)
          if (.not. model%materials(i)%is_orthotropic) cycle
          s = inverse_of(model%materials(i)%stiffness)
-         call add_line(page, '   '//left(model%materials(i)%name, 16)//in_columns([1/s(1, 1), 1/s(2, 2), 1/s(3, 3), &
-                                                                  -s(1, 2)/s(1, 1), -s(1, 3)/s(1, 1), -s(2, 3)/s(2, 2), 1/s(4, 4)]))
+         moduli = [1/s(1, 1), 1/s(2, 2), 1/s(3, 3), -s(1, 2)/s(1, 1), -s(1, 3)/s(1, 1), -s(2, 3)/s(2, 2), 1/s(4, 4)]
+         text = ''
+         do k = 1, size(moduli)
+            text = text//right(number(moduli(k), DIGITS), 12)
+         end do
+         call add_line(page, '   '//left(model%materials(i)%name, 16)//text)
       end do
       do i = 1, size(model%sections, kind=ip)
          associate (section => model%sections(i))
@@ -193,17 +181,6 @@ contains
          end associate
       end do
    end subroutine describe_orthotropic
-
-   function in_columns(values) result(text)
-      real(wp), intent(in) :: values(:)
-      character(len=:), allocatable :: text
-      integer :: i
-
-      text = ''
-      do i = 1, size(values)
-         text = text//right(number(values(i), DIGITS), 12)
-      end do
-   end function in_columns
 
    subroutine describe_expansions(page, model)
       type(page_t), intent(inout) :: page
@@ -242,6 +219,7 @@ contains
       type(page_t), intent(inout) :: page
       type(model_t), intent(in) :: model
       integer(ip), intent(in), optional :: most      !< so many of the first; left out: all
+      character(len=:), allocatable :: title
       integer(ip) :: k, n
 
       n = size(model%steps, kind=ip)
@@ -251,7 +229,10 @@ contains
          end if
          if (n > 1) then
             call add_blank(page)
-            call add_line(page, '   step '//to_text(k)//step_title(model%steps(k)))
+            title = ''
+            if (allocated(model%steps(k)%title)) title = model%steps(k)%title
+            if (len(title) > 0) title = ': '//title
+            call add_line(page, '   step '//to_text(k)//title)
          end if
          call describe_increments(page, model%steps(k), n)
          call describe_overlaps(page, model, model%steps(k))
@@ -270,15 +251,6 @@ contains
       is_history = size(model%steps) > 1
       if (.not. is_history) is_history = model%steps(1)%increments%initial < model%steps(1)%increments%period
    end function is_history
-
-   pure function step_title(step) result(text)
-      type(step_t), intent(in) :: step
-      character(len=:), allocatable :: text
-
-      text = ''
-      if (.not. allocated(step%title)) return
-      if (len(step%title) > 0) text = ': '//step%title
-   end function step_title
 
    subroutine describe_increments(page, step, n_steps)
       type(page_t), intent(inout) :: page
@@ -345,6 +317,7 @@ contains
       type(model_t), intent(in) :: model
       integer(ip), intent(in) :: k                  !< the step
       type(force_t) :: concentrated, pressure, body
+      integer(ip) :: n_loads
 
       call load_resultants(model, concentrated, pressure, body, k)
       if (is_revolved(model%mesh)) then              ! the circle has no resultant along a radius, and no moment
@@ -354,7 +327,10 @@ contains
       end if
       call describe_references(page, model, k)
       call add_blank(page)
-      if (size(model%steps) > 1 .and. .not. has_loads(model%steps(k))) then
+      associate (step => model%steps(k))
+         n_loads = step%node_loads%n + step%element_loads%n + step%rigid_loads%n
+      end associate
+      if (size(model%steps) > 1 .and. n_loads == 0) then
          call add_entry(page, 'loads', 'none')
       else
          call add_line(page, '   '//left('loads, resultants', 24)//right('F1 [F]', 16)//right('F2 [F]', 16)// &
@@ -372,12 +348,6 @@ contains
                      number(maxval(model%steps(k)%heating), DIGITS)//' at the nodes, '// &
                      to_text(count(abs(model%steps(k)%heating) > 0.0_wp, kind=ip))//' not zero')
    end subroutine describe_loads
-
-   pure logical function has_loads(step)
-      type(step_t), intent(in) :: step
-
-      has_loads = step%node_loads%n + step%element_loads%n + step%rigid_loads%n > 0
-   end function has_loads
 
    subroutine add_force(page, name, force)
       type(page_t), intent(inout) :: page

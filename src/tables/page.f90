@@ -139,13 +139,17 @@ contains
       type(page_t), intent(inout) :: page
       character(len=*), intent(in) :: text
       integer, intent(in) :: margin                 !< blanks before each line
-      integer :: first, last, room
+      integer :: first, last, room, blank
 
       room = page%width - margin
       first = 1
       do while (first <= len_trim(text))
          last = len_trim(text)
-         if (last - first + 1 > room) last = last_break(text, first, first + room)
+         if (last - first + 1 > room) then           ! before the last blank, else at the full width
+            blank = index(text(first:first + room), ' ', back=.true.)
+            last = first + room - 1
+            if (blank > 1) last = first + blank - 2
+         end if
          call add_line(page, repeat(' ', margin)//text(first:last))
          first = last + 1
          do while (first < len_trim(text))
@@ -154,17 +158,6 @@ contains
          end do
       end do
    end subroutine add_paragraph
-
-   !> Where to break a text between two places: before the last blank, else at the full width.
-   pure integer function last_break(text, first, beyond) result(last)
-      character(len=*), intent(in) :: text
-      integer, intent(in) :: first, beyond
-      integer :: blank
-
-      blank = index(text(first:beyond), ' ', back=.true.)
-      last = beyond - 1
-      if (blank > 1) last = first + blank - 2
-   end function last_break
 
    !> Prints a page. A failure (a closed pipe, a full disk behind it) is nobody's error.
    subroutine print_page(page, unit)
@@ -262,11 +255,8 @@ contains
       character(len=*), intent(in) :: one, many
       character(len=:), allocatable :: text
 
-      if (n == 1_ip) then
-         text = '1 '//one
-      else
-         text = to_text(n)//' '//many
-      end if
+      text = to_text(n)//' '//many
+      if (n == 1_ip) text = '1 '//one
    end function plural
 
 end module atrito_page

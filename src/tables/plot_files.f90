@@ -24,15 +24,15 @@ module atrito_plot_files
                                   TRACTION_PLOT = 'tractions'
    !> Contours of a run, in the order in which they are drawn.
    character(len=20), parameter :: CONTOUR_PLOTS(6) = [character(len=20) :: 'contour-mises', 'contour-s11', 'contour-s22', &
-                                                       'contour-s12', 'contour-displacement', 'contour-error']
+                                                                             'contour-s12', 'contour-displacement', 'contour-error']
    character(len=*), parameter :: SYMBOLS_OF = '-symbols'  !< behind the name of a picture: the data of its symbols
    !> What `check --plot` draws.
    character(len=*), parameter :: SCENE_PLOT = 'scene', SET_PLOT = 'sets', GAP_PLOT = 'pairs'
    !> Whose a picture is: what another command drew into the same folder stays.
    integer, parameter :: PLOTS_OF_RUN = 1, PLOTS_OF_SWEEP = 2, PLOTS_OF_STUDY = 3, PLOTS_OF_LIMIT = 4, PLOTS_OF_CHECK = 5
    character(len=20), parameter :: PICTURES(21) = [character(len=20) :: &
-      OVERLAY_SUMMARY, STUDY_PLOT, LIMIT_PLOT, MECHANISM_PLOT, SCENE_PLOT, SET_PLOT, GAP_PLOT, SCENE_PLOT//SYMBOLS_OF, &
-      MESH_PLOT, MESH_PLOT//SYMBOLS_OF, JOINT_PLOT, HISTORY_PLOT, LOOP_PLOT, MOTION_PLOT, TRACTION_PLOT, CONTOUR_PLOTS]
+                  OVERLAY_SUMMARY, STUDY_PLOT, LIMIT_PLOT, MECHANISM_PLOT, SCENE_PLOT, SET_PLOT, GAP_PLOT, SCENE_PLOT//SYMBOLS_OF, &
+                   MESH_PLOT, MESH_PLOT//SYMBOLS_OF, JOINT_PLOT, HISTORY_PLOT, LOOP_PLOT, MOTION_PLOT, TRACTION_PLOT, CONTOUR_PLOTS]
    integer, parameter :: OWNER(size(PICTURES)) = [PLOTS_OF_SWEEP, PLOTS_OF_STUDY, spread(PLOTS_OF_LIMIT, 1, 2), &
                                                   spread(PLOTS_OF_CHECK, 1, 4), spread(PLOTS_OF_RUN, 1, size(PICTURES) - 8)]
    character(len=*), parameter :: CONTACT_PLOT = 'contact-', OVERLAY_PLOT = 'overlay-'   !< and the number of the pair

@@ -7,7 +7,7 @@ module atrito_resultant_report
    use atrito_results, only: results_t
    use atrito_strings, only: string_t, to_text
    use atrito_summary, only: scales_t
-   use atrito_table, only: table_t, begin_step_table, add_integers, add_real_columns, add_words, clear_small, one_word
+   use atrito_table, only: table_t, begin_step_table, add_real_columns, add_words, clear_small, one_word
    implicit none (type, external)
    private
    public :: has_resultants, build_resultants, describe_resultants, add_supports

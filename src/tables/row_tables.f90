@@ -10,7 +10,7 @@ module atrito_row_tables
    use atrito_table, only: table_t, begin_step_table, add_integers, add_reals, add_real_columns, clear_small, ZERO_SHARE
    implicit none (type, external)
    private
-   public :: has_rows, build_row_table, describe_rows, joined_text
+   public :: has_rows, build_ties, build_equations, build_springs, describe_rows, joined_text
 
    character(len=9), parameter :: ROW_TABLES(3) = ['ties     ', 'equations', 'springs  ']
    integer(ip), parameter :: KIND_OF_TABLE(3) = [ROW_TIE, ROW_EQUATION, ROW_SPRING]
@@ -38,25 +38,6 @@ contains
       allocate (list(0))
       if (model%bilateral%n > 0) list = pack([(j, j=1, model%bilateral%n)], model%bilateral%kind == kind)
    end function rows_of
-
-   !> The table of ties, equations or springs: what their rows transmit in a frame, a row of the table a tie, an equation or a
-   !> spring.
-   subroutine build_row_table(model, results, scales, name, table)
-      type(model_t), intent(in) :: model
-      type(results_t), intent(in) :: results
-      type(scales_t), intent(in) :: scales
-      character(len=*), intent(in) :: name          !< of ROW_TABLES
-      type(table_t), intent(out) :: table
-
-      select case (name)
-      case ('ties')
-         call build_ties(model, results, scales, table)
-      case ('equations')
-         call build_equations(model, results, scales, table)
-      case default
-         call build_springs(model, results, scales, table)
-      end select
-   end subroutine build_row_table
 
    !> A row a node of a slave: the force that the tie exerts upon it. Its rows along x and y stand one behind the other.
    subroutine build_ties(model, results, scales, table)

@@ -29,11 +29,7 @@ contains
       call add_entry(page, 'tangential unknowns', to_text(scene%n_tangential))
       if (scene%n_rows > 0) call add_entry(page, 'of ties, equations, springs', to_text(scene%n_rows))
       call add_entry(page, 'rigid motions as unknowns', to_text(scene%n_rigid))
-      if (scene%outer_loop) then
-         call add_entry(page, 'outer loop', 'on the friction bound')
-      else
-         call add_entry(page, 'outer loop', 'none')
-      end if
+      call add_entry(page, 'outer loop', trim(merge('on the friction bound', 'none                 ', scene%outer_loop)))
       if (allocated(scene%contact_form)) then
          call add_entry(page, 'contact system', scene%contact_form//', '//text_of(scene%contact_reason))
          if (allocated(scene%order)) call add_entry(page, 'order of elimination', scene%order)
@@ -62,7 +58,12 @@ contains
       call add_line(page, '   '//left('body', 13)//right('elements', 9)//right('equations', 10)//right('contact', 8)// &
                     right('free', 5)//'  '//left('solver', 8)//right('entries', 10)//right('memory', 11))
       do i = 1, n
-         call add_body(page, scene%bodies(i))
+         associate (body => scene%bodies(i))
+            call add_line(page, '   '//left(text_of(body%name), 13)//right(to_text(body%n_elements), 9)// &
+                          right(to_text(body%n_equations), 10)//right(to_text(body%n_contact_equations), 8)// &
+                          right(to_text(body%n_free_motions), 5)//'  '//left(text_of(body%solver), 8)// &
+                          right(to_text(body%profile), 10)//right(bytes(body%memory), 11))
+         end associate
       end do
       do i = 1, n
          call add_solver_remarks(page, scene%bodies(i), factored)
@@ -74,23 +75,16 @@ contains
       if (n < body_count(scene)) call add_line(page, '   ... and '//to_text(body_count(scene) - n)//' more bodies')
    end subroutine describe_bodies
 
-   subroutine add_body(page, body)
-      type(page_t), intent(inout) :: page
-      type(body_result_t), intent(in) :: body
-
-      call add_line(page, '   '//left(text_of(body%name), 13)//right(to_text(body%n_elements), 9)// &
-                    right(to_text(body%n_equations), 10)//right(to_text(body%n_contact_equations), 8)// &
-                    right(to_text(body%n_free_motions), 5)//'  '//left(text_of(body%solver), 8)// &
-                    right(to_text(body%profile), 10)//right(bytes(body%memory), 11))
-   end subroutine add_body
-
    subroutine add_solver_remarks(page, body, factored)
       type(page_t), intent(inout) :: page
       type(body_result_t), intent(in) :: body
       logical, intent(in) :: factored
+      character(len=:), allocatable :: bandwidth
 
       if (allocated(body%reason)) then
-         call add_paragraph(page, text_of(body%name)//': '//text_of(body%solver)//', '//body%reason//bandwidth_text(body), 3)
+         bandwidth = ' (half bandwidth '//to_text(body%half_bandwidth)//')'
+         if (any(text_of(body%solver) == ['sparse', 'scene ', 'none  '])) bandwidth = ''
+         call add_paragraph(page, text_of(body%name)//': '//text_of(body%solver)//', '//body%reason//bandwidth, 3)
       end if
       if (allocated(body%order)) call add_paragraph(page, text_of(body%name)//': order of elimination '//body%order, 3)
       if (.not. factored) return
@@ -102,15 +96,6 @@ contains
                             plural(body%sign_changes, 'sign change', 'sign changes'), 3)
       end if
    end subroutine add_solver_remarks
-
-   !> Of a solver that it tells something about.
-   pure function bandwidth_text(body) result(text)
-      type(body_result_t), intent(in) :: body
-      character(len=:), allocatable :: text
-
-      text = ' (half bandwidth '//to_text(body%half_bandwidth)//')'
-      if (any(text_of(body%solver) == ['sparse', 'scene ', 'none  '])) text = ''
-   end function bandwidth_text
 
    pure function text_of(text) result(given)
       character(len=:), allocatable, intent(in) :: text

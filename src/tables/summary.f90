@@ -4,7 +4,7 @@ module atrito_summary
    use atrito_kinds, only: ip, wp
    use atrito_strings, only: string_t, append_string
    use atrito_model, only: model_t
-   use atrito_results, only: results_t, history_t, scene_t, contact_result_t, observed_t, view_frame, &
+   use atrito_results, only: results_t, history_t, scene_t, contact_result_t, view_frame, &
                              POINT_OPEN, POINT_STICK, POINT_SLIP
    use atrito_threads, only: is_shared
    implicit none (type, external)
@@ -95,11 +95,8 @@ contains
    pure real(wp) function ratio(a, b)
       real(wp), intent(in) :: a, b
 
-      if (b > 0.0_wp) then
-         ratio = a/b
-      else
-         ratio = ieee_value(1.0_wp, ieee_quiet_nan)
-      end if
+      ratio = ieee_value(1.0_wp, ieee_quiet_nan)
+      if (b > 0.0_wp) ratio = a/b
    end function ratio
 
    !> The rows of a pair, in the order of summary.tab.
@@ -134,6 +131,7 @@ contains
    pure function step_quantities(results) result(list)
       type(results_t), intent(in) :: results
       type(quantity_t), allocatable :: list(:)
+      integer :: i
 
       list = [counted('picard_iterations', int(results%outer_iterations, ip)), &
               counted('linear_solves', int(results%linear_solves, ip)), &
@@ -142,17 +140,10 @@ contains
               quantity_t('external_work', 'F L', results%external_work, 0.0_wp), &
               quantity_t('error_estimate_percent', '-', results%error_estimate, 0.0_wp), &
               large_quantities(results)]
-      if (allocated(results%observed)) list = [list, observed_quantities(results%observed)]
+      if (.not. allocated(results%observed)) return
+      ! what --observe asks for: nothing is rounding, for of an expression no scale is known
+      list = [list, [(quantity_t(results%observed(i)%name, '-', results%observed(i)%value, 0.0_wp), i=1, size(results%observed))]]
    end function step_quantities
-
-   !> What --observe asks for. Nothing is rounding: of an expression no scale is known.
-   pure function observed_quantities(observed) result(list)
-      type(observed_t), intent(in) :: observed(:)
-      type(quantity_t) :: list(size(observed))
-      integer :: i
-
-      list = [(quantity_t(observed(i)%name, '-', observed(i)%value, 0.0_wp), i=1, size(observed))]
-   end function observed_quantities
 
    !> What passes the bounds of a linear theory (W-LARGE), and only that.
    pure function large_quantities(results) result(list)
@@ -206,23 +197,12 @@ contains
       end do
       scales%stress = scales%pressure
       if (allocated(results%stress)) scales%stress = max(scales%stress, largest(results%stress))
-      scales%nodal_stress = largest_nodal_stress(results)
-   end function measure_fields
-
-   !> No stress at a node is larger than the largest of these.
-   pure real(wp) function largest_nodal_stress(results) result(largest)
-      type(results_t), intent(in) :: results
-      integer :: i
-
-      largest = 0.0_wp
       if (.not. allocated(results%extremes)) return
-      do i = 1, size(results%extremes)
-         select case (results%extremes(i)%quantity)
-         case ('mises', 's1_max', 's3_min')
-            largest = max(largest, abs(results%extremes(i)%value))
-         end select
-      end do
-   end function largest_nodal_stress
+      associate (name => results%extremes%quantity)   ! no stress at a node is larger than the largest of these
+         scales%nodal_stress = max(0.0_wp, maxval(abs(results%extremes%value), &
+                                                  mask=name == 'mises' .or. name == 's1_max' .or. name == 's3_min'))
+      end associate
+   end function measure_fields
 
    !> The scales of one pair's fields: its own pressure and area, and the displacements that meet there.
    pure function scales_of_pair(scales, contact) result(own)

@@ -238,16 +238,15 @@ contains
       type(table_t), intent(in) :: table
       character(len=*), intent(in) :: mark          !< which of them
       character(len=table%columns(size(table%columns))%last) :: line
+      character(len=:), allocatable :: title
       integer :: i
 
       line = mark
       do i = 1, size(table%columns)
          associate (column => table%columns(i))
-            if (mark == MARK_COLUMNS) then
-               call put_word(column%name, column%on_the_left, line(column%first:column%last))
-            else
-               call put_word(column%dimension, column%on_the_left, line(column%first:column%last))
-            end if
+            title = column%dimension
+            if (mark == MARK_COLUMNS) title = column%name
+            call put_word(title, column%on_the_left, line(column%first:column%last))
          end associate
       end do
       call put_line(file, visible(line))

@@ -9,7 +9,7 @@ module atrito_write_tables
    use atrito_model, only: model_t
    use atrito_results, only: results_t, history_t, last_frame, view_frame
    use atrito_frame_tables, only: has_frame_rows, build_frame_table
-   use atrito_history_tables, only: build_summary, join_remarks, build_history, build_iterations
+   use atrito_history_tables, only: build_summary, note_quantities, dimension_remarks, build_history, build_iterations
    use atrito_increments, only: has_history, ending_text
    use atrito_summary, only: scales_t, measure_history
    use atrito_table, only: table_t, origin_t, begin_table, add_reals, add_words, one_word, TAB_ENDING, CSV_ENDING
@@ -37,6 +37,7 @@ module atrito_write_tables
    type :: series_t
       character(len=:), allocatable :: name
       logical, allocatable :: is_due(:)             !< (frames) that have rows in it
+      type(string_t), allocatable :: quantities(:)  !< of the summary, by dimension
       type(string_t), allocatable :: remarks(:)     !< that all frames have a part in; not allocated: there are none
       type(growing_table_t) :: file
    end type series_t
@@ -89,7 +90,7 @@ contains
    !>
    !> status: STATUS_FILE when one could not be written.
    subroutine write_tables(model, history, digits, set, status, is_csv)
-      type(model_t), intent(in) :: model
+      type(model_t), intent(in), target :: model
       type(history_t), intent(in), target :: history
       integer, intent(in) :: digits                 !< significant digits, 6..17
       type(file_set_t), intent(inout) :: set
@@ -98,6 +99,7 @@ contains
       type(common_t) :: whole
       type(series_t) :: series(size(TABLE_NAMES))
       type(results_t), pointer :: frame
+      type(table_t) :: piece
       type(status_t) :: of_file
       integer(ip) :: i
       integer :: k
@@ -122,7 +124,10 @@ contains
       do i = 1, merge(last_frame(history), 0_ip, is_ok(status))
          call view_frame(history, i, frame)
          do k = 1, size(series)
-            if (series(k)%is_due(i)) call put_frame(model, frame, whole, series(k))
+            if (.not. series(k)%is_due(i)) cycle
+            if (allocated(series(k)%quantities)) series(k)%remarks = dimension_remarks(series(k)%quantities)
+            call build_piece(model, frame, whole, series(k)%name, piece)
+            call put_table(series(k)%file, piece, whole%origin, whole%digits, series(k)%remarks)
          end do
       end do
       do k = 1, size(series)
@@ -146,10 +151,10 @@ contains
       associate (name => series%name)
          series%is_due(i) = .not. any(name == [character(len=10) :: 'history', 'iterations', 'timing'])
          if (series%is_due(i) .and. name /= 'summary') series%is_due(i) = has_frame_rows(model, frame, name, i == n)
+         if (name == 'summary') call note_quantities(frame, whole%own, series%quantities)
          if (n == 1 .or. .not. series%is_due(i)) return
          call build_piece(model, frame, whole, name, piece)
          call measure_rows(series%file, piece, whole%digits)
-         if (name == 'summary') call join_remarks(series%remarks, piece%remarks)
       end associate
    end subroutine measure_series
 
@@ -177,17 +182,6 @@ contains
          if (any(series%is_due)) call open_table(set, series%name, series%file, whole%is_csv)
       end select
    end subroutine begin_series
-
-   subroutine put_frame(model, frame, whole, series)
-      type(model_t), intent(in), target :: model
-      type(results_t), intent(in), target :: frame
-      type(common_t), intent(in) :: whole
-      type(series_t), intent(inout) :: series
-      type(table_t) :: piece
-
-      call build_piece(model, frame, whole, series%name, piece)
-      call put_table(series%file, piece, whole%origin, whole%digits, series%remarks)
-   end subroutine put_frame
 
    !> The rows of a frame; they may point at the fields of model and frame.
    subroutine build_piece(model, frame, whole, name, piece)

@@ -6,7 +6,7 @@ module atrito_observations
    use atrito_kinds, only: ip, is_nan, wp
    use atrito_messages, only: add_warning, message_t, SEVERITY_ERROR
    use atrito_model, only: model_t
-   use atrito_observed_names, only: field_names, find_term, name_fault_t, observable_names
+   use atrito_observed_names, only: field_names, find_term, observable_names
    use atrito_observed_terms, only: step_quantity_list, term_t, value_of_term, FIRST_FORCE, FIRST_STRESS, TERM_NODES, TERM_STEP
    use atrito_observer, only: observer_t
    use atrito_results, only: observed_t, results_t
@@ -34,11 +34,12 @@ module atrito_observations
       procedure :: observe => evaluate_all
    end type observations_t
 
-   integer, parameter :: MOST_NEAREST = 3
+   integer, parameter :: MOST_NEAREST = 3, FEW = 20  !< names that are told: near ones, or all where they are few
    !> Other columns of the tables in which the names stand.
    character(len=*), parameter :: COLUMNS(19) = [character(len=14) :: 'step', 'increment', 'pair', 'quantity', 'value', 'run', &
                                                          'exit', 'factorisations', 'folder', 'moment', 'contact_length', 'centre', &
-                                                 'dissipation', 'elastic_energy', 'level', 'element', 'h', 'dofs', 'contact_points']
+                                                                 'dissipation', 'elastic_energy', 'level', 'element', 'h', 'dofs', &
+                                                                                                                   'contact_points']
 
 contains
 
@@ -114,9 +115,11 @@ contains
             if (same_name(name, observations%list(k)%name)) what = 'is given twice'
          end do
          is_ok = len(what) == 0
-         if (.not. is_ok) error = complaint(observations%list(i), name//' '//what, &
-                                            'another name: letters, digits and underscores, a letter first, at most ' &
-                                            //to_text(len(longest%name, kind=ip))//' characters')
+         if (is_ok) return
+         error%text = name//' '//what
+         error%expected = 'another name: letters, digits and underscores, a letter first, at most ' &
+                          //to_text(len(longest%name, kind=ip))//' characters'
+         call complete_error(observations%list(i), error)
       end associate
    end subroutine check_name
 
@@ -139,65 +142,48 @@ contains
       logical, intent(out) :: is_ok
       type(message_t), intent(inout) :: error
       type(expression_fault_t) :: fault
-      type(name_fault_t) :: wrong
+      type(message_t) :: wrong
       integer :: k
 
       associate (one => observations%list(i))
          call list_calls(one%text, observations%names, field_names(), one%calls, fault, observations%has_own_degree)
          is_ok = .not. allocated(fault%text)
-         if (.not. is_ok) then
-            error = complaint(one, fault%text, 'numbers, quantities, parameters of the deck, + - * / ** ( ), functions')
-            call put_place(one%text, fault%first, fault%last, error)
-            return
+         if (is_ok) then
+            allocate (one%terms(size(one%calls)))
+            do k = 1, size(one%calls)
+               call find_term(model, one%calls(k), one%terms(k), wrong)
+               is_ok = .not. allocated(wrong%text)
+               if (is_ok) cycle
+               error = wrong
+               exit
+            end do
+         else
+            error%text = fault%text
+            error%expected = 'numbers, quantities, parameters of the deck, + - * / ** ( ), functions'
+            error%column = int(fault%first, ip)
+            error%length = int(fault%last - fault%first + 1, ip)
          end if
-         allocate (one%terms(size(one%calls)))
-         do k = 1, size(one%calls)
-            call find_term(model, one%calls(k), one%terms(k), wrong)
-            is_ok = .not. allocated(wrong%text)
-            if (is_ok) cycle
-            error = complaint(one, wrong%text, wrong%expected)
-            call put_place(one%text, wrong%first, wrong%last, error)
-            if (allocated(wrong%known)) call put_known(one%text(wrong%first:wrong%last), wrong%known, error)
-            return
-         end do
+         if (.not. is_ok) call complete_error(one, error)
       end associate
    end subroutine find_terms
 
-   !> An error of the command line.
-   function complaint(one, text, expected) result(error)
+   !> An error of the command line, of which its words are known and where in the expression it is; of names that are known the
+   !> nearest are told, or all where none is near and they are few.
+   subroutine complete_error(one, error)
       type(observation_t), intent(in) :: one
-      character(len=*), intent(in) :: text, expected
-      type(message_t) :: error
+      type(message_t), intent(inout) :: error
 
       error%severity = SEVERITY_ERROR
       error%id = 'E-OBSERVE'
       error%file = 'atrito'
-      error%text = '--observe '//one%name//': '//text
-      error%expected = expected
-   end function complaint
-
-   !> The expression, and the place in it.
-   subroutine put_place(text, first, last, error)
-      character(len=*), intent(in) :: text
-      integer, intent(in) :: first, last
-      type(message_t), intent(inout) :: error
-
-      error%text = error%text//', column '//to_text(int(first, ip))
-      error%source = text
-      error%column = int(first, ip)
-      error%length = int(last - first + 1, ip)
-   end subroutine put_place
-
-   !> The nearest names, or all where none is near and they are few.
-   subroutine put_known(name, known, error)
-      character(len=*), intent(in) :: name
-      type(string_t), intent(in) :: known(:)
-      type(message_t), intent(inout) :: error
-      integer, parameter :: FEW = 20
-
-      error%nearest = nearest_names(name, known, MOST_NEAREST)
-      if (size(error%nearest) == 0 .and. size(known) <= FEW) error%known = known
-   end subroutine put_known
+      error%text = '--observe '//one%name//': '//error%text
+      if (error%column == 0) return
+      error%text = error%text//', column '//to_text(error%column)
+      error%source = one%text
+      if (.not. allocated(error%known)) return
+      error%nearest = nearest_names(one%text(error%column:error%column + error%length - 1), error%known, MOST_NEAREST)
+      if (size(error%nearest) > 0 .or. size(error%known) > FEW) deallocate (error%known)
+   end subroutine complete_error
 
    !> Whether terms want what costs a recovery of stresses.
    pure logical function wants_stress(terms)

@@ -3,9 +3,10 @@ module atrito_observed_names
    use atrito_expression_calls, only: argument_t, call_t
    use atrito_expression_names, only: DIGITS, reserved_names
    use atrito_kinds, only: ip
+   use atrito_messages, only: message_t
    use atrito_model, only: model_t
    use atrito_numbers, only: read_integer, NUMBER_OK
-   use atrito_observed_places, only: find_place, has_element, has_support, place_fault_t
+   use atrito_observed_places, only: find_place, has_element, has_support
    use atrito_observed_terms, only: pair_quantity_list, step_quantity_list, term_t, FIRST_FORCE, FIRST_STRESS, NODAL_FIELDS, &
                                     POINT_FIELDS, TAKE_LARGEST, TAKE_LEAST, TAKE_MEAN, TAKE_ONE, TAKE_SUM, TERM_NODES, TERM_PAIR, &
                                     TERM_POINTS, TERM_STEP, TERM_TIME
@@ -13,12 +14,7 @@ module atrito_observed_names
    use atrito_summary, only: quantity_t
    implicit none (type, external)
    private
-   public :: name_fault_t, find_term, field_names, observable_names
-
-   !> What is wrong, and where in the expression.
-   type, extends(place_fault_t) :: name_fault_t
-      integer :: first = 1, last = 1
-   end type name_fault_t
+   public :: find_term, field_names, observable_names
 
    character(len=*), parameter :: TIME_NAME = 'time'
    character(len=*), parameter :: AGGREGATES(3) = ['mean', 'min ', 'max ']
@@ -26,18 +22,19 @@ module atrito_observed_names
 
 contains
 
-   !> The term of a call. fault%text is allocated where it means nothing.
+   !> The term of a call. fault%text is allocated where it means nothing; its place is that in the expression, and `known` has the
+   !> names of which the nearest may be meant.
    subroutine find_term(model, call, term, fault)
       type(model_t), intent(in) :: model
       type(call_t), intent(in) :: call
       type(term_t), intent(out) :: term
-      type(name_fault_t), intent(out) :: fault
+      type(message_t), intent(out) :: fault
       character(len=:), allocatable :: name
       integer :: i
 
       name = lower_case(call%name)
-      fault%first = call%first
-      fault%last = call%last
+      fault%column = int(call%first, ip)
+      fault%length = int(call%last - call%first + 1, ip)
       i = findloc(AGGREGATES == name, .true., dim=1)
       if (i > 0) then
          call find_aggregate(model, call, TAKES(i), term, fault)
@@ -59,13 +56,13 @@ contains
       type(call_t), intent(in) :: call
       character(len=*), intent(in) :: name
       type(term_t), intent(inout) :: term
-      type(name_fault_t), intent(inout) :: fault
+      type(message_t), intent(inout) :: fault
       integer :: i
 
       term%field = index_of(step_quantity_list(), name)
       term%kind = merge(TERM_STEP, TERM_TIME, term%field > 0)
       if (term%field == 0 .and. name /= TIME_NAME) then
-         fault%last = call%first + len(call%name) - 1
+         fault%length = len(call%name, kind=ip)
          fault%text = 'unknown quantity '//call%name
          fault%expected = 'u2(node), rf1(set), mean(mises, set), a quantity of summary.tab, a parameter of the deck, a function'
          fault%known = observable_names()
@@ -84,7 +81,7 @@ contains
       type(call_t), intent(in) :: call
       integer, intent(in) :: field
       type(term_t), intent(inout) :: term
-      type(name_fault_t), intent(inout) :: fault
+      type(message_t), intent(inout) :: fault
 
       term%kind = TERM_PAIR
       term%field = field
@@ -101,7 +98,7 @@ contains
       type(call_t), intent(in) :: call
       integer, intent(in) :: i                       !< of the argument, which may be missing
       integer(ip), intent(out) :: pair
-      type(name_fault_t), intent(inout) :: fault
+      type(message_t), intent(inout) :: fault
       integer(ip) :: k, n, outcome
 
       n = size(model%pairs, kind=ip)
@@ -156,7 +153,7 @@ contains
       type(call_t), intent(in) :: call
       integer, intent(in) :: field                   !< place in NODAL_FIELDS
       type(term_t), intent(inout) :: term
-      type(name_fault_t), intent(inout) :: fault
+      type(message_t), intent(inout) :: fault
       character(len=:), allocatable :: form
 
       form = call%name//trim(merge('(node or set), the sum over the set', '(node or set of one node)          ', &
@@ -180,7 +177,7 @@ contains
       type(call_t), intent(in) :: call
       integer, intent(in) :: take
       type(term_t), intent(inout) :: term
-      type(name_fault_t), intent(inout) :: fault
+      type(message_t), intent(inout) :: fault
       character(len=:), allocatable :: field
       integer :: of_nodes, of_points
 
@@ -215,11 +212,11 @@ contains
       type(argument_t), intent(in) :: argument
       integer, intent(in) :: field                   !< place in NODAL_FIELDS
       type(term_t), intent(inout) :: term
-      type(name_fault_t), intent(inout) :: fault
+      type(message_t), intent(inout) :: fault
 
       term%kind = TERM_NODES
       term%field = field
-      call find_place(model, argument, term%nodes, term%weights, fault%place_fault_t)
+      call find_place(model, argument, term%nodes, term%weights, fault)
       if (.not. allocated(fault%text)) then
          if (field >= FIRST_FORCE) then
             if (has_support(model, term%nodes)) return
@@ -239,7 +236,7 @@ contains
    subroutine complain_of_count(call, form, fault)
       type(call_t), intent(in) :: call
       character(len=*), intent(in) :: form           !< how it should read
-      type(name_fault_t), intent(inout) :: fault
+      type(message_t), intent(inout) :: fault
       integer(ip) :: n
 
       n = size(call%arguments, kind=ip)
@@ -250,10 +247,10 @@ contains
 
    subroutine put_place(argument, fault)
       type(argument_t), intent(in) :: argument
-      type(name_fault_t), intent(inout) :: fault
+      type(message_t), intent(inout) :: fault
 
-      fault%first = argument%first
-      fault%last = argument%last
+      fault%column = int(argument%first, ip)
+      fault%length = int(argument%last - argument%first + 1, ip)
    end subroutine put_place
 
    !> Place of a quantity among others; 0: it is none of them.

@@ -7,6 +7,7 @@ module atrito_observed_places
    use atrito_face_loads, only: traction_load
    use atrito_kinds, only: ip, wp
    use atrito_mesh, only: depth_places, face_nodes, find_node
+   use atrito_messages, only: message_t
    use atrito_model, only: model_t, nodal_values_t, SURFACE_ELEMENTS
    use atrito_name_list, only: names_of
    use atrito_numbers, only: read_integer, NUMBER_OK
@@ -14,13 +15,7 @@ module atrito_observed_places
    use atrito_strings, only: string_t, append_string, same_name, to_text
    implicit none (type, external)
    private
-   public :: place_fault_t, find_place, has_support, has_element
-
-   !> What is wrong with a name or number; text not allocated: nothing.
-   type :: place_fault_t
-      character(len=:), allocatable :: text, expected
-      type(string_t), allocatable :: known(:)        !< names of which the nearest may be meant
-   end type place_fault_t
+   public :: find_place, has_support, has_element
 
    character(len=*), parameter :: A_PLACE = 'a node number, a node set, an element set or a surface of elements'
 
@@ -33,7 +28,7 @@ contains
       type(argument_t), intent(in) :: argument
       integer(ip), allocatable, intent(out) :: nodes(:) !< places
       real(wp), allocatable, intent(out) :: weights(:)  !< their sum is 1
-      type(place_fault_t), intent(out) :: fault
+      type(message_t), intent(out) :: fault          !< text not allocated: nothing is wrong; known: names that may be meant
       real(wp), allocatable :: of_node(:)
       logical, allocatable :: is_there(:)
       integer(ip) :: i, surface, elements
@@ -64,7 +59,7 @@ contains
       type(model_t), intent(in) :: model
       character(len=*), intent(in) :: text
       integer(ip), allocatable, intent(out) :: nodes(:)
-      type(place_fault_t), intent(inout) :: fault
+      type(message_t), intent(inout) :: fault
       integer(ip) :: id, i, first, next
       integer :: dot, outcome
 
@@ -109,7 +104,7 @@ contains
       integer(ip), intent(in) :: surface
       real(wp), intent(inout) :: of_node(:)
       logical, intent(inout) :: is_there(:)
-      type(place_fault_t), intent(inout) :: fault
+      type(message_t), intent(inout) :: fault
       integer(ip), allocatable :: nodes(:)
       real(wp) :: f(2, 3)
       integer(ip) :: i, e
@@ -158,7 +153,7 @@ contains
       character(len=*), intent(in) :: name
       real(wp), intent(inout) :: of_node(:)
       logical, intent(inout) :: is_there(:)
-      type(place_fault_t), intent(inout) :: fault
+      type(message_t), intent(inout) :: fault
       integer(ip) :: i
 
       i = find_set(model%node_sets, name)

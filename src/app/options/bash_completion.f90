@@ -14,46 +14,46 @@ module atrito_bash_completion
    integer, parameter :: VALUE_NONE = 0, VALUE_OWN = 1, VALUE_WORDS = 2, VALUE_A_FOLDER = 3, VALUE_A_FILE = 4
 
    character(len=88), parameter :: HEAD(*) = [character(len=88) :: &
-      '# Completion for bash; printed by `atrito help bash`.', &
-      '# shellcheck shell=bash', &
-      '', &
-      '# Files whose names fit a pattern, and folders.', &
-      '_atrito_files() {', &
-      '   compopt -o filenames 2>/dev/null', &
-      '   mapfile -t COMPREPLY < <({', &
-      '      compgen -f -X "!$1" -- "$cur"', &
-      '      compgen -d -- "$cur"', &
-      '   } | sort -u)', &
-      '}', &
-      '', &
-      '# Those of some words that go on as it was begun.', &
-      '_atrito_words() {', &
-      '   mapfile -t COMPREPLY < <(compgen -W "$1" -- "$cur")', &
-      '}', &
-      '', &
-      '# The next word of the keywords that go on as they were begun at word $1.', &
-      '_atrito_keywords() {', &
-      '   local typed='''' keyword words='''' i', &
-      '   for ((i = $1; i < COMP_CWORD; i++)); do typed+="${COMP_WORDS[i]^^} "; done', &
-      '   while read -r keyword; do', &
-      '      if [[ $keyword == "$typed${cur^^}"* ]]; then', &
-      '         keyword=${keyword#"$typed"}', &
-      '         words+=" ${keyword%% *}"', &
-      '      fi', &
-      '   done <<''EOF''']
+                                              '# Completion for bash; printed by `atrito help bash`.', &
+                                              '# shellcheck shell=bash', &
+                                              '', &
+                                              '# Files whose names fit a pattern, and folders.', &
+                                              '_atrito_files() {', &
+                                              '   compopt -o filenames 2>/dev/null', &
+                                              '   mapfile -t COMPREPLY < <({', &
+                                              '      compgen -f -X "!$1" -- "$cur"', &
+                                              '      compgen -d -- "$cur"', &
+                                              '   } | sort -u)', &
+                                              '}', &
+                                              '', &
+                                              '# Those of some words that go on as it was begun.', &
+                                              '_atrito_words() {', &
+                                              '   mapfile -t COMPREPLY < <(compgen -W "$1" -- "$cur")', &
+                                              '}', &
+                                              '', &
+                                              '# The next word of the keywords that go on as they were begun at word $1.', &
+                                              '_atrito_keywords() {', &
+                                              '   local typed='''' keyword words='''' i', &
+                                              '   for ((i = $1; i < COMP_CWORD; i++)); do typed+="${COMP_WORDS[i]^^} "; done', &
+                                              '   while read -r keyword; do', &
+                                              '      if [[ $keyword == "$typed${cur^^}"* ]]; then', &
+                                              '         keyword=${keyword#"$typed"}', &
+                                              '         words+=" ${keyword%% *}"', &
+                                              '      fi', &
+                                              '   done <<''EOF''']
 
    character(len=88), parameter :: MIDDLE(*) = [character(len=88) :: &
-      'EOF', &
-      '   mapfile -t COMPREPLY < <(compgen -W "$words" | sort -u', &
-      '      [ "$1" -lt "$COMP_CWORD" ] || compgen -W '''//HELP_PAGES//''' -- "$cur")', &
-      '}', &
-      '', &
-      '_atrito() {', &
-      '   local cur=${COMP_WORDS[COMP_CWORD]} prev=${COMP_WORDS[COMP_CWORD - 1]} task='''' i', &
-      '   COMPREPLY=()', &
-      '   if [ "$cur" = = ]; then cur=''''; fi', &
-      '   if [ "$prev" = = ]; then prev=${COMP_WORDS[COMP_CWORD - 2]}; fi', &
-      '   case $prev in']
+                                                'EOF', &
+                                                '   mapfile -t COMPREPLY < <(compgen -W "$words" | sort -u', &
+                                                '      [ "$1" -lt "$COMP_CWORD" ] || compgen -W '''//HELP_PAGES//''' -- "$cur")', &
+                                                '}', &
+                                                '', &
+                                                '_atrito() {', &
+                                          '   local cur=${COMP_WORDS[COMP_CWORD]} prev=${COMP_WORDS[COMP_CWORD - 1]} task='''' i', &
+                                                '   COMPREPLY=()', &
+                                                '   if [ "$cur" = = ]; then cur=''''; fi', &
+                                                '   if [ "$prev" = = ]; then prev=${COMP_WORDS[COMP_CWORD - 2]}; fi', &
+                                                '   case $prev in']
 
 contains
 

@@ -14,7 +14,7 @@ contains
    !> Of a run; not allocated where nothing was given that differs from what is there unasked.
    pure subroutine options_of_run(command, text)
       type(command_t), intent(in) :: command
-      character(len=:), allocatable, intent(out) :: text
+      character(len=:), allocatable, intent(inout) :: text   !< of a series: what it does, before what its runs have in common
       integer :: i
 
       if (command%refine > 0) call add_option('--refine', to_text(command%refine), text)
@@ -33,7 +33,6 @@ contains
    pure subroutine options_of_series(command, text)
       type(command_t), intent(in) :: command
       character(len=:), allocatable, intent(out) :: text
-      character(len=:), allocatable :: common
       type(command_t) :: fresh
       integer :: i
 
@@ -55,31 +54,20 @@ contains
             call add_option('--watch', to_text(command%watched(1))//','//to_text(command%watched(2)), text)
          end if
       end select
-      call options_of_run(command, common)
-      if (allocated(common)) call add_words(common, text)
+      call options_of_run(command, text)
    end subroutine options_of_series
 
    !> A value with blanks stands in quotes, as it was given.
    pure subroutine add_option(name, value, text)
       character(len=*), intent(in) :: name, value
       character(len=:), allocatable, intent(inout) :: text
+      character(len=:), allocatable :: quote
 
-      if (scan(value, ' ''"') == 0) then
-         call add_words(name//' '//value, text)
-      else
-         call add_words(name//' "'//value//'"', text)
-      end if
+      quote = ''
+      if (scan(value, ' ''"') > 0) quote = '"'
+      if (allocated(text)) text = text//' '
+      if (.not. allocated(text)) text = ''
+      text = text//name//' '//quote//value//quote
    end subroutine add_option
-
-   pure subroutine add_words(words, text)
-      character(len=*), intent(in) :: words
-      character(len=:), allocatable, intent(inout) :: text
-
-      if (allocated(text)) then
-         text = text//' '//words
-      else
-         text = words
-      end if
-   end subroutine add_words
 
 end module atrito_given_options

@@ -14,11 +14,11 @@ module atrito_help_pages
 
    character(len=*), parameter :: SUMMARY = 'contact with friction between elastic bodies'
    character(len=*), parameter :: DESCRIPTION(*) = [character(len=320) :: &
-      'atrito finds displacements, stresses and contact forces of linear elastic bodies in the plane or of revolution that '// &
-      'touch with friction, by finite elements. A deck of keywords goes in, in the tradition of Abaqus and CalculiX; tables '// &
-      'and a listing come out.', &
-      'Standard output is for the summary, standard error for progress and messages. A run whose check of equilibrium and '// &
-      'contact law fails never ends with 0.']
+          'atrito finds displacements, stresses and contact forces of linear elastic bodies in the plane or of revolution that '// &
+         'touch with friction, by finite elements. A deck of keywords goes in, in the tradition of Abaqus and CalculiX; tables '// &
+                                                    'and a listing come out.', &
+           'Standard output is for the summary, standard error for progress and messages. A run whose check of equilibrium and '// &
+                                                    'contact law fails never ends with 0.']
 
    type :: exit_code_t
       character(len=13) :: codes
@@ -26,14 +26,14 @@ module atrito_help_pages
    end type exit_code_t
 
    type(exit_code_t), parameter :: EXIT_CODES(*) = [ &
-      exit_code_t('0', 'solved, checked, all tables written; compare: the same'), &
-      exit_code_t('1', 'wrong command line; compare: different'), &
-      exit_code_t('2', 'errors in the deck, all of them listed; nothing computed'), &
-      exit_code_t('3', 'not converged, or the final check failed: the last iterate is written, and marked'), &
-      exit_code_t('4', 'singular or indefinite system'), &
-      exit_code_t('5', 'a file cannot be read or written'), &
-      exit_code_t('9', 'internal error'), &
-      exit_code_t('129, 130, 143', 'ended by SIGHUP, SIGINT, SIGTERM; nothing half-written is left')]
+                                   exit_code_t('0', 'solved, checked, all tables written; compare: the same'), &
+                                   exit_code_t('1', 'wrong command line; compare: different'), &
+                                   exit_code_t('2', 'errors in the deck, all of them listed; nothing computed'), &
+                            exit_code_t('3', 'not converged, or the final check failed: the last iterate is written, and marked'), &
+                                   exit_code_t('4', 'singular or indefinite system'), &
+                                   exit_code_t('5', 'a file cannot be read or written'), &
+                                   exit_code_t('9', 'internal error'), &
+                                   exit_code_t('129, 130, 143', 'ended by SIGHUP, SIGINT, SIGTERM; nothing half-written is left')]
    integer, parameter :: WIDTH = 80                  !< columns of the screen
    integer, parameter :: ROFF = 0                    !< in the place of a column of the screen: the form of man(7)
 
@@ -92,7 +92,7 @@ contains
       call add_entry(page, 'atrito help man | bash', 'this page; what completes commands, options and keywords in bash', ROFF)
       call add_line(page, '.SH OPTIONS')
       call add_line(page, roff_text('Options may stand before or behind the names; --name value and --name=value are the same. '// &
-                               'Behind -- everything is a name.'))
+                                    'Behind -- everything is a name.'))
       call add_options(page, ROFF)
       call add_keywords(page)
       call add_line(page, '.SH EXIT STATUS')
@@ -156,7 +156,7 @@ contains
       integer :: level, i
       integer, parameter :: LEVELS(3) = [LEVEL_MODEL, LEVEL_STEP, LEVEL_BOTH]
       character(len=40), parameter :: TITLES(3) = [character(len=40) :: 'of the model, before *STEP', &
-                                                   'of a step, between *STEP and *END STEP', 'of both']
+                                                                                'of a step, between *STEP and *END STEP', 'of both']
 
       table = keyword_table()
       call add_line(page, '.SH KEYWORDS')

@@ -24,14 +24,14 @@ module atrito_option_table
    end type task_t
 
    type(task_t), parameter :: TASKS(TASK_LIMIT) = [ &
-      task_t('', 'DECK.inp', '[options]', 'solve the deck and write tables'), &
-      task_t('check', 'DECK.inp', '[options]', 'read and check all, tell what the scene needs'), &
-      task_t('compare', 'A B', '[--rtol R] [--atol A]', 'compare two tables, or two folders of them'), &
-      task_t('help', '[KEYWORD]', '', 'the deck language; `atrito help all`: all of it'), &
-      task_t('sweep', 'DECK.inp', '--vary NAME=v1,v2,... [options]', 'one run a value of a parameter: --vary NAME=v1,...'), &
-      task_t('study', 'DECK.inp', '--levels N [--elements LIST] [--reference Q=V]', 'error against run time: --levels N'), &
-      task_t('limit', 'DECK.inp', '--vary NAME=a:b [--tolerance T] [--watch NODE,DOF]', &
-             'where a scene ceases to stand: --vary NAME=a:b')]
+                              task_t('', 'DECK.inp', '[options]', 'solve the deck and write tables'), &
+                              task_t('check', 'DECK.inp', '[options]', 'read and check all, tell what the scene needs'), &
+                              task_t('compare', 'A B', '[--rtol R] [--atol A]', 'compare two tables, or two folders of them'), &
+                              task_t('help', '[KEYWORD]', '', 'the deck language; `atrito help all`: all of it'), &
+             task_t('sweep', 'DECK.inp', '--vary NAME=v1,v2,... [options]', 'one run a value of a parameter: --vary NAME=v1,...'), &
+              task_t('study', 'DECK.inp', '--levels N [--elements LIST] [--reference Q=V]', 'error against run time: --levels N'), &
+                              task_t('limit', 'DECK.inp', '--vary NAME=a:b [--tolerance T] [--watch NODE,DOF]', &
+                                     'where a scene ceases to stand: --vary NAME=a:b')]
 
    integer, parameter :: MOST_THREADS = 1024
    integer, parameter :: MOST_LEVELS = 12           !< of --refine: 16 million elements of one
@@ -51,64 +51,64 @@ module atrito_option_table
 
    logical, parameter :: Y = .true., N = .false.
    type(option_t), parameter :: OPTIONS(*) = [ &
-      option_t('-o', VALUE_FOLDER, [Y, Y, N, N, Y, Y, Y], 'folder of the tables', &
-               default='./output/<deck>; of sweep, study, limit and check ./output/<deck>-sweep, ...', &
-               expected='a folder; it is made where it is missing'), &
-      option_t('--set', 'NAME=VALUE', [Y, Y, N, N, Y, Y, Y], 'value of a *PARAMETER of the deck; may be repeated', &
-               expected='NAME=VALUE, VALUE an expression of numbers'), &
-      option_t('--observe', 'NAME=EXPR', [Y, Y, N, N, Y, Y, N], &
-               'a number of your own, such as tip=u2(12), in the tables; may be repeated', &
-               expected='NAME=EXPRESSION, such as tip=u2(12) or peak=max(mises, BEAM)'), &
-      option_t('--refine', 'K', [Y, Y, N, N, Y, Y, Y], 'each element into 4, K times; all else follows', default='0', &
-               expected='a whole number, 0 to 12: each element into 4, so many times'), &
-      option_t('--solver', 'NAME', [Y, Y, N, N, Y, Y, Y], 'solver of the bodies', default='auto', &
-               words='auto skyline banded sparse'), &
-      option_t('--contact', 'NAME', [Y, Y, N, N, Y, Y, Y], 'form of the contact system', default='auto', &
-               words='auto dense sparse'), &
-      option_t('--share', 'NAME', [Y, N, N, N, N, N, N], 'one scene over the ranks of atrito-mpi: large ones, all, or none', &
-               default='auto', words='auto all none'), &
-      option_t('--threads', 'N', [Y, Y, N, N, Y, Y, Y], 'cores of a run, or runs of a sweep side by side', default='1', &
-               expected='a whole number, 1 to 1024'), &
-      option_t('--digits', 'N', [Y, N, N, N, Y, Y, Y], 'significant digits of the tables, 6 to 17', default='10', &
-               expected='a whole number, 6 to 17'), &
-      option_t('--format', 'NAME', [Y, N, N, N, Y, Y, Y], 'tables as text, or as comma-separated values', default='tab', &
-               words='tab csv'), &
+                                option_t('-o', VALUE_FOLDER, [Y, Y, N, N, Y, Y, Y], 'folder of the tables', &
+                                         default='./output/<deck>; of sweep, study, limit and check ./output/<deck>-sweep, ...', &
+                                         expected='a folder; it is made where it is missing'), &
+                      option_t('--set', 'NAME=VALUE', [Y, Y, N, N, Y, Y, Y], 'value of a *PARAMETER of the deck; may be repeated', &
+                                         expected='NAME=VALUE, VALUE an expression of numbers'), &
+                                option_t('--observe', 'NAME=EXPR', [Y, Y, N, N, Y, Y, N], &
+                                         'a number of your own, such as tip=u2(12), in the tables; may be repeated', &
+                                         expected='NAME=EXPRESSION, such as tip=u2(12) or peak=max(mises, BEAM)'), &
+                   option_t('--refine', 'K', [Y, Y, N, N, Y, Y, Y], 'each element into 4, K times; all else follows', default='0', &
+                                         expected='a whole number, 0 to 12: each element into 4, so many times'), &
+                                option_t('--solver', 'NAME', [Y, Y, N, N, Y, Y, Y], 'solver of the bodies', default='auto', &
+                                         words='auto skyline banded sparse'), &
+                                option_t('--contact', 'NAME', [Y, Y, N, N, Y, Y, Y], 'form of the contact system', default='auto', &
+                                         words='auto dense sparse'), &
+            option_t('--share', 'NAME', [Y, N, N, N, N, N, N], 'one scene over the ranks of atrito-mpi: large ones, all, or none', &
+                                         default='auto', words='auto all none'), &
+                 option_t('--threads', 'N', [Y, Y, N, N, Y, Y, Y], 'cores of a run, or runs of a sweep side by side', default='1', &
+                                         expected='a whole number, 1 to 1024'), &
+                       option_t('--digits', 'N', [Y, N, N, N, Y, Y, Y], 'significant digits of the tables, 6 to 17', default='10', &
+                                         expected='a whole number, 6 to 17'), &
+                option_t('--format', 'NAME', [Y, N, N, N, Y, Y, Y], 'tables as text, or as comma-separated values', default='tab', &
+                                         words='tab csv'), &
       option_t('--plot', '', [Y, Y, N, N, Y, Y, Y], 'pictures by gnuplot, in DIR/plots; of check: the scene before it is solved'), &
-      option_t('--plot-scale', 'S', [Y, N, N, N, N, N, Y], 'displacements are drawn S times as large', &
-               default='chosen by their size', expected='a number, 0 or more, by which displacements are drawn; with --plot'), &
-      option_t('--plot-box', 'X1,Y1,X2,Y2', [Y, Y, N, N, N, N, Y], 'what pictures of bodies show', default='all', &
-               expected='x1,y1,x2,y2, two corners of what pictures show; with --plot'), &
-      option_t('--report', '', [Y, N, N, N, Y, Y, Y], 'all in one page, DIR/report.html; draws the pictures, too'), &
-      option_t('--restart', VALUE_FILE, [Y, N, N, N, N, N, N], 'go on behind the increment in a file of *RESTART, WRITE', &
-               expected='a restart file of this deck, NAME.restart.h5'), &
-      option_t('--confine', VALUE_FOLDER, [Y, Y, N, N, Y, Y, Y], &
-               'for decks that are not trusted: reads nothing outside DIR, writes nothing outside -o', &
-               expected='a folder, which holds the deck and all that it includes'), &
-      option_t('--quiet', '', [Y, Y, Y, N, Y, Y, Y], 'no progress, no notes, no summary; warnings and errors'), &
-      option_t('--vary', 'NAME=VALUES', [N, N, N, N, Y, N, Y], &
-               'values of a *PARAMETER: v1,v2,... of a sweep (several --vary: all combinations), a:b of a limit', &
-               expected='NAME=v1,v2,..., values of a parameter of the deck, each an expression of numbers'), &
-      option_t('--resume', '', [N, N, N, N, Y, N, N], &
-               'leave the runs alone that an earlier sweep of the same deck and options has made'), &
-      option_t('--levels', 'N', [N, N, N, N, N, Y, N], 'so many meshes, each of four times the elements', &
-               expected='a whole number, 1 to 12: so many meshes, each with four elements for one'), &
-      option_t('--elements', 'LIST', [N, N, N, N, N, Y, N], 'the elements of these meshes', default='the deck''s', &
-               words='cpe4 cps4 cpe8 cps8 cpe9 cps9', expected='several with commas between them'), &
-      option_t('--reference', 'Q=V', [N, N, N, N, N, Y, N], &
-               'exact value of a quantity of summary.tab; Q alone: extrapolated; may be repeated', &
-               expected='QUANTITY or QUANTITY=VALUE, a quantity of summary.tab'), &
+                                option_t('--plot-scale', 'S', [Y, N, N, N, N, N, Y], 'displacements are drawn S times as large', &
+                   default='chosen by their size', expected='a number, 0 or more, by which displacements are drawn; with --plot'), &
+                       option_t('--plot-box', 'X1,Y1,X2,Y2', [Y, Y, N, N, N, N, Y], 'what pictures of bodies show', default='all', &
+                                         expected='x1,y1,x2,y2, two corners of what pictures show; with --plot'), &
+                     option_t('--report', '', [Y, N, N, N, Y, Y, Y], 'all in one page, DIR/report.html; draws the pictures, too'), &
+               option_t('--restart', VALUE_FILE, [Y, N, N, N, N, N, N], 'go on behind the increment in a file of *RESTART, WRITE', &
+                                         expected='a restart file of this deck, NAME.restart.h5'), &
+                                option_t('--confine', VALUE_FOLDER, [Y, Y, N, N, Y, Y, Y], &
+                                         'for decks that are not trusted: reads nothing outside DIR, writes nothing outside -o', &
+                                         expected='a folder, which holds the deck and all that it includes'), &
+                         option_t('--quiet', '', [Y, Y, Y, N, Y, Y, Y], 'no progress, no notes, no summary; warnings and errors'), &
+                                option_t('--vary', 'NAME=VALUES', [N, N, N, N, Y, N, Y], &
+                                'values of a *PARAMETER: v1,v2,... of a sweep (several --vary: all combinations), a:b of a limit', &
+                                     expected='NAME=v1,v2,..., values of a parameter of the deck, each an expression of numbers'), &
+                                option_t('--resume', '', [N, N, N, N, Y, N, N], &
+                                         'leave the runs alone that an earlier sweep of the same deck and options has made'), &
+                               option_t('--levels', 'N', [N, N, N, N, N, Y, N], 'so many meshes, each of four times the elements', &
+                                         expected='a whole number, 1 to 12: so many meshes, each with four elements for one'), &
+                      option_t('--elements', 'LIST', [N, N, N, N, N, Y, N], 'the elements of these meshes', default='the deck''s', &
+                                         words='cpe4 cps4 cpe8 cps8 cpe9 cps9', expected='several with commas between them'), &
+                                option_t('--reference', 'Q=V', [N, N, N, N, N, Y, N], &
+                                         'exact value of a quantity of summary.tab; Q alone: extrapolated; may be repeated', &
+                                         expected='QUANTITY or QUANTITY=VALUE, a quantity of summary.tab'), &
       option_t('--tolerance', 'T', [N, N, N, N, N, N, Y], 'width of the interval round the limit, over the limit', default='1e-6', &
-               expected='a number, 1e-8 to 0.1: of the interval round the limit, over the limit'), &
-      option_t('--watch', 'NODE,DOF', [N, N, N, N, N, N, Y], 'displacement of the curve', default='the largest', &
-               expected='NODE,DOF: a node of the deck, and 1 or 2'), &
+                                         expected='a number, 1e-8 to 0.1: of the interval round the limit, over the limit'), &
+                        option_t('--watch', 'NODE,DOF', [N, N, N, N, N, N, Y], 'displacement of the curve', default='the largest', &
+                                         expected='NODE,DOF: a node of the deck, and 1 or 2'), &
       option_t('--rtol', 'R', [N, N, Y, N, N, N, N], 'differences allowed, relative to the largest of the column', default='1e-6', &
-               expected='a number, 0 to 1'), &
-      option_t('--atol', 'A', [N, N, Y, N, N, N, N], 'differences allowed, absolute', default='0', &
-               expected='a number, not negative'), &
-      option_t('--messages', 'NAME', [Y, Y, Y, Y, Y, Y, Y], 'messages on standard error as text, or one object of JSON a line', &
-               default='text', words='text json'), &
-      option_t('--help', '', [Y, Y, Y, Y, Y, Y, Y], 'commands, options and exit codes', short='-h'), &
-      option_t('--version', '', [Y, Y, Y, Y, Y, Y, Y], 'version of the program and of its libraries', short='-V')]
+                                         expected='a number, 0 to 1'), &
+                                option_t('--atol', 'A', [N, N, Y, N, N, N, N], 'differences allowed, absolute', default='0', &
+                                         expected='a number, not negative'), &
+         option_t('--messages', 'NAME', [Y, Y, Y, Y, Y, Y, Y], 'messages on standard error as text, or one object of JSON a line', &
+                                         default='text', words='text json'), &
+                                option_t('--help', '', [Y, Y, Y, Y, Y, Y, Y], 'commands, options and exit codes', short='-h'), &
+                        option_t('--version', '', [Y, Y, Y, Y, Y, Y, Y], 'version of the program and of its libraries', short='-V')]
 
    !> Options that the same commands know, as `--help` and the manual page list them.
    type :: option_group_t

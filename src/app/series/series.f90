@@ -14,7 +14,6 @@ module atrito_series
    use atrito_patched_text, only: named_text_t, digest_of_texts
    use atrito_parameter_text, only: list_parameters
    use atrito_plot_files, only: plot_folder, list_plots, remove_plots, PLOTS_OF_SWEEP, PLOTS_OF_STUDY, PLOTS_OF_LIMIT
-   use atrito_provenance, only: provenance_t
    use atrito_reader, only: read_deck
    use atrito_report, only: report_t
    use atrito_report_maker, only: make_report
@@ -26,7 +25,7 @@ module atrito_series
    use atrito_system, only: processor_seconds
    implicit none (type, external)
    private
-   public :: claim_output, find_provenance, series_origin, begin_pictures, tell_series, seconds_since
+   public :: claim_output, find_origin, begin_pictures, print_closing, seconds_since
 
    !> Whose the pictures of a command are.
    integer, parameter :: WHOSE(TASK_SWEEP:TASK_LIMIT) = [PLOTS_OF_SWEEP, PLOTS_OF_STUDY, PLOTS_OF_LIMIT]
@@ -66,11 +65,11 @@ contains
                                             list_plots(output_folder(command), WHOSE(command%task)), status)
    end subroutine check_files
 
-   !> What the heads of the tables tell of the deck, with its own values where a parameter varies. What is wrong with the deck its
-   !> runs will tell.
-   subroutine find_provenance(command, provenance)
+   !> The comment lines at the top of the tables: what they tell of the deck, with its own values where a parameter varies. What is
+   !> wrong with the deck its runs will tell.
+   subroutine find_origin(command, origin)
       type(command_t), intent(in) :: command
-      type(provenance_t), intent(out) :: provenance
+      type(origin_t), intent(out) :: origin
       type(string_t), allocatable :: varied(:)
       type(named_text_t), allocatable :: files(:)
       type(deck_t) :: deck
@@ -78,34 +77,22 @@ contains
       logical :: has_errors
       integer :: i
 
+      origin%deck = command%names(1)%s(index(command%names(1)%s, '/', back=.true.) + 1:)
+      allocate (origin%heading(0), varied(0))
       call clear_messages()
-      allocate (varied(0))
       do i = 1, size(command%vary)
          call append_string(varied, trim(adjustl(command%vary(i)%s(:index(command%vary(i)%s, '=') - 1))))
       end do
-      call options_of_series(command, provenance%options)
+      call options_of_series(command, origin%options)
       call read_deck(command%names(1)%s, command%settings, deck, status)
       has_errors = count_messages(SEVERITY_ERROR) > 0
       call clear_messages()
       if (.not. is_ok(status)) return
-      call list_parameters(deck, varied, provenance%parameters)
+      call list_parameters(deck, varied, origin%parameters)
       if (has_errors) return
       call take_deck_as_run(deck, files)
-      provenance%digest = digest_of_texts(files)
-   end subroutine find_provenance
-
-   !> The comment lines at the top of the tables.
-   pure function series_origin(command, provenance, not_converged) result(origin)
-      type(command_t), intent(in) :: command
-      type(provenance_t), intent(in) :: provenance
-      logical, intent(in) :: not_converged
-      type(origin_t) :: origin
-
-      origin%provenance_t = provenance
-      origin%deck = command%names(1)%s(index(command%names(1)%s, '/', back=.true.) + 1:)
-      origin%not_converged = not_converged
-      allocate (origin%heading(0))
-   end function series_origin
+      origin%digest = digest_of_texts(files)
+   end subroutine find_origin
 
    !> The command's pictures and report of an earlier time go, made anew or not, for its tables are new.
    subroutine begin_pictures(command)
@@ -123,7 +110,7 @@ contains
    end subroutine begin_pictures
 
    !> Writes the report, where one is asked for, and prints the closing lines.
-   subroutine tell_series(command, page, report)
+   subroutine print_closing(command, page, report)
       type(command_t), intent(in) :: command
       type(page_t), intent(inout) :: page
       type(report_t), intent(inout) :: report
@@ -134,7 +121,7 @@ contains
       if (has_report) call add_above_rule(page, 'report', output_folder(command)//'/'//REPORT_NAME)
       call print_messages(command%quiet, 1_ip, command%json)
       if (.not. command%quiet) call print_page(page, output_unit)
-   end subroutine tell_series
+   end subroutine print_closing
 
    !> Wall clock since a count of system_clock, and processor time of the process.
    function seconds_since(began) result(seconds)

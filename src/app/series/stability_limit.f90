@@ -17,12 +17,11 @@ module atrito_stability_limit
    use atrito_messages, only: clear_messages
    use atrito_model, only: model_t
    use atrito_page, only: page_t
-   use atrito_provenance, only: provenance_t
    use atrito_report, only: report_t
    use atrito_reporter, only: reporter_t, report_progress
    use atrito_results, only: history_t, results_t
    use atrito_series_reports, only: begin_series, report_of_limit
-   use atrito_series, only: claim_output, find_provenance, series_origin, begin_pictures, tell_series, seconds_since
+   use atrito_series, only: claim_output, find_origin, begin_pictures, print_closing, seconds_since
    use atrito_stability_plot, only: write_stability_plots
    use atrito_run, only: take_threads, load_model, solve_options, agree_on_outcome
    use atrito_sweep_plan, only: read_range
@@ -71,14 +70,14 @@ contains
       type(search_t) :: search
       type(status_t) :: status
       type(model_t) :: model
-      type(provenance_t) :: provenance
+      type(origin_t) :: origin
       integer(lp) :: began
-      integer(ip) :: told
+      integer(ip) :: n_printed
       integer :: answer
       real(wp) :: excess
 
       call system_clock(began)
-      call find_provenance(command, provenance)
+      call find_origin(command, origin)
       limit%watched = 'largest displacement'
       if (command%watched(1) > 0) limit%watched = 'u'//to_text(command%watched(2))//' of node '//to_text(command%watched(1))
       allocate (limit%values(0))
@@ -87,18 +86,18 @@ contains
       if (code /= STATUS_OK) return
       call judge_search(search, limit, status)
       if (is_ok(status)) then
-         call load_value(command, limit%parameter, limit%falls, .true., model, code, told)
+         call load_value(command, limit%parameter, limit%falls, .true., model, code, n_printed)
          if (code /= STATUS_OK) return
          call probe_balance(model, answer, excess, status, limit%collapse)
       end if
-      if (is_ok(status)) call finish(command, provenance, model, limit, seconds_since(began), status)
+      if (is_ok(status)) call finish(command, origin, model, limit, seconds_since(began), status)
       if (.not. is_ok(status)) call print_status(status, command%names(1)%s, command%json)
       code = status%code
       if (is_ok(status) .and. .not. limit%is_close) code = STATUS_NOT_CONVERGED
    end subroutine find_limit
 
    !> Asks until the search has what it needs: at a value of the parameter whether the loads can be balanced, or what the solution
-   !> is. code: of a deck that has errors at a value, and the like; told.
+   !> is. code: of a deck that has errors at a value, and the like; printed.
    subroutine ask_all(command, search, limit, code)
       type(command_t), intent(in) :: command
       type(search_t), intent(inout) :: search
@@ -138,10 +137,10 @@ contains
       integer, intent(out) :: code
       type(model_t) :: model
       type(status_t) :: status
-      integer(ip) :: told
+      integer(ip) :: n_printed
       integer :: verdict
 
-      call load_value(command, limit%parameter, one%value, size(search%tried) > 0, model, code, told)
+      call load_value(command, limit%parameter, one%value, size(search%tried) > 0, model, code, n_printed)
       if (code /= STATUS_OK) return
       call probe_balance(model, verdict, one%excess, status)
       code = status%code
@@ -170,11 +169,11 @@ contains
       type(history_t) :: history
       type(frame_spool_t) :: frames
       type(reporter_t) :: reporter
-      integer(ip) :: told
+      integer(ip) :: n_printed
       integer :: n
 
       one%displacement = ieee_value(1.0_wp, ieee_quiet_nan)
-      call load_value(command, limit%parameter, one%value, .true., model, code, told)
+      call load_value(command, limit%parameter, one%value, .true., model, code, n_printed)
       if (code /= STATUS_OK) return
       reporter%quiet = .true.
       call begin_frames(output_folder(command), frames)
@@ -185,7 +184,7 @@ contains
       if (status%code == STATUS_SINGULAR .and. n > 0) status%code = STATUS_NOT_CONVERGED
       if (status%code == STATUS_OK .or. status%code == STATUS_NOT_CONVERGED) then
          if (all(limit%values%code == CODE_NOT_RUN .or. limit%values%code == STATUS_SINGULAR)) then
-            call print_messages(command%quiet, told + 1, command%json)
+            call print_messages(command%quiet, n_printed + 1, command%json)
          end if
          one%code = status%code
          status = status_t()
@@ -232,15 +231,15 @@ contains
       end if
    end subroutine watch
 
-   !> Reads the deck with a value. code: STATUS_DECK and the like, told.
-   subroutine load_value(command, parameter, x, only_errors, model, code, told)
+   !> Reads the deck with a value. code: STATUS_DECK and the like; printed.
+   subroutine load_value(command, parameter, x, only_errors, model, code, n_printed)
       type(command_t), intent(in) :: command
       character(len=*), intent(in) :: parameter
       real(wp), intent(in) :: x
-      logical, intent(in) :: only_errors            !< what else there is to say of the deck has been told
+      logical, intent(in) :: only_errors            !< what else there is to say of the deck has been printed
       type(model_t), intent(out) :: model
       integer, intent(out) :: code
-      integer(ip), intent(out) :: told              !< messages of the deck
+      integer(ip), intent(out) :: n_printed         !< messages of the deck
       type(command_t) :: one
       type(reporter_t) :: reporter
 
@@ -248,7 +247,7 @@ contains
       reporter%quiet = .true.
       call append_string(one%settings, parameter//'='//to_text(x, ALL_DIGITS))
       call clear_messages()
-      call load_model(one, reporter, model, told, code, only_errors)
+      call load_model(one, reporter, model, n_printed, code, only_errors)
    end subroutine load_value
 
    subroutine print_failure(command, parameter, x, status)
@@ -341,19 +340,18 @@ contains
    end function end_text
 
    !> Tables, pictures and closing lines.
-   subroutine finish(command, provenance, model, limit, seconds, status)
+   subroutine finish(command, origin, model, limit, seconds, status)
       type(command_t), intent(in) :: command
-      type(provenance_t), intent(in) :: provenance
+      type(origin_t), intent(inout) :: origin
       type(model_t), intent(in) :: model            !< at the value that falls
       type(stability_t), intent(in) :: limit
       real(wp), intent(in) :: seconds(2)             !< wall clock and processor
       type(status_t), intent(out) :: status
-      type(origin_t) :: origin
       type(page_t) :: page
       type(report_t) :: report
       type(string_t), allocatable :: pictures(:)
 
-      origin = series_origin(command, provenance,.not. limit%is_close)
+      origin%not_converged = .not. limit%is_close
       call write_stability(output_folder(command), origin, limit, int(command%digits), status, command%is_csv)
       if (.not. is_ok(status)) return
       call begin_pictures(command)
@@ -366,7 +364,7 @@ contains
          report%heading = model%heading
          call report_of_limit(limit, seconds, report)
       end if
-      call tell_series(command, page, report)
+      call print_closing(command, page, report)
    end subroutine finish
 
 end module atrito_stability_limit

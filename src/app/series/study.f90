@@ -8,13 +8,12 @@ module atrito_study
    use atrito_mpi, only: rank_count
    use atrito_page, only: page_t
    use atrito_buffer, only: buffer_t, put, put_status, take, take_status
-   use atrito_provenance, only: provenance_t
    use atrito_rank_tasks, only: rank_tasks_t, rank_times_t, work_for_first
    use atrito_report, only: report_t
    use atrito_reporter, only: reporter_t, report_progress
    use atrito_run_request, only: make_tasks, print_lost
    use atrito_series_reports, only: begin_series, take_heading, report_of_study
-   use atrito_series, only: claim_output, find_provenance, series_origin, begin_pictures, tell_series
+   use atrito_series, only: claim_output, find_origin, begin_pictures, print_closing
    use atrito_status, only: status_t, is_ok, STATUS_OK, STATUS_USAGE, STATUS_NOT_CONVERGED, STATUS_INTERNAL
    use atrito_strings, only: string_t, join, to_text
    use atrito_study_errors, only: study_t, study_probe_t
@@ -51,7 +50,7 @@ contains
       integer, intent(out) :: code                  !< one of STATUS_*
       type(study_runs_t) :: runs
       type(folder_claim_t) :: claim
-      type(provenance_t) :: provenance
+      type(origin_t) :: origin
 
       associate (command => runs%command, status => runs%status)
          call plan_study(asked, command, runs%study, status)
@@ -59,11 +58,11 @@ contains
          code = status%code
          if (.not. is_ok(status)) return
          runs%reporter%quiet = command%quiet .or. command%json
-         call find_provenance(command, provenance)
+         call find_origin(command, origin)
          call make_rows(runs)
          if (.not. runs%is_stopped) then
             call make_probes(runs)
-            call finish(command, provenance, runs%study, status)
+            call finish(command, origin, runs%study, status)
          end if
          if (.not. is_ok(status)) call print_status(status, command%names(1)%s, command%json)
          code = max(int(maxval(runs%study%rows%code)), status%code)
@@ -195,12 +194,11 @@ contains
       end associate
    end subroutine take_answer
 
-   subroutine finish(command, provenance, study, status)
+   subroutine finish(command, origin, study, status)
       type(command_t), intent(in) :: command
-      type(provenance_t), intent(in) :: provenance
+      type(origin_t), intent(inout) :: origin
       type(study_t), intent(inout) :: study
       type(status_t), intent(out) :: status
-      type(origin_t) :: origin
       type(page_t) :: page
       type(report_t) :: report
       type(command_t) :: one
@@ -209,7 +207,7 @@ contains
 
       study%rounding = max(study%rounding, 10.0_wp**(1 - command%digits))
       call judge_study(study)
-      origin = series_origin(command, provenance, any(study%rows%code == STATUS_NOT_CONVERGED))
+      origin%not_converged = any(study%rows%code == STATUS_NOT_CONVERGED)
       call write_study(output_folder(command), origin, study, int(command%digits), status, command%is_csv)
       if (.not. is_ok(status)) return
       call begin_pictures(command)
@@ -223,7 +221,7 @@ contains
          call take_heading(one%folder, report)
          call report_of_study(study, report)
       end if
-      call tell_series(command, page, report)
+      call print_closing(command, page, report)
    end subroutine finish
 
 end module atrito_study

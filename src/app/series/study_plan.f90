@@ -22,29 +22,21 @@ contains
       type(command_t), intent(out) :: command       !< of all runs
       type(study_t), intent(out) :: study           !< with quantities and rows
       type(status_t), intent(out) :: status
+      integer(ip) :: k
 
       command = asked
       ! one solver on all levels: another one from some level on would put a step into the times
       if (command%solver == 'auto') command%solver = 'sparse'
       call choose_quantities(command, study, status)
-      if (is_ok(status)) call list_runs(command, study)
-   end subroutine plan_study
-
-   !> Every element at every level.
-   pure subroutine list_runs(command, study)
-      type(command_t), intent(in) :: command
-      type(study_t), intent(inout) :: study
-      integer(ip) :: i, k
-
+      if (.not. is_ok(status)) return
       study%elements = command%elements
       if (size(study%elements) == 0) call append_string(study%elements, DECK_ELEMENTS)
       allocate (study%rows(size(study%elements)*command%levels))
-      do k = 1, size(study%rows, kind=ip)
-         i = (k - 1)/command%levels + 1
-         study%rows(k)%level = k - 1 - (i - 1)*command%levels
-         study%rows(k)%element = study%elements(i)%s
+      do k = 1, size(study%rows, kind=ip)            ! every element at every level
+         study%rows(k)%level = mod(k - 1, command%levels)
+         study%rows(k)%element = study%elements((k - 1)/command%levels + 1)%s
       end do
-   end subroutine list_runs
+   end subroutine plan_study
 
    !> --reference QUANTITY[=VALUE]; without any the energy and the resultants of the first pair. What is observed is studied in any
    !> case.

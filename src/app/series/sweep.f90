@@ -18,14 +18,13 @@ module atrito_sweep
    use atrito_buffer, only: buffer_t, put, take
    use atrito_plot_files, only: plot_folder
    use atrito_processes, only: begin_worker, end_worker, share_integers
-   use atrito_provenance, only: provenance_t
    use atrito_rank_tasks, only: rank_tasks_t, rank_times_t, work_for_first
    use atrito_report, only: report_t
    use atrito_reporter, only: reporter_t, report_progress
    use atrito_run, only: run_deck
    use atrito_run_request, only: make_tasks, is_sound, print_lost
    use atrito_series_reports, only: begin_series, report_of_sweep
-   use atrito_series, only: claim_output, find_provenance, series_origin, begin_pictures, tell_series, seconds_since
+   use atrito_series, only: claim_output, find_origin, begin_pictures, print_closing, seconds_since
    use atrito_status, only: status_t, set_status, is_ok, STATUS_USAGE, STATUS_NOT_CONVERGED, STATUS_INTERNAL
    use atrito_strings, only: string_t, append_string, to_text
    use atrito_study_errors, only: run_facts_t
@@ -45,7 +44,7 @@ module atrito_sweep
    type, extends(rank_tasks_t) :: sweep_t
       type(command_t) :: command
       type(sweep_plan_t) :: plan
-      type(provenance_t) :: provenance
+      type(origin_t) :: origin                         !< of its tables
       type(sweep_journal_t) :: journal
       integer(c_int), pointer :: shared(:) => null()   !< (OUTCOMES*n_runs) all exit codes, all factorisations, all that was written
       type(body_cache_t) :: store
@@ -92,8 +91,8 @@ contains
       integer(ip) :: run
 
       call system_clock(began)
-      call find_provenance(sweep%command, sweep%provenance)
-      call begin_journal(sweep%command, sweep%provenance, sweep%journal)
+      call find_origin(sweep%command, sweep%origin)
+      call begin_journal(sweep%command, sweep%origin%provenance_t, sweep%journal)
       is_done = .false.
       if (sweep%command%resume) call find_done(sweep%journal, sweep%plan, is_done, outcomes_of)
       sweep%n_left = count(is_done, kind=ip)
@@ -273,8 +272,8 @@ contains
          return
       end if
       associate (command => sweep%command, plan => sweep%plan)
-         origin = series_origin(command, sweep%provenance, any(runs%code == STATUS_NOT_CONVERGED .or. &
-                                                               (runs%is_written .and. .not. runs%is_whole)))
+         origin = sweep%origin
+         origin%not_converged = any(runs%code == STATUS_NOT_CONVERGED .or. (runs%is_written .and. .not. runs%is_whole))
          call write_sweep(output_folder(command), origin, plan%names, observation_names(command%observe), runs, &
                           int(command%digits), status, command%is_csv)
          if (.not. is_ok(status)) return
@@ -283,7 +282,7 @@ contains
          if (command%plot) call plot_sweep(command, plan, runs, origin%deck, pictures)
          call compose_sweep(command%names(1)%s, plan%names, observation_names(command%observe), runs, &
                             output_folder(command), seconds, page, pictures)
-            if (command%report) then
+         if (command%report) then
             call begin_series('sweep', command%names(1)%s, output_folder(command), ['sweep', 'runs '], pictures, report)
             call report_of_sweep(plan%names, runs, seconds, report)
          end if
@@ -295,7 +294,7 @@ contains
                                                        number(times%longest_idle, 3)//' s at most; longest run '// &
                                                        number(times%longest_task, 3)//' s')
          end associate
-         call tell_series(command, page, report)
+         call print_closing(command, page, report)
       end associate
    end subroutine finish
 

@@ -1,5 +1,5 @@
-!> The twin of src/fields/hdf5.f90 in a build without HDF5 (ATRITO_HDF5=OFF). A deck that asks for fields or restart files is refused
-!> before it is solved; --restart comes here and fails.
+!> The twin of src/fields/hdf5.f90 in a build without HDF5 (ATRITO_HDF5=OFF). A deck that asks for fields or restart files is
+!> refused before it is solved; --restart comes here and fails.
 module atrito_hdf5
    use atrito_kinds, only: ip, lp, wp
    use atrito_status, only: status_t, set_status, STATUS_FILE
