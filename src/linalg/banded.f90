@@ -1,6 +1,20 @@
-!> Band Cholesky by LAPACK: K_ii = L L' (dpbtrf), the coupling H = L^-1 K_ic, S = K_cc - H' H.
+!> Band Cholesky by LAPACK, with the retained equations as a border.
 !>
-!> The coupling is a full block from the first interior row that the retained equations reach.
+!> With i for the interior and c for the retained equations
+!>
+!>     [ K_ii  K_ic ]   [ L   0 ] [ I  0 ] [ L'  H ]
+!>     [ K_ci  K_cc ] = [ H'  I ] [ 0  S ] [ 0   I ],      K_ii = L L',   H = L^-1 K_ic,   S = K_cc - H'H.
+!>
+!> L is found by dpbtrf and has the half bandwidth w of K_ii: n w^2 operations for n interior equations. The coupling H is a full
+!> block from row r on, the first interior row that a retained equation reaches (`first_coupled`): above it K_ic is 0, and so is
+!> L^-1 K_ic, as L^-1 is a lower triangle. That makes 2 (n - r) w operations a retained equation for H, and n - r for each entry of
+!> S.
+!>
+!> A load is reduced by f_i <- L^-1 f_i, f_c <- f_c - H'f_i, and the solution expanded by x_i <- L^-T (f_i - H x_c).
+!>
+!> LAPACK keeps a_ij, i >= j, in band(1 + i - j, j). With ld for the leading dimension its address is (i - 1) + (j - 1)(ld - 1),
+!> that of an entry of a full matrix whose leading dimension is ld - 1. So a block of columns of L can be handed to the BLAS as it
+!> lies in the band (eliminate_coupling), if what lies below the band reads as 0: that is what the padding is for.
 module atrito_banded
    use atrito_dot_products, only: dot_down
    use atrito_halting, only: halting_t, suspend_halting, restore_halting

@@ -64,10 +64,17 @@ contains
       call restore_halting(halting)
    end subroutine multiply_symmetric
 
-   !> C <- C + B F B' for F = (L L')^-1, as X' X with X = L^-1 B'.
+   !> C <- C + B F B' for F = (L L')^-1, as X'X with X = L^-1 B'.
    !>
-   !> Columns of B' that begin late cost less; they are best sorted. The triangle is inverted on them alone, which keeps C
-   !> symmetric and positive semidefinite to the last bit but one.
+   !> That is how the compliance of a body at its contact points comes about: L is the factor of its condensed stiffness, the rows
+   !> of B take the motions of the points from the displacements. In this form C is symmetric to the last bit, as each product of
+   !> two columns of X is computed once and put into both places, and positive semidefinite up to the rounding of one sum; F itself
+   !> is never formed.
+   !>
+   !> A column of B' that begins with zeros down to row k has a column of X that does, as L^-1 is a lower triangle: its triangular
+   !> solve and its products begin at row k. Columns are taken in blocks, each from the first row of its first column on, so they
+   !> are best sorted by that. The blocks of X'X in the lower triangle are counted one after the other and shared out to the
+   !> threads: no two of them write to the same place.
    subroutine add_inverse_form(factor, x, first, place, c)
       real(wp), intent(in), contiguous :: factor(:, :) !< (n, n) lower triangle L
       real(wp), intent(inout), contiguous :: x(:, :)   !< (n, k) B'; on return L^-1 B'

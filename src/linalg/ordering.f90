@@ -1,6 +1,20 @@
 !> Node numbering for the profile: reverse Cuthill-McKee with the contact nodes last.
 !>
 !> Reference: A. George, J. W. H. Liu, Computer Solution of Large Sparse Positive Definite Systems, 1981, chapter 4.
+!>
+!> Two nodes are neighbours in the graph when they share an element. Cuthill and McKee number the graph in layers: a root, its
+!> neighbours, their neighbours, and so on, within a layer in the order of the neighbours in the layer before, and of those of one
+!> node the ones of low degree first. An edge joins nodes of one layer or of two that follow each other, so no column reaches back
+!> over more than two layers: the bandwidth is at most the sum of the sizes of two of them. Long and narrow structures of layers are
+!> wanted, which begin at a node at an end of the graph; a pseudo-peripheral node is found by going from the last layer back to the
+!> first until that makes no more layers (find_peripheral_node).
+!>
+!> Reversing the numbers leaves the bandwidth as it is and never makes the profile longer (Liu and Sherman, SIAM J. Numer. Anal. 13
+!> (1976) 198-213): a column then begins at the first of the neighbours in the next layer, not at that in the one before.
+!>
+!> The contact nodes are retained equations and have to come last. So they are the root, which the reversal puts to the end, all of
+!> them in one layer: the layers approach the contact line from the far side of the body, and the rows that couple with the
+!> retained equations are the last ones of the interior, which keeps the columns of the coupling short.
 module atrito_ordering
    use atrito_incidence, only: list_holders
    use atrito_kinds, only: ip, lp

@@ -3,6 +3,19 @@
 !> Equations are numbered 1..n; the last n_retained of them are retained: they are the contact unknowns, which the factorisation
 !> does not eliminate and onto which it condenses the rest (the Schur complement). Column j of the upper triangle is stored from row
 !> first(j) down to the diagonal; its height is j - first(j) + 1.
+!>
+!> The profile of a sum of element matrices: an element with the equations e couples all of them, so first(j) for j in e is at most
+!> the least of e. The retained block is full once the interior is eliminated, therefore closing the profile lowers its columns to
+!> the first retained row.
+!>
+!> From the profile the choice of the solver follows, by the operations and the memory of each:
+!>
+!>     skyline   sum over the columns of h_j^2, where h_j rows of column j are eliminated
+!>     banded    n w^2, w the greatest height: as much as the skyline where all columns are equally high, and with a better rate
+!>     sparse    about 45 n m for a grid m equations wide: less for all that is larger than a few thousand equations
+!>
+!> The first two are counts of what the routines do; the third is a fit to counts of a number of bodies, since the sparse solver
+!> takes an order of its own.
 module atrito_profile
    use atrito_kinds, only: ip, lp, wp
    use atrito_multifrontal, only: elimination_t

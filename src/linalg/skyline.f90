@@ -1,11 +1,33 @@
-!> The classic skyline solver: L D L' of the columns between profile and diagonal, without pivoting.
+!> The classic skyline solver: K = L D L' of the columns between profile and diagonal, without pivoting.
 !>
-!> Active columns (Bathe, Finite Element Procedures, 8.2.3): with g = D L' in the making, column j is
+!> Storage. Of column j of the upper triangle the entries from row m_j (`first`), the first that is not zero, down to the diagonal
+!> stand one behind the other in `values`, column after column; place(j) is where the diagonal is. The elimination makes nothing
+!> above m_j: g_ij below is k_ij less a sum over the rows k >= m_j, and so it is 0 where i < m_j. Hence L' takes the place of K.
+!>
+!> Elimination by active columns (Bathe, Finite Element Procedures, 8.2.3). With g = D L' in the making, column j is
 !>
 !>     g_ij = k_ij - sum_k l_ki g_kj,   l_ij = g_ij/d_i,   d_j = k_jj - sum_k l_kj g_kj,      k below min(i, n_interior + 1).
 !>
-!> The limit on k leaves the retained block unfactored: it becomes the Schur complement. Four neighbouring columns are eliminated
-!> at a time in a panel, filled up with zeros to the tallest of them.
+!> A column needs those before it alone, and of each of them the rows that both have: one dot product an entry, as long as the
+!> lower of the two columns is high. With heights h_j that makes about sum of h_j^2 operations (skyline_flops).
+!>
+!> Condensation. The limit on k ends all sums at the last equation that is eliminated. In the columns of the retained equations,
+!> index c, that leaves
+!>
+!>     D^-1 L^-1 K_ic   in the interior rows i,      S = K_cc - K_ci K_ii^-1 K_ic   in the rows c:
+!>
+!> when the last column is done, the retained block is the Schur complement.
+!>
+!> Solution. reduce makes D^-1 L^-1 f_i and f_c - K_ci K_ii^-1 f_i in one loop over all columns, a dot product each, since the
+!> columns c hold D^-1 L^-1 K_ic. expand goes backward: once x_j is known, x_j times column j is taken off the rows above, first for
+!> the columns c, which gives D^-1 L^-1 (f_i - K_ic x_c), then for those of L', which gives x_i.
+!>
+!> Pivots. K_ii is positive definite, so every d_j is positive, and no interchange could make the elimination more stable. A pivot
+!> that is round-off of its diagonal tells that something is free to move, a negative one that the matrix is not what it should be
+!> (note_pivot).
+!>
+!> Panels. Four neighbouring columns are eliminated at a time, filled up with zeros to the tallest of them: a column of L' that is
+!> fetched from memory serves four sums, two of them at a time eight (dot_1x4, dot_2x4). One column at a time waits for memory.
 module atrito_skyline
    use atrito_dot_products, only: dot, dot_1x4, dot_2x4, take_off, PANEL_WIDTH
    use atrito_kinds, only: ip, lp, wp

@@ -1,5 +1,18 @@
 !> The sparse solver (atrito_multifrontal) for a body, with the retained equations as the last front.
 !>
+!> The multifrontal method eliminates supernodes, groups of equations, in dense matrices. Supernode p has a front: its own
+!> equations, the pivots, and those of later supernodes that it couples to, the border. Into the front go the matrices of the
+!> elements that have a pivot in it, and what the children of p in the tree of supernodes have left. Partial elimination,
+!>
+!>     [ F_pp  F_pb ]       F_pp = L L',   H = L^-1 F_pb,   F_bb - H'H,
+!>     [ F_bp  F_bb ]
+!>
+!> leaves the columns of the factor, L and H, and a matrix on the border that is added to the front of the parent. The last front
+!> has the retained equations alone; it is assembled and not eliminated, and so is the Schur complement.
+!>
+!> Fronts that are equal, number by number, are factored once (atrito_front_tree): of a regular mesh a few hundred out of many
+!> thousands.
+!>
 !> No pivot is chosen: the matrix is positive definite, and the loss of digits is told by its pivots as in the other solvers.
 module atrito_sparse_solver
    use atrito_kinds, only: ip, lp, wp
