@@ -46,6 +46,7 @@ module atrito_banded
 
 contains
 
+   !> Room for band, coupling and retained block, all zero.
    subroutine create_banded(self, profile, status)
       class(banded_t), intent(inout) :: self
       type(profile_t), intent(in) :: profile
@@ -74,6 +75,8 @@ contains
       self%retained = 0.0_wp
    end subroutine create_banded
 
+   !> Adds an element matrix, its lower triangle: to the band where both equations are interior; to the coupling, K_ic, where the
+   !> greater one is retained; to the lower triangle of K_cc where both are.
    subroutine add_to_banded(self, equations, matrix)
       class(banded_t), intent(inout) :: self
       integer(ip), intent(in) :: equations(:)
@@ -99,6 +102,8 @@ contains
       end do
    end subroutine add_to_banded
 
+   !> L by dpbtrf, whose pivots are then looked through; H and S where there are retained equations that reach the interior. BLAS
+   !> and LAPACK raise floating-point exceptions that mean nothing: halting is suspended round them.
    subroutine factor_banded(self, status)
       class(banded_t), intent(inout) :: self
       type(status_t), intent(out) :: status
@@ -121,8 +126,12 @@ contains
       call restore_halting(halting)
    end subroutine factor_banded
 
-   !> The pivots are the squares of L's diagonal; the one at which dpbtrf gave up (`failed` > 0) is computed anew from its row,
-   !> to tell a negative one from none.
+   !> The pivots are the squares of L's diagonal, each compared with the diagonal that stood there before. dpbtrf stops at the first
+   !> one that is not positive (`failed` > 0) and leaves no number for it: it is computed anew from its row,
+   !>
+   !>     d_j = k_jj - sum of l_jk^2,      k from j - w to j - 1,
+   !>
+   !> to tell a negative one, an indefinite matrix, from round-off, a motion that is free.
    subroutine check_pivots(self, diagonal, failed, stopped)
       class(banded_t), intent(inout) :: self
       real(wp), intent(in) :: diagonal(:)            !< of K_ii
@@ -149,8 +158,13 @@ contains
       end do
    end subroutine check_pivots
 
-   !> coupling <- L^-1 coupling, by blocks of columns of L (dtbtrs takes one column of the coupling at a time and is slow).
-   !> With one row less as leading dimension the band reads as a full matrix; the padding holds the zeros below it.
+   !> coupling <- L^-1 coupling, by blocks of columns of L (dtbtrs takes one column of the coupling at a time and is slow). With a
+   !> block of L, its triangle L_kk and the w rows L_bk below it,
+   !>
+   !>     H_k <- L_kk^-1 H_k  (dtrsm),      H_b <- H_b - L_bk H_k  (dgemm),
+   !>
+   !> for all retained equations at once. With one row less as leading dimension the band reads as a full matrix; the padding holds
+   !> the zeros below it, which L_bk has where its later columns reach farther down than its first.
    subroutine eliminate_coupling(self, rows)
       class(banded_t), intent(inout) :: self
       integer(ip), intent(in) :: rows
@@ -168,6 +182,7 @@ contains
       end do
    end subroutine eliminate_coupling
 
+   !> Both triangles of S.
    subroutine get_banded_schur(self, schur)
       class(banded_t), intent(in) :: self
       real(wp), intent(out) :: schur(:, :)
@@ -240,6 +255,7 @@ contains
       end do
    end subroutine expand_columns
 
+   !> Band with its padding, coupling and retained block [bytes].
    pure integer(lp) function banded_memory(self)
       class(banded_t), intent(in) :: self
 

@@ -51,7 +51,11 @@ contains
       is_worth_keeping = n >= LEAST_KEPT
    end function is_worth_keeping
 
-   !> Factors C + D of the free set.
+   !> Factors T (C + D) T of the free set, the lower triangle in place. The upper one keeps the scaled matrix, of which condition_of
+   !> takes the norm; its diagonal is 1 and needs no place.
+   !>
+   !> A pivot is the square of the distance of a row from those before it, measured so that the row has the length 1: where it is
+   !> below LEAST_PIVOT the row depends on them, two points of the line say the same, and the unknown is named to the caller.
    subroutine factor_free_set(c, d, set, factor, dependent)
       real(wp), intent(in), contiguous :: c(:, :) !< (m, m) [L/F]
       real(wp), intent(in) :: d(:)               !< (m) [L/F]
@@ -86,7 +90,8 @@ contains
       deallocate (factor%set)
    end subroutine factor_free_set
 
-   !> Estimate of the condition of the scaled matrix, in the 1-norm. Its norm is that of the upper triangle, which is still there.
+   !> Estimate of the condition of the scaled matrix, in the 1-norm. Its norm is that of the upper triangle, which is still there:
+   !> the column sums of |M| are 1 for the diagonal and each entry twice, in its column and, by symmetry, in that of its row.
    real(wp) function condition_of(factor) result(condition)
       type(free_set_factor_t), intent(in) :: factor
       real(wp), allocatable :: sums(:)
@@ -104,7 +109,8 @@ contains
       condition = estimate_condition(factor%matrix, maxval(sums))
    end function condition_of
 
-   !> Where the unknowns of a set stand in a factor.
+   !> Where the unknowns of a set stand in a factor, and by how much their scaling differs: R and U^-1 T of the head of this module.
+   !> What only one of the two sets has is counted, to tell whether the factor is still near enough.
    pure subroutine relate_sets(factor, m, set, scale, relation)
       type(free_set_factor_t), intent(in) :: factor
       integer(ip), intent(in) :: m               !< unknowns there are
@@ -125,7 +131,8 @@ contains
       end associate
    end subroutine relate_sets
 
-   !> P^-1 x in scaled form: the factor's inverse on the unknowns it has, the unit diagonal on the others.
+   !> P^-1 x in scaled form: x is taken to the unknowns of the factor and to its scaling, 0 where F has one that G has not; solved;
+   !> and taken back. On the others P is 1. Two triangles go by: 2 n^2 operations, and the time that they take to come from memory.
    subroutine apply_inverse(factor, relation, x, y)
       type(free_set_factor_t), intent(in) :: factor
       type(relation_t), intent(in) :: relation

@@ -111,7 +111,8 @@ module atrito_linear_solver
 
 contains
 
-   !> Adds the matrices of a store, in their order. The solver may empty the store.
+   !> Adds the matrices of a store, in their order. Elements that follow one another and have one matrix in common get it unpacked
+   !> once. The solver may empty the store.
    subroutine add_one_by_one(self, store)
       class(linear_solver_t), intent(inout) :: self
       type(element_store_t), intent(inout) :: store

@@ -38,7 +38,9 @@ module atrito_ordering
 
 contains
 
-   !> Graph of a mesh, in time linear in the number of pairs of nodes within elements.
+   !> Graph of a mesh, in time linear in the number of pairs of nodes within elements: for each node its elements, and of these the
+   !> nodes that were not seen yet from it. Instead of emptying the marks for each node, a mark is the node from which one was seen
+   !> last.
    subroutine build_graph(n, elements, graph)
       integer(ip), intent(in) :: n               !< nodes
       integer(ip), intent(in) :: elements(:, :)  !< (nodes per element, elements): 1..n, 0 beyond the count
@@ -82,8 +84,11 @@ contains
       end do
    end subroutine take_neighbours
 
-   !> Numbers the connected components of a mesh from 1 in the order of their lowest nodes, without its graph: sets of nodes are
-   !> joined element by element, each known by its lowest node.
+   !> Numbers the connected components of a mesh from 1 in the order of their lowest nodes, without its graph.
+   !>
+   !> Sets of nodes are joined element by element. Each set is a tree whose root is its lowest node, and each node knows its parent;
+   !> two sets are joined by making the lower of the two roots the parent of the other one. To find a root one goes up, and each
+   !> node on the way is hung to its grandparent, which halves the way for those who come later: the time is as good as linear.
    pure subroutine mesh_components(n, elements, component, n_components)
       integer(ip), intent(in) :: n               !< nodes
       integer(ip), intent(in) :: elements(:, :)  !< (nodes per element, elements): 1..n, 0 beyond the count
@@ -127,9 +132,11 @@ contains
 
    !> Reverse Cuthill-McKee numbering that ends with given nodes.
    !>
-   !> The given nodes are the root level of the search, so that the rest is numbered in layers that approach them: their
-   !> columns stay short. A component without any of them begins at a pseudo-peripheral node. Components follow one another.
-   !> Time linear in the number of edges (and in last_nodes times the components that hold any) where no node has very many.
+   !> The given nodes are the root level of the search, so that the rest is numbered in layers that approach them: their columns
+   !> stay short. They stand in the walk from the last to the first, and the reversal at the end puts them in the order that is
+   !> wanted. A component without any of them begins at a pseudo-peripheral node. Components follow one another: equations of two
+   !> components have no entry in common, so nothing is gained or lost by their order. Time linear in the number of edges (and in
+   !> last_nodes times the components that hold any) where no node has very many.
    pure subroutine order_contact_last(graph, last_nodes, order, connected)
       type(graph_t), intent(in) :: graph
       integer(ip), intent(in) :: last_nodes(:)   !< distinct nodes, in the order wanted (along the chain); may be empty
@@ -165,7 +172,8 @@ contains
       order = walk%nodes(graph%n:1:-1)
    end subroutine order_contact_last
 
-   !> Cuthill-McKee from the given roots, which are in the walk: those at the end of the list first.
+   !> Cuthill-McKee from the given roots, which are in the walk: those at the end of the list first. The walk itself is the queue:
+   !> the neighbours of its next node are appended, so it is gone through layer by layer.
    pure subroutine grow_layers(graph, roots, walk)
       type(graph_t), intent(in) :: graph
       integer(ip), intent(in) :: roots(:)
@@ -213,7 +221,9 @@ contains
       end do
    end subroutine find_peripheral_node
 
-   !> The number of layers seen from `root`, and the node of least degree in the last one. The trial walk is left empty.
+   !> The number of layers seen from `root`, and the node of least degree in the last one: the fewer neighbours it has, the more
+   !> likely it lies at an end of the graph. The trial walk is left empty, by taking back the marks of its nodes alone, so that
+   !> small components of a large graph take little time.
    pure subroutine find_far_node(graph, root, trial, layers, far)
       type(graph_t), intent(in) :: graph
       integer(ip), intent(in) :: root
@@ -261,6 +271,7 @@ contains
       end do
    end subroutine connected_components
 
+   !> An empty sequence; nobody has been seen.
    pure subroutine begin_walk(walk, n)
       type(walk_t), intent(out) :: walk
       integer(ip), intent(in) :: n
@@ -269,6 +280,7 @@ contains
       walk%seen = .false.
    end subroutine begin_walk
 
+   !> Appends a node, unless it is there.
    pure subroutine visit(walk, node)
       type(walk_t), intent(inout) :: walk
       integer(ip), intent(in) :: node
@@ -322,6 +334,7 @@ contains
       end do
    end subroutine sort_by_degree
 
+   !> How many neighbours a node has.
    pure integer(ip) function degree(graph, node)
       type(graph_t), intent(in) :: graph
       integer(ip), intent(in) :: node

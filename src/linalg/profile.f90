@@ -57,7 +57,8 @@ contains
       end do
    end subroutine begin_profile
 
-   !> Makes room for an element matrix.
+   !> Makes room for an element matrix: all of its equations reach up to the lowest of them, so that the assembled matrix fits
+   !> whatever the entries are. Entries that are zero by accident take room as well.
    pure subroutine add_to_profile(profile, equations)
       type(profile_t), intent(inout) :: profile
       integer(ip), intent(in) :: equations(:)   !< equation numbers of the element in any order; 0 = prescribed, skipped
@@ -77,7 +78,8 @@ contains
       end do
    end subroutine add_to_profile
 
-   !> Ends with the retained block full, as the Schur complement is.
+   !> Ends with the retained block full, as the Schur complement is: eliminating the interior couples all retained equations that
+   !> the body joins, whether or not an element has them.
    pure subroutine close_profile(profile)
       type(profile_t), intent(inout) :: profile
       integer(ip) :: j, n_interior
@@ -154,8 +156,12 @@ contains
       end do
    end function first_coupled_row
 
-   !> Predicted floating-point operations of the skyline factorisation with its Schur complement. Exact where first(j) grows
-   !> with j, an upper bound elsewhere.
+   !> Predicted floating-point operations of the skyline factorisation with its Schur complement. Exact where first(j) grows with j,
+   !> an upper bound elsewhere.
+   !>
+   !> Column j has h rows to eliminate; row k of them is a dot product of length k - 1 at the most, a multiplication and an addition
+   !> a term, then comes the division by the pivot and the sum for the diagonal: h (h - 1) + h + 2 h, and with what the products are
+   !> taken off h (h + 3). A retained column has a dot product of length h besides for each retained column before it.
    pure real(wp) function skyline_flops(profile) result(flops)
       type(profile_t), intent(in) :: profile
       real(wp) :: height, retained_before
@@ -170,7 +176,9 @@ contains
       end do
    end function skyline_flops
 
-   !> Predicted floating-point operations of the banded factorisation with its Schur complement.
+   !> Predicted floating-point operations of the banded factorisation with its Schur complement: w (w + 3) for each column of the
+   !> band, then for each retained equation the substitution, (2 w + 1) a row of the coupling, and its products with the others, of
+   !> which symmetry leaves half: n_retained a row.
    pure real(wp) function banded_flops(profile) result(flops)
       type(profile_t), intent(in) :: profile
       real(wp) :: n_interior, n_retained, rows, band
