@@ -180,7 +180,9 @@ contains
          held = place(i)
          j = i - 1
          do while (j >= 1)
-            if (.not. comes_after(store(place(j)), store(held))) exit
+            associate (a => store(place(j)), b => store(held))
+               if (a%order < b%order .or. (a%order == b%order .and. a%column <= b%column)) exit
+            end associate
             place(j + 1) = place(j)
             j = j - 1
          end do
@@ -189,21 +191,18 @@ contains
       if (stored > 0) store = store(place)
    end subroutine sort_messages
 
-   pure logical function comes_after(a, b)
-      type(message_t), intent(in) :: a, b
-
-      comes_after = a%order > b%order
-      if (a%order == b%order) comes_after = a%column > b%column
-   end function comes_after
-
    !> The lines of a message as they are printed, docs/user/messages.md.
    function format_message(message) result(lines)
       type(message_t), intent(in) :: message
       type(string_t), allocatable :: lines(:)
+      character(len=:), allocatable :: text
       integer :: i
 
       allocate (lines(0))
-      call append_string(lines, first_line(message))
+      text = place_of_message(message)//severity_word(message%severity)//' ['//message%id//'] '//message%text
+      if (message%more > 0) text = text//' (and '//to_text(message%more)//' more '// &
+                                   trim(merge('line ', 'lines', message%more == 1))//')'
+      call append_string(lines, text)
       if (allocated(message%source) .and. message%column > 0) then
          call append_source(lines, message)
       end if
@@ -219,15 +218,6 @@ contains
          lines(i)%s = visible(lines(i)%s)             ! names and paths are the user's
       end do
    end function format_message
-
-   function first_line(message) result(text)
-      type(message_t), intent(in) :: message
-      character(len=:), allocatable :: text
-
-      text = place_of_message(message)//severity_word(message%severity)//' ['//message%id//'] '//message%text
-      if (message%more > 0) text = text//' (and '//to_text(message%more)//' more '// &
-                                   trim(merge('line ', 'lines', message%more == 1))//')'
-   end function first_line
 
    !> `FILE:LINE:COLUMN: `, what stands before the word of the severity; empty where there is no place at all.
    pure function place_of_message(message) result(text)

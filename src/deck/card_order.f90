@@ -54,7 +54,12 @@ contains
       end if
       select case (card%name)
       case ('STEP')
-         call begin_step(deck, order, card)
+         if (order%in_step) call refuse_card(deck, card, 'E-STEP', '*STEP inside a step', 'the *END STEP of the step before')
+         order%n_steps = order%n_steps + 1
+         order%in_step = .true.
+         order%step = card%place
+         card%level = LEVEL_STEP
+         card%step = order%n_steps
       case ('END STEP')
          if (.not. (order%in_step .or. order%lost_step)) call refuse_card(deck, card, 'E-STEP', '*END STEP without a *STEP', &
                                                                      '*STEP before it')
@@ -82,19 +87,6 @@ contains
          if (deck%keywords(i)%parent == name) order%parent = LOST
       end do
    end subroutine follow_meaning
-
-   subroutine begin_step(deck, order, card)
-      type(deck_t), intent(in) :: deck
-      type(order_t), intent(inout) :: order
-      type(card_t), intent(inout) :: card
-
-      if (order%in_step) call refuse_card(deck, card, 'E-STEP', '*STEP inside a step', 'the *END STEP of the step before')
-      order%n_steps = order%n_steps + 1
-      order%in_step = .true.
-      order%step = card%place
-      card%level = LEVEL_STEP
-      card%step = order%n_steps
-   end subroutine begin_step
 
    subroutine check_level(deck, order, card)
       type(deck_t), intent(in) :: deck

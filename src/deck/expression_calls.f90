@@ -4,7 +4,7 @@ module atrito_expression_calls
    use atrito_strings, only: string_t, same_name
    implicit none (type, external)
    private
-   public :: call_t, argument_t, read_call, has_argument_of, append_call
+   public :: call_t, argument_t, read_call, has_argument_of
 
    !> A name or number in parentheses.
    type :: argument_t
@@ -73,18 +73,6 @@ contains
       end do
    end function has_argument_of
 
-   !> Adds a call at the end of a list, which is allocated.
-   pure subroutine append_call(one, list)
-      type(call_t), intent(in) :: one
-      type(call_t), allocatable, intent(inout) :: list(:)
-      type(call_t), allocatable :: longer(:)
-
-      allocate (longer(size(list) + 1))
-      longer(:size(list)) = list
-      longer(size(longer)) = one
-      call move_alloc(longer, list)
-   end subroutine append_call
-
    !> Appends what stands at some characters, without the blanks round it.
    pure subroutine add_argument(text, first, last, list, trouble, place)
       character(len=*), intent(in) :: text
@@ -92,8 +80,7 @@ contains
       type(argument_t), allocatable, intent(inout) :: list(:)
       character(len=:), allocatable, intent(inout) :: trouble
       integer, intent(inout) :: place
-      type(argument_t), allocatable :: longer(:)
-      integer :: i, n
+      integer :: i, end
 
       i = first_behind(text, first - 1)
       if (i > last) then
@@ -101,13 +88,8 @@ contains
          trouble = 'a name or a number is missing'
          return
       end if
-      n = size(list)
-      allocate (longer(n + 1))
-      longer(:n) = list
-      longer(n + 1)%first = i
-      longer(n + 1)%last = first + len_trim(replaced(text(first:last))) - 1
-      longer(n + 1)%text = text(i:longer(n + 1)%last)
-      call move_alloc(longer, list)
+      end = first + len_trim(replaced(text(first:last))) - 1
+      list = [list, argument_t(text(i:end), i, end)]
    end subroutine add_argument
 
    !> Tabs as blanks.

@@ -11,7 +11,7 @@ module atrito_expressions
    use atrito_kinds, only: wp, PI
    use atrito_arithmetic, only: add_safely, multiply_safely, divide_safely, raise_safely, exponential_safely, ARITHMETIC_OK, &
                                 ARITHMETIC_OVERFLOW, ARITHMETIC_ZERO_DIVISION
-   use atrito_expression_calls, only: call_t, read_call, has_argument_of, append_call
+   use atrito_expression_calls, only: call_t, read_call, has_argument_of
    use atrito_expression_names, only: is_name, is_function, is_reserved_name, reserved_names, DIGITS, LETTERS
    use atrito_name_list, only: name_list_t, add_name, find_name
    use atrito_numbers, only: read_real, NUMBER_OK, NUMBER_TOO_LARGE
@@ -354,7 +354,7 @@ contains
       if (parser%is_listing) then
          call read_call(parser%text, first, last, one, trouble, place)
          if (allocated(trouble)) call fail(parser, place, place, trouble)
-         call append_call(one, parser%calls)
+         parser%calls = [parser%calls, one]
          i = size(parser%calls)
       else
          i = findloc(parser%calls%first, first, dim=1)

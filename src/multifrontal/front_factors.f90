@@ -113,12 +113,24 @@ contains
       real(wp), intent(in) :: diagonal(:)        !< (n) of the matrix, by positions
       logical, intent(out) :: enough             !< memory; the factors are of no use without
       type(task_t), allocatable :: tasks(:)
+      type(workspace_t), allocatable :: workspaces(:)
+      integer(ip) :: wave, u
       real(wp) :: work
 
       call make_tasks(fronts, tasks, work)
-      !$omp parallel default(none) shared(fronts, store, diagonal, tasks) if(work > WORTH_SHARING)
+      allocate (workspaces(n_threads()))
+      !$omp parallel default(none) shared(fronts, store, diagonal, tasks, workspaces) private(wave, u) if(work > WORTH_SHARING)
       !$omp single
-      call factor_waves(store, diagonal, tasks, fronts)
+      do wave = 1, maxval(tasks%wave)
+         !$omp taskgroup                        ! whose end helps with the tiles of the fronts, too
+         do u = 1, size(tasks, kind=ip)
+            if (tasks(u)%wave /= wave) cycle
+            !$omp task default(none) shared(store, diagonal, tasks, fronts, workspaces) firstprivate(u)
+            call factor_task(store, diagonal, tasks(u), fronts, workspaces(this_thread())%front)
+            !$omp end task
+         end do
+         !$omp end taskgroup
+      end do
       !$omp end single
       !$omp end parallel
       enough = all(fronts%factors%enough)
@@ -241,27 +253,6 @@ contains
          wave_of(tasks(u)%first:tasks(u)%last) = tasks(u)%wave
       end do
    end subroutine find_waves
-
-   subroutine factor_waves(store, diagonal, tasks, fronts)
-      type(element_store_t), intent(in) :: store
-      real(wp), intent(in) :: diagonal(:)
-      type(task_t), intent(in) :: tasks(:)
-      type(fronts_t), intent(inout) :: fronts
-      type(workspace_t), allocatable :: workspaces(:)
-      integer(ip) :: wave, u
-
-      allocate (workspaces(n_threads()))
-      do wave = 1, maxval(tasks%wave)
-         !$omp taskgroup                        ! whose end helps with the tiles of the fronts, too
-         do u = 1, size(tasks, kind=ip)
-            if (tasks(u)%wave /= wave) cycle
-            !$omp task default(none) shared(store, diagonal, tasks, fronts, workspaces) firstprivate(u)
-            call factor_task(store, diagonal, tasks(u), fronts, workspaces(this_thread())%front)
-            !$omp end task
-         end do
-         !$omp end taskgroup
-      end do
-   end subroutine factor_waves
 
    subroutine factor_task(store, diagonal, task, fronts, front)
       type(element_store_t), intent(in) :: store
