@@ -32,8 +32,8 @@ module atrito_messages
       type(string_t), allocatable :: nearest(:) !< nearest valid names
       type(string_t), allocatable :: known(:)   !< all valid names, when they are few
       character(len=:), allocatable :: keyword  !< for `atrito help KEYWORD`
-      logical :: is_of_place = .false.          !< told once of a place, whatever its text
-      integer(ip) :: order = huge(1_ip)         !< place in reading order: messages are told in it
+      logical :: is_of_place = .false.          !< given once a place, whatever its text
+      integer(ip) :: order = huge(1_ip)         !< place in reading order: messages are printed in it
       integer(ip) :: more = 0                   !< how many lines more it is true of
    end type message_t
 
@@ -95,7 +95,7 @@ contains
       if (is_same) is_same = a%text == b%text
    end function is_same
 
-   !> Of other lines the same need not be told again: what has no effect, and what is refused by its name.
+   !> Of other lines the same need not be said again: what has no effect, and what is refused by its name.
    pure logical function is_same_kind(a, b)
       type(message_t), intent(in) :: a, b
 
@@ -163,7 +163,7 @@ contains
       mark = message_mark_t(stored, counted)
    end function mark_messages
 
-   !> Forgets what was told since a mark; the messages must not have been sorted in between.
+   !> Forgets the messages since a mark; the messages must not have been sorted in between.
    subroutine forget_messages(mark)
       type(message_mark_t), intent(in) :: mark
 

@@ -17,7 +17,7 @@ module atrito_card_data
    type :: tally_t
       integer, allocatable :: forms(:)                 !< indices in the forms of the keyword
       integer, allocatable :: n_lines(:)               !< lines of each
-      integer :: n_words = 0                           !< forms told by their leading word
+      integer :: n_words = 0                           !< forms that begin with a word
       logical :: faulty = .false.
       logical :: noted = .false.                       !< a note is given once a card
    end type tally_t

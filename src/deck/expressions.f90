@@ -111,58 +111,52 @@ contains
       real(wp), intent(out) :: value
 
       call move_to(parser, 1)
-      call take_sum(parser, value)
+      call take_terms(parser, 1, value)
       if (.not. has_failed(parser) .and. next(parser) /= '') then
          call fail(parser, parser%position, parser%position, "'"//next(parser)//"' is not expected here")
       end if
    end subroutine take_all
 
-   pure recursive subroutine take_sum(parser, value)
+   !> Terms from the left: of rank 1 products, joined by + and -; of rank 2 factors, joined by * and /.
+   pure recursive subroutine take_terms(parser, rank, value)
       type(parser_t), intent(inout) :: parser
+      integer, intent(in) :: rank
       real(wp), intent(out) :: value
+      character(len=2), parameter :: OPERATORS(2) = ['+-', '*/']
       real(wp) :: left, right
-      character(len=:), allocatable :: operator
+      character(len=:), allocatable :: operator        !< before the term; '': it is the first
       integer :: place, outcome
 
-      call take_product(parser, value)
-      do while (.not. has_failed(parser))
-         operator = next(parser)
-         if (operator /= '+' .and. operator /= '-') return
-         place = parser%position
-         call move_to(parser, place + 1)
-         call take_product(parser, right)
-         if (has_failed(parser)) return
-         left = value
-         if (operator == '-') right = -right
-         call add_safely(left, right, value, outcome)
-         call judge(parser, place, place, outcome)
-      end do
-   end subroutine take_sum
-
-   pure recursive subroutine take_product(parser, value)
-      type(parser_t), intent(inout) :: parser
-      real(wp), intent(out) :: value
-      real(wp) :: left, right
-      character(len=:), allocatable :: operator
-      integer :: place, outcome
-
-      call take_factor(parser, value)
-      do while (.not. has_failed(parser))
-         operator = next(parser)
-         if (operator /= '*' .and. operator /= '/') return
-         place = parser%position
-         call move_to(parser, place + 1)
-         call take_factor(parser, right)
-         if (has_failed(parser)) return
-         left = value
-         if (operator == '*') then
-            call multiply_safely(left, right, value, outcome)
+      operator = ''
+      value = 0.0_wp
+      place = 0
+      do
+         if (rank == 1) then
+            call take_terms(parser, 2, right)
          else
-            call divide_safely(left, right, value, outcome)
+            call take_factor(parser, right)
          end if
-         call judge(parser, place, place, outcome)
+         left = value
+         outcome = ARITHMETIC_OK
+         select case (operator)
+         case ('')
+            value = right
+         case ('+')
+            call add_safely(left, right, value, outcome)
+         case ('-')
+            call add_safely(left, -right, value, outcome)
+         case ('*')
+            call multiply_safely(left, right, value, outcome)
+         case ('/')
+            call divide_safely(left, right, value, outcome)
+         end select
+         call judge(parser, place, place, outcome)   ! where a term has failed, that was said before
+         operator = next(parser)
+         if (has_failed(parser) .or. len(operator) /= 1 .or. verify(operator, OPERATORS(rank)) > 0) return
+         place = parser%position
+         call move_to(parser, place + 1)
       end do
-   end subroutine take_product
+   end subroutine take_terms
 
    pure recursive subroutine take_factor(parser, value)
       type(parser_t), intent(inout) :: parser
@@ -212,7 +206,7 @@ contains
          call fail(parser, parser%position, parser%position, 'the expression ends too early')
       else if (symbol == '(') then
          call move_to(parser, parser%position + 1)
-         call take_sum(parser, value)
+         call take_terms(parser, 1, value)
          call take_symbol(parser, ')')
       else if (scan(symbol, DIGITS//'.') == 1) then
          call take_number(parser, value)
@@ -347,13 +341,13 @@ contains
       integer, intent(in) :: first, last               !< of its name
       real(wp), intent(out) :: value
       type(call_t) :: one
-      character(len=:), allocatable :: trouble
+      character(len=:), allocatable :: problem
       integer :: i, place
 
       value = 1.0_wp
       if (parser%is_listing) then
-         call read_call(parser%text, first, last, one, trouble, place)
-         if (allocated(trouble)) call fail(parser, place, place, trouble)
+         call read_call(parser%text, first, last, one, problem, place)
+         if (allocated(problem)) call fail(parser, place, place, problem)
          parser%calls = [parser%calls, one]
          i = size(parser%calls)
       else
@@ -375,11 +369,11 @@ contains
       last = first + len(name) - 1
       call take_symbol(parser, '(')
       if (has_failed(parser)) return
-      call take_sum(parser, value)
+      call take_terms(parser, 1, value)
       do while (name == 'min' .or. name == 'max')
          if (has_failed(parser) .or. next(parser) /= ',') exit
          call move_to(parser, parser%position + 1)
-         call take_sum(parser, argument)
+         call take_terms(parser, 1, argument)
          value = merge(min(value, argument), max(value, argument), name == 'min')
       end do
       call take_symbol(parser, ')')

@@ -6,7 +6,7 @@
 module atrito_note_edits
    use atrito_as_run_names, only: mesh_copy_name
    use atrito_deck, only: deck_t, card_t, token_t, data_line_t, token_text, is_empty_token, KEYWORD_UNKNOWN
-   use atrito_deck_expressions, only: try_expression, index_of_parameter
+   use atrito_deck_expressions, only: evaluate_at, index_of_parameter
    use atrito_edits, only: append_edit, append_known_edit, take_known_edit
    use atrito_expressions, only: next_name
    use atrito_items, only: has_option, option_text
@@ -140,7 +140,7 @@ contains
       associate (forms => deck%keywords(card%keyword)%forms)
          do f = 1, size(forms)
             if (size(forms(f)%items) == 0) cycle
-            if (len(forms(f)%word) > 0) then               ! it is told by that word
+            if (len(forms(f)%word) > 0) then               ! it begins with that word
                if (.not. same_name(forms(f)%word, token_text(deck, deck%tokens(line%first_token)))) cycle
             end if
             i = min(int(k) - merge(1, 0, len(forms(f)%word) > 0), size(forms(f)%items))  ! the last item may be repeated
@@ -183,7 +183,7 @@ contains
       if (parameter > 0) then
          value = deck%parameters(parameter)%value
       else
-         call try_expression(deck, place, value, known)
+         call evaluate_at(deck, place, value, known, silent=.true.)
          if (.not. known) return
       end if
       if (index(text, '-'//OPENING) > 0 .and. index(text, '-') < index(text, OPENING)) value = -value

@@ -262,14 +262,11 @@ contains
       type(line_t), intent(in) :: line
       type(token_t), allocatable, intent(inout) :: tokens(:)
       integer(ip), intent(inout) :: n
-      type(token_t), allocatable :: longer(:)
       integer(ip) :: i
 
-      if (n + items%n > size(tokens)) then
-         allocate (longer(2*(n + items%n)))
-         longer(:n) = tokens(:n)
-         call move_alloc(longer, tokens)
-      end if
+      do while (n + items%n > size(tokens))
+         tokens = [tokens, tokens]
+      end do
       do i = 1, items%n
          tokens(n + i) = token_at(cursor, line, items%first(i), items%last(i))
       end do

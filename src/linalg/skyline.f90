@@ -97,7 +97,7 @@ contains
    end subroutine create_skyline
 
    !> Adds an element matrix: the entries of the upper triangle, each at its distance above the diagonal of its column. (The profile
-   !> has room for all of them: add_to_profile was told of the element.)
+   !> has room for all of them: add_to_profile was given the element.)
    subroutine add_to_skyline(self, equations, matrix)
       class(skyline_t), intent(inout) :: self
       integer(ip), intent(in) :: equations(:)

@@ -13,7 +13,7 @@
 !> Fronts that are equal, number by number, are factored once (atrito_front_tree): of a regular mesh a few hundred out of many
 !> thousands.
 !>
-!> No pivot is chosen: the matrix is positive definite, and the loss of digits is told by its pivots as in the other solvers.
+!> No pivot is chosen: the matrix is positive definite, and the loss of digits is known from its pivots as in the other solvers.
 module atrito_sparse_solver
    use atrito_kinds, only: ip, lp, wp
    use atrito_multifrontal, only: elimination_t, chain_elimination, element_store_t, begin_store, add_to_store, move_store, &

@@ -1,8 +1,16 @@
 !> The factors of the classes of fronts.
 !>
+!> A front is assembled from the updates of its children and from its elements, each entry at its position in the front
+!> (atrito_front_records), and its pivots are eliminated (atrito_front). The update stays until the last parent has taken it; of a
+!> class that stands for many fronts every one of its parents' classes does.
+!>
 !> Classes are factored in tasks: all that are new in a subtree of little work, and every other by itself. Tasks that need nothing
 !> of one another make a wave, and are tasks side by side. How the work is cut depends on the tree alone: the numbers are the
 !> same for any number of threads.
+!>
+!> Most of the work is near the root: of a square of n nodes the last separator has sqrt(n) of them and a dense front of that order,
+!> n^(3/2)/3 operations, its two children a fraction of that each, and so on in a geometric series. So the large fronts are shared
+!> out by their tiles, and the many small ones by subtrees.
 module atrito_front_factors
    use atrito_element_store, only: element_store_t
    use atrito_elimination, only: elimination_t

@@ -367,7 +367,7 @@ contains
 
       call find_obstacle(set%folder, set%names, none, status, may_be_read=.true.)
       if (is_ok(status)) then
-         do i = 1, size(set%names)               ! on the disk before they take their names: else a name may outlive what was written
+         do i = 1, size(set%names)             ! on the disk before they take their names: else a name may outlive its text
             if (c_settle_file(set%folder//'/'//set%names(i)%s//TEMPORARY//c_null_char) == 1) cycle
             call set_status(status, STATUS_FILE, set%folder//'/'//set%names(i)%s//': cannot be written completely; '// &
                             'is the disk full?')

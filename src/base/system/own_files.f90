@@ -102,7 +102,7 @@ contains
       end do
    end function names_with
 
-   !> Whether a file, if there is one, may be replaced or removed. A folder is told where a file is to be written.
+   !> Whether a file, if there is one, may be replaced or removed. A folder in its place is reported where a file is to be written.
    !>
    !> status: STATUS_FILE, with what to do.
    subroutine check_own(path, status, may_be_read)

@@ -142,7 +142,7 @@ contains
                         expected='a name that no other '//noun//' has')
    end subroutine report_twice
 
-   !> The part of which a card makes an instance; 0: it is unknown, which can be told.
+   !> The part of which a card makes an instance; 0: it is unknown, which is reported where `is_told`.
    integer(ip) function part_of(deck, card, parts, is_told) result(part)
       type(deck_t), intent(in) :: deck
       type(card_t), intent(in) :: card

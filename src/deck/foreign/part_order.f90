@@ -12,7 +12,7 @@ module atrito_part_order
    type :: parts_t
       integer(ip) :: n_blocks = 0                  !< so far
       logical :: in_block = .false., in_assembly = .false.
-      logical :: is_loose = .false.                !< an *INSTANCE without an assembly has been told
+      logical :: is_loose = .false.                !< an *INSTANCE without an assembly has been reported
       logical :: is_told = .false.                 !< of the block: something stands in it that cannot
       character(len=8) :: block = ''               !< PART or INSTANCE
       type(token_t) :: block_place, assembly_place !< the keywords that opened them
@@ -59,14 +59,14 @@ contains
          if (.not. parts%in_block) return
          card%block = merge(parts%n_blocks, 0_ip, any(MEMBERS == card%name))
          if (card%block > 0 .or. parts%is_told) return
-         ! the first card that is of the whole deck is told; what follows may be of it, or the end of the block is missing
+         ! the first card that is of the whole deck is reported; what follows may be of it, or the end of the block is missing
          parts%is_told = .true.
          call refuse_card(deck, card, 'E-PART', '*'//trim(card%name)//' stands inside '//open_text(parts), &
                           'its place outside of parts and instances, which hold nodes, elements, sets, surfaces and sections')
       end select
    end subroutine check_parts
 
-   !> At the end of the model: all is closed. What is open is told at the place where it was opened.
+   !> At the end of the model: all is closed. What is open is reported where it was opened.
    subroutine check_open_parts(deck, parts)
       type(deck_t), intent(in) :: deck
       type(parts_t), intent(in) :: parts
