@@ -192,7 +192,7 @@ contains
       integer :: along, bit
 
       ! of the halvings the one that belongs to the cuts that led to this set: number has one binary digit more than they are
-      bit = work%guide%n_halvings - (bit_size(number) - leadz(number))
+      bit = work%guide%n_halvings - (int(bit_size(number)) - leadz(number))
       associate (element => work%element(first:last), centre => work%centre(:, first:last))
          is_upper = .false.
          if (bit >= 0) is_upper = btest(work%guide%half(element), bit)
