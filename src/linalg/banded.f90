@@ -12,9 +12,19 @@
 !>
 !> A load is reduced by f_i <- L^-1 f_i, f_c <- f_c - H'f_i, and the solution expanded by x_i <- L^-T (f_i - H x_c).
 !>
-!> LAPACK keeps a_ij, i >= j, in band(1 + i - j, j). With ld for the leading dimension its address is (i - 1) + (j - 1)(ld - 1),
-!> that of an entry of a full matrix whose leading dimension is ld - 1. So a block of columns of L can be handed to the BLAS as it
-!> lies in the band (eliminate_coupling), if what lies below the band reads as 0: that is what the padding is for.
+!> LAPACK keeps a_ij, i >= j, in band(1 + i - j, j): the diagonal in the first row, what is below it in the rows beneath. With w = 1
+!>
+!>     [ a11  a21   .    .  ]                    [ a11  a22  a33  a44 ]
+!>     [ a21  a22  a32   .  ]         band  =    [ a21  a32  a43   0  ]
+!>     [  .   a32  a33  a43 ]                    [  0    0    0    0  ]   padding
+!>     [  .    .   a43  a44 ]
+!>
+!> With ld for the leading dimension its address is (i - 1) + (j - 1)(ld - 1), that of an entry of a full matrix whose leading
+!> dimension is ld - 1. So a block of columns of L can be handed to the BLAS as it lies in the band (eliminate_coupling), if what
+!> lies below the band reads as 0: that is what the padding is for.
+!>
+!> The band is worth its zeros where K_ii is nearly as wide everywhere: dpbtrf works on full blocks at the rate of dgemm. Where the
+!> columns are of very different lengths the skyline (atrito_skyline) has fewer operations, one dot product each.
 module atrito_banded
    use atrito_dot_products, only: dot_down
    use atrito_halting, only: halting_t, suspend_halting, restore_halting

@@ -154,6 +154,7 @@ contains
       solution%objective = value(model)
    end subroutine fetch
 
+   !> Gives the model back to Clp, with all it has.
    subroutine release(model)
       type(c_ptr), intent(in) :: model
       procedure(delete_model), pointer :: delete
@@ -162,6 +163,7 @@ contains
       call delete(model)
    end subroutine release
 
+   !> n reals of an array inside Clp, which one of its routines points to; zeros where it has none.
    subroutine copy_array(symbol, model, n, values)
       character(len=*), intent(in) :: symbol
       type(c_ptr), intent(in) :: model
@@ -179,6 +181,7 @@ contains
       values = inside
    end subroutine copy_array
 
+   !> What a routine of Clp of this name answers about the model.
    integer(c_int) function ask(symbol, model) result(value)
       character(len=*), intent(in) :: symbol
       type(c_ptr), intent(in) :: model
@@ -188,6 +191,7 @@ contains
       value = question(model)
    end function ask
 
+   !> Sets an integer of the model by the routine of this name.
    subroutine set(symbol, model, value)
       character(len=*), intent(in) :: symbol
       type(c_ptr), intent(in) :: model
@@ -198,6 +202,7 @@ contains
       call setter(model, value)
    end subroutine set
 
+   !> Sets a real of the model.
    subroutine set_value(symbol, model, value)
       character(len=*), intent(in) :: symbol
       type(c_ptr), intent(in) :: model
@@ -208,6 +213,7 @@ contains
       call setter(model, value)
    end subroutine set_value
 
+   !> A routine of Clp by its name; null where there is none.
    type(c_funptr) function routine(symbol)
       character(len=*), intent(in) :: symbol
 
@@ -226,6 +232,7 @@ contains
       version = number('Clp_VersionMajor')//'.'//number('Clp_VersionMinor')//'.'//number('Clp_VersionRelease')
    end function clp_version
 
+   !> One of the three numbers of the version; `?` where an old library does not say it.
    function number(symbol) result(text)
       character(len=*), intent(in) :: symbol
       character(len=:), allocatable :: text

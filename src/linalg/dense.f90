@@ -104,7 +104,9 @@ contains
       call restore_halting(halting)
    end subroutine solve_lu_one
 
-   !> All eigenvalues, ascending, and orthonormal eigenvectors of a symmetric matrix (dsyev).
+   !> All eigenvalues, ascending, and orthonormal eigenvectors of a symmetric matrix: A = V diag(values) V' (dsyev). Reflections
+   !> bring A to three diagonals, rotations (QR) these to one. Each value is found to within rounding of the largest one, so small
+   !> ones have few digits of their own. LAPACK is asked first how much memory it wants.
    subroutine eigen_symmetric(a, values, info)
       real(wp), intent(inout), contiguous :: a(:, :)     !< (n, n) lower triangle; the vectors, by columns, on return
       real(wp), intent(out), contiguous :: values(:)     !< (n)
@@ -153,7 +155,8 @@ contains
       z = transpose(vectors(count_rank(values, tol) + 1:, :))
    end subroutine null_space
 
-   !> Singular values above tol times the largest; a zero matrix has none.
+   !> Singular values above tol times the largest; a zero matrix has none. A perturbation E changes no singular value by more than
+   !> |E| (Weyl), so with tol above the rounding of A what is below it may be zero, and what is above it is not.
    pure integer(ip) function count_rank(values, tol) result(rank)
       real(wp), intent(in) :: values(:), tol
 
@@ -161,7 +164,8 @@ contains
       if (size(values) > 0) rank = count(values > tol*values(1), kind=ip)
    end function count_rank
 
-   !> dgesvd; left vectors, where wanted, replace a.
+   !> A = U S V' by dgesvd: S has the singular values on its diagonal, falling; U and V are orthonormal. Left vectors, where wanted,
+   !> replace a.
    subroutine decompose(jobu, jobvt, a, values, vectors, info)
       character(len=1), intent(in) :: jobu, jobvt
       real(wp), intent(inout), contiguous :: a(:, :)

@@ -15,6 +15,14 @@
 !> The contact nodes are retained equations and have to come last. So they are the root, which the reversal puts to the end, all of
 !> them in one layer: the layers approach the contact line from the far side of the body, and the rows that couple with the
 !> retained equations are the last ones of the interior, which keeps the columns of the coupling short.
+!>
+!> A strip of three elements whose contact nodes are 4 and 8, in this order:
+!>
+!>     5 --- 6 --- 7 --- 8        layers:     8 4 | 3 7 | 2 6 | 1 5       3 before 7: of the same degree, the lower number
+!>     |     |     |     |
+!>     1 --- 2 --- 3 --- 4        reversed:   5 1   6 2   7 3   4 8
+!>
+!> In the new numbers no two neighbours are more than 3 apart (5 and 2 are numbers 1 and 4); in the old ones 1 and 6 are 5 apart.
 module atrito_ordering
    use atrito_incidence, only: list_holders
    use atrito_kinds, only: ip, lp
@@ -251,7 +259,8 @@ contains
       trial%length = 0
    end subroutine find_far_node
 
-   !> Numbers the connected components from 1 in the order of their lowest nodes. Time linear in the number of edges.
+   !> Numbers the connected components from 1 in the order of their lowest nodes: a walk from a node that nobody has seen reaches
+   !> all of its component and nothing else. Time linear in the number of edges.
    pure subroutine connected_components(graph, component, n_components)
       type(graph_t), intent(in) :: graph
       integer(ip), intent(out) :: component(:)   !< (n) 1..n_components
@@ -305,7 +314,8 @@ contains
       if (walk%length > first) call sort_by_degree(graph, walk%nodes(first:walk%length))
    end subroutine visit_neighbours
 
-   !> Shell's sort: by insertion where there are few.
+   !> Shell's sort: by insertion where there are few. For each gap of the sequence 1, 4, 13, 40, ..., the largest first, the nodes
+   !> that are so far apart are sorted among themselves; with the gap of 1 all of them are, and few have far to go by then.
    pure subroutine sort_by_degree(graph, nodes)
       type(graph_t), intent(in) :: graph
       integer(ip), intent(inout) :: nodes(:)
