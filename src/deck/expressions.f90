@@ -164,7 +164,8 @@ contains
       character(len=:), allocatable :: sign
 
       value = 0.0_wp
-      call enter(parser)
+      parser%depth = parser%depth + 1                 ! a line of a million parentheses must not exhaust the stack
+      if (parser%depth > DEEPEST) call fail(parser, parser%position, parser%position, 'the expression is nested too deeply')
       if (has_failed(parser)) return
       sign = next(parser)
       if (sign == '+' .or. sign == '-') then
@@ -452,14 +453,6 @@ contains
          call fail(parser, parser%position, parser%position, "'"//symbol//"' is missing")
       end if
    end subroutine take_symbol
-
-   !> A line of a million parentheses must not exhaust the stack.
-   pure subroutine enter(parser)
-      type(parser_t), intent(inout) :: parser
-
-      parser%depth = parser%depth + 1
-      if (parser%depth > DEEPEST) call fail(parser, parser%position, parser%position, 'the expression is nested too deeply')
-   end subroutine enter
 
    pure subroutine judge(parser, first, last, outcome)
       type(parser_t), intent(inout) :: parser
