@@ -56,7 +56,7 @@ module atrito_element_table
    !> that difference is least.
    integer(ip), parameter :: ERROR_POINTS_OF(MOST_NODES) = [0_ip, 0_ip, 3_ip, 4_ip, 0_ip, 6_ip, 0_ip, 9_ip, 9_ip]
 
-   !> Points at which an element's stiffness is integrated and its stresses are told, by shape and state.
+   !> Points at which an element's stiffness is integrated and its stresses are given, by shape and state.
    integer(ip), parameter :: POINT_COUNT(MOST_NODES, size(STATES)) = &
                              reshape([(merge(BEST_OF, POINTS_OF, IS_REDUCED(i)), i=1, size(STATES))], [MOST_NODES, size(STATES)])
 

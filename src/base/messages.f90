@@ -32,8 +32,8 @@ module atrito_messages
       type(string_t), allocatable :: nearest(:) !< nearest valid names
       type(string_t), allocatable :: known(:)   !< all valid names, when they are few
       character(len=:), allocatable :: keyword  !< for `atrito help KEYWORD`
-      logical :: is_of_place = .false.          !< told once of a place, whatever its text
-      integer(ip) :: order = huge(1_ip)         !< place in reading order: messages are told in it
+      logical :: is_of_place = .false.          !< given once a place, whatever its text
+      integer(ip) :: order = huge(1_ip)         !< place in reading order: messages are printed in it
       integer(ip) :: more = 0                   !< how many lines more it is true of
    end type message_t
 
@@ -95,7 +95,7 @@ contains
       if (is_same) is_same = a%text == b%text
    end function is_same
 
-   !> Of other lines the same need not be told again: what has no effect, and what is refused by its name.
+   !> Of other lines the same need not be said again: what has no effect, and what is refused by its name.
    pure logical function is_same_kind(a, b)
       type(message_t), intent(in) :: a, b
 
@@ -163,7 +163,7 @@ contains
       mark = message_mark_t(stored, counted)
    end function mark_messages
 
-   !> Forgets what was told since a mark; the messages must not have been sorted in between.
+   !> Forgets the messages since a mark; the messages must not have been sorted in between.
    subroutine forget_messages(mark)
       type(message_mark_t), intent(in) :: mark
 
@@ -180,7 +180,9 @@ contains
          held = place(i)
          j = i - 1
          do while (j >= 1)
-            if (.not. comes_after(store(place(j)), store(held))) exit
+            associate (a => store(place(j)), b => store(held))
+               if (a%order < b%order .or. (a%order == b%order .and. a%column <= b%column)) exit
+            end associate
             place(j + 1) = place(j)
             j = j - 1
          end do
@@ -189,21 +191,18 @@ contains
       if (stored > 0) store = store(place)
    end subroutine sort_messages
 
-   pure logical function comes_after(a, b)
-      type(message_t), intent(in) :: a, b
-
-      comes_after = a%order > b%order
-      if (a%order == b%order) comes_after = a%column > b%column
-   end function comes_after
-
    !> The lines of a message as they are printed, docs/user/messages.md.
    function format_message(message) result(lines)
       type(message_t), intent(in) :: message
       type(string_t), allocatable :: lines(:)
+      character(len=:), allocatable :: text
       integer :: i
 
       allocate (lines(0))
-      call append_string(lines, first_line(message))
+      text = place_of_message(message)//severity_word(message%severity)//' ['//message%id//'] '//message%text
+      if (message%more > 0) text = text//' (and '//to_text(message%more)//' more '// &
+                                   trim(merge('line ', 'lines', message%more == 1))//')'
+      call append_string(lines, text)
       if (allocated(message%source) .and. message%column > 0) then
          call append_source(lines, message)
       end if
@@ -219,15 +218,6 @@ contains
          lines(i)%s = visible(lines(i)%s)             ! names and paths are the user's
       end do
    end function format_message
-
-   function first_line(message) result(text)
-      type(message_t), intent(in) :: message
-      character(len=:), allocatable :: text
-
-      text = place_of_message(message)//severity_word(message%severity)//' ['//message%id//'] '//message%text
-      if (message%more > 0) text = text//' (and '//to_text(message%more)//' more '// &
-                                   trim(merge('line ', 'lines', message%more == 1))//')'
-   end function first_line
 
    !> `FILE:LINE:COLUMN: `, what stands before the word of the severity; empty where there is no place at all.
    pure function place_of_message(message) result(text)

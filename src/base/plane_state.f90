@@ -156,8 +156,8 @@ contains
       if (STATES(state)%is_thin) stress_33 = 0.0_wp
    end function stress_33
 
-   !> What a unit of thermal strain that cannot happen takes from s11, s22, s12 and s33 [F/L^2]: the sums of the rows of the elasticity
-   !> for the normal strains, of isotropic elasticity E/(1 - 2 mu), or E/(1 - mu) where no stress goes across the plane.
+   !> What a unit of thermal strain that cannot happen takes from s11, s22, s12 and s33 [F/L^2]: the sums of the rows of the
+   !> elasticity for the normal strains, of isotropic elasticity E/(1 - 2 mu), or E/(1 - mu) where no stress goes across the plane.
    pure function thermal_stresses(section, state) result(b)
       type(elastic_t), intent(in) :: section
       integer(ip), intent(in) :: state     !< place in STATES

@@ -43,22 +43,10 @@ contains
       !$omp parallel do schedule(static) private(first, last) if (is_shared(size(values, 2, kind=ip)))
       do chunk = 1, size(largest, kind=ip)
          call find_chunk(chunk, size(values, 2, kind=ip), first, last)
-         largest(chunk) = largest_of(values(:, first:last))
+         largest(chunk) = maxval(abs(values(:, first:last)))
       end do
       !$omp end parallel do
       if (maxval(largest) > 0.0_wp) unit = scale(1.0_wp, max(-MOST, min(MOST, exponent(maxval(largest)))))
    end function unit_of
-
-   pure real(wp) function largest_of(values) result(largest)
-      real(wp), intent(in) :: values(:, :)
-      integer(ip) :: i, j
-
-      largest = 0.0_wp
-      do j = 1, size(values, 2, kind=ip)
-         do i = 1, size(values, 1, kind=ip)
-            if (abs(values(i, j)) > largest) largest = abs(values(i, j))
-         end do
-      end do
-   end function largest_of
 
 end module atrito_range

@@ -1,4 +1,4 @@
-!> Progress of a run, told on standard error unless --quiet.
+!> Progress of a run, reported on standard error unless --quiet.
 module atrito_reporter
    use, intrinsic :: iso_fortran_env, only: error_unit
    use atrito_utf8, only: visible

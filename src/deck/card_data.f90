@@ -17,7 +17,7 @@ module atrito_card_data
    type :: tally_t
       integer, allocatable :: forms(:)                 !< indices in the forms of the keyword
       integer, allocatable :: n_lines(:)               !< lines of each
-      integer :: n_words = 0                           !< forms told by their leading word
+      integer :: n_words = 0                           !< forms that begin with a word
       logical :: faulty = .false.
       logical :: noted = .false.                       !< a note is given once a card
    end type tally_t
@@ -240,17 +240,16 @@ contains
       type(data_line_t), intent(inout) :: line
       type(form_t), intent(in) :: form
       type(tally_t), intent(inout) :: tally
+      type(token_t) :: token
 
       if (form%harmless) then
          call check_unused(deck, card, line, form, 1_ip)
          if (line%ok) call note_once(deck, card, line_item(deck, line, 1_ip), form%doc, tally)
-      else if (line%n_tokens > form%max_items) then
+      else if (line%n_tokens < form%min_items .or. line%n_tokens > form%max_items) then
          line%ok = .false.
-         call report_error(deck, line_item(deck, line, int(form%max_items, ip) + 1), 'E-ITEMS', &
-                           count_text(line%n_tokens, form), expected=form_text(form), keyword=trim(card%name))
-      else if (line%n_tokens < form%min_items) then
-         line%ok = .false.
-         call report_error(deck, last_item(deck, line), 'E-ITEMS', count_text(line%n_tokens, form), expected=form_text(form), &
+         token = last_item(deck, line)
+         if (line%n_tokens > form%max_items) token = line_item(deck, line, int(form%max_items, ip) + 1)
+         call report_error(deck, token, 'E-ITEMS', count_text(line%n_tokens, form), expected=form_text(form), &
                            keyword=trim(card%name))
       else
          call check_items(deck, card, line, form, tally)

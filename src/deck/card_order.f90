@@ -10,7 +10,7 @@ module atrito_card_order
    private
    public :: order_t, check_order, check_end
 
-   !> In the place of a parent: one that is misspelt, which is told.
+   !> In the place of a parent: one that is misspelt, which is reported.
    character(len=*), parameter :: LOST = '?'
 
    !> In the place of a parent: a keyword that changes the model within a step, refused.
@@ -54,7 +54,12 @@ contains
       end if
       select case (card%name)
       case ('STEP')
-         call begin_step(deck, order, card)
+         if (order%in_step) call refuse_card(deck, card, 'E-STEP', '*STEP inside a step', 'the *END STEP of the step before')
+         order%n_steps = order%n_steps + 1
+         order%in_step = .true.
+         order%step = card%place
+         card%level = LEVEL_STEP
+         card%step = order%n_steps
       case ('END STEP')
          if (.not. (order%in_step .or. order%lost_step)) call refuse_card(deck, card, 'E-STEP', '*END STEP without a *STEP', &
                                                                      '*STEP before it')
@@ -66,7 +71,7 @@ contains
       if (card%ok) call check_parts(deck, order%parts, card)
    end subroutine check_order
 
-   !> A misspelt keyword is told; what would follow only from it is not.
+   !> A misspelt keyword is reported; what would only follow from it is not.
    subroutine follow_meaning(deck, order, card)
       type(deck_t), intent(in) :: deck
       type(order_t), intent(inout) :: order
@@ -82,19 +87,6 @@ contains
          if (deck%keywords(i)%parent == name) order%parent = LOST
       end do
    end subroutine follow_meaning
-
-   subroutine begin_step(deck, order, card)
-      type(deck_t), intent(in) :: deck
-      type(order_t), intent(inout) :: order
-      type(card_t), intent(inout) :: card
-
-      if (order%in_step) call refuse_card(deck, card, 'E-STEP', '*STEP inside a step', 'the *END STEP of the step before')
-      order%n_steps = order%n_steps + 1
-      order%in_step = .true.
-      order%step = card%place
-      card%level = LEVEL_STEP
-      card%step = order%n_steps
-   end subroutine begin_step
 
    subroutine check_level(deck, order, card)
       type(deck_t), intent(in) :: deck
@@ -116,7 +108,7 @@ contains
       end if
    end subroutine check_level
 
-   !> REMOVE, of which it is told that no step changes the model.
+   !> REMOVE, which is reported by itself: no step changes the model.
    pure logical function is_removal(deck, card)
       type(deck_t), intent(in) :: deck
       type(card_t), intent(in) :: card
@@ -128,7 +120,8 @@ contains
       end do
    end function is_removal
 
-   !> What is wrong with the place of a card follows from what has been told: of its *STEP, or of the keyword that it belongs to.
+   !> What is wrong with the place of a card follows from what has been reported: of its *STEP, or of the keyword that it belongs
+   !> to.
    pure logical function follows_only(deck, order, card)
       type(deck_t), intent(in) :: deck
       type(order_t), intent(in) :: order

@@ -253,7 +253,7 @@ contains
       case (KIND_NAME)
          call get_name(deck, option%value, meaning(spec), name, ok, keyword=trim(card%name))
          if (ok .and. verify(name, '0123456789') == 0 .and. .not. is_quoted(deck, option%value)) then
-            ok = .false.                              ! a set named 12 could never be told from node 12
+            ok = .false.                              ! nothing could distinguish a set named 12 from node 12
             call report_error(deck, option%value, 'E-NAME', 'all digits means a number, not a name', &
                               expected=meaning(spec), keyword=trim(card%name))
          end if
@@ -347,7 +347,7 @@ contains
       end associate
    end subroutine check_company
 
-   !> An unknown option, which was told, is nearest to this one.
+   !> An unknown option, which was reported, is nearest to this one.
    logical function is_misspelt(deck, card, name)
       type(deck_t), intent(in) :: deck
       type(card_t), intent(in) :: card

@@ -110,7 +110,7 @@ module atrito_deck
       type(name_list_t) :: parameter_names         !< in their order
       type(keyword_t), allocatable :: keywords(:)  !< the keyword table
       logical :: has_lost_parameters = .false.     !< definitions that could not be read: an unknown one may be among them
-      logical :: is_outside = .false.              !< a scene that atrito does not solve: what only follows is not told
+      logical :: is_outside = .false.              !< a scene that atrito does not solve: what only follows is not reported
       integer :: subject = 0                       !< of the elements that it does not solve
       type(gmsh_mesh_t), allocatable :: meshes(:)  !< of *INCLUDE, TYPE=GMSH, in their order
       type(edits_t) :: edits                       !< what is replaced when the deck is written as it was run

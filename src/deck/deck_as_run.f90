@@ -19,7 +19,7 @@ contains
    subroutine take_deck_as_run(deck, files)
       type(deck_t), intent(inout) :: deck
       type(named_text_t), allocatable, intent(out) :: files(:)
-      integer(ip) :: i, n, edit
+      integer(ip) :: i, n, edit, last
 
       n = count(deck%sources(:deck%n_sources)%is_mesh, kind=ip)
       allocate (files(n + 1))
@@ -35,21 +35,16 @@ contains
             n = n + 1
             files(n)%name = mesh_copy_name(deck_name(deck%path), n - 1)
             allocate (files(n)%text%texts(1))
-            call append_place(files(n)%text, 1_ip, 1_ip, before_mark(deck%sources(i)%text))
+            ! up to the words by which the copy of a mesh says that atrito wrote it; the writer adds them anew
+            last = index(deck%sources(i)%text, MESH_MARK, back=.true., kind=ip) - 1
+            if (last < 0) last = len(deck%sources(i)%text, kind=ip)
+            call append_place(files(n)%text, 1_ip, 1_ip, last)
             call move_alloc(deck%sources(i)%text, files(n)%text%texts(1)%s)
          else
             call move_alloc(deck%sources(i)%text, files(1)%text%texts(i)%s)
          end if
       end do
    end subroutine take_deck_as_run
-
-   !> The last character before the words by which the copy of a mesh says that atrito wrote it; the writer adds them anew.
-   pure integer(ip) function before_mark(text) result(last)
-      character(len=*), intent(in) :: text
-
-      last = index(text, MESH_MARK, back=.true., kind=ip) - 1
-      if (last < 0) last = len(text, kind=ip)
-   end function before_mark
 
    !> The first character behind the line by which a deck says so.
    pure integer(ip) function after_mark(text) result(position)

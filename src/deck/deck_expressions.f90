@@ -5,53 +5,36 @@ module atrito_deck_expressions
    use atrito_diagnostics, only: report_error
    use atrito_expressions, only: expression_fault_t, evaluate_expression, next_name, reserved_names
    use atrito_growth, only: make_room
-   use atrito_name_list, only: find_name, names_of
+   use atrito_name_list, only: find_name
    use atrito_sorting, only: each_once
    use atrito_strings, only: string_t, join, to_text
    implicit none (type, external)
    private
-   public :: evaluate_at, try_expression, has_own_degree, report_fault, report_later, collect_known, put_before, &
-             index_of_parameter, is_known_at, parameter_names
+   public :: evaluate_at, has_own_degree, report_fault, report_later, collect_known, put_before, &
+             index_of_parameter, is_known_at
 
 contains
 
    !> The value of an expression of earlier parameters. known: .false. when it has none; that is reported, except when it
    !> uses a parameter that has none itself.
-   subroutine evaluate_at(deck, expression, value, known)
+   subroutine evaluate_at(deck, expression, value, known, silent)
       type(deck_t), intent(in) :: deck
       type(token_t), intent(in) :: expression
       real(wp), intent(out) :: value
       logical, intent(out) :: known
-      type(expression_fault_t) :: fault
-
-      call evaluate_quietly(deck, expression, value, fault)
-      known = .not. allocated(fault%text)
-      if (.not. known) call report_fault(deck, expression, fault, [string_t ::], 'PARAMETER')
-   end subroutine evaluate_at
-
-   !> The same, with nothing reported.
-   subroutine try_expression(deck, expression, value, known)
-      type(deck_t), intent(in) :: deck
-      type(token_t), intent(in) :: expression
-      real(wp), intent(out) :: value
-      logical, intent(out) :: known
-      type(expression_fault_t) :: fault
-
-      call evaluate_quietly(deck, expression, value, fault)
-      known = .not. allocated(fault%text)
-   end subroutine try_expression
-
-   subroutine evaluate_quietly(deck, expression, value, fault)
-      type(deck_t), intent(in) :: deck
-      type(token_t), intent(in) :: expression
-      real(wp), intent(out) :: value
-      type(expression_fault_t), intent(out) :: fault
+      logical, intent(in), optional :: silent          !< nothing is reported; default .false.
       type(string_t), allocatable :: names(:)
       real(wp), allocatable :: values(:)
+      type(expression_fault_t) :: fault
 
       call collect_known(deck, expression, names, values)
       call evaluate_expression(token_text(deck, expression), names, values, value, fault, has_own_degree(deck))
-   end subroutine evaluate_quietly
+      known = .not. allocated(fault%text)
+      if (present(silent)) then
+         if (silent) return
+      end if
+      if (.not. known) call report_fault(deck, expression, fault, [string_t ::], 'PARAMETER')
+   end subroutine evaluate_at
 
    !> The deck has a parameter of the name deg: before its definition deg is nothing.
    pure logical function has_own_degree(deck)
@@ -175,13 +158,5 @@ contains
 
       i = find_name(deck%parameter_names, name)
    end function index_of_parameter
-
-   !> Names of the deck's parameters in the order of their definition.
-   function parameter_names(deck) result(names)
-      type(deck_t), intent(in) :: deck
-      type(string_t), allocatable :: names(:)
-
-      names = names_of(deck%parameter_names)
-   end function parameter_names
 
 end module atrito_deck_expressions

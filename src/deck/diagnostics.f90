@@ -16,7 +16,7 @@ module atrito_diagnostics
                                                                    'E-OPTION-MISSING', 'E-OPTION-VALUE', 'E-MISSING', 'E-NOT-BUILT']
    integer, parameter :: MOST_NEAREST = 3
    integer, parameter :: LONGEST_TEXT = 240
-   integer, parameter :: SHORT_LIST = 8        !< a list of valid names that is told whole when none of them is near
+   integer, parameter :: SHORT_LIST = 8        !< a list of valid names that is listed whole when none of them is near
    integer(ip), parameter :: LONG_LIST = 1000  !< a list that is gone through for as many errors as are printed
 
 contains
@@ -28,7 +28,7 @@ contains
       character(len=*), intent(in) :: id                    !< short stable name, docs/user/messages.md
       character(len=*), intent(in) :: text                  !< what is wrong
       character(len=*), intent(in), optional :: expected    !< what should be there, with its dimension
-      type(string_t), intent(in), optional :: known(:)      !< valid names: the nearest to the item are told
+      type(string_t), intent(in), optional :: known(:)      !< valid names: the message has those nearest to the item
       character(len=*), intent(in), optional :: keyword     !< for `atrito help KEYWORD`
       type(name_list_t), intent(in), optional :: among      !< further valid names, which may be many
 

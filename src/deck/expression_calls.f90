@@ -4,7 +4,7 @@ module atrito_expression_calls
    use atrito_strings, only: string_t, same_name
    implicit none (type, external)
    private
-   public :: call_t, argument_t, read_call, has_argument_of, append_call
+   public :: call_t, argument_t, read_call, has_argument_of
 
    !> A name or number in parentheses.
    type :: argument_t
@@ -24,11 +24,11 @@ module atrito_expression_calls
 contains
 
    !> Reads the call whose name stands at some characters of an expression.
-   pure subroutine read_call(text, first, last, one, trouble, place)
+   pure subroutine read_call(text, first, last, one, problem, place)
       character(len=*), intent(in) :: text             !< the expression
       integer, intent(in) :: first, last               !< of the name
       type(call_t), intent(out) :: one
-      character(len=:), allocatable, intent(out) :: trouble !< what is wrong; not allocated: nothing
+      character(len=:), allocatable, intent(out) :: problem !< what is wrong; not allocated: nothing
       integer, intent(out) :: place                    !< and where
       integer :: i, depth, begin
 
@@ -45,69 +45,51 @@ contains
          if (text(i:i) == '(') depth = depth + 1
          if (text(i:i) == ')') depth = depth - 1
          if (.not. (depth == 0 .or. (depth == 1 .and. text(i:i) == ','))) cycle
-         call add_argument(text, begin, i - 1, one%arguments, trouble, place)
+         call add_argument(text, begin, i - 1, one%arguments, problem, place)
          begin = i + 1
-         if (allocated(trouble)) return
+         if (allocated(problem)) return
          if (depth > 0) cycle
          one%last = i
          return
       end do
       place = len(text) + 1
-      trouble = "')' is missing"
+      problem = "')' is missing"
    end subroutine read_call
 
-   !> Whether the first argument behind a name is one of some names: so a minimum of a field is told from one of numbers.
+   !> Whether the first argument behind a name is one of some names: that distinguishes the minimum of a field from one of numbers.
    pure logical function has_argument_of(text, last, names)
       character(len=*), intent(in) :: text
       integer, intent(in) :: last                      !< of the name
       type(string_t), intent(in) :: names(:)           !< without case
       type(call_t) :: one
-      character(len=:), allocatable :: trouble
+      character(len=:), allocatable :: problem
       integer :: i, place
 
       has_argument_of = .false.
-      call read_call(text, last, last, one, trouble, place)
-      if (allocated(trouble) .or. size(one%arguments) == 0) return
+      call read_call(text, last, last, one, problem, place)
+      if (allocated(problem) .or. size(one%arguments) == 0) return
       do i = 1, size(names)
          has_argument_of = has_argument_of .or. same_name(names(i)%s, one%arguments(1)%text)
       end do
    end function has_argument_of
 
-   !> Adds a call at the end of a list, which is allocated.
-   pure subroutine append_call(one, list)
-      type(call_t), intent(in) :: one
-      type(call_t), allocatable, intent(inout) :: list(:)
-      type(call_t), allocatable :: longer(:)
-
-      allocate (longer(size(list) + 1))
-      longer(:size(list)) = list
-      longer(size(longer)) = one
-      call move_alloc(longer, list)
-   end subroutine append_call
-
    !> Appends what stands at some characters, without the blanks round it.
-   pure subroutine add_argument(text, first, last, list, trouble, place)
+   pure subroutine add_argument(text, first, last, list, problem, place)
       character(len=*), intent(in) :: text
       integer, intent(in) :: first, last               !< last may be first - 1: nothing
       type(argument_t), allocatable, intent(inout) :: list(:)
-      character(len=:), allocatable, intent(inout) :: trouble
+      character(len=:), allocatable, intent(inout) :: problem
       integer, intent(inout) :: place
-      type(argument_t), allocatable :: longer(:)
-      integer :: i, n
+      integer :: i, end
 
       i = first_behind(text, first - 1)
       if (i > last) then
          place = last + 1
-         trouble = 'a name or a number is missing'
+         problem = 'a name or a number is missing'
          return
       end if
-      n = size(list)
-      allocate (longer(n + 1))
-      longer(:n) = list
-      longer(n + 1)%first = i
-      longer(n + 1)%last = first + len_trim(replaced(text(first:last))) - 1
-      longer(n + 1)%text = text(i:longer(n + 1)%last)
-      call move_alloc(longer, list)
+      end = first + len_trim(replaced(text(first:last))) - 1
+      list = [list, argument_t(text(i:end), i, end)]
    end subroutine add_argument
 
    !> Tabs as blanks.

@@ -11,7 +11,7 @@ module atrito_expressions
    use atrito_kinds, only: wp, PI
    use atrito_arithmetic, only: add_safely, multiply_safely, divide_safely, raise_safely, exponential_safely, ARITHMETIC_OK, &
                                 ARITHMETIC_OVERFLOW, ARITHMETIC_ZERO_DIVISION
-   use atrito_expression_calls, only: call_t, read_call, has_argument_of, append_call
+   use atrito_expression_calls, only: call_t, read_call, has_argument_of
    use atrito_expression_names, only: is_name, is_function, is_reserved_name, reserved_names, DIGITS, LETTERS
    use atrito_name_list, only: name_list_t, add_name, find_name
    use atrito_numbers, only: read_real, NUMBER_OK, NUMBER_TOO_LARGE
@@ -111,58 +111,52 @@ contains
       real(wp), intent(out) :: value
 
       call move_to(parser, 1)
-      call take_sum(parser, value)
+      call take_terms(parser, 1, value)
       if (.not. has_failed(parser) .and. next(parser) /= '') then
          call fail(parser, parser%position, parser%position, "'"//next(parser)//"' is not expected here")
       end if
    end subroutine take_all
 
-   pure recursive subroutine take_sum(parser, value)
+   !> Terms from the left: of rank 1 products, joined by + and -; of rank 2 factors, joined by * and /.
+   pure recursive subroutine take_terms(parser, rank, value)
       type(parser_t), intent(inout) :: parser
+      integer, intent(in) :: rank
       real(wp), intent(out) :: value
+      character(len=2), parameter :: OPERATORS(2) = ['+-', '*/']
       real(wp) :: left, right
-      character(len=:), allocatable :: operator
+      character(len=:), allocatable :: operator        !< before the term; '': it is the first
       integer :: place, outcome
 
-      call take_product(parser, value)
-      do while (.not. has_failed(parser))
-         operator = next(parser)
-         if (operator /= '+' .and. operator /= '-') return
-         place = parser%position
-         call move_to(parser, place + 1)
-         call take_product(parser, right)
-         if (has_failed(parser)) return
-         left = value
-         if (operator == '-') right = -right
-         call add_safely(left, right, value, outcome)
-         call judge(parser, place, place, outcome)
-      end do
-   end subroutine take_sum
-
-   pure recursive subroutine take_product(parser, value)
-      type(parser_t), intent(inout) :: parser
-      real(wp), intent(out) :: value
-      real(wp) :: left, right
-      character(len=:), allocatable :: operator
-      integer :: place, outcome
-
-      call take_factor(parser, value)
-      do while (.not. has_failed(parser))
-         operator = next(parser)
-         if (operator /= '*' .and. operator /= '/') return
-         place = parser%position
-         call move_to(parser, place + 1)
-         call take_factor(parser, right)
-         if (has_failed(parser)) return
-         left = value
-         if (operator == '*') then
-            call multiply_safely(left, right, value, outcome)
+      operator = ''
+      value = 0.0_wp
+      place = 0
+      do
+         if (rank == 1) then
+            call take_terms(parser, 2, right)
          else
-            call divide_safely(left, right, value, outcome)
+            call take_factor(parser, right)
          end if
-         call judge(parser, place, place, outcome)
+         left = value
+         outcome = ARITHMETIC_OK
+         select case (operator)
+         case ('')
+            value = right
+         case ('+')
+            call add_safely(left, right, value, outcome)
+         case ('-')
+            call add_safely(left, -right, value, outcome)
+         case ('*')
+            call multiply_safely(left, right, value, outcome)
+         case ('/')
+            call divide_safely(left, right, value, outcome)
+         end select
+         call judge(parser, place, place, outcome)   ! where a term has failed, that was said before
+         operator = next(parser)
+         if (has_failed(parser) .or. len(operator) /= 1 .or. verify(operator, OPERATORS(rank)) > 0) return
+         place = parser%position
+         call move_to(parser, place + 1)
       end do
-   end subroutine take_product
+   end subroutine take_terms
 
    pure recursive subroutine take_factor(parser, value)
       type(parser_t), intent(inout) :: parser
@@ -170,7 +164,8 @@ contains
       character(len=:), allocatable :: sign
 
       value = 0.0_wp
-      call enter(parser)
+      parser%depth = parser%depth + 1                 ! a line of a million parentheses must not exhaust the stack
+      if (parser%depth > DEEPEST) call fail(parser, parser%position, parser%position, 'the expression is nested too deeply')
       if (has_failed(parser)) return
       sign = next(parser)
       if (sign == '+' .or. sign == '-') then
@@ -212,7 +207,7 @@ contains
          call fail(parser, parser%position, parser%position, 'the expression ends too early')
       else if (symbol == '(') then
          call move_to(parser, parser%position + 1)
-         call take_sum(parser, value)
+         call take_terms(parser, 1, value)
          call take_symbol(parser, ')')
       else if (scan(symbol, DIGITS//'.') == 1) then
          call take_number(parser, value)
@@ -347,14 +342,14 @@ contains
       integer, intent(in) :: first, last               !< of its name
       real(wp), intent(out) :: value
       type(call_t) :: one
-      character(len=:), allocatable :: trouble
+      character(len=:), allocatable :: problem
       integer :: i, place
 
       value = 1.0_wp
       if (parser%is_listing) then
-         call read_call(parser%text, first, last, one, trouble, place)
-         if (allocated(trouble)) call fail(parser, place, place, trouble)
-         call append_call(one, parser%calls)
+         call read_call(parser%text, first, last, one, problem, place)
+         if (allocated(problem)) call fail(parser, place, place, problem)
+         parser%calls = [parser%calls, one]
          i = size(parser%calls)
       else
          i = findloc(parser%calls%first, first, dim=1)
@@ -375,11 +370,11 @@ contains
       last = first + len(name) - 1
       call take_symbol(parser, '(')
       if (has_failed(parser)) return
-      call take_sum(parser, value)
+      call take_terms(parser, 1, value)
       do while (name == 'min' .or. name == 'max')
          if (has_failed(parser) .or. next(parser) /= ',') exit
          call move_to(parser, parser%position + 1)
-         call take_sum(parser, argument)
+         call take_terms(parser, 1, argument)
          value = merge(min(value, argument), max(value, argument), name == 'min')
       end do
       call take_symbol(parser, ')')
@@ -458,14 +453,6 @@ contains
          call fail(parser, parser%position, parser%position, "'"//symbol//"' is missing")
       end if
    end subroutine take_symbol
-
-   !> A line of a million parentheses must not exhaust the stack.
-   pure subroutine enter(parser)
-      type(parser_t), intent(inout) :: parser
-
-      parser%depth = parser%depth + 1
-      if (parser%depth > DEEPEST) call fail(parser, parser%position, parser%position, 'the expression is nested too deeply')
-   end subroutine enter
 
    pure subroutine judge(parser, first, last, outcome)
       type(parser_t), intent(inout) :: parser

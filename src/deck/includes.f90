@@ -25,9 +25,11 @@ contains
       character(len=*), intent(in) :: name
       type(token_t), intent(in) :: place
       character(len=:), allocatable :: path
+      integer(lp) :: characters                    ! of all files so far
       integer(ip) :: above
 
       may_include = .false.
+      characters = sum([(len(deck%sources(above)%text, kind=lp), above=1, deck%n_sources)])
       path = true_path(name)                       ! a/../a/deck.inp is deck.inp again
       above = from
       do while (above > 0)
@@ -39,24 +41,13 @@ contains
                            expected='another file', keyword='INCLUDE')
       else if (depth >= DEEPEST_INCLUDE) then
          call report_error(deck, place, 'E-INCLUDE', 'includes more than '//to_text(DEEPEST_INCLUDE)//' deep', keyword='INCLUDE')
-      else if (deck%n_sources >= MOST_SOURCES .or. characters(deck) > MOST_CHARACTERS) then
+      else if (deck%n_sources >= MOST_SOURCES .or. characters > MOST_CHARACTERS) then
          call report_error(deck, place, 'E-INCLUDE', 'includes of more than '//to_text(MOST_SOURCES)//' files, or 2 GB in all', &
                            keyword='INCLUDE')
       else
          may_include = .true.
       end if
    end function may_include
-
-   !> Characters of all files so far.
-   pure integer(lp) function characters(deck) result(n)
-      type(deck_t), intent(in) :: deck
-      integer(ip) :: i
-
-      n = 0_lp
-      do i = 1, deck%n_sources
-         n = n + len(deck%sources(i)%text, kind=lp)
-      end do
-   end function characters
 
    !> The path of a file relative to the folder of another one, without `./`.
    pure function relative_path(from, name) result(path)

@@ -154,8 +154,8 @@ contains
       end associate
    end function is_own_name
 
-   !> The value of the parameter that an item names; ok: .false. when there is none before this place, which is reported here, or its
-   !> definition was reported.
+   !> The value of the parameter that an item names; ok: .false. when there is none before this place, which is reported here, or
+   !> its definition was reported.
    subroutine value_of_parameter(deck, place, what, value, ok)
       type(deck_t), intent(in) :: deck
       type(token_t), intent(in) :: place               !< its name

@@ -6,11 +6,11 @@
 module atrito_note_edits
    use atrito_as_run_names, only: mesh_copy_name
    use atrito_deck, only: deck_t, card_t, token_t, data_line_t, token_text, is_empty_token, KEYWORD_UNKNOWN
-   use atrito_deck_expressions, only: try_expression, index_of_parameter
+   use atrito_deck_expressions, only: evaluate_at, index_of_parameter
    use atrito_edits, only: append_edit, append_known_edit, take_known_edit
    use atrito_expressions, only: next_name
    use atrito_items, only: has_option, option_text
-   use atrito_keyword, only: form_t, KIND_NAME, KIND_REAL, KIND_INTEGER, KIND_ID, KIND_ID_OR_NAME, KIND_REAL_OR_NAME, KIND_TEXT
+   use atrito_keyword, only: KIND_NAME, KIND_REAL, KIND_INTEGER, KIND_ID, KIND_ID_OR_NAME, KIND_REAL_OR_NAME, KIND_TEXT
    use atrito_kinds, only: ip, wp
    use atrito_messages, only: count_messages, SEVERITY_ERROR
    use atrito_numbers, only: exact_text
@@ -28,7 +28,10 @@ contains
    !> expressions, names of included meshes. Nothing where the deck has errors.
    subroutine note_edits(deck)
       type(deck_t), intent(inout) :: deck
+      character(len=:), allocatable :: name
+      type(token_t) :: place
       integer(ip) :: i, n_parameters, n_meshes
+      logical :: found
 
       if (count_messages(SEVERITY_ERROR) > 0) return
       n_parameters = 0
@@ -40,7 +43,9 @@ contains
             call note_parameters(deck, deck%cards(i), n_parameters)
          case ('INCLUDE')
             n_meshes = n_meshes + 1
-            call note_mesh(deck, deck%cards(i), n_meshes)
+            call option_text(deck, deck%cards(i), 'INPUT', name, found, place)
+            if (found) call append_edit(deck%edits, place%source, place%first, place%last, &
+                                        mesh_copy_name(deck_name(deck%path), n_meshes), is_name=.true.)
          case default
             call note_options(deck, deck%cards(i))
             call note_lines(deck, deck%cards(i))
@@ -69,19 +74,6 @@ contains
          end associate
       end do
    end subroutine note_parameters
-
-   subroutine note_mesh(deck, card, n)
-      type(deck_t), intent(inout) :: deck
-      type(card_t), intent(in) :: card
-      integer(ip), intent(in) :: n
-      character(len=:), allocatable :: name
-      type(token_t) :: place
-      logical :: found
-
-      call option_text(deck, card, 'INPUT', name, found, place)
-      if (found) call append_edit(deck%edits, place%source, place%first, place%last, mesh_copy_name(deck_name(deck%path), n), &
-                                  is_name=.true.)
-   end subroutine note_mesh
 
    !> Values of options that are numbers.
    subroutine note_options(deck, card)
@@ -147,7 +139,10 @@ contains
       is_whole = .true.
       associate (forms => deck%keywords(card%keyword)%forms)
          do f = 1, size(forms)
-            if (.not. may_be_form(deck, line, forms(f))) cycle
+            if (size(forms(f)%items) == 0) cycle
+            if (len(forms(f)%word) > 0) then               ! it begins with that word
+               if (.not. same_name(forms(f)%word, token_text(deck, deck%tokens(line%first_token)))) cycle
+            end if
             i = min(int(k) - merge(1, 0, len(forms(f)%word) > 0), size(forms(f)%items))  ! the last item may be repeated
             select case (forms(f)%items(max(1, i))%kind)
             case (KIND_NAME)
@@ -165,17 +160,6 @@ contains
       end associate
       if (.not. is_name) call note_value(deck, deck%tokens(line%first_token + k - 1), is_whole)
    end subroutine note_item
-
-   !> A form with a leading word is told by it.
-   pure logical function may_be_form(deck, line, form)
-      type(deck_t), intent(in) :: deck
-      type(data_line_t), intent(in) :: line
-      type(form_t), intent(in) :: form
-
-      may_be_form = size(form%items) > 0
-      if (may_be_form .and. len(form%word) > 0) may_be_form = same_name(form%word, token_text(deck, &
-                                                                                              deck%tokens(line%first_token)))
-   end function may_be_form
 
    !> `<expression>` or `-<expression>` becomes a number that reads as the same value.
    subroutine note_value(deck, token, is_whole)
@@ -199,7 +183,7 @@ contains
       if (parameter > 0) then
          value = deck%parameters(parameter)%value
       else
-         call try_expression(deck, place, value, known)
+         call evaluate_at(deck, place, value, known, silent=.true.)
          if (.not. known) return
       end if
       if (index(text, '-'//OPENING) > 0 .and. index(text, '-') < index(text, OPENING)) value = -value

@@ -20,10 +20,16 @@ contains
       character(len=:), allocatable, intent(out) :: text
       type(growing_text_t) :: words
       logical, allocatable :: varies(:)
-      integer(ip) :: i
+      integer(ip) :: i, k
 
       if (deck%n_parameters == 0) return
-      call find_varying(deck, varied, varies)
+      allocate (varies(deck%n_parameters), source=.false.)
+      do i = 1, deck%n_parameters                      ! the varied ones and those that depend on them
+         do k = 1, size(varied, kind=ip)
+            varies(i) = varies(i) .or. same_name(deck%parameters(i)%name, varied(k)%s)
+         end do
+         if (.not. (varies(i) .or. deck%parameters(i)%overridden)) varies(i) = names_one(deck, i, varies)
+      end do
       do i = 1, deck%n_parameters
          associate (parameter => deck%parameters(i))
             if (i > 1) call append_text(words, ', ')
@@ -38,22 +44,6 @@ contains
       end do
       call take_text(words, text)
    end subroutine list_parameters
-
-   !> The varied parameters and those that depend on them.
-   pure subroutine find_varying(deck, varied, varies)
-      type(deck_t), intent(in) :: deck
-      type(string_t), intent(in) :: varied(:)
-      logical, allocatable, intent(out) :: varies(:)   !< (deck%n_parameters)
-      integer(ip) :: i, k
-
-      allocate (varies(deck%n_parameters), source=.false.)
-      do i = 1, deck%n_parameters
-         do k = 1, size(varied, kind=ip)
-            varies(i) = varies(i) .or. same_name(deck%parameters(i)%name, varied(k)%s)
-         end do
-         if (.not. (varies(i) .or. deck%parameters(i)%overridden)) varies(i) = names_one(deck, i, varies)
-      end do
-   end subroutine find_varying
 
    !> The expression of the i-th parameter names one before it that varies.
    pure logical function names_one(deck, i, varies)

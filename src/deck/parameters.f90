@@ -5,7 +5,7 @@ module atrito_parameters
    use atrito_diagnostics, only: report_error
    use atrito_expressions, only: expression_fault_t, evaluate_expression, is_name, is_reserved_name
    use atrito_deck_expressions, only: evaluate_at, has_own_degree, report_fault, collect_known, put_before, index_of_parameter, &
-                                      is_known_at, parameter_names
+                                      is_known_at
    use atrito_items, only: LONGEST_NAME
    use atrito_lexer, only: find_equals
    use atrito_name_list, only: name_list_t, add_name, find_name, has_name, names_of
@@ -175,9 +175,9 @@ contains
       do i = 1, size(names)
          if (index_of_parameter(deck, names(i)%s) > 0) cycle
          text = 'setting '//names(i)%s//': '//deck%path//' has no such parameter'
-         near = nearest_names(names(i)%s, parameter_names(deck), MOST_NEAREST)
+         near = nearest_names(names(i)%s, names_of(deck%parameter_names), MOST_NEAREST)
          if (size(near) > 0) text = text//'; nearest: '//join(near, ', ')
-         if (deck%n_parameters > 0) text = text//'; it has: '//join(parameter_names(deck), ', ')
+         if (deck%n_parameters > 0) text = text//'; it has: '//join(names_of(deck%parameter_names), ', ')
          call set_status(status, STATUS_USAGE, text)
          return
       end do

@@ -2,7 +2,7 @@
 !>
 !> A line is plain when it has nothing but items with commas between them: no quote, no bracket, no star, no control character, and
 !> no comma at its end. What stands in a plain line does not depend on the lines before it, and how many items a piece of such lines
-!> has is told by its commas. So each piece has its place in the lists of the deck before it is split. A run ends before the first
+!> has follows from its commas. So each piece has its place in the lists of the deck before it is split. A run ends before the first
 !> line that is not plain; the reader takes that one as ever.
 module atrito_plain_lines
    use atrito_deck, only: deck_t, data_line_t, token_t, make_room

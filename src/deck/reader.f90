@@ -262,14 +262,11 @@ contains
       type(line_t), intent(in) :: line
       type(token_t), allocatable, intent(inout) :: tokens(:)
       integer(ip), intent(inout) :: n
-      type(token_t), allocatable :: longer(:)
       integer(ip) :: i
 
-      if (n + items%n > size(tokens)) then
-         allocate (longer(2*(n + items%n)))
-         longer(:n) = tokens(:n)
-         call move_alloc(longer, tokens)
-      end if
+      do while (n + items%n > size(tokens))
+         tokens = [tokens, tokens]
+      end do
       do i = 1, items%n
          tokens(n + i) = token_at(cursor, line, items%first(i), items%last(i))
       end do
@@ -376,7 +373,10 @@ contains
       if (found) then
          call read_file(name, text, status, is_plain, identity)
          found = is_ok(status)
-         if (.not. is_plain .and. is_ok(reading%refusal)) call refuse_include(deck, place, status, reading%refusal)
+         if (.not. is_plain .and. is_ok(reading%refusal)) then   ! no error of the deck: the run ends with it
+            call set_status(reading%refusal, STATUS_FILE, deck%sources(place%source)%name//', line '//to_text(place%line)// &
+                            ': '//status%text)
+         end if
          if (.not. found) call report_error(deck, place, 'E-INCLUDE', status%text, expected='a file, relative to the folder of '// &
                                             deck%sources(cursor%source)%name, keyword='INCLUDE')
       end if
@@ -398,16 +398,6 @@ contains
       call read_source(deck, reading, source)
       reading%depth = reading%depth - 1
    end subroutine read_include
-
-   !> What is no plain file is no error of the deck: the run ends with it, and tells where it is named.
-   subroutine refuse_include(deck, place, status, refusal)
-      type(deck_t), intent(in) :: deck
-      type(token_t), intent(in) :: place
-      type(status_t), intent(in) :: status
-      type(status_t), intent(out) :: refusal
-
-      call set_status(refusal, STATUS_FILE, deck%sources(place%source)%name//', line '//to_text(place%line)//': '//status%text)
-   end subroutine refuse_include
 
    !> What the file would have defined is not known: the card says so.
    subroutine keep_failed_include(deck, reading, card)

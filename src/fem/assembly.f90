@@ -19,8 +19,8 @@ module atrito_assembly
    use atrito_threads, only: is_shared, chunk_count, find_chunk, CHUNK_LENGTH
    implicit none (type, external)
    private
-   public :: fem_t, stiffness_cache_t, body_profile, collect_elements, assemble_body, &
-             retained_diagonal, cached_stiffness, is_like_before, grain_of, radius_of, is_at_radius
+   public :: fem_t, form_t, stiffness_cache_t, body_profile, collect_elements, assemble_body, &
+             retained_diagonal, cached_stiffness, grain_of, has_form, take_form
 
    !> The elements and their sections: what every sum over elements needs.
    type :: fem_t
@@ -32,18 +32,20 @@ module atrito_assembly
       real(wp), allocatable :: heating(:)          !< (n_nodes) rise of the temperature; not allocated where nothing expands
    end type fem_t
 
-   !> All that a stiffness depends on.
+   !> All that a stiffness, and the strains at the points of an element, depend on. Coordinates are relative to the first node, so
+   !> that the place of the origin costs no digits.
    type :: form_t
-      integer(ip) :: section = 0, state = 0, shape = 0
-      logical :: has_hoop = .false.                !< the radius matters: of the state
-      real(wp) :: x(2, MOST_NODES) = 0.0_wp          !< relative to the first node
+      integer(ip) :: section = 0, state = 0        !< 0: nothing yet
+      integer(ip) :: shape = 0                     !< nodes
+      logical :: has_hoop = .false.                !< axisymmetric: the radius matters
+      real(wp) :: x(2, MOST_NODES) = 0.0_wp        !< [L]
       real(wp) :: radius = 0.0_wp                  !< of the first node, where it matters [L]
       real(wp) :: thickness(MOST_NODES) = 0.0_wp   !< of the nodes, of tapered elements [L]
    end type form_t
 
    !> The stiffness computed last.
    type, extends(form_t) :: stiffness_cache_t
-      real(wp) :: k(2*MOST_NODES, 2*MOST_NODES) = 0.0_wp
+      real(wp) :: k(2*MOST_NODES, 2*MOST_NODES)    !< set with the form
    end type stiffness_cache_t
 
    !> A chunk of elements, compared one after the other. Places are those in the list of elements; 0: none.
@@ -198,7 +200,7 @@ contains
       chunk%last = chunk%before
       if (chunk%before > 0) call take_form(fem, elements(chunk%before), form)
       do i = first, last
-         if (.not. has_form(fem, elements(i), form, grain)) then
+         if (.not. has_form(fem, elements(i), form, grain, may_turn=.true.)) then
             call take_form(fem, elements(i), form)
             chunk%n = chunk%n + 1
             chunk%last = i
@@ -226,7 +228,7 @@ contains
          chunks(i)%is_due = number(first) == 0
          if (chunks(i)%is_due) cycle
          call take_form(fem, elements(chunks(i)%before), form)
-         chunks(i)%is_due = has_form(fem, elements(first), form, grain)
+         chunks(i)%is_due = has_form(fem, elements(first), form, grain, may_turn=.true.)
       end do
    end subroutine join_chunks
 
@@ -273,15 +275,12 @@ contains
       type(fem_t), intent(in) :: fem
       integer(ip), intent(in) :: element
       real(wp), intent(out) :: packed(:)
-      type(form_t) :: form
-      real(wp) :: k(2*MOST_NODES, 2*MOST_NODES)
+      type(stiffness_cache_t) :: cache
       integer(ip) :: n
 
-      call take_form(fem, element, form)
-      n = 2*form%shape
-      call element_stiffness(form%x(:, :form%shape), fem%sections(form%section), form%state, k(:n, :n), form%radius, &
-                             form%thickness(:form%shape))
-      call pack_matrix(k(:n, :n), packed)
+      call cached_stiffness(fem, element, cache)
+      n = 2*cache%shape
+      call pack_matrix(cache%k(:n, :n), packed)
    end subroutine compute_matrix
 
    !> Diagonal of a body's matrix at its retained equations, before any elimination.
@@ -323,20 +322,21 @@ contains
       type(stiffness_cache_t), intent(inout) :: cache
       integer(ip) :: n
 
-      if (has_form(fem, element, cache%form_t, 0.0_wp)) return
+      if (has_form(fem, element, cache%form_t, 0.0_wp, may_turn=.true.)) return
       call take_form(fem, element, cache%form_t)
       n = cache%shape
       call element_stiffness(cache%x(:, :n), fem%sections(cache%section), cache%state, cache%k(:2*n, :2*n), cache%radius, &
                              cache%thickness(:n))
    end subroutine cached_stiffness
 
-   !> Whether an element has this form; triangles also turned by 180 degrees, as every other one of a block is: their stiffness is
-   !> the same to the last bit.
-   pure logical function has_form(fem, element, form, grain)
+   !> Whether an element has this form; where that is enough, a triangle also turned by 180 degrees, as every other one of a block
+   !> is: their stiffness is the same to the last bit.
+   pure logical function has_form(fem, element, form, grain, may_turn)
       type(fem_t), intent(in) :: fem
       integer(ip), intent(in) :: element
       type(form_t), intent(in) :: form
       real(wp), intent(in) :: grain                !< [L] 0: equal but for rounding
+      logical, intent(in) :: may_turn              !< whether a triangle may be turned
 
       has_form = form%section == fem%section_of(element) .and. form%state == fem%mesh%state(element)
       if (.not. has_form) return
@@ -347,10 +347,11 @@ contains
          if (has_form) has_form = has_thickness(fem%mesh, element, form%thickness)
          return
       end if
-      if (has_form .or. form%has_hoop .or. form%shape /= fem%mesh%shape(element)) return
+      if (has_form .or. .not. may_turn .or. form%has_hoop .or. form%shape /= fem%mesh%shape(element)) return
       if (side_count(fem%mesh, element) == 3) has_form = is_like_before(fem%mesh, element, form%shape, -form%x, grain)
    end function has_form
 
+   !> The form of an element.
    pure subroutine take_form(fem, element, form)
       type(fem_t), intent(in) :: fem
       integer(ip), intent(in) :: element

@@ -1,5 +1,15 @@
 !> The error of the stresses in the energy norm, estimated by their distance from the recovered ones (O. C. Zienkiewicz and
 !> J. Z. Zhu, Int. J. Numer. Methods Eng. 24, 1987).
+!>
+!> With C the compliance, s the stresses of the displacements and s* the continuous ones (atrito_stress_recovery),
+!>
+!>     ||e||^2 = int (s* - s) C (s* - s) dV,      ||u||^2 = int s C s dV,      relative error = ||e|| / sqrt(||u||^2 + ||e||^2).
+!>
+!> s* converges faster than s, so the estimate over the true error goes to 1 as the mesh becomes finer. ||u||^2 + ||e||^2 is the
+!> energy of the true solution where the error is orthogonal to the displacements of the mesh, as it is without contact.
+!>
+!> Where everything that is left is round-off there is no error to speak of: displacements that were rounded once make stresses of
+!> about D eps |u|/h, whose norm (round_off) is what ||e|| is compared with.
 module atrito_error_estimate
    use atrito_assembly, only: fem_t
    use atrito_element_table, only: MOST_NODES, ERROR_POINTS_OF
@@ -170,7 +180,7 @@ contains
    !> s33 of rings alone.
    pure real(wp) function largest_strain(n, compliance, s, hoop)
       integer(ip), intent(in) :: n
-      real(wp), intent(in) :: compliance           !< 1 over the least of 2G and 2(G + lambda), of rings of 2G and 2G + 3 lambda [L^2/F]
+      real(wp), intent(in) :: compliance           !< 1 over the least of 2G and 2(G + lambda), or 2G and 2G + 3 lambda [L^2/F]
       real(wp), intent(in) :: s(MOST_POINTS, COMPONENTS)
       real(wp), intent(in), optional :: hoop(MOST_POINTS) !< s33 [F/L^2]; left out: 0
       real(wp) :: square, s33

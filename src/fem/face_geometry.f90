@@ -1,4 +1,9 @@
 !> Geometry of an element's face: straight for Q1, a parabola through its three nodes for Q2.
+!>
+!> With the shape functions of the face, x(t) = sum of N_a(t) x_a for t from -1 to 1. dx/dt is the direction of travel,
+!> counter-clockwise round the element, and |dx/dt| dt the length; turned by -90 degrees it points outward. The length of a parabola
+!> has a closed form that loses digits where it is nearly straight; it is integrated instead, by five Gauss points on each of
+!> sixteen panels.
 module atrito_face_geometry
    use atrito_kinds, only: ip, wp, EPS_MACH
    use atrito_shape_functions, only: face_shape_slopes

@@ -1,4 +1,9 @@
-!> Nodal forces of a displacement field, summed over the elements of all bodies.
+!> Nodal forces of a displacement field, summed over the elements of all bodies:
+!>
+!>     f = sum of A_e' K_e A_e u,      A_e u: the displacements of the nodes of element e.
+!>
+!> No matrix of a body is formed; neighbours that are equal share one K_e. The energy u'K u/2 comes along with it. Displacements are
+!> divided by a power of two near the largest of them before energies are summed, so that squares stay in the range of numbers.
 !>
 !> The elements are cut into parts, one a thread. A node belongs to the first part that touches it, which adds what it has to give
 !> at once; what later parts give is put down and added afterwards, part by part. So the terms of every node are added in the order

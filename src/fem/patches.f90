@@ -135,10 +135,15 @@ contains
    subroutine list_elements_at_corners(mesh, patches)
       type(mesh_t), intent(in) :: mesh
       type(patches_t), intent(inout) :: patches
+      integer(ip), allocatable :: corners(:, :)
       integer(ip) :: e, k
 
       if (any(mesh%shape(:mesh%n_elements) == 6)) then   ! their fourth node is the middle of a side
-         call list_holders(patches%n, corner_places(mesh, patches), patches%first, patches%element, patches%corner)
+         corners = patches%place(:MOST_CORNERS, :)       ! and 0 behind those of triangles
+         do e = 1, mesh%n_elements
+            corners(CORNERS_OF(mesh%shape(e)) + 1:, e) = 0
+         end do
+         call list_holders(patches%n, corners, patches%first, patches%element, patches%corner)
       else
          call list_holders(patches%n, patches%place(:MOST_CORNERS, :), patches%first, patches%element, patches%corner)
       end if
@@ -156,19 +161,6 @@ contains
          end do
       end do
    end subroutine list_elements_at_corners
-
-   !> The places of the corners alone; 0 behind those of triangles.
-   pure function corner_places(mesh, patches) result(places)
-      type(mesh_t), intent(in) :: mesh
-      type(patches_t), intent(in) :: patches
-      integer(ip), allocatable :: places(:, :)
-      integer(ip) :: e
-
-      places = patches%place(:MOST_CORNERS, :)
-      do e = 1, mesh%n_elements
-         places(CORNERS_OF(mesh%shape(e)) + 1:, e) = 0
-      end do
-   end function corner_places
 
    !> Interior nodes have patches. Elements that touch none (a zone one or two elements wide) get patches at their nodes that
    !> have a neighbour; those that still have none are alone.

@@ -1,7 +1,7 @@
 !> Stresses at given points of many elements, fast: shape functions are evaluated once for each kind of element, their gradients
 !> once for neighbours that are equal, and the innermost loops run over the points of an element.
 module atrito_point_stress
-   use atrito_assembly, only: fem_t, is_like_before, is_at_radius, radius_of
+   use atrito_assembly, only: fem_t, form_t, has_form, take_form
    use atrito_axisymmetric, only: mean_rows, add_hoop_stress
    use atrito_element, only: mean_gradients
    use atrito_element_table, only: SHAPES, MOST_NODES, MOST_CORNERS, has_mean_dilatation
@@ -11,7 +11,7 @@ module atrito_point_stress
    use atrito_reduced_integration, only: spread_gradients, spread_values
    use atrito_reduced_rings, only: spread_ring_strains
    use atrito_shape_functions, only: shape_values, shape_gradients, rule_point
-   use atrito_tapered, only: tapered_means, take_thickness, has_thickness
+   use atrito_tapered, only: tapered_means
    implicit none (type, external)
    private
    public :: point_rule_t, point_geometry_t, MOST_POINTS, make_point_rules, make_point_rule, fetch_geometry, point_stresses
@@ -27,15 +27,8 @@ module atrito_point_stress
       real(wp) :: slope(MOST_POINTS, 2, MOST_NODES) = 0.0_wp    !< their derivatives along xi and eta
    end type point_rule_t
 
-   !> An element at the points of a rule, without its displacements. Coordinates are relative to its first node, so that the place
-   !> of the origin costs no digits.
-   type :: point_geometry_t
-      integer(ip) :: section = 0, state = 0
-      integer(ip) :: shape = 0                   !< nodes; 0: nothing yet
-      real(wp) :: x(2, MOST_NODES) = 0.0_wp        !< [L]
-      logical :: has_hoop = .false.              !< axisymmetric
-      real(wp) :: radius = 0.0_wp                !< then of the first node [L]
-      real(wp) :: thickness(MOST_NODES) = 0.0_wp !< of the nodes of a tapered element [L]
+   !> An element at the points of a rule, without its displacements.
+   type, extends(form_t) :: point_geometry_t
       real(wp) :: d(COMPONENTS, COMPONENTS) = 0.0_wp               !< elasticity matrix [F/L^2]
       logical :: is_orthotropic = .false.
       real(wp) :: across(4) = 0.0_wp             !< then s33 by e11, e22, 2 e12 and e33 [F/L^2]
@@ -84,29 +77,10 @@ contains
       type(point_rule_t), intent(in) :: rule
       type(point_geometry_t), intent(inout) :: geometry  !< of another element by the same rule, or nothing
       real(wp) :: mean(2, 4), volume
-      integer(ip) :: k, first
+      integer(ip) :: k
 
-      if (geometry%section == fem%section_of(e) .and. geometry%state == fem%mesh%state(e)) then
-         if (is_like_before(fem%mesh, e, geometry%shape, geometry%x, 0.0_wp)) then
-            if (IS_TAPERED(geometry%state)) then
-               if (has_thickness(fem%mesh, e, geometry%thickness)) return
-            else if (.not. geometry%has_hoop) then
-               return
-            else if (is_at_radius(fem%mesh, e, geometry%radius)) then
-               return
-            end if
-         end if
-      end if
-      geometry%section = fem%section_of(e)
-      geometry%state = fem%mesh%state(e)
-      geometry%shape = fem%mesh%shape(e)
-      geometry%has_hoop = STATES(geometry%state)%has_hoop
-      geometry%radius = radius_of(fem%mesh, e)
-      if (IS_TAPERED(geometry%state)) call take_thickness(fem%mesh, e, geometry%thickness)
-      first = fem%mesh%nodes(1, e)
-      do k = 1, geometry%shape
-         geometry%x(:, k) = fem%mesh%x(:, fem%mesh%nodes(k, e)) - fem%mesh%x(:, first)
-      end do
+      if (has_form(fem, e, geometry%form_t, 0.0_wp, may_turn=.false.)) return
+      call take_form(fem, e, geometry%form_t)
       associate (section => fem%sections(geometry%section))
          geometry%d = elasticity_matrix(section, geometry%state)
          geometry%averages = has_mean_dilatation(section, geometry%state, geometry%shape)

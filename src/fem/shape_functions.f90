@@ -3,6 +3,14 @@
 !>
 !> Nodes: corners counter-clockwise from (-1,-1), of triangles from (0,0), then mid-sides (1-2, 2-3, 3-4, 4-1; 1-2, 2-3, 3-1), then
 !> the centre.
+!>
+!> Of four and nine nodes a shape function is a product of Lagrange's polynomials along xi and eta, N = l_i(xi) l_j(eta), where i
+!> and j are the place of the node in its grid. Eight nodes (serendipity) are the nine whose centre follows the others: its
+!> displacement is half the sum of the mid-sides less a quarter of the sum of the corners, so that N_a = N_a(9) + c_a N_9(9) with
+!> c_a = 1/2 and -1/4 (OF_CENTRE). Triangles have the areas L1, L2, L3: N = L, or L (2 L - 1) at corners and 4 L L' between them.
+!>
+!> n Gauss points along a line are exact for polynomials of degree 2n - 1. On a quadrilateral the rule is a product of two of a
+!> line, on a triangle those of Dunavant, or a square with one side drawn together to a point.
 module atrito_shape_functions
    use atrito_element_table, only: SHAPES
    use atrito_kinds, only: ip, wp

@@ -1,6 +1,30 @@
-!> Band Cholesky by LAPACK: K_ii = L L' (dpbtrf), the coupling H = L^-1 K_ic, S = K_cc - H' H.
+!> Band Cholesky by LAPACK, with the retained equations as a border.
 !>
-!> The coupling is a full block from the first interior row that the retained equations reach.
+!> With i for the interior and c for the retained equations
+!>
+!>     [ K_ii  K_ic ]   [ L   0 ] [ I  0 ] [ L'  H ]
+!>     [ K_ci  K_cc ] = [ H'  I ] [ 0  S ] [ 0   I ],      K_ii = L L',   H = L^-1 K_ic,   S = K_cc - H'H.
+!>
+!> L is found by dpbtrf and has the half bandwidth w of K_ii: n w^2 operations for n interior equations. The coupling H is a full
+!> block from row r on, the first interior row that a retained equation reaches (`first_coupled`): above it K_ic is 0, and so is
+!> L^-1 K_ic, as L^-1 is a lower triangle. That makes 2 (n - r) w operations a retained equation for H, and n - r for each entry of
+!> S.
+!>
+!> A load is reduced by f_i <- L^-1 f_i, f_c <- f_c - H'f_i, and the solution expanded by x_i <- L^-T (f_i - H x_c).
+!>
+!> LAPACK keeps a_ij, i >= j, in band(1 + i - j, j): the diagonal in the first row, what is below it in the rows beneath. With w = 1
+!>
+!>     [ a11  a21   .    .  ]                    [ a11  a22  a33  a44 ]
+!>     [ a21  a22  a32   .  ]         band  =    [ a21  a32  a43   0  ]
+!>     [  .   a32  a33  a43 ]                    [  0    0    0    0  ]   padding
+!>     [  .    .   a43  a44 ]
+!>
+!> With ld for the leading dimension its address is (i - 1) + (j - 1)(ld - 1), that of an entry of a full matrix whose leading
+!> dimension is ld - 1. So a block of columns of L can be handed to the BLAS as it lies in the band (eliminate_coupling), if what
+!> lies below the band reads as 0: that is what the padding is for.
+!>
+!> The band is worth its zeros where K_ii is nearly as wide everywhere: dpbtrf works on full blocks at the rate of dgemm. Where the
+!> columns are of very different lengths the skyline (atrito_skyline) has fewer operations, one dot product each.
 module atrito_banded
    use atrito_dot_products, only: dot_down
    use atrito_halting, only: halting_t, suspend_halting, restore_halting
@@ -32,6 +56,7 @@ module atrito_banded
 
 contains
 
+   !> Room for band, coupling and retained block, all zero.
    subroutine create_banded(self, profile, status)
       class(banded_t), intent(inout) :: self
       type(profile_t), intent(in) :: profile
@@ -60,6 +85,8 @@ contains
       self%retained = 0.0_wp
    end subroutine create_banded
 
+   !> Adds an element matrix, its lower triangle: to the band where both equations are interior; to the coupling, K_ic, where the
+   !> greater one is retained; to the lower triangle of K_cc where both are.
    subroutine add_to_banded(self, equations, matrix)
       class(banded_t), intent(inout) :: self
       integer(ip), intent(in) :: equations(:)
@@ -85,6 +112,8 @@ contains
       end do
    end subroutine add_to_banded
 
+   !> L by dpbtrf, whose pivots are then looked through; H and S where there are retained equations that reach the interior. BLAS
+   !> and LAPACK raise floating-point exceptions that mean nothing: halting is suspended round them.
    subroutine factor_banded(self, status)
       class(banded_t), intent(inout) :: self
       type(status_t), intent(out) :: status
@@ -107,8 +136,12 @@ contains
       call restore_halting(halting)
    end subroutine factor_banded
 
-   !> The pivots are the squares of L's diagonal; the one at which dpbtrf gave up (`failed` > 0) is computed anew from its row,
-   !> to tell a negative one from none.
+   !> The pivots are the squares of L's diagonal, each compared with the diagonal that stood there before. dpbtrf stops at the first
+   !> one that is not positive (`failed` > 0) and leaves no number for it: it is computed anew from its row,
+   !>
+   !>     d_j = k_jj - sum of l_jk^2,      k from j - w to j - 1,
+   !>
+   !> to tell a negative one, an indefinite matrix, from round-off, a motion that is free.
    subroutine check_pivots(self, diagonal, failed, stopped)
       class(banded_t), intent(inout) :: self
       real(wp), intent(in) :: diagonal(:)            !< of K_ii
@@ -135,8 +168,13 @@ contains
       end do
    end subroutine check_pivots
 
-   !> coupling <- L^-1 coupling, by blocks of columns of L (dtbtrs takes one column of the coupling at a time and is slow).
-   !> With one row less as leading dimension the band reads as a full matrix; the padding holds the zeros below it.
+   !> coupling <- L^-1 coupling, by blocks of columns of L (dtbtrs takes one column of the coupling at a time and is slow). With a
+   !> block of L, its triangle L_kk and the w rows L_bk below it,
+   !>
+   !>     H_k <- L_kk^-1 H_k  (dtrsm),      H_b <- H_b - L_bk H_k  (dgemm),
+   !>
+   !> for all retained equations at once. With one row less as leading dimension the band reads as a full matrix; the padding holds
+   !> the zeros below it, which L_bk has where its later columns reach farther down than its first.
    subroutine eliminate_coupling(self, rows)
       class(banded_t), intent(inout) :: self
       integer(ip), intent(in) :: rows
@@ -154,6 +192,7 @@ contains
       end do
    end subroutine eliminate_coupling
 
+   !> Both triangles of S.
    subroutine get_banded_schur(self, schur)
       class(banded_t), intent(in) :: self
       real(wp), intent(out) :: schur(:, :)
@@ -226,6 +265,7 @@ contains
       end do
    end subroutine expand_columns
 
+   !> Band with its padding, coupling and retained block [bytes].
    pure integer(lp) function banded_memory(self)
       class(banded_t), intent(in) :: self
 

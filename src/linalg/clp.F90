@@ -1,7 +1,9 @@
 !> Clp, the simplex method of COIN-OR (J. Forrest and others), by its C interface; the only module that knows it.
 !>
 !> The library is loaded when it is asked for, not with the program: CMake says which file that is (ATRITO_CLP_LIBRARY, its name
-!> with the version in it). What it is asked for has been in its interface since version 1.
+!> with the version in it). What it is asked for has been in its interface since version 1. A routine is found by its name each time
+!> it is called, and the interface that it has is one of those below: what takes an integer, gives a real, and so on. A call that
+!> goes through a pointer to a procedure costs nothing beside a programme.
 module atrito_clp
    use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_f_procpointer, c_funptr, c_int, c_ptr
    use atrito_system, only: find_routine
@@ -90,6 +92,8 @@ contains
       call restore_halting(halting)
    end subroutine solve_linear_program
 
+   !> Hands the programme over, as Clp keeps it: A by columns, places counted from 0. Its own scaling is off, since columns and rows
+   !> come scaled, and its tolerances then mean what they say.
    subroutine load(model, program)
       type(c_ptr), intent(in) :: model
       type(linear_program_t), intent(in) :: program
@@ -107,6 +111,10 @@ contains
       call set('Clp_setMaximumIterations', model, steps)
    end subroutine load
 
+   !> The dual simplex method goes from basis to basis, each with reduced costs of the right signs, until no row is beyond its
+   !> bounds: a few steps where the programme differs little from one that starts near its end. The barrier method goes through the
+   !> interior in some twenty to fifty steps of a sparse factorisation each, whatever the size, and ends with simplex steps to a
+   !> basis: it is for large programmes.
    subroutine solve(model, method, solution)
       type(c_ptr), intent(in) :: model
       integer, intent(in) :: method
@@ -133,6 +141,7 @@ contains
       solution%iterations = int(ask('Clp_numberIterations', model), ip)
    end subroutine solve
 
+   !> Copies of x, of the dual and of the objective: what Clp has is gone with the model.
    subroutine fetch(model, program, solution)
       type(c_ptr), intent(in) :: model
       type(linear_program_t), intent(in) :: program
@@ -145,6 +154,7 @@ contains
       solution%objective = value(model)
    end subroutine fetch
 
+   !> Gives the model back to Clp, with all it has.
    subroutine release(model)
       type(c_ptr), intent(in) :: model
       procedure(delete_model), pointer :: delete
@@ -153,6 +163,7 @@ contains
       call delete(model)
    end subroutine release
 
+   !> n reals of an array inside Clp, which one of its routines points to; zeros where it has none.
    subroutine copy_array(symbol, model, n, values)
       character(len=*), intent(in) :: symbol
       type(c_ptr), intent(in) :: model
@@ -170,6 +181,7 @@ contains
       values = inside
    end subroutine copy_array
 
+   !> What a routine of Clp of this name answers about the model.
    integer(c_int) function ask(symbol, model) result(value)
       character(len=*), intent(in) :: symbol
       type(c_ptr), intent(in) :: model
@@ -179,6 +191,7 @@ contains
       value = question(model)
    end function ask
 
+   !> Sets an integer of the model by the routine of this name.
    subroutine set(symbol, model, value)
       character(len=*), intent(in) :: symbol
       type(c_ptr), intent(in) :: model
@@ -189,6 +202,7 @@ contains
       call setter(model, value)
    end subroutine set
 
+   !> Sets a real of the model.
    subroutine set_value(symbol, model, value)
       character(len=*), intent(in) :: symbol
       type(c_ptr), intent(in) :: model
@@ -199,6 +213,7 @@ contains
       call setter(model, value)
    end subroutine set_value
 
+   !> A routine of Clp by its name; null where there is none.
    type(c_funptr) function routine(symbol)
       character(len=*), intent(in) :: symbol
 
@@ -217,6 +232,7 @@ contains
       version = number('Clp_VersionMajor')//'.'//number('Clp_VersionMinor')//'.'//number('Clp_VersionRelease')
    end function clp_version
 
+   !> One of the three numbers of the version; `?` where an old library does not say it.
    function number(symbol) result(text)
       character(len=*), intent(in) :: symbol
       character(len=:), allocatable :: text

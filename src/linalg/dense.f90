@@ -4,6 +4,13 @@
 !> is LAPACK's: 0 is success; a factorisation that meets an exactly zero pivot, or an iteration for eigen- or singular values
 !> that does not converge, returns something else; so does an infinity or NaN in the data of a decomposition, which LAPACK would
 !> answer with a line on standard output, or even with the end of the program (xerbla).
+!>
+!> What to take for which matrix:
+!>
+!>     positive definite                      factor_in_blocks (atrito_dense_blocks), solve_cholesky      n^3/3 operations
+!>     square and regular                     solve_lu                                                    2 n^3/3
+!>     of unknown rank, or not square         orthonormalise, null_space, least_squares                   some 10 to 20 n^3
+!>     symmetric, all of its modes            eigen_symmetric                                             about 9 n^3
 module atrito_dense
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use atrito_halting, only: halting_t, suspend_halting, restore_halting
@@ -28,6 +35,7 @@ module atrito_dense
 
 contains
 
+   !> Forward and backward substitution, L y = b and L'x = y, with all columns of b at a time: 2 n^2 operations each.
    subroutine solve_cholesky_many(a, b)
       real(wp), intent(in), contiguous :: a(:, :)        !< (n, n) factor, lower triangle
       real(wp), intent(inout), contiguous :: b(:, :)     !< (n, loads)
@@ -39,6 +47,7 @@ contains
       call restore_halting(halting)
    end subroutine solve_cholesky_many
 
+   !> The same of one column.
    subroutine solve_cholesky_one(a, b)
       real(wp), intent(in), contiguous :: a(:, :)        !< (n, n) factor, lower triangle
       real(wp), intent(inout), contiguous :: b(:)        !< (n)
@@ -50,7 +59,11 @@ contains
       call restore_halting(halting)
    end subroutine solve_cholesky_one
 
-   !> Estimate of the condition number in the 1-norm, >= 1 (dpocon); 1 at order 0.
+   !> Estimate of the condition number |A| |A^-1| in the 1-norm, >= 1 (dpocon); 1 at order 0.
+   !>
+   !> |A| has to be known from before the factorisation. |A^-1| is estimated by a few solutions with the factor (Hager's method in
+   !> Higham's form): they go uphill on the convex function |A^-1 x| over |x| = 1, whose maximum is at a unit vector. The estimate
+   !> is a lower bound, seldom off by more than a factor of three.
    real(wp) function estimate_condition(a_factor, norm1) result(condition)
       real(wp), intent(in), contiguous :: a_factor(:, :) !< (n, n) factor, lower triangle
       real(wp), intent(in) :: norm1                      !< largest column sum of the matrix before
@@ -65,6 +78,7 @@ contains
       if (reciprocal > 1.0_wp/HUGE_REAL) condition = max(1.0_wp/reciprocal, 1.0_wp)
    end function estimate_condition
 
+   !> P A = L U with the largest pivot of each column, then two substitutions: for matrices that are not positive definite.
    subroutine solve_lu_many(a, b, info)
       real(wp), intent(inout), contiguous :: a(:, :)     !< (n, n); destroyed
       real(wp), intent(inout), contiguous :: b(:, :)     !< (n, loads)
@@ -77,6 +91,7 @@ contains
       call restore_halting(halting)
    end subroutine solve_lu_many
 
+   !> The same of one column.
    subroutine solve_lu_one(a, b, info)
       real(wp), intent(inout), contiguous :: a(:, :)     !< (n, n); destroyed
       real(wp), intent(inout), contiguous :: b(:)        !< (n)
@@ -89,7 +104,9 @@ contains
       call restore_halting(halting)
    end subroutine solve_lu_one
 
-   !> All eigenvalues, ascending, and orthonormal eigenvectors of a symmetric matrix (dsyev).
+   !> All eigenvalues, ascending, and orthonormal eigenvectors of a symmetric matrix: A = V diag(values) V' (dsyev). Reflections
+   !> bring A to three diagonals, rotations (QR) these to one. Each value is found to within rounding of the largest one, so small
+   !> ones have few digits of their own. LAPACK is asked first how much memory it wants.
    subroutine eigen_symmetric(a, values, info)
       real(wp), intent(inout), contiguous :: a(:, :)     !< (n, n) lower triangle; the vectors, by columns, on return
       real(wp), intent(out), contiguous :: values(:)     !< (n)
@@ -105,7 +122,8 @@ contains
       call restore_halting(halting)
    end subroutine eigen_symmetric
 
-   !> An orthonormal basis of the space of the columns (dgesvd).
+   !> An orthonormal basis of the space of the columns (dgesvd): of A = U S V' the columns of U whose singular values are not zero.
+   !> The largest singular value is the measure, so that rounding errors of the columns do not count as directions of their own.
    subroutine orthonormalise(a, rank, tol, info)
       real(wp), intent(inout), contiguous :: a(:, :)     !< (m, n); on return the basis is a(:, :rank)
       integer(ip), intent(out) :: rank                   !< 0..min(m, n)
@@ -117,7 +135,8 @@ contains
       rank = count_rank(values, tol)
    end subroutine orthonormalise
 
-   !> An orthonormal basis of the right null space: A z = 0 (dgesvd).
+   !> An orthonormal basis of the right null space: A z = 0 (dgesvd). Of A = U S V' it is the rows of V' whose singular values are
+   !> zero, those beyond min(m, n) among them; of a matrix without rows all there is.
    subroutine null_space(a, tol, z, info)
       real(wp), intent(in) :: a(:, :)                    !< (m, n)
       real(wp), intent(in) :: tol                        !< singular values below tol times the largest count as zero
@@ -136,7 +155,8 @@ contains
       z = transpose(vectors(count_rank(values, tol) + 1:, :))
    end subroutine null_space
 
-   !> Singular values above tol times the largest; a zero matrix has none.
+   !> Singular values above tol times the largest; a zero matrix has none. A perturbation E changes no singular value by more than
+   !> |E| (Weyl), so with tol above the rounding of A what is below it may be zero, and what is above it is not.
    pure integer(ip) function count_rank(values, tol) result(rank)
       real(wp), intent(in) :: values(:), tol
 
@@ -144,7 +164,8 @@ contains
       if (size(values) > 0) rank = count(values > tol*values(1), kind=ip)
    end function count_rank
 
-   !> dgesvd; left vectors, where wanted, replace a.
+   !> A = U S V' by dgesvd: S has the singular values on its diagonal, falling; U and V are orthonormal. Left vectors, where wanted,
+   !> replace a.
    subroutine decompose(jobu, jobvt, a, values, vectors, info)
       character(len=1), intent(in) :: jobu, jobvt
       real(wp), intent(inout), contiguous :: a(:, :)
@@ -173,7 +194,9 @@ contains
       call restore_halting(halting)
    end subroutine decompose
 
-   !> The shortest of all x that minimise |A x - b| (dgelsd).
+   !> The shortest of all x that minimise |A x - b| (dgelsd): x = V S^+ U'b, where S^+ has 1/s for the singular values s that count
+   !> and 0 for the others. So it is the one answer also where A has too few independent rows or columns, and a small change of A
+   !> that does not change the rank changes it by little.
    subroutine least_squares(a, b, x, tol, rank, info)
       real(wp), intent(in) :: a(:, :)                    !< (m, n)
       real(wp), intent(in) :: b(:)                       !< (m)
@@ -209,7 +232,7 @@ contains
       x = both(:n)
    end subroutine least_squares
 
-   !> c <- c + a b' (dgemm).
+   !> c <- c + a b' (dgemm): 2 m n k operations, at the full rate of the processor for large blocks.
    subroutine add_product(a, b, c)
       real(wp), intent(in), contiguous :: a(:, :)        !< (m, k)
       real(wp), intent(in), contiguous :: b(:, :)        !< (n, k)
@@ -222,7 +245,7 @@ contains
       call restore_halting(halting)
    end subroutine add_product
 
-   !> y <- a x (dgemv).
+   !> y <- a x (dgemv): every entry of a is used once, so it takes as long as a takes to come from memory.
    subroutine multiply_vector(a, x, y)
       real(wp), intent(in), contiguous :: a(:, :)        !< (m, n)
       real(wp), intent(in), contiguous :: x(:)           !< (n)

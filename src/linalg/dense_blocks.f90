@@ -2,6 +2,10 @@
 !>
 !> The blocks do not depend on the number of threads, and each entry of a result is computed by one of them: results are the same
 !> to the last bit for any number of threads. All of it works at order 0.
+!>
+!> A block is as large as a core can keep near it: of 96 columns a square takes 74 KB. Products of blocks then do 96 operations for
+!> each number that comes from memory, while a product of a matrix and a vector, which uses each entry once, waits for memory
+!> whatever is done, and is not shared out.
 module atrito_dense_blocks
    use atrito_halting, only: halting_t, suspend_halting, restore_halting
    use atrito_kinds, only: ip, wp
@@ -17,6 +21,10 @@ module atrito_dense_blocks
 contains
 
    !> A = L L' in place: reads and writes the lower triangle alone. The caller scales.
+   !>
+   !> Right-looking: a panel of columns is factored, the rows below it are divided by its triangle, and their products are taken off
+   !> what is left, tile by tile. It is the elimination of a front (atrito_front) all of whose equations are pivots; the tiles are
+   !> tasks for the threads.
    subroutine factor_in_blocks(a, pivot_failed)
       real(wp), intent(inout), contiguous :: a(:, :)   !< (n, n)
       integer(ip), intent(out) :: pivot_failed         !< 0, or the first row whose pivot is not positive
@@ -64,10 +72,17 @@ contains
       call restore_halting(halting)
    end subroutine multiply_symmetric
 
-   !> C <- C + B F B' for F = (L L')^-1, as X' X with X = L^-1 B'.
+   !> C <- C + B F B' for F = (L L')^-1, as X'X with X = L^-1 B'.
    !>
-   !> Columns of B' that begin late cost less; they are best sorted. The triangle is inverted on them alone, which keeps C
-   !> symmetric and positive semidefinite to the last bit but one.
+   !> That is how the compliance of a body at its contact points comes about: L is the factor of its condensed stiffness, the rows
+   !> of B take the motions of the points from the displacements. In this form C is symmetric to the last bit, as each product of
+   !> two columns of X is computed once and put into both places, and positive semidefinite up to the rounding of one sum; F itself
+   !> is never formed.
+   !>
+   !> A column of B' that begins with zeros down to row k has a column of X that does, as L^-1 is a lower triangle: its triangular
+   !> solve and its products begin at row k. Columns are taken in blocks, each from the first row of its first column on, so they
+   !> are best sorted by that. The blocks of X'X in the lower triangle are counted one after the other and shared out to the
+   !> threads: no two of them write to the same place.
    subroutine add_inverse_form(factor, x, first, place, c)
       real(wp), intent(in), contiguous :: factor(:, :) !< (n, n) lower triangle L
       real(wp), intent(inout), contiguous :: x(:, :)   !< (n, k) B'; on return L^-1 B'
@@ -95,6 +110,7 @@ contains
       call restore_halting(halting)
    end subroutine add_inverse_form
 
+   !> 1 + 2 + ... + n: blocks in the first n rows of a lower triangle.
    pure integer(ip) function triangle(n)
       integer(ip), intent(in) :: n
 
@@ -111,7 +127,9 @@ contains
       call dtrsm('L', 'L', 'N', 'N', n - first + 1, end - start + 1, 1.0_wp, factor(first, first), n, x(first, start), n)
    end subroutine divide_columns
 
-   !> One block of X' X and its mirror image. Pairs are counted by rows of the lower triangle of blocks.
+   !> One block of X'X and its mirror image. Pairs are counted by rows of the lower triangle of blocks: pair number p is in row r
+   !> with r (r + 1)/2 < p <= (r + 1)(r + 2)/2, rows counted from 0, which is the root of a square rounded down. On the diagonal the
+   !> lower triangle of the block alone is added, and mirrored.
    subroutine add_pair(n, k, m, pair, x, first, place, c)
       integer(ip), intent(in) :: n, k, m, pair
       real(wp), intent(in) :: x(n, k)

@@ -1,7 +1,12 @@
 !> The inner loops of the skyline: dot products of one or two columns with one or four, and multiples taken off a column.
 !>
-!> Each number that is loaded is used two or four times, and the `simd` directives (honoured with -fopenmp-simd, comments
-!> otherwise) let the compiler add up in vector lanes, which it may not do on its own.
+!> A dot product of two columns does two operations for two numbers that it loads, and a processor can do some ten operations in the
+!> time in which one number comes from memory. Of one column with four in a panel, which stays in the cache, it does eight for one
+!> number from memory, of two columns sixteen for two and with half as many loads from the cache: that is where the arithmetic
+!> units are busy. More columns at a time would not fit into the registers, as each product is a sum of its own.
+!>
+!> The `simd` directives (honoured with -fopenmp-simd, comments otherwise) let the compiler add up in vector lanes, which it may not
+!> do on its own, since that changes the order of the terms.
 module atrito_dot_products
    use atrito_kinds, only: ip, wp
    implicit none (type, external)

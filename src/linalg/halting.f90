@@ -1,5 +1,9 @@
 !> Floating-point halting off around calls of LAPACK and BLAS, which raise harmless exceptions inside.
 !>
+!> The program stops at an invalid operation, a division by zero or an overflow of its own (it is built so for tests): each would be
+!> a mistake. LAPACK tries some operations that may raise one, and looks at the result; fast kernels compute in lanes that hold
+!> nothing. So the exceptions of a call are neither stopped at nor kept.
+!>
 !> C's feholdexcept and fesetenv, not ieee_set_halting_mode: a Fortran procedure restores the halting modes of its caller when
 !> it returns (F2018, 17.6), so that a helper cannot switch them off for anybody else.
 module atrito_halting

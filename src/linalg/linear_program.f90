@@ -1,6 +1,14 @@
 !> A linear programme and its solution, as plain data: what atrito_clp takes and gives.
 !>
-!>     minimise objective' x   with   row_lower <= A x <= row_upper,   lower <= x <= upper
+!>     minimise objective'x   with   row_lower <= A x <= row_upper,   lower <= x <= upper
+!>
+!> At an optimum there is a dual y, a number a row, such that the reduced costs z = objective - A'y and the rows say why no step
+!> makes the objective smaller: z_j > 0 only where x_j is at its lower bound, z_j < 0 only at its upper one, and in the same way y_i
+!> > 0 only where row i is at row_lower, y_i < 0 only at row_upper. y_i is what the objective gains by a unit of the bound of row i.
+!>
+!> Where no x keeps all rows and bounds, there is a combination y of the rows that proves it (Farkas): the largest that y'A x can be
+!> within the bounds of x is less than the least that the bounds of the rows ask for. That is how balance and mechanism of a scene
+!> are two sides of one programme (limit/).
 module atrito_linear_program
    use atrito_kinds, only: ip, wp
    implicit none (type, external)

@@ -4,6 +4,13 @@
 !>
 !>     S = K_cc - K_ci K_ii^-1 K_ic                                                (condensation, docs/theory)
 !>
+!> It comes from K_ii x_i + K_ic x_c = f_i, from which x_i is eliminated; what is left for the contact unknowns is
+!>
+!>     S x_c = f_c - K_ci K_ii^-1 f_i,      and then      x_i = K_ii^-1 (f_i - K_ic x_c).
+!>
+!> S is full, symmetric and positive semidefinite: singular where supports leave the body a motion. It is far smaller than K, and
+!> all iterations of the contact problem work on it; K_ii is factored once.
+!>
 !> Use: create, add every element matrix (one by one, or all in a store), factor; then get_schur, and for every load reduce, find
 !> x_c, expand. Without retained equations reduce followed by expand solves K x = f.
 module atrito_linear_solver
@@ -104,7 +111,8 @@ module atrito_linear_solver
 
 contains
 
-   !> Adds the matrices of a store, in their order. The solver may empty the store.
+   !> Adds the matrices of a store, in their order. Elements that follow one another and have one matrix in common get it unpacked
+   !> once. The solver may empty the store.
    subroutine add_one_by_one(self, store)
       class(linear_solver_t), intent(inout) :: self
       type(element_store_t), intent(inout) :: store
@@ -127,8 +135,14 @@ contains
       end do
    end subroutine add_one_by_one
 
-   !> Enters a pivot into the report. `usable` is false for a pivot that must not be divided by: one that is round-off, at most
-   !> max(n eps, 1e-15) of its original diagonal. A pivot clearly below zero is counted and can be used.
+   !> Enters a pivot into the report.
+   !>
+   !> The elimination takes positive numbers off a diagonal k_jj until the pivot d_j is left; the numbers have errors of eps k_jj,
+   !> so the pivot has lost log10(k_jj/d_j) digits. The worst of all pivots is about what the solution loses: it is a lower bound of
+   !> the condition of the matrix that is scaled to a unit diagonal.
+   !>
+   !> `usable` is false for a pivot that must not be divided by: one that is round-off, at most max(n eps, 1e-15) of its original
+   !> diagonal. A pivot clearly below zero is counted and can be used.
    pure subroutine note_pivot(report, equation, n, original, pivot, usable)
       type(factor_report_t), intent(inout) :: report
       integer(ip), intent(in) :: equation          !< 1..n

@@ -1,6 +1,28 @@
 !> Node numbering for the profile: reverse Cuthill-McKee with the contact nodes last.
 !>
 !> Reference: A. George, J. W. H. Liu, Computer Solution of Large Sparse Positive Definite Systems, 1981, chapter 4.
+!>
+!> Two nodes are neighbours in the graph when they share an element. Cuthill and McKee number the graph in layers: a root, its
+!> neighbours, their neighbours, and so on, within a layer in the order of the neighbours in the layer before, and of those of one
+!> node the ones of low degree first. An edge joins nodes of one layer or of two that follow each other, so no column reaches back
+!> over more than two layers: the bandwidth is at most the sum of the sizes of two of them. Long and narrow structures of layers are
+!> wanted, which begin at a node at an end of the graph; a pseudo-peripheral node is found by going from the last layer back to the
+!> first until that makes no more layers (find_peripheral_node).
+!>
+!> Reversing the numbers leaves the bandwidth as it is and never makes the profile longer (Liu and Sherman, SIAM J. Numer. Anal. 13
+!> (1976) 198-213): a column then begins at the first of the neighbours in the next layer, not at that in the one before.
+!>
+!> The contact nodes are retained equations and have to come last. So they are the root, which the reversal puts to the end, all of
+!> them in one layer: the layers approach the contact line from the far side of the body, and the rows that couple with the
+!> retained equations are the last ones of the interior, which keeps the columns of the coupling short.
+!>
+!> A strip of three elements whose contact nodes are 4 and 8, in this order:
+!>
+!>     5 --- 6 --- 7 --- 8        layers:     8 4 | 3 7 | 2 6 | 1 5       3 before 7: of the same degree, the lower number
+!>     |     |     |     |
+!>     1 --- 2 --- 3 --- 4        reversed:   5 1   6 2   7 3   4 8
+!>
+!> In the new numbers no two neighbours are more than 3 apart (5 and 2 are numbers 1 and 4); in the old ones 1 and 6 are 5 apart.
 module atrito_ordering
    use atrito_incidence, only: list_holders
    use atrito_kinds, only: ip, lp
@@ -24,7 +46,9 @@ module atrito_ordering
 
 contains
 
-   !> Graph of a mesh, in time linear in the number of pairs of nodes within elements.
+   !> Graph of a mesh, in time linear in the number of pairs of nodes within elements: for each node its elements, and of these the
+   !> nodes that were not seen yet from it. Instead of emptying the marks for each node, a mark is the node from which one was seen
+   !> last.
    subroutine build_graph(n, elements, graph)
       integer(ip), intent(in) :: n               !< nodes
       integer(ip), intent(in) :: elements(:, :)  !< (nodes per element, elements): 1..n, 0 beyond the count
@@ -68,8 +92,11 @@ contains
       end do
    end subroutine take_neighbours
 
-   !> Numbers the connected components of a mesh from 1 in the order of their lowest nodes, without its graph: sets of nodes are
-   !> joined element by element, each known by its lowest node.
+   !> Numbers the connected components of a mesh from 1 in the order of their lowest nodes, without its graph.
+   !>
+   !> Sets of nodes are joined element by element. Each set is a tree whose root is its lowest node, and each node knows its parent;
+   !> two sets are joined by making the lower of the two roots the parent of the other one. To find a root one goes up, and each
+   !> node on the way is hung to its grandparent, which halves the way for those who come later: the time is as good as linear.
    pure subroutine mesh_components(n, elements, component, n_components)
       integer(ip), intent(in) :: n               !< nodes
       integer(ip), intent(in) :: elements(:, :)  !< (nodes per element, elements): 1..n, 0 beyond the count
@@ -113,9 +140,11 @@ contains
 
    !> Reverse Cuthill-McKee numbering that ends with given nodes.
    !>
-   !> The given nodes are the root level of the search, so that the rest is numbered in layers that approach them: their
-   !> columns stay short. A component without any of them begins at a pseudo-peripheral node. Components follow one another.
-   !> Time linear in the number of edges (and in last_nodes times the components that hold any) where no node has very many.
+   !> The given nodes are the root level of the search, so that the rest is numbered in layers that approach them: their columns
+   !> stay short. They stand in the walk from the last to the first, and the reversal at the end puts them in the order that is
+   !> wanted. A component without any of them begins at a pseudo-peripheral node. Components follow one another: equations of two
+   !> components have no entry in common, so nothing is gained or lost by their order. Time linear in the number of edges (and in
+   !> last_nodes times the components that hold any) where no node has very many.
    pure subroutine order_contact_last(graph, last_nodes, order, connected)
       type(graph_t), intent(in) :: graph
       integer(ip), intent(in) :: last_nodes(:)   !< distinct nodes, in the order wanted (along the chain); may be empty
@@ -151,7 +180,8 @@ contains
       order = walk%nodes(graph%n:1:-1)
    end subroutine order_contact_last
 
-   !> Cuthill-McKee from the given roots, which are in the walk: those at the end of the list first.
+   !> Cuthill-McKee from the given roots, which are in the walk: those at the end of the list first. The walk itself is the queue:
+   !> the neighbours of its next node are appended, so it is gone through layer by layer.
    pure subroutine grow_layers(graph, roots, walk)
       type(graph_t), intent(in) :: graph
       integer(ip), intent(in) :: roots(:)
@@ -199,7 +229,9 @@ contains
       end do
    end subroutine find_peripheral_node
 
-   !> The number of layers seen from `root`, and the node of least degree in the last one. The trial walk is left empty.
+   !> The number of layers seen from `root`, and the node of least degree in the last one: the fewer neighbours it has, the more
+   !> likely it lies at an end of the graph. The trial walk is left empty, by taking back the marks of its nodes alone, so that
+   !> small components of a large graph take little time.
    pure subroutine find_far_node(graph, root, trial, layers, far)
       type(graph_t), intent(in) :: graph
       integer(ip), intent(in) :: root
@@ -227,7 +259,8 @@ contains
       trial%length = 0
    end subroutine find_far_node
 
-   !> Numbers the connected components from 1 in the order of their lowest nodes. Time linear in the number of edges.
+   !> Numbers the connected components from 1 in the order of their lowest nodes: a walk from a node that nobody has seen reaches
+   !> all of its component and nothing else. Time linear in the number of edges.
    pure subroutine connected_components(graph, component, n_components)
       type(graph_t), intent(in) :: graph
       integer(ip), intent(out) :: component(:)   !< (n) 1..n_components
@@ -247,6 +280,7 @@ contains
       end do
    end subroutine connected_components
 
+   !> An empty sequence; nobody has been seen.
    pure subroutine begin_walk(walk, n)
       type(walk_t), intent(out) :: walk
       integer(ip), intent(in) :: n
@@ -255,6 +289,7 @@ contains
       walk%seen = .false.
    end subroutine begin_walk
 
+   !> Appends a node, unless it is there.
    pure subroutine visit(walk, node)
       type(walk_t), intent(inout) :: walk
       integer(ip), intent(in) :: node
@@ -279,7 +314,8 @@ contains
       if (walk%length > first) call sort_by_degree(graph, walk%nodes(first:walk%length))
    end subroutine visit_neighbours
 
-   !> Shell's sort: by insertion where there are few.
+   !> Shell's sort: by insertion where there are few. For each gap of the sequence 1, 4, 13, 40, ..., the largest first, the nodes
+   !> that are so far apart are sorted among themselves; with the gap of 1 all of them are, and few have far to go by then.
    pure subroutine sort_by_degree(graph, nodes)
       type(graph_t), intent(in) :: graph
       integer(ip), intent(inout) :: nodes(:)
@@ -308,6 +344,7 @@ contains
       end do
    end subroutine sort_by_degree
 
+   !> How many neighbours a node has.
    pure integer(ip) function degree(graph, node)
       type(graph_t), intent(in) :: graph
       integer(ip), intent(in) :: node

@@ -3,6 +3,19 @@
 !> Equations are numbered 1..n; the last n_retained of them are retained: they are the contact unknowns, which the factorisation
 !> does not eliminate and onto which it condenses the rest (the Schur complement). Column j of the upper triangle is stored from row
 !> first(j) down to the diagonal; its height is j - first(j) + 1.
+!>
+!> The profile of a sum of element matrices: an element with the equations e couples all of them, so first(j) for j in e is at most
+!> the least of e. The retained block is full once the interior is eliminated, therefore closing the profile lowers its columns to
+!> the first retained row.
+!>
+!> From the profile the choice of the solver follows, by the operations and the memory of each:
+!>
+!>     skyline   sum over the columns of h_j^2, where h_j rows of column j are eliminated
+!>     banded    n w^2, w the greatest height: as much as the skyline where all columns are equally high, and with a better rate
+!>     sparse    about 45 n m for a grid m equations wide: less for all that is larger than a few thousand equations
+!>
+!> The first two are counts of what the routines do; the third is a fit to counts of a number of bodies, since the sparse solver
+!> takes an order of its own.
 module atrito_profile
    use atrito_kinds, only: ip, lp, wp
    use atrito_multifrontal, only: elimination_t
@@ -44,7 +57,8 @@ contains
       end do
    end subroutine begin_profile
 
-   !> Makes room for an element matrix.
+   !> Makes room for an element matrix: all of its equations reach up to the lowest of them, so that the assembled matrix fits
+   !> whatever the entries are. Entries that are zero by accident take room as well.
    pure subroutine add_to_profile(profile, equations)
       type(profile_t), intent(inout) :: profile
       integer(ip), intent(in) :: equations(:)   !< equation numbers of the element in any order; 0 = prescribed, skipped
@@ -64,7 +78,8 @@ contains
       end do
    end subroutine add_to_profile
 
-   !> Ends with the retained block full, as the Schur complement is.
+   !> Ends with the retained block full, as the Schur complement is: eliminating the interior couples all retained equations that
+   !> the body joins, whether or not an element has them.
    pure subroutine close_profile(profile)
       type(profile_t), intent(inout) :: profile
       integer(ip) :: j, n_interior
@@ -141,8 +156,12 @@ contains
       end do
    end function first_coupled_row
 
-   !> Predicted floating-point operations of the skyline factorisation with its Schur complement. Exact where first(j) grows
-   !> with j, an upper bound elsewhere.
+   !> Predicted floating-point operations of the skyline factorisation with its Schur complement. Exact where first(j) grows with j,
+   !> an upper bound elsewhere.
+   !>
+   !> Column j has h rows to eliminate; row k of them is a dot product of length k - 1 at the most, a multiplication and an addition
+   !> a term, then comes the division by the pivot and the sum for the diagonal: h (h - 1) + h + 2 h, and with what the products are
+   !> taken off h (h + 3). A retained column has a dot product of length h besides for each retained column before it.
    pure real(wp) function skyline_flops(profile) result(flops)
       type(profile_t), intent(in) :: profile
       real(wp) :: height, retained_before
@@ -157,7 +176,9 @@ contains
       end do
    end function skyline_flops
 
-   !> Predicted floating-point operations of the banded factorisation with its Schur complement.
+   !> Predicted floating-point operations of the banded factorisation with its Schur complement: w (w + 3) for each column of the
+   !> band, then for each retained equation the substitution, (2 w + 1) a row of the coupling, and its products with the others, of
+   !> which symmetry leaves half: n_retained a row.
    pure real(wp) function banded_flops(profile) result(flops)
       type(profile_t), intent(in) :: profile
       real(wp) :: n_interior, n_retained, rows, band

@@ -1,11 +1,33 @@
-!> The classic skyline solver: L D L' of the columns between profile and diagonal, without pivoting.
+!> The classic skyline solver: K = L D L' of the columns between profile and diagonal, without pivoting.
 !>
-!> Active columns (Bathe, Finite Element Procedures, 8.2.3): with g = D L' in the making, column j is
+!> Storage. Of column j of the upper triangle the entries from row m_j (`first`), the first that is not zero, down to the diagonal
+!> stand one behind the other in `values`, column after column; place(j) is where the diagonal is. The elimination makes nothing
+!> above m_j: g_ij below is k_ij less a sum over the rows k >= m_j, and so it is 0 where i < m_j. Hence L' takes the place of K.
+!>
+!> Elimination by active columns (Bathe, Finite Element Procedures, 8.2.3). With g = D L' in the making, column j is
 !>
 !>     g_ij = k_ij - sum_k l_ki g_kj,   l_ij = g_ij/d_i,   d_j = k_jj - sum_k l_kj g_kj,      k below min(i, n_interior + 1).
 !>
-!> The limit on k leaves the retained block unfactored: it becomes the Schur complement. Four neighbouring columns are eliminated
-!> at a time in a panel, filled up with zeros to the tallest of them.
+!> A column needs those before it alone, and of each of them the rows that both have: one dot product an entry, as long as the
+!> lower of the two columns is high. With heights h_j that makes about sum of h_j^2 operations (skyline_flops).
+!>
+!> Condensation. The limit on k ends all sums at the last equation that is eliminated. In the columns of the retained equations,
+!> index c, that leaves
+!>
+!>     D^-1 L^-1 K_ic   in the interior rows i,      S = K_cc - K_ci K_ii^-1 K_ic   in the rows c:
+!>
+!> when the last column is done, the retained block is the Schur complement.
+!>
+!> Solution. reduce makes D^-1 L^-1 f_i and f_c - K_ci K_ii^-1 f_i in one loop over all columns, a dot product each, since the
+!> columns c hold D^-1 L^-1 K_ic. expand goes backward: once x_j is known, x_j times column j is taken off the rows above, first for
+!> the columns c, which gives D^-1 L^-1 (f_i - K_ic x_c), then for those of L', which gives x_i.
+!>
+!> Pivots. K_ii is positive definite, so every d_j is positive, and no interchange could make the elimination more stable. A pivot
+!> that is round-off of its diagonal tells that something is free to move, a negative one that the matrix is not what it should be
+!> (note_pivot).
+!>
+!> Panels. Four neighbouring columns are eliminated at a time, filled up with zeros to the tallest of them: a column of L' that is
+!> fetched from memory serves four sums, two of them at a time eight (dot_1x4, dot_2x4). One column at a time waits for memory.
 module atrito_skyline
    use atrito_dot_products, only: dot, dot_1x4, dot_2x4, take_off, PANEL_WIDTH
    use atrito_kinds, only: ip, lp, wp
@@ -44,6 +66,8 @@ module atrito_skyline
 
 contains
 
+   !> Room for the columns, all zero. What is asked for here is all that the solver will hold: the factor takes the place of the
+   !> matrix.
    subroutine create_skyline(self, profile, status)
       class(skyline_t), intent(inout) :: self
       type(profile_t), intent(in) :: profile
@@ -72,6 +96,8 @@ contains
       end do
    end subroutine create_skyline
 
+   !> Adds an element matrix: the entries of the upper triangle, each at its distance above the diagonal of its column. (The profile
+   !> has room for all of them: add_to_profile was given the element.)
    subroutine add_to_skyline(self, equations, matrix)
       class(skyline_t), intent(inout) :: self
       integer(ip), intent(in) :: equations(:)
@@ -91,6 +117,8 @@ contains
       end do
    end subroutine add_to_skyline
 
+   !> Panel by panel, from left to right: take the columns out of the skyline, eliminate the rows above the panel, then the triangle
+   !> within it, and put D and L' back. A pivot that must not be divided by ends it.
    subroutine factor_skyline(self, status)
       class(skyline_t), intent(inout) :: self
       type(status_t), intent(out) :: status
@@ -113,7 +141,8 @@ contains
    end subroutine factor_skyline
 
    !> The panel that begins with column j ends where the heights differ much, which would be work on zeros, or the retained block
-   !> begins.
+   !> begins. The height of the taller is allowed to be twice that of the lower: of columns that are much taller than the panel is
+   !> wide the zeros are then less than half of what is computed, and as much is gained by going four at a time.
    pure integer(ip) function last_of_panel(self, j) result(last)
       class(skyline_t), intent(in) :: self
       integer(ip), intent(in) :: j
@@ -132,6 +161,7 @@ contains
       end do
    end function last_of_panel
 
+   !> The columns of the panel as a rectangle; the zeros above the shorter ones stay zeros through the elimination.
    pure subroutine load_panel(self, panel)
       class(skyline_t), intent(in) :: self
       type(panel_t), intent(inout) :: panel
@@ -146,7 +176,11 @@ contains
       end do
    end subroutine load_panel
 
-   !> Rows above the panel's first column, two at a time.
+   !> The rows above the panel's first column, two at a time, from the top down: g_ij for i = top + 1 .. first - 1. Row i wants the
+   !> rows above it, and column i of L', which is done.
+   !>
+   !> Rows i and i + 1 have their sums down to row i - 1 at the same time; the one term that is left, l_i,i+1 g_ij of row i + 1, can
+   !> be added when row i is known, if i is eliminated at all and column i + 1 reaches up to it. An odd row is left for the end.
    pure subroutine eliminate_panel(self, panel)
       class(skyline_t), intent(in) :: self
       type(panel_t), intent(inout) :: panel
@@ -165,7 +199,8 @@ contains
       if (i == panel%first - 1) call eliminate_row(self, i, max(self%first(i), panel%top), min(i - 1, n_interior), panel)
    end subroutine eliminate_panel
 
-   !> Rows i and i + 1, with the terms down to row `bottom`: those that both rows have together, the lead of the taller alone.
+   !> Rows i and i + 1, with the terms down to row `bottom`. Column i of L' begins at row m_i, column i + 1 at m_i+1: where only the
+   !> taller of the two has entries, its row is served alone; from the greater of m_i and m_i+1 on, which is nearly all, both are.
    pure subroutine eliminate_two_rows(self, i, bottom, panel)
       class(skyline_t), intent(in) :: self
       integer(ip), intent(in) :: i, bottom
@@ -205,6 +240,10 @@ contains
    end subroutine eliminate_row
 
    !> The triangle of the panel, then D and L', which go back into the skyline.
+   !>
+   !> The rows of the panel's own columns come last: row i of column j > i wants column i of L', which is in the skyline as soon as
+   !> finish_column has put it there. The columns are therefore gone through one by one, with single dot products; there are six of
+   !> these entries in a panel of four, whatever its height.
    subroutine finish_panel(self, panel, stopped)
       class(skyline_t), intent(inout) :: self
       type(panel_t), intent(inout) :: panel
@@ -227,7 +266,8 @@ contains
       end do
    end subroutine finish_panel
 
-   !> From g to l and d.
+   !> From g to l and d: l_ij = g_ij/d_i for the eliminated rows; d_j = k_jj - sum of l_ij g_ij. Rows of retained equations keep g,
+   !> which is their part of S. In a retained column that last line makes s_jj, which is no pivot and is not judged as one.
    subroutine finish_column(self, j, column, stopped)
       class(skyline_t), intent(inout) :: self
       integer(ip), intent(in) :: j
@@ -255,6 +295,7 @@ contains
       stopped = .not. usable
    end subroutine finish_column
 
+   !> The columns of the retained equations, from the first retained row down: both triangles of S.
    subroutine get_skyline_schur(self, schur)
       class(skyline_t), intent(in) :: self
       real(wp), intent(out) :: schur(:, :)
@@ -267,7 +308,10 @@ contains
       end do
    end subroutine get_skyline_schur
 
-   !> Forward: f_i becomes D^-1 L^-1 f_i; the columns of retained equations hold D^-1 L^-1 K_ic, so the same loop serves f_c.
+   !> Forward: f_j <- f_j - sum of l_kj f_k from the first equation to the last, then the division by D, which must wait until
+   !> nobody wants L^-1 f any more. f_i becomes D^-1 L^-1 f_i; the columns of retained equations hold D^-1 L^-1 K_ic, so the same
+   !> loop serves f_c: sum over k of (D^-1 L^-1 K_ic)_kj (L^-1 f_i)_k is what K_ci K_ii^-1 f_i has in row j. All loads are taken
+   !> with a column while it is in the cache.
    subroutine reduce_skyline(self, f)
       class(skyline_t), intent(in) :: self
       real(wp), intent(inout), contiguous :: f(:, :)
@@ -288,7 +332,8 @@ contains
       end do
    end subroutine reduce_skyline
 
-   !> Backward, by columns.
+   !> Backward, by columns: x_j is known when all columns behind it have been taken off, and its own is taken off the rows above
+   !> then. The columns of the retained equations come first and make D^-1 L^-1 (f_i - K_ic x_c) of the interior.
    subroutine expand_skyline(self, x)
       class(skyline_t), intent(in) :: self
       real(wp), intent(inout), contiguous :: x(:, :)
@@ -306,6 +351,7 @@ contains
       end do
    end subroutine expand_skyline
 
+   !> The columns, the pivots and the two lists of places [bytes].
    pure integer(lp) function skyline_memory(self)
       class(skyline_t), intent(in) :: self
 

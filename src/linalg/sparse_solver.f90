@@ -1,6 +1,19 @@
 !> The sparse solver (atrito_multifrontal) for a body, with the retained equations as the last front.
 !>
-!> No pivot is chosen: the matrix is positive definite, and the loss of digits is told by its pivots as in the other solvers.
+!> The multifrontal method eliminates supernodes, groups of equations, in dense matrices. Supernode p has a front: its own
+!> equations, the pivots, and those of later supernodes that it couples to, the border. Into the front go the matrices of the
+!> elements that have a pivot in it, and what the children of p in the tree of supernodes have left. Partial elimination,
+!>
+!>     [ F_pp  F_pb ]       F_pp = L L',   H = L^-1 F_pb,   F_bb - H'H,
+!>     [ F_bp  F_bb ]
+!>
+!> leaves the columns of the factor, L and H, and a matrix on the border that is added to the front of the parent. The last front
+!> has the retained equations alone; it is assembled and not eliminated, and so is the Schur complement.
+!>
+!> Fronts that are equal, number by number, are factored once (atrito_front_tree): of a regular mesh a few hundred out of many
+!> thousands.
+!>
+!> No pivot is chosen: the matrix is positive definite, and the loss of digits is known from its pivots as in the other solvers.
 module atrito_sparse_solver
    use atrito_kinds, only: ip, lp, wp
    use atrito_multifrontal, only: elimination_t, chain_elimination, element_store_t, begin_store, add_to_store, move_store, &
@@ -37,6 +50,8 @@ module atrito_sparse_solver
 
 contains
 
+   !> Takes the order of elimination that came with the profile; without one the equations are eliminated as they are numbered, by
+   !> blocks. Nothing is known of the fronts before all elements are there.
    subroutine create_fronts(self, profile, status)
       class(sparse_t), intent(inout) :: self
       type(profile_t), intent(in) :: profile
@@ -53,6 +68,7 @@ contains
       call begin_store(self%store)
    end subroutine create_fronts
 
+   !> Keeps an element matrix until factor.
    subroutine add_to_fronts(self, equations, matrix)
       class(sparse_t), intent(inout) :: self
       integer(ip), intent(in) :: equations(:)
@@ -73,6 +89,9 @@ contains
       end if
    end subroutine add_store_to_fronts
 
+   !> Finds the fronts and their classes, factors them, and tells of their pivots. What it will take at the most is known before a
+   !> number is computed, from the tree alone. The diagonal is summed up first, since pivots are compared with what stood there
+   !> before.
    subroutine factor_and_report(self, status)
       class(sparse_t), intent(inout) :: self
       type(status_t), intent(out) :: status
@@ -114,6 +133,8 @@ contains
       enough = fronts%enough
    end subroutine expect_fronts
 
+   !> What factors and fronts take, and beside them the lists that lead through the tree; at the most, also the element matrices,
+   !> which are given back after the factorisation.
    subroutine expect_bytes(fronts, n, store, held, most)
       type(fronts_t), intent(in) :: fronts
       integer(ip), intent(in) :: n
@@ -134,6 +155,10 @@ contains
    end subroutine expect_bytes
 
    !> The report of the pivots, class by class; the equation named is that of the first supernode of its class.
+   !>
+   !> Each class has kept the pivot that lost most of its diagonal, and its least and greatest ones; that is enough for the worst of
+   !> all. Cholesky's method stops in a front at a pivot that is not positive, and the class is the last one that is looked at.
+   !> Pivots of later fronts would have been made with what that one has left.
    subroutine report_pivots(self, diagonal, status)
       type(sparse_t), intent(inout) :: self
       real(wp), intent(in) :: diagonal(:)
@@ -161,6 +186,7 @@ contains
       call set_pivot_status(self%report,.not. usable, status)
    end subroutine report_pivots
 
+   !> The last front is S, as it was assembled.
    subroutine get_last_front(self, schur)
       class(sparse_t), intent(in) :: self
       real(wp), intent(out) :: schur(:, :)
@@ -168,7 +194,8 @@ contains
       call unpack_matrix(self%fronts%factors(self%fronts%n_classes)%update, schur)
    end subroutine get_last_front
 
-   !> The half-solved supernode is left by positions.
+   !> f by positions, then forward through the tree, from the leaves to the root: x_p <- L^-1 x_p, and H' x_p is taken off the
+   !> border. The half-solved supernode is left by positions.
    subroutine reduce_by_fronts(self, f)
       class(sparse_t), intent(in) :: self
       real(wp), intent(inout), contiguous :: f(:, :)
@@ -187,6 +214,8 @@ contains
       end do
    end subroutine reduce_by_fronts
 
+   !> Backward, from the root to the leaves: x_p <- L^-T (x_p - H x_b), with the border x_b that the ancestors have found; then by
+   !> equations.
    subroutine expand_by_fronts(self, x)
       class(sparse_t), intent(in) :: self
       real(wp), intent(inout), contiguous :: x(:, :)

@@ -2,7 +2,7 @@
 module atrito_sources
    use atrito_build_context, only: build_context_t
    use atrito_deck, only: token_t, token_text, is_empty_token
-   use atrito_deck_expressions, only: try_expression
+   use atrito_deck_expressions, only: evaluate_at
    use atrito_kinds, only: ip, wp
    use atrito_name_list, only: add_name, find_name, names_of
    use atrito_strings, only: string_t, to_text

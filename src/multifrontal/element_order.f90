@@ -52,7 +52,7 @@ contains
       character(len=:), allocatable, intent(out) :: text !< how, for the listing
       type(dissection_guide_t) :: guide
       type(compact_mesh_t) :: mesh
-      real(wp) :: angle, by_metis, by_places
+      real(wp) :: angle, by_metis, by_places, takes
       logical :: refines
 
       call find_direction(elements, nodes, x, angle)
@@ -64,7 +64,10 @@ contains
       if (size(elements) < LEAST) return
       by_places = parts%work
       by_metis = METIS_SHARE*OPERATIONS*parts%regular_work + METIS_COST*real(size(elements), wp)
-      refines = is_refining_worth(parts, expected_share(elements, n_nodes_of), by_metis)
+      ! moving elements at the cuts is expected to save more than it takes, and may come to less than METIS
+      takes = REFINING_COST*real(size(elements), wp)
+      refines = takes < (1.0_wp - expected_share(elements, n_nodes_of))*OPERATIONS*parts%work .and. &
+                takes + BEST_REFINED*OPERATIONS*parts%work < by_metis
       if (refines) refines = are_irregular(elements, nodes, x)
       if (.not. refines .and. by_metis >= OPERATIONS*by_places) return
       call compact(parts%element, nodes, n_nodes_of, x, wanted, mesh)
@@ -75,18 +78,6 @@ contains
       call halve_elements(mesh%list, guide)
       if (allocated(guide%half)) call dissect_again('by METIS', by_places, mesh, guide, parts, text)
    end subroutine order_elements
-
-   !> Moving elements at the cuts is expected to save more than it takes, and may come to less than METIS.
-   pure logical function is_refining_worth(parts, share, by_metis)
-      type(dissection_t), intent(in) :: parts    !< by places
-      real(wp), intent(in) :: share              !< of the work that is expected to be left
-      real(wp), intent(in) :: by_metis           !< predicted [operations]
-      real(wp) :: takes
-
-      takes = REFINING_COST*real(size(parts%element), wp)
-      is_refining_worth = takes < (1.0_wp - share)*OPERATIONS*parts%work .and. &
-                          takes + BEST_REFINED*OPERATIONS*parts%work < by_metis
-   end function is_refining_worth
 
    !> The share of the work that is left when elements were moved, from what a sample of them has for corners.
    pure real(wp) function expected_share(elements, n_nodes_of) result(share)

@@ -1,7 +1,17 @@
 !> One front: a dense symmetric matrix, its pivots eliminated by Cholesky's method.
 !>
+!> With p for the pivots and b for the border of the front F
+!>
+!>     F_pp = L_p L_p',      L_b = F_bp L_p^-T,      U = F_bb - L_b L_b':
+!>
+!> the columns of L_p and L_b are those of the factor, U is the update, which the front of the parent takes. Pivots are taken in
+!> panels (right-looking): the triangle of a panel is factored (dpotrf), the rows below it are divided by it (dtrsm), and the
+!> products of these rows are taken off all that is left (dsyrk on the diagonal, dgemm below): n m^2 operations for n pivots and m
+!> rows, nearly all of them in dgemm, at the full rate of the processor.
+!>
 !> The lower triangle is worked on in tiles whose size does not depend on the number of threads, so that results do not either.
-!> Large fronts share their tiles out as tasks of the enclosing parallel region, if there is one.
+!> Large fronts share their tiles out as tasks of the enclosing parallel region, if there is one: the divisions of a panel are
+!> independent of one another, and so are the columns of tiles that are updated; a taskwait stands between the two.
 module atrito_front
    use atrito_kinds, only: ip, lp, wp
    use atrito_lapack, only: dgemm, dpotrf, dsyrk, dtrsm

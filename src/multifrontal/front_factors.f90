@@ -1,8 +1,16 @@
 !> The factors of the classes of fronts.
 !>
+!> A front is assembled from the updates of its children and from its elements, each entry at its position in the front
+!> (atrito_front_records), and its pivots are eliminated (atrito_front). The update stays until the last parent has taken it; of a
+!> class that stands for many fronts every one of its parents' classes does.
+!>
 !> Classes are factored in tasks: all that are new in a subtree of little work, and every other by itself. Tasks that need nothing
 !> of one another make a wave, and are tasks side by side. How the work is cut depends on the tree alone: the numbers are the
 !> same for any number of threads.
+!>
+!> Most of the work is near the root: of a square of n nodes the last separator has sqrt(n) of them and a dense front of that order,
+!> n^(3/2)/3 operations, its two children a fraction of that each, and so on in a geometric series. So the large fronts are shared
+!> out by their tiles, and the many small ones by subtrees.
 module atrito_front_factors
    use atrito_element_store, only: element_store_t
    use atrito_elimination, only: elimination_t
@@ -113,12 +121,24 @@ contains
       real(wp), intent(in) :: diagonal(:)        !< (n) of the matrix, by positions
       logical, intent(out) :: enough             !< memory; the factors are of no use without
       type(task_t), allocatable :: tasks(:)
+      type(workspace_t), allocatable :: workspaces(:)
+      integer(ip) :: wave, u
       real(wp) :: work
 
       call make_tasks(fronts, tasks, work)
-      !$omp parallel default(none) shared(fronts, store, diagonal, tasks) if(work > WORTH_SHARING)
+      allocate (workspaces(n_threads()))
+      !$omp parallel default(none) shared(fronts, store, diagonal, tasks, workspaces) private(wave, u) if(work > WORTH_SHARING)
       !$omp single
-      call factor_waves(store, diagonal, tasks, fronts)
+      do wave = 1, maxval(tasks%wave)
+         !$omp taskgroup                        ! whose end helps with the tiles of the fronts, too
+         do u = 1, size(tasks, kind=ip)
+            if (tasks(u)%wave /= wave) cycle
+            !$omp task default(none) shared(store, diagonal, tasks, fronts, workspaces) firstprivate(u)
+            call factor_task(store, diagonal, tasks(u), fronts, workspaces(this_thread())%front)
+            !$omp end task
+         end do
+         !$omp end taskgroup
+      end do
       !$omp end single
       !$omp end parallel
       enough = all(fronts%factors%enough)
@@ -241,27 +261,6 @@ contains
          wave_of(tasks(u)%first:tasks(u)%last) = tasks(u)%wave
       end do
    end subroutine find_waves
-
-   subroutine factor_waves(store, diagonal, tasks, fronts)
-      type(element_store_t), intent(in) :: store
-      real(wp), intent(in) :: diagonal(:)
-      type(task_t), intent(in) :: tasks(:)
-      type(fronts_t), intent(inout) :: fronts
-      type(workspace_t), allocatable :: workspaces(:)
-      integer(ip) :: wave, u
-
-      allocate (workspaces(n_threads()))
-      do wave = 1, maxval(tasks%wave)
-         !$omp taskgroup                        ! whose end helps with the tiles of the fronts, too
-         do u = 1, size(tasks, kind=ip)
-            if (tasks(u)%wave /= wave) cycle
-            !$omp task default(none) shared(store, diagonal, tasks, fronts, workspaces) firstprivate(u)
-            call factor_task(store, diagonal, tasks(u), fronts, workspaces(this_thread())%front)
-            !$omp end task
-         end do
-         !$omp end taskgroup
-      end do
-   end subroutine factor_waves
 
    subroutine factor_task(store, diagonal, task, fronts, front)
       type(element_store_t), intent(in) :: store

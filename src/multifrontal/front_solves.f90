@@ -1,7 +1,18 @@
 !> Solving with the factors of fronts: down the tree of the supernodes, and up.
 !>
+!> forward, from the leaves to the root: with p for the pivots of a supernode and b for its border
+!>
+!>     x_p <- L_p^-1 x_p,      and  -L_b x_p  for the rows b,
+!>
+!> which wait for the parent and are added to its front. backward, from the root to the leaves:
+!>
+!>     x_p <- L_p^-T (x_p - L_b' x_b),      with the x_b that the ancestors have found.
+!>
+!> Every entry of the factor is used once each way, so a solution takes as long as the factor takes to come from memory.
+!>
 !> Subtrees of little work are shared out among the threads; the supernodes above them follow one after the other, each shared out
-!> by its rows or columns. What a supernode leaves for its parent waits on a stack, and is added in the order of the children.
+!> by its rows or columns. What a supernode leaves for its parent waits on a stack, and is added in the order of the children: the
+!> supernodes are in postorder, so that the children of one are on top of the stack when it comes.
 module atrito_front_solves
    use atrito_front, only: packed_length
    use atrito_front_factors, only: fronts_t

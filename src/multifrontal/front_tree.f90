@@ -53,7 +53,9 @@ contains
       type(assembly_tree_t) :: assembly
       type(subtree_t), allocatable :: subtrees(:)
       type(subtree_classes_t), allocatable :: found(:)
+      type(record_writer_t), allocatable :: writers(:)
       real(wp), allocatable :: work(:)
+      integer(ip) :: u
 
       tree%enough = store%enough
       if (tree%enough) call plant_tree(elimination, n, n_retained, store, assembly)
@@ -64,7 +66,12 @@ contains
       call cut_subtrees(assembly%parent, assembly%n_descendants, merge(SHARE, 0.0_wp, tree%n_supernodes >= WORTH_SHARING), work, &
                         subtrees)
       allocate (found(size(subtrees)))
-      call find_classes_of_subtrees(store, subtrees, assembly, found)
+      allocate (writers(n_threads()))
+      !$omp parallel do schedule(dynamic, 1) default(none) shared(store, subtrees, assembly, found, writers) if(size(subtrees) > 0)
+      do u = 1, size(subtrees, kind=ip)          ! a thread has one writer for all of its subtrees
+         call find_classes_of_subtree(store, subtrees(u), assembly, found(u), writers(this_thread()))
+      end do
+      !$omp end parallel do
       call find_classes(store, subtrees, assembly, found, tree)
       call end_classes(tree%class_list_t)
       call move_alloc(assembly%first, tree%first)
@@ -95,23 +102,7 @@ contains
       subtrees = [(subtree_t(list(p) - n_descendants(list(p)), list(p)), p=1, n)]
    end subroutine cut_subtrees
 
-   !> Finds the classes of each subtree by itself. A thread has one writer for all of its subtrees.
-   subroutine find_classes_of_subtrees(store, subtrees, assembly, found)
-      type(element_store_t), intent(in) :: store
-      type(subtree_t), intent(in) :: subtrees(:)
-      type(assembly_tree_t), intent(inout) :: assembly  !< the classes of the supernodes are set: among those of the subtree
-      type(subtree_classes_t), intent(inout) :: found(:)
-      type(record_writer_t), allocatable :: writers(:)
-      integer(ip) :: u
-
-      allocate (writers(n_threads()))
-      !$omp parallel do schedule(dynamic, 1) default(none) shared(store, subtrees, assembly, found, writers) if(size(subtrees) > 0)
-      do u = 1, size(subtrees, kind=ip)
-         call find_classes_of_subtree(store, subtrees(u), assembly, found(u), writers(this_thread()))
-      end do
-      !$omp end parallel do
-   end subroutine find_classes_of_subtrees
-
+   !> Finds the classes of a subtree by itself.
    subroutine find_classes_of_subtree(store, subtree, assembly, found, writer)
       type(element_store_t), intent(in) :: store
       type(subtree_t), intent(in) :: subtree

@@ -363,9 +363,17 @@ contains
       type(file_set_t), intent(in) :: set
       type(status_t), intent(out) :: status
       type(string_t) :: none(0)
+      integer :: i
 
       call find_obstacle(set%folder, set%names, none, status, may_be_read=.true.)
-      if (is_ok(status)) call settle_files(set, status)
+      if (is_ok(status)) then
+         do i = 1, size(set%names)             ! on the disk before they take their names: else a name may outlive its text
+            if (c_settle_file(set%folder//'/'//set%names(i)%s//TEMPORARY//c_null_char) == 1) cycle
+            call set_status(status, STATUS_FILE, set%folder//'/'//set%names(i)%s//': cannot be written completely; '// &
+                            'is the disk full?')
+            exit
+         end do
+      end if
       if (is_ok(status)) then
          call hold_interrupts()
          call rename_over(set%folder, set%names, status)
@@ -374,19 +382,6 @@ contains
       end if
       if (.not. is_ok(status)) call discard_files(set)
    end subroutine commit_over
-
-   !> The files are on the disk before they take their names: else a name may outlive what was written, where the power goes.
-   subroutine settle_files(set, status)
-      type(file_set_t), intent(in) :: set
-      type(status_t), intent(inout) :: status
-      integer :: i
-
-      do i = 1, size(set%names)
-         if (c_settle_file(set%folder//'/'//set%names(i)%s//TEMPORARY//c_null_char) == 1) cycle
-         call set_status(status, STATUS_FILE, set%folder//'/'//set%names(i)%s//': cannot be written completely; is the disk full?')
-         return
-      end do
-   end subroutine settle_files
 
    !> The files have their names: they, and their folders, stay.
    subroutine keep_files(set)

@@ -5,7 +5,7 @@
 module atrito_own_files
    use, intrinsic :: iso_c_binding, only: c_null_char
    use atrito_status, only: status_t, set_status, is_ok, STATUS_FILE
-   use atrito_strings, only: string_t, append_string
+   use atrito_strings, only: string_t, append_string, begins_with, ends_with
    use atrito_system, only: c_find_name, c_is_input, c_kind_in, c_kind_of, c_peek, c_remove_file
    use atrito_unmarked_decks, only: deck_of_copy, listed_line
    implicit none (type, external)
@@ -102,7 +102,7 @@ contains
       end do
    end function names_with
 
-   !> Whether a file, if there is one, may be replaced or removed. A folder is told where a file is to be written.
+   !> Whether a file, if there is one, may be replaced or removed. A folder in its place is reported where a file is to be written.
    !>
    !> status: STATUS_FILE, with what to do.
    subroutine check_own(path, status, may_be_read)
@@ -305,19 +305,5 @@ contains
          if (name == 'runs') has_columns = has_columns .and. index(text(:last), ',exit,factorisations') > 0
       end do
    end function has_columns
-
-   pure logical function begins_with(text, beginning)
-      character(len=*), intent(in) :: text, beginning
-
-      begins_with = .false.
-      if (len(text) >= len(beginning)) begins_with = text(:len(beginning)) == beginning
-   end function begins_with
-
-   pure logical function ends_with(text, ending)
-      character(len=*), intent(in) :: text, ending
-
-      ends_with = .false.
-      if (len(text) > len(ending)) ends_with = text(len(text) - len(ending) + 1:) == ending
-   end function ends_with
 
 end module atrito_own_files

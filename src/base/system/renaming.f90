@@ -8,7 +8,7 @@ module atrito_renaming
    use atrito_own_files, only: check_own, check_unread, is_own, names_with, remove_own_file, TEMPORARY, FORMER
    use atrito_paths, only: file_exists, is_folder, may_write, remove_file
    use atrito_status, only: status_t, set_status, is_ok, STATUS_FILE
-   use atrito_strings, only: string_t, append_string
+   use atrito_strings, only: string_t, append_string, ends_with
    use atrito_system, only: c_rename
    implicit none (type, external)
    private
@@ -97,22 +97,15 @@ contains
       if (size(names) == 0) return
       is_whole = .true.
       do i = 1, size(names)
-         if (.not. is_former(names(i)%s)) is_whole = is_whole .and. .not. is_own(folder//'/'//names(i)%s)
+         if (.not. ends_with(names(i)%s, FORMER)) is_whole = is_whole .and. .not. is_own(folder//'/'//names(i)%s)
       end do
       do i = 1, size(names)
-         if (is_former(names(i)%s) .and. .not. is_whole) call bring_back(folder//'/'//names(i)%s)
+         if (ends_with(names(i)%s, FORMER) .and. .not. is_whole) call bring_back(folder//'/'//names(i)%s)
       end do
       do i = 1, size(names)
          call remove_own_file(folder//'/'//names(i)%s)
       end do
    end subroutine recover_files
-
-   pure logical function is_former(name)
-      character(len=*), intent(in) :: name
-
-      is_former = .false.
-      if (len(name) > len(FORMER)) is_former = name(len(name) - len(FORMER) + 1:) == FORMER
-   end function is_former
 
    !> A former file gets its first name again, also from a new one.
    subroutine bring_back(path)

@@ -1,7 +1,7 @@
 !> A message as one object of JSON on one line, docs/user/messages.schema.json.
 module atrito_message_json
    use atrito_kinds, only: ip
-   use atrito_messages, only: message_t
+   use atrito_messages, only: message_t, severity_word
    use atrito_strings, only: string_t, to_text
    use atrito_utf8, only: disturbs, utf8_length
    implicit none (type, external)
@@ -14,11 +14,10 @@ contains
    function json_of_message(message) result(line)
       type(message_t), intent(in) :: message
       character(len=:), allocatable :: line
-      character(len=7), parameter :: WORD(3) = ['error  ', 'warning', 'note   ']
       logical :: has_place
 
       has_place = message%line > 0
-      line = '{"severity":"'//trim(WORD(message%severity))//'"'//text_member('id', message%id)// &
+      line = '{"severity":"'//severity_word(message%severity)//'"'//text_member('id', message%id)// &
              text_member('file', message%file)//number_member('line', message%line, has_place)// &
              number_member('column', max(message%column, 1_ip), has_place)// &
              number_member('length', max(message%length, 1_ip), has_place)//text_member('text', message%text)// &

@@ -1,5 +1,6 @@
 !> A list of names, each found by a hash of its letters: a deck can have names by the thousand, and be wrong in every line.
 module atrito_name_list
+   use atrito_growing_text, only: growing_text_t, append_text
    use atrito_kinds, only: ip, lp
    use atrito_strings, only: string_t, same_name, lower_case
    implicit none (type, external)
@@ -10,7 +11,7 @@ module atrito_name_list
    !> read again.)
    type :: name_list_t
       integer(ip) :: n = 0
-      character(len=1), allocatable, private :: letters(:) !< those up to last(n) are in use
+      type(growing_text_t), private :: text                !< the letters
       integer(ip), allocatable, private :: last(:)         !< (0:) last letter of each name; last(0) = 0
       integer(ip), allocatable, private :: place(:)        !< (0:2**k-1) hash table: places in the list; 0: free
    end type name_list_t
@@ -23,15 +24,12 @@ contains
    pure subroutine add_name(list, name)
       type(name_list_t), intent(inout) :: list
       character(len=*), intent(in) :: name
-      integer(ip) :: slot, i, before
+      integer(ip) :: slot
 
-      call make_room(list, len(name, kind=ip))
-      before = list%last(list%n)
-      do i = 1, len(name, kind=ip)
-         list%letters(before + i) = name(i:i)
-      end do
+      call make_room(list)
+      call append_text(list%text, name)
       list%n = list%n + 1
-      list%last(list%n) = before + len(name, kind=ip)
+      list%last(list%n) = list%text%n
       slot = find_slot(list, name)
       if (list%place(slot) == 0) list%place(slot) = list%n
    end subroutine add_name
@@ -69,30 +67,16 @@ contains
       type(name_list_t), intent(in) :: list
       integer(ip), intent(in) :: i
       character(len=:), allocatable :: name
-      integer(ip) :: k
 
-      allocate (character(len=list%last(i) - list%last(i - 1)) :: name)
-      do k = 1, len(name, kind=ip)
-         name(k:k) = list%letters(list%last(i - 1) + k)
-      end do
+      name = list%text%letters(list%last(i - 1) + 1:list%last(i))
    end function name_at
 
-   !> Room for one more name of some letters; where there is none, the lists double.
-   pure subroutine make_room(list, n_letters)
+   !> Room for one more name; where there is none, the lists double.
+   pure subroutine make_room(list)
       type(name_list_t), intent(inout) :: list
-      integer(ip), intent(in) :: n_letters
-      character(len=1), allocatable :: letters(:)
       integer(ip), allocatable :: last(:)
 
-      if (.not. allocated(list%last)) then
-         allocate (list%letters(FIRST_LENGTH*FIRST_LENGTH))
-         allocate (list%last(0:FIRST_LENGTH), list%place(0:2*FIRST_LENGTH - 1), source=0_ip)
-      end if
-      if (list%last(list%n) + n_letters > size(list%letters)) then
-         allocate (letters(2*(list%last(list%n) + n_letters)))
-         letters(:list%last(list%n)) = list%letters(:list%last(list%n))
-         call move_alloc(letters, list%letters)
-      end if
+      if (.not. allocated(list%last)) allocate (list%last(0:FIRST_LENGTH), list%place(0:2*FIRST_LENGTH - 1), source=0_ip)
       if (list%n < ubound(list%last, 1)) return
       allocate (last(0:2*list%n))
       last(:list%n) = list%last

@@ -5,6 +5,7 @@ module atrito_strings
    private
    public :: string_t, string_list_t, add_string, take_strings, replaced
    public :: lower_case, upper_case, to_text, join, nearest_names, edit_distance, same_name, append_string, deck_name, count_symbol
+   public :: begins_with, ends_with
 
    !> A string of its own length, for lists of strings.
    type :: string_t
@@ -332,17 +333,29 @@ contains
       if (is_prefix) is_prefix = lower_case(a) == lower_case(b(:len(a)))
    end function is_prefix
 
+   !> Whether a text begins with another one, letter by letter.
+   pure logical function begins_with(text, beginning)
+      character(len=*), intent(in) :: text, beginning
+
+      begins_with = .false.
+      if (len(text) >= len(beginning)) begins_with = text(:len(beginning)) == beginning
+   end function begins_with
+
+   !> Whether a text has something before this ending.
+   pure logical function ends_with(text, ending)
+      character(len=*), intent(in) :: text, ending
+
+      ends_with = .false.
+      if (len(text) > len(ending)) ends_with = text(len(text) - len(ending) + 1:) == ending
+   end function ends_with
+
    !> Name of a deck: its path without folder and .inp.
    pure function deck_name(path) result(name)
       character(len=*), intent(in) :: path
       character(len=:), allocatable :: name
-      integer :: k
 
       name = path(index(path, '/', back=.true.) + 1:)
-      k = len(name) - len('.inp')
-      if (k > 0) then
-         if (lower_case(name(k + 1:)) == '.inp') name = name(:k)
-      end if
+      if (ends_with(lower_case(name), '.inp')) name = name(:len(name) - len('.inp'))
    end function deck_name
 
    !> A text of the same length with one letter in the place of each of some.

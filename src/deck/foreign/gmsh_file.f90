@@ -1,6 +1,6 @@
 !> Files of Gmsh, format 4.1 and 2.2, as text.
 !>
-!> A line is what the format says of it: what is missing or too much is told where it is, and never taken from the next line.
+!> A line is what the format says of it: what is missing or too much is reported where it is, and never taken from the next line.
 module atrito_gmsh_file
    use atrito_gmsh_elements, only: read_elements
    use atrito_gmsh_mesh, only: gmsh_mesh_t, add_part, note_group_name, trim_gmsh_mesh

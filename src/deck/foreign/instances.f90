@@ -73,7 +73,11 @@ contains
       integer(ip) :: i, n
       logical :: found
 
-      call find_ends(deck, last)
+      ! the last card that belongs to each block, *END PART not among them
+      allocate (last(0:max(0_ip, maxval(deck%cards(:deck%n_cards)%block))), source=0_ip)
+      do i = 1, deck%n_cards
+         last(deck%cards(i)%block) = merge(i - 1, i, deck%cards(i)%name == 'END PART')
+      end do
       allocate (list(count(deck%cards(:deck%n_cards)%name == 'PART')))
       n = 0
       parts%assembly = ''
@@ -96,18 +100,6 @@ contains
       end do
       parts%list = list(:n)
    end subroutine list_parts
-
-   !> The last card that belongs to each block, *END PART not among them.
-   pure subroutine find_ends(deck, last)
-      type(deck_t), intent(in) :: deck
-      integer(ip), allocatable, intent(out) :: last(:) !< (0:blocks)
-      integer(ip) :: i
-
-      allocate (last(0:max(0_ip, maxval(deck%cards(:deck%n_cards)%block))), source=0_ip)
-      do i = 1, deck%n_cards
-         last(deck%cards(i)%block) = merge(i - 1, i, deck%cards(i)%name == 'END PART')
-      end do
-   end subroutine find_ends
 
    !> A scope for each instance, one that is faulty too: what refers to it is passed over in silence.
    subroutine list_instances(deck, parts)
@@ -150,7 +142,7 @@ contains
                         expected='a name that no other '//noun//' has')
    end subroutine report_twice
 
-   !> The part of which a card makes an instance; 0: it is unknown, which can be told.
+   !> The part of which a card makes an instance; 0: it is unknown, which is reported where `is_told`.
    integer(ip) function part_of(deck, card, parts, is_told) result(part)
       type(deck_t), intent(in) :: deck
       type(card_t), intent(in) :: card
@@ -174,7 +166,7 @@ contains
       type(deck_t), intent(in) :: deck
       type(parts_t), intent(in) :: parts
       integer(lp) :: items, cards, memory
-      integer(ip) :: s, p, i
+      integer(ip) :: s, p, i, last
 
       fits = size(deck%scopes) == 1
       if (fits) return
@@ -185,7 +177,12 @@ contains
          if (p == 0) cycle
          cards = cards + parts%list(p)%last - parts%list(p)%first + 1
          do i = parts%list(p)%first, parts%list(p)%last
-            items = items + items_of(deck, deck%cards(i))
+            associate (card => deck%cards(i))
+               if (card%n_lines == 0) cycle
+               last = card%first_line + card%n_lines - 1
+               items = items + card%n_lines + deck%lines(last)%first_token + deck%lines(last)%n_tokens &
+                       - deck%lines(card%first_line)%first_token
+            end associate
          end do
       end do
       memory = available_memory()
@@ -194,17 +191,6 @@ contains
                                         to_text(items)//' items in all need about '//memory_text(ITEM_BYTES*items)//' of memory', &
                                         expected='fewer instances, or a larger machine', keyword='INSTANCE')
    end function fits_memory
-
-   !> Items and lines of a card.
-   pure integer(lp) function items_of(deck, card) result(n)
-      type(deck_t), intent(in) :: deck
-      type(card_t), intent(in) :: card
-      integer(ip) :: last
-
-      n = card%n_lines
-      last = card%first_line + card%n_lines - 1
-      if (n > 0) n = n + deck%lines(last)%first_token + deck%lines(last)%n_tokens - deck%lines(card%first_line)%first_token
-   end function items_of
 
    !> All cards in their places: those of parts stand behind their *INSTANCE.
    subroutine place_cards(deck, cards, parts)

@@ -12,7 +12,7 @@ module atrito_part_order
    type :: parts_t
       integer(ip) :: n_blocks = 0                  !< so far
       logical :: in_block = .false., in_assembly = .false.
-      logical :: is_loose = .false.                !< an *INSTANCE without an assembly has been told
+      logical :: is_loose = .false.                !< an *INSTANCE without an assembly has been reported
       logical :: is_told = .false.                 !< of the block: something stands in it that cannot
       character(len=8) :: block = ''               !< PART or INSTANCE
       type(token_t) :: block_place, assembly_place !< the keywords that opened them
@@ -57,12 +57,16 @@ contains
          parts%in_assembly = .false.
       case default
          if (.not. parts%in_block) return
-         card%block = parts%n_blocks
-         call check_member(deck, parts, card)
+         card%block = merge(parts%n_blocks, 0_ip, any(MEMBERS == card%name))
+         if (card%block > 0 .or. parts%is_told) return
+         ! the first card that is of the whole deck is reported; what follows may be of it, or the end of the block is missing
+         parts%is_told = .true.
+         call refuse_card(deck, card, 'E-PART', '*'//trim(card%name)//' stands inside '//open_text(parts), &
+                          'its place outside of parts and instances, which hold nodes, elements, sets, surfaces and sections')
       end select
    end subroutine check_parts
 
-   !> At the end of the model: all is closed. What is open is told at the place where it was opened.
+   !> At the end of the model: all is closed. What is open is reported where it was opened.
    subroutine check_open_parts(deck, parts)
       type(deck_t), intent(in) :: deck
       type(parts_t), intent(in) :: parts
@@ -140,20 +144,6 @@ contains
                                                                 open_text(parts), '*END '//trim(parts%block)//' before it')
       parts%in_block = .false.
    end subroutine refuse_nesting
-
-   !> The first card that is of the whole deck is told; what follows may be of it, or the end of the block is missing.
-   subroutine check_member(deck, parts, card)
-      type(deck_t), intent(in) :: deck
-      type(parts_t), intent(inout) :: parts
-      type(card_t), intent(inout) :: card
-
-      if (any(MEMBERS == card%name)) return
-      card%block = 0
-      if (parts%is_told) return
-      parts%is_told = .true.
-      call refuse_card(deck, card, 'E-PART', '*'//trim(card%name)//' stands inside '//open_text(parts), &
-                  'its place outside of parts and instances, which hold nodes, elements, sets, surfaces and sections')
-   end subroutine check_member
 
    pure function open_text(parts) result(text)
       type(parts_t), intent(in) :: parts

@@ -61,7 +61,7 @@ module atrito_keyword
    end type option_spec_t
 
    !> One form of data line. It applies when its option is given (or has one of these values, given or by default); lines of a
-   !> form with a leading word are told by it, the others by their position.
+   !> form with a leading word are known by it, the others by their position.
    type :: form_t
       character(len=:), allocatable :: option    !< '' : always
       type(string_t), allocatable :: values(:)   !< size 0: any value
