@@ -1,4 +1,15 @@
 !> The next friction bound of the outer loop, from the bounds that went in and those that came out.
+!>
+!> The loop seeks a fixed point x = g(x) of a map that is not differentiable where points change their states, and costs a QP each
+!> time it is evaluated. f = g(x) - x is the residual.
+!>
+!>     Picard      x <- x + relaxation f. With relaxation 1 the iteration of the existence proof, which contracts for small nu.
+!>     Anderson    with the last differences dX of bounds and dF of residuals, gamma = argmin |f - dF gamma|, and
+!>                 x <- x + mixing f - (dX + mixing dF) gamma                 (D. G. Anderson, J. ACM 12 (1965) 547-560, type II)
+!>
+!> Were g linear, Anderson's mixing with a full memory would be GMRES on (I - g') x = g(0); with memory 5 it mostly takes a half to
+!> a third of Picard's iterations. The least squares leave out directions of dF that are nearly the same, so that old differences
+!> do no harm. Bounds are not negative: what comes out below 0 is 0. Where a bound holds no body the memory is forgotten.
 module atrito_accelerator
    use atrito_dense, only: least_squares
    use atrito_kinds, only: ip, wp

@@ -7,8 +7,16 @@
 !>     minimise sum q_i^2 / w_i,     B' q as it is,    lower <= q <= upper,    q_i as it is where the row may not change,
 !>
 !> the limit of a small compliance that is the same at all points. With y = q/sqrt(w) and A = B' W^1/2 it is the shortest y with
-!> the same A y. Without bounds that is the part of y in the range of A'; bounds are met by a primal active set, which keeps A y at
-!> every step. Components that share no dof are solved each by itself (atrito_constraint_rows).
+!> the same A y.
+!>
+!> Without bounds that is the part of y in the range of A': y = A' lambda + z with A z = 0, and z is left out (`split`). Bounds are
+!> met by a primal active set, which keeps A y at every step: y goes towards y - z until the first row comes to a bound and stays
+!> there; where none does, the row at a bound whose multiplier y - A' lambda has the wrong sign is let go. The objective falls at
+!> every step, so it ends.
+!>
+!> Components that share no dof are solved each by itself (atrito_constraint_rows), small ones by a singular value decomposition,
+!> larger ones by conjugate gradients on the normal equations. A row is shared where a part of the null space of A touches it:
+!> where it can change with A y as it is (`find_shared`).
 module atrito_least_forces
    use atrito_bound_qp, only: box_bounds_t, box_state_t, FREE
    use atrito_constraint_rows, only: constraint_rows_t, list_components

@@ -24,9 +24,10 @@ module atrito_picard_loop
                                       relative_residual
    use atrito_controls, only: controls_t, METHOD_PICARD
    use atrito_frozen_bound, only: solve_with_bound
-   use atrito_kinds, only: ip, wp, HUGE_REAL
-   use atrito_reporter, only: reporter_t, report_progress
-   use atrito_solve_history, only: solve_history_t, begin_outer, end_outer
+   use atrito_kinds, only: ip, wp
+   use atrito_loop_progress, only: loop_progress_t, note_residual, report_step
+   use atrito_reporter, only: reporter_t
+   use atrito_solve_history, only: begin_outer, end_outer
    use atrito_status, only: status_t, set_status, is_ok, STATUS_SINGULAR
    use atrito_strings, only: to_text
    implicit none (type, external)
@@ -53,8 +54,7 @@ module atrito_picard_loop
       real(wp), allocatable :: good(:), good_image(:)      !< (n) the last bound that held all bodies; not allocated: none so far
       real(wp), allocatable :: visited(:, :)               !< (n, LONGEST_CYCLE) newest first; -1: none
       real(wp) :: last_residual = -1.0_wp                  !< < 0: none
-      real(wp) :: best_residual = HUGE_REAL
-      integer(ip) :: best_outer = 0
+      type(loop_progress_t) :: progress
       integer(ip) :: steps_back = 0
    end type loop_t
 
@@ -90,11 +90,11 @@ contains
          if (.not. solution%inner%solved) exit
          solution%residual = relative_residual(task%line, tau, image)
          call end_outer(solution%history, solution%residual)
-         call tell(task%reporter, outer, solution)
+         call report_step(task%reporter, 'outer', outer, solution%history, '', '  residual '//to_text(solution%residual, 3))
          call judge_step(task%line, task%controls%tolerance, outer, tau, image, loop, solution)
          if (solution%converged) return
          ! a loop that converges is not given up, whatever it takes
-         if (is_too_much(task, solution%history) .and. outer - loop%best_outer >= STALLED) exit
+         if (is_too_much(task%controls, task%problem%m, solution%history%n) .and. outer - loop%progress%best_outer >= STALLED) exit
          loop%good = tau
          loop%good_image = image
          call accelerator%update(loop%good, image, tau)
@@ -103,17 +103,18 @@ contains
       end do
       solution%verdict = 'the outer loop did not converge in '//to_text(task%controls%max_iterations)//' iterations (residual ' &
                          //to_text(solution%residual, 3)//')'
-      if (is_too_much(task, solution%history)) solution%verdict = 'the loop was given up after ' &
-                                                                  //to_text(solution%history%n)//' linear solves'
+      if (is_too_much(task%controls, task%problem%m, solution%history%n)) &
+         solution%verdict = 'the loop was given up after '//to_text(solution%history%n)//' linear solves'
       if (.not. solution%inner%solved) solution%verdict = 'the active set did not settle'
    end subroutine iterate
 
-   !> Whether the attempts so far went through so many entries of C that the other form of the contact system is cheaper.
-   pure logical function is_too_much(task, history)
-      type(line_task_t), intent(in) :: task
-      type(solve_history_t), intent(in) :: history
+   !> Whether so many linear solves went through so many entries of C that the other form of the contact system is cheaper.
+   pure logical function is_too_much(controls, m, solves)
+      type(controls_t), intent(in) :: controls
+      integer(ip), intent(in) :: m                  !< unknown forces
+      integer(ip), intent(in) :: solves
 
-      is_too_much = history%n > LEAST_SOLVES .and. real(history%n, wp)*real(task%problem%m, wp)**2 > task%controls%most_entries
+      is_too_much = solves > LEAST_SOLVES .and. real(solves, wp)*real(m, wp)**2 > controls%most_entries
    end function is_too_much
 
    !> The bound does not hold a body: half of the way back to the last one that did, or twice as much where none did so far.
@@ -153,12 +154,9 @@ contains
       if (may_be_round_off(loop%last_residual, solution%residual)) call judge_condition(solution)
       solution%converged = has_settled(tolerance, solution%inner%condition, loop%last_residual, solution%residual)
       loop%last_residual = solution%residual
-      if (solution%residual < 0.5_wp*loop%best_residual) then
-         loop%best_residual = solution%residual
-         loop%best_outer = outer
-      end if
+      call note_residual(loop%progress, outer, solution%residual)
       ! round-off that the matrix does not tell: displacements far below the initial gaps
-      if (outer - loop%best_outer < STALE .or. solution%converged) return
+      if (outer - loop%progress%best_outer < STALE .or. solution%converged) return
       solution%converged = relative_residual(line, tau, image, beside_noise=.true.) <= STALE_RESIDUAL
       if (solution%converged) solution%residual = min(solution%residual, STALE_RESIDUAL)
    end subroutine judge_step
@@ -191,18 +189,6 @@ contains
       if (maxval(abs(step)) <= LEAST_STEP) return
       rate = max(rate, norm2(sqrt(weight)*answer)/norm2(sqrt(weight)*step))
    end subroutine measure_rate
-
-   subroutine tell(reporter, outer, solution)
-      type(reporter_t), intent(in) :: reporter
-      integer(ip), intent(in) :: outer
-      type(contact_solution_t), intent(in) :: solution
-
-      associate (record => solution%history%records(solution%history%n))
-         call report_progress(reporter, 'outer '//to_text(outer)//'  solves '//to_text(record%inner) &
-                              //'  open '//to_text(record%open)//'  stick '//to_text(record%stick) &
-                              //'  slip '//to_text(record%slip)//'  residual '//to_text(solution%residual, 3))
-      end associate
-   end subroutine tell
 
    !> Compares the next bound with the last ones: the same again after two steps or more, while the residual stays, is a cycle.
    pure subroutine find_cycle(line, visited, tau, residual, length)

@@ -34,7 +34,7 @@ module atrito_balance_program
       integer(ip) :: n = 0
       integer(ip) :: n_entries = 0
       integer(ip), allocatable :: first(:), row(:), force(:, :)
-      real(wp), allocatable :: entry(:), lower(:), upper(:), cost(:), share(:, :)
+      real(wp), allocatable :: entry(:), cost(:), share(:, :)
    end type columns_t
 
    !> How the points take part.
@@ -314,7 +314,7 @@ contains
       integer(ip), parameter :: SOME = 64_ip
 
       allocate (columns%first(SOME + 1), columns%row(SOME), columns%force(2, SOME))
-      allocate (columns%entry(SOME), columns%lower(SOME), columns%upper(SOME), columns%cost(SOME), columns%share(2, SOME))
+      allocate (columns%entry(SOME), columns%cost(SOME), columns%share(2, SOME))
       columns%first(1) = 1
    end subroutine begin_columns
 
@@ -327,8 +327,6 @@ contains
       if (columns%n == size(columns%cost)) call lengthen(columns)
       columns%n = columns%n + 1
       columns%first(columns%n + 1) = columns%first(columns%n)
-      columns%lower(columns%n) = 0.0_wp
-      columns%upper(columns%n) = HUGE_REAL
       columns%cost(columns%n) = 0.0_wp
       columns%force(:, columns%n) = force
       columns%share(:, columns%n) = share
@@ -339,8 +337,6 @@ contains
 
       associate (n => columns%n)
          call resize(columns%first, n + 1, 2*n + 1)
-         call resize(columns%lower, n, 2*n)
-         call resize(columns%upper, n, 2*n)
          call resize(columns%cost, n, 2*n)
          call resize(columns%force, n, 2*n)
          call resize(columns%share, n, 2*n)
@@ -408,8 +404,8 @@ contains
       program%first = columns%first(:columns%n + 1)
       program%row = columns%row(:columns%n_entries)
       program%entry = columns%entry(:columns%n_entries)
-      program%lower = columns%lower(:columns%n)
-      program%upper = columns%upper(:columns%n)
+      allocate (program%lower(columns%n), source=0.0_wp)
+      allocate (program%upper(columns%n), source=HUGE_REAL)
       program%objective = columns%cost(:columns%n)
    end subroutine take_columns
 

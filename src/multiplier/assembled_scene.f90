@@ -1,9 +1,14 @@
 !> All bodies of a scene in one sparse matrix, with the contact points as elements that change: the sparse form of the contact
 !> system (atrito_contact_system).
 !>
-!> A point is an element over the displacements of its row and the rigid motions of its bodies. Nested dissection takes it like any
-!> other element, so the factorisation follows the contact line as it follows the bodies, and a point that changes costs the fronts
-!> above it.
+!> The matrix is A + sum_i s_i B_i' B_i + pull on the amplitudes, where the stiffness s_i of a row is 1/(D_i + rho_i) while its
+!> point is closed or sticks, else 0. A point is an element over the displacements of its rows and the rigid motions of its bodies,
+!> the pull on a floating body an element over its motions. Nested dissection takes them like any other element, so the
+!> factorisation follows the contact line as it follows the bodies, and a point that changes costs the fronts above it
+!> (docs/developer/multifrontal.md).
+!>
+!> The springs of atrito_scene_elimination are elements, too: of the size of the stiffness at their displacement. They take no
+!> force where the forces on a body balance, and only say which part of u is u_e.
 module atrito_assembled_scene
    use atrito_assembly, only: fem_t, collect_elements
    use atrito_contact_line, only: contact_line_t

@@ -1,6 +1,13 @@
 !> The root of an increasing, piecewise linear function: the derivative of a convex, piecewise quadratic one along a line.
 !>
 !>     s(t) = constant + slope t + sum_i v_i clip((e_i + t v_i + h_i)/c_i, lower_i, upper_i)
+!>
+!> is the derivative of phi (atrito_multiplier_step) at x + t dx, with v = B dx: each term increases with t, its slope v_i^2/c_i
+!> between the bounds and 0 beyond. s(0) < 0, as dx is a direction in which phi falls, so the root is the least phi on the line.
+!>
+!> The interval is doubled until s >= 0 at its end, then narrowed by false position with the weights of the Illinois method, which
+!> comes to a root of a piecewise linear function in few steps; where one end stays all the same, the middle is taken. s is a sum
+!> over the rows: a step costs one pass through them, nothing is solved.
 module atrito_line_search
    use atrito_kinds, only: ip, wp
    implicit none (type, external)

@@ -1,14 +1,22 @@
 !> How far a step of the multipliers is from a solution, pair by pair and body by body.
 !>
-!> Each pair is measured by its own forces and each body by the forces on it. Round-off of the rows (multipliers%noise) is no
-!> distance, nor is a force that is round-off of those on the bodies that meet at a pair.
+!> In a solution q = q_o, a = a_o and tau = nu S_rho(p). So four numbers tell how far a step is from one:
+!>
+!>     forces   the largest |q - q_o| of each pair, less the round-off of its rows, over the largest |q| of the pair
+!>     bound    the largest |nu S_rho(p) - tau| of each pair, less nu times the round-off of its pressures, over its largest bound
+!>     pull     kappa H |a - a_o| of each motion over the largest load or contact force at a node of its body
+!>     drive    the same over the largest of all those forces
+!>
+!> of all pairs and bodies the largest. Each pair is measured by its own forces and each body by the forces on it, so a weak pair
+!> beside a strong one is found as exactly. What is round-off of the forces on the bodies that meet there (NO_FORCE), or of what a
+!> pair bore in the increment before (NO_FORCE_AFTER), is no force to compare with: a pair without any other has none.
 module atrito_multiplier_distance
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use atrito_constraint_rows, only: add_transposed
    use atrito_contact_line, only: contact_line_t
    use atrito_contact_system, only: contact_system_t
    use atrito_kinds, only: ip, wp, HUGE_REAL
-   use atrito_multiplier_step, only: pull_of
+   use atrito_multiplier_step, only: largest_of_pairs, pull_of
    use atrito_multipliers, only: multiplier_t
    implicit none (type, external)
    private
@@ -56,14 +64,10 @@ contains
       real(wp), intent(in) :: q(:)
       logical :: none(size(q))
       real(wp) :: of_body(system%n_bodies), least(multipliers%n_pairs), largest(multipliers%n_pairs)
-      integer(ip) :: i
 
       call measure_bodies(system, q, of_body)
       call measure_pairs(system, multipliers, of_body, least)
-      largest = 0.0_wp
-      do i = 1, size(q, kind=ip)
-         largest(multipliers%pair(i)) = max(largest(multipliers%pair(i)), abs(q(i)))
-      end do
+      largest = largest_of_pairs(multipliers, abs(q))
       none = largest(multipliers%pair) <= least(multipliers%pair)
    end function forces_that_are_none
 
@@ -136,18 +140,9 @@ contains
    pure real(wp) function force_distance(multipliers, q, least) result(distance)
       type(multiplier_t), intent(in) :: multipliers
       real(wp), intent(in) :: q(:), least(:)
-      real(wp) :: force(size(least)), change(size(least))
-      integer(ip) :: i
 
-      force = least
-      change = 0.0_wp
-      do i = 1, size(q, kind=ip)
-         associate (k => multipliers%pair(i))
-            force(k) = max(force(k), abs(q(i)))
-            change(k) = max(change(k), abs(q(i) - multipliers%q_old(i)) - multipliers%noise(i))
-         end associate
-      end do
-      distance = greatest_ratio(change, force)
+      distance = greatest_ratio(largest_of_pairs(multipliers, abs(q - multipliers%q_old) - multipliers%noise), &
+                                max(least, largest_of_pairs(multipliers, abs(q))))
    end function force_distance
 
    real(wp) function bound_distance(line, multipliers, tau, image, least) result(distance)

@@ -1,5 +1,36 @@
 !> The outer loop on the sparse form of the bodies: the Picard loop on the weighted normal stress and the steps of the multipliers
 !> (atrito_multiplier_step) in one.
+!>
+!> What is sought are displacements u = u_e + Z a, forces q and a bound tau with
+!>
+!>     A x + B' q = f,   q = clip(q + (B x + g0 - D q)/rho, bounds of tau)  for any rho > 0,   tau = nu S_rho(p),   p = q_n/w,
+!>
+!> x = (u_e, a): equilibrium, the laws of contact and friction, and the fixed point of the existence proof. A step of the
+!> multipliers solves the first two with a proximal term at the forces q_o and the amplitudes a_o of the step before, and with tau
+!> frozen. Then
+!>
+!>     q_o <- q,   a_o <- a,   tau <- nu S_rho(p),
+!>
+!> all three after every step: there is no inner loop. With tau fixed the proximal method converges for any rho > 0 and any pull
+!> kappa > 0, since the problem is convex; a force whose row has the flexibility lambda comes nearer by rho/(lambda + rho) a step.
+!> With kappa = 0 and rho = 0 a step would be the solution itself; both are as large as it takes to factor the matrix. tau goes as
+!> in the Picard loop, which contracts for small nu.
+!>
+!> What makes it fast or ends it, each in the procedure of its name:
+!>
+!>     next_bound           Anderson's mixing once a step has changed no state; Picard's bound before
+!>     choose_steps         less rho where forces come slowly; where states still change after MANY_STEPS, rho as large as the
+!>                          flexibility and a share of the way to Picard's bound, point by point (go_part_of_the_way)
+!>     judge                kappa falls where a body goes on moving, so that it gets where something holds it; when the pull on it
+!>                          stays what it was, nothing will: FREE_MOTION
+!>     follow_drift         forces of dependent rows that change by the same amount in each step go to the end of that at once
+!>     look_for_shared      where forces are not unique the loop goes on with the least of them
+!>     finish               forces that are round-off are none; motions that nothing holds are least
+!>
+!> It stops where the states stand, and the change of the forces, that of the bound and the pull on bodies are below the tolerance
+!> (atrito_multiplier_distance); or where they are at most STALE_DISTANCE and have not been halved in STALE steps.
+!>
+!> Cost: a factorisation of the fronts above the points that changed for each Newton step, a solve for each step.
 module atrito_multiplier_loop
    use atrito_accelerator, only: anderson_t
    use atrito_bound_qp, only: bound_qp_t, box_bounds_t, box_state_t, FREE, AT_LOWER, AT_UPPER, FROZEN
@@ -14,8 +45,9 @@ module atrito_multiplier_loop
    use atrito_kinds, only: ip, wp, HUGE_REAL
    use atrito_multiplier_distance, only: distance_t, measure_distance, measure_bodies, forces_that_are_none, NO_FORCE_AFTER
    use atrito_multiplier_step, only: begin_multipliers, start_closed, take_multiplier_step, refine_step, accept_step, &
-                                     take_least_forces, clear_round_off, rho_of
-   use atrito_reporter, only: reporter_t, report_progress
+                                     take_least_forces, clear_round_off, largest_of_pairs, rho_of
+   use atrito_loop_progress, only: loop_progress_t, note_residual, report_step
+   use atrito_reporter, only: reporter_t
    use atrito_solve_history, only: begin_outer, end_outer
    use atrito_status, only: status_t, set_status, is_ok, STATUS_SINGULAR
    use atrito_strings, only: to_text
@@ -25,8 +57,8 @@ module atrito_multiplier_loop
 
    !> What the loop remembers.
    type :: loop_t
-      real(wp) :: best = HUGE_REAL, drive = 0.0_wp
-      integer(ip) :: best_outer = 0
+      type(loop_progress_t) :: progress
+      real(wp) :: drive = 0.0_wp                 !< of the last step: the pull over the largest force of the scene
       integer(ip) :: steady = 0                  !< steps in which the pull on the bodies stayed what it was
       integer(ip) :: moving = 0                  !< of them, those in which it was more than round-off of the largest force
       real(wp), allocatable :: drift(:)          !< (m) change of the forces in the last step, when no state changed [F]
@@ -119,7 +151,9 @@ contains
          if (loop%shares) call take_least_forces(system, rows, shape%weight, solution%bounds, multipliers, solution%state, &
                                                  solution%is_shared)
          call judge_step(system, line, controls%tolerance, outer, multipliers, loop, solution, image)
-         call tell(reporter, outer, loop%distance, multipliers, solution)
+         call report_step(reporter, 'step', outer, solution%history, '  factorisations '//to_text(multipliers%factorisations), &
+                          '  forces '//to_text(loop%distance%forces, 2)//'  bound '//to_text(loop%distance%bound, 2)//'  pull ' &
+                          //to_text(loop%distance%pull, 2))
          if (solution%converged) call pull_firmly_again(multipliers, loop, solution)
          if (solution%converged) call look_for_shared(system, rows, shape, multipliers, loop, solution)
          if (solution%converged .or. is_used_up(outer, controls%max_iterations, multipliers%factorisations, loop)) exit
@@ -150,7 +184,7 @@ contains
       type(loop_t), intent(in) :: loop
 
       is_used_up = outer >= OUTERS_A_MAXIT*max_iterations .or. factorisations > FACTORISATIONS_A_MAXIT*max_iterations
-      if (is_used_up) is_used_up = outer - loop%best_outer > outer/4
+      if (is_used_up) is_used_up = outer - loop%progress%best_outer > outer/4
    end function is_used_up
 
    pure logical function has_multipliers(solution)
@@ -168,18 +202,12 @@ contains
       type(multiplier_t), intent(inout) :: multipliers
       type(contact_solution_t), intent(inout) :: solution
       type(multiplier_t) :: fresh
-      integer(ip) :: i
 
       multipliers = before%multipliers
       if (allocated(multipliers%before)) deallocate (multipliers%before)
       multipliers%r = fresh%r
       multipliers%part = spread(1.0_wp, 1, shape%m)
-      allocate (multipliers%before(multipliers%n_pairs), source=0.0_wp)
-      do i = 1, shape%m
-         associate (k => multipliers%pair(i))
-            multipliers%before(k) = max(multipliers%before(k), abs(before%state%q(i)))
-         end associate
-      end do
+      multipliers%before = largest_of_pairs(multipliers, abs(before%state%q))
       multipliers%factorisations = 0
       multipliers%q_old = before%state%q
       multipliers%a_old = multipliers%x(size(multipliers%x) - shape%k + 1:)
@@ -276,16 +304,9 @@ contains
       logical, intent(out) :: any_less
       real(wp) :: force(multipliers%n_pairs), noise(multipliers%n_pairs)
       logical :: bears(size(state%q))
-      integer(ip) :: i
 
-      force = 0.0_wp
-      noise = 0.0_wp
-      do i = 1, size(state%q, kind=ip)
-         associate (k => multipliers%pair(i))
-            force(k) = max(force(k), abs(state%q(i)))
-            noise(k) = max(noise(k), multipliers%noise(i))
-         end associate
-      end do
+      force = largest_of_pairs(multipliers, abs(state%q))
+      noise = largest_of_pairs(multipliers, multipliers%noise)
       bears = noise(multipliers%pair) <= LESS_PART*MOST_NOISE*force(multipliers%pair) .and. multipliers%r*multipliers%part > LEAST_R
       where (bears) multipliers%part = LESS_PART*multipliers%part
       any_less = any(bears)
@@ -417,7 +438,7 @@ contains
       call take_least_forces(system, rows, shape%weight, solution%bounds, multipliers, solution%state, solution%is_shared)
       loop%shares = any(solution%is_shared)
       solution%converged = .not. loop%shares
-      if (loop%shares) loop%best = HUGE_REAL
+      if (loop%shares) loop%progress%best = HUGE_REAL
    end subroutine look_for_shared
 
    !> Bounds, states and history of a solution that has none yet: all stuck.
@@ -460,11 +481,9 @@ contains
       whole = max(loop%distance%forces, loop%distance%bound)
       if (loop%distance%pull > NO_LOAD) whole = max(whole, loop%distance%pull)
       solution%converged = multipliers%settled .and. whole <= tolerance
-      if (whole < 0.5_wp*loop%best) then
-         loop%best = whole
-         loop%best_outer = outer
-      end if
-      if (multipliers%settled .and. outer - loop%best_outer >= STALE .and. whole <= STALE_DISTANCE) solution%converged = .true.
+      call note_residual(loop%progress, outer, whole)
+      if (multipliers%settled .and. outer - loop%progress%best_outer >= STALE .and. whole <= STALE_DISTANCE) &
+         solution%converged = .true.
       ! a weak pull counts where the forces have come to rest
       loop%steady = merge(loop%steady + 1_ip, 0_ip, loop%distance%drive > STEADY_PULL*loop%drive .and. loop%distance%drive > &
                           merge(MOVES_SLOWLY, MOVES, loop%distance%forces <= LITTLE_LEFT))
@@ -478,20 +497,5 @@ contains
          multipliers%kappa = 0.01_wp*multipliers%kappa
       end if
    end subroutine judge
-
-   subroutine tell(reporter, outer, distance, multipliers, solution)
-      type(reporter_t), intent(in) :: reporter
-      integer(ip), intent(in) :: outer
-      type(distance_t), intent(in) :: distance
-      type(multiplier_t), intent(in) :: multipliers
-      type(contact_solution_t), intent(in) :: solution
-
-      associate (record => solution%history%records(solution%history%n))
-         call report_progress(reporter, 'step '//to_text(outer)//'  solves '//to_text(record%inner)//'  factorisations ' &
-                              //to_text(multipliers%factorisations)//'  open '//to_text(record%open)//'  stick '// &
-                              to_text(record%stick)//'  slip '//to_text(record%slip)//'  forces '//to_text(distance%forces, 2) &
-                              //'  bound '//to_text(distance%bound, 2)//'  pull '//to_text(distance%pull, 2))
-      end associate
-   end subroutine tell
 
 end module atrito_multiplier_loop

@@ -1,13 +1,33 @@
-!> One step of the proximal method of multipliers (R. T. Rockafellar 1976) on the sparse form of the bodies.
+!> One step of the proximal method of multipliers (R. T. Rockafellar, Math. Oper. Res. 1 (1976) 97-116) on the sparse form of the
+!> bodies.
 !>
 !> With the forces q_o and amplitudes a_o of the step before and the friction bound frozen, the step solves
 !>
-!>     A x + kappa (a - a_o) + B' q = f,   q = clip((B x + g0 + rho q_o)/(D + rho)),   rho_i = r c_i
+!>     A x + kappa H (a - a_o) + B' q = f,   q_i = clip((B_i x + g0_i + rho_i q_o,i)/(D_i + rho_i)),   rho_i = r c_i.
 !>
-!> by Newton's method with an exact line search: the gradient of a convex, piecewise quadratic function. clip puts a force at the
-!> bounds of its law, 0 <= q_n, |q_t| <= w tau. In a solution q = q_o and a = a_o, so rho and kappa have no part in it: hard
-!> contact and rows that depend on each other need neither a penalty nor pivots. c_i is the flexibility of the displacements at the
-!> row, so nothing depends on units, and every pair is treated by its own stiffness.
+!> clip puts a force between the bounds of its law, 0 <= q_n, |q_t| <= w tau; what it does is the state of the row:
+!>
+!>     FREE       inside: closed or sticking, B x + g0 = D q + rho (q - q_o), where q = q_o the law itself
+!>     AT_LOWER   q = lower: open, or slipping against T
+!>     AT_UPPER   q = upper: slipping along T
+!>     FROZEN     lower = upper: no friction
+!>
+!> In a solution q = q_o and a = a_o, so rho and kappa have no part in it: hard contact and rows that depend on each other need
+!> neither a penalty nor pivots, a body that touches nothing yet is held by kappa. c_i is the flexibility of the displacements at
+!> the row and H_j what the rows hold motion j with, so nothing depends on units, and every pair is treated by its own stiffness.
+!>
+!> The equations are the gradient of the convex, piecewise quadratic function
+!>
+!>     phi(x) = x'A x/2 - f'x + kappa (a - a_o)'H (a - a_o)/2 + sum_i psi_i(B_i x),   psi_i' = the clip above.
+!>
+!> Newton's method solves [A + sum over FREE rows of B_i'B_i/(D_i + rho_i) + kappa H] dx = -gradient, a positive definite matrix.
+!> The full step is taken where it leads to the states that it was made for (`try_full_step`): that is the minimum. Else dx is
+!> followed to the least phi on its line (`take_part_of_step`, atrito_line_search), so phi falls in every step, no set of states
+!> comes back, and the method ends. A row whose D + rho has changed by less than SAME_STIFFNESS keeps the stiffness that was
+!> factored: then the step is a little less than Newton's.
+!>
+!> Round-off: B x + g0 is added up from step to step, of motions far larger than what is missing only round-off would be left of
+!> it; `noise` is what that does to a force, and neither changes a state nor is a distance from the solution.
 module atrito_multiplier_step
    use atrito_bound_qp, only: bound_qp_t, box_bounds_t, box_state_t, FREE, AT_LOWER, AT_UPPER, FROZEN
    use atrito_constraint_rows, only: constraint_rows_t, multiply_rows, add_transposed
@@ -22,7 +42,7 @@ module atrito_multiplier_step
    implicit none (type, external)
    private
    public :: begin_multipliers, start_closed, take_multiplier_step, refine_step, accept_step, set_forces, pull_of, &
-             take_least_forces, clear_round_off, rho_of
+             take_least_forces, clear_round_off, largest_of_pairs, rho_of
 
    integer(ip), parameter :: MOST_NEWTON = 200_ip
    integer(ip), parameter :: PATIENCE = 20_ip         !< Newton steps without a full one
@@ -174,6 +194,19 @@ contains
       rho = multipliers%r*multipliers%part*system%flexibility
    end function rho_of
 
+   !> The largest value at the rows of each pair; 0 where it has none.
+   pure function largest_of_pairs(multipliers, values) result(largest)
+      type(multiplier_t), intent(in) :: multipliers
+      real(wp), intent(in) :: values(:)          !< (m) >= 0
+      real(wp) :: largest(multipliers%n_pairs)
+      integer(ip) :: i
+
+      largest = 0.0_wp
+      do i = 1, size(values, kind=ip)
+         largest(multipliers%pair(i)) = max(largest(multipliers%pair(i)), values(i))
+      end do
+   end function largest_of_pairs
+
    !> The stiffness [F/L] by which each rigid motion is pulled to where it was before the step.
    pure function pull_of(multipliers) result(pull)
       type(multiplier_t), intent(in) :: multipliers
@@ -298,10 +331,7 @@ contains
       integer(ip) :: i
       real(wp) :: rho, z, slack, scale(multipliers%n_pairs)
 
-      scale = 0.0_wp
-      do i = 1, system%rows%n
-         scale(multipliers%pair(i)) = max(scale(multipliers%pair(i)), abs(state%q(i)))
-      end do
+      scale = largest_of_pairs(multipliers, abs(state%q))
       stays = .true.
       do i = 1, system%rows%n
          rho = multipliers%r*multipliers%part(i)*system%flexibility(i)

@@ -1,4 +1,13 @@
 !> Numbers and order of elimination of all bodies of a scene together, with the contact points as elements.
+!>
+!> Unknowns are the displacements of one body after the other, then the amplitudes of the rigid motions of floating bodies. As many
+!> displacements of a floating body as it has motions get a spring to the ground, so that K is positive definite on u_e: those by
+!> which the motions are best told apart. With Z the motions at the displacements, that is the largest row of Z, then the largest
+!> of what is left of the others without its direction, and so on: the pivots of an elimination with row interchanges.
+!>
+!> The order is one nested dissection of the elements and the points (order_elements of the multifrontal solver). A point joins the
+!> bodies that meet at it, the motions of a body are one more node of its points. A leaf of the dissection is cut in two: nodes
+!> that no point touches have a front that never changes and may serve for equal leaves; the others come behind them.
 module atrito_scene_elimination
    use atrito_assembly, only: fem_t
    use atrito_bodies, only: body_t, mode_at

@@ -1,5 +1,12 @@
 !> What the two matrices of a scene (atrito_assembled_scene, atrito_shared_scene) have in common: the numbers of the unknowns, the
 !> right hand sides of the rows, and the loads.
+!>
+!>     g0 = B u_prescribed - gap (or rest slip)      what the rows see without displacements
+!>     c_i = sum over the nodes of row i of d' K_n^-1 d, d its entries there, K_n the 2 x 2 stiffness of the node by itself
+!>     f, and h = Z' f on the amplitudes
+!>
+!> c_i, the flexibility of the row as its own nodes have it, is the same however the scene is turned. It is the scale of rho and of
+!> the pull, so nothing depends on units.
 module atrito_scene_system
    use atrito_assembly, only: fem_t
    use atrito_contact_line, only: contact_line_t, rest_of

@@ -1,9 +1,13 @@
 !> Motions that nothing holds and no load drives, on the sparse form of the bodies.
 !>
-!> With the states of a solution, one step of the proximal method leaves such a motion as it is and takes all others to less than a
-!> millionth: a <- H^-1 (kappa a), H the matrix that was factored last. So a vector without pattern becomes an undetermined motion,
-!> or nothing. Of the displacements that differ by undetermined motions those are given whose relative displacements at the points
-!> are least.
+!> With the states of a solution, H being the matrix that was factored last, the step a <- H^-1 (kappa a) leaves such a motion as
+!> it is, since nothing but the pull kappa is in H for it; any other motion is held by stiffnesses of the rows and is taken to less
+!> than a millionth. So a vector without pattern, twice through the step, becomes an undetermined motion, or nothing; what is left
+!> is made orthogonal to those that are known, until nothing is left (subspace iteration with the eigenvalues 1 and 0).
+!>
+!> Of the displacements that differ by undetermined motions those are given whose relative displacements at the points, |B (x + V
+!> s)|^2, are least: the bodies stay together. That is taken back where a point would penetrate or slip along with its friction;
+!> what is best there atrito_idle_motions finds. In a history amplitudes count from those of the increment before.
 module atrito_undetermined_motions
    use atrito_bodies, only: simplest_motion
    use atrito_bound_qp, only: box_bounds_t, box_state_t, FREE, AT_LOWER, AT_UPPER

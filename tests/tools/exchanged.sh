@@ -33,7 +33,7 @@ box_bounds_t       fields/restart_file.f90 exchange_start bounds
 multiplier_t       fields/restart_file.f90 exchange_multipliers multipliers factorisations,solves,generation,part,before
 warm_start_t       stepping/warm_start.f90 put_start start
 warm_start_t       stepping/warm_start.f90 take_start start
-contact_solution_t stepping/warm_start.f90 put_start solution factor,inner,converged,verdict,factorisations,body_motion,body_force,has_settled
+contact_solution_t stepping/warm_start.f90 put_start solution factor,inner,converged,verdict,factorisations,body_motion,body_force,has_settled,contraction_estimate
 slip_memory_t      fields/restart_file.f90 exchange_state memory is_incremental
 run_t              stepping/history.f90 record run options,reporter,scene,has_last,observer,sense,idle,n_idle
 run_t              stepping/history.f90 resume run reporter,observer,idle,n_idle
@@ -53,7 +53,7 @@ nodal_values_t     model/fingerprint.f90 add_nodal_values values source
 element_load_t     model/fingerprint.f90 add_element_loads loads line,source
 amplitude_t        model/fingerprint.f90 add_amplitude amplitude name
 increments_t       model/fingerprint.f90 add_way way
-controls_t         model/fingerprint.f90 add_way controls is_brief,is_first
+controls_t         model/fingerprint.f90 add_way controls is_rung,asks_contraction
 requests_t         model/fingerprint.f90 add_requests requests
 frequencies_t      model/fingerprint.f90 add_requests every
 requested_t        model/fingerprint.f90 add_requested requested
