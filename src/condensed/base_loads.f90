@@ -11,11 +11,11 @@ module atrito_base_loads
    use atrito_nodal_loads, only: nodal_loads
    use atrito_rigid_bodies, only: has_moving_surfaces
    use atrito_scene_builder, only: list_held
-   use atrito_step_loads, only: base_of, base_factors, list_bases, moment_t, BASE_BEGIN
+   use atrito_step_loads, only: base_of, list_bases, BASE_BEGIN
    use atrito_thermal_loads, only: add_thermal_loads
    implicit none (type, external)
    private
-   public :: base_loads_t, build_bases, set_factors, load_of_bases, without_prescribed, load_bodies, forget_reduced
+   public :: base_loads_t, build_bases, load_of_bases, without_prescribed, load_bodies
 
    !> Reduced loads of a body.
    type :: reduced_t
@@ -103,16 +103,6 @@ contains
       load = load - force
    end function without_prescribed
 
-   !> How much of each base there is at a time of the step.
-   pure subroutine set_factors(model, step, moment, bases)
-      type(model_t), intent(in) :: model
-      type(step_t), intent(in) :: step
-      type(moment_t), intent(in) :: moment
-      type(base_loads_t), intent(inout) :: bases
-
-      bases%factor = base_factors(model, step, bases%base, moment)
-   end subroutine set_factors
-
    !> The load that several bases make with their factors: sum of factor times load, (2, n_nodes) [F].
    pure function load_of_bases(bases) result(load)
       type(base_loads_t), intent(in) :: bases
@@ -157,13 +147,5 @@ contains
          end do
       end do
    end subroutine reduce_bases
-
-   !> Other bodies come, or the same ones factored anew.
-   pure subroutine forget_reduced(bases)
-      type(base_loads_t), allocatable, intent(inout) :: bases
-
-      if (.not. allocated(bases)) return
-      if (allocated(bases%reduced)) deallocate (bases%reduced)
-   end subroutine forget_reduced
 
 end module atrito_base_loads

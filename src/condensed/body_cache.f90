@@ -18,7 +18,7 @@ module atrito_body_cache
    use atrito_timers, only: start_phase, stop_phase
    implicit none (type, external)
    private
-   public :: body_cache_t, provide_bodies, reload_bodies, take_numbering, release_bodies, forget_bodies, forget_loads
+   public :: body_cache_t, provide_bodies, reload_bodies, take_numbering, release_bodies, forget_loads
 
    type :: body_cache_t
       type(reporter_t) :: reporter                     !< of factorisations
@@ -140,14 +140,6 @@ contains
 
       if (.not. store%keeps .and. allocated(store%bodies)) deallocate (store%bodies)
    end subroutine release_bodies
-
-   !> Gives them back in any case.
-   subroutine forget_bodies(store)
-      type(body_cache_t), intent(inout) :: store
-
-      store%holds = .false.
-      if (allocated(store%bodies)) deallocate (store%bodies)
-   end subroutine forget_bodies
 
    !> The bodies have other loads than those that they were asked for with.
    pure subroutine forget_loads(store)

@@ -28,7 +28,7 @@ module atrito_contact_problem
    use atrito_surface_average, only: average_rule_t, average_surfaces, count_surface_entries
    implicit none (type, external)
    private
-   public :: average_entries, build_line, set_known_points, build_problem, build_flexibility, set_right_hand_sides, &
+   public :: average_entries, build_line, set_known_points, build_flexibility, set_right_hand_sides, &
              add_displacements
 
 contains
@@ -153,20 +153,6 @@ contains
       if (allocated(line%moved)) line%noise = max(line%noise, line%moved)
       line%noise = usual_growth(0_ip, 0.0_wp)*EPS_MACH*line%noise
    end subroutine set_known_points
-
-   !> C, G, g0 and h.
-   subroutine build_problem(fem, condensed, rows, line, value, f, problem)
-      type(fem_t), intent(in) :: fem
-      type(condensed_body_t), intent(in) :: condensed(:)
-      type(contact_rows_t), intent(in) :: rows
-      type(contact_line_t), intent(in) :: line
-      real(wp), intent(in) :: value(:, :)            !< (2, n_nodes) prescribed displacements [L]
-      real(wp), intent(in) :: f(:, :)                !< (2, n_nodes) applied forces [F]
-      type(bound_qp_t), intent(out) :: problem
-
-      call build_flexibility(fem, condensed, rows, line, problem)
-      call set_right_hand_sides(fem, condensed, rows, line, value, f, problem)
-   end subroutine build_problem
 
    !> C and G: the same for all loads.
    subroutine build_flexibility(fem, condensed, rows, line, problem)

@@ -20,7 +20,7 @@
 !>
 !> Cost: the factors of the bodies, m^2 numbers of C for m contact forces, and m^3/3 operations for each linear solve of the QP.
 module atrito_solve_condensed
-   use atrito_base_loads, only: forget_reduced, load_bodies
+   use atrito_base_loads, only: load_bodies
    use atrito_body_cache, only: body_cache_t, provide_bodies, reload_bodies, release_bodies, forget_loads
    use atrito_bound_qp, only: bound_qp_t, DEPENDENT_POINTS
    use atrito_constraint_rows, only: constraint_rows_t
@@ -130,7 +130,9 @@ contains
          if (.not. allocated(problem%bases)) call reload_bodies(store, problem%fem, free_load(problem))
       else
          if (allocated(problem%flexibility)) deallocate (problem%flexibility)
-         call forget_reduced(problem%bases)
+         if (allocated(problem%bases)) then                 ! their reduced loads are those of other factors
+            if (allocated(problem%bases%reduced)) deallocate (problem%bases%reduced)
+         end if
          call provide_bodies(store, problem%fem, problem%held, problem%points, free_load(problem), problem%solver_kind, bodies, &
                              status, problem%bilateral)
          factorisations = store%factorisations

@@ -26,8 +26,9 @@ module atrito_ladder
       logical :: is_coarse = .false.                       !< all rows have the round-off of the largest
    end type rung_t
 
-   !> In the order in which they are tried, each with scenes (seed/number of random_scenes, in tests/extremes/CMakeLists.txt) that
-   !> have no solution without it. PICARD from the usual start, NEWTON, small steps alone and MAXIT=300 found nothing that these do not.
+   !> In the order in which they are tried, each with scenes that have no solution without it (seed/number of random_scenes, in
+   !> tests/extremes/CMakeLists.txt). PICARD from the usual start, NEWTON, small steps alone and MAXIT=300 found nothing that these
+   !> do not.
    type(rung_t), parameter :: RUNGS(4) = [ &
       rung_t(CONTACT_SPARSE, METHOD_ANDERSON), &                       ! multipliers in place of active sets: 11/1, 11/137, 11/1172
       rung_t(CONTACT_DENSE, METHOD_EASED), &                           ! from more friction: 11/154, 11/2226, 4711/821, 4711/2464

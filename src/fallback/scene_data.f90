@@ -2,7 +2,7 @@
 module atrito_scene_data
    use atrito_assembled_scene, only: assembled_scene_t, assemble_scene
    use atrito_assembly, only: fem_t
-   use atrito_base_loads, only: build_bases, set_factors
+   use atrito_base_loads, only: build_bases
    use atrito_bilateral_rows, only: ROW_KIND_NAME, ROW_SUPPORT
    use atrito_body_cache, only: body_cache_t, take_numbering
    use atrito_contact_form, only: choose_contact_form, CONTACT_AUTO, CONTACT_DENSE, CONTACT_SPARSE
@@ -25,7 +25,7 @@ module atrito_scene_data
    use atrito_sliding_bodies, only: let_slide, balance_loads
    use atrito_solver_choice, only: SOLVER_SPARSE
    use atrito_status, only: status_t, is_ok, STATUS_DECK, set_status
-   use atrito_step_loads, only: moment_t, act_at, is_end, share_at
+   use atrito_step_loads, only: base_factors, moment_t, act_at, is_end, share_at
    use atrito_strings, only: to_text
    use atrito_thermal_loads, only: add_thermal_loads
    use atrito_turning_rows, only: balance_rows
@@ -225,7 +225,7 @@ contains
       end if
       if (data%asks_for_bases) call build_bases(data%model, data%step, data%released, data%fem, data%bases)
       data%asks_for_bases = .false.
-      if (allocated(data%bases)) call set_factors(data%model, data%step, moment, data%bases)
+      if (allocated(data%bases)) data%bases%factor = base_factors(data%model, data%step, data%bases%base, moment)
       call move_skew_supports(data, moment, share)
       call resolve_overlaps(data, moment)
       call set_known_points(data%rows, data%value, data%line)
@@ -295,13 +295,16 @@ contains
    subroutine assemble(data, status)
       type(scene_data_t), intent(inout) :: data
       type(status_t), intent(inout) :: status
+      type(assembled_scene_t), allocatable :: scene
 
       if (data%is_assembled) return
       call drop_assembled(data)
       if (data%is_distributed) then
          call data%distribution%assemble(data%fem, data%rows, data%line, data%value, data%assembled, status)
       else
-         call assemble_here(data, status)
+         allocate (scene)
+         call assemble_scene(data%fem, data%rows, data%line, data%value, scene, status)
+         call move_alloc(scene, data%assembled)
       end if
       if (.not. is_ok(status)) return
       call set_scene_load(data%fem, data%f, free_load(data), data%assembled)
@@ -314,16 +317,6 @@ contains
 
       if (data%is_assembled) call set_scene_load(data%fem, data%f, free_load(data), data%assembled)
    end subroutine reload
-
-   subroutine assemble_here(data, status)
-      type(scene_data_t), intent(inout) :: data
-      type(status_t), intent(inout) :: status
-      type(assembled_scene_t), allocatable :: scene
-
-      allocate (scene)
-      call assemble_scene(data%fem, data%rows, data%line, data%value, scene, status)
-      call move_alloc(scene, data%assembled)
-   end subroutine assemble_here
 
    !> The matrices are not needed any more.
    subroutine drop_assembled(data)

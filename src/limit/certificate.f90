@@ -176,8 +176,8 @@ contains
       call accept_motion(rows, line, body_force, scale, v, certificate)
    end subroutine simplify_motion
 
-   !> The linear programme of the balance of some bodies: forces, and the motion of its duals. Measured on walls of 100 to 1,000 blocks:
-   !> simplex steps are slow for the sum (most for loads far beyond the limit), interior points for the largest.
+   !> The linear programme of the balance of some bodies: forces, and the motion of its duals. Measured on walls of 100 to 1,000
+   !> blocks: simplex steps are slow for the sum (most for loads far beyond the limit), interior points for the largest.
    subroutine solve_balance(rows, line, member, touched, scale, least_largest, q, v, outcome)
       type(motion_rows_t), intent(in) :: rows
       type(contact_line_t), intent(in) :: line

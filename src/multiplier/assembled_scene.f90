@@ -24,7 +24,7 @@ module atrito_assembled_scene
    use atrito_status, only: status_t, is_ok
    implicit none (type, external)
    private
-   public :: assembled_scene_t, assemble_scene, assemble_part
+   public :: assembled_scene_t, assemble_scene, assemble_numbered
 
    integer(ip), parameter :: ROWS_A_POINT = 2
 
@@ -55,39 +55,30 @@ contains
       real(wp), intent(in) :: value(:, :)        !< (2, n_nodes) prescribed displacements [L]
       type(assembled_scene_t), intent(out) :: scene
       type(status_t), intent(out) :: status
-      type(element_store_t) :: store
-      type(elimination_t) :: elimination
       real(wp), allocatable :: diagonal(:), coupling(:)
 
       call number_scene(fem, scene%numbering)
-      scene%n = scene%numbering%n
-      scene%k = scene%numbering%k
-      scene%n_bodies = fem%bodies%n
       scene%body = scene%numbering%body
       call build_constraint_rows(fem, rows, line, .true., scene%rows)
       call set_scene_gaps(rows, line, value, scene)
-      call list_variable_elements(line, scene)
-      call collect_scene(fem, scene%numbering, store)
-      scene%is_near = store%is_near
-      elimination = eliminate_scene(fem, rows, line, scene%numbering)
-      call create_variable_matrix(scene%matrix, scene%n, elimination, store, scene%start, scene%unknown, status)
-      call move_alloc(elimination%text, scene%order)
+      call assemble_numbered(fem, rows, line, scene, status)
       if (.not. is_ok(status)) return
       allocate (diagonal(scene%n), coupling(scene%n))
       call fixed_diagonal(scene%matrix, diagonal, coupling)
       call set_flexibility(fem, rows, line, diagonal, coupling, scene)
    end subroutine assemble_scene
 
-   !> The same for a part of a scene, whose last unknowns other parts have, too: they are kept (atrito_variable_matrix). It is there
-   !> to be multiplied, factored and reduced, not to be solved. status: STATUS_INTERNAL when the memory does not suffice.
-   subroutine assemble_part(fem, rows, line, spring_stiffness, n_kept, scene, status)
+   !> The same of a scene with its numbering and its rows: matrices of the elements, order of elimination, fronts. A part of a scene
+   !> has last unknowns that other parts have, too: they are kept (atrito_variable_matrix), and the part is there to be multiplied,
+   !> factored and reduced, not to be solved. status: STATUS_INTERNAL when the memory does not suffice.
+   subroutine assemble_numbered(fem, rows, line, scene, status, spring_stiffness, n_kept)
       type(fem_t), intent(in) :: fem
       type(contact_rows_t), intent(in) :: rows
       type(contact_line_t), intent(in) :: line
-      real(wp), intent(in) :: spring_stiffness(:) !< of the numbering's springs [F/L]
-      integer(ip), intent(in) :: n_kept
-      type(assembled_scene_t), intent(inout) :: scene !< with its numbering and its rows
+      type(assembled_scene_t), intent(inout) :: scene
       type(status_t), intent(out) :: status
+      real(wp), intent(in), optional :: spring_stiffness(:) !< of the numbering's springs [F/L]; left out: the diagonal there
+      integer(ip), intent(in), optional :: n_kept !< last unknowns that are kept; left out: none
       type(element_store_t) :: store
       type(elimination_t) :: elimination
 
@@ -100,7 +91,7 @@ contains
       elimination = eliminate_scene(fem, rows, line, scene%numbering, n_kept)
       call create_variable_matrix(scene%matrix, scene%n, elimination, store, scene%start, scene%unknown, status, n_kept)
       call move_alloc(elimination%text, scene%order)
-   end subroutine assemble_part
+   end subroutine assemble_numbered
 
    !> The elements that change: the points with the unknowns of their rows, then the motions of each floating body.
    subroutine list_variable_elements(line, scene)

@@ -111,6 +111,7 @@ contains
       type(contact_solution_t), intent(out) :: solution
       type(status_t), intent(out) :: status
       real(wp), allocatable :: u(:, :)                      ! without rigid motions, (2, n_nodes) [L]
+      character(len=:), allocatable :: verdict
       logical :: again
 
       again = .true.
@@ -130,7 +131,11 @@ contains
       call start_phase('check')
       call check_law(data%rows, data%line, max(controls%tolerance, solution%residual), results, data%fem%bodies%of_node, &
                      growth_of_bodies(data, results%scene), data%had, solution%inner%condition)
-      call judge_failed_check(data, results, status)
+      if (results%converged .and. .not. results%law_holds .and. data%line%n > 0) then
+         call move_alloc(results%verdict, verdict)
+         call judge(data, results, verdict, status)
+         call move_alloc(verdict, results%verdict)
+      end if
       call stop_phase('check')
       call take_rigid_results(data, solution, results)
    end subroutine solve_one_form
@@ -303,7 +308,6 @@ contains
       type(results_t), intent(in) :: results               !< when, and the pairs
       type(contact_solution_t), intent(inout) :: solution
       type(status_t), intent(inout) :: status
-      real(wp), allocatable :: f_end(:, :)
       logical :: moves
 
       moves = .false.
@@ -313,8 +317,7 @@ contains
       if (moves) solution%verdict = trim(merge('no friction bound that was tried holds the bodies', &
                                                'no contact forces that were tried hold the bodies', &
                                                data%line%has_friction))//moving_text(data, solution)
-      call forces_at_end(data, moment_t(results%step_time, results%time), f_end)
-      call judge_balance(data%fem, data%held, data%rows, data%line, data%f, f_end, results%scene%pairs, solution%verdict, status)
+      call judge(data, results, solution%verdict, status)
    end subroutine judge_outcome
 
    !> The body that moved most under the last friction bound, and how.
@@ -332,17 +335,17 @@ contains
       text = ': '//body_text(data%fem, b)//' would '//how_it_moves(data%fem, b, mode)
    end function moving_text
 
-   !> The same where the loop ended well and the final check did not.
-   subroutine judge_failed_check(data, results, status)
+   !> Whether there can be a solution, in words behind the verdict. status: STATUS_SINGULAR where none can be.
+   subroutine judge(data, results, verdict, status)
       type(scene_data_t), intent(in) :: data
-      type(results_t), intent(inout) :: results
+      type(results_t), intent(in) :: results                !< when, and the pairs
+      character(len=:), allocatable, intent(inout) :: verdict
       type(status_t), intent(inout) :: status
       real(wp), allocatable :: f_end(:, :)
 
-      if (results%law_holds .or. .not. results%converged .or. data%line%n == 0) return
       call forces_at_end(data, moment_t(results%step_time, results%time), f_end)
-      call judge_balance(data%fem, data%held, data%rows, data%line, data%f, f_end, results%scene%pairs, results%verdict, status)
-   end subroutine judge_failed_check
+      call judge_balance(data%fem, data%held, data%rows, data%line, data%f, f_end, results%scene%pairs, verdict, status)
+   end subroutine judge
 
    !> What is worth its time where it is printed: sums by joint, stresses and their error, the largest of all, the limits of
    !> a linear theory.

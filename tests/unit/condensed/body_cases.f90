@@ -7,7 +7,7 @@ module body_cases
    use atrito_condensed_body, only: condensed_body_t, condense_body, set_load
    use atrito_contact_line, only: contact_line_t, number_unknowns
    use atrito_body_motions, only: add_rigid_motions
-   use atrito_contact_problem, only: build_problem
+   use atrito_contact_problem, only: build_flexibility, set_right_hand_sides
    use atrito_contact_rows, only: contact_rows_t, build_rows
    use atrito_contact_solution, only: contact_solution_t
    use atrito_controls, only: controls_t, METHOD_ANDERSON
@@ -163,7 +163,8 @@ contains
          if (.not. ok) return
          call set_load(scene%fem, b, scene%f, condensed(b))
       end do
-      call build_problem(scene%fem, condensed, scene%rows, scene%line, scene%value, scene%f, problem)
+      call build_flexibility(scene%fem, condensed, scene%rows, scene%line, problem)
+      call set_right_hand_sides(scene%fem, condensed, scene%rows, scene%line, scene%value, scene%f, problem)
       call solve_contact_line(problem, scene%line, controls_t(METHOD_ANDERSON, 1.0e-12_wp, 100_ip, 1.0_wp), &
                               reporter_t(quiet=.true.), solution, status)
       ok = is_ok(status) .and. solution%converged
