@@ -18,6 +18,9 @@ module atrito_accelerator
    public :: accelerator_t, picard_t, anderson_t
 
    !> Fixed point x = g(x) of a map with values >= 0.
+   !>
+   !> What extends it decides on the next x from those that were tried. `reset` comes before the first one, and when the iteration
+   !> has jumped to another place.
    type, abstract :: accelerator_t
    contains
       procedure(reset_accelerator), deferred :: reset
@@ -108,6 +111,8 @@ contains
    end subroutine update_anderson
 
    !> Holds one more difference; the oldest goes.
+   !>
+   !> Column 1 is the newest: dx = x_k - x_(k-1), df = f_k - f_(k-1).
    subroutine hold(self, dx, df)
       class(anderson_t), intent(inout) :: self
       real(wp), intent(in) :: dx(:), df(:)

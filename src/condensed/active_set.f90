@@ -30,6 +30,8 @@ module atrito_active_set
    public :: solve_box, change_states, is_settled
 
    !> Full steps, and unknowns for each where they are many: the front of a slip zone may move by a few points a step.
+   !>
+   !> A front of slip or of contact may have to go through the whole line, by a few points a step: so long lines have more steps.
    integer(ip), parameter :: MOST_FULL_STEPS = 20, UNKNOWNS_A_STEP = 20
    real(wp), parameter :: OPENS = 1.0e-13_wp      !< tension over the largest pressure that opens a point
    real(wp), parameter :: SLIPS = 1.0e-12_wp      !< excess over the friction bound that lets a point slip
@@ -50,12 +52,14 @@ contains
       integer(ip) :: step, changes
 
       do step = 1, size(seen, kind=ip)
+         ! states that were there before would go round for ever: the finite steps take over
          seen(step) = state_code(state)
          if (any(seen(:step - 1) == seen(step))) exit
          call put_at_bounds(bounds, state)
          call solve_free_set(problem, bounds%d, state, outcome, status, factor)
          if (.not. is_ok(status)) return
          call record_solve(history, problem, bounds, state)
+         ! a body is free with these states; whether it is with others the finite steps tell
          if (outcome%moves) exit
          call change_states(problem, bounds, state, changes)
          outcome%solved = changes == 0
@@ -74,6 +78,7 @@ contains
       real(wp) :: most
       integer(ip) :: i, old
 
+      ! pressures are stresses, so that points of small weight count alike; bilateral rows have no lower bound and never open
       associate (n => problem%n_normal)
          most = OPENS*maxval([maxval(abs(state%q(:n))/problem%weight(:n), mask=bounds%lower(:n) > -HUGE_REAL), 0.0_wp])
       end associate
@@ -135,6 +140,9 @@ contains
    end function is_released
 
    !> A number that tells states apart (FNV-1a, of 38 bits: their product with the prime fits into a long integer).
+   !>
+   !> Two sets of states may have the same number, with a chance of some 1e-11: then the finite steps begin too early, which costs
+   !> time and nothing else.
    pure integer(lp) function state_code(state) result(code)
       type(box_state_t), intent(in) :: state
       integer(ip) :: i

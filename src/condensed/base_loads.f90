@@ -34,6 +34,9 @@ contains
    !> The bases of a step, where it has more increments than they are; else none. Surfaces that move have loads beside the nodes of
    !> the mesh: with them there are none, either, nor where loads are
    !> balanced to the digits of the deck (atrito_sliding_bodies).
+   !>
+   !> What acts at a time is sum_k factor_k(t) base_k: the loads at the beginning of the step, those at its end, and each
+   !> amplitude's. So an increment costs a sum of vectors in place of an assembly of loads and a forward substitution for each body.
    subroutine build_bases(model, step, released, fem, bases)
       type(model_t), intent(in) :: model
       type(step_t), intent(in) :: step

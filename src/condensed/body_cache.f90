@@ -44,6 +44,9 @@ contains
    !> Condensed bodies with their reduced loads; those of the run before serve again where they can.
    !>
    !> status: STATUS_SINGULAR of condense_body.
+   !>
+   !> Body by body: one that may serve again (serves_again) is moved over without a copy; any other is assembled and factored. What
+   !> is left in the store when something fails is nothing: a body that was taken back is not there any more.
    subroutine provide_bodies(store, fem, held, points, load, asked, results, status, bilateral)
       type(body_cache_t), intent(inout) :: store
       type(fem_t), intent(in) :: fem
@@ -200,6 +203,9 @@ contains
    end function has_same_numbering
 
    !> Whether a factored body is the same as one of this scene.
+   !>
+   !> Mesh, supports and contact nodes are those of the store already; what else a stiffness is made of are the sections of its
+   !> elements.
    pure logical function serves_again(store, fem, b, same_bodies) result(again)
       type(body_cache_t), intent(in) :: store
       type(fem_t), intent(in) :: fem

@@ -91,6 +91,8 @@ contains
 
    !> Estimates, as an upper bound, what is not told by the profile: the matrices of the elements, and the sparse solver, which
    !> takes a quarter more than expected where no two elements are equal.
+   !>
+   !> What is held while a body is factored: its elements and their equations, the fronts or the profile, and S.
    pure subroutine estimate_body_memory(fem, b, result)
       type(fem_t), intent(in) :: fem
       integer(ip), intent(in) :: b

@@ -62,6 +62,8 @@ contains
    end subroutine find_moved_body
 
    !> u <- u + Z a at the free dofs.
+   !>
+   !> Motions are told as translations of the centre and a rotation about it, so each node costs three products.
    subroutine add_rigid_motions(fem, a, u)
       type(fem_t), intent(in) :: fem
       real(wp), intent(in) :: a(:)

@@ -35,6 +35,8 @@ module atrito_coarse_line
 contains
 
    !> Whether the coarse line is clearly smaller. Pairs of few points keep most of them; so a line of coarse lines comes to its end.
+   !>
+   !> A wall of many joints with three points each has no coarse line to speak of.
    pure logical function has_coarse_line(line)
       type(contact_line_t), intent(in) :: line
       type(interpolation_t) :: interpolation
@@ -56,6 +58,8 @@ contains
       call restrict_problem(problem, line, interpolation, coarse_line, coarse_problem)
    end subroutine coarsen_line
 
+   !> Every STRIDE-th point of each pair from its first one on, its last one, and all bilateral rows; with the places of all others
+   !> between them. Places count in points, not in lengths: what is wanted is a start.
    pure subroutine choose_points(line, interpolation)
       type(contact_line_t), intent(in) :: line
       type(interpolation_t), intent(out) :: interpolation
@@ -84,6 +88,8 @@ contains
       interpolation%point = chosen(:n)
    end subroutine choose_points
 
+   !> Laws, weights and unknowns of the coarse points. The weight is the sum of those of the fine points by their shares, so that a
+   !> uniform pressure has the same resultant; a coarse point has an unknown where a fine one that it bears upon has one.
    subroutine build_coarse_line(line, interpolation, coarse)
       type(contact_line_t), intent(in) :: line
       type(interpolation_t), intent(in) :: interpolation
@@ -134,6 +140,8 @@ contains
    end function share_of
 
    !> The rows of the average at the coarse points, applied to what is linear between them.
+   !>
+   !> (S p)_c = sum_j W_cj sum_d I_jd p_d, the row of W at the fine point under c.
    function coarse_average(average, interpolation) result(coarse)
       type(average_t), intent(in) :: average
       type(interpolation_t), intent(in) :: interpolation
@@ -162,6 +170,8 @@ contains
       end do
    end function coarse_average
 
+   !> C_c = R C R', G_c = R G, g0_c = R g0: the work of the coarse forces on what the fine points do. Two passes over the columns of
+   !> C, R having two entries a row.
    subroutine restrict_problem(problem, line, interpolation, coarse_line, coarse)
       type(bound_qp_t), intent(in) :: problem
       type(contact_line_t), intent(in) :: line, coarse_line

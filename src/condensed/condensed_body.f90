@@ -51,6 +51,10 @@ contains
    !> Assembles, factors and condenses a body, by the solver that was chosen for `result` or that is chosen now.
    !>
    !> status: STATUS_SINGULAR with the body, node and motion in words; STATUS_INTERNAL when the memory does not suffice.
+   !>
+   !> 1. A profile, for the skyline and the band, or an order of elimination by nested dissection, for the sparse solver: contact
+   !> dofs last. 2. Assembly of K. 3. Factor of the interior; the solver hands over S (get_schur), from which the factor of F^-1 is
+   !> made.
    subroutine condense_body(fem, i_body, asked, body, result, status)
       type(fem_t), intent(in) :: fem
       integer(ip), intent(in) :: i_body
@@ -221,6 +225,9 @@ contains
    end subroutine report_contact_pivots
 
    !> Cholesky factor of the Schur complement; for a floating body with alpha Q Q' added, alpha = trace(S)/n.
+   !>
+   !> S of a floating body is singular on the rigid motions at its contact dofs. Q is an orthonormal basis of them: fewer than the
+   !> motions where one contact dof alone is there, which two motions move alike. orthonormalise finds how many there are.
    subroutine factor_contact(fem, i_body, body, status)
       type(fem_t), intent(in) :: fem
       integer(ip), intent(in) :: i_body
@@ -270,6 +277,8 @@ contains
    end function modes_at_contact
 
    !> Takes the load of the free dofs, applied forces less the forces of prescribed displacements.
+   !>
+   !> reduce is the forward half of the solution: L y = f in the interior, f_c - K_ci K_ii^-1 f_i at the contact dofs behind it.
    subroutine set_load(fem, i_body, f, body)
       type(fem_t), intent(in) :: fem
       integer(ip), intent(in) :: i_body
@@ -312,6 +321,8 @@ contains
    end subroutine add_flexibilities
 
    !> Displacements of all free dofs from those of the contact dofs; without any, the plain solution.
+   !>
+   !> The backward half: the interior from y and the displacements of the contact dofs.
    subroutine expand_body(fem, i_body, body, u_contact, u)
       type(fem_t), intent(in) :: fem
       integer(ip), intent(in) :: i_body

@@ -24,7 +24,7 @@ module atrito_contact_problem
    use atrito_friction_law, only: friction_law_t, FRICTION_NONE, FRICTION_LOCAL
    use atrito_model, only: model_t, interaction_t
    use atrito_points, only: contact_points_t
-   use atrito_row_entries, only: build_constraint_rows, direction_of, first_motions, loads_on_motions
+   use atrito_row_entries, only: direction_of, first_motions, loads_on_motions
    use atrito_surface_average, only: average_rule_t, average_surfaces, count_surface_entries
    implicit none (type, external)
    private
@@ -34,6 +34,9 @@ module atrito_contact_problem
 contains
 
    !> Points, laws and averages of all pairs, and which points have unknown forces.
+   !>
+   !> A row of which all displacements are prescribed has no unknown force (has_unknown): its overlap and slip are known numbers,
+   !> and hard contact asks for them to be admissible. Rows that a support takes the force of (rows%is_held) have none either.
    pure subroutine build_line(model, fem, points, rows, value, line)
       type(model_t), intent(in) :: model
       type(fem_t), intent(in) :: fem
@@ -106,6 +109,9 @@ contains
    end function average_rules
 
    !> The law of an interaction; without a coefficient there is none, and nothing tangential is built.
+   !>
+   !> LOCAL: t = min(k |u_T|, nu p) sign(u_T), the compliance 1/k of the stick, 0 for exact stick. NONLOCAL, of Oden and Pires: eps
+   !> is the elastic slip at the full bound, so the compliance is eps/tau and follows the bound.
    pure type(friction_law_t) function law_of(interaction) result(law)
       type(interaction_t), intent(in) :: interaction
 
@@ -119,6 +125,8 @@ contains
    end function law_of
 
    !> True when the row of a point has an entry on a free dof. (A matrix entry could vanish by cancellation; the row tells.)
+   !>
+   !> N u and T u of a point are rows of B. Where both nodes are held the force at the point goes into the supports.
    pure logical function has_unknown(fem, rows, j, direction)
       type(fem_t), intent(in) :: fem
       type(contact_rows_t), intent(in) :: rows
@@ -155,13 +163,17 @@ contains
    end subroutine set_known_points
 
    !> C and G: the same for all loads.
-   subroutine build_flexibility(fem, condensed, rows, line, problem)
+   !>
+   !> B has few entries a row: those of the slave node and of the master's face. Body by body C takes the rows' parts on the contact
+   !> dofs, B_b F_b B_b', so C_ij is the displacement of point i along its row by a unit force at point j, summed over the bodies
+   !> that both touch.
+   subroutine build_flexibility(fem, condensed, b, rows, line, problem)
       type(fem_t), intent(in) :: fem
       type(condensed_body_t), intent(in) :: condensed(:)
+      type(constraint_rows_t), intent(in) :: b       !< of the unknowns over displacements (build_constraint_rows)
       type(contact_rows_t), intent(in) :: rows
       type(contact_line_t), intent(in) :: line
       type(bound_qp_t), intent(out) :: problem
-      type(constraint_rows_t) :: b
       integer(ip) :: motions(fem%bodies%n + 1), before, i
 
       motions = first_motions(fem%bodies)
@@ -170,7 +182,6 @@ contains
       problem%k = motions(fem%bodies%n + 1) - 1
       allocate (problem%c(problem%m, problem%m), problem%g(problem%m, problem%k), source=0.0_wp)
       problem%weight = line%weight(line%point)
-      call build_constraint_rows(fem, rows, line, .false., b)
       before = 0
       do i = 1, fem%bodies%n
          associate (body => fem%bodies%list(i))
@@ -182,9 +193,13 @@ contains
    end subroutine build_flexibility
 
    !> g0 and h: what prescribed displacements, loads and rest slips do.
-   subroutine set_right_hand_sides(fem, condensed, rows, line, value, f, problem)
+   !>
+   !> g0 of a normal row is the overlap without contact forces, less the gap: positive where bodies would penetrate. g0 of a
+   !> tangential row is the slip without contact forces, less the rest slip of a law with memory.
+   subroutine set_right_hand_sides(fem, condensed, b, rows, line, value, f, problem)
       type(fem_t), intent(in) :: fem
       type(condensed_body_t), intent(in) :: condensed(:) !< with their loads
+      type(constraint_rows_t), intent(in) :: b       !< of the unknowns over displacements
       type(contact_rows_t), intent(in) :: rows
       type(contact_line_t), intent(in) :: line
       real(wp), intent(in) :: value(:, :)            !< (2, n_nodes) prescribed displacements [L]
@@ -202,23 +217,23 @@ contains
             problem%g0(i) = problem%g0(i) - rest_of(line, line%point(i))
          end if
       end do
-      call add_displacements(fem, condensed, rows, line, problem%g0)
+      call add_displacements(fem, condensed, b, problem%g0)
       call loads_on_motions(fem, f, problem%h, problem%h_size)
    end subroutine set_right_hand_sides
 
    !> Adds B F f_c of all bodies to g0: what their loads move the points by.
-   subroutine add_displacements(fem, condensed, rows, line, g0)
+   !>
+   !> The reduced load f_c stands behind the half-solved interior in the body's load vector. A refinement adds what its residuals do
+   !> in the same way.
+   subroutine add_displacements(fem, condensed, b, g0)
       type(fem_t), intent(in) :: fem
       type(condensed_body_t), intent(in) :: condensed(:) !< with their loads
-      type(contact_rows_t), intent(in) :: rows
-      type(contact_line_t), intent(in) :: line
+      type(constraint_rows_t), intent(in) :: b       !< of the unknowns over displacements
       real(wp), intent(inout) :: g0(:)               !< (m) [L]
-      type(constraint_rows_t) :: b
       real(wp), allocatable :: moved(:, :)
       integer(ip) :: before, i, j, k
       real(wp) :: change
 
-      call build_constraint_rows(fem, rows, line, .false., b)
       before = 0
       do i = 1, fem%bodies%n
          associate (n => fem%bodies%list(i)%n_retained)
@@ -240,6 +255,9 @@ contains
    end subroutine add_displacements
 
    !> Adds B F B' of one body to C. Rows are taken in the order of their first contact dof: the columns of F B' above it are zero.
+   !>
+   !> C += (L^-1 B')' (L^-1 B'), L being the Cholesky factor of F^-1: a column of B' that begins with k zeros has k zeros in L^-1
+   !> B', which are left out. So a long line, whose rows follow the dofs, costs a third of n^2 operations a row.
    subroutine add_flexibility(condensed, b, before, n, c)
       type(condensed_body_t), intent(in) :: condensed
       type(constraint_rows_t), intent(in) :: b

@@ -16,6 +16,9 @@ module atrito_displacements
 contains
 
    !> B'q as nodal forces (2, n_nodes) [F]: what the contact and the bilateral rows take from the loads, prescribed dofs too.
+   !>
+   !> At point j the force w (p N + t T) goes to the slave node with the coefficient 1 and to the nodes of the master's face with
+   !> those of its shape functions, negative. Pairs whose moments are balanced have rows%turn besides: multiples of N.
    pure function contact_forces(fem, rows, line, solution) result(force)
       type(fem_t), intent(in) :: fem
       type(contact_rows_t), intent(in) :: rows
@@ -59,6 +62,8 @@ contains
    end subroutine add_bilateral_forces
 
    !> The displacements of one body without its rigid motion: u_e = u0 - F B'q at the contact dofs, the interior from them.
+   !>
+   !> x = f_c - B'q at the contact dofs, F x by the factor, then the interior. A rigid body has no displacements but its motions.
    subroutine elastic_displacements(fem, i_body, condensed, force, u)
       type(fem_t), intent(in) :: fem
       integer(ip), intent(in) :: i_body

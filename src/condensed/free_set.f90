@@ -77,6 +77,9 @@ contains
    end subroutine solve_free_set
 
    !> The equations of the free unknowns, scaled to a unit diagonal of C + D.
+   !>
+   !> Row i of M is multiplied by s_i = 1/sqrt(M_ii), and q_i = s_i q~_i: M~ has the diagonal 1, and its condition is, but for a
+   !> factor of its order, the least that any diagonal scaling gives (A. van der Sluis 1969).
    subroutine free_system(problem, d, state, held, system)
       type(bound_qp_t), intent(in) :: problem
       real(wp), intent(in) :: d(:)
@@ -103,6 +106,10 @@ contains
    end subroutine free_system
 
    !> [M -G; -G' 0] [q; a] = [rhs; -load] by the complement of M, with one refinement.
+   !>
+   !> Elimination of q: y = M^-1 G, S = G' y, x = M^-1 rhs, S a = load - G' x, q = x + y a. The refinement takes the residuals of
+   !> both equations with the product M q as it is, not as its factor has it; the factor's own round-off, eps times the condition of
+   !> M, is then squared. More would be round-off of q itself.
    subroutine solve_saddle(problem, factor, system, held, q, a, outcome)
       type(bound_qp_t), intent(in) :: problem
       real(wp), intent(in) :: factor(:, :)       !< of M
@@ -134,6 +141,9 @@ contains
    end subroutine solve_saddle
 
    !> a from G' M^-1 G a = force; a motion that the free set does not hold takes no part.
+   !>
+   !> By the eigenvectors V of the scaled S: a = V diag(1/lambda) V' force over the eigenvalues that are not null, the least of all
+   !> a that solve it.
    subroutine solve_motions(complement, force, a)
       type(complement_t), intent(in) :: complement
       real(wp), intent(in) :: force(:)
@@ -163,6 +173,7 @@ contains
       real(wp) :: part, size_of_part, round_off
       integer(ip) :: j
 
+      ! the usual case: the closed and sticking points hold all bodies
       if (all(complement%values > NULL_MOTION)) return
       outcome%hardly = .true.
       all_q = held
@@ -177,6 +188,7 @@ contains
          part = dot_product(way, work)
          size_of_part = dot_product(abs(way), size_of_work)
          round_off = dot_product(abs(matmul(problem%g, way)), none)
+         ! the work h'v - q'G v of all forces on the motion, beside the sum of its terms without sign
          if (abs(part) > NO_LOAD*size_of_part + round_off) then
             motion = motion + complement%vectors(:, j)*part
             outcome%hardly = outcome%hardly .and. abs(part) <= LITTLE_LOAD*size_of_part + round_off
@@ -214,6 +226,9 @@ contains
    end function forces_of_places
 
    !> Sets r = g0 - (C + D) q + G a and its round-off.
+   !>
+   !> r is the gap of an open point (with the sign of an overlap), the slip against the friction of a slipping one, and zero but for
+   !> round-off where the unknown is free. One product with C.
    subroutine set_residual(problem, d, state)
       type(bound_qp_t), intent(in) :: problem
       real(wp), intent(in) :: d(:)
@@ -262,6 +277,8 @@ contains
 
    !> What a force moves its row by, with the compliance of its law; where that is nothing, as between rigid surfaces, by as much as
    !> the softest row, so that a force there is no less than others.
+   !>
+   !> C_ii + D_i, the displacement per force of the point along itself [L/F]: what turns round-off of r into round-off of a force.
    pure real(wp) function yield_of(problem, d, i) result(yields)
       type(bound_qp_t), intent(in) :: problem
       real(wp), intent(in) :: d                  !< of the row [L/F]

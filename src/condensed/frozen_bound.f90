@@ -29,6 +29,9 @@ module atrito_frozen_bound
 contains
 
    !> Solves the inner problem for a frozen friction bound, from the present state. Image: nu S_rho of the pressure found.
+   !>
+   !> The state of the last bound is where the active set begins: near the fixed point no state changes and one linear solve does.
+   !> HUGE_REAL as a bound means that the point cannot slip.
    subroutine solve_with_bound(problem, line, tau, solution, image, status)
       type(bound_qp_t), intent(in) :: problem
       type(contact_line_t), intent(in) :: line
@@ -66,6 +69,10 @@ contains
 
    !> A closed point may have a tension that is round-off, of the forces on the bodies there: another body may feel it. Such points
    !> open, where the others bear it without changing.
+   !>
+   !> The active set leaves tensions that are round-off of their row. Beside a soft body such a force is nothing; on a light one
+   !> that touches the same point it is not. A point that opens hands its force to its neighbours, whose states must stay as they
+   !> are.
    subroutine open_tensions(problem, solution)
       type(bound_qp_t), intent(in) :: problem
       type(contact_solution_t), intent(inout) :: solution
@@ -117,6 +124,8 @@ contains
    end subroutine clear_noise
 
    !> The compliance of friction goes with its bound, which may be noise as well.
+   !>
+   !> Every force of the pair must be small beside the loads of all bodies that have some, and no more than round-off of its row.
    pure logical function is_noise(problem, solution, beside_loads, unknowns)
       type(bound_qp_t), intent(in) :: problem
       type(contact_solution_t), intent(in) :: solution

@@ -78,6 +78,9 @@ contains
    end subroutine find_least_forces
 
    !> Rows of a component in its own numbers.
+   !>
+   !> Rows of A' = W^1/2 B: entry (i, dof) is sqrt(w_i) B_i,dof. Dofs are numbered from 1 in ascending order, bounds are those of y
+   !> = q/sqrt(w); a bound that is none, HUGE_REAL, must stay one when it is divided.
    subroutine extract_component(rows, own, scale, bounds, q, component)
       type(constraint_rows_t), intent(in) :: rows
       integer(ip), intent(in) :: own(:)
@@ -126,6 +129,9 @@ contains
    end subroutine scale_columns
 
    !> The shortest y with the same A y within the bounds, from the present one.
+   !>
+   !> A primal active set. The objective |y|^2/2 falls with every step of positive length, and a row that is let go makes it fall
+   !> next; so sets do not come back, but for round-off, for which the number of steps is limited.
    subroutine shorten(component)
       type(component_t), intent(inout) :: component
       logical :: free(component%n)
@@ -134,6 +140,7 @@ contains
 
       free = .true.
       do i = 1, 10*component%n + 10
+         ! y of the free rows = A' lambda + along, A along = 0: without `along` they are as short as they can be
          call split(component, free, component%y, along, lambda)
          call longest_step(component, free, along, step, first)
          where (free) component%y = component%y - step*along
@@ -142,6 +149,7 @@ contains
             free(first) = .false.
             component%y(first) = merge(component%lower(first), component%upper(first), along(first) > 0.0_wp)
          else
+            ! the shortest y for these rows at their bounds: are the multipliers of the bounds right, too?
             call find_wrong(component, free, lambda, worst)
             if (worst == 0) return
             free(worst) = .true.
@@ -172,6 +180,9 @@ contains
    end subroutine longest_step
 
    !> The row at its bound that would most like to leave it; 0 where none would.
+   !>
+   !> The gradient of |y|^2/2 - lambda'(A y - A y_0) is y - A' lambda. At a lower bound y may only grow, so the gradient must be >=
+   !> 0 there, at an upper one <= 0.
    pure subroutine find_wrong(component, free, lambda, worst)
       type(component_t), intent(in) :: component
       logical, intent(in) :: free(:)
@@ -194,6 +205,8 @@ contains
    end subroutine find_wrong
 
    !> y of the free rows is A' lambda plus a part `along` in the null space of A.
+   !>
+   !> lambda is the least squares solution of A' lambda = y over the free rows, `along` the residual of that.
    subroutine split(component, free, y, along, lambda)
       type(component_t), intent(in) :: component
       logical, intent(in) :: free(:)
@@ -228,6 +241,9 @@ contains
    end subroutine split_dense
 
    !> Conjugate gradients on the normal equations A A' lambda = A y (CGLS), begun anew once for the digits.
+   !>
+   !> s = A along is the residual of the normal equations and p the direction; each step costs two products with the rows. The
+   !> second round begins with a residual that is computed afresh, for the digits that the recurrence has lost.
    subroutine split_by_steps(component, free, y, along, lambda)
       type(component_t), intent(in) :: component
       logical, intent(in) :: free(:)
@@ -318,6 +334,9 @@ contains
    end function is_inside
 
    !> Rows that the null space touches: seen in the part that any vector has in it. With `asked`, only where that row is touched.
+   !>
+   !> The part of a vector in the null space of A over the free rows touches every row that the null space does, unless it is by
+   !> chance orthogonal to it there: entries 1 + sin(i^2)/2 have no relation to a mesh.
    subroutine add_shared(component, free, shared, asked)
       type(component_t), intent(in) :: component
       logical, intent(in) :: free(:)

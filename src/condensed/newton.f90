@@ -48,6 +48,7 @@ contains
       last_change = -1.0_wp
       do iteration = 1, controls%max_iterations
          call begin_outer(solution%history)
+         ! the bound and the compliances of the present forces: no part of the iteration before is kept
          solution%tau = bound_of_state(line, solution)
          call update_compliances(problem, line, solution)
          ! open points have no row; slipping ones have
@@ -60,6 +61,7 @@ contains
             solution%verdict = 'NEWTON met a singular matrix'
             return
          end if
+         ! changes and forces in the scaled unknowns, q sqrt(C + D): [F L]^1/2, alike for stiff and soft rows
          change = maxval(abs([rhs(:size(active)), 0.0_wp]))
          call apply_step(problem, active, rhs, solution)
          largest_force = maxval(abs([solution%state%q(active)/force_scale(problem, solution, active), 0.0_wp]))
@@ -100,6 +102,8 @@ contains
    end function bound_slope
 
    !> Points without a bound have no force either.
+   !>
+   !> tau = 0: the state becomes FROZEN (set_friction_bounds), and what force the step has left there goes.
    pure subroutine update_compliances(problem, line, solution)
       type(bound_qp_t), intent(in) :: problem
       type(contact_line_t), intent(in) :: line
@@ -110,6 +114,9 @@ contains
    end subroutine update_compliances
 
    !> The linear system for the changes, scaled: forces by 1/sqrt(C_ii + D_ii), motions to unit columns.
+   !>
+   !> Rows: the active unknowns in their order, then the motions. The right hand side is r of the sticking and closed ones, what
+   !> slipping ones are off their bound by, and what the forces leave of the balance.
    pure subroutine build_system(problem, line, solution, active, jacobian, rhs)
       type(bound_qp_t), intent(in) :: problem
       type(contact_line_t), intent(in) :: line

@@ -48,6 +48,9 @@ contains
    !> Solves the contact line: the pressures, shears and states of all points, with the law's own bound. Long lines start from the
    !> solution of a coarser one. Not converged: solution%converged is false and solution%verdict says why.
    !> status: STATUS_SINGULAR with FREE_MOTION, or with dependent contact points, which needs the rows.
+   !>
+   !> The order: coarse start, where the line is long and the method is the usual one; the plain start, where that was not tried or
+   !> led nowhere; in the end the condition of the last matrix, for W-DIGITS.
    subroutine solve_contact_line(problem, line, controls, reporter, solution, status, rows)
       type(bound_qp_t), intent(in), target :: problem
       type(contact_line_t), intent(in), target :: line
@@ -69,6 +72,8 @@ contains
 
    !> Solves again, from the solution of a problem that differs by little, such as the increment before: its states, factor and
    !> bound are where the loop begins. status: as of solve_contact_line.
+   !>
+   !> The rate that was measured before counts as well: a loop that begins at its end has few steps to measure it by.
    subroutine continue_contact_line(problem, line, controls, reporter, solution, status)
       type(bound_qp_t), intent(in), target :: problem
       type(contact_line_t), intent(in), target :: line
@@ -134,6 +139,9 @@ contains
    end subroutine iterate_where_friction
 
    !> A coarse line need not be solved to the end, and not at all where that is hard.
+   !>
+   !> To 1e-3 in 30 iterations: what is wanted are states, and a bound that is right within some percent. Nothing is reported, and
+   !> the solves are not in the log of iterations.
    recursive subroutine solve_coarse(problem, line, solution, status)
       type(bound_qp_t), intent(in), target :: problem
       type(contact_line_t), intent(in), target :: line
@@ -160,6 +168,9 @@ contains
    end subroutine solve_coarse
 
    !> From all points closed, by the method that the deck asks for.
+   !>
+   !> Also by the methods of the ladder (atrito_ladder): EASED, and loops with small steps. A loop that a rung has begun and that
+   !> does not converge has mostly found the states but for a few, so Newton's method goes on from there.
    subroutine solve_from_plain_start(task, solution, status, rows)
       type(line_task_t), intent(in) :: task
       type(contact_solution_t), intent(out) :: solution  !< what a start before left is forgotten
@@ -200,6 +211,10 @@ contains
 
    !> All points closed without friction. Where that leaves a body free, all closed and stuck without a bound. tau: the first
    !> friction bound [F/L^2].
+   !>
+   !> The QP with tau = 0 is the problem without friction, whose pressures are mostly near those with friction: nu S_rho of them is
+   !> the first bound. A body that only friction holds has no equilibrium then. With no bound at all on the shear every body that
+   !> friction can hold is held; where one moves even so, nothing holds it: FREE_MOTION.
    subroutine start(problem, line, solution, tau, status)
       type(bound_qp_t), intent(in) :: problem
       type(contact_line_t), intent(in) :: line
@@ -224,6 +239,8 @@ contains
    end subroutine start
 
    !> One inner problem, then Newton's method on friction and contact at once.
+   !>
+   !> The QP brings the states near enough: Newton's method alone, from all closed, often goes astray.
    subroutine newton_from(task, tau, solution, status)
       type(line_task_t), intent(in) :: task
       real(wp), intent(in) :: tau(:)
@@ -279,6 +296,8 @@ contains
    end subroutine ease_friction
 
    !> From a solution that is near, or a start: Newton, then Anderson.
+   !>
+   !> From a solution Newton's method takes some steps; where states change so that it fails, the loop begins from the same place.
    subroutine solve_near(task, is_solved, near, tau, solution, status)
       type(line_task_t), intent(in) :: task
       logical, intent(in) :: is_solved               !< near is a solution

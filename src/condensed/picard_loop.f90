@@ -50,6 +50,9 @@ module atrito_picard_loop
    integer(ip), parameter :: STALLED = 4                  !< iterations in which the residual is not halved, to be given up then
 
    !> What the loop remembers of its bounds.
+   !>
+   !> A bound holds all bodies where the QP has a solution with it. Since friction alone may hold a body, too small a bound lets it
+   !> go: then there is no pressure to take the next bound from, and the loop goes back towards a bound that did hold.
    type :: loop_t
       real(wp), allocatable :: good(:), good_image(:)      !< (n) the last bound that held all bodies; not allocated: none so far
       real(wp), allocatable :: visited(:, :)               !< (n, LONGEST_CYCLE) newest first; -1: none
@@ -63,6 +66,14 @@ contains
    !> The loop: solve with the bound, compare it with its image, take the next one. tau: the first bound in, the last one out.
    !> solution: with the state of a solve before, which is where the first one starts. Not converged: solution%verdict says why.
    !> status: STATUS_SINGULAR with FREE_MOTION where no bound that was tried holds the bodies, or with dependent contact points.
+   !>
+   !> Each pass is one QP with the bound tau, from the state of the last one, and one of:
+   !>
+   !>     a body moves        tau goes half way back to the last bound that held all bodies (step_back)
+   !>     not solved          the active set has not settled: the loop ends
+   !>     converged           tau and its image agree, or differ by round-off (judge_step)
+   !>     too much work       and the residual has not been halved in STALLED passes: the loop ends
+   !>     otherwise           the accelerator gives the next bound; one that was there before is a cycle (look_for_cycle)
    subroutine iterate(task, accelerator, tau, solution, status)
       type(line_task_t), intent(in) :: task
       class(accelerator_t), intent(inout) :: accelerator
@@ -119,6 +130,9 @@ contains
 
    !> The bound does not hold a body: half of the way back to the last one that did, or twice as much where none did so far.
    !> status: STATUS_SINGULAR with FREE_MOTION when that was done often enough.
+   !>
+   !> The set of bounds that hold all bodies need not be convex, but grows with tau: more friction holds more. So half way back is
+   !> nearer to it, and twice as much may be in it where none was found yet. The memory of an accelerator would lead out again.
    subroutine step_back(loop, accelerator, tau, status)
       type(loop_t), intent(inout) :: loop
       class(accelerator_t), intent(inout) :: accelerator
@@ -139,6 +153,11 @@ contains
    end subroutine step_back
 
    !> Whether the loop has converged with this bound and its image; and how fast it goes.
+   !>
+   !> The residual is |image - tau|/|tau| pair by pair. It is none at the tolerance; at what round-off of the matrix may do to it,
+   !> eps times its condition, where an iteration no longer halves it; and at STALE_RESIDUAL where STALE iterations have not, for
+   !> round-off of which the matrix knows nothing: displacements far below the initial gaps. The condition is asked for where it
+   !> matters alone: it costs as much as some solves.
    subroutine judge_step(line, tolerance, outer, tau, image, loop, solution)
       type(contact_line_t), intent(in) :: line
       real(wp), intent(in) :: tolerance
@@ -180,6 +199,9 @@ contains
 
    !> How much more the images of two bounds differ than the bounds do, in the norm of the line's weights, whatever made the step
    !> between them: the largest so far. Below 1 the map contracts there, and the solution is the only one near.
+   !>
+   !> |g(x) - g(y)|/|x - y| of two iterates is a lower estimate of the Lipschitz constant of the map g = nu S_rho p. The weights
+   !> make the norm that of L2 on the line, whatever the spacing of the points.
    pure subroutine measure_rate(weight, step, answer, rate)
       real(wp), intent(in) :: weight(:)             !< relative to the largest
       real(wp), intent(in) :: step(:), answer(:)    !< relative to the largest bound
@@ -191,6 +213,9 @@ contains
    end subroutine measure_rate
 
    !> Compares the next bound with the last ones: the same again after two steps or more, while the residual stays, is a cycle.
+   !>
+   !> The loop converges from alternating sides, or in circles, where the map turns; then bounds come near to what they were, but
+   !> the residual falls as well. A cycle is the same bound to a millionth of a residual that stays.
    pure subroutine find_cycle(line, visited, tau, residual, length)
       type(contact_line_t), intent(in) :: line
       real(wp), intent(inout) :: visited(:, :)        !< newest first

@@ -8,7 +8,7 @@ module atrito_problem
    use atrito_contact_line, only: contact_line_t
    use atrito_contact_rows, only: contact_rows_t
    use atrito_contact_solution, only: contact_solution_t
-   use atrito_kinds, only: ip, wp
+   use atrito_kinds, only: wp
    use atrito_points, only: contact_points_t
    use atrito_reporter, only: reporter_t
    implicit none (type, external)

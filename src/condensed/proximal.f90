@@ -51,6 +51,7 @@ contains
       integer(ip) :: before(problem%m), i
       logical :: stands
 
+      ! s c is measured by each row's own flexibility, so stiff and soft bodies count alike
       c = [(problem%c(i, i), i=1, problem%m)]
       if (all(c <= 0.0_wp)) c = 1.0_wp
       where (c <= 0.0_wp) c = maxval(c)              ! between a held node and a rigid surface, which moves, nothing gives way
@@ -63,15 +64,18 @@ contains
          before = state%state
          near%d = bounds%d + share*c
          state%shift = share*c*q
+         ! the QP with D + s c in place of D, and s c q' added to g0: r = g0 + s c q' - (C + D + s c) q + G a
          call solve_box(problem, near, state, history, outcome, status, factor)
          if (.not. is_ok(status) .or. .not. outcome%solved) exit
          change = maxval([c*abs(state%q - q), 0.0_wp])
          stands = share*change <= ROUND_OFF*state%slack .or. &
                   (change > 0.5_wp*last .and. change <= SMALL_CHANGE*maxval([c*abs(state%q), 0.0_wp]))
          if (stands) exit
+         ! states stand and q comes slowly: s is large beside the least eigenvalue that counts
          if (change > SLOW*last .and. all(state%state == before)) share = max(share/100, LEAST_SHARE)
          last = change
       end do
+      ! r of the QP itself; what the shift made of it was s c (q - q') [L], which is none now
       deallocate (state%shift)
       call set_residual(problem, bounds%d, state)
       if (.not. is_ok(status) .or. .not. outcome%solved) return

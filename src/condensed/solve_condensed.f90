@@ -60,6 +60,7 @@ contains
       real(wp), allocatable, intent(out) :: u(:, :)         !< displacements without rigid motions, (2, n_nodes) [L]
       type(status_t), intent(out) :: status
       type(bound_qp_t), allocatable :: qp
+      type(constraint_rows_t) :: b
       integer(ip) :: factorisations
 
       call condense_bodies(problem, store, scene%bodies, factorisations, status)
@@ -67,15 +68,16 @@ contains
       if (.not. is_ok(status)) return
       scene%near_elements = any(store%bodies%is_near)
       call start_phase('iterate')
+      call build_constraint_rows(problem%fem, problem%rows, problem%line, .false., b)
       call move_alloc(problem%flexibility, qp)
       if (.not. allocated(qp)) then
          allocate (qp)
-         call build_flexibility(problem%fem, store%bodies, problem%rows, problem%line, qp)
+         call build_flexibility(problem%fem, store%bodies, b, problem%rows, problem%line, qp)
       end if
-      call set_right_hand_sides(problem%fem, store%bodies, problem%rows, problem%line, problem%value, problem%f, qp)
+      call set_right_hand_sides(problem%fem, store%bodies, b, problem%rows, problem%line, problem%value, problem%f, qp)
       if (has_position(problem, qp%h)) qp%g0 = qp%g0 + matmul(qp%g, problem%last%state%a)
       qp%is_coarse = controls%is_coarse
-      call solve_line(problem, controls, qp, solution, status)
+      call solve_line(problem, controls, qp, b, solution, status)
       solution%contraction_estimate = 0.0_wp
       if (is_ok(status) .and. controls%asks_contraction) then
          solution%contraction_estimate = estimate_contraction(qp, problem%line, solution%bounds%d, solution%state%state)
@@ -85,7 +87,7 @@ contains
       if (allocated(solution%p)) call expand_bodies(problem, store, solution, u)
       if (is_ok(status) .and. solution%converged .and. scene%near_elements) then
          call start_phase('refine')
-         call refine_solution(problem, controls, store%bodies, qp, solution, u)
+         call refine_solution(problem, controls, store%bodies, b, qp, solution, u)
          call stop_phase('refine')
       end if
       if (allocated(solution%state%a)) then
@@ -145,14 +147,14 @@ contains
    end subroutine condense_bodies
 
    !> Solves the contact line: from the increment before, where that leads to a solution, else from the usual start.
-   subroutine solve_line(problem, controls, qp, solution, status)
+   subroutine solve_line(problem, controls, qp, b, solution, status)
       class(problem_t), intent(in) :: problem
       type(controls_t), intent(in) :: controls
       type(bound_qp_t), intent(in) :: qp
+      type(constraint_rows_t), intent(in) :: b              !< of the unknowns over displacements
       type(contact_solution_t), intent(out) :: solution
       type(status_t), intent(out) :: status
       type(contact_solution_t) :: nothing
-      type(constraint_rows_t) :: rows
       type(status_t) :: fine
 
       if (all(qp%h == 0.0_wp) .and. asks_no_force(problem%line, qp, qp%g0)) then
@@ -177,8 +179,7 @@ contains
       if (is_ok(status)) return
       if (status%text /= DEPENDENT_POINTS) return
       call report_progress(problem%reporter, 'contact points depend on each other; the proximal method')
-      call build_constraint_rows(problem%fem, problem%rows, problem%line, .false., rows)
-      call solve_contact_line(qp, problem%line, controls, problem%reporter, solution, status, rows)
+      call solve_contact_line(qp, problem%line, controls, problem%reporter, solution, status, b)
    end subroutine solve_line
 
    !> Whether a force displaces nothing but rigid surfaces, and its law does not give way: a held node faces one that moves, an

@@ -17,6 +17,9 @@ module atrito_uniqueness
    public :: estimate_contraction
 
    !> The linear map of a set of closed points, of which some slip, ready to be applied.
+   !>
+   !> With the set's forces q, its rows r = 0 and the balance G' q = h, a change t of the friction of the slipping points changes q
+   !> by -(C + D)^-1 (C_nt w t - G a), where a makes the forces balance again.
    type :: slip_map_t
       real(wp), allocatable :: factor(:, :)       !< Cholesky factor of C_nn + D, scaled
       real(wp), allocatable :: scale(:)           !< of its rows
@@ -185,6 +188,9 @@ contains
    end subroutine invert_on_range
 
    !> The spectral radius of L, by the growth of its powers, which a complex pair of eigenvalues does not disturb.
+   !>
+   !> |L^k v| grows as radius^k. The mean of log |L v|/|v| over STEPS steps, after FIRST_STEPS in which lesser eigenvalues die away,
+   !> is log(radius) also where two eigenvalues of the same size turn the vector for ever.
    function radius_of(map, direction) result(radius)
       type(slip_map_t), intent(in) :: map
       real(wp), intent(in) :: direction(:)

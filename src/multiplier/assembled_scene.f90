@@ -94,6 +94,9 @@ contains
    end subroutine assemble_numbered
 
    !> The elements that change: the points with the unknowns of their rows, then the motions of each floating body.
+   !>
+   !> start and unknown are lists in one: element v has the unknowns unknown(start(v) + 1 : start(v + 1)). The normal and the
+   !> tangential row of a point have the same nodes, so they are one element.
    subroutine list_variable_elements(line, scene)
       type(contact_line_t), intent(in) :: line
       type(assembled_scene_t), intent(inout) :: scene
@@ -142,6 +145,9 @@ contains
    end subroutine add_unknowns
 
    !> Elements of all bodies in the numbers of the scene, and the springs that say which part of u is u_e.
+   !>
+   !> Near elements share one matrix in the fronts (fem%grain); products take each element's own. The factor is then that of K~, and
+   !> as every step of the multipliers solves for a residual, the steps refine by themselves.
    subroutine collect_scene(fem, numbering, store, spring_stiffness)
       type(fem_t), intent(in) :: fem
       type(scene_numbering_t), intent(in) :: numbering
@@ -187,6 +193,9 @@ contains
    end subroutine multiply_scene
 
    !> Only points and bodies whose numbers have changed are taken anew.
+   !>
+   !> What is set anew marks the fronts above it; factor_variable_matrix goes through these alone. After a failure all are set
+   !> again.
    subroutine factor_scene(self, stiffness, pull, status)
       class(assembled_scene_t), intent(inout) :: self
       real(wp), intent(in) :: stiffness(:), pull(:)

@@ -19,6 +19,8 @@ module atrito_line_search
    real(wp), parameter :: EXACT = 1.0e-10_wp     !< of the slope at the start
 
    !> An interval with the values at its ends, which may be weighted.
+   !>
+   !> s_before < 0 <= s_after. The weights move the secant towards the end that has stayed; they are no values of s any more.
    type :: bracket_t
       real(wp) :: before = 0.0_wp, after = 1.0_wp
       real(wp) :: s_before = 0.0_wp, s_after = 0.0_wp
@@ -78,6 +80,8 @@ contains
    end function search_line
 
    !> By false position, or the middle where that is no use.
+   !>
+   !> The root of the line through both ends. Round-off, or an end that stays MOST_STAYS times, asks for the middle.
    pure real(wp) function place_within(bracket) result(here)
       type(bracket_t), intent(in) :: bracket
 

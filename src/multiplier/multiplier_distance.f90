@@ -72,6 +72,9 @@ contains
    end function forces_that_are_none
 
    !> The largest load and contact force at a displacement of each body; at least a round-off of those on bodies that it touches.
+   !>
+   !> A body that has no load and touches loaded ones has contact forces that balance each other; if these are round-off as well,
+   !> what is round-off of its neighbours' forces is none on it.
    subroutine measure_bodies(system, q, of_body)
       class(contact_system_t), intent(in) :: system
       real(wp), intent(in) :: q(:)
@@ -120,6 +123,9 @@ contains
 
    !> The force at each pair that is round-off of those on its bodies, or of what it bore in the increment before: of a pair that is
    !> unloaded nothing else may be left to compare with.
+   !>
+   !> Bilateral rows have LITTLE in place of NO_FORCE: a tie between two parts that hardly strain bears next to nothing, and that is
+   !> not worth steps.
    subroutine measure_pairs(system, multipliers, of_body, least)
       class(contact_system_t), intent(in) :: system
       type(multiplier_t), intent(in) :: multipliers

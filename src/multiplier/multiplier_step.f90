@@ -58,6 +58,9 @@ module atrito_multiplier_step
 contains
 
    !> At rest: no forces, no displacements.
+   !>
+   !> hold: H_j = sum_i B_ij^2/c_i over the rows, the stiffness by which the rows would hold motion j if all were closed. A spring
+   !> in a row adds its compliance to c_i.
    subroutine begin_multipliers(system, pair, multipliers, compliance)
       class(contact_system_t), intent(in) :: system
       integer(ip), intent(in) :: pair(:)         !< (m) of each row
@@ -89,6 +92,9 @@ contains
    end subroutine begin_multipliers
 
    !> All points closed, and stuck where there is friction, whatever their forces.
+   !>
+   !> One linear solve with all rows FREE, as if glued. Where the bodies come to is a good place to begin: the true motion is near
+   !> to it where contact holds them, and where it does not they leave from there.
    subroutine start_closed(system, bounds, multipliers, state, status)
       class(contact_system_t), intent(inout) :: system
       type(box_bounds_t), intent(in) :: bounds
@@ -112,6 +118,9 @@ contains
    end subroutine start_closed
 
    !> Forces and states from the displacements.
+   !>
+   !> z = (e + rho q_o)/(D + rho) is the force without bounds, q = clip(z), r = e - D q the residual of the law. The state says on
+   !> which piece of the clip z lies.
    subroutine set_forces(system, bounds, multipliers, state, de)
       class(contact_system_t), intent(in) :: system
       type(box_bounds_t), intent(in) :: bounds
@@ -150,6 +159,8 @@ contains
    end subroutine set_forces
 
    !> A bilateral row may hold displacements that are none: their round-off is that of the other displacements of the body.
+   !>
+   !> An equation u_i = 0 has e = 0 exactly; what round-off does to it is that of solving for the whole body.
    subroutine raise_noise(system, multipliers)
       class(contact_system_t), intent(in) :: system
       type(multiplier_t), intent(inout) :: multipliers
@@ -216,6 +227,11 @@ contains
    end function pull_of
 
    !> Solves for one step. status: as system%factor.
+   !>
+   !>     residual = -gradient of phi;  factor for the states;  dx = H^-1 residual;  full step, or a part of it
+   !>
+   !> until a full step stays in the states that it was made for. `changed` tells the loop that it did not at first. After PATIENCE
+   !> steps a change of forces by round-off is none: points at the edge of contact may change their states for ever.
    subroutine take_multiplier_step(system, shape, bounds, multipliers, state, history, status)
       class(contact_system_t), intent(inout) :: system
       type(bound_qp_t), intent(in) :: shape   !< numbers of unknowns and weights, for the history
@@ -253,6 +269,9 @@ contains
 
    !> Of a long way that a body went, and of the forces that closed gaps far larger than its strains, round-off is left in its
    !> forces: the factor that is there solves for it, as long as no state changes.
+   !>
+   !> The residual of the equations beside the largest force on each body; what is more than BALANCED is solved for with the factor
+   !> that is there, at most MOST_REFINEMENTS times. A step that leaves more than REFINES of it is taken back.
    subroutine refine_step(system, bounds, of_body, multipliers, state)
       class(contact_system_t), intent(inout) :: system
       type(box_bounds_t), intent(in) :: bounds
@@ -290,6 +309,10 @@ contains
    end subroutine refine_step
 
    !> Factors for the present states, unless the last factor is as good.
+   !>
+   !> A new factor is needed when a row has another stiffness, the pull has changed, or somebody else has factored the system since
+   !> (generation). A pivot of an amplitude that is not positive means that the pull is round-off beside the stiffness of a stiff
+   !> body: then it grows by 100.
    subroutine provide_factor(system, bounds, state, multipliers, status)
       class(contact_system_t), intent(inout) :: system
       type(box_bounds_t), intent(in) :: bounds
@@ -321,6 +344,9 @@ contains
    end subroutine provide_factor
 
    !> The full step, where it leads to the states that it was made for.
+   !>
+   !> The states are those of x + dx where each row stays on its piece of the clip, but for SAME_STATE of the largest force of its
+   !> pair and the round-off of the row. Then phi is quadratic between, and x + dx its minimum.
    subroutine try_full_step(system, bounds, dx, de, multipliers, state, stays)
       class(contact_system_t), intent(in) :: system
       type(box_bounds_t), intent(in) :: bounds
@@ -352,6 +378,10 @@ contains
    end subroutine try_full_step
 
    !> As far along the step as the convex function falls.
+   !>
+   !> phi'(x + t dx) = -dx'residual_without_rows + t dx'(A + kappa H) dx + sum_i de_i clip((e_i + t de_i + rho_i q_o,i)/(D_i +
+   !> rho_i)): the function of atrito_line_search. Work is told over a unit of length: forces times displacements may leave the
+   !> range of numbers.
    subroutine take_part_of_step(system, bounds, residual, dx, de, multipliers, state)
       class(contact_system_t), intent(in) :: system
       type(box_bounds_t), intent(in) :: bounds
@@ -376,6 +406,8 @@ contains
    end subroutine take_part_of_step
 
    !> Of the forces that move the bodies alike the least.
+   !>
+   !> Rows that may change: those without compliance that are FREE, or at a bound with r = 0 but for round-off.
    subroutine take_least_forces(system, rows, weight, bounds, multipliers, state, is_shared)
       class(contact_system_t), intent(in) :: system
       type(constraint_rows_t), intent(in) :: rows !< over displacements alone

@@ -42,6 +42,9 @@ contains
 
    !> Numbers the unknowns of all bodies, one body behind the other, then the amplitudes of their rigid motions, and chooses for
    !> each motion the equations that a spring holds it by.
+   !>
+   !> With body b: its displacements are before(b) + 1 .. before(b) + n, its motions first_motion(b) .. first_motion(b) +
+   !> n_motions(b) - 1.
    subroutine number_scene(fem, numbering)
       type(fem_t), intent(in) :: fem
       type(scene_numbering_t), intent(out) :: numbering
@@ -107,6 +110,10 @@ contains
 
    !> Nested dissection of the elements and the points; the rigid motions of a body are one more node of its points. The last
    !> unknowns may be kept: theirs are the last positions, in their order.
+   !>
+   !> 1. Elements of the mesh, then points, each as a list of nodes (list_elements); node n_nodes + b stands for the motions of body
+   !> b. 2. order_elements cuts the graph of nodes in halves, again and again: parts of nodes with their parents. 3. Parts of nodes
+   !> become parts of equations (build_elimination).
    function eliminate_scene(fem, rows, line, numbering, n_kept) result(elimination)
       type(fem_t), intent(in) :: fem
       type(contact_rows_t), intent(in) :: rows
@@ -162,6 +169,9 @@ contains
    end subroutine leave_out_kept
 
    !> The elements of the mesh, then the points that have a row. A motion that none of them sees stands with an element of its body.
+   !>
+   !> The dissection takes the centre of an element from its first CORNERS nodes. Nodes with more than MOST_ROWS rows say nothing
+   !> about where a point is, and the carriers of a rigid surface are everywhere: they come behind the others.
    subroutine list_elements(fem, rows, line, numbering, nodes, n_nodes_of)
       type(fem_t), intent(in) :: fem
       type(contact_rows_t), intent(in) :: rows

@@ -65,6 +65,8 @@ contains
    end subroutine release_load
 
    !> What prescribed displacements, initial gaps and rest slips leave of the rows: g0.
+   !>
+   !> The same numbers as in the condensed form (set_right_hand_sides), but for what the loads do: here displacements are unknowns.
    subroutine set_scene_gaps(rows, line, value, scene)
       type(contact_rows_t), intent(in) :: rows
       type(contact_line_t), intent(in) :: line
@@ -86,6 +88,9 @@ contains
    end subroutine set_scene_gaps
 
    !> b' K^-1 b over the displacements of a row, with the stiffness of each node by itself: the same however the scene is turned.
+   !>
+   !> A row without free displacements, between a held node and a rigid surface, has none; it gets that of the softest row, so that
+   !> rho is no less there than elsewhere.
    subroutine set_flexibility(fem, rows, line, diagonal, coupling, scene)
       type(fem_t), intent(in) :: fem
       type(contact_rows_t), intent(in) :: rows
@@ -135,6 +140,9 @@ contains
    end function node_flexibility
 
    !> Takes the applied forces, and those less the forces of the prescribed displacements.
+   !>
+   !> The load on a motion is the work of the applied forces alone: what prescribed displacements and temperatures do is in balance.
+   !> Where its terms cancel but for LOAD_ROUND_OFF it is none, or a body without load would move.
    subroutine set_scene_load(fem, f, free_load, scene)
       type(fem_t), intent(in) :: fem
       real(wp), intent(in) :: f(:, :), free_load(:, :) !< (2, n_nodes) [F]

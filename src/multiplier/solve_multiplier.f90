@@ -24,6 +24,9 @@ contains
 
    !> Solves one increment: from the increment before, where that leads to a solution, else from the usual start.
    !> status: STATUS_SINGULAR with FREE_MOTION, or with a body that is singular by itself.
+   !>
+   !> The loop keeps the multipliers in the solution where a next increment goes on from them (problem%keeps). What failed from
+   !> there begins anew, but counts amplitudes of motions from the same place.
    subroutine solve_multiplier(problem, system, controls, solution, u, status)
       class(problem_t), intent(in) :: problem
       class(scene_system_t), intent(inout) :: system        !< of the problem, with its gaps and loads

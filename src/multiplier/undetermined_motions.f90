@@ -31,6 +31,9 @@ contains
 
    !> Takes the least motion, unless points would penetrate or slip with their friction. undetermined: one of the motions, (k); not
    !> allocated when there is none. position: where the bodies were before, from where it counts.
+   !>
+   !> basis: the undetermined motions; the amplitudes are measured from `position`, the displacements of the increment before, so
+   !> that a body stays where it is.
    subroutine settle_undetermined_motions(system, bounds, multipliers, state, undetermined, position)
       class(contact_system_t), intent(in) :: system
       type(box_bounds_t), intent(in) :: bounds
@@ -102,6 +105,9 @@ contains
    end subroutine find_undetermined_motions
 
    !> An undetermined motion strains nothing: what strain there is is round-off of the step, and is taken out.
+   !>
+   !> v <- v - H^-1 (A v + B' s B v), twice: what the rows and the bodies feel of v goes. A motion that loses a thousandth of itself
+   !> by that was held, weakly.
    subroutine take_out_held(system, multipliers, v)
       class(contact_system_t), intent(in) :: system
       type(multiplier_t), intent(in) :: multipliers
@@ -152,6 +158,8 @@ contains
    end subroutine apply_step
 
    !> Least squares of B x over the undetermined motions; those that no row sees get the amplitude zero.
+   !>
+   !> First x without its part along them, so that motions that no row sees get the amplitude zero; then the least |B x + B V s|^2.
    subroutine reduce_motion(system, basis, x)
       class(contact_system_t), intent(in) :: system
       real(wp), intent(in) :: basis(:, :)
