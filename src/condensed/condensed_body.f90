@@ -142,7 +142,9 @@ contains
 
       call body%solver%factor(status)
       if (status%code == STATUS_INTERNAL) return
-      call report_pivots(fem, i_body, body%solver, result)
+      result%digits_lost = body%solver%report%digits_lost
+      result%sign_changes = body%solver%report%sign_changes
+      if (body%solver%report%worst_equation > 0) call name_equation(fem, i_body, body%solver%report%worst_equation, result)
       call report_fronts(body%solver, result)
       if (.not. is_ok(status)) then
          call set_status(status, STATUS_SINGULAR, loose_text(fem, i_body, status%text, result%worst_node, result%worst_dof))
@@ -151,18 +153,6 @@ contains
       call factor_contact(fem, i_body, body, status)
       if (is_ok(status)) call report_contact_pivots(fem, i_body, body, result, status)
    end subroutine factor_body
-
-   subroutine report_pivots(fem, i_body, solver, result)
-      type(fem_t), intent(in) :: fem
-      integer(ip), intent(in) :: i_body
-      class(linear_solver_t), intent(in) :: solver
-      type(body_result_t), intent(inout) :: result
-
-      result%digits_lost = solver%report%digits_lost
-      result%sign_changes = solver%report%sign_changes
-      if (solver%report%worst_equation == 0) return
-      call name_equation(fem, i_body, solver%report%worst_equation, result)
-   end subroutine report_pivots
 
    !> What the sparse solver holds in fact, in place of what was predicted for it.
    subroutine report_fronts(solver, result)

@@ -107,12 +107,16 @@ contains
       type(contact_solution_t), intent(inout) :: solution
       logical :: beside_loads(problem%m)
       integer(ip), allocatable :: unknowns(:)
-      integer(ip) :: first, last
+      integer(ip) :: first, last, j
 
       if (line%n == 0 .or. .not. allocated(line%pair) .or. .not. allocated(problem%h_size)) return
       if (size(line%pair) < line%n) return
       if (line%pair(1) == line%pair(line%n)) return
-      beside_loads = noise_beside_loads(problem, solution%state%q)
+      beside_loads = .true.
+      do j = 1, problem%k
+         if (problem%h_size(j) > 0.0_wp) beside_loads = beside_loads .and. &
+                                                        abs(problem%g(:, j)*solution%state%q) <= NOISE*problem%h_size(j)
+      end do
       first = 1
       do while (first <= line%n)
          last = last_of_pair(line, first)
@@ -146,17 +150,5 @@ contains
          if (.not. is_noise) return
       end do
    end function is_noise
-
-   pure function noise_beside_loads(problem, q) result(is_noise)
-      type(bound_qp_t), intent(in) :: problem
-      real(wp), intent(in) :: q(:)
-      logical :: is_noise(problem%m)
-      integer(ip) :: j
-
-      is_noise = .true.
-      do j = 1, problem%k
-         if (problem%h_size(j) > 0.0_wp) is_noise = is_noise .and. abs(problem%g(:, j)*q) <= NOISE*problem%h_size(j)
-      end do
-   end function noise_beside_loads
 
 end module atrito_frozen_bound

@@ -312,7 +312,7 @@ contains
       logical :: inside(component%n)
       integer(ip) :: i
 
-      inside = is_inside(component%y - component%lower, component%upper - component%y, maxval(abs(component%y)))
+      inside = min(component%y - component%lower, component%upper - component%y) > WRONG*maxval(abs(component%y))
       allocate (shared(component%n), source=.false.)
       if (component%n > MOST_SINGLE) then
          call add_shared(component, component%lower < component%upper, shared)
@@ -326,12 +326,6 @@ contains
          inside(i) = .false.
       end do
    end subroutine find_shared
-
-   pure elemental logical function is_inside(below, above, size)
-      real(wp), intent(in) :: below, above, size !< distances from the bounds, largest force
-
-      is_inside = min(below, above) > WRONG*size
-   end function is_inside
 
    !> Rows that the null space touches: seen in the part that any vector has in it. With `asked`, only where that row is touched.
    !>

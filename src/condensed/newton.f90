@@ -38,7 +38,7 @@ contains
       type(contact_line_t), intent(in) :: line
       type(controls_t), intent(in) :: controls
       type(contact_solution_t), intent(inout) :: solution
-      real(wp), allocatable :: jacobian(:, :), rhs(:)
+      real(wp), allocatable :: jacobian(:, :), rhs(:), scale(:)
       integer(ip), allocatable :: active(:)
       integer(ip) :: iteration, info, changes, i
       real(wp) :: change, last_change, largest_force
@@ -63,8 +63,12 @@ contains
          end if
          ! changes and forces in the scaled unknowns, q sqrt(C + D): [F L]^1/2, alike for stiff and soft rows
          change = maxval(abs([rhs(:size(active)), 0.0_wp]))
-         call apply_step(problem, active, rhs, solution)
-         largest_force = maxval(abs([solution%state%q(active)/force_scale(problem, solution, active), 0.0_wp]))
+         scale = force_scale(problem, solution, active)
+         associate (n => size(active), q => solution%state%q, a => solution%state%a)
+            q(active) = q(active) + rhs(:n)*scale
+            a = a + rhs(n + 1:)*scale_of_motions(problem, active, scale)
+            largest_force = maxval(abs([q(active)/scale, 0.0_wp]))
+         end associate
          solution%tau = bound_of_state(line, solution)
          call update_compliances(problem, line, solution)
          call set_residual(problem, solution%bounds%d, solution%state)
@@ -209,18 +213,6 @@ contains
       jacobian(row) = jacobian(row) + 1.0_wp
       rhs = direction*line%weight(j)*solution%tau(j) - solution%state%q(i)
    end subroutine slip_row
-
-   pure subroutine apply_step(problem, active, step, solution)
-      type(bound_qp_t), intent(in) :: problem
-      integer(ip), intent(in) :: active(:)
-      real(wp), intent(in) :: step(:)
-      type(contact_solution_t), intent(inout) :: solution
-      real(wp) :: scale(size(active))
-
-      scale = force_scale(problem, solution, active)
-      solution%state%q(active) = solution%state%q(active) + step(:size(active))*scale
-      solution%state%a = solution%state%a + step(size(active) + 1:)*scale_of_motions(problem, active, scale)
-   end subroutine apply_step
 
    !> A slipping force is its bound to the last digit.
    pure subroutine put_slipping_at_bounds(problem, line, solution)

@@ -55,7 +55,8 @@ contains
       certificate%verdict = BALANCE_POSSIBLE
       worst = 0.0_wp
       do g = 1, groups%n
-         if (is_unloaded(rows, groups%of_motion == g)) cycle
+         ! a group whose loads are the round-off of what cancelled in them rests, without any force
+         if (all(abs(rows%work) <= NO_LOAD*rows%work_size .or. groups%of_motion /= g)) cycle
          call judge_group(rows, line, groups%of_motion == g, groups%of_point == g, own)
          certificate%solver_missing = certificate%solver_missing .or. own%solver_missing
          select case (own%verdict)
@@ -74,14 +75,6 @@ contains
          end select
       end do
    end subroutine prove_balance
-
-   !> A group whose loads are the round-off of what cancelled in them rests, without any force.
-   pure logical function is_unloaded(rows, member)
-      type(motion_rows_t), intent(in) :: rows
-      logical, intent(in) :: member(:)
-
-      is_unloaded = all(abs(rows%work) <= NO_LOAD*rows%work_size .or. .not. member)
-   end function is_unloaded
 
    !> Sizes of forces differ from body to body by any factor. The first pass measures all by the largest load of the group, the next
    !> ones each motion by the forces that the pass before found on it.

@@ -49,7 +49,8 @@ contains
 
       call measure_bodies(system, q, of_body)
       call measure_pairs(system, multipliers, of_body, least)
-      distance%forces = force_distance(multipliers, q, least)
+      distance%forces = greatest_ratio(largest_of_pairs(multipliers, abs(q - multipliers%q_old) - multipliers%noise), &
+                                       max(least, largest_of_pairs(multipliers, abs(q))))
       distance%bound = bound_distance(line, multipliers, tau, image, least)
       ! bodies without load that went clear of each other have nothing that a pull could be compared with
       if (all(system%load == 0.0_wp) .and. all(abs(q) <= multipliers%noise)) return
@@ -142,14 +143,6 @@ contains
          end associate
       end do
    end subroutine measure_pairs
-
-   pure real(wp) function force_distance(multipliers, q, least) result(distance)
-      type(multiplier_t), intent(in) :: multipliers
-      real(wp), intent(in) :: q(:), least(:)
-
-      distance = greatest_ratio(largest_of_pairs(multipliers, abs(q - multipliers%q_old) - multipliers%noise), &
-                                max(least, largest_of_pairs(multipliers, abs(q))))
-   end function force_distance
 
    real(wp) function bound_distance(line, multipliers, tau, image, least) result(distance)
       type(contact_line_t), intent(in) :: line

@@ -26,6 +26,7 @@ module atrito_undetermined_motions
    real(wp), parameter :: STAYS = 0.999_wp       !< of an undetermined motion without its round-off
    real(wp), parameter :: STAYS_PUT = 1.0e-9_wp  !< of a row in a motion of size one
    real(wp), parameter :: DEPENDENT = 1.0e-8_wp
+   real(wp), parameter :: GOLDEN = 0.6180339887498949_wp
 
 contains
 
@@ -80,14 +81,15 @@ contains
       real(wp), allocatable, intent(out) :: basis(:, :)
       real(wp) :: v(system%n), before
       real(wp), allocatable :: found(:, :)
-      integer(ip) :: n, i
+      integer(ip) :: n, i, j
 
       allocate (found(system%n, min(MOST_UNDETERMINED, system%k)))
       n = 0
       associate (first => system%n - system%k + 1)
          do i = 1, size(found, 2, kind=ip)
             v = 0.0_wp
-            v(first:) = without_pattern(system%k, i)
+            ! numbers between -1/2 and 1/2 with no relation to the bodies
+            v(first:) = [(modulo(GOLDEN*real(j*(j + 2*i), wp), 1.0_wp) - 0.5_wp, j=1, system%k)]
             call orthogonalise(found(first:, :n), v(first:))
             before = norm2(v)
             call apply_step(system, multipliers, v)
@@ -123,16 +125,6 @@ contains
          v = v - force
       end do
    end subroutine take_out_held
-
-   !> Numbers between -1/2 and 1/2 with no relation to the bodies.
-   pure function without_pattern(n, seed) result(v)
-      integer(ip), intent(in) :: n, seed
-      real(wp) :: v(n)
-      real(wp), parameter :: GOLDEN = 0.6180339887498949_wp
-      integer(ip) :: i
-
-      v = [(modulo(GOLDEN*real(i*(i + 2*seed), wp), 1.0_wp) - 0.5_wp, i=1, n)]
-   end function without_pattern
 
    pure subroutine orthogonalise(basis, v)
       real(wp), intent(in) :: basis(:, :)

@@ -333,6 +333,7 @@ contains
       type(results_t) :: results
       type(contact_solution_t) :: solution
       real(wp) :: to
+      logical :: may_be_cut
 
       associate (control => model%steps(k)%increments)
          if (now%increment == 0) now%length = control%initial
@@ -355,8 +356,13 @@ contains
                call record(now, run, history)
             else
                now%length = min(now%length, to - now%time)
-               if (.not. (may_be_cut(status) .and. is_longer_than_least(control, now%length))) then
-                  call explain(results, status)
+               ! shorter increments are of use where there is no solution, not where memory or the deck fail
+               may_be_cut = is_ok(status) .or. any(status%code == [STATUS_NOT_CONVERGED, STATUS_SINGULAR])
+               if (.not. (may_be_cut .and. is_longer_than_least(control, now%length))) then
+                  if (is_ok(status)) then
+                     if (.not. allocated(results%verdict)) results%verdict = 'not converged'
+                     call set_status(status, STATUS_NOT_CONVERGED, results%verdict)
+                  end if
                   call end_early(k, now, run, history, status)
                   return
                end if
@@ -367,13 +373,6 @@ contains
          end do
       end associate
    end subroutine go_through_step
-
-   !> Shorter increments are of use where there is no solution, not where memory or the deck fail.
-   pure logical function may_be_cut(status)
-      type(status_t), intent(in) :: status
-
-      may_be_cut = is_ok(status) .or. status%code == STATUS_NOT_CONVERGED .or. status%code == STATUS_SINGULAR
-   end function may_be_cut
 
    subroutine try_increment(k, increment, to, store, run, results, solution, status)
       integer(ip), intent(in) :: k, increment
@@ -417,6 +416,7 @@ contains
       type(contact_solution_t), intent(in) :: solution
       type(run_t), intent(inout) :: run
       type(history_t), intent(inout) :: history
+      character(len=:), allocatable :: idle
       integer(ip) :: i
 
       run%data%last = solution
@@ -435,42 +435,16 @@ contains
       if (associated(run%observer)) call note_observed(run%observer, run%data, results, history%observed)
       if (run%data%is_printed) then
          results%scene%memory = forecast_memory(model, run%data, results%scene)
-         call note_idle(results, idle_text(run%data, solution), run)
+         idle = idle_text(run%data, solution)
+         if (len(idle) > 0) then
+            if (run%n_idle == 0) run%idle = idle//' (step '//to_text(results%step)//', increment '//to_text(results%increment)
+            run%n_idle = run%n_idle + 1
+         end if
          call add_frame(results, run%n_frames, history)
       end if
       call move_frame(results, run%last)
       run%has_last = .true.
    end subroutine keep_increment
-
-   pure subroutine note_idle(results, text, run)
-      type(results_t), intent(in) :: results
-      character(len=*), intent(in) :: text           !< idle_text of the increment
-      type(run_t), intent(inout) :: run
-
-      if (len(text) == 0) return
-      if (run%n_idle == 0) run%idle = text//' (step '//to_text(results%step)//', increment '//to_text(results%increment)
-      run%n_idle = run%n_idle + 1
-   end subroutine note_idle
-
-   !> What is told of them in the end; '' where there was none.
-   pure function idle_increments(run) result(text)
-      type(run_t), intent(in) :: run
-      character(len=:), allocatable :: text
-
-      text = ''
-      if (run%n_idle > 0) text = run%idle//')'
-      if (run%n_idle > 1) text = run%idle//' and '//to_text(run%n_idle - 1_ip)//' more of those printed)'
-   end function idle_increments
-
-   !> Why an increment has no solution, as a status.
-   pure subroutine explain(results, status)
-      type(results_t), intent(in) :: results
-      type(status_t), intent(inout) :: status
-
-      if (.not. is_ok(status)) return
-      call set_status(status, STATUS_NOT_CONVERGED, 'not converged')
-      if (allocated(results%verdict)) call set_status(status, STATUS_NOT_CONVERGED, results%verdict)
-   end subroutine explain
 
    !> The history ends here: what converged last is printed, whatever was asked for.
    subroutine end_early(k, now, run, history, status)
@@ -484,7 +458,10 @@ contains
       reason = 'no reason is known'
       if (allocated(status%text)) reason = status%text
       history%ending = ending_t(.true., k, max(now%increment, 1_ip), run%began + now%time + now%length, reason)
-      if (allocated(status%text)) call reword_status(status, ending_text(history%ending)//reason)
+      associate (ending => history%ending)
+         if (allocated(status%text)) call reword_status(status, 'ended in step '//to_text(ending%step)//', increment ' &
+                                                        //to_text(ending%increment)//', time '//to_text(ending%time)//': '//reason)
+      end associate
       if (.not. run%has_last .or. now%increment == 0) return
       if (run%data%is_printed .and. run%last%ends_step) return
       if (run%n_frames > 0) then
@@ -501,19 +478,11 @@ contains
       call add_frame(run%last, run%n_frames, history)
    end subroutine end_early
 
-   !> Where a history ended.
-   pure function ending_text(ending) result(text)
-      type(ending_t), intent(in) :: ending
-      character(len=:), allocatable :: text
-
-      text = 'ended in step '//to_text(ending%step)//', increment '//to_text(ending%increment)//', time ' &
-             //to_text(ending%time)//': '
-   end function ending_text
-
    !> Lists to their lengths, and what a careful user should know, once.
    subroutine finish(run, history)
       type(run_t), intent(inout) :: run
       type(history_t), intent(inout) :: history
+      character(len=:), allocatable :: idle
       integer(ip) :: i
 
       call trim_lists(run%n_frames, run%n_rows, run%n_iterations, history)
@@ -527,7 +496,10 @@ contains
          run%last%contraction = max(run%last%contraction, history%frames(i)%contraction)
          run%last%contraction_estimate = max(run%last%contraction_estimate, history%frames(i)%contraction_estimate)
       end do
-      call warn(run%data, run%data%last, run%last, idle_increments(run))
+      idle = ''
+      if (run%n_idle > 0) idle = run%idle//')'
+      if (run%n_idle > 1) idle = run%idle//' and '//to_text(run%n_idle - 1_ip)//' more of those printed)'
+      call warn(run%data, run%data%last, run%last, idle)
       call warn_of_pressures(run%data%model, history)
       call tell_forces(run%last%scene%pairs, run%last%contact, run%sense)
    end subroutine finish

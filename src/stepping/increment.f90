@@ -25,7 +25,7 @@ module atrito_increment
    use atrito_picard_loop, only: is_too_much
    use atrito_recovery, only: recover_contact, recover_stress, estimate_error
    use atrito_reporter, only: report_progress
-   use atrito_results, only: results_t, scene_t
+   use atrito_results, only: results_t
    use atrito_rigid_results, only: take_rigid_results
    use atrito_row_entries, only: first_motions
    use atrito_row_forces, only: share_out_rows, clear_balance, leave_out_sections
@@ -112,6 +112,7 @@ contains
       type(status_t), intent(out) :: status
       real(wp), allocatable :: u(:, :)                      ! without rigid motions, (2, n_nodes) [L]
       character(len=:), allocatable :: verdict
+      integer(ip) :: b
       logical :: again
 
       again = .true.
@@ -130,7 +131,8 @@ contains
       if (data%is_printed) call complete_results(data, results)
       call start_phase('check')
       call check_law(data%rows, data%line, max(controls%tolerance, solution%residual), results, data%fem%bodies%of_node, &
-                     growth_of_bodies(data, results%scene), data%had, solution%inner%condition)
+                     [(usual_growth(data%fem%bodies%list(b)%n, results%scene%bodies(b)%digits_lost), b=1, data%fem%bodies%n)], &
+                     data%had, solution%inner%condition)
       if (results%converged .and. .not. results%law_holds .and. data%line%n > 0) then
          call move_alloc(results%verdict, verdict)
          call judge(data, results, verdict, status)
@@ -237,18 +239,6 @@ contains
          if (data%line%tangential(j) == i) solution%t(j) = 0.0_wp
       end do
    end subroutine clear_what_is_left
-
-   !> By how much round-off grows in the displacements of each body, as far as its factorisation tells.
-   pure function growth_of_bodies(data, scene) result(growth)
-      type(scene_data_t), intent(in) :: data
-      type(scene_t), intent(in) :: scene
-      real(wp) :: growth(data%fem%bodies%n)
-      integer(ip) :: b
-
-      do b = 1, size(growth, kind=ip)
-         growth(b) = usual_growth(data%fem%bodies%list(b)%n, scene%bodies(b)%digits_lost)
-      end do
-   end function growth_of_bodies
 
    !> One rung after the other. What is found counts when it converges and its law holds; else all is as it was.
    subroutine climb(data, asked_form, controls, store, results, solution)
@@ -425,7 +415,11 @@ contains
       ! with the contact forces less those of bilateral rows that are supports
       if (data%step%requests%bodies) call sum_bodies(data%fem, results%u, data%f, results%reaction, contact, results%bodies)
       call recover_contact(data%line, data%rows, data%points, solution, results%u, results%contact)
-      call copy_history(solution, results)
+      allocate (results%iterations(0))
+      if (solution%history%n > 0) results%iterations = solution%history%records(:solution%history%n)
+      results%outer_iterations = solution%history%outer
+      results%linear_solves = max(solution%history%n, 1_ip)
+      results%contraction = solution%contraction
       call measure_sizes(data, contact, results, solution)
    end subroutine recover
 
@@ -462,16 +456,5 @@ contains
       first = first_motions(data%fem%bodies)
       sizes%motion = [(sum(abs(solution%state%a(first(b):first(b + 1) - 1))), b=1, data%fem%bodies%n)]
    end function sizes_at_points
-
-   pure subroutine copy_history(solution, results)
-      type(contact_solution_t), intent(in) :: solution
-      type(results_t), intent(inout) :: results
-
-      allocate (results%iterations(0))
-      if (solution%history%n > 0) results%iterations = solution%history%records(:solution%history%n)
-      results%outer_iterations = solution%history%outer
-      results%linear_solves = max(solution%history%n, 1_ip)
-      results%contraction = solution%contraction
-   end subroutine copy_history
 
 end module atrito_increment
