@@ -1,5 +1,7 @@
 !> The loads of a step as sums of a few: what acts at its beginning, what acts at its end, and what each amplitude multiplies.
 !>
+!>     load(t) = sum over k of factor_k(t) load_k
+!>
 !> What prescribed displacements do to the bodies, and what a load is on the contact dofs of a condensed body, are linear in the
 !> loads: both are found once in a step, for each of the few, and an increment adds them up.
 module atrito_base_loads
@@ -64,6 +66,8 @@ contains
       allocate (bases%factor(size(bases%base)), source=0.0_wp)
    end subroutine build_bases
 
+   !> The load of one base: the forces at the nodes and of the temperatures, less what its prescribed displacements do. Forces of
+   !> supports that the step does not have act at its beginning and fade.
    subroutine load_of_base(model, step, base, released, fem, load)
       type(model_t), intent(in) :: model
       type(step_t), intent(in) :: step
@@ -89,8 +93,10 @@ contains
    end subroutine load_of_base
 
    !> Applied forces and those of the temperatures less those of the prescribed displacements.
+   !>
+   !> K u_prescribed of the elements at prescribed dofs: one pass over the mesh, where any of them is not zero.
    function without_prescribed(fem, f, thermal, value) result(load)
-      type(fem_t), intent(in) :: fem
+      type(fem_t), intent(in) :: fem !< bodies and elements
       real(wp), intent(in) :: f(:, :), value(:, :)   !< (2, n_nodes) [F], [L]
       real(wp), allocatable, intent(in) :: thermal(:, :) !< [F]; not allocated: none
       real(wp), allocatable :: load(:, :), force(:, :)
@@ -119,8 +125,10 @@ contains
    end function load_of_bases
 
    !> Gives the bodies the reduced load of the time that the factors are of.
+   !>
+   !> The reduced loads of the bases are found when they are first asked for, as they belong to the factors.
    subroutine load_bodies(fem, bases, bodies)
-      type(fem_t), intent(in) :: fem
+      type(fem_t), intent(in) :: fem !< bodies and elements
       type(base_loads_t), intent(inout) :: bases
       type(condensed_body_t), intent(inout) :: bodies(:)
       integer(ip) :: b, i

@@ -38,7 +38,7 @@ contains
    !>
    !> A wall of many joints with three points each has no coarse line to speak of.
    pure logical function has_coarse_line(line)
-      type(contact_line_t), intent(in) :: line
+      type(contact_line_t), intent(in) :: line !< points, laws, average S_rho
       type(interpolation_t) :: interpolation
 
       call choose_points(line, interpolation)
@@ -46,9 +46,11 @@ contains
    end function has_coarse_line
 
    !> The coarse line and its bound-constrained QP.
+   !>
+   !> No pass over the bodies: all of it is made from C, G and g0 of the fine line, in m^2 operations for each pass.
    subroutine coarsen_line(problem, line, interpolation, coarse_problem, coarse_line)
-      type(bound_qp_t), intent(in) :: problem
-      type(contact_line_t), intent(in) :: line
+      type(bound_qp_t), intent(in) :: problem !< the QP: C, G, g0, h
+      type(contact_line_t), intent(in) :: line !< points, laws, average S_rho
       type(interpolation_t), intent(out) :: interpolation
       type(bound_qp_t), intent(out) :: coarse_problem
       type(contact_line_t), intent(out) :: coarse_line
@@ -188,6 +190,7 @@ contains
       if (allocated(problem%h_size)) coarse%h_size = problem%h_size
       coarse%weight = coarse_line%weight(coarse_line%point)
       allocate (coarse%g0(coarse%m), coarse%g(coarse%m, coarse%k), coarse%c(coarse%m, coarse%m), source=0.0_wp)
+      ! half = C R', then C_c = R half
       allocate (half(problem%m, coarse%m), source=0.0_wp)
       do i = 1, problem%m
          associate (j => line%point(i))
@@ -222,10 +225,13 @@ contains
    end function unknown_of
 
    !> States of a line from those of the nearest points of its coarse line, and the friction bound of the coarse pressure.
+   !>
+   !> A point between two coarse ones takes the state of the nearer one; the pressure between them is linear, and what is negative
+   !> counts as none.
    subroutine start_from_coarse(problem, line, interpolation, coarse_line, coarse_state, bounds, state, tau)
-      type(bound_qp_t), intent(in) :: problem
+      type(bound_qp_t), intent(in) :: problem !< the QP: C, G, g0, h
       type(contact_line_t), intent(in) :: line, coarse_line
-      type(interpolation_t), intent(in) :: interpolation
+      type(interpolation_t), intent(in) :: interpolation !< where the points lie between coarse ones
       type(box_state_t), intent(in) :: coarse_state
       type(box_bounds_t), intent(out) :: bounds
       type(box_state_t), intent(out) :: state
@@ -233,6 +239,7 @@ contains
       real(wp) :: p(line%n), coarse_pressure(coarse_line%n)
       integer(ip) :: i, j, c, u
 
+      ! all points closed at first, then the states of the nearest coarse points
       coarse_pressure = pressure_of(coarse_line, coarse_state%q)
       call normal_bounds(line, problem, bounds, state)
       state%a = coarse_state%a

@@ -56,14 +56,15 @@ contains
    !> dofs last. 2. Assembly of K. 3. Factor of the interior; the solver hands over S (get_schur), from which the factor of F^-1 is
    !> made.
    subroutine condense_body(fem, i_body, asked, body, result, status)
-      type(fem_t), intent(in) :: fem
-      integer(ip), intent(in) :: i_body
+      type(fem_t), intent(in) :: fem !< bodies and elements
+      integer(ip), intent(in) :: i_body !< its number in fem%bodies
       integer, intent(in) :: asked                 !< STORAGE_* or 0
       type(condensed_body_t), intent(out) :: body
       type(body_result_t), intent(inout) :: result
       type(status_t), intent(out) :: status
       type(profile_t) :: profile
 
+      ! a body that nothing holds and no point touches has no solution
       call check_held(fem, i_body, status)
       if (.not. is_ok(status)) return
       call start_phase('order')
@@ -91,9 +92,11 @@ contains
    end subroutine condense_body
 
    !> status: STATUS_SINGULAR when a body can move, or take a shape without strain, and no contact point touches it.
+   !>
+   !> A body that contact points touch may be held by them: that is known when the line is solved.
    subroutine check_held(fem, i_body, status)
-      type(fem_t), intent(in) :: fem
-      integer(ip), intent(in) :: i_body
+      type(fem_t), intent(in) :: fem !< bodies and elements
+      integer(ip), intent(in) :: i_body !< its number in fem%bodies
       type(status_t), intent(inout) :: status
 
       if (fem%bodies%list(i_body)%n_retained > 0 .or. fem%bodies%list(i_body)%is_touched) return
@@ -155,6 +158,8 @@ contains
    end subroutine factor_body
 
    !> What the sparse solver holds in fact, in place of what was predicted for it.
+   !>
+   !> Equal fronts are held once, so a regular mesh takes less than was predicted.
    subroutine report_fronts(solver, result)
       class(linear_solver_t), intent(in) :: solver
       type(body_result_t), intent(inout) :: result
@@ -186,6 +191,9 @@ contains
 
    !> The contact dofs are eliminated last, by the Cholesky factor; digits that their pivots lose count like those of the interior,
    !> and a pivot that is round-off alone there is none here. status: STATUS_SINGULAR then.
+   !>
+   !> The digits that an elimination loses at a pivot are log10(K_jj / pivot), the pivot being L_jj^2: what is left of the diagonal
+   !> after all others were eliminated.
    subroutine report_contact_pivots(fem, i_body, body, result, status)
       type(fem_t), intent(in) :: fem
       integer(ip), intent(in) :: i_body
@@ -232,6 +240,7 @@ contains
       if (n == 0) return
       call body%solver%get_schur(body%factor)
       if (size(fem%bodies%list(i_body)%modes, 2) > 0) then
+         ! a stiffness of the usual size for the motions, in which the forces balance
          alpha = sum([(body%factor(i, i)/n, i=1, n)])
          q = modes_at_contact(fem, i_body)
          call orthonormalise(q, n_independent, 1.0e-12_wp, info)
@@ -245,6 +254,8 @@ contains
    end subroutine factor_contact
 
    !> The rigid motions at the contact dofs, (n_retained, n_modes).
+   !>
+   !> Z restricted to the contact dofs, from which Q is made.
    function modes_at_contact(fem, i_body) result(z)
       type(fem_t), intent(in) :: fem
       integer(ip), intent(in) :: i_body
@@ -270,8 +281,8 @@ contains
    !>
    !> reduce is the forward half of the solution: L y = f in the interior, f_c - K_ci K_ii^-1 f_i at the contact dofs behind it.
    subroutine set_load(fem, i_body, f, body)
-      type(fem_t), intent(in) :: fem
-      integer(ip), intent(in) :: i_body
+      type(fem_t), intent(in) :: fem !< bodies and elements
+      integer(ip), intent(in) :: i_body !< its number in fem%bodies
       real(wp), intent(in) :: f(:, :)              !< (2, n_nodes) [F]
       type(condensed_body_t), intent(inout) :: body
       integer(ip) :: i, dof, equation
@@ -293,7 +304,7 @@ contains
 
    !> F times forces at the contact dofs, in place.
    subroutine contact_response(body, x)
-      type(condensed_body_t), intent(in) :: body
+      type(condensed_body_t), intent(in) :: body !< factored
       real(wp), intent(inout), contiguous :: x(:, :) !< (n_retained, loads): forces [F] in, displacements [L] out
 
       call solve_cholesky(body%factor, x)
@@ -301,7 +312,7 @@ contains
 
    !> Adds B F B' to C for rows B on the contact dofs.
    subroutine add_flexibilities(body, forces, first, place, c)
-      type(condensed_body_t), intent(in) :: body
+      type(condensed_body_t), intent(in) :: body !< factored
       real(wp), intent(inout), contiguous :: forces(:, :) !< (n_retained, rows) B'; destroyed
       integer(ip), intent(in) :: first(:)          !< (rows) first entry of each that is not zero, ascending
       integer(ip), intent(in) :: place(:)          !< (rows) of each in C
@@ -314,9 +325,9 @@ contains
    !>
    !> The backward half: the interior from y and the displacements of the contact dofs.
    subroutine expand_body(fem, i_body, body, u_contact, u)
-      type(fem_t), intent(in) :: fem
-      integer(ip), intent(in) :: i_body
-      type(condensed_body_t), intent(in) :: body
+      type(fem_t), intent(in) :: fem !< bodies and elements
+      integer(ip), intent(in) :: i_body !< its number in fem%bodies
+      type(condensed_body_t), intent(in) :: body !< factored
       real(wp), intent(in) :: u_contact(:)         !< (n_retained) [L]
       real(wp), intent(inout) :: u(:, :)           !< (2, n_nodes) [L]: the free dofs of this body are set
       real(wp), allocatable :: x(:, :)

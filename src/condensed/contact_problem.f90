@@ -39,9 +39,9 @@ contains
    !> and hard contact asks for them to be admissible. Rows that a support takes the force of (rows%is_held) have none either.
    pure subroutine build_line(model, fem, points, rows, value, line)
       type(model_t), intent(in) :: model
-      type(fem_t), intent(in) :: fem
+      type(fem_t), intent(in) :: fem !< bodies and elements
       type(contact_points_t), intent(in) :: points(:)
-      type(contact_rows_t), intent(in) :: rows
+      type(contact_rows_t), intent(in) :: rows !< of all points, over nodes
       real(wp), intent(in) :: value(:, :)            !< (2, n_nodes) prescribed displacements [L]
       type(contact_line_t), intent(out) :: line
       logical :: normal_row(rows%n), tangential_row(rows%n)
@@ -61,6 +61,7 @@ contains
             first = last
          end associate
       end do
+      ! S_rho as a matrix of the points: W
       call average_surfaces(points, average_rules(model), line%average)
       if (line%n_bilateral > 0) call append_bilateral(model%bilateral, size(points, kind=ip), line)
       do j = 1, line%n
@@ -72,6 +73,9 @@ contains
    end subroutine build_line
 
    !> The rows behind the points: without friction, their average their own force.
+   !>
+   !> A tie, an equation, a support or a spring is a row with a normal force of either sign; delta/weight is its compliance [L/F],
+   !> so that the law of contact p = (overlap)/delta serves it.
    pure subroutine append_bilateral(bilateral, n_pairs, line)
       type(bilateral_rows_t), intent(in) :: bilateral
       integer(ip), intent(in) :: n_pairs
@@ -146,8 +150,10 @@ contains
 
    !> What the contact line knows of points whose dofs are prescribed. No slip is what round-off leaves of the displacements: those
    !> that are prescribed now, and those of before, from which a support may begin.
+   !>
+   !> known_overlap: u_n - gap of the prescribed displacements. known_slip: their u_T. noise: round-off of it, which is no slip.
    pure subroutine set_known_points(rows, value, line)
-      type(contact_rows_t), intent(in) :: rows
+      type(contact_rows_t), intent(in) :: rows !< of all points, over nodes
       real(wp), intent(in) :: value(:, :)            !< (2, n_nodes) prescribed displacements [L]
       type(contact_line_t), intent(inout) :: line
       integer(ip) :: j
@@ -168,11 +174,11 @@ contains
    !> dofs, B_b F_b B_b', so C_ij is the displacement of point i along its row by a unit force at point j, summed over the bodies
    !> that both touch.
    subroutine build_flexibility(fem, condensed, b, rows, line, problem)
-      type(fem_t), intent(in) :: fem
-      type(condensed_body_t), intent(in) :: condensed(:)
+      type(fem_t), intent(in) :: fem !< bodies and elements
+      type(condensed_body_t), intent(in) :: condensed(:) !< (bodies) factored
       type(constraint_rows_t), intent(in) :: b       !< of the unknowns over displacements (build_constraint_rows)
-      type(contact_rows_t), intent(in) :: rows
-      type(contact_line_t), intent(in) :: line
+      type(contact_rows_t), intent(in) :: rows !< of all points, over nodes
+      type(contact_line_t), intent(in) :: line !< points, laws, average S_rho
       type(bound_qp_t), intent(out) :: problem
       integer(ip) :: motions(fem%bodies%n + 1), before, i
 
@@ -197,11 +203,11 @@ contains
    !> g0 of a normal row is the overlap without contact forces, less the gap: positive where bodies would penetrate. g0 of a
    !> tangential row is the slip without contact forces, less the rest slip of a law with memory.
    subroutine set_right_hand_sides(fem, condensed, b, rows, line, value, f, problem)
-      type(fem_t), intent(in) :: fem
+      type(fem_t), intent(in) :: fem !< bodies and elements
       type(condensed_body_t), intent(in) :: condensed(:) !< with their loads
       type(constraint_rows_t), intent(in) :: b       !< of the unknowns over displacements
-      type(contact_rows_t), intent(in) :: rows
-      type(contact_line_t), intent(in) :: line
+      type(contact_rows_t), intent(in) :: rows !< of all points, over nodes
+      type(contact_line_t), intent(in) :: line !< points, laws, average S_rho
       real(wp), intent(in) :: value(:, :)            !< (2, n_nodes) prescribed displacements [L]
       real(wp), intent(in) :: f(:, :)                !< (2, n_nodes) applied forces [F]
       type(bound_qp_t), intent(inout) :: problem     !< with C and G
@@ -274,6 +280,7 @@ contains
             if (b%column(k) > before) first(j) = min(first(j), b%column(k) - before)
          end do
       end do
+      ! rows of this body alone, in the order of their first dof
       order = places_in_order(first, n)
       place = 0
       place(order) = [(j, j=1, size(order, kind=ip))]
@@ -289,6 +296,8 @@ contains
    end subroutine add_flexibility
 
    !> The places of the values from 1 to n, in ascending order of the values.
+   !>
+   !> A counting sort: next(v) is the place of the next value v. Values beyond n have no place.
    pure function places_in_order(value, n) result(order)
       integer(ip), intent(in) :: value(:), n
       integer(ip), allocatable :: order(:)
@@ -312,6 +321,8 @@ contains
 
    !> The rigid motions of all bodies at the points: G = B Z. Motions are of size one: what is below rounding of that is no motion,
    !> nor is one that no point sees but for the rounding of coordinates that supports allow it by (find_rigid_modes).
+   !>
+   !> G_ij is what motion j makes of the overlap or slip of row i. Z is zero at dofs that are held.
    subroutine add_motions(fem, rows, line, first, g)
       type(fem_t), intent(in) :: fem
       type(contact_rows_t), intent(in) :: rows

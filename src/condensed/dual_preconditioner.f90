@@ -61,7 +61,7 @@ contains
    !> n^3/3. Where few unknowns differ the eigenvalues of P^-1 M are 1 but for as many, and conjugate gradients end after about as
    !> many steps.
    subroutine solve_with_kept(factor, c, system, q, a, solved)
-      type(free_set_factor_t), intent(inout) :: factor
+      type(free_set_factor_t), intent(inout) :: factor !< of the last solve
       real(wp), intent(in), contiguous :: c(:, :) !< (m, m) [L/F]
       type(free_system_t), intent(in) :: system
       real(wp), intent(inout) :: q(:)            !< (n) scaled
@@ -122,6 +122,9 @@ contains
    end subroutine find_complement
 
    !> P^-1 G and the inverse of G' P^-1 G, where the set holds all motions.
+   !>
+   !> A motion that is held weakly (an eigenvalue below WEAKLY_HELD) is decided on by digits that P does not have: a factor of its
+   !> own.
    subroutine prepare_motions(factor, system, p, held)
       type(free_set_factor_t), intent(in) :: factor
       type(free_system_t), intent(in) :: system
@@ -170,6 +173,8 @@ contains
    end subroutine correct
 
    !> r, and the size of what it is the difference of.
+   !>
+   !> All in the scaled unknowns; the product with C goes through the whole matrix.
    subroutine find_residual(c, system, found, terms)
       real(wp), intent(in), contiguous :: c(:, :)
       type(free_system_t), intent(in) :: system
@@ -208,6 +213,7 @@ contains
          if (now <= enough) return
          if (step >= 2*FEW_STEPS .and. is_slow(step, most, enough, begin, now)) return
          call apply_inverse(factor, p%relation, found%r, z)
+         ! projection onto forces that balance nothing: G' z = 0
          db = -matmul(p%inverse, matmul(transpose(system%g), z))
          z = z + matmul(p%y, db)
          found%r = found%r + matmul(system%g, db)
@@ -215,6 +221,7 @@ contains
          rz = dot_product(found%r, z)
          direction = z + (rz/last_rz)*direction
          product = scaled_product(c, system, direction)
+         ! p' M p beside p' p: below LEAST_CURVATURE rows depend on each other
          curvature = dot_product(direction, product)
          if (.not. (rz > 0.0_wp .and. curvature > LEAST_CURVATURE*dot_product(direction, direction))) return
          found%x = found%x + (rz/curvature)*direction

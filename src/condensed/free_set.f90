@@ -50,9 +50,9 @@ contains
    !> Solves for the free unknowns, the others fixed at state%q; sets state%q, a, r, slack. outcome%moves: no equilibrium, and a is
    !> the least motion that satisfies the rest. status: STATUS_SINGULAR when rows depend on each other (outcome%dependent).
    subroutine solve_free_set(problem, d, state, outcome, status, factor)
-      type(bound_qp_t), intent(in) :: problem
+      type(bound_qp_t), intent(in) :: problem !< the QP: C, G, g0, h
       real(wp), intent(in) :: d(:)               !< (m) [L/F]
-      type(box_state_t), intent(inout) :: state
+      type(box_state_t), intent(inout) :: state !< states of the m unknowns, q, a, r
       type(box_outcome_t), intent(out) :: outcome !< solved is left to the caller, condition to condition_of
       type(status_t), intent(out) :: status
       type(free_set_factor_t), intent(inout) :: factor !< of an earlier solve, which serves again where it can, or of this one
@@ -60,6 +60,7 @@ contains
       real(wp), allocatable :: held(:), q(:)
       logical :: solved
 
+      ! the free unknowns as they are now are where an iteration with the factor of an earlier set begins
       call free_system(problem, d, state, held, system)
       q = state%q(system%set)/system%scale
       solved = .false.
@@ -98,6 +99,7 @@ contains
       if (any(held /= 0.0_wp)) call multiply_symmetric(problem%c, held, moved)
       system%rhs = (problem%g0(system%set) - moved(system%set))*system%scale
       if (allocated(state%shift)) system%rhs = system%rhs + state%shift(system%set)*system%scale
+      ! what the free forces have to balance: h - G_X' q_X
       system%load = problem%h - matmul(transpose(problem%g), held)
       system%g = problem%g(system%set, :)
       do i = 1, size(system%set, kind=ip)
@@ -122,9 +124,11 @@ contains
       real(wp), allocatable :: y(:, :), x(:), correction(:), da(:)
 
       associate (gs => system%g, rhs => system%rhs, load => system%load)
+         ! the complement of the motions
          y = gs
          call solve_cholesky(factor, y)
          call find_complement(gs, y, complement)
+         ! the forces without motions, then the motions that make them balance
          x = rhs
          call solve_cholesky(factor, x)
          call solve_motions(complement, load - matmul(transpose(gs), x), a)
@@ -161,6 +165,9 @@ contains
    !> Whether the load works on a motion that the free set does not hold: then outcome%moves. The load is measured by the forces of
    !> the solution on the bodies that move, and by what was cancelled in it; those before the bodies have moved to where they touch
    !> may be larger by any factor, and say nothing.
+   !>
+   !> v is a null vector of S in the amplitudes of the motions. Its work h'v - q_X'G v is that of the loads and of the fixed forces;
+   !> free ones have no part, as G_F v = 0. hardly: it is LITTLE_LOAD of its terms, and a body that nothing stops may as well rest.
    subroutine judge_motions(problem, complement, system, held, q, a, outcome)
       type(bound_qp_t), intent(in) :: problem
       type(complement_t), intent(in) :: complement
@@ -211,6 +218,8 @@ contains
    end function size_of_load
 
    !> The force [F] that each unknown alone would need to undo what its displacement is made of.
+   !>
+   !> |g0_i| + |(G a)_i| over C_ii + D_i: displacements that are large beside the elastic ones leave that round-off in forces.
    pure function forces_of_places(problem, system, a) result(force)
       type(bound_qp_t), intent(in) :: problem
       type(free_system_t), intent(in) :: system
@@ -230,9 +239,9 @@ contains
    !> r is the gap of an open point (with the sign of an overlap), the slip against the friction of a slipping one, and zero but for
    !> round-off where the unknown is free. One product with C.
    subroutine set_residual(problem, d, state)
-      type(bound_qp_t), intent(in) :: problem
+      type(bound_qp_t), intent(in) :: problem !< the QP: C, G, g0, h
       real(wp), intent(in) :: d(:)
-      type(box_state_t), intent(inout) :: state
+      type(box_state_t), intent(inout) :: state !< states of the m unknowns, q, a, r
       real(wp) :: cq(problem%m), moved(problem%m)
 
       call multiply_symmetric(problem%c, state%q, cq)
@@ -245,8 +254,8 @@ contains
    !> Round-off of one r, of the terms that it is made of [L]: a fixed unknown is released when r is wrong by more. Rows of stiff
    !> bodies beside soft ones have far less of it than state%slack.
    pure real(wp) function row_round_off(problem, state, i) result(slack)
-      type(bound_qp_t), intent(in) :: problem
-      type(box_state_t), intent(in) :: state
+      type(bound_qp_t), intent(in) :: problem !< the QP: C, G, g0, h
+      type(box_state_t), intent(in) :: state !< states of the m unknowns, q, a, r
       integer(ip), intent(in) :: i
       integer(ip) :: j
 
@@ -293,9 +302,9 @@ contains
 
    !> Forces that are what refinement leaves of none become none.
    pure subroutine clear_vanishing(problem, d, state)
-      type(bound_qp_t), intent(in) :: problem
+      type(bound_qp_t), intent(in) :: problem !< the QP: C, G, g0, h
       real(wp), intent(in) :: d(:)               !< (m) [L/F]
-      type(box_state_t), intent(inout) :: state
+      type(box_state_t), intent(inout) :: state !< states of the m unknowns, q, a, r
       integer(ip) :: i
 
       do i = 1, problem%m
@@ -304,10 +313,12 @@ contains
    end subroutine clear_vanishing
 
    !> Whether a force is what refinement leaves of none.
+   !>
+   !> A solve leaves round-off of a force that is none, its refinement the square of that.
    pure logical function is_vanishing(problem, d, state, i)
-      type(bound_qp_t), intent(in) :: problem
+      type(bound_qp_t), intent(in) :: problem !< the QP: C, G, g0, h
       real(wp), intent(in) :: d(:)               !< (m) [L/F]
-      type(box_state_t), intent(in) :: state
+      type(box_state_t), intent(in) :: state !< states of the m unknowns, q, a, r
       integer(ip), intent(in) :: i
 
       ! a place may be met exactly by a force that is none
@@ -322,9 +333,11 @@ contains
    end function largest
 
    !> Fixed unknowns take the values of their bounds.
+   !>
+   !> So the forces q_X of a solve are those of the states, whatever they were before.
    pure subroutine put_at_bounds(bounds, state)
-      type(box_bounds_t), intent(in) :: bounds
-      type(box_state_t), intent(inout) :: state
+      type(box_bounds_t), intent(in) :: bounds !< of the m forces [F], and their D [L/F]
+      type(box_state_t), intent(inout) :: state !< states of the m unknowns, q, a, r
 
       where (state%state == AT_LOWER) state%q = bounds%lower
       where (state%state == AT_UPPER) state%q = bounds%upper

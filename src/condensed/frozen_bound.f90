@@ -33,10 +33,10 @@ contains
    !> The state of the last bound is where the active set begins: near the fixed point no state changes and one linear solve does.
    !> HUGE_REAL as a bound means that the point cannot slip.
    subroutine solve_with_bound(problem, line, tau, solution, image, status)
-      type(bound_qp_t), intent(in) :: problem
-      type(contact_line_t), intent(in) :: line
+      type(bound_qp_t), intent(in) :: problem !< the QP: C, G, g0, h
+      type(contact_line_t), intent(in) :: line !< points, laws, average S_rho
       real(wp), intent(in) :: tau(:)                  !< (n) [F/L^2]; HUGE_REAL: no bound
-      type(contact_solution_t), intent(inout) :: solution
+      type(contact_solution_t), intent(inout) :: solution !< with a state to start from
       real(wp), intent(out) :: image(:)               !< (n) [F/L^2]
       type(status_t), intent(out) :: status
 
@@ -56,6 +56,7 @@ contains
          end if
       end if
       if (.not. is_ok(status)) return
+      ! what is round-off becomes nothing, so that no state depends on it
       call clear_vanishing(problem, solution%bounds%d, solution%state)
       if (solution%inner%solved) then
          ! with rows the factor is not that of the free set
@@ -85,6 +86,7 @@ contains
       associate (n => problem%n_normal)
          state = solution%state
          do round = 1, MOST_ROUNDS
+            ! closed points of contact (not bilateral rows) with a tension, however small
             pulled = state%state(:n) == FREE .and. state%q(:n) < 0.0_wp .and. solution%bounds%lower(:n) > -HUGE_REAL
             if (.not. any(pulled)) exit
             where (pulled)
@@ -101,6 +103,9 @@ contains
 
    !> Forces of a pair that are round-off become none: at all its points what round-off of the displacements there may do, and far
    !> below the loads of the bodies that they hold. (A body without load between loaded ones has such forces.)
+   !>
+   !> Where a body without load lies between loaded ones, rounding of their displacements presses it. Such forces have no meaning,
+   !> but they have states and friction, which would turn to and fro. Scenes of one pair have nothing to compare with, and keep all.
    subroutine clear_noise(problem, line, solution)
       type(bound_qp_t), intent(in) :: problem
       type(contact_line_t), intent(in) :: line

@@ -39,15 +39,16 @@ contains
    !> Goes on from state%state until all conditions hold (outcome%solved), there is no equilibrium (outcome%moves), or there were
    !> too many solves.
    subroutine take_goldfarb_idnani_steps(problem, bounds, state, history, outcome, status, factor)
-      type(bound_qp_t), intent(in) :: problem
-      type(box_bounds_t), intent(in) :: bounds
-      type(box_state_t), intent(inout) :: state
-      type(solve_history_t), intent(inout) :: history
-      type(box_outcome_t), intent(out) :: outcome
+      type(bound_qp_t), intent(in) :: problem !< the QP: C, G, g0, h
+      type(box_bounds_t), intent(in) :: bounds !< of the m forces [F], and their D [L/F]
+      type(box_state_t), intent(inout) :: state !< states of the m unknowns, q, a, r
+      type(solve_history_t), intent(inout) :: history !< every linear solve is added
+      type(box_outcome_t), intent(out) :: outcome !< solved, moves, or neither
       type(status_t), intent(out) :: status
-      type(free_set_factor_t), intent(inout) :: factor
+      type(free_set_factor_t), intent(inout) :: factor !< of the last solve
       integer(ip) :: left, worst, i
 
+      ! far more than is ever needed: each unknown is driven once or twice
       left = SOLVES_PER_UNKNOWN*problem%m + 50
       call release_until_right(problem, bounds, state, history, outcome, left, status, factor)
       do while (is_ok(status) .and. left > 0 .and. .not. outcome%moves)
@@ -83,6 +84,7 @@ contains
       integer(ip) :: i, released, first
 
       do while (left > 0)
+         ! the exact solution for the present set
          call put_at_bounds(bounds, state)
          call solve_free_set(problem, bounds%d, state, outcome, status, factor)
          left = left - 1
@@ -96,6 +98,7 @@ contains
          end do
          if (released > 0) cycle
          if (.not. outcome%moves) return
+         ! all multipliers are right, and a body moves: to the first point that stops it
          call find_first_reached(problem, state, outcome%motion, first, t)
          if (first == 0) then
             call rest(outcome)
@@ -107,6 +110,10 @@ contains
    end subroutine release_until_right
 
    !> (ii) and (iii) for one unknown.
+   !>
+   !> Ends with the unknown at its bound, or with a body that nothing stops. Each pass of the loop is one solve: the target for the
+   !> present states; then either all of the way (first = 0), or up to the first multiplier that vanishes, whose unknown is
+   !> released.
    subroutine drive_to_bound(problem, bounds, state, history, outcome, left, status, factor)
       type(bound_qp_t), intent(in) :: problem
       type(box_bounds_t), intent(in) :: bounds
@@ -251,8 +258,11 @@ contains
    end subroutine first_crossing
 
    !> The motion, in the direction that gives the driven unknown's multiplier its sign.
+   !>
+   !> The null motion of a set of states has no sign. r_i of the driven unknown, which stands at its bound, must move to the side on
+   !> which its state is right.
    pure function opening_motion(problem, i, bound, motion) result(directed)
-      type(bound_qp_t), intent(in) :: problem
+      type(bound_qp_t), intent(in) :: problem !< the QP: C, G, g0, h
       integer(ip), intent(in) :: i, bound
       real(wp), intent(in) :: motion(:)
       real(wp) :: directed(size(motion))

@@ -65,6 +65,7 @@ contains
       scale = sqrt(weight)
       do i = 1, size(first, kind=ip) - 1
          associate (own => member(first(i):first(i + 1) - 1))
+            ! before and after: what is shared may be at a bound first and between its bounds then
             call extract_component(rows, own, scale, bounds, state%q, component)
             call find_shared(component, shared)
             if (.not. any(shared)) cycle
@@ -114,6 +115,8 @@ contains
    end subroutine extract_component
 
    !> Each dof's entries to length one: the same A y, better conditioned.
+   !>
+   !> Scaling an equation of A y = const changes nothing but its weight in the least squares.
    pure subroutine scale_columns(component)
       type(component_t), intent(inout) :: component
       real(wp) :: length(component%k)
@@ -158,6 +161,9 @@ contains
    end subroutine shorten
 
    !> How far y can go towards y - along within the bounds, and the row that ends it; 0: none does.
+   !>
+   !> 1 where nothing is in the way. Rows whose part is round-off of the largest y do not move, and a bound that is reached but for
+   !> round-off is reached at the step before.
    pure subroutine longest_step(component, free, along, step, first)
       type(component_t), intent(in) :: component
       logical, intent(in) :: free(:)
@@ -256,6 +262,7 @@ contains
       along = merge(y, 0.0_wp, free)
       s = product_of(component, along)
       begin = norm2(s)
+      ! begun anew once, from a residual without the round-off of the recurrence
       do round = 1, 2
          p = s
          last = norm2(s)
@@ -306,6 +313,9 @@ contains
 
    !> Rows that can change with A y as it is: those between their bounds among themselves, and each row at a bound with them. (Of
    !> many rows all at bounds are asked at once, which may name some that can only leave their bounds the wrong way.)
+   !>
+   !> A row between its bounds is shared where the null space of the free rows touches it. A row at a bound may be shared, too, if
+   !> others would let it leave: so each is asked with the free ones, by itself, since two at bounds may need opposite ways.
    subroutine find_shared(component, shared)
       type(component_t), intent(in) :: component
       logical, allocatable, intent(out) :: shared(:)

@@ -19,6 +19,8 @@ module atrito_loop_progress
 contains
 
    !> An iteration has this residual.
+   !>
+   !> Halving, and not any decrease, is asked for: a residual that is round-off still falls now and then.
    pure subroutine note_residual(progress, outer, residual)
       type(loop_progress_t), intent(inout) :: progress
       integer(ip), intent(in) :: outer               !< its number
@@ -31,7 +33,7 @@ contains
 
    !> One line an iteration: its number, linear solves, states of the points, and what the loop has to say besides.
    subroutine report_step(reporter, word, outer, history, more, rest)
-      type(reporter_t), intent(in) :: reporter
+      type(reporter_t), intent(in) :: reporter !< a line an iteration
       character(len=*), intent(in) :: word           !< outer, step
       integer(ip), intent(in) :: outer
       type(solve_history_t), intent(in) :: history   !< with the solves of the iteration

@@ -33,11 +33,19 @@ contains
 
    !> Iterates from the present state until nothing changes, or max_iterations. solution%converged says how it ended; a singular
    !> Jacobian ends it.
+   !>
+   !>     1. tau and D of the present forces, the active rows
+   !>     2. the Jacobian and the residual, one LU
+   !>     3. q, a; then tau, D, r of the new forces
+   !>     4. states change where r, q and tau ask for it (change_states of the active set)
+   !>
+   !> Converged: no state has changed, and the forces by no more than the tolerance or round-off (has_settled). Slipping forces are
+   !> then put at their bounds to the last digit.
    subroutine iterate_newton(problem, line, controls, solution)
-      type(bound_qp_t), intent(in) :: problem
-      type(contact_line_t), intent(in) :: line
-      type(controls_t), intent(in) :: controls
-      type(contact_solution_t), intent(inout) :: solution
+      type(bound_qp_t), intent(in) :: problem !< the QP: C, G, g0, h
+      type(contact_line_t), intent(in) :: line !< points, laws, average S_rho
+      type(controls_t), intent(in) :: controls !< method, tolerance, MAXIT
+      type(contact_solution_t), intent(inout) :: solution !< with a state to start from
       real(wp), allocatable :: jacobian(:, :), rhs(:), scale(:)
       integer(ip), allocatable :: active(:)
       integer(ip) :: iteration, info, changes, i
@@ -89,6 +97,8 @@ contains
    end subroutine iterate_newton
 
    !> d tau_j / d q of the active unknowns: nu W_jk / w_k of the pressures.
+   !>
+   !> Pressures of open points are zero and stay so: they are no active unknowns, and have no part.
    pure function bound_slope(problem, line, active, j) result(slope)
       type(bound_qp_t), intent(in) :: problem
       type(contact_line_t), intent(in) :: line
@@ -132,12 +142,14 @@ contains
 
       n = size(active, kind=ip)
       allocate (jacobian(n + problem%k, n + problem%k), rhs(n + problem%k), source=0.0_wp)
+      ! a unit diagonal of C + D, and columns of the motions whose largest entry is one
       scale = force_scale(problem, solution, active)
       motion_scale = scale_of_motions(problem, active, scale)
       r = problem%g0 - matmul(problem%c, solution%state%q) - solution%bounds%d*solution%state%q &
           + matmul(problem%g, solution%state%a)
       do row = 1, n
          i = active(row)
+         ! closed or sticking: r = 0; slipping: q at its bound
          if (solution%state%state(i) == FREE) then
             call stick_row(problem, line, solution, active, row, jacobian(row, :n))
             jacobian(row, :n) = jacobian(row, :n)*scale*scale(row)
@@ -152,6 +164,7 @@ contains
       do column = 1, n
          jacobian(n + 1:, column) = problem%g(active(column), :)*scale(column)*motion_scale
       end do
+      ! the balance of the bodies, scaled like the motions so that the matrix is nearly antisymmetric there
       rhs(n + 1:) = (problem%h - matmul(transpose(problem%g), solution%state%q))*motion_scale
    end subroutine build_system
 
@@ -179,6 +192,9 @@ contains
    end function scale_of_motions
 
    !> -dr/dq of a closed or sticking point: C + D, and for the law of Oden and Pires -q D'(tau) dtau/dq.
+   !>
+   !> Minus, since the system is solved for the change that makes r vanish: (C + D) dq - G da = r. For NONLOCAL D = eps/(w tau), so
+   !> dD/dq = -D/tau dtau/dq.
    pure subroutine stick_row(problem, line, solution, active, row, jacobian)
       type(bound_qp_t), intent(in) :: problem
       type(contact_line_t), intent(in) :: line
@@ -196,6 +212,8 @@ contains
    end subroutine stick_row
 
    !> q - sign w tau(q) = 0 of a slipping point.
+   !>
+   !> dq_t -+ w dtau = +-w tau - q_t: the only rows in which pressures move the friction.
    pure subroutine slip_row(problem, line, solution, active, row, jacobian, rhs)
       type(bound_qp_t), intent(in) :: problem
       type(contact_line_t), intent(in) :: line

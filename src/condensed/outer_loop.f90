@@ -37,6 +37,8 @@ module atrito_outer_loop
    real(wp), parameter :: LEAST_EASING = 1.0e-3_wp
 
    !> Where a loop begins.
+   !>
+   !> The first bound, and the states with their bounds and forces from which the first QP starts.
    type :: start_t
       real(wp), allocatable :: tau(:)
       type(box_bounds_t) :: bounds
@@ -52,11 +54,11 @@ contains
    !> The order: coarse start, where the line is long and the method is the usual one; the plain start, where that was not tried or
    !> led nowhere; in the end the condition of the last matrix, for W-DIGITS.
    subroutine solve_contact_line(problem, line, controls, reporter, solution, status, rows)
-      type(bound_qp_t), intent(in), target :: problem
-      type(contact_line_t), intent(in), target :: line
-      type(controls_t), intent(in) :: controls
-      type(reporter_t), intent(in) :: reporter
-      type(contact_solution_t), intent(out) :: solution
+      type(bound_qp_t), intent(in), target :: problem !< the QP: C, G, g0, h
+      type(contact_line_t), intent(in), target :: line !< points, laws, average S_rho
+      type(controls_t), intent(in) :: controls !< method, tolerance, MAXIT
+      type(reporter_t), intent(in) :: reporter !< a line an iteration
+      type(contact_solution_t), intent(out) :: solution !< states, forces, stresses, verdict
       type(status_t), intent(out) :: status
       type(constraint_rows_t), intent(in), optional :: rows !< of the unknowns: they may depend on each other
 
@@ -75,11 +77,11 @@ contains
    !>
    !> The rate that was measured before counts as well: a loop that begins at its end has few steps to measure it by.
    subroutine continue_contact_line(problem, line, controls, reporter, solution, status)
-      type(bound_qp_t), intent(in), target :: problem
-      type(contact_line_t), intent(in), target :: line
-      type(controls_t), intent(in) :: controls
-      type(reporter_t), intent(in) :: reporter
-      type(contact_solution_t), intent(inout) :: solution
+      type(bound_qp_t), intent(in), target :: problem !< the QP: C, G, g0, h
+      type(contact_line_t), intent(in), target :: line !< points, laws, average S_rho
+      type(controls_t), intent(in) :: controls !< method, tolerance, MAXIT
+      type(reporter_t), intent(in) :: reporter !< a line an iteration
+      type(contact_solution_t), intent(inout) :: solution !< with a state to start from
       type(status_t), intent(out) :: status
       type(anderson_t) :: anderson
       real(wp) :: tau(line%n), contraction
@@ -100,6 +102,8 @@ contains
 
    !> Begins where the line's coarse line ends. Whatever does not go well on the way leaves solution%converged false, and the caller
    !> begins anew.
+   !>
+   !> The coarse QP is made and solved, in the same way; states and bound are carried over, and the loop goes on with all points.
    recursive subroutine solve_from_coarse(task, solution, status)
       type(line_task_t), intent(in) :: task
       type(contact_solution_t), intent(out) :: solution
@@ -122,6 +126,8 @@ contains
    end subroutine solve_from_coarse
 
    !> The loop; without friction there is none, and one QP is the solution.
+   !>
+   !> Without friction the one QP begins from the states that are given.
    subroutine iterate_where_friction(task, anderson, tau, solution, status)
       type(line_task_t), intent(in) :: task
       type(anderson_t), intent(inout) :: anderson
@@ -229,6 +235,7 @@ contains
       none = 0.0_wp
       call solve_with_bound(problem, line, none, solution, tau, status)
       if (.not. is_ok(status)) return
+      ! friction alone may hold the body: all points closed, and stuck without a bound
       if (solution%inner%moves .and. line%has_friction) then
          call normal_bounds(line, problem, solution%bounds, solution%state)
          where (line%tangential > 0) none = HUGE_REAL
@@ -276,10 +283,12 @@ contains
       eased = task
       eased%line => line
       last = start_t(LARGEST_FACTOR*tau, solution%bounds, solution%state)
+      ! s > 1: not yet a solution; the first step is to find one with LARGEST_FACTOR times the friction
       s = 1.0_wp + FIRST_EASING
       step = FIRST_EASING
       do while (s > 0.0_wp)
          bound = last%tau
+         ! the bound goes with the coefficient, as a first guess
          if (s <= 1.0_wp) bound = bound*LARGEST_FACTOR**(max(s - step, 0.0_wp) - s)
          line%law%nu = task%line%law%nu*LARGEST_FACTOR**max(s - step, 0.0_wp)
          call solve_near(eased, s <= 1.0_wp, last, bound, solution, status)

@@ -15,6 +15,8 @@ module atrito_problem
    private
    public :: problem_t, free_load
 
+   !> What an increment is made of. The first group is the problem; the second is what the increments of a history hand on, and is
+   !> empty where an increment stands alone.
    type :: problem_t
       type(reporter_t) :: reporter = reporter_t(quiet=.true.)
       type(fem_t) :: fem                                    !< bodies and elements
@@ -39,7 +41,7 @@ contains
    !> Applied forces and those of the temperatures less those of the prescribed displacements. The temperatures' are in balance in
    !> every element, so they have no part in what moves a body: whoever sums forces takes problem%f alone.
    function free_load(problem) result(load)
-      class(problem_t), intent(in) :: problem
+      class(problem_t), intent(in) :: problem !< the increment
       real(wp), allocatable :: load(:, :)                   !< (2, n_nodes) [F]
 
       if (allocated(problem%bases)) then

@@ -37,14 +37,17 @@ module atrito_proximal
 contains
 
    !> Solves from the given state. outcome%solved is false where the rounds do not come to an end.
+   !>
+   !> Ends where the change of the displacements, s c |q - q'|, is round-off of r, or where forces no longer come nearer and change
+   !> by SMALL_CHANGE alone: along a null space they may drift by round-off for ever.
    subroutine solve_box_proximal(problem, bounds, state, history, outcome, status, factor, rows)
-      type(bound_qp_t), intent(in) :: problem
-      type(box_bounds_t), intent(in) :: bounds
-      type(box_state_t), intent(inout) :: state
-      type(solve_history_t), intent(inout) :: history
-      type(box_outcome_t), intent(out) :: outcome
+      type(bound_qp_t), intent(in) :: problem !< the QP: C, G, g0, h
+      type(box_bounds_t), intent(in) :: bounds !< of the m forces [F], and their D [L/F]
+      type(box_state_t), intent(inout) :: state !< states of the m unknowns, q, a, r
+      type(solve_history_t), intent(inout) :: history !< every linear solve is added
+      type(box_outcome_t), intent(out) :: outcome !< solved, moves, or neither
       type(status_t), intent(out) :: status
-      type(free_set_factor_t), intent(inout) :: factor
+      type(free_set_factor_t), intent(inout) :: factor !< of the last solve
       type(constraint_rows_t), intent(in), optional :: rows !< of the unknowns; without them there are no least forces
       type(box_bounds_t) :: near
       real(wp) :: c(problem%m), q(problem%m), share, change, last

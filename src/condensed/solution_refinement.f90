@@ -55,8 +55,8 @@ contains
    !> to 1e-9 where near elements are near, so one or two steps do. A body that is so slender that the last digits of its nodes
    !> matter makes more than TOO_MUCH of them: then K~ is no approximation of K.
    subroutine refine_solution(problem, controls, bodies, rows, qp, solution, u)
-      class(problem_t), intent(in) :: problem
-      type(controls_t), intent(in) :: controls
+      class(problem_t), intent(in) :: problem !< the increment
+      type(controls_t), intent(in) :: controls !< method, tolerance, MAXIT
       type(condensed_body_t), intent(inout) :: bodies(:)  !< as they were, on return
       type(constraint_rows_t), intent(in) :: rows       !< of the unknowns over displacements
       type(bound_qp_t), intent(inout) :: qp
@@ -76,6 +76,7 @@ contains
       now%contact = contact_forces(problem%fem, problem%rows, problem%line, solution)
       last_share = HUGE_REAL
       do step = 1, MOST_STEPS
+         ! r = f - B'q - K u, and its share of the largest force
          call find_residual(problem, now, share)
          is_right = share <= TOO_MUCH
          if (.not. is_right .or. share <= ENOUGH .or. share > FALLS*last_share) exit
@@ -96,6 +97,8 @@ contains
    end subroutine refine_solution
 
    !> f - B'q - K u at the free dofs, 0 at the others; and its largest entry over the largest force.
+   !>
+   !> By the stiffness of each element, at the price of a pass over the mesh; reactions count as forces, not as residuals.
    subroutine find_residual(problem, now, share)
       class(problem_t), intent(in) :: problem
       type(state_t), intent(inout) :: now

@@ -14,6 +14,20 @@
 !>        (atrito_outer_loop, atrito_picard_loop).
 !>     5. u = u_e + Z a: the contact dofs follow from q, the interior from them (atrito_displacements).
 !>
+!> What the state of an unknown force means (atrito_bound_qp):
+!>
+!>                  normal force                     tangential force
+!>     FREE         closed, r = 0                    sticking, r = 0: the slip is D q
+!>     AT_LOWER     open, q = 0, r = -gap            slipping against T, q = -w tau
+!>     AT_UPPER     -                                slipping along T, q = w tau
+!>     FROZEN       -                                no friction bound: q = 0, whatever the slip
+!>
+!> The files of this room in the order in which a reader of the paper meets them: condensed_body (S and F), contact_problem (C, G,
+!> g0, h), frozen_bound (the QP with tau frozen), active_set and free_set (how it is solved), picard_loop and accelerator (the
+!> loop), displacements (back to the bodies). goldfarb_idnani, proximal and least_forces are for where full steps do not end or
+!> forces are not unique; coarse_line and dual_preconditioner make long lines fast; newton and outer_loop are other ways into the
+!> loop; uniqueness tells how far a scene is from having a second solution.
+!>
 !> Where rows of B depend on each other forces are not unique: the proximal method finds some, and the least of them are given
 !> (atrito_proximal, atrito_least_forces). Where elements that are almost equal share one stiffness, the solution is refined with
 !> the stiffness of each (atrito_solution_refinement).
@@ -51,12 +65,16 @@ contains
    !> Solves one increment. Bodies, C and G that an increment before left in `store` and `problem` serve again.
    !> status: STATUS_SINGULAR of provide_bodies, with FREE_MOTION, or with rows that depend on each other. solution%converged tells
    !> whether the loop came to its end.
+   !>
+   !> The steps stand in the order of the header above. In a history amplitudes a count from where the bodies were in the increment
+   !> before: g0 gets G a_last, and a_last is added again in the end. So a motion that nothing determines is none, and digits are
+   !> those of what has changed.
    subroutine solve_condensed(problem, controls, store, scene, solution, u, status)
-      class(problem_t), intent(inout) :: problem
-      type(controls_t), intent(in) :: controls
-      type(body_cache_t), intent(inout) :: store
+      class(problem_t), intent(inout) :: problem !< the increment
+      type(controls_t), intent(in) :: controls !< method, tolerance, MAXIT
+      type(body_cache_t), intent(inout) :: store !< the factored bodies
       type(scene_t), intent(inout) :: scene                 !< learns how the bodies were factored
-      type(contact_solution_t), intent(out) :: solution
+      type(contact_solution_t), intent(out) :: solution !< states, forces, stresses, verdict
       real(wp), allocatable, intent(out) :: u(:, :)         !< displacements without rigid motions, (2, n_nodes) [L]
       type(status_t), intent(out) :: status
       type(bound_qp_t), allocatable :: qp
@@ -100,8 +118,8 @@ contains
 
    !> Gives back the memory of C and G, and of the bodies unless they are kept for a next run: the stresses want it.
    subroutine release_condensed(problem, store)
-      class(problem_t), intent(inout) :: problem
-      type(body_cache_t), intent(inout) :: store
+      class(problem_t), intent(inout) :: problem !< the increment
+      type(body_cache_t), intent(inout) :: store !< the factored bodies
 
       if (allocated(problem%flexibility)) deallocate (problem%flexibility)
       call release_bodies(store)
@@ -119,6 +137,9 @@ contains
    end function has_position
 
    !> The bodies with the loads of the increment; those that C and G were made of stay as they are factored.
+   !>
+   !> C and G belong to the factors. While they are there the bodies are, too, and only their loads are new: as a sum of the bases
+   !> of the step (atrito_base_loads) where there are some, else by a forward substitution.
    subroutine condense_bodies(problem, store, bodies, factorisations, status)
       class(problem_t), intent(inout) :: problem
       type(body_cache_t), intent(inout) :: store
@@ -147,6 +168,11 @@ contains
    end subroutine condense_bodies
 
    !> Solves the contact line: from the increment before, where that leads to a solution, else from the usual start.
+   !>
+   !> 1. Where no contact force is asked for, without overlap and load on rigid motions, there is nothing to solve. 2. From the
+   !> increment before, by ANDERSON; a rung of the ladder begins anew, since what led nowhere began there. 3. From the usual start.
+   !> Rows that depend on each other show when C + D is factored; then once more with the rows, which tells
+   !>    solve_with_bound to take the proximal method.
    subroutine solve_line(problem, controls, qp, b, solution, status)
       class(problem_t), intent(in) :: problem
       type(controls_t), intent(in) :: controls
@@ -157,6 +183,7 @@ contains
       type(contact_solution_t) :: nothing
       type(status_t) :: fine
 
+      ! nothing drives a body, and nothing overlaps
       if (all(qp%h == 0.0_wp) .and. asks_no_force(problem%line, qp, qp%g0)) then
          call let_rest(problem%line, qp, qp%g0, solution)
          return
@@ -184,6 +211,8 @@ contains
 
    !> Whether a force displaces nothing but rigid surfaces, and its law does not give way: a held node faces one that moves, an
    !> equation joins two of them.
+   !>
+   !> C_ii = 0: the row has no flexibility, and without a compliance of its law either M has a zero on its diagonal.
    pure logical function gives_way_nowhere(qp, line) result(nowhere)
       type(bound_qp_t), intent(in) :: qp
       type(contact_line_t), intent(in) :: line

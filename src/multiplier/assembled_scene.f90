@@ -48,10 +48,12 @@ module atrito_assembled_scene
 contains
 
    !> Numbers the unknowns, assembles the bodies and finds the fronts. status: STATUS_INTERNAL when the memory does not suffice.
+   !>
+   !> Nothing is factored: what the factors will take is known afterwards (solving_bytes), and the memory can be asked for.
    subroutine assemble_scene(fem, rows, line, value, scene, status)
-      type(fem_t), intent(in) :: fem
-      type(contact_rows_t), intent(in) :: rows
-      type(contact_line_t), intent(in) :: line
+      type(fem_t), intent(in) :: fem !< bodies and elements
+      type(contact_rows_t), intent(in) :: rows !< of all points, over nodes
+      type(contact_line_t), intent(in) :: line !< points, laws, average S_rho
       real(wp), intent(in) :: value(:, :)        !< (2, n_nodes) prescribed displacements [L]
       type(assembled_scene_t), intent(out) :: scene
       type(status_t), intent(out) :: status
@@ -72,9 +74,9 @@ contains
    !> has last unknowns that other parts have, too: they are kept (atrito_variable_matrix), and the part is there to be multiplied,
    !> factored and reduced, not to be solved. status: STATUS_INTERNAL when the memory does not suffice.
    subroutine assemble_numbered(fem, rows, line, scene, status, spring_stiffness, n_kept)
-      type(fem_t), intent(in) :: fem
-      type(contact_rows_t), intent(in) :: rows
-      type(contact_line_t), intent(in) :: line
+      type(fem_t), intent(in) :: fem !< bodies and elements
+      type(contact_rows_t), intent(in) :: rows !< of all points, over nodes
+      type(contact_line_t), intent(in) :: line !< points, laws, average S_rho
       type(assembled_scene_t), intent(inout) :: scene
       type(status_t), intent(out) :: status
       real(wp), intent(in), optional :: spring_stiffness(:) !< of the numbering's springs [F/L]; left out: the diagonal there
@@ -132,6 +134,8 @@ contains
    end subroutine list_variable_elements
 
    !> Adds the unknowns of a row that its point does not have yet.
+   !>
+   !> A tangential row has mostly the nodes of the normal one; they are few, so looking them up is as good as any list.
    pure subroutine add_unknowns(scene, row, v)
       type(assembled_scene_t), intent(inout) :: scene
       integer(ip), intent(in) :: row, v
@@ -183,6 +187,7 @@ contains
       end do
    end subroutine collect_scene
 
+   !> y = A x, with the springs: the matrix without its elements that change.
    subroutine multiply_scene(self, x, y)
       class(assembled_scene_t), intent(in) :: self
       real(wp), intent(in) :: x(:)
@@ -206,9 +211,11 @@ contains
       if (.not. allocated(self%stiffness)) then
          allocate (self%stiffness(self%rows%n), self%pull(self%k), source=-1.0_wp)
       end if
+      ! points whose states have changed
       do v = 1, n_points
          if (is_changed(self, v, stiffness)) call set_point(self, v, stiffness)
       end do
+      ! floating bodies whose pull has changed
       v = n_points
       do b = 1, self%n_bodies
          if (self%numbering%first_pull(b) == 0) cycle
@@ -228,6 +235,7 @@ contains
       self%pull = -1.0_wp
    end subroutine factor_scene
 
+   !> Whether a row of point v has another stiffness than in the last factorisation.
    pure logical function is_changed(self, v, stiffness)
       class(assembled_scene_t), intent(in) :: self
       integer(ip), intent(in) :: v
@@ -280,6 +288,7 @@ contains
       call set_variable_element(self%matrix, v, matrix)
    end subroutine set_point
 
+   !> x <- H^-1 x with the last factors.
    subroutine solve_scene(self, x)
       class(assembled_scene_t), intent(in) :: self
       real(wp), intent(inout) :: x(:)
@@ -287,6 +296,7 @@ contains
       call solve_variable_matrix(self%matrix, x)
    end subroutine solve_scene
 
+   !> Memory held: the matrix with its factors, the rows and the lists of the elements that change.
    pure integer(lp) function scene_bytes(self) result(bytes)
       class(assembled_scene_t), intent(in) :: self
 

@@ -40,6 +40,8 @@ contains
    end function clipped
 
    !> t > 0 with s(t) = 0, where s(0) < 0; the largest t tried when s stays negative.
+   !>
+   !> A step beyond dx (t > 1) is taken where phi falls on: with many rows at their bounds Newton's step is often too short.
    pure real(wp) function search_line(constant, slope, v, e, h, c, lower, upper, unit) result(t)
       real(wp), intent(in) :: constant, slope    !< over the unit
       real(wp), intent(in) :: v(:), e(:), h(:), c(:), lower(:), upper(:)
@@ -92,6 +94,8 @@ contains
    end function place_within
 
    !> A new end; the one that stays once more is weighted by half (Illinois).
+   !>
+   !> Without that false position would keep one end for ever where s is convex, and come from one side in small steps.
    pure subroutine narrow(bracket, here, s)
       type(bracket_t), intent(inout) :: bracket
       real(wp), intent(in) :: here, s

@@ -38,10 +38,12 @@ module atrito_multiplier_distance
 contains
 
    !> How far a step is from the solution, where q = q_o, a = a_o, and the friction bound is that of the pressures.
+   !>
+   !> Bodies without load that went clear of each other have nothing that a pull could be compared with: theirs is none.
    function measure_distance(system, line, multipliers, q, tau, image) result(distance)
-      class(contact_system_t), intent(in) :: system
-      type(contact_line_t), intent(in) :: line
-      type(multiplier_t), intent(in) :: multipliers
+      class(contact_system_t), intent(in) :: system !< A, B, loads, flexibilities
+      type(contact_line_t), intent(in) :: line !< points, laws, average S_rho
+      type(multiplier_t), intent(in) :: multipliers !< x, e, q_o, a_o and the sizes of the step
       real(wp), intent(in) :: q(:)               !< (m) [F]
       real(wp), intent(in) :: tau(:), image(:)   !< (points) [F/L^2]
       type(distance_t) :: distance
@@ -59,9 +61,11 @@ contains
    end function measure_distance
 
    !> Which rows are of pairs whose forces are round-off of those on their bodies.
+   !>
+   !> In the end their points are open: what is left there is no contact.
    function forces_that_are_none(system, multipliers, q) result(none)
-      class(contact_system_t), intent(in) :: system
-      type(multiplier_t), intent(in) :: multipliers
+      class(contact_system_t), intent(in) :: system !< A, B, loads, flexibilities
+      type(multiplier_t), intent(in) :: multipliers !< x, e, q_o, a_o and the sizes of the step
       real(wp), intent(in) :: q(:)
       logical :: none(size(q))
       real(wp) :: of_body(system%n_bodies), least(multipliers%n_pairs), largest(multipliers%n_pairs)
@@ -77,7 +81,7 @@ contains
    !> A body that has no load and touches loaded ones has contact forces that balance each other; if these are round-off as well,
    !> what is round-off of its neighbours' forces is none on it.
    subroutine measure_bodies(system, q, of_body)
-      class(contact_system_t), intent(in) :: system
+      class(contact_system_t), intent(in) :: system !< A, B, loads, flexibilities
       real(wp), intent(in) :: q(:)
       real(wp), intent(out) :: of_body(:)        !< (bodies) [F]
       real(wp) :: force(system%n), own(size(of_body))
@@ -101,6 +105,8 @@ contains
    end subroutine measure_bodies
 
    !> The same of bodies without displacements: the largest load on a motion, and contact force along one.
+   !>
+   !> A rigid body has no forces at displacements: what acts on it is the work on its motions, of loads and of each contact force.
    pure subroutine measure_rigid_bodies(system, q, own)
       class(contact_system_t), intent(in) :: system
       real(wp), intent(in) :: q(:)
@@ -144,6 +150,8 @@ contains
       end do
    end subroutine measure_pairs
 
+   !> |nu S_rho(p) - tau| pair by pair, over the largest bound of the pair, or that of the least pressure that counts there. A bound
+   !> that is no number is as far off as can be.
    real(wp) function bound_distance(line, multipliers, tau, image, least) result(distance)
       type(contact_line_t), intent(in) :: line
       type(multiplier_t), intent(in) :: multipliers
@@ -167,6 +175,8 @@ contains
    end function bound_distance
 
    !> The largest pull on a motion, over the forces on its body.
+   !>
+   !> pull_of is kappa H_j; times the way |a - a_o| of the step it is the force that held the motion.
    pure real(wp) function pull_distance(system, multipliers, of_body) result(distance)
       class(contact_system_t), intent(in) :: system
       type(multiplier_t), intent(in) :: multipliers
@@ -178,6 +188,7 @@ contains
       end associate
    end function pull_distance
 
+   !> The largest part(i)/whole(i); where the whole is nothing there is nothing to be off by.
    pure real(wp) function greatest_ratio(part, whole) result(ratio)
       real(wp), intent(in) :: part(:), whole(:)
       integer(ip) :: i

@@ -78,12 +78,12 @@ contains
    !> before. Each pass of the loop is one step of the multipliers and what follows from it; the order matters: it is judged before
    !> anything is taken over, and the bound of the next step is that of the pressures of this one.
    subroutine solve_by_multipliers(system, rows, line, controls, reporter, solution, x, status)
-      class(contact_system_t), intent(inout) :: system
+      class(contact_system_t), intent(inout) :: system !< A, B, loads, flexibilities
       type(constraint_rows_t), intent(in) :: rows !< over displacements alone
-      type(contact_line_t), intent(in) :: line
-      type(controls_t), intent(in) :: controls
-      type(reporter_t), intent(in) :: reporter
-      type(contact_solution_t), intent(inout) :: solution
+      type(contact_line_t), intent(in) :: line !< points, laws, average S_rho
+      type(controls_t), intent(in) :: controls !< method, tolerance, MAXIT
+      type(reporter_t), intent(in) :: reporter !< a line an iteration
+      type(contact_solution_t), intent(inout) :: solution !< with a state to start from
       real(wp), allocatable, intent(out) :: x(:)
       type(status_t), intent(out) :: status
       type(contact_solution_t) :: before
@@ -135,6 +135,7 @@ contains
             return
          end if
          call follow_drift(system, solution%bounds, multipliers, loop, solution%state)
+         ! the step is taken over: q_o, a_o, how far the next one may go, and its friction bound
          call accept_step(system, solution%state, multipliers)
          call choose_steps(outer, solution%state, multipliers, loop)
          call next_bound(image, loop, anderson, tau)
@@ -195,6 +196,9 @@ contains
    end subroutine start_from
 
    !> What a step has found: stresses, Picard's bound, how far it is from a solution.
+   !>
+   !> p and t are the forces over the weights, with what is known of points without an unknown; the image is nu S_rho of these
+   !> pressures.
    subroutine judge_step(system, line, tolerance, outer, multipliers, loop, solution, image)
       class(contact_system_t), intent(in) :: system
       type(contact_line_t), intent(in) :: line
@@ -234,6 +238,7 @@ contains
                             to_text(distance%bound, 3)//', forces '//to_text(distance%forces, 3)//')'
          return
       end if
+      ! states that depend on round-off alone are decided before the motions and the friction are
       call clear_unloaded(system, shape, multipliers, solution%state)
       call clear_round_off(shape, forces_that_are_none(system, multipliers, solution%state%q), multipliers, solution%state)
       if (system%k > 0) call settle_undetermined_motions(system, solution%bounds, multipliers, solution%state, &
@@ -253,6 +258,9 @@ contains
 
    !> Where nothing acts, or nothing any more, what is left of forces and deformation is round-off of the way that the bodies went
    !> clear of each other, or of the increment before.
+   !>
+   !> Forces below their own noise, or NO_FORCE_AFTER of what the pair bore before, are none; then the strains are none as well, and
+   !> e is what gaps and motions make of it. Closed points without pressure are open.
    subroutine clear_unloaded(system, shape, multipliers, state)
       class(contact_system_t), intent(in) :: system
       type(bound_qp_t), intent(in) :: shape
@@ -294,6 +302,9 @@ contains
    end subroutine look_for_shared
 
    !> Bounds, states and history of a solution that has none yet: all stuck.
+   !>
+   !> The first bound is HUGE_REAL at all points with friction: nothing slips in the first step. Where all rows are bilateral
+   !> nothing can be open, and no body waits for a contact: a weak pull and a small rho are right from the beginning.
    subroutine begin_solution(system, line, shape, multipliers, solution)
       class(contact_system_t), intent(in) :: system
       type(contact_line_t), intent(in) :: line
@@ -336,6 +347,7 @@ contains
       type(contact_solution_t), intent(inout) :: solution
       real(wp) :: whole
 
+      ! a pull below NO_LOAD of the forces on its body is none
       whole = max(loop%distance%forces, loop%distance%bound)
       if (loop%distance%pull > NO_LOAD) whole = max(whole, loop%distance%pull)
       solution%converged = multipliers%settled .and. whole <= tolerance

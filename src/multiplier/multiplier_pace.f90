@@ -68,11 +68,11 @@ contains
    !> and q <- q + d for ever, d being the contradiction over rho. With a compliance D the contradiction is used up as q grows:
    !> after d'(D + rho)d / d'D d steps. Steps without a change of states, and two changes within STEADY of each other, show it.
    subroutine follow_drift(system, bounds, multipliers, loop, state)
-      class(contact_system_t), intent(in) :: system
-      type(box_bounds_t), intent(in) :: bounds
-      type(multiplier_t), intent(in) :: multipliers
-      type(loop_t), intent(inout) :: loop
-      type(box_state_t), intent(inout) :: state
+      class(contact_system_t), intent(in) :: system !< A, B, loads, flexibilities
+      type(box_bounds_t), intent(in) :: bounds !< of the m forces [F], and their D [L/F]
+      type(multiplier_t), intent(in) :: multipliers !< x, e, q_o, a_o and the sizes of the step
+      type(loop_t), intent(inout) :: loop !< what the loop remembers
+      type(box_state_t), intent(inout) :: state !< states of the m unknowns, q, a, r
       real(wp) :: change(size(state%q)), steps, bound, yields
       integer(ip) :: i
 
@@ -109,16 +109,18 @@ contains
    !>                near to 1. The pull kappa falls where a motion comes slowly, else rho at the pairs that have digits to spare.
    subroutine choose_steps(outer, state, multipliers, loop)
       integer(ip), intent(in) :: outer
-      type(box_state_t), intent(in) :: state
-      type(multiplier_t), intent(inout) :: multipliers
-      type(loop_t), intent(inout) :: loop
+      type(box_state_t), intent(in) :: state !< states of the m unknowns, q, a, r
+      type(multiplier_t), intent(inout) :: multipliers !< x, e, q_o, a_o and the sizes of the step
+      type(loop_t), intent(inout) :: loop !< what the loop remembers
 
+      ! steps without a change of states, and those of them in which the forces came slowly
       loop%standing = merge(0_ip, loop%standing + 1_ip, multipliers%changed)
       loop%lagging = merge(loop%lagging + 1_ip, 0_ip, loop%standing > 1 .and. .not. loop%slow .and. &
                            loop%distance%forces > max(LAGS*loop%change, LITTLE_LEFT))
       loop%change = loop%distance%forces
       if (loop%lagging >= MOST_LAGGING) then
          loop%lagging = 0
+         ! it is a motion that comes slowly, or forces
          if (loop%distance%pull > NO_LOAD .and. multipliers%kappa > LEAST_KAPPA) then
             multipliers%kappa = max(0.1_wp*multipliers%kappa, LEAST_KAPPA)
          else
@@ -149,10 +151,13 @@ contains
 
    !> Bodies that have come to where something holds them need a weak pull no more, and with the usual one the last step is better
    !> conditioned.
+   !>
+   !> With a weak pull the matrix is badly conditioned where a motion is weakly held. One more step with the usual one costs a
+   !> factorisation.
    pure subroutine pull_firmly_again(multipliers, loop, solution)
-      type(multiplier_t), intent(inout) :: multipliers
-      type(loop_t), intent(inout) :: loop
-      type(contact_solution_t), intent(inout) :: solution
+      type(multiplier_t), intent(inout) :: multipliers !< x, e, q_o, a_o and the sizes of the step
+      type(loop_t), intent(inout) :: loop !< what the loop remembers
+      type(contact_solution_t), intent(inout) :: solution !< with a state to start from
 
       if (loop%is_firm .or. multipliers%kappa >= 0.1_wp*USUAL_KAPPA) return
       loop%is_firm = .true.
@@ -167,7 +172,7 @@ contains
    !> is empty. Then Anderson's mixing, within MOST_MIXING of Picard's bound, since it extrapolates.
    subroutine next_bound(image, loop, anderson, tau)
       real(wp), intent(in) :: image(:)
-      type(loop_t), intent(inout) :: loop
+      type(loop_t), intent(inout) :: loop !< what the loop remembers
       type(anderson_t), intent(inout) :: anderson
       real(wp), intent(inout) :: tau(:)
       real(wp) :: mixed(size(tau))
@@ -205,6 +210,7 @@ contains
       else where
          loop%share = min(MORE*loop%share, 1.0_wp)
       end where
+      ! the share of the way that each point goes; whole ways to the last digit
       loop%off = image - tau
       tau = tau + loop%share*loop%off
       where (loop%share >= 1.0_wp) tau = image

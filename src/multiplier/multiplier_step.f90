@@ -62,7 +62,7 @@ contains
    !> hold: H_j = sum_i B_ij^2/c_i over the rows, the stiffness by which the rows would hold motion j if all were closed. A spring
    !> in a row adds its compliance to c_i.
    subroutine begin_multipliers(system, pair, multipliers, compliance)
-      class(contact_system_t), intent(in) :: system
+      class(contact_system_t), intent(in) :: system !< A, B, loads, flexibilities
       integer(ip), intent(in) :: pair(:)         !< (m) of each row
       type(multiplier_t), intent(out) :: multipliers
       real(wp), intent(in), optional :: compliance(:) !< (m) of springs: a soft one holds its body no firmer than it is [L/F]
@@ -96,10 +96,10 @@ contains
    !> One linear solve with all rows FREE, as if glued. Where the bodies come to is a good place to begin: the true motion is near
    !> to it where contact holds them, and where it does not they leave from there.
    subroutine start_closed(system, bounds, multipliers, state, status)
-      class(contact_system_t), intent(inout) :: system
-      type(box_bounds_t), intent(in) :: bounds
-      type(multiplier_t), intent(inout) :: multipliers
-      type(box_state_t), intent(inout) :: state
+      class(contact_system_t), intent(inout) :: system !< A, B, loads, flexibilities
+      type(box_bounds_t), intent(in) :: bounds !< of the m forces [F], and their D [L/F]
+      type(multiplier_t), intent(inout) :: multipliers !< x, e, q_o, a_o and the sizes of the step
+      type(box_state_t), intent(inout) :: state !< states of the m unknowns, q, a, r
       type(status_t), intent(out) :: status
       real(wp) :: residual(system%n)
 
@@ -122,10 +122,10 @@ contains
    !> z = (e + rho q_o)/(D + rho) is the force without bounds, q = clip(z), r = e - D q the residual of the law. The state says on
    !> which piece of the clip z lies.
    subroutine set_forces(system, bounds, multipliers, state, de)
-      class(contact_system_t), intent(in) :: system
-      type(box_bounds_t), intent(in) :: bounds
-      type(multiplier_t), intent(inout) :: multipliers
-      type(box_state_t), intent(inout) :: state
+      class(contact_system_t), intent(in) :: system !< A, B, loads, flexibilities
+      type(box_bounds_t), intent(in) :: bounds !< of the m forces [F], and their D [L/F]
+      type(multiplier_t), intent(inout) :: multipliers !< x, e, q_o, a_o and the sizes of the step
+      type(box_state_t), intent(inout) :: state !< states of the m unknowns, q, a, r
       !> B dx of the step that has been taken: of motions far larger than it, round-off alone would be left of e, and the forces
       !> would lose the balance that the step has given them.
       real(wp), intent(in), optional :: de(:)
@@ -182,6 +182,8 @@ contains
    end subroutine raise_noise
 
    !> f - A x - kappa (a - a_o) - B' q.
+   !>
+   !> Minus the gradient of phi at x, where q = clip((B x + g0 + rho q_o)/(D + rho)) is that of these displacements.
    subroutine residual_of(system, multipliers, q, residual)
       class(contact_system_t), intent(in) :: system
       type(multiplier_t), intent(in) :: multipliers
@@ -219,8 +221,11 @@ contains
    end function largest_of_pairs
 
    !> The stiffness [F/L] by which each rigid motion is pulled to where it was before the step.
+   !>
+   !> kappa H_j: a share kappa of what the rows would hold motion j with. 0 has no place in it: a motion that no row sees is alone
+   !> in its equation, and gets H_j = 1.
    pure function pull_of(multipliers) result(pull)
-      type(multiplier_t), intent(in) :: multipliers
+      type(multiplier_t), intent(in) :: multipliers !< x, e, q_o, a_o and the sizes of the step
       real(wp) :: pull(size(multipliers%hold))
 
       pull = multipliers%kappa*multipliers%hold
@@ -233,12 +238,12 @@ contains
    !> until a full step stays in the states that it was made for. `changed` tells the loop that it did not at first. After PATIENCE
    !> steps a change of forces by round-off is none: points at the edge of contact may change their states for ever.
    subroutine take_multiplier_step(system, shape, bounds, multipliers, state, history, status)
-      class(contact_system_t), intent(inout) :: system
+      class(contact_system_t), intent(inout) :: system !< A, B, loads, flexibilities
       type(bound_qp_t), intent(in) :: shape   !< numbers of unknowns and weights, for the history
-      type(box_bounds_t), intent(in) :: bounds
-      type(multiplier_t), intent(inout) :: multipliers
-      type(box_state_t), intent(inout) :: state
-      type(solve_history_t), intent(inout) :: history
+      type(box_bounds_t), intent(in) :: bounds !< of the m forces [F], and their D [L/F]
+      type(multiplier_t), intent(inout) :: multipliers !< x, e, q_o, a_o and the sizes of the step
+      type(box_state_t), intent(inout) :: state !< states of the m unknowns, q, a, r
+      type(solve_history_t), intent(inout) :: history !< every linear solve is added
       type(status_t), intent(out) :: status
       real(wp) :: residual(system%n), dx(system%n), de(system%rows%n), before(system%rows%n)
       integer(ip) :: newton
@@ -248,6 +253,7 @@ contains
       multipliers%changed = .false.
       call set_forces(system, bounds, multipliers, state)
       do newton = 1, MOST_NEWTON
+         ! minus the gradient, the matrix of the present states, Newton's direction
          call residual_of(system, multipliers, state%q, residual)
          call provide_factor(system, bounds, state, multipliers, status)
          if (.not. is_ok(status)) return
@@ -273,11 +279,11 @@ contains
    !> The residual of the equations beside the largest force on each body; what is more than BALANCED is solved for with the factor
    !> that is there, at most MOST_REFINEMENTS times. A step that leaves more than REFINES of it is taken back.
    subroutine refine_step(system, bounds, of_body, multipliers, state)
-      class(contact_system_t), intent(inout) :: system
-      type(box_bounds_t), intent(in) :: bounds
+      class(contact_system_t), intent(inout) :: system !< A, B, loads, flexibilities
+      type(box_bounds_t), intent(in) :: bounds !< of the m forces [F], and their D [L/F]
       real(wp), intent(in) :: of_body(:)         !< (bodies) largest force on each [F]
-      type(multiplier_t), intent(inout) :: multipliers
-      type(box_state_t), intent(inout) :: state
+      type(multiplier_t), intent(inout) :: multipliers !< x, e, q_o, a_o and the sizes of the step
+      type(box_state_t), intent(inout) :: state !< states of the m unknowns, q, a, r
       type(multiplier_t) :: kept
       type(box_state_t) :: kept_state
       real(wp) :: residual(system%n), de(system%rows%n), part, least
@@ -360,6 +366,7 @@ contains
       scale = largest_of_pairs(multipliers, abs(state%q))
       stays = .true.
       do i = 1, system%rows%n
+         ! z at x + dx: does the row stay on its piece of the clip?
          rho = multipliers%r*multipliers%part(i)*system%flexibility(i)
          z = (multipliers%e(i) + de(i) + rho*multipliers%q_old(i))/(bounds%d(i) + rho)
          slack = SAME_STATE*scale(multipliers%pair(i)) + multipliers%noise(i)
@@ -390,6 +397,7 @@ contains
       type(box_state_t), intent(inout) :: state
       real(wp) :: adx(system%n), constant, slope, t, unit
 
+      ! slope: dx'(A + kappa H) dx; constant: phi' at x without the rows
       call system%multiply(dx, adx)
       unit = unit_of(reshape(dx, [system%n, 1_ip]))   ! work over it: forces times displacements may be no numbers
       slope = dot_product(dx/unit, adx)
@@ -426,6 +434,8 @@ contains
    end subroutine take_least_forces
 
    !> A pressure that is round-off is none: the point is open.
+   !>
+   !> Rows of contact alone: a bilateral row may have a force of any size and sign.
    subroutine clear_round_off(shape, none, multipliers, state)
       type(bound_qp_t), intent(in) :: shape
       logical, intent(in) :: none(:)             !< (m) of a pair without any force but round-off
@@ -443,10 +453,12 @@ contains
    end subroutine clear_round_off
 
    !> What the step has found is where the next one starts.
+   !>
+   !> The forces and the amplitudes of the proximal terms; displacements are not in any.
    subroutine accept_step(system, state, multipliers)
-      class(contact_system_t), intent(in) :: system
-      type(box_state_t), intent(in) :: state
-      type(multiplier_t), intent(inout) :: multipliers
+      class(contact_system_t), intent(in) :: system !< A, B, loads, flexibilities
+      type(box_state_t), intent(in) :: state !< states of the m unknowns, q, a, r
+      type(multiplier_t), intent(inout) :: multipliers !< x, e, q_o, a_o and the sizes of the step
 
       multipliers%q_old = state%q
       multipliers%a_old = multipliers%x(system%n - system%k + 1:)

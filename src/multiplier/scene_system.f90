@@ -47,6 +47,8 @@ module atrito_scene_system
 contains
 
    !> Whether a solve has failed since this was asked last. status: STATUS_INTERNAL then, in place of what it was; else it stays.
+   !>
+   !> A solve over processes may fail in one of them; the interface of a solve has no status, so it is asked afterwards.
    subroutine take_trouble(self, status)
       class(scene_system_t), intent(in) :: self
       type(status_t), intent(inout) :: status
@@ -68,8 +70,8 @@ contains
    !>
    !> The same numbers as in the condensed form (set_right_hand_sides), but for what the loads do: here displacements are unknowns.
    subroutine set_scene_gaps(rows, line, value, scene)
-      type(contact_rows_t), intent(in) :: rows
-      type(contact_line_t), intent(in) :: line
+      type(contact_rows_t), intent(in) :: rows !< of all points, over nodes
+      type(contact_line_t), intent(in) :: line !< points, laws, average S_rho
       real(wp), intent(in) :: value(:, :)        !< (2, n_nodes) prescribed displacements [L]
       class(scene_system_t), intent(inout) :: scene
       integer(ip) :: i
@@ -92,9 +94,9 @@ contains
    !> A row without free displacements, between a held node and a rigid surface, has none; it gets that of the softest row, so that
    !> rho is no less there than elsewhere.
    subroutine set_flexibility(fem, rows, line, diagonal, coupling, scene)
-      type(fem_t), intent(in) :: fem
-      type(contact_rows_t), intent(in) :: rows
-      type(contact_line_t), intent(in) :: line
+      type(fem_t), intent(in) :: fem !< bodies and elements
+      type(contact_rows_t), intent(in) :: rows !< of all points, over nodes
+      type(contact_line_t), intent(in) :: line !< points, laws, average S_rho
       real(wp), intent(in) :: diagonal(:), coupling(:) !< (n) of the stiffness (sum_diagonals), at the nodes of the rows at least
       class(scene_system_t), intent(inout) :: scene
       real(wp) :: d(2)
@@ -120,6 +122,8 @@ contains
    end subroutine set_flexibility
 
    !> d' K^-1 d for the free displacements of a node.
+   !>
+   !> By elimination of the first displacement: d1^2/k11 + (d2 - d1 k12/k11)^2/(k22 - k12^2/k11). One that is held takes no part.
    pure real(wp) function node_flexibility(equation, before, diagonal, coupling, d) result(c)
       integer(ip), intent(in) :: equation(2), before
       real(wp), intent(in) :: diagonal(:), coupling(:) !< coupling: of a displacement with the other one of its node, at the first
@@ -144,7 +148,7 @@ contains
    !> The load on a motion is the work of the applied forces alone: what prescribed displacements and temperatures do is in balance.
    !> Where its terms cancel but for LOAD_ROUND_OFF it is none, or a body without load would move.
    subroutine set_scene_load(fem, f, free_load, scene)
-      type(fem_t), intent(in) :: fem
+      type(fem_t), intent(in) :: fem !< bodies and elements
       real(wp), intent(in) :: f(:, :), free_load(:, :) !< (2, n_nodes) [F]
       class(scene_system_t), intent(inout) :: scene
       integer(ip) :: node, dof, b, k
@@ -167,8 +171,10 @@ contains
    end subroutine set_scene_load
 
    !> Displacements without rigid motions at the free dofs, (2, n_nodes).
+   !>
+   !> u_e; u = u_e + Z a is put together when it is recovered (add_rigid_motions).
    pure subroutine displacements_of(fem, scene, x, u)
-      type(fem_t), intent(in) :: fem
+      type(fem_t), intent(in) :: fem !< bodies and elements
       class(scene_system_t), intent(in) :: scene
       real(wp), intent(in) :: x(:)               !< (n) [L]
       real(wp), intent(inout) :: u(:, :)         !< (2, n_nodes) [L]: the free dofs are set

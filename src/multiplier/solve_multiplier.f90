@@ -28,10 +28,10 @@ contains
    !> The loop keeps the multipliers in the solution where a next increment goes on from them (problem%keeps). What failed from
    !> there begins anew, but counts amplitudes of motions from the same place.
    subroutine solve_multiplier(problem, system, controls, solution, u, status)
-      class(problem_t), intent(in) :: problem
+      class(problem_t), intent(in) :: problem !< the increment
       class(scene_system_t), intent(inout) :: system        !< of the problem, with its gaps and loads
-      type(controls_t), intent(in) :: controls
-      type(contact_solution_t), intent(out) :: solution
+      type(controls_t), intent(in) :: controls !< method, tolerance, MAXIT
+      type(contact_solution_t), intent(out) :: solution !< states, forces, stresses, verdict
       real(wp), allocatable, intent(out) :: u(:, :)         !< displacements without rigid motions, (2, n_nodes) [L]
       type(status_t), intent(out) :: status
       type(contact_solution_t) :: fresh

@@ -36,16 +36,17 @@ contains
    !> basis: the undetermined motions; the amplitudes are measured from `position`, the displacements of the increment before, so
    !> that a body stays where it is.
    subroutine settle_undetermined_motions(system, bounds, multipliers, state, undetermined, position)
-      class(contact_system_t), intent(in) :: system
-      type(box_bounds_t), intent(in) :: bounds
-      type(multiplier_t), intent(inout) :: multipliers
-      type(box_state_t), intent(inout) :: state
+      class(contact_system_t), intent(in) :: system !< A, B, loads, flexibilities
+      type(box_bounds_t), intent(in) :: bounds !< of the m forces [F], and their D [L/F]
+      type(multiplier_t), intent(inout) :: multipliers !< x, e, q_o, a_o and the sizes of the step
+      type(box_state_t), intent(inout) :: state !< states of the m unknowns, q, a, r
       real(wp), allocatable, intent(out) :: undetermined(:)
       real(wp), intent(in), optional :: position(:) !< (k) [L]; not there: 0
       real(wp), allocatable :: basis(:, :)
       type(multiplier_t) :: least
       type(box_state_t) :: least_state
 
+      ! the rest is tried on copies, as it may be taken back
       call find_undetermined_motions(system, multipliers, basis)
       if (size(basis, 2) == 0) return
       allocate (undetermined, source=simplest_motion(basis(system%n - system%k + 1:, :)))
@@ -65,6 +66,8 @@ contains
    end subroutine settle_undetermined_motions
 
    !> Whether r > 0 at an open point or one that slips at its lower bound, or r < 0 at one that slips at its upper one.
+   !>
+   !> Motions of bodies do not change forces, only r = B x + g0 - D q. Where r gets the other sign the point would close, or stick.
    pure logical function changes_a_state(bounds, state, r, slack) result(changes)
       type(box_bounds_t), intent(in) :: bounds
       type(box_state_t), intent(in) :: state
@@ -75,6 +78,10 @@ contains
    end function changes_a_state
 
    !> basis: (n, motions), their amplitudes orthonormal; the displacements in them are round-off.
+   !>
+   !> For each candidate: a vector without pattern, orthogonal to the motions that are known; two steps of the proximal method;
+   !> orthogonal again. What is left after that (more than NO_PART) is undetermined, unless it strains something (take_out_held,
+   !> STAYS).
    subroutine find_undetermined_motions(system, multipliers, basis)
       class(contact_system_t), intent(in) :: system
       type(multiplier_t), intent(in) :: multipliers
@@ -137,6 +144,8 @@ contains
    end subroutine orthogonalise
 
    !> a <- H^-1 (kappa a), with the displacements that go with it.
+   !>
+   !> The step from rest with a_o = a and no loads: x = H^-1 (0, kappa H a).
    subroutine apply_step(system, multipliers, v)
       class(contact_system_t), intent(in) :: system
       type(multiplier_t), intent(in) :: multipliers
