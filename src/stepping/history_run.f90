@@ -56,6 +56,7 @@ contains
       if (associated(run%recorder)) is_recorded = is_recorded .or. run%recorder%every > 0
    end function is_recorded
 
+   !> Whether the history goes on behind a recorded increment.
    pure logical function is_resumed(run)
       type(run_t), intent(in) :: run
 

@@ -26,6 +26,7 @@ contains
       if (.not. (condition .or. allocated(wrong))) wrong = what
    end subroutine require
 
+   !> Whether two times are the same but for round-off.
    pure logical function is_same_time(one, other)
       real(wp), intent(in) :: one, other
 
@@ -84,6 +85,7 @@ contains
       if (is_list) is_list = size(values) == n
    end function is_list_of_logicals
 
+   !> Whether a text is there, and is the one that the deck gives, blanks at its end included.
    pure logical function is_text(text, expected)
       character(len=:), allocatable, intent(in) :: text
       character(len=*), intent(in) :: expected
