@@ -30,6 +30,8 @@ module atrito_active_set
    public :: solve_box, change_states, is_settled
 
    !> Full steps, and unknowns for each where they are many: the front of a slip zone may move by a few points a step.
+   !>
+   !> A front of slip or of contact may have to go through the whole line, by a few points a step: so long lines have more steps.
    integer(ip), parameter :: MOST_FULL_STEPS = 20, UNKNOWNS_A_STEP = 20
    real(wp), parameter :: OPENS = 1.0e-13_wp      !< tension over the largest pressure that opens a point
    real(wp), parameter :: SLIPS = 1.0e-12_wp      !< excess over the friction bound that lets a point slip
@@ -39,23 +41,25 @@ contains
    !> Solves from the given state (state%state; fixed unknowns are put at their bounds). Every linear solve is recorded.
    !> status: STATUS_SINGULAR with DEPENDENT_POINTS. outcome%moves: no equilibrium. Neither that nor solved: too many solves.
    subroutine solve_box(problem, bounds, state, history, outcome, status, factor)
-      type(bound_qp_t), intent(in) :: problem
-      type(box_bounds_t), intent(in) :: bounds
-      type(box_state_t), intent(inout) :: state
-      type(solve_history_t), intent(inout) :: history
-      type(box_outcome_t), intent(out) :: outcome
+      type(bound_qp_t), intent(in) :: problem !< the QP: C, G, g0, h
+      type(box_bounds_t), intent(in) :: bounds !< of the m forces [F], and their D [L/F]
+      type(box_state_t), intent(inout) :: state !< states of the m unknowns, q, a, r
+      type(solve_history_t), intent(inout) :: history !< every linear solve is added
+      type(box_outcome_t), intent(out) :: outcome !< solved, moves, or neither
       type(status_t), intent(out) :: status
       type(free_set_factor_t), intent(inout) :: factor !< of the solve before, or of the last one: see solve_free_set
       integer(lp) :: seen(max(MOST_FULL_STEPS, problem%m/UNKNOWNS_A_STEP))
       integer(ip) :: step, changes
 
       do step = 1, size(seen, kind=ip)
+         ! states that were there before would go round for ever: the finite steps take over
          seen(step) = state_code(state)
          if (any(seen(:step - 1) == seen(step))) exit
          call put_at_bounds(bounds, state)
          call solve_free_set(problem, bounds%d, state, outcome, status, factor)
          if (.not. is_ok(status)) return
          call record_solve(history, problem, bounds, state)
+         ! a body is free with these states; whether it is with others the finite steps tell
          if (outcome%moves) exit
          call change_states(problem, bounds, state, changes)
          outcome%solved = changes == 0
@@ -66,14 +70,17 @@ contains
    end subroutine solve_box
 
    !> The full step: every unknown that breaks its condition changes.
+   !>
+   !> Bilateral rows (no lower bound) never leave FREE, points without friction never leave FROZEN.
    subroutine change_states(problem, bounds, state, changes)
-      type(bound_qp_t), intent(in) :: problem
-      type(box_bounds_t), intent(in) :: bounds
-      type(box_state_t), intent(inout) :: state
+      type(bound_qp_t), intent(in) :: problem !< the QP: C, G, g0, h
+      type(box_bounds_t), intent(in) :: bounds !< of the m forces [F], and their D [L/F]
+      type(box_state_t), intent(inout) :: state !< states of the m unknowns, q, a, r
       integer(ip), intent(out) :: changes
       real(wp) :: most
       integer(ip) :: i, old
 
+      ! pressures are stresses, so that points of small weight count alike; bilateral rows have no lower bound and never open
       associate (n => problem%n_normal)
          most = OPENS*maxval([maxval(abs(state%q(:n))/problem%weight(:n), mask=bounds%lower(:n) > -HUGE_REAL), 0.0_wp])
       end associate
@@ -97,9 +104,9 @@ contains
 
    !> Whether no unknown breaks its condition.
    logical function is_settled(problem, bounds, state)
-      type(bound_qp_t), intent(in) :: problem
-      type(box_bounds_t), intent(in) :: bounds
-      type(box_state_t), intent(in) :: state
+      type(bound_qp_t), intent(in) :: problem !< the QP: C, G, g0, h
+      type(box_bounds_t), intent(in) :: bounds !< of the m forces [F], and their D [L/F]
+      type(box_state_t), intent(in) :: state !< states of the m unknowns, q, a, r
       type(box_state_t) :: next
       integer(ip) :: changes
 
@@ -109,6 +116,9 @@ contains
    end function is_settled
 
    !> Whether a closed point has a tension that is more than round-off.
+   !>
+   !> The least of two measures counts: OPENS of the largest pressure of the scene, and what round-off of the row makes of a force.
+   !> The first one alone would keep tensions in weak pairs, the second one alone would open points of stiff bodies by their noise.
    pure logical function is_in_tension(problem, d, state, i, most)
       type(bound_qp_t), intent(in) :: problem
       real(wp), intent(in) :: d(:)
@@ -122,6 +132,9 @@ contains
    end function is_in_tension
 
    !> Whether an open point is penetrated, or the slip of a slipping one is below that of a sticking one, by more than round-off.
+   !>
+   !> The slip of a slipping point against its friction, or the overlap of an open one, as far as it is more than round-off of the
+   !> terms of r, and of the elastic slip D q.
    pure logical function is_released(problem, d, state, i)
       type(bound_qp_t), intent(in) :: problem
       real(wp), intent(in) :: d(:)
@@ -135,6 +148,9 @@ contains
    end function is_released
 
    !> A number that tells states apart (FNV-1a, of 38 bits: their product with the prime fits into a long integer).
+   !>
+   !> Two sets of states may have the same number, with a chance of some 1e-11: then the finite steps begin too early, which costs
+   !> time and nothing else.
    pure integer(lp) function state_code(state) result(code)
       type(box_state_t), intent(in) :: state
       integer(ip) :: i

@@ -1,5 +1,7 @@
 !> The loads of a step as sums of a few: what acts at its beginning, what acts at its end, and what each amplitude multiplies.
 !>
+!>     load(t) = sum over k of factor_k(t) load_k
+!>
 !> What prescribed displacements do to the bodies, and what a load is on the contact dofs of a condensed body, are linear in the
 !> loads: both are found once in a step, for each of the few, and an increment adds them up.
 module atrito_base_loads
@@ -11,11 +13,11 @@ module atrito_base_loads
    use atrito_nodal_loads, only: nodal_loads
    use atrito_rigid_bodies, only: has_moving_surfaces
    use atrito_scene_builder, only: list_held
-   use atrito_step_loads, only: base_of, base_factors, list_bases, moment_t, BASE_BEGIN
+   use atrito_step_loads, only: base_of, list_bases, BASE_BEGIN
    use atrito_thermal_loads, only: add_thermal_loads
    implicit none (type, external)
    private
-   public :: base_loads_t, build_bases, set_factors, load_of_bases, without_prescribed, load_bodies, forget_reduced
+   public :: base_loads_t, build_bases, load_of_bases, without_prescribed, load_bodies
 
    !> Reduced loads of a body.
    type :: reduced_t
@@ -34,6 +36,9 @@ contains
    !> The bases of a step, where it has more increments than they are; else none. Surfaces that move have loads beside the nodes of
    !> the mesh: with them there are none, either, nor where loads are
    !> balanced to the digits of the deck (atrito_sliding_bodies).
+   !>
+   !> What acts at a time is sum_k factor_k(t) base_k: the loads at the beginning of the step, those at its end, and each
+   !> amplitude's. So an increment costs a sum of vectors in place of an assembly of loads and a forward substitution for each body.
    subroutine build_bases(model, step, released, fem, bases)
       type(model_t), intent(in) :: model
       type(step_t), intent(in) :: step
@@ -61,6 +66,8 @@ contains
       allocate (bases%factor(size(bases%base)), source=0.0_wp)
    end subroutine build_bases
 
+   !> The load of one base: the forces at the nodes and of the temperatures, less what its prescribed displacements do. Forces of
+   !> supports that the step does not have act at its beginning and fade.
    subroutine load_of_base(model, step, base, released, fem, load)
       type(model_t), intent(in) :: model
       type(step_t), intent(in) :: step
@@ -86,8 +93,10 @@ contains
    end subroutine load_of_base
 
    !> Applied forces and those of the temperatures less those of the prescribed displacements.
+   !>
+   !> K u_prescribed of the elements at prescribed dofs: one pass over the mesh, where any of them is not zero.
    function without_prescribed(fem, f, thermal, value) result(load)
-      type(fem_t), intent(in) :: fem
+      type(fem_t), intent(in) :: fem !< bodies and elements
       real(wp), intent(in) :: f(:, :), value(:, :)   !< (2, n_nodes) [F], [L]
       real(wp), allocatable, intent(in) :: thermal(:, :) !< [F]; not allocated: none
       real(wp), allocatable :: load(:, :), force(:, :)
@@ -103,16 +112,6 @@ contains
       load = load - force
    end function without_prescribed
 
-   !> How much of each base there is at a time of the step.
-   pure subroutine set_factors(model, step, moment, bases)
-      type(model_t), intent(in) :: model
-      type(step_t), intent(in) :: step
-      type(moment_t), intent(in) :: moment
-      type(base_loads_t), intent(inout) :: bases
-
-      bases%factor = base_factors(model, step, bases%base, moment)
-   end subroutine set_factors
-
    !> The load that several bases make with their factors: sum of factor times load, (2, n_nodes) [F].
    pure function load_of_bases(bases) result(load)
       type(base_loads_t), intent(in) :: bases
@@ -126,8 +125,10 @@ contains
    end function load_of_bases
 
    !> Gives the bodies the reduced load of the time that the factors are of.
+   !>
+   !> The reduced loads of the bases are found when they are first asked for, as they belong to the factors.
    subroutine load_bodies(fem, bases, bodies)
-      type(fem_t), intent(in) :: fem
+      type(fem_t), intent(in) :: fem !< bodies and elements
       type(base_loads_t), intent(inout) :: bases
       type(condensed_body_t), intent(inout) :: bodies(:)
       integer(ip) :: b, i
@@ -157,13 +158,5 @@ contains
          end do
       end do
    end subroutine reduce_bases
-
-   !> Other bodies come, or the same ones factored anew.
-   pure subroutine forget_reduced(bases)
-      type(base_loads_t), allocatable, intent(inout) :: bases
-
-      if (.not. allocated(bases)) return
-      if (allocated(bases%reduced)) deallocate (bases%reduced)
-   end subroutine forget_reduced
 
 end module atrito_base_loads

@@ -1,5 +1,8 @@
 !> The factored bodies of a scene, kept from one run to the next: a sweep over friction, penalty or loads factors each body once.
 !>
+!> A body is condensed once for all loads, all coefficients of friction and all contact laws, since its stiffness has none of them:
+!> what a run of a sweep costs besides is the contact line. Within a history the bodies stay as long as the same dofs are held.
+!>
 !> Numbering and rigid motions serve again when mesh, supports and contact nodes are the same numbers; a factored body serves again
 !> when its materials are, too; its reduced load when the load is the same as well. Nothing is guessed from what was varied.
 module atrito_body_cache
@@ -18,7 +21,7 @@ module atrito_body_cache
    use atrito_timers, only: start_phase, stop_phase
    implicit none (type, external)
    private
-   public :: body_cache_t, provide_bodies, reload_bodies, take_numbering, release_bodies, forget_bodies, forget_loads
+   public :: body_cache_t, provide_bodies, reload_bodies, take_numbering, release_bodies, forget_loads
 
    type :: body_cache_t
       type(reporter_t) :: reporter                     !< of factorisations
@@ -44,9 +47,12 @@ contains
    !> Condensed bodies with their reduced loads; those of the run before serve again where they can.
    !>
    !> status: STATUS_SINGULAR of condense_body.
+   !>
+   !> Body by body: one that may serve again (serves_again) is moved over without a copy; any other is assembled and factored. What
+   !> is left in the store when something fails is nothing: a body that was taken back is not there any more.
    subroutine provide_bodies(store, fem, held, points, load, asked, results, status, bilateral)
-      type(body_cache_t), intent(inout) :: store
-      type(fem_t), intent(in) :: fem
+      type(body_cache_t), intent(inout) :: store !< the factored bodies
+      type(fem_t), intent(in) :: fem !< bodies and elements
       logical, intent(in) :: held(:, :)                !< (2, n_nodes)
       type(contact_points_t), intent(in) :: points(:)
       real(wp), intent(in) :: load(:, :)               !< (2, n_nodes) [F], less the forces of prescribed displacements
@@ -62,6 +68,7 @@ contains
       same_bodies = .false.
       if (store%holds) same_bodies = store%asked == asked .and. store%grain == fem%grain &
                                      .and. has_same_numbering(store, held, points, fem, bilateral)
+      ! until all is well nothing is in the store
       store%holds = .false.
       allocate (bodies(fem%bodies%n))
       do b = 1, fem%bodies%n
@@ -70,6 +77,7 @@ contains
             if (.not. is_ok(status)) return
             cycle
          end if
+         ! a body serves again with its reduced load, or with another one, or not at all
          same_load = .false.
          if (same_bodies) same_load = has_same_load(store, fem, b, load)
          if (serves_again(store, fem, b, same_bodies)) then
@@ -96,8 +104,10 @@ contains
    end subroutine provide_bodies
 
    !> The bodies as the last call of provide_bodies left them, with another load.
+   !>
+   !> The next increment of a history, or the next attempt at this one: factors stay, the forward substitution of the load is new.
    subroutine reload_bodies(store, fem, load)
-      type(body_cache_t), intent(inout) :: store
+      type(body_cache_t), intent(inout) :: store !< the factored bodies
       type(fem_t), intent(in) :: fem                   !< of that call
       real(wp), intent(in) :: load(:, :)               !< (2, n_nodes) [F], less the forces of prescribed displacements
       integer(ip) :: b
@@ -136,22 +146,16 @@ contains
 
    !> Gives the memory of the factored bodies back, unless they are kept for a next run.
    subroutine release_bodies(store)
-      type(body_cache_t), intent(inout) :: store
+      type(body_cache_t), intent(inout) :: store !< the factored bodies
 
       if (.not. store%keeps .and. allocated(store%bodies)) deallocate (store%bodies)
    end subroutine release_bodies
 
-   !> Gives them back in any case.
-   subroutine forget_bodies(store)
-      type(body_cache_t), intent(inout) :: store
-
-      store%holds = .false.
-      if (allocated(store%bodies)) deallocate (store%bodies)
-   end subroutine forget_bodies
-
    !> The bodies have other loads than those that they were asked for with.
+   !>
+   !> What load_bodies has put there is no load that a next run could compare with: huge numbers equal none.
    pure subroutine forget_loads(store)
-      type(body_cache_t), intent(inout) :: store
+      type(body_cache_t), intent(inout) :: store !< the factored bodies
 
       if (store%holds) store%load = huge(store%load)
    end subroutine forget_loads
@@ -173,6 +177,9 @@ contains
    end subroutine take_numbering
 
    !> Mesh, supports and contact nodes decide on bodies and numbering.
+   !>
+   !> Everything is compared number by number. A sweep over friction or loads passes; one over the mesh differs in the first
+   !> coordinate.
    pure logical function has_same_numbering(store, held, points, fem, bilateral) result(same)
       type(body_cache_t), intent(in) :: store
       logical, intent(in) :: held(:, :)
@@ -208,6 +215,9 @@ contains
    end function has_same_numbering
 
    !> Whether a factored body is the same as one of this scene.
+   !>
+   !> Mesh, supports and contact nodes are those of the store already; what else a stiffness is made of are the sections of its
+   !> elements.
    pure logical function serves_again(store, fem, b, same_bodies) result(again)
       type(body_cache_t), intent(in) :: store
       type(fem_t), intent(in) :: fem

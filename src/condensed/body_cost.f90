@@ -38,8 +38,12 @@ module atrito_body_cost
 contains
 
    !> Chooses the solver of a body by its predicted cost, unless one is asked for, and says why.
+   !>
+   !> Skyline: sums of squares of the column heights. Band: the half bandwidth squared for each equation, at the speed of LAPACK's
+   !> blocks. Sparse: the fronts of nested dissection, estimated from the number of equations; for large bodies it is always that,
+   !> and no profile is made. The constants were fitted to measured times; ties go to the first.
    subroutine choose_solver(profile, asked, result)
-      type(profile_t), intent(in) :: profile
+      type(profile_t), intent(in) :: profile !< of its matrix
       integer, intent(in) :: asked                 !< STORAGE_* or 0 for the choice
       type(body_result_t), intent(inout) :: result
       real(wp) :: cost(N_STORAGES)
@@ -91,9 +95,11 @@ contains
 
    !> Estimates, as an upper bound, what is not told by the profile: the matrices of the elements, and the sparse solver, which
    !> takes a quarter more than expected where no two elements are equal.
+   !>
+   !> What is held while a body is factored: its elements and their equations, the fronts or the profile, and S.
    pure subroutine estimate_body_memory(fem, b, result)
-      type(fem_t), intent(in) :: fem
-      integer(ip), intent(in) :: b
+      type(fem_t), intent(in) :: fem !< bodies and elements
+      integer(ip), intent(in) :: b !< body
       type(body_result_t), intent(inout) :: result !< with its solver and what that is expected to take
       real(wp), parameter :: UNEQUAL = 1.25_wp
       integer(lp) :: elements
@@ -108,9 +114,11 @@ contains
    end subroutine estimate_body_memory
 
    !> Counts what the sparse solver will take: order, elements and fronts are made, and nothing is factored.
+   !>
+   !> The symbolic factorisation without the numbers: exact, and some percent of the time of a factorisation.
    subroutine count_body_memory(fem, b, result)
-      type(fem_t), intent(in) :: fem
-      integer(ip), intent(in) :: b
+      type(fem_t), intent(in) :: fem !< bodies and elements
+      integer(ip), intent(in) :: b !< body
       type(body_result_t), intent(inout) :: result
       type(elimination_t) :: elimination
       type(element_store_t) :: store
@@ -143,6 +151,9 @@ contains
    end function element_bytes
 
    !> The share of the elements that differ from the one before, by some of them.
+   !>
+   !> Equal elements share one matrix. In a regular mesh the next element in the list mostly equals the last one, so the share of
+   !> those that do not is about the share of matrices; every body is asked SAMPLES times.
    pure real(wp) function different_share(fem, b) result(share)
       type(fem_t), intent(in) :: fem
       integer(ip), intent(in) :: b

@@ -12,7 +12,7 @@ module atrito_body_motions
    use atrito_threads, only: is_shared
    implicit none (type, external)
    private
-   public :: modes_at_node, motions_of_bodies, find_moved_body, add_rigid_motions, motion_text, body_text, how_it_moves, is_turn
+   public :: motions_of_bodies, find_moved_body, add_rigid_motions, motion_text, body_text, how_it_moves, is_turn
 
    real(wp), parameter :: FARTHEST_CENTRE = 1.0e4_wp !< of a rotation, in sizes of the body
 
@@ -32,6 +32,8 @@ contains
    end function motions_of_bodies
 
    !> The body that moves most, and how.
+   !>
+   !> For words about a motion of several bodies: one of them is named.
    pure subroutine find_moved_body(bodies, a, b, mode)
       type(bodies_t), intent(in) :: bodies
       real(wp), intent(in) :: a(:)                   !< (k) amplitudes
@@ -45,8 +47,10 @@ contains
    end subroutine find_moved_body
 
    !> u <- u + Z a at the free dofs.
+   !>
+   !> Motions are told as translations of the centre and a rotation about it, so each node costs three products.
    subroutine add_rigid_motions(fem, a, u)
-      type(fem_t), intent(in) :: fem
+      type(fem_t), intent(in) :: fem !< bodies and elements
       real(wp), intent(in) :: a(:)
       real(wp), intent(inout) :: u(:, :)             !< (2, n_nodes) [L]
       real(wp) :: motion(3, fem%bodies%n)
@@ -80,8 +84,8 @@ contains
 
    !> A rigid motion of a body in words: 'body BLOCK (node 7 and all others) is free to move along x1'.
    function motion_text(fem, i_body, mode) result(text)
-      type(fem_t), intent(in) :: fem
-      integer(ip), intent(in) :: i_body
+      type(fem_t), intent(in) :: fem !< bodies and elements
+      integer(ip), intent(in) :: i_body !< its number in fem%bodies
       real(wp), intent(in) :: mode(3)              !< translations along 1 and 2, rotation
       character(len=:), allocatable :: text
 
@@ -90,8 +94,8 @@ contains
 
    !> 'body BLOCK (node 7 and all others)'
    function body_text(fem, i_body) result(text)
-      type(fem_t), intent(in) :: fem
-      integer(ip), intent(in) :: i_body
+      type(fem_t), intent(in) :: fem !< bodies and elements
+      integer(ip), intent(in) :: i_body !< its number in fem%bodies
       character(len=:), allocatable :: text
 
       associate (body => fem%bodies%list(i_body))
@@ -101,6 +105,9 @@ contains
    end function body_text
 
    !> Whether a motion turns a body: what turns about a point many sizes away moves along a line, as far as the digits tell.
+   !>
+   !> The centre of rotation is -translation/rotation away from the body's own. Beyond FARTHEST_CENTRE sizes round-off of the
+   !> rotation decides where, and the motion is a translation for all that is seen of it.
    pure logical function is_turn(mode)
       real(wp), intent(in) :: mode(3)              !< translations along 1 and 2, rotation at the size of the body
 
@@ -109,8 +116,8 @@ contains
 
    !> 'rotate about (1, 0)', 'move along x1'
    function how_it_moves(fem, i_body, mode) result(text)
-      type(fem_t), intent(in) :: fem
-      integer(ip), intent(in) :: i_body
+      type(fem_t), intent(in) :: fem !< bodies and elements
+      integer(ip), intent(in) :: i_body !< its number in fem%bodies
       real(wp), intent(in) :: mode(3)              !< translations along 1 and 2, rotation
       character(len=:), allocatable :: text
       real(wp), parameter :: SMALL = 1.0e-6_wp     !< the digits of the texts

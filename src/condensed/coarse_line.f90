@@ -35,8 +35,10 @@ module atrito_coarse_line
 contains
 
    !> Whether the coarse line is clearly smaller. Pairs of few points keep most of them; so a line of coarse lines comes to its end.
+   !>
+   !> A wall of many joints with three points each has no coarse line to speak of.
    pure logical function has_coarse_line(line)
-      type(contact_line_t), intent(in) :: line
+      type(contact_line_t), intent(in) :: line !< points, laws, average S_rho
       type(interpolation_t) :: interpolation
 
       call choose_points(line, interpolation)
@@ -44,9 +46,11 @@ contains
    end function has_coarse_line
 
    !> The coarse line and its bound-constrained QP.
+   !>
+   !> No pass over the bodies: all of it is made from C, G and g0 of the fine line, in m^2 operations for each pass.
    subroutine coarsen_line(problem, line, interpolation, coarse_problem, coarse_line)
-      type(bound_qp_t), intent(in) :: problem
-      type(contact_line_t), intent(in) :: line
+      type(bound_qp_t), intent(in) :: problem !< the QP: C, G, g0, h
+      type(contact_line_t), intent(in) :: line !< points, laws, average S_rho
       type(interpolation_t), intent(out) :: interpolation
       type(bound_qp_t), intent(out) :: coarse_problem
       type(contact_line_t), intent(out) :: coarse_line
@@ -56,6 +60,8 @@ contains
       call restrict_problem(problem, line, interpolation, coarse_line, coarse_problem)
    end subroutine coarsen_line
 
+   !> Every STRIDE-th point of each pair from its first one on, its last one, and all bilateral rows; with the places of all others
+   !> between them. Places count in points, not in lengths: what is wanted is a start.
    pure subroutine choose_points(line, interpolation)
       type(contact_line_t), intent(in) :: line
       type(interpolation_t), intent(out) :: interpolation
@@ -84,6 +90,8 @@ contains
       interpolation%point = chosen(:n)
    end subroutine choose_points
 
+   !> Laws, weights and unknowns of the coarse points. The weight is the sum of those of the fine points by their shares, so that a
+   !> uniform pressure has the same resultant; a coarse point has an unknown where a fine one that it bears upon has one.
    subroutine build_coarse_line(line, interpolation, coarse)
       type(contact_line_t), intent(in) :: line
       type(interpolation_t), intent(in) :: interpolation
@@ -134,6 +142,8 @@ contains
    end function share_of
 
    !> The rows of the average at the coarse points, applied to what is linear between them.
+   !>
+   !> (S p)_c = sum_j W_cj sum_d I_jd p_d, the row of W at the fine point under c.
    function coarse_average(average, interpolation) result(coarse)
       type(average_t), intent(in) :: average
       type(interpolation_t), intent(in) :: interpolation
@@ -162,6 +172,8 @@ contains
       end do
    end function coarse_average
 
+   !> C_c = R C R', G_c = R G, g0_c = R g0: the work of the coarse forces on what the fine points do. Two passes over the columns of
+   !> C, R having two entries a row.
    subroutine restrict_problem(problem, line, interpolation, coarse_line, coarse)
       type(bound_qp_t), intent(in) :: problem
       type(contact_line_t), intent(in) :: line, coarse_line
@@ -178,6 +190,7 @@ contains
       if (allocated(problem%h_size)) coarse%h_size = problem%h_size
       coarse%weight = coarse_line%weight(coarse_line%point)
       allocate (coarse%g0(coarse%m), coarse%g(coarse%m, coarse%k), coarse%c(coarse%m, coarse%m), source=0.0_wp)
+      ! half = C R', then C_c = R half
       allocate (half(problem%m, coarse%m), source=0.0_wp)
       do i = 1, problem%m
          associate (j => line%point(i))
@@ -212,10 +225,13 @@ contains
    end function unknown_of
 
    !> States of a line from those of the nearest points of its coarse line, and the friction bound of the coarse pressure.
+   !>
+   !> A point between two coarse ones takes the state of the nearer one; the pressure between them is linear, and what is negative
+   !> counts as none.
    subroutine start_from_coarse(problem, line, interpolation, coarse_line, coarse_state, bounds, state, tau)
-      type(bound_qp_t), intent(in) :: problem
+      type(bound_qp_t), intent(in) :: problem !< the QP: C, G, g0, h
       type(contact_line_t), intent(in) :: line, coarse_line
-      type(interpolation_t), intent(in) :: interpolation
+      type(interpolation_t), intent(in) :: interpolation !< where the points lie between coarse ones
       type(box_state_t), intent(in) :: coarse_state
       type(box_bounds_t), intent(out) :: bounds
       type(box_state_t), intent(out) :: state
@@ -223,6 +239,7 @@ contains
       real(wp) :: p(line%n), coarse_pressure(coarse_line%n)
       integer(ip) :: i, j, c, u
 
+      ! all points closed at first, then the states of the nearest coarse points
       coarse_pressure = pressure_of(coarse_line, coarse_state%q)
       call normal_bounds(line, problem, bounds, state)
       state%a = coarse_state%a

@@ -21,12 +21,13 @@ module atrito_condensed_body
    use atrito_assembly, only: fem_t, body_profile, assemble_body, retained_diagonal
    use atrito_bodies, only: order_by_dissection
    use atrito_body_cost, only: choose_solver, kept_bytes
-   use atrito_body_motions, only: modes_at_node, motion_text
+   use atrito_body_motions, only: motion_text
    use atrito_dense, only: solve_cholesky, orthonormalise, add_product
    use atrito_dense_blocks, only: add_inverse_form, factor_in_blocks
    use atrito_hourglass, only: free_hourglass
    use atrito_kinds, only: ip, wp
    use atrito_profile, only: profile_t, begin_profile
+   use atrito_row_entries, only: modes_at_node
    use atrito_results, only: body_result_t
    use atrito_solver_choice, only: new_solver, SOLVER_SPARSE
    use atrito_status, only: status_t, set_status, is_ok, STATUS_INTERNAL, STATUS_SINGULAR
@@ -51,15 +52,20 @@ contains
    !> Assembles, factors and condenses a body, by the solver that was chosen for `result` or that is chosen now.
    !>
    !> status: STATUS_SINGULAR with the body, node and motion in words; STATUS_INTERNAL when the memory does not suffice.
+   !>
+   !> 1. A profile, for the skyline and the band, or an order of elimination by nested dissection, for the sparse solver: contact
+   !> dofs last. 2. Assembly of K. 3. Factor of the interior; the solver hands over S (get_schur), from which the factor of F^-1 is
+   !> made.
    subroutine condense_body(fem, i_body, asked, body, result, status)
-      type(fem_t), intent(in) :: fem
-      integer(ip), intent(in) :: i_body
+      type(fem_t), intent(in) :: fem !< bodies and elements
+      integer(ip), intent(in) :: i_body !< its number in fem%bodies
       integer, intent(in) :: asked                 !< STORAGE_* or 0
       type(condensed_body_t), intent(out) :: body
       type(body_result_t), intent(inout) :: result
       type(status_t), intent(out) :: status
       type(profile_t) :: profile
 
+      ! a body that nothing holds and no point touches has no solution
       call check_held(fem, i_body, status)
       if (.not. is_ok(status)) return
       call start_phase('order')
@@ -87,9 +93,11 @@ contains
    end subroutine condense_body
 
    !> status: STATUS_SINGULAR when a body can move, or take a shape without strain, and no contact point touches it.
+   !>
+   !> A body that contact points touch may be held by them: that is known when the line is solved.
    subroutine check_held(fem, i_body, status)
-      type(fem_t), intent(in) :: fem
-      integer(ip), intent(in) :: i_body
+      type(fem_t), intent(in) :: fem !< bodies and elements
+      integer(ip), intent(in) :: i_body !< its number in fem%bodies
       type(status_t), intent(inout) :: status
 
       if (fem%bodies%list(i_body)%n_retained > 0 .or. fem%bodies%list(i_body)%is_touched) return
@@ -138,7 +146,9 @@ contains
 
       call body%solver%factor(status)
       if (status%code == STATUS_INTERNAL) return
-      call report_pivots(fem, i_body, body%solver, result)
+      result%digits_lost = body%solver%report%digits_lost
+      result%sign_changes = body%solver%report%sign_changes
+      if (body%solver%report%worst_equation > 0) call name_equation(fem, i_body, body%solver%report%worst_equation, result)
       call report_fronts(body%solver, result)
       if (.not. is_ok(status)) then
          call set_status(status, STATUS_SINGULAR, loose_text(fem, i_body, status%text, result%worst_node, result%worst_dof))
@@ -148,19 +158,9 @@ contains
       if (is_ok(status)) call report_contact_pivots(fem, i_body, body, result, status)
    end subroutine factor_body
 
-   subroutine report_pivots(fem, i_body, solver, result)
-      type(fem_t), intent(in) :: fem
-      integer(ip), intent(in) :: i_body
-      class(linear_solver_t), intent(in) :: solver
-      type(body_result_t), intent(inout) :: result
-
-      result%digits_lost = solver%report%digits_lost
-      result%sign_changes = solver%report%sign_changes
-      if (solver%report%worst_equation == 0) return
-      call name_equation(fem, i_body, solver%report%worst_equation, result)
-   end subroutine report_pivots
-
    !> What the sparse solver holds in fact, in place of what was predicted for it.
+   !>
+   !> Equal fronts are held once, so a regular mesh takes less than was predicted.
    subroutine report_fronts(solver, result)
       class(linear_solver_t), intent(in) :: solver
       type(body_result_t), intent(inout) :: result
@@ -192,6 +192,9 @@ contains
 
    !> The contact dofs are eliminated last, by the Cholesky factor; digits that their pivots lose count like those of the interior,
    !> and a pivot that is round-off alone there is none here. status: STATUS_SINGULAR then.
+   !>
+   !> The digits that an elimination loses at a pivot are log10(K_jj / pivot), the pivot being L_jj^2: what is left of the diagonal
+   !> after all others were eliminated.
    subroutine report_contact_pivots(fem, i_body, body, result, status)
       type(fem_t), intent(in) :: fem
       integer(ip), intent(in) :: i_body
@@ -221,6 +224,9 @@ contains
    end subroutine report_contact_pivots
 
    !> Cholesky factor of the Schur complement; for a floating body with alpha Q Q' added, alpha = trace(S)/n.
+   !>
+   !> S of a floating body is singular on the rigid motions at its contact dofs. Q is an orthonormal basis of them: fewer than the
+   !> motions where one contact dof alone is there, which two motions move alike. orthonormalise finds how many there are.
    subroutine factor_contact(fem, i_body, body, status)
       type(fem_t), intent(in) :: fem
       integer(ip), intent(in) :: i_body
@@ -235,6 +241,7 @@ contains
       if (n == 0) return
       call body%solver%get_schur(body%factor)
       if (size(fem%bodies%list(i_body)%modes, 2) > 0) then
+         ! a stiffness of the usual size for the motions, in which the forces balance
          alpha = sum([(body%factor(i, i)/n, i=1, n)])
          q = modes_at_contact(fem, i_body)
          call orthonormalise(q, n_independent, 1.0e-12_wp, info)
@@ -248,6 +255,8 @@ contains
    end subroutine factor_contact
 
    !> The rigid motions at the contact dofs, (n_retained, n_modes).
+   !>
+   !> Z restricted to the contact dofs, from which Q is made.
    function modes_at_contact(fem, i_body) result(z)
       type(fem_t), intent(in) :: fem
       integer(ip), intent(in) :: i_body
@@ -270,9 +279,11 @@ contains
    end function modes_at_contact
 
    !> Takes the load of the free dofs, applied forces less the forces of prescribed displacements.
+   !>
+   !> reduce is the forward half of the solution: L y = f in the interior, f_c - K_ci K_ii^-1 f_i at the contact dofs behind it.
    subroutine set_load(fem, i_body, f, body)
-      type(fem_t), intent(in) :: fem
-      integer(ip), intent(in) :: i_body
+      type(fem_t), intent(in) :: fem !< bodies and elements
+      integer(ip), intent(in) :: i_body !< its number in fem%bodies
       real(wp), intent(in) :: f(:, :)              !< (2, n_nodes) [F]
       type(condensed_body_t), intent(inout) :: body
       integer(ip) :: i, dof, equation
@@ -294,7 +305,7 @@ contains
 
    !> F times forces at the contact dofs, in place.
    subroutine contact_response(body, x)
-      type(condensed_body_t), intent(in) :: body
+      type(condensed_body_t), intent(in) :: body !< factored
       real(wp), intent(inout), contiguous :: x(:, :) !< (n_retained, loads): forces [F] in, displacements [L] out
 
       call solve_cholesky(body%factor, x)
@@ -302,7 +313,7 @@ contains
 
    !> Adds B F B' to C for rows B on the contact dofs.
    subroutine add_flexibilities(body, forces, first, place, c)
-      type(condensed_body_t), intent(in) :: body
+      type(condensed_body_t), intent(in) :: body !< factored
       real(wp), intent(inout), contiguous :: forces(:, :) !< (n_retained, rows) B'; destroyed
       integer(ip), intent(in) :: first(:)          !< (rows) first entry of each that is not zero, ascending
       integer(ip), intent(in) :: place(:)          !< (rows) of each in C
@@ -312,10 +323,12 @@ contains
    end subroutine add_flexibilities
 
    !> Displacements of all free dofs from those of the contact dofs; without any, the plain solution.
+   !>
+   !> The backward half: the interior from y and the displacements of the contact dofs.
    subroutine expand_body(fem, i_body, body, u_contact, u)
-      type(fem_t), intent(in) :: fem
-      integer(ip), intent(in) :: i_body
-      type(condensed_body_t), intent(in) :: body
+      type(fem_t), intent(in) :: fem !< bodies and elements
+      integer(ip), intent(in) :: i_body !< its number in fem%bodies
+      type(condensed_body_t), intent(in) :: body !< factored
       real(wp), intent(in) :: u_contact(:)         !< (n_retained) [L]
       real(wp), intent(inout) :: u(:, :)           !< (2, n_nodes) [L]: the free dofs of this body are set
       real(wp), allocatable :: x(:, :)

@@ -13,7 +13,6 @@ module atrito_contact_problem
    use atrito_kinds, only: ip, lp, wp, EPS_MACH
    use atrito_assembly, only: fem_t
    use atrito_average, only: add_identity_rows
-   use atrito_body_motions, only: modes_at_node
    use atrito_bound_qp, only: bound_qp_t
    use atrito_condensed_body, only: condensed_body_t, contact_response, add_flexibilities
    use atrito_constraint_rows, only: constraint_rows_t
@@ -24,21 +23,24 @@ module atrito_contact_problem
    use atrito_friction_law, only: friction_law_t, FRICTION_NONE, FRICTION_LOCAL
    use atrito_model, only: model_t, interaction_t
    use atrito_points, only: contact_points_t
-   use atrito_row_entries, only: build_constraint_rows, direction_of, first_motions, loads_on_motions
+   use atrito_row_entries, only: direction_of, first_motions, loads_on_motions, modes_at_node
    use atrito_surface_average, only: average_rule_t, average_surfaces, count_surface_entries
    implicit none (type, external)
    private
-   public :: average_entries, build_line, set_known_points, build_problem, build_flexibility, set_right_hand_sides, &
+   public :: average_entries, build_line, set_known_points, build_flexibility, set_right_hand_sides, &
              add_displacements
 
 contains
 
    !> Points, laws and averages of all pairs, and which points have unknown forces.
+   !>
+   !> A row of which all displacements are prescribed has no unknown force (has_unknown): its overlap and slip are known numbers,
+   !> and hard contact asks for them to be admissible. Rows that a support takes the force of (rows%is_held) have none either.
    pure subroutine build_line(model, fem, points, rows, value, line)
       type(model_t), intent(in) :: model
-      type(fem_t), intent(in) :: fem
+      type(fem_t), intent(in) :: fem !< bodies and elements
       type(contact_points_t), intent(in) :: points(:)
-      type(contact_rows_t), intent(in) :: rows
+      type(contact_rows_t), intent(in) :: rows !< of all points, over nodes
       real(wp), intent(in) :: value(:, :)            !< (2, n_nodes) prescribed displacements [L]
       type(contact_line_t), intent(out) :: line
       logical :: normal_row(rows%n), tangential_row(rows%n)
@@ -58,6 +60,7 @@ contains
             first = last
          end associate
       end do
+      ! S_rho as a matrix of the points: W
       call average_surfaces(points, average_rules(model), line%average)
       if (line%n_bilateral > 0) call append_bilateral(model%bilateral, size(points, kind=ip), line)
       do j = 1, line%n
@@ -69,6 +72,9 @@ contains
    end subroutine build_line
 
    !> The rows behind the points: without friction, their average their own force.
+   !>
+   !> A tie, an equation, a support or a spring is a row with a normal force of either sign; delta/weight is its compliance [L/F],
+   !> so that the law of contact p = (overlap)/delta serves it.
    pure subroutine append_bilateral(bilateral, n_pairs, line)
       type(bilateral_rows_t), intent(in) :: bilateral
       integer(ip), intent(in) :: n_pairs
@@ -106,6 +112,9 @@ contains
    end function average_rules
 
    !> The law of an interaction; without a coefficient there is none, and nothing tangential is built.
+   !>
+   !> LOCAL: t = min(k |u_T|, nu p) sign(u_T), the compliance 1/k of the stick, 0 for exact stick. NONLOCAL, of Oden and Pires: eps
+   !> is the elastic slip at the full bound, so the compliance is eps/tau and follows the bound.
    pure type(friction_law_t) function law_of(interaction) result(law)
       type(interaction_t), intent(in) :: interaction
 
@@ -119,6 +128,8 @@ contains
    end function law_of
 
    !> True when the row of a point has an entry on a free dof. (A matrix entry could vanish by cancellation; the row tells.)
+   !>
+   !> N u and T u of a point are rows of B. Where both nodes are held the force at the point goes into the supports.
    pure logical function has_unknown(fem, rows, j, direction)
       type(fem_t), intent(in) :: fem
       type(contact_rows_t), intent(in) :: rows
@@ -138,8 +149,10 @@ contains
 
    !> What the contact line knows of points whose dofs are prescribed. No slip is what round-off leaves of the displacements: those
    !> that are prescribed now, and those of before, from which a support may begin.
+   !>
+   !> known_overlap: u_n - gap of the prescribed displacements. known_slip: their u_T. noise: round-off of it, which is no slip.
    pure subroutine set_known_points(rows, value, line)
-      type(contact_rows_t), intent(in) :: rows
+      type(contact_rows_t), intent(in) :: rows !< of all points, over nodes
       real(wp), intent(in) :: value(:, :)            !< (2, n_nodes) prescribed displacements [L]
       type(contact_line_t), intent(inout) :: line
       integer(ip) :: j
@@ -154,28 +167,18 @@ contains
       line%noise = usual_growth(0_ip, 0.0_wp)*EPS_MACH*line%noise
    end subroutine set_known_points
 
-   !> C, G, g0 and h.
-   subroutine build_problem(fem, condensed, rows, line, value, f, problem)
-      type(fem_t), intent(in) :: fem
-      type(condensed_body_t), intent(in) :: condensed(:)
-      type(contact_rows_t), intent(in) :: rows
-      type(contact_line_t), intent(in) :: line
-      real(wp), intent(in) :: value(:, :)            !< (2, n_nodes) prescribed displacements [L]
-      real(wp), intent(in) :: f(:, :)                !< (2, n_nodes) applied forces [F]
-      type(bound_qp_t), intent(out) :: problem
-
-      call build_flexibility(fem, condensed, rows, line, problem)
-      call set_right_hand_sides(fem, condensed, rows, line, value, f, problem)
-   end subroutine build_problem
-
    !> C and G: the same for all loads.
-   subroutine build_flexibility(fem, condensed, rows, line, problem)
-      type(fem_t), intent(in) :: fem
-      type(condensed_body_t), intent(in) :: condensed(:)
-      type(contact_rows_t), intent(in) :: rows
-      type(contact_line_t), intent(in) :: line
+   !>
+   !> B has few entries a row: those of the slave node and of the master's face. Body by body C takes the rows' parts on the contact
+   !> dofs, B_b F_b B_b', so C_ij is the displacement of point i along its row by a unit force at point j, summed over the bodies
+   !> that both touch.
+   subroutine build_flexibility(fem, condensed, b, rows, line, problem)
+      type(fem_t), intent(in) :: fem !< bodies and elements
+      type(condensed_body_t), intent(in) :: condensed(:) !< (bodies) factored
+      type(constraint_rows_t), intent(in) :: b       !< of the unknowns over displacements (build_constraint_rows)
+      type(contact_rows_t), intent(in) :: rows !< of all points, over nodes
+      type(contact_line_t), intent(in) :: line !< points, laws, average S_rho
       type(bound_qp_t), intent(out) :: problem
-      type(constraint_rows_t) :: b
       integer(ip) :: motions(fem%bodies%n + 1), before, i
 
       motions = first_motions(fem%bodies)
@@ -184,7 +187,6 @@ contains
       problem%k = motions(fem%bodies%n + 1) - 1
       allocate (problem%c(problem%m, problem%m), problem%g(problem%m, problem%k), source=0.0_wp)
       problem%weight = line%weight(line%point)
-      call build_constraint_rows(fem, rows, line, .false., b)
       before = 0
       do i = 1, fem%bodies%n
          associate (body => fem%bodies%list(i))
@@ -196,11 +198,15 @@ contains
    end subroutine build_flexibility
 
    !> g0 and h: what prescribed displacements, loads and rest slips do.
-   subroutine set_right_hand_sides(fem, condensed, rows, line, value, f, problem)
-      type(fem_t), intent(in) :: fem
+   !>
+   !> g0 of a normal row is the overlap without contact forces, less the gap: positive where bodies would penetrate. g0 of a
+   !> tangential row is the slip without contact forces, less the rest slip of a law with memory.
+   subroutine set_right_hand_sides(fem, condensed, b, rows, line, value, f, problem)
+      type(fem_t), intent(in) :: fem !< bodies and elements
       type(condensed_body_t), intent(in) :: condensed(:) !< with their loads
-      type(contact_rows_t), intent(in) :: rows
-      type(contact_line_t), intent(in) :: line
+      type(constraint_rows_t), intent(in) :: b       !< of the unknowns over displacements
+      type(contact_rows_t), intent(in) :: rows !< of all points, over nodes
+      type(contact_line_t), intent(in) :: line !< points, laws, average S_rho
       real(wp), intent(in) :: value(:, :)            !< (2, n_nodes) prescribed displacements [L]
       real(wp), intent(in) :: f(:, :)                !< (2, n_nodes) applied forces [F]
       type(bound_qp_t), intent(inout) :: problem     !< with C and G
@@ -216,23 +222,23 @@ contains
             problem%g0(i) = problem%g0(i) - rest_of(line, line%point(i))
          end if
       end do
-      call add_displacements(fem, condensed, rows, line, problem%g0)
+      call add_displacements(fem, condensed, b, problem%g0)
       call loads_on_motions(fem, f, problem%h, problem%h_size)
    end subroutine set_right_hand_sides
 
    !> Adds B F f_c of all bodies to g0: what their loads move the points by.
-   subroutine add_displacements(fem, condensed, rows, line, g0)
+   !>
+   !> The reduced load f_c stands behind the half-solved interior in the body's load vector. A refinement adds what its residuals do
+   !> in the same way.
+   subroutine add_displacements(fem, condensed, b, g0)
       type(fem_t), intent(in) :: fem
       type(condensed_body_t), intent(in) :: condensed(:) !< with their loads
-      type(contact_rows_t), intent(in) :: rows
-      type(contact_line_t), intent(in) :: line
+      type(constraint_rows_t), intent(in) :: b       !< of the unknowns over displacements
       real(wp), intent(inout) :: g0(:)               !< (m) [L]
-      type(constraint_rows_t) :: b
       real(wp), allocatable :: moved(:, :)
       integer(ip) :: before, i, j, k
       real(wp) :: change
 
-      call build_constraint_rows(fem, rows, line, .false., b)
       before = 0
       do i = 1, fem%bodies%n
          associate (n => fem%bodies%list(i)%n_retained)
@@ -254,6 +260,9 @@ contains
    end subroutine add_displacements
 
    !> Adds B F B' of one body to C. Rows are taken in the order of their first contact dof: the columns of F B' above it are zero.
+   !>
+   !> C += (L^-1 B')' (L^-1 B'), L being the Cholesky factor of F^-1: a column of B' that begins with k zeros has k zeros in L^-1
+   !> B', which are left out. So a long line, whose rows follow the dofs, costs a third of n^2 operations a row.
    subroutine add_flexibility(condensed, b, before, n, c)
       type(condensed_body_t), intent(in) :: condensed
       type(constraint_rows_t), intent(in) :: b
@@ -270,6 +279,7 @@ contains
             if (b%column(k) > before) first(j) = min(first(j), b%column(k) - before)
          end do
       end do
+      ! rows of this body alone, in the order of their first dof
       order = places_in_order(first, n)
       place = 0
       place(order) = [(j, j=1, size(order, kind=ip))]
@@ -285,6 +295,8 @@ contains
    end subroutine add_flexibility
 
    !> The places of the values from 1 to n, in ascending order of the values.
+   !>
+   !> A counting sort: next(v) is the place of the next value v. Values beyond n have no place.
    pure function places_in_order(value, n) result(order)
       integer(ip), intent(in) :: value(:), n
       integer(ip), allocatable :: order(:)
@@ -308,6 +320,8 @@ contains
 
    !> The rigid motions of all bodies at the points: G = B Z. Motions are of size one: what is below rounding of that is no motion,
    !> nor is one that no point sees but for the rounding of coordinates that supports allow it by (find_rigid_modes).
+   !>
+   !> G_ij is what motion j makes of the overlap or slip of row i. Z is zero at dofs that are held.
    subroutine add_motions(fem, rows, line, first, g)
       type(fem_t), intent(in) :: fem
       type(contact_rows_t), intent(in) :: rows

@@ -16,11 +16,14 @@ module atrito_displacements
 contains
 
    !> B'q as nodal forces (2, n_nodes) [F]: what the contact and the bilateral rows take from the loads, prescribed dofs too.
+   !>
+   !> At point j the force w (p N + t T) goes to the slave node with the coefficient 1 and to the nodes of the master's face with
+   !> those of its shape functions, negative. Pairs whose moments are balanced have rows%turn besides: multiples of N.
    pure function contact_forces(fem, rows, line, solution) result(force)
-      type(fem_t), intent(in) :: fem
-      type(contact_rows_t), intent(in) :: rows
-      type(contact_line_t), intent(in) :: line
-      type(contact_solution_t), intent(in) :: solution
+      type(fem_t), intent(in) :: fem !< bodies and elements
+      type(contact_rows_t), intent(in) :: rows !< of all points, over nodes
+      type(contact_line_t), intent(in) :: line !< points, laws, average S_rho
+      type(contact_solution_t), intent(in) :: solution !< forces and stresses at the points
       real(wp) :: force(2, fem%mesh%n_nodes)
       real(wp) :: at_point(2)
       integer(ip) :: j, k
@@ -41,8 +44,10 @@ contains
    end function contact_forces
 
    !> Adds what some bilateral rows take from the loads.
+   !>
+   !> Ties, equations, supports along directions of their own and springs: B' q with the vectors of their rows.
    pure subroutine add_bilateral_forces(rows, wanted, q, force)
-      type(contact_rows_t), intent(in) :: rows
+      type(contact_rows_t), intent(in) :: rows !< of all points, over nodes
       logical, intent(in) :: wanted(:)               !< (bilateral rows)
       real(wp), intent(in) :: q(:)                   !< (n) of all rows [F]
       real(wp), intent(inout) :: force(:, :)         !< (2, n_nodes) [F]
@@ -59,9 +64,11 @@ contains
    end subroutine add_bilateral_forces
 
    !> The displacements of one body without its rigid motion: u_e = u0 - F B'q at the contact dofs, the interior from them.
+   !>
+   !> x = f_c - B'q at the contact dofs, F x by the factor, then the interior. A rigid body has no displacements but its motions.
    subroutine elastic_displacements(fem, i_body, condensed, force, u)
-      type(fem_t), intent(in) :: fem
-      integer(ip), intent(in) :: i_body
+      type(fem_t), intent(in) :: fem !< bodies and elements
+      integer(ip), intent(in) :: i_body !< its number in fem%bodies
       type(condensed_body_t), intent(in) :: condensed
       real(wp), intent(in) :: force(:, :)            !< B'q, (2, n_nodes) [F]
       real(wp), intent(inout) :: u(:, :)             !< (2, n_nodes) [L]: the free dofs of this body are set

@@ -56,8 +56,12 @@ contains
 
    !> Solves from the present q and a. solved is false where the factor's set is not near or has served its time, a motion is held
    !> weakly, or the steps would take longer than a factor: q and a are then as they were.
+   !>
+   !> P^-1 costs one solve with the factor of the earlier set, r one product with C: 4 n^2 operations a step, where a factor takes
+   !> n^3/3. Where few unknowns differ the eigenvalues of P^-1 M are 1 but for as many, and conjugate gradients end after about as
+   !> many steps.
    subroutine solve_with_kept(factor, c, system, q, a, solved)
-      type(free_set_factor_t), intent(inout) :: factor
+      type(free_set_factor_t), intent(inout) :: factor !< of the last solve
       real(wp), intent(in), contiguous :: c(:, :) !< (m, m) [L/F]
       type(free_system_t), intent(in) :: system
       real(wp), intent(inout) :: q(:)            !< (n) scaled
@@ -72,18 +76,21 @@ contains
       if (.not. allocated(factor%set)) return
       most = FACTOR_IN_STEPS + size(q, kind=ip)/ORDER_OVER_STEPS
       if (factor%steps > most) return
+      ! how the present set lies in that of the factor: unknowns that have become free stand in P with their diagonal alone
       call relate_sets(factor, size(c, 1, kind=ip), system%set, system%scale, p%relation)
       if (2*p%relation%differences > size(q)) return
       call prepare_motions(factor, system, p, solved)
       if (.not. solved) return
       found%x = q
       found%b = a
+      ! a first step makes the forces balance the load; all later ones keep that
       call correct(factor, c, system, p, found, remains)
       call find_residual(c, system, found, terms)
       call take_steps(factor, c, system, p, most, ROUND_OFF*terms, found, steps)
       solved = maxval(abs(found%r)) <= ROUND_OFF*terms
       factor%steps = factor%steps + max(steps - FEW_STEPS, 0_ip)
       if (.not. solved) return
+      ! the residual of the recurrence may have left the true one behind
       call correct(factor, c, system, p, found, remains)
       solved = remains <= FALSE_END
       if (.not. solved) return
@@ -115,6 +122,9 @@ contains
    end subroutine find_complement
 
    !> P^-1 G and the inverse of G' P^-1 G, where the set holds all motions.
+   !>
+   !> A motion that is held weakly (an eigenvalue below WEAKLY_HELD) is decided on by digits that P does not have: a factor of its
+   !> own.
    subroutine prepare_motions(factor, system, p, held)
       type(free_set_factor_t), intent(in) :: factor
       type(free_system_t), intent(in) :: system
@@ -163,6 +173,8 @@ contains
    end subroutine correct
 
    !> r, and the size of what it is the difference of.
+   !>
+   !> All in the scaled unknowns; the product with C goes through the whole matrix.
    subroutine find_residual(c, system, found, terms)
       real(wp), intent(in), contiguous :: c(:, :)
       type(free_system_t), intent(in) :: system
@@ -177,6 +189,10 @@ contains
    end subroutine find_residual
 
    !> Conjugate gradients until the largest entry of r is small enough.
+   !>
+   !> With the projection of the residual onto balanced forces, z = P^-1 (r + G db) with G' z = 0, the method is that of M on the
+   !> space G' q = 0: alpha = r'z/p'Mp, q <- q + alpha p, r <- r - alpha M p, beta = r'z over that of the step before. Ends early
+   !> where a curvature p'Mp that is round-off shows that rows depend on each other.
    subroutine take_steps(factor, c, system, p, most, enough, found, step)
       type(free_set_factor_t), intent(in) :: factor
       real(wp), intent(in), contiguous :: c(:, :)
@@ -197,6 +213,7 @@ contains
          if (now <= enough) return
          if (step >= 2*FEW_STEPS .and. is_slow(step, most, enough, begin, now)) return
          call apply_inverse(factor, p%relation, found%r, z)
+         ! projection onto forces that balance nothing: G' z = 0
          db = -matmul(p%inverse, matmul(transpose(system%g), z))
          z = z + matmul(p%y, db)
          found%r = found%r + matmul(system%g, db)
@@ -204,6 +221,7 @@ contains
          rz = dot_product(found%r, z)
          direction = z + (rz/last_rz)*direction
          product = scaled_product(c, system, direction)
+         ! p' M p beside p' p: below LEAST_CURVATURE rows depend on each other
          curvature = dot_product(direction, product)
          if (.not. (rz > 0.0_wp .and. curvature > LEAST_CURVATURE*dot_product(direction, direction))) return
          found%x = found%x + (rz/curvature)*direction
@@ -213,6 +231,9 @@ contains
    end subroutine take_steps
 
    !> Whether the steps, going on as they did, would be too many.
+   !>
+   !> The logarithm of the residual falls evenly, as far as is known: log(begin/now) in `step` steps, and log(now/enough) is still
+   !> to go.
    pure logical function is_slow(step, most, enough, begin, now)
       integer(ip), intent(in) :: step, most
       real(wp), intent(in) :: enough, begin, now

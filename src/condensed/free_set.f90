@@ -50,9 +50,9 @@ contains
    !> Solves for the free unknowns, the others fixed at state%q; sets state%q, a, r, slack. outcome%moves: no equilibrium, and a is
    !> the least motion that satisfies the rest. status: STATUS_SINGULAR when rows depend on each other (outcome%dependent).
    subroutine solve_free_set(problem, d, state, outcome, status, factor)
-      type(bound_qp_t), intent(in) :: problem
+      type(bound_qp_t), intent(in) :: problem !< the QP: C, G, g0, h
       real(wp), intent(in) :: d(:)               !< (m) [L/F]
-      type(box_state_t), intent(inout) :: state
+      type(box_state_t), intent(inout) :: state !< states of the m unknowns, q, a, r
       type(box_outcome_t), intent(out) :: outcome !< solved is left to the caller, condition to condition_of
       type(status_t), intent(out) :: status
       type(free_set_factor_t), intent(inout) :: factor !< of an earlier solve, which serves again where it can, or of this one
@@ -60,6 +60,7 @@ contains
       real(wp), allocatable :: held(:), q(:)
       logical :: solved
 
+      ! the free unknowns as they are now are where an iteration with the factor of an earlier set begins
       call free_system(problem, d, state, held, system)
       q = state%q(system%set)/system%scale
       solved = .false.
@@ -77,6 +78,9 @@ contains
    end subroutine solve_free_set
 
    !> The equations of the free unknowns, scaled to a unit diagonal of C + D.
+   !>
+   !> Row i of M is multiplied by s_i = 1/sqrt(M_ii), and q_i = s_i q~_i: M~ has the diagonal 1, and its condition is, but for a
+   !> factor of its order, the least that any diagonal scaling gives (A. van der Sluis 1969).
    subroutine free_system(problem, d, state, held, system)
       type(bound_qp_t), intent(in) :: problem
       real(wp), intent(in) :: d(:)
@@ -95,6 +99,7 @@ contains
       if (any(held /= 0.0_wp)) call multiply_symmetric(problem%c, held, moved)
       system%rhs = (problem%g0(system%set) - moved(system%set))*system%scale
       if (allocated(state%shift)) system%rhs = system%rhs + state%shift(system%set)*system%scale
+      ! what the free forces have to balance: h - G_X' q_X
       system%load = problem%h - matmul(transpose(problem%g), held)
       system%g = problem%g(system%set, :)
       do i = 1, size(system%set, kind=ip)
@@ -103,6 +108,10 @@ contains
    end subroutine free_system
 
    !> [M -G; -G' 0] [q; a] = [rhs; -load] by the complement of M, with one refinement.
+   !>
+   !> Elimination of q: y = M^-1 G, S = G' y, x = M^-1 rhs, S a = load - G' x, q = x + y a. The refinement takes the residuals of
+   !> both equations with the product M q as it is, not as its factor has it; the factor's own round-off, eps times the condition of
+   !> M, is then squared. More would be round-off of q itself.
    subroutine solve_saddle(problem, factor, system, held, q, a, outcome)
       type(bound_qp_t), intent(in) :: problem
       real(wp), intent(in) :: factor(:, :)       !< of M
@@ -115,9 +124,11 @@ contains
       real(wp), allocatable :: y(:, :), x(:), correction(:), da(:)
 
       associate (gs => system%g, rhs => system%rhs, load => system%load)
+         ! the complement of the motions
          y = gs
          call solve_cholesky(factor, y)
          call find_complement(gs, y, complement)
+         ! the forces without motions, then the motions that make them balance
          x = rhs
          call solve_cholesky(factor, x)
          call solve_motions(complement, load - matmul(transpose(gs), x), a)
@@ -134,6 +145,9 @@ contains
    end subroutine solve_saddle
 
    !> a from G' M^-1 G a = force; a motion that the free set does not hold takes no part.
+   !>
+   !> By the eigenvectors V of the scaled S: a = V diag(1/lambda) V' force over the eigenvalues that are not null, the least of all
+   !> a that solve it.
    subroutine solve_motions(complement, force, a)
       type(complement_t), intent(in) :: complement
       real(wp), intent(in) :: force(:)
@@ -151,6 +165,9 @@ contains
    !> Whether the load works on a motion that the free set does not hold: then outcome%moves. The load is measured by the forces of
    !> the solution on the bodies that move, and by what was cancelled in it; those before the bodies have moved to where they touch
    !> may be larger by any factor, and say nothing.
+   !>
+   !> v is a null vector of S in the amplitudes of the motions. Its work h'v - q_X'G v is that of the loads and of the fixed forces;
+   !> free ones have no part, as G_F v = 0. hardly: it is LITTLE_LOAD of its terms, and a body that nothing stops may as well rest.
    subroutine judge_motions(problem, complement, system, held, q, a, outcome)
       type(bound_qp_t), intent(in) :: problem
       type(complement_t), intent(in) :: complement
@@ -163,6 +180,7 @@ contains
       real(wp) :: part, size_of_part, round_off
       integer(ip) :: j
 
+      ! the usual case: the closed and sticking points hold all bodies
       if (all(complement%values > NULL_MOTION)) return
       outcome%hardly = .true.
       all_q = held
@@ -177,6 +195,7 @@ contains
          part = dot_product(way, work)
          size_of_part = dot_product(abs(way), size_of_work)
          round_off = dot_product(abs(matmul(problem%g, way)), none)
+         ! the work h'v - q'G v of all forces on the motion, beside the sum of its terms without sign
          if (abs(part) > NO_LOAD*size_of_part + round_off) then
             motion = motion + complement%vectors(:, j)*part
             outcome%hardly = outcome%hardly .and. abs(part) <= LITTLE_LOAD*size_of_part + round_off
@@ -199,6 +218,8 @@ contains
    end function size_of_load
 
    !> The force [F] that each unknown alone would need to undo what its displacement is made of.
+   !>
+   !> |g0_i| + |(G a)_i| over C_ii + D_i: displacements that are large beside the elastic ones leave that round-off in forces.
    pure function forces_of_places(problem, system, a) result(force)
       type(bound_qp_t), intent(in) :: problem
       type(free_system_t), intent(in) :: system
@@ -214,10 +235,13 @@ contains
    end function forces_of_places
 
    !> Sets r = g0 - (C + D) q + G a and its round-off.
+   !>
+   !> r is the gap of an open point (with the sign of an overlap), the slip against the friction of a slipping one, and zero but for
+   !> round-off where the unknown is free. One product with C.
    subroutine set_residual(problem, d, state)
-      type(bound_qp_t), intent(in) :: problem
+      type(bound_qp_t), intent(in) :: problem !< the QP: C, G, g0, h
       real(wp), intent(in) :: d(:)
-      type(box_state_t), intent(inout) :: state
+      type(box_state_t), intent(inout) :: state !< states of the m unknowns, q, a, r
       real(wp) :: cq(problem%m), moved(problem%m)
 
       call multiply_symmetric(problem%c, state%q, cq)
@@ -230,8 +254,8 @@ contains
    !> Round-off of one r, of the terms that it is made of [L]: a fixed unknown is released when r is wrong by more. Rows of stiff
    !> bodies beside soft ones have far less of it than state%slack.
    pure real(wp) function row_round_off(problem, state, i) result(slack)
-      type(bound_qp_t), intent(in) :: problem
-      type(box_state_t), intent(in) :: state
+      type(bound_qp_t), intent(in) :: problem !< the QP: C, G, g0, h
+      type(box_state_t), intent(in) :: state !< states of the m unknowns, q, a, r
       integer(ip), intent(in) :: i
       integer(ip) :: j
 
@@ -262,6 +286,8 @@ contains
 
    !> What a force moves its row by, with the compliance of its law; where that is nothing, as between rigid surfaces, by as much as
    !> the softest row, so that a force there is no less than others.
+   !>
+   !> C_ii + D_i, the displacement per force of the point along itself [L/F]: what turns round-off of r into round-off of a force.
    pure real(wp) function yield_of(problem, d, i) result(yields)
       type(bound_qp_t), intent(in) :: problem
       real(wp), intent(in) :: d                  !< of the row [L/F]
@@ -276,9 +302,9 @@ contains
 
    !> Forces that are what refinement leaves of none become none.
    pure subroutine clear_vanishing(problem, d, state)
-      type(bound_qp_t), intent(in) :: problem
+      type(bound_qp_t), intent(in) :: problem !< the QP: C, G, g0, h
       real(wp), intent(in) :: d(:)               !< (m) [L/F]
-      type(box_state_t), intent(inout) :: state
+      type(box_state_t), intent(inout) :: state !< states of the m unknowns, q, a, r
       integer(ip) :: i
 
       do i = 1, problem%m
@@ -287,10 +313,12 @@ contains
    end subroutine clear_vanishing
 
    !> Whether a force is what refinement leaves of none.
+   !>
+   !> A solve leaves round-off of a force that is none, its refinement the square of that.
    pure logical function is_vanishing(problem, d, state, i)
-      type(bound_qp_t), intent(in) :: problem
+      type(bound_qp_t), intent(in) :: problem !< the QP: C, G, g0, h
       real(wp), intent(in) :: d(:)               !< (m) [L/F]
-      type(box_state_t), intent(in) :: state
+      type(box_state_t), intent(in) :: state !< states of the m unknowns, q, a, r
       integer(ip), intent(in) :: i
 
       ! a place may be met exactly by a force that is none
@@ -305,9 +333,11 @@ contains
    end function largest
 
    !> Fixed unknowns take the values of their bounds.
+   !>
+   !> So the forces q_X of a solve are those of the states, whatever they were before.
    pure subroutine put_at_bounds(bounds, state)
-      type(box_bounds_t), intent(in) :: bounds
-      type(box_state_t), intent(inout) :: state
+      type(box_bounds_t), intent(in) :: bounds !< of the m forces [F], and their D [L/F]
+      type(box_state_t), intent(inout) :: state !< states of the m unknowns, q, a, r
 
       where (state%state == AT_LOWER) state%q = bounds%lower
       where (state%state == AT_UPPER) state%q = bounds%upper

@@ -29,11 +29,14 @@ module atrito_frozen_bound
 contains
 
    !> Solves the inner problem for a frozen friction bound, from the present state. Image: nu S_rho of the pressure found.
+   !>
+   !> The state of the last bound is where the active set begins: near the fixed point no state changes and one linear solve does.
+   !> HUGE_REAL as a bound means that the point cannot slip.
    subroutine solve_with_bound(problem, line, tau, solution, image, status)
-      type(bound_qp_t), intent(in) :: problem
-      type(contact_line_t), intent(in) :: line
+      type(bound_qp_t), intent(in) :: problem !< the QP: C, G, g0, h
+      type(contact_line_t), intent(in) :: line !< points, laws, average S_rho
       real(wp), intent(in) :: tau(:)                  !< (n) [F/L^2]; HUGE_REAL: no bound
-      type(contact_solution_t), intent(inout) :: solution
+      type(contact_solution_t), intent(inout) :: solution !< with a state to start from
       real(wp), intent(out) :: image(:)               !< (n) [F/L^2]
       type(status_t), intent(out) :: status
 
@@ -53,6 +56,7 @@ contains
          end if
       end if
       if (.not. is_ok(status)) return
+      ! what is round-off becomes nothing, so that no state depends on it
       call clear_vanishing(problem, solution%bounds%d, solution%state)
       if (solution%inner%solved) then
          ! with rows the factor is not that of the free set
@@ -66,6 +70,10 @@ contains
 
    !> A closed point may have a tension that is round-off, of the forces on the bodies there: another body may feel it. Such points
    !> open, where the others bear it without changing.
+   !>
+   !> The active set leaves tensions that are round-off of their row. Beside a soft body such a force is nothing; on a light one
+   !> that touches the same point it is not. A point that opens hands its force to its neighbours, whose states must stay as they
+   !> are.
    subroutine open_tensions(problem, solution)
       type(bound_qp_t), intent(in) :: problem
       type(contact_solution_t), intent(inout) :: solution
@@ -78,6 +86,7 @@ contains
       associate (n => problem%n_normal)
          state = solution%state
          do round = 1, MOST_ROUNDS
+            ! closed points of contact (not bilateral rows) with a tension, however small
             pulled = state%state(:n) == FREE .and. state%q(:n) < 0.0_wp .and. solution%bounds%lower(:n) > -HUGE_REAL
             if (.not. any(pulled)) exit
             where (pulled)
@@ -94,18 +103,25 @@ contains
 
    !> Forces of a pair that are round-off become none: at all its points what round-off of the displacements there may do, and far
    !> below the loads of the bodies that they hold. (A body without load between loaded ones has such forces.)
+   !>
+   !> Where a body without load lies between loaded ones, rounding of their displacements presses it. Such forces have no meaning,
+   !> but they have states and friction, which would turn to and fro. Scenes of one pair have nothing to compare with, and keep all.
    subroutine clear_noise(problem, line, solution)
       type(bound_qp_t), intent(in) :: problem
       type(contact_line_t), intent(in) :: line
       type(contact_solution_t), intent(inout) :: solution
       logical :: beside_loads(problem%m)
       integer(ip), allocatable :: unknowns(:)
-      integer(ip) :: first, last
+      integer(ip) :: first, last, j
 
       if (line%n == 0 .or. .not. allocated(line%pair) .or. .not. allocated(problem%h_size)) return
       if (size(line%pair) < line%n) return
       if (line%pair(1) == line%pair(line%n)) return
-      beside_loads = noise_beside_loads(problem, solution%state%q)
+      beside_loads = .true.
+      do j = 1, problem%k
+         if (problem%h_size(j) > 0.0_wp) beside_loads = beside_loads .and. &
+                                                        abs(problem%g(:, j)*solution%state%q) <= NOISE*problem%h_size(j)
+      end do
       first = 1
       do while (first <= line%n)
          last = last_of_pair(line, first)
@@ -117,6 +133,8 @@ contains
    end subroutine clear_noise
 
    !> The compliance of friction goes with its bound, which may be noise as well.
+   !>
+   !> Every force of the pair must be small beside the loads of all bodies that have some, and no more than round-off of its row.
    pure logical function is_noise(problem, solution, beside_loads, unknowns)
       type(bound_qp_t), intent(in) :: problem
       type(contact_solution_t), intent(in) :: solution
@@ -137,17 +155,5 @@ contains
          if (.not. is_noise) return
       end do
    end function is_noise
-
-   pure function noise_beside_loads(problem, q) result(is_noise)
-      type(bound_qp_t), intent(in) :: problem
-      real(wp), intent(in) :: q(:)
-      logical :: is_noise(problem%m)
-      integer(ip) :: j
-
-      is_noise = .true.
-      do j = 1, problem%k
-         if (problem%h_size(j) > 0.0_wp) is_noise = is_noise .and. abs(problem%g(:, j)*q) <= NOISE*problem%h_size(j)
-      end do
-   end function noise_beside_loads
 
 end module atrito_frozen_bound

@@ -26,6 +26,9 @@ module atrito_goldfarb_idnani
    public :: take_goldfarb_idnani_steps, opening_motion
 
    !> State of the unknown that is being driven to its bound: fixed, its multiplier not yet judged.
+   !>
+   !> While it is driven an unknown is neither free nor at a bound: its force is given by the drive, and its multiplier, which grows
+   !> from zero, is judged once it has arrived.
    integer(ip), parameter :: DRIVEN = 4
    real(wp), parameter :: LEAST_RATE = 1.0e-14_wp    !< of a multiplier along a motion, relative to the largest
    real(wp), parameter :: BREAKS = 1.0e-13_wp        !< of the largest force: a bound that is broken by less may be round-off
@@ -36,15 +39,16 @@ contains
    !> Goes on from state%state until all conditions hold (outcome%solved), there is no equilibrium (outcome%moves), or there were
    !> too many solves.
    subroutine take_goldfarb_idnani_steps(problem, bounds, state, history, outcome, status, factor)
-      type(bound_qp_t), intent(in) :: problem
-      type(box_bounds_t), intent(in) :: bounds
-      type(box_state_t), intent(inout) :: state
-      type(solve_history_t), intent(inout) :: history
-      type(box_outcome_t), intent(out) :: outcome
+      type(bound_qp_t), intent(in) :: problem !< the QP: C, G, g0, h
+      type(box_bounds_t), intent(in) :: bounds !< of the m forces [F], and their D [L/F]
+      type(box_state_t), intent(inout) :: state !< states of the m unknowns, q, a, r
+      type(solve_history_t), intent(inout) :: history !< every linear solve is added
+      type(box_outcome_t), intent(out) :: outcome !< solved, moves, or neither
       type(status_t), intent(out) :: status
-      type(free_set_factor_t), intent(inout) :: factor
+      type(free_set_factor_t), intent(inout) :: factor !< of the last solve
       integer(ip) :: left, worst, i
 
+      ! far more than is ever needed: each unknown is driven once or twice
       left = SOLVES_PER_UNKNOWN*problem%m + 50
       call release_until_right(problem, bounds, state, history, outcome, left, status, factor)
       do while (is_ok(status) .and. left > 0 .and. .not. outcome%moves)
@@ -64,6 +68,9 @@ contains
    end subroutine take_goldfarb_idnani_steps
 
    !> (i) and, where a body is free, (iii).
+   !>
+   !> All wrong multipliers are released at once: the relaxed problem gets smaller by each of them, and only its solution counts.
+   !> Ends with all multipliers right, with a body that nothing stops (outcome%moves), or with `left` = 0.
    subroutine release_until_right(problem, bounds, state, history, outcome, left, status, factor)
       type(bound_qp_t), intent(in) :: problem
       type(box_bounds_t), intent(in) :: bounds
@@ -77,6 +84,7 @@ contains
       integer(ip) :: i, released, first
 
       do while (left > 0)
+         ! the exact solution for the present set
          call put_at_bounds(bounds, state)
          call solve_free_set(problem, bounds%d, state, outcome, status, factor)
          left = left - 1
@@ -90,6 +98,7 @@ contains
          end do
          if (released > 0) cycle
          if (.not. outcome%moves) return
+         ! all multipliers are right, and a body moves: to the first point that stops it
          call find_first_reached(problem, state, outcome%motion, first, t)
          if (first == 0) then
             call rest(outcome)
@@ -101,6 +110,10 @@ contains
    end subroutine release_until_right
 
    !> (ii) and (iii) for one unknown.
+   !>
+   !> Ends with the unknown at its bound, or with a body that nothing stops. Each pass of the loop is one solve: the target for the
+   !> present states; then either all of the way (first = 0), or up to the first multiplier that vanishes, whose unknown is
+   !> released.
    subroutine drive_to_bound(problem, bounds, state, history, outcome, left, status, factor)
       type(bound_qp_t), intent(in) :: problem
       type(box_bounds_t), intent(in) :: bounds
@@ -114,6 +127,7 @@ contains
       real(wp) :: t, motion(problem%k)
       integer(ip) :: i, bound, first
 
+      ! state: the exact solution so far; target: the one with the driven unknown at its bound and all others as they are
       i = findloc(state%state, DRIVEN, dim=1, kind=ip)
       bound = merge(AT_LOWER, AT_UPPER, state%q(i) < bounds%lower(i))
       do while (left > 0)
@@ -123,6 +137,7 @@ contains
          left = left - 1
          if (.not. is_ok(status)) exit
          call record_solve(history, problem, bounds, target)
+         ! with i at its bound nothing holds a body: it moves, without any force changing, until a fixed point touches or sticks
          if (outcome%moves) then
             motion = opening_motion(problem, i, bound, outcome%motion)
             call find_first_reached(problem, state, motion, first, t)
@@ -135,6 +150,7 @@ contains
             state%r = state%r + t*matmul(problem%g, motion)
             outcome%moves = .false.
          else
+            ! all of q, a and r are linear on the way, so the first multiplier that changes its sign is found by its two ends
             call first_crossing(state, target, first, t)
             if (first == 0) then
                state = target
@@ -150,6 +166,9 @@ contains
    end subroutine drive_to_bound
 
    !> A body that nothing stops and hardly anything drives rests.
+   !>
+   !> The load on the motion is round-off of what has cancelled in it (LITTLE_LOAD), and no point is in the way: then any position
+   !> is as good, and the body stays where it is.
    pure subroutine rest(outcome)
       type(box_outcome_t), intent(inout) :: outcome
 
@@ -171,6 +190,9 @@ contains
    end function is_wrong
 
    !> The free unknown that breaks a bound most, as a force; 0 when none does.
+   !>
+   !> Forces that may be round-off do not count: those that vanish beside the displacements, and excesses that are small beside the
+   !> largest force as well as beside the round-off of their own row.
    pure subroutine find_worst(problem, bounds, state, worst)
       type(bound_qp_t), intent(in) :: problem
       type(box_bounds_t), intent(in) :: bounds
@@ -210,6 +232,9 @@ contains
    end function sign_of
 
    !> The first fixed unknown whose multiplier changes sign on the way from state to target, and where (0 <= t <= 1).
+   !>
+   !> sign r is >= 0 while the state is right. It falls from `before` at t = 0 to `after` < 0 at t = 1, so it is zero at t =
+   !> before/(before - after).
    pure subroutine first_crossing(state, target, first, t)
       type(box_state_t), intent(in) :: state, target
       integer(ip), intent(out) :: first
@@ -233,8 +258,11 @@ contains
    end subroutine first_crossing
 
    !> The motion, in the direction that gives the driven unknown's multiplier its sign.
+   !>
+   !> The null motion of a set of states has no sign. r_i of the driven unknown, which stands at its bound, must move to the side on
+   !> which its state is right.
    pure function opening_motion(problem, i, bound, motion) result(directed)
-      type(bound_qp_t), intent(in) :: problem
+      type(bound_qp_t), intent(in) :: problem !< the QP: C, G, g0, h
       integer(ip), intent(in) :: i, bound
       real(wp), intent(in) :: motion(:)
       real(wp) :: directed(size(motion))
@@ -246,6 +274,8 @@ contains
    end function opening_motion
 
    !> The first fixed unknown whose multiplier reaches zero along a motion, and the distance to it; 0 when none does.
+   !>
+   !> r_i + t (G v)_i = 0: an open point closes, a slipping one would go back. Rates that are round-off of the largest do not count.
    pure subroutine find_first_reached(problem, state, motion, first, distance)
       type(bound_qp_t), intent(in) :: problem
       type(box_state_t), intent(in) :: state

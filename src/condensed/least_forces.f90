@@ -7,8 +7,16 @@
 !>     minimise sum q_i^2 / w_i,     B' q as it is,    lower <= q <= upper,    q_i as it is where the row may not change,
 !>
 !> the limit of a small compliance that is the same at all points. With y = q/sqrt(w) and A = B' W^1/2 it is the shortest y with
-!> the same A y. Without bounds that is the part of y in the range of A'; bounds are met by a primal active set, which keeps A y at
-!> every step. Components that share no dof are solved each by itself (atrito_constraint_rows).
+!> the same A y.
+!>
+!> Without bounds that is the part of y in the range of A': y = A' lambda + z with A z = 0, and z is left out (`split`). Bounds are
+!> met by a primal active set, which keeps A y at every step: y goes towards y - z until the first row comes to a bound and stays
+!> there; where none does, the row at a bound whose multiplier y - A' lambda has the wrong sign is let go. The objective falls at
+!> every step, so it ends.
+!>
+!> Components that share no dof are solved each by itself (atrito_constraint_rows), small ones by a singular value decomposition,
+!> larger ones by conjugate gradients on the normal equations. A row is shared where a part of the null space of A touches it:
+!> where it can change with A y as it is (`find_shared`).
 module atrito_least_forces
    use atrito_bound_qp, only: box_bounds_t, box_state_t, FREE
    use atrito_constraint_rows, only: constraint_rows_t, list_components
@@ -57,6 +65,7 @@ contains
       scale = sqrt(weight)
       do i = 1, size(first, kind=ip) - 1
          associate (own => member(first(i):first(i + 1) - 1))
+            ! before and after: what is shared may be at a bound first and between its bounds then
             call extract_component(rows, own, scale, bounds, state%q, component)
             call find_shared(component, shared)
             if (.not. any(shared)) cycle
@@ -70,6 +79,9 @@ contains
    end subroutine find_least_forces
 
    !> Rows of a component in its own numbers.
+   !>
+   !> Rows of A' = W^1/2 B: entry (i, dof) is sqrt(w_i) B_i,dof. Dofs are numbered from 1 in ascending order, bounds are those of y
+   !> = q/sqrt(w); a bound that is none, HUGE_REAL, must stay one when it is divided.
    subroutine extract_component(rows, own, scale, bounds, q, component)
       type(constraint_rows_t), intent(in) :: rows
       integer(ip), intent(in) :: own(:)
@@ -103,6 +115,8 @@ contains
    end subroutine extract_component
 
    !> Each dof's entries to length one: the same A y, better conditioned.
+   !>
+   !> Scaling an equation of A y = const changes nothing but its weight in the least squares.
    pure subroutine scale_columns(component)
       type(component_t), intent(inout) :: component
       real(wp) :: length(component%k)
@@ -118,6 +132,9 @@ contains
    end subroutine scale_columns
 
    !> The shortest y with the same A y within the bounds, from the present one.
+   !>
+   !> A primal active set. The objective |y|^2/2 falls with every step of positive length, and a row that is let go makes it fall
+   !> next; so sets do not come back, but for round-off, for which the number of steps is limited.
    subroutine shorten(component)
       type(component_t), intent(inout) :: component
       logical :: free(component%n)
@@ -126,6 +143,7 @@ contains
 
       free = .true.
       do i = 1, 10*component%n + 10
+         ! y of the free rows = A' lambda + along, A along = 0: without `along` they are as short as they can be
          call split(component, free, component%y, along, lambda)
          call longest_step(component, free, along, step, first)
          where (free) component%y = component%y - step*along
@@ -134,6 +152,7 @@ contains
             free(first) = .false.
             component%y(first) = merge(component%lower(first), component%upper(first), along(first) > 0.0_wp)
          else
+            ! the shortest y for these rows at their bounds: are the multipliers of the bounds right, too?
             call find_wrong(component, free, lambda, worst)
             if (worst == 0) return
             free(worst) = .true.
@@ -142,6 +161,9 @@ contains
    end subroutine shorten
 
    !> How far y can go towards y - along within the bounds, and the row that ends it; 0: none does.
+   !>
+   !> 1 where nothing is in the way. Rows whose part is round-off of the largest y do not move, and a bound that is reached but for
+   !> round-off is reached at the step before.
    pure subroutine longest_step(component, free, along, step, first)
       type(component_t), intent(in) :: component
       logical, intent(in) :: free(:)
@@ -164,6 +186,9 @@ contains
    end subroutine longest_step
 
    !> The row at its bound that would most like to leave it; 0 where none would.
+   !>
+   !> The gradient of |y|^2/2 - lambda'(A y - A y_0) is y - A' lambda. At a lower bound y may only grow, so the gradient must be >=
+   !> 0 there, at an upper one <= 0.
    pure subroutine find_wrong(component, free, lambda, worst)
       type(component_t), intent(in) :: component
       logical, intent(in) :: free(:)
@@ -186,6 +211,8 @@ contains
    end subroutine find_wrong
 
    !> y of the free rows is A' lambda plus a part `along` in the null space of A.
+   !>
+   !> lambda is the least squares solution of A' lambda = y over the free rows, `along` the residual of that.
    subroutine split(component, free, y, along, lambda)
       type(component_t), intent(in) :: component
       logical, intent(in) :: free(:)
@@ -220,6 +247,9 @@ contains
    end subroutine split_dense
 
    !> Conjugate gradients on the normal equations A A' lambda = A y (CGLS), begun anew once for the digits.
+   !>
+   !> s = A along is the residual of the normal equations and p the direction; each step costs two products with the rows. The
+   !> second round begins with a residual that is computed afresh, for the digits that the recurrence has lost.
    subroutine split_by_steps(component, free, y, along, lambda)
       type(component_t), intent(in) :: component
       logical, intent(in) :: free(:)
@@ -232,6 +262,7 @@ contains
       along = merge(y, 0.0_wp, free)
       s = product_of(component, along)
       begin = norm2(s)
+      ! begun anew once, from a residual without the round-off of the recurrence
       do round = 1, 2
          p = s
          last = norm2(s)
@@ -282,13 +313,16 @@ contains
 
    !> Rows that can change with A y as it is: those between their bounds among themselves, and each row at a bound with them. (Of
    !> many rows all at bounds are asked at once, which may name some that can only leave their bounds the wrong way.)
+   !>
+   !> A row between its bounds is shared where the null space of the free rows touches it. A row at a bound may be shared, too, if
+   !> others would let it leave: so each is asked with the free ones, by itself, since two at bounds may need opposite ways.
    subroutine find_shared(component, shared)
       type(component_t), intent(in) :: component
       logical, allocatable, intent(out) :: shared(:)
       logical :: inside(component%n)
       integer(ip) :: i
 
-      inside = is_inside(component%y - component%lower, component%upper - component%y, maxval(abs(component%y)))
+      inside = min(component%y - component%lower, component%upper - component%y) > WRONG*maxval(abs(component%y))
       allocate (shared(component%n), source=.false.)
       if (component%n > MOST_SINGLE) then
          call add_shared(component, component%lower < component%upper, shared)
@@ -303,13 +337,10 @@ contains
       end do
    end subroutine find_shared
 
-   pure elemental logical function is_inside(below, above, size)
-      real(wp), intent(in) :: below, above, size !< distances from the bounds, largest force
-
-      is_inside = min(below, above) > WRONG*size
-   end function is_inside
-
    !> Rows that the null space touches: seen in the part that any vector has in it. With `asked`, only where that row is touched.
+   !>
+   !> The part of a vector in the null space of A over the free rows touches every row that the null space does, unless it is by
+   !> chance orthogonal to it there: entries 1 + sin(i^2)/2 have no relation to a mesh.
    subroutine add_shared(component, free, shared, asked)
       type(component_t), intent(in) :: component
       logical, intent(in) :: free(:)

@@ -33,12 +33,20 @@ contains
 
    !> Iterates from the present state until nothing changes, or max_iterations. solution%converged says how it ended; a singular
    !> Jacobian ends it.
+   !>
+   !>     1. tau and D of the present forces, the active rows
+   !>     2. the Jacobian and the residual, one LU
+   !>     3. q, a; then tau, D, r of the new forces
+   !>     4. states change where r, q and tau ask for it (change_states of the active set)
+   !>
+   !> Converged: no state has changed, and the forces by no more than the tolerance or round-off (has_settled). Slipping forces are
+   !> then put at their bounds to the last digit.
    subroutine iterate_newton(problem, line, controls, solution)
-      type(bound_qp_t), intent(in) :: problem
-      type(contact_line_t), intent(in) :: line
-      type(controls_t), intent(in) :: controls
-      type(contact_solution_t), intent(inout) :: solution
-      real(wp), allocatable :: jacobian(:, :), rhs(:)
+      type(bound_qp_t), intent(in) :: problem !< the QP: C, G, g0, h
+      type(contact_line_t), intent(in) :: line !< points, laws, average S_rho
+      type(controls_t), intent(in) :: controls !< method, tolerance, MAXIT
+      type(contact_solution_t), intent(inout) :: solution !< with a state to start from
+      real(wp), allocatable :: jacobian(:, :), rhs(:), scale(:)
       integer(ip), allocatable :: active(:)
       integer(ip) :: iteration, info, changes, i
       real(wp) :: change, last_change, largest_force
@@ -48,6 +56,7 @@ contains
       last_change = -1.0_wp
       do iteration = 1, controls%max_iterations
          call begin_outer(solution%history)
+         ! the bound and the compliances of the present forces: no part of the iteration before is kept
          solution%tau = bound_of_state(line, solution)
          call update_compliances(problem, line, solution)
          ! open points have no row; slipping ones have
@@ -60,9 +69,14 @@ contains
             solution%verdict = 'NEWTON met a singular matrix'
             return
          end if
+         ! changes and forces in the scaled unknowns, q sqrt(C + D): [F L]^1/2, alike for stiff and soft rows
          change = maxval(abs([rhs(:size(active)), 0.0_wp]))
-         call apply_step(problem, active, rhs, solution)
-         largest_force = maxval(abs([solution%state%q(active)/force_scale(problem, solution, active), 0.0_wp]))
+         scale = force_scale(problem, solution, active)
+         associate (n => size(active), q => solution%state%q, a => solution%state%a)
+            q(active) = q(active) + rhs(:n)*scale
+            a = a + rhs(n + 1:)*scale_of_motions(problem, active, scale)
+            largest_force = maxval(abs([q(active)/scale, 0.0_wp]))
+         end associate
          solution%tau = bound_of_state(line, solution)
          call update_compliances(problem, line, solution)
          call set_residual(problem, solution%bounds%d, solution%state)
@@ -83,6 +97,8 @@ contains
    end subroutine iterate_newton
 
    !> d tau_j / d q of the active unknowns: nu W_jk / w_k of the pressures.
+   !>
+   !> Pressures of open points are zero and stay so: they are no active unknowns, and have no part.
    pure function bound_slope(problem, line, active, j) result(slope)
       type(bound_qp_t), intent(in) :: problem
       type(contact_line_t), intent(in) :: line
@@ -100,6 +116,8 @@ contains
    end function bound_slope
 
    !> Points without a bound have no force either.
+   !>
+   !> tau = 0: the state becomes FROZEN (set_friction_bounds), and what force the step has left there goes.
    pure subroutine update_compliances(problem, line, solution)
       type(bound_qp_t), intent(in) :: problem
       type(contact_line_t), intent(in) :: line
@@ -110,6 +128,9 @@ contains
    end subroutine update_compliances
 
    !> The linear system for the changes, scaled: forces by 1/sqrt(C_ii + D_ii), motions to unit columns.
+   !>
+   !> Rows: the active unknowns in their order, then the motions. The right hand side is r of the sticking and closed ones, what
+   !> slipping ones are off their bound by, and what the forces leave of the balance.
    pure subroutine build_system(problem, line, solution, active, jacobian, rhs)
       type(bound_qp_t), intent(in) :: problem
       type(contact_line_t), intent(in) :: line
@@ -121,12 +142,14 @@ contains
 
       n = size(active, kind=ip)
       allocate (jacobian(n + problem%k, n + problem%k), rhs(n + problem%k), source=0.0_wp)
+      ! a unit diagonal of C + D, and columns of the motions whose largest entry is one
       scale = force_scale(problem, solution, active)
       motion_scale = scale_of_motions(problem, active, scale)
       r = problem%g0 - matmul(problem%c, solution%state%q) - solution%bounds%d*solution%state%q &
           + matmul(problem%g, solution%state%a)
       do row = 1, n
          i = active(row)
+         ! closed or sticking: r = 0; slipping: q at its bound
          if (solution%state%state(i) == FREE) then
             call stick_row(problem, line, solution, active, row, jacobian(row, :n))
             jacobian(row, :n) = jacobian(row, :n)*scale*scale(row)
@@ -141,6 +164,7 @@ contains
       do column = 1, n
          jacobian(n + 1:, column) = problem%g(active(column), :)*scale(column)*motion_scale
       end do
+      ! the balance of the bodies, scaled like the motions so that the matrix is nearly antisymmetric there
       rhs(n + 1:) = (problem%h - matmul(transpose(problem%g), solution%state%q))*motion_scale
    end subroutine build_system
 
@@ -168,6 +192,9 @@ contains
    end function scale_of_motions
 
    !> -dr/dq of a closed or sticking point: C + D, and for the law of Oden and Pires -q D'(tau) dtau/dq.
+   !>
+   !> Minus, since the system is solved for the change that makes r vanish: (C + D) dq - G da = r. For NONLOCAL D = eps/(w tau), so
+   !> dD/dq = -D/tau dtau/dq.
    pure subroutine stick_row(problem, line, solution, active, row, jacobian)
       type(bound_qp_t), intent(in) :: problem
       type(contact_line_t), intent(in) :: line
@@ -185,6 +212,8 @@ contains
    end subroutine stick_row
 
    !> q - sign w tau(q) = 0 of a slipping point.
+   !>
+   !> dq_t -+ w dtau = +-w tau - q_t: the only rows in which pressures move the friction.
    pure subroutine slip_row(problem, line, solution, active, row, jacobian, rhs)
       type(bound_qp_t), intent(in) :: problem
       type(contact_line_t), intent(in) :: line
@@ -202,18 +231,6 @@ contains
       jacobian(row) = jacobian(row) + 1.0_wp
       rhs = direction*line%weight(j)*solution%tau(j) - solution%state%q(i)
    end subroutine slip_row
-
-   pure subroutine apply_step(problem, active, step, solution)
-      type(bound_qp_t), intent(in) :: problem
-      integer(ip), intent(in) :: active(:)
-      real(wp), intent(in) :: step(:)
-      type(contact_solution_t), intent(inout) :: solution
-      real(wp) :: scale(size(active))
-
-      scale = force_scale(problem, solution, active)
-      solution%state%q(active) = solution%state%q(active) + step(:size(active))*scale
-      solution%state%a = solution%state%a + step(size(active) + 1:)*scale_of_motions(problem, active, scale)
-   end subroutine apply_step
 
    !> A slipping force is its bound to the last digit.
    pure subroutine put_slipping_at_bounds(problem, line, solution)

@@ -24,9 +24,10 @@ module atrito_picard_loop
                                       relative_residual
    use atrito_controls, only: controls_t, METHOD_PICARD
    use atrito_frozen_bound, only: solve_with_bound
-   use atrito_kinds, only: ip, wp, HUGE_REAL
-   use atrito_reporter, only: reporter_t, report_progress
-   use atrito_solve_history, only: solve_history_t, begin_outer, end_outer
+   use atrito_kinds, only: ip, wp
+   use atrito_loop_progress, only: loop_progress_t, note_residual, report_step
+   use atrito_reporter, only: reporter_t
+   use atrito_solve_history, only: begin_outer, end_outer
    use atrito_status, only: status_t, set_status, is_ok, STATUS_SINGULAR
    use atrito_strings, only: to_text
    implicit none (type, external)
@@ -34,6 +35,8 @@ module atrito_picard_loop
    public :: line_task_t, iterate, is_too_much
 
    !> What is to be solved, how, and who is told of it.
+   !>
+   !> problem: the QP of the line (C, G, g0, h); line: points, laws, the average S_rho; controls: tolerance, MAXIT, method.
    type :: line_task_t
       type(bound_qp_t), pointer :: problem => null()
       type(contact_line_t), pointer :: line => null()
@@ -41,6 +44,7 @@ module atrito_picard_loop
       type(reporter_t) :: reporter
    end type line_task_t
 
+   ! Six halvings come within 2 % of a bound that held; six doublings make 64 times the first one.
    integer(ip), parameter :: MOST_STEPS_BACK = 6
    integer(ip), parameter :: LONGEST_CYCLE = 6
    integer(ip), parameter :: STALE = 10                   !< iterations in which the residual is not halved
@@ -49,12 +53,14 @@ module atrito_picard_loop
    integer(ip), parameter :: STALLED = 4                  !< iterations in which the residual is not halved, to be given up then
 
    !> What the loop remembers of its bounds.
+   !>
+   !> A bound holds all bodies where the QP has a solution with it. Since friction alone may hold a body, too small a bound lets it
+   !> go: then there is no pressure to take the next bound from, and the loop goes back towards a bound that did hold.
    type :: loop_t
       real(wp), allocatable :: good(:), good_image(:)      !< (n) the last bound that held all bodies; not allocated: none so far
       real(wp), allocatable :: visited(:, :)               !< (n, LONGEST_CYCLE) newest first; -1: none
       real(wp) :: last_residual = -1.0_wp                  !< < 0: none
-      real(wp) :: best_residual = HUGE_REAL
-      integer(ip) :: best_outer = 0
+      type(loop_progress_t) :: progress
       integer(ip) :: steps_back = 0
    end type loop_t
 
@@ -63,11 +69,19 @@ contains
    !> The loop: solve with the bound, compare it with its image, take the next one. tau: the first bound in, the last one out.
    !> solution: with the state of a solve before, which is where the first one starts. Not converged: solution%verdict says why.
    !> status: STATUS_SINGULAR with FREE_MOTION where no bound that was tried holds the bodies, or with dependent contact points.
+   !>
+   !> Each pass is one QP with the bound tau, from the state of the last one, and one of:
+   !>
+   !>     a body moves        tau goes half way back to the last bound that held all bodies (step_back)
+   !>     not solved          the active set has not settled: the loop ends
+   !>     converged           tau and its image agree, or differ by round-off (judge_step)
+   !>     too much work       and the residual has not been halved in STALLED passes: the loop ends
+   !>     otherwise           the accelerator gives the next bound; one that was there before is a cycle (look_for_cycle)
    subroutine iterate(task, accelerator, tau, solution, status)
       type(line_task_t), intent(in) :: task
       class(accelerator_t), intent(inout) :: accelerator
       real(wp), intent(inout) :: tau(:)             !< (n) [F/L^2]
-      type(contact_solution_t), intent(inout) :: solution
+      type(contact_solution_t), intent(inout) :: solution !< with a state to start from
       type(status_t), intent(out) :: status
       type(loop_t) :: loop
       real(wp) :: image(size(tau))
@@ -78,6 +92,7 @@ contains
       solution%contraction = 0.0_wp
       allocate (loop%visited(size(tau), LONGEST_CYCLE), source=-1.0_wp)
       call accelerator%reset()
+      ! tau: the bound of this iteration; image: nu S_rho of the pressure found with it
       do outer = 1, task%controls%max_iterations
          call begin_outer(solution%history)
          call solve_with_bound(task%problem, task%line, tau, solution, image, status)
@@ -90,11 +105,12 @@ contains
          if (.not. solution%inner%solved) exit
          solution%residual = relative_residual(task%line, tau, image)
          call end_outer(solution%history, solution%residual)
-         call tell(task%reporter, outer, solution)
+         call report_step(task%reporter, 'outer', outer, solution%history, '', '  residual '//to_text(solution%residual, 3))
          call judge_step(task%line, task%controls%tolerance, outer, tau, image, loop, solution)
          if (solution%converged) return
          ! a loop that converges is not given up, whatever it takes
-         if (is_too_much(task, solution%history) .and. outer - loop%best_outer >= STALLED) exit
+         if (is_too_much(task%controls, task%problem%m, solution%history%n) .and. outer - loop%progress%best_outer >= STALLED) exit
+         ! this bound held all bodies: where the next one does not, the loop comes back to it
          loop%good = tau
          loop%good_image = image
          call accelerator%update(loop%good, image, tau)
@@ -103,21 +119,28 @@ contains
       end do
       solution%verdict = 'the outer loop did not converge in '//to_text(task%controls%max_iterations)//' iterations (residual ' &
                          //to_text(solution%residual, 3)//')'
-      if (is_too_much(task, solution%history)) solution%verdict = 'the loop was given up after ' &
-                                                                  //to_text(solution%history%n)//' linear solves'
+      if (is_too_much(task%controls, task%problem%m, solution%history%n)) &
+         solution%verdict = 'the loop was given up after '//to_text(solution%history%n)//' linear solves'
       if (.not. solution%inner%solved) solution%verdict = 'the active set did not settle'
    end subroutine iterate
 
-   !> Whether the attempts so far went through so many entries of C that the other form of the contact system is cheaper.
-   pure logical function is_too_much(task, history)
-      type(line_task_t), intent(in) :: task
-      type(solve_history_t), intent(in) :: history
+   !> Whether so many linear solves went through so many entries of C that the other form of the contact system is cheaper.
+   !>
+   !> A solve by Cholesky goes through m^2 entries for its products and m^3/3 operations for its factor, which serves several
+   !> solves.
+   pure logical function is_too_much(controls, m, solves)
+      type(controls_t), intent(in) :: controls !< method, tolerance, MAXIT
+      integer(ip), intent(in) :: m                  !< unknown forces
+      integer(ip), intent(in) :: solves
 
-      is_too_much = history%n > LEAST_SOLVES .and. real(history%n, wp)*real(task%problem%m, wp)**2 > task%controls%most_entries
+      is_too_much = solves > LEAST_SOLVES .and. real(solves, wp)*real(m, wp)**2 > controls%most_entries
    end function is_too_much
 
    !> The bound does not hold a body: half of the way back to the last one that did, or twice as much where none did so far.
    !> status: STATUS_SINGULAR with FREE_MOTION when that was done often enough.
+   !>
+   !> The set of bounds that hold all bodies need not be convex, but grows with tau: more friction holds more. So half way back is
+   !> nearer to it, and twice as much may be in it where none was found yet. The memory of an accelerator would lead out again.
    subroutine step_back(loop, accelerator, tau, status)
       type(loop_t), intent(inout) :: loop
       class(accelerator_t), intent(inout) :: accelerator
@@ -138,6 +161,11 @@ contains
    end subroutine step_back
 
    !> Whether the loop has converged with this bound and its image; and how fast it goes.
+   !>
+   !> The residual is |image - tau|/|tau| pair by pair. It is none at the tolerance; at what round-off of the matrix may do to it,
+   !> eps times its condition, where an iteration no longer halves it; and at STALE_RESIDUAL where STALE iterations have not, for
+   !> round-off of which the matrix knows nothing: displacements far below the initial gaps. The condition is asked for where it
+   !> matters alone: it costs as much as some solves.
    subroutine judge_step(line, tolerance, outer, tau, image, loop, solution)
       type(contact_line_t), intent(in) :: line
       real(wp), intent(in) :: tolerance
@@ -153,17 +181,16 @@ contains
       if (may_be_round_off(loop%last_residual, solution%residual)) call judge_condition(solution)
       solution%converged = has_settled(tolerance, solution%inner%condition, loop%last_residual, solution%residual)
       loop%last_residual = solution%residual
-      if (solution%residual < 0.5_wp*loop%best_residual) then
-         loop%best_residual = solution%residual
-         loop%best_outer = outer
-      end if
+      call note_residual(loop%progress, outer, solution%residual)
       ! round-off that the matrix does not tell: displacements far below the initial gaps
-      if (outer - loop%best_outer < STALE .or. solution%converged) return
+      if (outer - loop%progress%best_outer < STALE .or. solution%converged) return
       solution%converged = relative_residual(line, tau, image, beside_noise=.true.) <= STALE_RESIDUAL
       if (solution%converged) solution%residual = min(solution%residual, STALE_RESIDUAL)
    end subroutine judge_step
 
    !> Whether the next bound was there before; the verdict says so.
+   !>
+   !> After a step back bounds come again without a cycle, so none is looked for.
    subroutine look_for_cycle(line, method, tau, loop, solution, cycles)
       type(contact_line_t), intent(in) :: line
       integer, intent(in) :: method
@@ -182,6 +209,9 @@ contains
 
    !> How much more the images of two bounds differ than the bounds do, in the norm of the line's weights, whatever made the step
    !> between them: the largest so far. Below 1 the map contracts there, and the solution is the only one near.
+   !>
+   !> |g(x) - g(y)|/|x - y| of two iterates is a lower estimate of the Lipschitz constant of the map g = nu S_rho p. The weights
+   !> make the norm that of L2 on the line, whatever the spacing of the points.
    pure subroutine measure_rate(weight, step, answer, rate)
       real(wp), intent(in) :: weight(:)             !< relative to the largest
       real(wp), intent(in) :: step(:), answer(:)    !< relative to the largest bound
@@ -192,19 +222,10 @@ contains
       rate = max(rate, norm2(sqrt(weight)*answer)/norm2(sqrt(weight)*step))
    end subroutine measure_rate
 
-   subroutine tell(reporter, outer, solution)
-      type(reporter_t), intent(in) :: reporter
-      integer(ip), intent(in) :: outer
-      type(contact_solution_t), intent(in) :: solution
-
-      associate (record => solution%history%records(solution%history%n))
-         call report_progress(reporter, 'outer '//to_text(outer)//'  solves '//to_text(record%inner) &
-                              //'  open '//to_text(record%open)//'  stick '//to_text(record%stick) &
-                              //'  slip '//to_text(record%slip)//'  residual '//to_text(solution%residual, 3))
-      end associate
-   end subroutine tell
-
    !> Compares the next bound with the last ones: the same again after two steps or more, while the residual stays, is a cycle.
+   !>
+   !> The loop converges from alternating sides, or in circles, where the map turns; then bounds come near to what they were, but
+   !> the residual falls as well. A cycle is the same bound to a millionth of a residual that stays.
    pure subroutine find_cycle(line, visited, tau, residual, length)
       type(contact_line_t), intent(in) :: line
       real(wp), intent(inout) :: visited(:, :)        !< newest first

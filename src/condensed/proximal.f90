@@ -37,20 +37,24 @@ module atrito_proximal
 contains
 
    !> Solves from the given state. outcome%solved is false where the rounds do not come to an end.
+   !>
+   !> Ends where the change of the displacements, s c |q - q'|, is round-off of r, or where forces no longer come nearer and change
+   !> by SMALL_CHANGE alone: along a null space they may drift by round-off for ever.
    subroutine solve_box_proximal(problem, bounds, state, history, outcome, status, factor, rows)
-      type(bound_qp_t), intent(in) :: problem
-      type(box_bounds_t), intent(in) :: bounds
-      type(box_state_t), intent(inout) :: state
-      type(solve_history_t), intent(inout) :: history
-      type(box_outcome_t), intent(out) :: outcome
+      type(bound_qp_t), intent(in) :: problem !< the QP: C, G, g0, h
+      type(box_bounds_t), intent(in) :: bounds !< of the m forces [F], and their D [L/F]
+      type(box_state_t), intent(inout) :: state !< states of the m unknowns, q, a, r
+      type(solve_history_t), intent(inout) :: history !< every linear solve is added
+      type(box_outcome_t), intent(out) :: outcome !< solved, moves, or neither
       type(status_t), intent(out) :: status
-      type(free_set_factor_t), intent(inout) :: factor
+      type(free_set_factor_t), intent(inout) :: factor !< of the last solve
       type(constraint_rows_t), intent(in), optional :: rows !< of the unknowns; without them there are no least forces
       type(box_bounds_t) :: near
       real(wp) :: c(problem%m), q(problem%m), share, change, last
       integer(ip) :: before(problem%m), i
       logical :: stands
 
+      ! s c is measured by each row's own flexibility, so stiff and soft bodies count alike
       c = [(problem%c(i, i), i=1, problem%m)]
       if (all(c <= 0.0_wp)) c = 1.0_wp
       where (c <= 0.0_wp) c = maxval(c)              ! between a held node and a rigid surface, which moves, nothing gives way
@@ -63,15 +67,18 @@ contains
          before = state%state
          near%d = bounds%d + share*c
          state%shift = share*c*q
+         ! the QP with D + s c in place of D, and s c q' added to g0: r = g0 + s c q' - (C + D + s c) q + G a
          call solve_box(problem, near, state, history, outcome, status, factor)
          if (.not. is_ok(status) .or. .not. outcome%solved) exit
          change = maxval([c*abs(state%q - q), 0.0_wp])
          stands = share*change <= ROUND_OFF*state%slack .or. &
                   (change > 0.5_wp*last .and. change <= SMALL_CHANGE*maxval([c*abs(state%q), 0.0_wp]))
          if (stands) exit
+         ! states stand and q comes slowly: s is large beside the least eigenvalue that counts
          if (change > SLOW*last .and. all(state%state == before)) share = max(share/100, LEAST_SHARE)
          last = change
       end do
+      ! r of the QP itself; what the shift made of it was s c (q - q') [L], which is none now
       deallocate (state%shift)
       call set_residual(problem, bounds%d, state)
       if (.not. is_ok(status) .or. .not. outcome%solved) return

@@ -1,5 +1,9 @@
 !> How far a scene is from having more than one solution: an estimate of the contraction of the Picard map tau -> nu S_rho(p(tau)).
 !>
+!> The fixed point of tau -> nu S_rho(p(tau)) is unique where the map contracts. It is piecewise linear: on each set of states the
+!> derivative is a matrix L, and the map contracts where all L that occur have a spectral radius below 1, in a norm that they
+!> share.
+!>
 !> Where all points of a set are closed and slip, the normal forces follow the tangential ones linearly, q_n = A q_t with A =
 !> -C_nn^-1 C_nt (and what the rigid motions add), and the map of tau is L = nu w^-1 A w S, S the directions of slip. Two solutions
 !> on this set, or a Picard loop that cycles, need a spectral radius of L of 1 or more; for one point it is nu |C_nt|/C_nn = nu
@@ -17,6 +21,9 @@ module atrito_uniqueness
    public :: estimate_contraction
 
    !> The linear map of a set of closed points, of which some slip, ready to be applied.
+   !>
+   !> With the set's forces q, its rows r = 0 and the balance G' q = h, a change t of the friction of the slipping points changes q
+   !> by -(C + D)^-1 (C_nt w t - G a), where a makes the forces balance again.
    type :: slip_map_t
       real(wp), allocatable :: factor(:, :)       !< Cholesky factor of C_nn + D, scaled
       real(wp), allocatable :: scale(:)           !< of its rows
@@ -34,9 +41,12 @@ module atrito_uniqueness
 contains
 
    !> The estimate sigma; 0 without friction.
+   !>
+   !> Three sets are asked (see above), each with one factor of C_nn + D and 24 products: cheap beside the loop. sigma < 1 is no
+   !> proof that there is one solution, since other sets might be worse; sigma >= 1 is worth a warning (W-UNIQUE).
    function estimate_contraction(problem, line, compliance, state) result(sigma)
-      type(bound_qp_t), intent(in) :: problem
-      type(contact_line_t), intent(in) :: line
+      type(bound_qp_t), intent(in) :: problem !< the QP: C, G, g0, h
+      type(contact_line_t), intent(in) :: line !< points, laws, average S_rho
       real(wp), intent(in) :: compliance(:)       !< (m) D of the laws [L/F]
       integer(ip), intent(in) :: state(:)         !< (m) of the solution
       real(wp) :: sigma
@@ -70,6 +80,8 @@ contains
    end function contraction_of_sliding
 
    !> The estimate of the solution: what sticks holds. Where all closed points slip the same way it has been made.
+   !>
+   !> Sticking points are in the set with their tangential unknowns, so their friction follows what the others do.
    function contraction_of_solution(problem, line, compliance, state, closed, can_slip) result(sigma)
       type(bound_qp_t), intent(in) :: problem
       type(contact_line_t), intent(in) :: line
@@ -131,6 +143,7 @@ contains
       do i = 1, n
          map%factor(i, i) = map%factor(i, i) + compliance(set(i))
       end do
+      ! (C_nn + D) of the set, scaled to a unit diagonal and factored
       possible = all([(map%factor(i, i) > 0.0_wp, i=1, n)])  ! rows among rigid bodies alone give way nowhere
       if (.not. possible) return
       map%scale = [(1.0_wp/sqrt(map%factor(i, i)), i=1, n)]
@@ -147,6 +160,7 @@ contains
          map%y(:, i) = solved(map, map%y(:, i))
       end do
       map%place = place
+      ! pressures from forces on the left, forces from shears on the right
       map%left = line%law(line%point(slipping))%nu/problem%weight(slipping)
       map%right = problem%weight(slipping)
       call invert_on_range(matmul(transpose(problem%g(set, :)), map%y), map%inverse)
@@ -185,6 +199,9 @@ contains
    end subroutine invert_on_range
 
    !> The spectral radius of L, by the growth of its powers, which a complex pair of eigenvalues does not disturb.
+   !>
+   !> |L^k v| grows as radius^k. The mean of log |L v|/|v| over STEPS steps, after FIRST_STEPS in which lesser eigenvalues die away,
+   !> is log(radius) also where two eigenvalues of the same size turn the vector for ever.
    function radius_of(map, direction) result(radius)
       type(slip_map_t), intent(in) :: map
       real(wp), intent(in) :: direction(:)
@@ -207,6 +224,9 @@ contains
    end function radius_of
 
    !> nu p of the slipping points for t = v: q = -(C_nn + D)^-1 (C_nt w t - G_n a), where G_n' q = -G_t' w t gives a.
+   !>
+   !> x = C_nt (w t), the displacement of the set by the friction; its forces undo that, as far as the rigid motions do not: a moves
+   !> the bodies so that the forces balance again.
    function image_of(map, v) result(z)
       type(slip_map_t), intent(in) :: map
       real(wp), intent(in) :: v(:)

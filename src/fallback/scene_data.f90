@@ -2,24 +2,21 @@
 module atrito_scene_data
    use atrito_assembled_scene, only: assembled_scene_t, assemble_scene
    use atrito_assembly, only: fem_t
-   use atrito_base_loads, only: base_loads_t, build_bases, load_of_bases, set_factors, without_prescribed
+   use atrito_base_loads, only: build_bases
    use atrito_bilateral_rows, only: ROW_KIND_NAME, ROW_SUPPORT
    use atrito_body_cache, only: body_cache_t, take_numbering
-   use atrito_bound_qp, only: bound_qp_t
    use atrito_contact_form, only: choose_contact_form, CONTACT_AUTO, CONTACT_DENSE, CONTACT_SPARSE
    use atrito_contact_line, only: contact_line_t
    use atrito_contact_problem, only: average_entries, build_line, set_known_points
    use atrito_contact_rows, only: contact_rows_t, allow_overlap, build_rows
    use atrito_contact_scales, only: had_t
-   use atrito_contact_solution, only: contact_solution_t
    use atrito_controls, only: METHOD_ANDERSON
    use atrito_held_points, only: straighten_held_points
    use atrito_kinds, only: ip, lp, wp
    use atrito_memory, only: available_memory
    use atrito_model, only: model_t, nodal_values_t, step_t
    use atrito_nodal_loads, only: nodal_loads
-   use atrito_points, only: contact_points_t
-   use atrito_reporter, only: reporter_t
+   use atrito_problem, only: problem_t, free_load
    use atrito_results, only: results_t, scene_t
    use atrito_rigid_bodies, only: add_rigid_loads, has_moving_surfaces, set_rigid_motions
    use atrito_scene_builder, only: build_scene, build_bodies, list_held
@@ -28,18 +25,18 @@ module atrito_scene_data
    use atrito_sliding_bodies, only: let_slide, balance_loads
    use atrito_solver_choice, only: SOLVER_SPARSE
    use atrito_status, only: status_t, is_ok, STATUS_DECK, set_status
-   use atrito_step_loads, only: moment_t, act_at, is_end, share_at
+   use atrito_step_loads, only: base_factors, moment_t, act_at, is_end, share_at
    use atrito_strings, only: to_text
    use atrito_thermal_loads, only: add_thermal_loads
    use atrito_turning_rows, only: balance_rows
    implicit none (type, external)
    private
-   public :: scene_data_t, asked_t, distribution_t, prepare, set_time, assemble, drop_assembled, free_load, reload, &
+   public :: scene_data_t, solve_options_t, distribution_t, prepare, set_time, assemble, drop_assembled, free_load, reload, &
              check_known_points, forces_at_end
 
    !> How a scene in the sparse form is distributed over several processes. What extends this type assembles the matrix in parts,
    !> one a process, and has each process recover the stresses of its elements; all else is done in this process, which is all there
-   !> is where no such object is given (asked_t).
+   !> is where no such object is given (solve_options_t).
    type, abstract :: distribution_t
       character(len=:), allocatable :: reason               !< why a scene that it pays off for takes the sparse form
    contains
@@ -50,22 +47,13 @@ module atrito_scene_data
       procedure(end_recovery), deferred :: end_fields
    end type distribution_t
 
-   type :: scene_data_t
+   !> The problem of an increment, and what it was made from.
+   type, extends(problem_t) :: scene_data_t
       type(model_t), pointer :: model => null()
       type(step_t), pointer :: step => null()               !< the one that is being solved
-      type(reporter_t) :: reporter = reporter_t(quiet=.true.)
-      type(fem_t) :: fem
-      logical, allocatable :: held(:, :)                    !< (2, n_nodes)
-      real(wp), allocatable :: value(:, :)                  !< (2, n_nodes) prescribed displacements [L]
       type(nodal_values_t) :: rigid_prescribed              !< of reference nodes, at the same time as value
-      type(contact_points_t), allocatable :: points(:)
-      type(contact_rows_t) :: rows
-      type(contact_line_t) :: line
-      real(wp), allocatable :: f(:, :)                      !< (2, n_nodes) applied forces [F]
-      real(wp), allocatable :: thermal(:, :)                !< (2, n_nodes) of temperatures [F]; not allocated: none
       integer :: contact_form = CONTACT_DENSE
       character(len=:), allocatable :: reason               !< why this form
-      integer :: solver_kind = 0                           !< that the bodies are numbered for
       class(distribution_t), allocatable :: distribution    !< not allocated: there is one process
       logical :: is_distributed = .false.                   !< this scene is
       class(scene_system_t), allocatable :: assembled       !< the sparse form, in one matrix or in parts
@@ -73,25 +61,21 @@ module atrito_scene_data
       logical :: wants_element_errors = .false.             !< of what is printed
       logical :: is_printed = .true.                        !< what is solved for is printed: it is worth stresses and estimates
       ! Of a history:
-      logical :: keeps = .false.                            !< what one increment leaves serves the next
       logical :: may_cut = .false.                          !< without a solution a shorter increment is tried
-      type(base_loads_t), allocatable :: bases              !< whose sum the loads of each increment of the step are
       logical :: asks_for_bases = .false.                   !< the step begins
       real(wp), allocatable :: released(:, :)               !< (2, n_nodes) of supports that the step does not have; they fade [F]
-      type(bound_qp_t), allocatable :: flexibility          !< C and G of the bodies that are factored
-      type(contact_solution_t), allocatable :: last         !< of the increment before, to start from
       type(had_t) :: had                                    !< the largest so far
       real(wp), pointer :: before(:, :) => null()           !< (2, n_nodes) displacements of the increment before [L]
    end type scene_data_t
 
    !> What the user asks for.
-   type :: asked_t
+   type :: solve_options_t
       integer :: solver_kind = 0                           !< STORAGE_* or 0
       integer :: contact_form = CONTACT_AUTO
       logical :: element_errors = .false.                   !< the estimated error is kept element by element
       integer(lp) :: memory = huge(1_lp)                    !< bytes, of each process; what the machine has counts where it is less
       class(distribution_t), allocatable :: distribution    !< of a scene that it pays off for; not allocated: none
-   end type asked_t
+   end type solve_options_t
 
    abstract interface
 
@@ -151,13 +135,14 @@ contains
    subroutine prepare(model, store, asked, data, status, step)
       type(model_t), intent(in), target :: model
       type(body_cache_t), intent(in) :: store
-      type(asked_t), intent(in) :: asked
+      type(solve_options_t), intent(in) :: asked
       type(scene_data_t), intent(out) :: data
       type(status_t), intent(out) :: status
       type(step_t), intent(in), target, optional :: step    !< left out: the first of the model
       logical :: known
 
       data%model => model
+      data%bilateral => model%bilateral
       data%step => model%steps(1)
       if (present(step)) data%step => step
       call build_scene(model, data%step, data%fem, data%held, data%value, data%points)
@@ -240,7 +225,7 @@ contains
       end if
       if (data%asks_for_bases) call build_bases(data%model, data%step, data%released, data%fem, data%bases)
       data%asks_for_bases = .false.
-      if (allocated(data%bases)) call set_factors(data%model, data%step, moment, data%bases)
+      if (allocated(data%bases)) data%bases%factor = base_factors(data%model, data%step, data%bases%base, moment)
       call move_skew_supports(data, moment, share)
       call resolve_overlaps(data, moment)
       call set_known_points(data%rows, data%value, data%line)
@@ -279,7 +264,7 @@ contains
    !> too, of which a master that is finer has more than there are points. A scene that is distributed takes the sparse form where
    !> nobody asks for the other one or for a method of it.
    subroutine choose_form(asked, data)
-      type(asked_t), intent(in) :: asked
+      type(solve_options_t), intent(in) :: asked
       type(scene_data_t), intent(inout) :: data
       logical :: seen(data%fem%mesh%n_nodes)
       logical :: is_worth_it
@@ -310,13 +295,16 @@ contains
    subroutine assemble(data, status)
       type(scene_data_t), intent(inout) :: data
       type(status_t), intent(inout) :: status
+      type(assembled_scene_t), allocatable :: scene
 
       if (data%is_assembled) return
       call drop_assembled(data)
       if (data%is_distributed) then
          call data%distribution%assemble(data%fem, data%rows, data%line, data%value, data%assembled, status)
       else
-         call assemble_here(data, status)
+         allocate (scene)
+         call assemble_scene(data%fem, data%rows, data%line, data%value, scene, status)
+         call move_alloc(scene, data%assembled)
       end if
       if (.not. is_ok(status)) return
       call set_scene_load(data%fem, data%f, free_load(data), data%assembled)
@@ -329,16 +317,6 @@ contains
 
       if (data%is_assembled) call set_scene_load(data%fem, data%f, free_load(data), data%assembled)
    end subroutine reload
-
-   subroutine assemble_here(data, status)
-      type(scene_data_t), intent(inout) :: data
-      type(status_t), intent(inout) :: status
-      type(assembled_scene_t), allocatable :: scene
-
-      allocate (scene)
-      call assemble_scene(data%fem, data%rows, data%line, data%value, scene, status)
-      call move_alloc(scene, data%assembled)
-   end subroutine assemble_here
 
    !> The matrices are not needed any more.
    subroutine drop_assembled(data)
@@ -391,18 +369,5 @@ contains
                       //' and of those that its '//trim(ROW_KIND_NAME(data%model%bilateral%kind(i))) &
                       //' joins it to are all prescribed, and contradict it by '//to_text(data%line%known_overlap(j))//' [L]')
    end subroutine check_known_row
-
-   !> Applied forces and those of the temperatures less those of the prescribed displacements. The temperatures' are in balance in
-   !> every element, so they have no part in what moves a body: whoever sums forces takes data%f alone.
-   function free_load(data) result(load)
-      type(scene_data_t), intent(in) :: data
-      real(wp), allocatable :: load(:, :)
-
-      if (allocated(data%bases)) then
-         load = load_of_bases(data%bases)
-      else
-         load = without_prescribed(data%fem, data%f, data%thermal, data%value)
-      end if
-   end function free_load
 
 end module atrito_scene_data

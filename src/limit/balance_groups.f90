@@ -8,7 +8,7 @@ module atrito_balance_groups
    use atrito_motion_rows, only: motion_rows_t
    implicit none (type, external)
    private
-   public :: balance_groups_t, find_groups
+   public :: balance_groups_t, find_groups, join, root
 
    type :: balance_groups_t
       integer(ip) :: n = 0
@@ -53,6 +53,7 @@ contains
       end do
    end subroutine find_groups
 
+   !> The sets of a and b become one: each member has a parent, the least of a set is its own.
    pure subroutine join(parent, a, b)
       integer(ip), intent(inout) :: parent(:)
       integer(ip), intent(in) :: a, b
@@ -65,6 +66,7 @@ contains
       parent(b) = min(ra, rb)
    end subroutine join
 
+   !> The least member of the set of a.
    pure integer(ip) function root(parent, a) result(r)
       integer(ip), intent(in) :: parent(:), a
 

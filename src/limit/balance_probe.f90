@@ -13,7 +13,7 @@ module atrito_balance_probe
    use atrito_results, only: pair_scene_t
    use atrito_rigid_bodies, only: hold_the_same
    use atrito_scene_builder, only: list_held
-   use atrito_scene_data, only: scene_data_t, asked_t, prepare, set_time
+   use atrito_scene_data, only: scene_data_t, solve_options_t, prepare, set_time
    use atrito_stability_result, only: collapse_t
    use atrito_stability_search, only: STANDS, FALLS, UNDECIDED
    use atrito_status, only: status_t, is_ok
@@ -71,7 +71,7 @@ contains
       real(wp), allocatable :: value(:, :)
       logical :: same_motions
       type(body_cache_t) :: store
-      type(asked_t) :: asked
+      type(solve_options_t) :: asked
 
       if (k > 1) then
          call list_held(model, model%steps(k), held, value)

@@ -34,7 +34,7 @@ module atrito_balance_program
       integer(ip) :: n = 0
       integer(ip) :: n_entries = 0
       integer(ip), allocatable :: first(:), row(:), force(:, :)
-      real(wp), allocatable :: entry(:), lower(:), upper(:), cost(:), share(:, :)
+      real(wp), allocatable :: entry(:), cost(:), share(:, :)
    end type columns_t
 
    !> How the points take part.
@@ -57,6 +57,7 @@ contains
       real(wp), intent(in) :: scale(:)           !< (k) S [F], > 0 where there is a row
       logical, intent(in) :: least_largest
       type(balance_program_t), intent(out) :: balance
+      integer(ip), parameter :: SOME = 64_ip     !< columns and entries to begin with
       type(point_kinds_t) :: kinds
       type(columns_t) :: columns
       integer(ip) :: i
@@ -65,7 +66,9 @@ contains
       balance%n_motions = size(balance%motion, kind=ip)
       balance%size = scale(balance%motion)
       call sort_points(rows, line, wanted, row_of_motion, balance%n_motions, kinds)
-      call begin_columns(columns)
+      allocate (columns%first(SOME + 1), columns%row(SOME), columns%force(2, SOME))
+      allocate (columns%entry(SOME), columns%cost(SOME), columns%share(2, SOME))
+      columns%first(1) = 1
       call add_contact_columns(rows, line, wanted, row_of_motion, scale, kinds, columns)
       balance%n_forces = columns%n
       balance%force = columns%force(:, :columns%n)
@@ -154,8 +157,13 @@ contains
       call list_users(line, kinds, first, user, pressed)
       do j = 1, line%n
          if (.not. wanted(j) .or. line%normal(j) == 0) cycle
-         if (j > line%n - line%n_bilateral) then
-            call add_both_ways(rows, line%normal(j), row_of_motion, scale, columns)
+         if (j > line%n - line%n_bilateral) then      ! a force of either sign
+            if (.not. works(rows, line%normal(j), row_of_motion)) cycle
+            do side = -1, 1, 2
+               call begin_column(columns, [line%normal(j), 0_ip], [real(side, wp), 0.0_wp])
+               call add_row(rows, line%normal(j), real(side, wp), row_of_motion, scale, columns)
+               call scale_column(columns)
+            end do
          else if (kinds%is_cone(j)) then
             call add_cone(rows, line, j, row_of_motion, scale, columns)
          else if (works(rows, line%normal(j), row_of_motion) .or. first(j + 1) > first(j)) then
@@ -166,23 +174,6 @@ contains
          end if
       end do
    end subroutine add_contact_columns
-
-   !> The force of a bilateral row, which may have either sign.
-   pure subroutine add_both_ways(rows, i, row_of_motion, scale, columns)
-      type(motion_rows_t), intent(in) :: rows
-      integer(ip), intent(in) :: i               !< its unknown
-      integer(ip), intent(in) :: row_of_motion(:)
-      real(wp), intent(in) :: scale(:)
-      type(columns_t), intent(inout) :: columns
-      integer(ip) :: side
-
-      if (.not. works(rows, i, row_of_motion)) return
-      do side = -1, 1, 2
-         call begin_column(columns, [i, 0_ip], [real(side, wp), 0.0_wp])
-         call add_row(rows, i, real(side, wp), row_of_motion, scale, columns)
-         call scale_column(columns)
-      end do
-   end subroutine add_both_ways
 
    !> The two edges of the cone of a point: a pressure with full friction along T and against it.
    pure subroutine add_cone(rows, line, j, row_of_motion, scale, columns)
@@ -309,43 +300,26 @@ contains
       end do
    end subroutine add_remainders
 
-   pure subroutine begin_columns(columns)
-      type(columns_t), intent(out) :: columns
-      integer(ip), parameter :: SOME = 64_ip
-
-      allocate (columns%first(SOME + 1), columns%row(SOME), columns%force(2, SOME))
-      allocate (columns%entry(SOME), columns%lower(SOME), columns%upper(SOME), columns%cost(SOME), columns%share(2, SOME))
-      columns%first(1) = 1
-   end subroutine begin_columns
-
    !> One more column, without entries, from zero upwards, at no cost.
    pure subroutine begin_column(columns, force, share)
       type(columns_t), intent(inout) :: columns
       integer(ip), intent(in) :: force(2)
       real(wp), intent(in) :: share(2)
 
-      if (columns%n == size(columns%cost)) call lengthen(columns)
+      associate (n => columns%n)
+         if (n == size(columns%cost)) then
+            call resize(columns%first, n + 1, 2*n + 1)
+            call resize(columns%cost, n, 2*n)
+            call resize(columns%force, n, 2*n)
+            call resize(columns%share, n, 2*n)
+         end if
+      end associate
       columns%n = columns%n + 1
       columns%first(columns%n + 1) = columns%first(columns%n)
-      columns%lower(columns%n) = 0.0_wp
-      columns%upper(columns%n) = HUGE_REAL
       columns%cost(columns%n) = 0.0_wp
       columns%force(:, columns%n) = force
       columns%share(:, columns%n) = share
    end subroutine begin_column
-
-   pure subroutine lengthen(columns)
-      type(columns_t), intent(inout) :: columns
-
-      associate (n => columns%n)
-         call resize(columns%first, n + 1, 2*n + 1)
-         call resize(columns%lower, n, 2*n)
-         call resize(columns%upper, n, 2*n)
-         call resize(columns%cost, n, 2*n)
-         call resize(columns%force, n, 2*n)
-         call resize(columns%share, n, 2*n)
-      end associate
-   end subroutine lengthen
 
    !> Adds a multiple of a row of G, over the sizes of the motions, to the last column.
    pure subroutine add_row(rows, i, factor, row_of_motion, scale, columns)
@@ -408,8 +382,8 @@ contains
       program%first = columns%first(:columns%n + 1)
       program%row = columns%row(:columns%n_entries)
       program%entry = columns%entry(:columns%n_entries)
-      program%lower = columns%lower(:columns%n)
-      program%upper = columns%upper(:columns%n)
+      allocate (program%lower(columns%n), source=0.0_wp)
+      allocate (program%upper(columns%n), source=HUGE_REAL)
       program%objective = columns%cost(:columns%n)
    end subroutine take_columns
 

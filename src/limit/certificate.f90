@@ -38,12 +38,6 @@ module atrito_certificate
    integer(ip), parameter :: MOST_PASSES = 3_ip
    integer(ip), parameter :: MANY_MOTIONS = 500_ip !< from here on interior points are faster than simplex steps
 
-   !> Bodies that touch each other, by their motions, and the points that they do it at.
-   type :: group_t
-      logical, allocatable :: member(:)          !< (k)
-      logical, allocatable :: touched(:)         !< (line%n)
-   end type group_t
-
 contains
 
    !> Judges all groups. IMPOSSIBLE: one of them has a motion that proves it, that of the greatest excess over its loads is given.
@@ -61,7 +55,8 @@ contains
       certificate%verdict = BALANCE_POSSIBLE
       worst = 0.0_wp
       do g = 1, groups%n
-         if (is_unloaded(rows, groups%of_motion == g)) cycle
+         ! a group whose loads are the round-off of what cancelled in them rests, without any force
+         if (all(abs(rows%work) <= NO_LOAD*rows%work_size .or. groups%of_motion /= g)) cycle
          call judge_group(rows, line, groups%of_motion == g, groups%of_point == g, own)
          certificate%solver_missing = certificate%solver_missing .or. own%solver_missing
          if (allocated(own%q)) certificate%q = certificate%q + own%q
@@ -80,14 +75,6 @@ contains
       end do
    end subroutine prove_balance
 
-   !> A group whose loads are the round-off of what cancelled in them rests, without any force.
-   pure logical function is_unloaded(rows, member)
-      type(motion_rows_t), intent(in) :: rows
-      logical, intent(in) :: member(:)
-
-      is_unloaded = all(abs(rows%work) <= NO_LOAD*rows%work_size .or. .not. member)
-   end function is_unloaded
-
    !> Sizes of forces differ from body to body by any factor. The first pass measures all by the largest load of the group, the next
    !> ones each motion by the forces that the pass before found on it.
    subroutine judge_group(rows, line, member, touched, certificate)
@@ -105,10 +92,10 @@ contains
       do pass = 1, MOST_PASSES
          call try_scale(rows, line, member, touched, scale, certificate, solved)
          if (certificate%verdict /= BALANCE_UNDECIDED .or. .not. solved) exit
-         call measure_forces(rows, certificate%q, member, scale, body_force)
+         call measure_forces(rows, certificate%q, member, body_force, scale)
       end do
       if (certificate%verdict /= BALANCE_IMPOSSIBLE) return
-      call measure_forces(rows, certificate%q, member, scale, body_force)
+      call measure_forces(rows, certificate%q, member, body_force, scale)
       call simplify_motion(rows, line, touched, scale, certificate)
       certificate%excess = certificate%excess/maxval(abs(certificate%motion))
       certificate%motion = certificate%motion/maxval(abs(certificate%motion))
@@ -122,10 +109,10 @@ contains
       real(wp), intent(in) :: scale(:)
       type(certificate_t), intent(inout) :: certificate
       logical, intent(out) :: solved
-      real(wp) :: v(rows%k), q(rows%m), sizes(rows%k), body_force(rows%k)
+      real(wp) :: v(rows%k), q(rows%m), body_force(rows%k)
       integer :: outcome
 
-      call solve_balance(rows, line, group_t(member, touched), scale, .false., q, v, outcome)
+      call solve_balance(rows, line, member, touched, scale, .false., q, v, outcome)
       certificate%solver_missing = outcome == LP_NOT_AVAILABLE
       solved = outcome == LP_OPTIMAL
       if (.not. solved) return
@@ -134,8 +121,7 @@ contains
          certificate%verdict = BALANCE_POSSIBLE
          return
       end if
-      sizes = scale
-      call measure_forces(rows, q, member, sizes, body_force)
+      call measure_forces(rows, q, member, body_force)
       call accept_motion(rows, line, body_force, scale, v, certificate)
    end subroutine try_scale
 
@@ -173,20 +159,22 @@ contains
       logical, intent(in) :: touched(:)
       real(wp), intent(in) :: scale(:)
       type(certificate_t), intent(inout) :: certificate
-      real(wp) :: v(rows%k), q(rows%m), sizes(rows%k), body_force(rows%k)
+      real(wp) :: v(rows%k), q(rows%m), body_force(rows%k)
       integer :: outcome
 
-      call solve_balance(rows, line, group_t(abs(certificate%motion) > 0.0_wp, touched), scale, .true., q, v, outcome)
+      call solve_balance(rows, line, abs(certificate%motion) > 0.0_wp, touched, scale, .true., q, v, outcome)
       if (outcome /= LP_OPTIMAL) return
-      sizes = scale
-      call measure_forces(rows, certificate%q, scale > 0.0_wp, sizes, body_force)
+      call measure_forces(rows, certificate%q, scale > 0.0_wp, body_force)
       call accept_motion(rows, line, body_force, scale, v, certificate)
    end subroutine simplify_motion
 
-   subroutine solve_balance(rows, line, group, scale, least_largest, q, v, outcome)
+   !> The linear programme of the balance of some bodies: forces, and the motion of its duals. Measured on walls of 100 to 1,000
+   !> blocks: simplex steps are slow for the sum (most for loads far beyond the limit), interior points for the largest.
+   subroutine solve_balance(rows, line, member, touched, scale, least_largest, q, v, outcome)
       type(motion_rows_t), intent(in) :: rows
       type(contact_line_t), intent(in) :: line
-      type(group_t), intent(in) :: group
+      logical, intent(in) :: member(:)           !< (k) motions of the bodies
+      logical, intent(in) :: touched(:)          !< (line%n) points that they touch at
       real(wp), intent(in) :: scale(:)
       logical, intent(in) :: least_largest
       real(wp), intent(out) :: q(:), v(:)
@@ -198,12 +186,13 @@ contains
       row_of_motion = 0
       n = 0
       do i = 1, rows%k
-         if (.not. group%member(i)) cycle
+         if (.not. member(i)) cycle
          n = n + 1
          row_of_motion(i) = n
       end do
-      call build_balance_program(rows, line, group%touched, row_of_motion, scale, least_largest, balance)
-      call solve_linear_program(balance%program, method_for(n, least_largest), solution)
+      call build_balance_program(rows, line, touched, row_of_motion, scale, least_largest, balance)
+      call solve_linear_program(balance%program, merge(LP_BY_BARRIER, LP_BY_SIMPLEX, n > MANY_MOTIONS .and. .not. least_largest), &
+                                solution)
       if (solution%status /= LP_OPTIMAL .and. n > MANY_MOTIONS) call solve_linear_program(balance%program, LP_BY_SIMPLEX, solution)
       outcome = solution%status
       q = 0.0_wp
@@ -213,25 +202,15 @@ contains
       call motion_of_duals(balance, solution%dual, v)
    end subroutine solve_balance
 
-   !> Measured on walls of 100 to 1,000 blocks: simplex steps are slow for the sum (most for loads far beyond the limit), interior
-   !> points for the largest.
-   pure integer function method_for(n, least_largest) result(method)
-      integer(ip), intent(in) :: n
-      logical, intent(in) :: least_largest
-
-      method = LP_BY_SIMPLEX
-      if (n > MANY_MOTIONS .and. .not. least_largest) method = LP_BY_BARRIER
-   end function method_for
-
    !> The sizes of the forces on each motion of a group, and on its body [F].
-   pure subroutine measure_forces(rows, q, member, scale, body_force)
+   pure subroutine measure_forces(rows, q, member, body_force, scale)
       type(motion_rows_t), intent(in) :: rows
       real(wp), intent(in) :: q(:)
       logical, intent(in) :: member(:)
-      real(wp), intent(inout) :: scale(:)        !< of bodies without a force but round-off: the least load of the group
       real(wp), intent(out) :: body_force(:)
+      real(wp), intent(inout), optional :: scale(:) !< of bodies without a force but round-off: the least load of the group
       real(wp) :: sizes(rows%k), least, largest
-      integer(ip) :: i, first, last
+      integer(ip) :: first, last
 
       sizes = rows%work_size + motion_forces(rows, q, .true.)
       least = 0.0_wp
@@ -248,11 +227,8 @@ contains
          if (all(rows%work_size(first:last) <= 0.0_wp) .and. body_force(first) <= OF_BODY*largest) body_force(first:last) = least
          first = last + 1
       end do
-      do i = 1, rows%k
-         if (.not. member(i)) cycle
-         scale(i) = sizes(i)
-         if (sizes(i) <= OF_BODY*body_force(i)) scale(i) = body_force(i)
-      end do
+      if (.not. present(scale)) return
+      where (member) scale = merge(body_force, sizes, sizes <= OF_BODY*body_force)
    end subroutine measure_forces
 
    !> How much more the loads work on a motion than any admissible forces can take. proven: by far more than round-off, and than all
@@ -319,7 +295,7 @@ contains
       real(wp), intent(in) :: q(:)               !< (m) [F]
       logical, intent(in) :: member(:)           !< (k)
       logical :: balanced
-      real(wp) :: p(line%n), tau(line%n), remainder(rows%k), sizes(rows%k), scale(rows%k), body_force(rows%k)
+      real(wp) :: p(line%n), tau(line%n), remainder(rows%k), sizes(rows%k), body_force(rows%k)
       integer(ip) :: j
 
       p = pressure_of(line, q)
@@ -331,8 +307,7 @@ contains
       end do
       remainder = abs(rows%work - motion_forces(rows, q, .false.))
       sizes = rows%work_size + motion_forces(rows, q, .true.)
-      scale = sizes
-      call measure_forces(rows, q, member, scale, body_force)
+      call measure_forces(rows, q, member, body_force)
       balanced = balanced .and. all(remainder <= IN_BALANCE*sizes + OF_BODY*body_force .or. .not. member)
    end function forces_balance
 

@@ -131,7 +131,7 @@ contains
       type(mechanism_t), intent(in) :: mechanism
       character(len=:), allocatable :: text
 
-      if (.not. rubs(line, mechanism)) then
+      if (.not. any(line%tangential > 0 .and. line%law%nu > 0.0_wp .and. mechanism%slides(line%pair))) then
          text = 'there is no friction'
          return
       end if
@@ -145,17 +145,6 @@ contains
       end if
       text = text//', '//shortfall(mechanism, .false.)
    end function friction_text
-
-   pure logical function rubs(line, mechanism)
-      type(contact_line_t), intent(in) :: line
-      type(mechanism_t), intent(in) :: mechanism
-      integer(ip) :: j
-
-      rubs = .false.
-      do j = 1, line%n
-         rubs = rubs .or. (line%tangential(j) > 0 .and. line%law(j)%nu > 0.0_wp .and. mechanism%slides(line%pair(j)))
-      end do
-   end function rubs
 
    function shortfall(mechanism, turns) result(text)
       type(mechanism_t), intent(in) :: mechanism

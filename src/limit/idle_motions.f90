@@ -8,7 +8,8 @@
 !> goes back.
 module atrito_idle_motions
    use atrito_assembly, only: fem_t
-   use atrito_bodies, only: mode_at, simplest_motion
+   use atrito_balance_groups, only: join, root
+   use atrito_bodies, only: simplest_motion
    use atrito_bound_qp, only: FREE, AT_LOWER, AT_UPPER, FROZEN
    use atrito_contact_line, only: friction_bound, rest_of
    use atrito_contact_rows, only: row_value
@@ -19,6 +20,7 @@ module atrito_idle_motions
    use atrito_kinds, only: ip, wp
    use atrito_load_digits, only: place_doubt, is_within_digits, take_out
    use atrito_motion_rows, only: motion_rows_t, build_motion_rows, motion_rates
+   use atrito_row_entries, only: first_motions, modes_at_node
    use atrito_scene_data, only: scene_data_t
    implicit none (type, external)
    private
@@ -111,19 +113,18 @@ contains
       real(wp), allocatable, intent(inout) :: idle(:, :) !< (k, motions)
       logical, intent(inout) :: holds(:)            !< (m)
       type(contact_solution_t), intent(inout) :: solution
-      real(wp) :: largest(rows%k)                   ! forces on the body of each motion [F]
+      real(wp) :: largest(rows%m)
       logical :: is_sure(size(holds))
       real(wp), allocatable :: more(:, :)
       integer(ip) :: i
 
-      largest = largest_on_bodies(rows, solution%state%q)
+      largest = largest_forces(rows, solution%state%q)
       is_sure = holds
       do i = 1, rows%m
          associate (j => data%line%point(i))
             if (.not. holds(i) .or. rows%first(i + 1) == rows%first(i) .or. data%line%law(j)%kind /= FRICTION_NONE) cycle
             if (j > data%line%n - data%line%n_bilateral) cycle
-            is_sure(i) = abs(solution%state%q(i)) > dropped_part(data, i) &
-                         *minval(largest(rows%motion(rows%first(i):rows%first(i + 1) - 1)))
+            is_sure(i) = abs(solution%state%q(i)) > dropped_part(data, i)*largest(i)
          end associate
       end do
       if (all(is_sure .eqv. holds)) return
@@ -137,27 +138,6 @@ contains
       end do
       holds = is_sure
    end subroutine doubt_small_forces
-
-   !> The largest force on the body of each motion [F].
-   pure function largest_on_bodies(rows, q) result(largest)
-      type(motion_rows_t), intent(in) :: rows
-      real(wp), intent(in) :: q(:)                  !< (m) [F]
-      real(wp) :: largest(rows%k)
-      integer(ip) :: i, k
-
-      largest = 0.0_wp
-      do i = 1, rows%m
-         associate (own => rows%motion(rows%first(i):rows%first(i + 1) - 1))
-            largest(own) = max(largest(own), abs(q(i)))
-         end associate
-      end do
-      do k = 2, rows%k                              ! the motions of a body stand one after the other
-         if (rows%body(k) == rows%body(k - 1)) largest(k) = max(largest(k), largest(k - 1))
-      end do
-      do k = rows%k - 1, 1, -1
-         if (rows%body(k) == rows%body(k + 1)) largest(k) = largest(k + 1)
-      end do
-   end function largest_on_bodies
 
    !> Where no solution was found since a motion went on that the loads drive: takes its work out of the loads, where it is no more
    !> than what the digits of the deck make of them.
@@ -181,6 +161,30 @@ contains
       has_changed = .true.
    end subroutine stop_slow_motion
 
+   !> Of the largest forces on the bodies of each row, the least [F]: what its own force is measured by.
+   pure function largest_forces(rows, q) result(least)
+      type(motion_rows_t), intent(in) :: rows
+      real(wp), intent(in) :: q(:)                  !< (m) [F]
+      real(wp) :: least(rows%m), largest(rows%k)
+      integer(ip) :: i, k
+
+      largest = 0.0_wp
+      do i = 1, rows%m
+         associate (own => rows%motion(rows%first(i):rows%first(i + 1) - 1))
+            largest(own) = max(largest(own), abs(q(i)))
+         end associate
+      end do
+      do k = 2, rows%k                              ! the motions of a body stand one after the other
+         if (rows%body(k) == rows%body(k - 1)) largest(k) = max(largest(k), largest(k - 1))
+      end do
+      do k = rows%k - 1, 1, -1
+         if (rows%body(k) == rows%body(k + 1)) largest(k) = largest(k + 1)
+      end do
+      do i = 1, rows%m
+         least(i) = minval(largest(rows%motion(rows%first(i):rows%first(i + 1) - 1)))
+      end do
+   end function largest_forces
+
    !> The part of the largest force on its bodies that a force is none at, whatever loads there are.
    pure real(wp) function dropped_part(data, i) result(part)
       type(scene_data_t), intent(in) :: data
@@ -199,7 +203,7 @@ contains
       logical, intent(in) :: holds(:)               !< (m)
       type(contact_solution_t), intent(in) :: solution
       logical, intent(out) :: has_changed
-      real(wp) :: largest(rows%k), doubt(rows%m)    ! forces on the body of each motion [F]
+      real(wp) :: largest(rows%m), doubt(rows%m)
       logical :: is_sure(rows%m), is_due            ! larger forces than those that are dropped in any case
       real(wp), allocatable :: more(:, :)
       integer(ip) :: i
@@ -207,12 +211,12 @@ contains
       has_changed = .false.
       doubt = place_doubt(data)
       if (.not. any(doubt > 0.0_wp)) return
-      largest = largest_on_bodies(rows, solution%state%q)
+      largest = largest_forces(rows, solution%state%q)
       is_sure = holds
       is_due = .false.
       do i = 1, rows%m
          if (.not. (holds(i) .and. doubt(i) > 0.0_wp) .or. rows%first(i + 1) == rows%first(i)) cycle
-         associate (force => abs(solution%state%q(i)), most => minval(largest(rows%motion(rows%first(i):rows%first(i + 1) - 1))))
+         associate (force => abs(solution%state%q(i)), most => largest(i))
             is_sure(i) = force > doubt(i)*most
             ! what is dropped is felt by supports along directions of their own
             is_due = is_due .or. (.not. is_sure(i) &
@@ -234,30 +238,17 @@ contains
       type(motion_rows_t), intent(in) :: rows
       logical, intent(in) :: holds(:)               !< (m)
       integer(ip), allocatable, intent(out) :: group(:) !< (k)
-      integer(ip) :: i, e, one, other
+      integer(ip) :: i, e
 
       group = [(i, i=1, rows%k)]
       do i = 1, rows%m
          if (.not. holds(i)) cycle
          do e = rows%first(i) + 1, rows%first(i + 1) - 1
-            one = root_of(group, rows%motion(e - 1))
-            other = root_of(group, rows%motion(e))
-            group(max(one, other)) = min(one, other)
+            call join(group, rows%motion(e - 1), rows%motion(e))
          end do
       end do
-      do i = 1, rows%k
-         group(i) = root_of(group, i)
-      end do
+      group = [(root(group, i), i=1, rows%k)]
    end subroutine join_motions
-
-   pure integer(ip) function root_of(group, i) result(root)
-      integer(ip), intent(in) :: group(:), i
-
-      root = i
-      do while (group(root) /= root)
-         root = group(root)
-      end do
-   end function root_of
 
    pure integer(ip) function largest_group(group) result(n)
       integer(ip), intent(in) :: group(:)
@@ -334,29 +325,22 @@ contains
       real(wp), allocatable, intent(out) :: off(:)  !< (k) [L]
       real(wp), allocatable, intent(out) :: metric(:, :, :) !< (3, 3, bodies)
       real(wp) :: z(2, 3), moved(2)
-      integer(ip) :: b, i, j, n, dof, first
+      integer(ip) :: first(fem%bodies%n + 1), b, i
 
       allocate (off(size(a)), metric(3, 3, fem%bodies%n), source=0.0_wp)
-      first = 1
+      first = first_motions(fem%bodies)
       do b = 1, fem%bodies%n
-         associate (body => fem%bodies%list(b))
-            n = size(body%modes, 2, kind=ip)
-            do i = 1, merge(size(body%nodes, kind=ip), 0_ip, n > 0)
-               associate (node => body%nodes(i))
-                  z = 0.0_wp
-                  do dof = 1, 2
-                     if (fem%bodies%equation(dof, node) == 0) cycle
-                     z(dof, :n) = [(mode_at(body, body%modes(:, j), fem%mesh%x(:, node), dof), j=1, n)]
-                  end do
-                  moved = u(:, node) + matmul(z(:, :n), a(first:first + n - 1))
-                  if (associated(before)) then
-                     if (node <= size(before, 2)) moved = moved - before(:, node)
-                  end if
-               end associate
-               off(first:first + n - 1) = off(first:first + n - 1) + matmul(moved, z(:, :n))
+         associate (nodes => fem%bodies%list(b)%nodes, n => first(b + 1) - first(b), own_a => a(first(b):first(b + 1) - 1), &
+                    own_off => off(first(b):first(b + 1) - 1))
+            do i = 1, merge(size(nodes, kind=ip), 0_ip, n > 0)
+               z = modes_at_node(fem, b, nodes(i))
+               moved = u(:, nodes(i)) + matmul(z(:, :n), own_a)
+               if (associated(before)) then
+                  if (nodes(i) <= size(before, 2)) moved = moved - before(:, nodes(i))
+               end if
+               own_off = own_off + matmul(moved, z(:, :n))
                metric(:, :, b) = metric(:, :, b) + matmul(transpose(z), z)
             end do
-            first = first + n
          end associate
       end do
    end subroutine measure_motions
@@ -457,13 +441,13 @@ contains
       type(fem_t), intent(in) :: fem
       real(wp), intent(in) :: metric(:, :, :), v(:, :)
       real(wp) :: product(size(v, 1), size(v, 2))
-      integer(ip) :: b, first, n
+      integer(ip) :: first(fem%bodies%n + 1), b
 
-      first = 1
+      first = first_motions(fem%bodies)
       do b = 1, fem%bodies%n
-         n = size(fem%bodies%list(b)%modes, 2, kind=ip)
-         product(first:first + n - 1, :) = matmul(metric(:n, :n, b), v(first:first + n - 1, :))
-         first = first + n
+         associate (n => first(b + 1) - first(b), at => first(b))
+            product(at:at + n - 1, :) = matmul(metric(:n, :n, b), v(at:at + n - 1, :))
+         end associate
       end do
    end function times_metric
 

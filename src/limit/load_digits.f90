@@ -10,13 +10,12 @@
 !> Then it is none, and the least change of the loads takes it out of them. Normals along an axis, and decks that are not rounded to
 !> digits, leave nothing in doubt.
 module atrito_load_digits
-   use atrito_bodies, only: mode_at
    use atrito_contact_rows, only: vector_of_entry
    use atrito_dense, only: solve_lu
    use atrito_friction_law, only: FRICTION_NONE
    use atrito_kinds, only: ip, wp
    use atrito_motion_rows, only: motion_rows_t, motion_forces
-   use atrito_row_entries, only: first_motions
+   use atrito_row_entries, only: first_motions, modes_at_node
    use atrito_scene_data, only: scene_data_t, reload
    use atrito_sliding_motions, only: printed_grain
    implicit none (type, external)
@@ -111,19 +110,17 @@ contains
       type(scene_data_t), intent(in) :: data
       integer(ip), intent(in) :: first(:), j, k
       real(wp), intent(in) :: v(:)
-      real(wp) :: vector(2), z
-      integer(ip) :: b, mode, dof, node
+      real(wp) :: vector(2), z(2, 3)
+      integer(ip) :: b, mode, dof
 
       rate = 0.0_wp
-      node = data%rows%node(k)
-      b = data%fem%bodies%of_node(node)
+      b = data%fem%bodies%of_node(data%rows%node(k))
       if (b == 0) return
       vector = vector_of_entry(data%rows, j, k, data%rows%tangent(:, j))
+      z = modes_at_node(data%fem, b, data%rows%node(k))
       do mode = 1, first(b + 1) - first(b)
          do dof = 1, 2
-            if (data%fem%bodies%equation(dof, node) == 0) cycle
-            z = mode_at(data%fem%bodies%list(b), data%fem%bodies%list(b)%modes(:, mode), data%fem%mesh%x(:, node), dof)
-            rate = rate + vector(dof)*z*v(first(b) + mode - 1)
+            rate = rate + vector(dof)*z(dof, mode)*v(first(b) + mode - 1)
          end do
       end do
    end function rate_of_entry
@@ -144,7 +141,7 @@ contains
          associate (nodes => data%fem%bodies%list(b)%nodes)
             metric = 0.0_wp
             do i = 1, size(nodes, kind=ip)
-               z = modes_at(data, b, nodes(i))
+               z = modes_at_node(data%fem, b, nodes(i))
                metric = metric + matmul(transpose(z), z)
             end do
             force = 0.0_wp
@@ -153,28 +150,11 @@ contains
             call solve_lu(small, own, info)
             force(:n) = own
             do i = 1, size(nodes, kind=ip)
-               data%f(:, nodes(i)) = data%f(:, nodes(i)) - matmul(modes_at(data, b, nodes(i)), force)
+               data%f(:, nodes(i)) = data%f(:, nodes(i)) - matmul(modes_at_node(data%fem, b, nodes(i)), force)
             end do
          end associate
       end do
       call reload(data)
    end subroutine take_out
-
-   !> The motions of a body at a node, over the free dofs.
-   pure function modes_at(data, b, node) result(z)
-      type(scene_data_t), intent(in) :: data
-      integer(ip), intent(in) :: b, node
-      real(wp) :: z(2, 3)
-      integer(ip) :: dof, mode
-
-      z = 0.0_wp
-      associate (body => data%fem%bodies%list(b))
-         do dof = 1, 2
-            if (data%fem%bodies%equation(dof, node) == 0) cycle
-            z(dof, :size(body%modes, 2)) = [(mode_at(body, body%modes(:, mode), data%fem%mesh%x(:, node), dof), &
-                                             mode=1, size(body%modes, 2, kind=ip))]
-         end do
-      end associate
-   end function modes_at
 
 end module atrito_load_digits

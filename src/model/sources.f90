@@ -30,7 +30,7 @@ contains
          inner = token
          inner%first = token%first + 1
          inner%last = token%last - 1
-         call try_expression(context%deck, inner, value, known)
+         call evaluate_at(context%deck, inner, value, known, silent=.true.)
          if (known) known = abs(value) < real(huge(1_ip), wp)
          if (known) name = to_text(nint(value, ip))
       end if

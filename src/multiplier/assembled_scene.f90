@@ -1,9 +1,14 @@
 !> All bodies of a scene in one sparse matrix, with the contact points as elements that change: the sparse form of the contact
 !> system (atrito_contact_system).
 !>
-!> A point is an element over the displacements of its row and the rigid motions of its bodies. Nested dissection takes it like any
-!> other element, so the factorisation follows the contact line as it follows the bodies, and a point that changes costs the fronts
-!> above it.
+!> The matrix is A + sum_i s_i B_i' B_i + pull on the amplitudes, where the stiffness s_i of a row is 1/(D_i + rho_i) while its
+!> point is closed or sticks, else 0. A point is an element over the displacements of its rows and the rigid motions of its bodies,
+!> the pull on a floating body an element over its motions. Nested dissection takes them like any other element, so the
+!> factorisation follows the contact line as it follows the bodies, and a point that changes costs the fronts above it
+!> (docs/developer/multifrontal.md).
+!>
+!> The springs of atrito_scene_elimination are elements, too: of the size of the stiffness at their displacement. They take no
+!> force where the forces on a body balance, and only say which part of u is u_e.
 module atrito_assembled_scene
    use atrito_assembly, only: fem_t, collect_elements
    use atrito_contact_line, only: contact_line_t
@@ -19,7 +24,7 @@ module atrito_assembled_scene
    use atrito_status, only: status_t, is_ok
    implicit none (type, external)
    private
-   public :: assembled_scene_t, assemble_scene, assemble_part
+   public :: assembled_scene_t, assemble_scene, assemble_numbered
 
    integer(ip), parameter :: ROWS_A_POINT = 2
 
@@ -43,46 +48,39 @@ module atrito_assembled_scene
 contains
 
    !> Numbers the unknowns, assembles the bodies and finds the fronts. status: STATUS_INTERNAL when the memory does not suffice.
+   !>
+   !> Nothing is factored: what the factors will take is known afterwards (solving_bytes), and the memory can be asked for.
    subroutine assemble_scene(fem, rows, line, value, scene, status)
-      type(fem_t), intent(in) :: fem
-      type(contact_rows_t), intent(in) :: rows
-      type(contact_line_t), intent(in) :: line
+      type(fem_t), intent(in) :: fem !< bodies and elements
+      type(contact_rows_t), intent(in) :: rows !< of all points, over nodes
+      type(contact_line_t), intent(in) :: line !< points, laws, average S_rho
       real(wp), intent(in) :: value(:, :)        !< (2, n_nodes) prescribed displacements [L]
       type(assembled_scene_t), intent(out) :: scene
       type(status_t), intent(out) :: status
-      type(element_store_t) :: store
-      type(elimination_t) :: elimination
       real(wp), allocatable :: diagonal(:), coupling(:)
 
       call number_scene(fem, scene%numbering)
-      scene%n = scene%numbering%n
-      scene%k = scene%numbering%k
-      scene%n_bodies = fem%bodies%n
       scene%body = scene%numbering%body
       call build_constraint_rows(fem, rows, line, .true., scene%rows)
       call set_scene_gaps(rows, line, value, scene)
-      call list_variable_elements(line, scene)
-      call collect_scene(fem, scene%numbering, store)
-      scene%is_near = store%is_near
-      elimination = eliminate_scene(fem, rows, line, scene%numbering)
-      call create_variable_matrix(scene%matrix, scene%n, elimination, store, scene%start, scene%unknown, status)
-      call move_alloc(elimination%text, scene%order)
+      call assemble_numbered(fem, rows, line, scene, status)
       if (.not. is_ok(status)) return
       allocate (diagonal(scene%n), coupling(scene%n))
       call fixed_diagonal(scene%matrix, diagonal, coupling)
       call set_flexibility(fem, rows, line, diagonal, coupling, scene)
    end subroutine assemble_scene
 
-   !> The same for a part of a scene, whose last unknowns other parts have, too: they are kept (atrito_variable_matrix). It is there
-   !> to be multiplied, factored and reduced, not to be solved. status: STATUS_INTERNAL when the memory does not suffice.
-   subroutine assemble_part(fem, rows, line, spring_stiffness, n_kept, scene, status)
-      type(fem_t), intent(in) :: fem
-      type(contact_rows_t), intent(in) :: rows
-      type(contact_line_t), intent(in) :: line
-      real(wp), intent(in) :: spring_stiffness(:) !< of the numbering's springs [F/L]
-      integer(ip), intent(in) :: n_kept
-      type(assembled_scene_t), intent(inout) :: scene !< with its numbering and its rows
+   !> The same of a scene with its numbering and its rows: matrices of the elements, order of elimination, fronts. A part of a scene
+   !> has last unknowns that other parts have, too: they are kept (atrito_variable_matrix), and the part is there to be multiplied,
+   !> factored and reduced, not to be solved. status: STATUS_INTERNAL when the memory does not suffice.
+   subroutine assemble_numbered(fem, rows, line, scene, status, spring_stiffness, n_kept)
+      type(fem_t), intent(in) :: fem !< bodies and elements
+      type(contact_rows_t), intent(in) :: rows !< of all points, over nodes
+      type(contact_line_t), intent(in) :: line !< points, laws, average S_rho
+      type(assembled_scene_t), intent(inout) :: scene
       type(status_t), intent(out) :: status
+      real(wp), intent(in), optional :: spring_stiffness(:) !< of the numbering's springs [F/L]; left out: the diagonal there
+      integer(ip), intent(in), optional :: n_kept !< last unknowns that are kept; left out: none
       type(element_store_t) :: store
       type(elimination_t) :: elimination
 
@@ -95,9 +93,12 @@ contains
       elimination = eliminate_scene(fem, rows, line, scene%numbering, n_kept)
       call create_variable_matrix(scene%matrix, scene%n, elimination, store, scene%start, scene%unknown, status, n_kept)
       call move_alloc(elimination%text, scene%order)
-   end subroutine assemble_part
+   end subroutine assemble_numbered
 
    !> The elements that change: the points with the unknowns of their rows, then the motions of each floating body.
+   !>
+   !> start and unknown are lists in one: element v has the unknowns unknown(start(v) + 1 : start(v + 1)). The normal and the
+   !> tangential row of a point have the same nodes, so they are one element.
    subroutine list_variable_elements(line, scene)
       type(contact_line_t), intent(in) :: line
       type(assembled_scene_t), intent(inout) :: scene
@@ -133,6 +134,8 @@ contains
    end subroutine list_variable_elements
 
    !> Adds the unknowns of a row that its point does not have yet.
+   !>
+   !> A tangential row has mostly the nodes of the normal one; they are few, so looking them up is as good as any list.
    pure subroutine add_unknowns(scene, row, v)
       type(assembled_scene_t), intent(inout) :: scene
       integer(ip), intent(in) :: row, v
@@ -146,6 +149,9 @@ contains
    end subroutine add_unknowns
 
    !> Elements of all bodies in the numbers of the scene, and the springs that say which part of u is u_e.
+   !>
+   !> Near elements share one matrix in the fronts (fem%grain); products take each element's own. The factor is then that of K~, and
+   !> as every step of the multipliers solves for a residual, the steps refine by themselves.
    subroutine collect_scene(fem, numbering, store, spring_stiffness)
       type(fem_t), intent(in) :: fem
       type(scene_numbering_t), intent(in) :: numbering
@@ -181,6 +187,7 @@ contains
       end do
    end subroutine collect_scene
 
+   !> y = A x, with the springs: the matrix without its elements that change.
    subroutine multiply_scene(self, x, y)
       class(assembled_scene_t), intent(in) :: self
       real(wp), intent(in) :: x(:)
@@ -191,6 +198,9 @@ contains
    end subroutine multiply_scene
 
    !> Only points and bodies whose numbers have changed are taken anew.
+   !>
+   !> What is set anew marks the fronts above it; factor_variable_matrix goes through these alone. After a failure all are set
+   !> again.
    subroutine factor_scene(self, stiffness, pull, status)
       class(assembled_scene_t), intent(inout) :: self
       real(wp), intent(in) :: stiffness(:), pull(:)
@@ -201,9 +211,11 @@ contains
       if (.not. allocated(self%stiffness)) then
          allocate (self%stiffness(self%rows%n), self%pull(self%k), source=-1.0_wp)
       end if
+      ! points whose states have changed
       do v = 1, n_points
          if (is_changed(self, v, stiffness)) call set_point(self, v, stiffness)
       end do
+      ! floating bodies whose pull has changed
       v = n_points
       do b = 1, self%n_bodies
          if (self%numbering%first_pull(b) == 0) cycle
@@ -223,6 +235,7 @@ contains
       self%pull = -1.0_wp
    end subroutine factor_scene
 
+   !> Whether a row of point v has another stiffness than in the last factorisation.
    pure logical function is_changed(self, v, stiffness)
       class(assembled_scene_t), intent(in) :: self
       integer(ip), intent(in) :: v
@@ -275,6 +288,7 @@ contains
       call set_variable_element(self%matrix, v, matrix)
    end subroutine set_point
 
+   !> x <- H^-1 x with the last factors.
    subroutine solve_scene(self, x)
       class(assembled_scene_t), intent(in) :: self
       real(wp), intent(inout) :: x(:)
@@ -282,6 +296,7 @@ contains
       call solve_variable_matrix(self%matrix, x)
    end subroutine solve_scene
 
+   !> Memory held: the matrix with its factors, the rows and the lists of the elements that change.
    pure integer(lp) function scene_bytes(self) result(bytes)
       class(assembled_scene_t), intent(in) :: self
 

@@ -1,6 +1,13 @@
 !> The root of an increasing, piecewise linear function: the derivative of a convex, piecewise quadratic one along a line.
 !>
 !>     s(t) = constant + slope t + sum_i v_i clip((e_i + t v_i + h_i)/c_i, lower_i, upper_i)
+!>
+!> is the derivative of phi (atrito_multiplier_step) at x + t dx, with v = B dx: each term increases with t, its slope v_i^2/c_i
+!> between the bounds and 0 beyond. s(0) < 0, as dx is a direction in which phi falls, so the root is the least phi on the line.
+!>
+!> The interval is doubled until s >= 0 at its end, then narrowed by false position with the weights of the Illinois method, which
+!> comes to a root of a piecewise linear function in few steps; where one end stays all the same, the middle is taken. s is a sum
+!> over the rows: a step costs one pass through them, nothing is solved.
 module atrito_line_search
    use atrito_kinds, only: ip, wp
    implicit none (type, external)
@@ -12,6 +19,8 @@ module atrito_line_search
    real(wp), parameter :: EXACT = 1.0e-10_wp     !< of the slope at the start
 
    !> An interval with the values at its ends, which may be weighted.
+   !>
+   !> s_before < 0 <= s_after. The weights move the secant towards the end that has stayed; they are no values of s any more.
    type :: bracket_t
       real(wp) :: before = 0.0_wp, after = 1.0_wp
       real(wp) :: s_before = 0.0_wp, s_after = 0.0_wp
@@ -31,6 +40,8 @@ contains
    end function clipped
 
    !> t > 0 with s(t) = 0, where s(0) < 0; the largest t tried when s stays negative.
+   !>
+   !> A step beyond dx (t > 1) is taken where phi falls on: with many rows at their bounds Newton's step is often too short.
    pure real(wp) function search_line(constant, slope, v, e, h, c, lower, upper, unit) result(t)
       real(wp), intent(in) :: constant, slope    !< over the unit
       real(wp), intent(in) :: v(:), e(:), h(:), c(:), lower(:), upper(:)
@@ -71,6 +82,8 @@ contains
    end function search_line
 
    !> By false position, or the middle where that is no use.
+   !>
+   !> The root of the line through both ends. Round-off, or an end that stays MOST_STAYS times, asks for the middle.
    pure real(wp) function place_within(bracket) result(here)
       type(bracket_t), intent(in) :: bracket
 
@@ -81,6 +94,8 @@ contains
    end function place_within
 
    !> A new end; the one that stays once more is weighted by half (Illinois).
+   !>
+   !> Without that false position would keep one end for ever where s is convex, and come from one side in small steps.
    pure subroutine narrow(bracket, here, s)
       type(bracket_t), intent(inout) :: bracket
       real(wp), intent(in) :: here, s

@@ -1,14 +1,22 @@
 !> How far a step of the multipliers is from a solution, pair by pair and body by body.
 !>
-!> Each pair is measured by its own forces and each body by the forces on it. Round-off of the rows (multipliers%noise) is no
-!> distance, nor is a force that is round-off of those on the bodies that meet at a pair.
+!> In a solution q = q_o, a = a_o and tau = nu S_rho(p). So four numbers tell how far a step is from one:
+!>
+!>     forces   the largest |q - q_o| of each pair, less the round-off of its rows, over the largest |q| of the pair
+!>     bound    the largest |nu S_rho(p) - tau| of each pair, less nu times the round-off of its pressures, over its largest bound
+!>     pull     kappa H |a - a_o| of each motion over the largest load or contact force at a node of its body
+!>     drive    the same over the largest of all those forces
+!>
+!> of all pairs and bodies the largest. Each pair is measured by its own forces and each body by the forces on it, so a weak pair
+!> beside a strong one is found as exactly. What is round-off of the forces on the bodies that meet there (NO_FORCE), or of what a
+!> pair bore in the increment before (NO_FORCE_AFTER), is no force to compare with: a pair without any other has none.
 module atrito_multiplier_distance
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use atrito_constraint_rows, only: add_transposed
    use atrito_contact_line, only: contact_line_t
    use atrito_contact_system, only: contact_system_t
    use atrito_kinds, only: ip, wp, HUGE_REAL
-   use atrito_multiplier_step, only: pull_of
+   use atrito_multiplier_step, only: largest_of_pairs, pull_of
    use atrito_multipliers, only: multiplier_t
    implicit none (type, external)
    private
@@ -30,10 +38,12 @@ module atrito_multiplier_distance
 contains
 
    !> How far a step is from the solution, where q = q_o, a = a_o, and the friction bound is that of the pressures.
+   !>
+   !> Bodies without load that went clear of each other have nothing that a pull could be compared with: theirs is none.
    function measure_distance(system, line, multipliers, q, tau, image) result(distance)
-      class(contact_system_t), intent(in) :: system
-      type(contact_line_t), intent(in) :: line
-      type(multiplier_t), intent(in) :: multipliers
+      class(contact_system_t), intent(in) :: system !< A, B, loads, flexibilities
+      type(contact_line_t), intent(in) :: line !< points, laws, average S_rho
+      type(multiplier_t), intent(in) :: multipliers !< x, e, q_o, a_o and the sizes of the step
       real(wp), intent(in) :: q(:)               !< (m) [F]
       real(wp), intent(in) :: tau(:), image(:)   !< (points) [F/L^2]
       type(distance_t) :: distance
@@ -41,7 +51,8 @@ contains
 
       call measure_bodies(system, q, of_body)
       call measure_pairs(system, multipliers, of_body, least)
-      distance%forces = force_distance(multipliers, q, least)
+      distance%forces = greatest_ratio(largest_of_pairs(multipliers, abs(q - multipliers%q_old) - multipliers%noise), &
+                                       max(least, largest_of_pairs(multipliers, abs(q))))
       distance%bound = bound_distance(line, multipliers, tau, image, least)
       ! bodies without load that went clear of each other have nothing that a pull could be compared with
       if (all(system%load == 0.0_wp) .and. all(abs(q) <= multipliers%noise)) return
@@ -50,26 +61,27 @@ contains
    end function measure_distance
 
    !> Which rows are of pairs whose forces are round-off of those on their bodies.
+   !>
+   !> In the end their points are open: what is left there is no contact.
    function forces_that_are_none(system, multipliers, q) result(none)
-      class(contact_system_t), intent(in) :: system
-      type(multiplier_t), intent(in) :: multipliers
+      class(contact_system_t), intent(in) :: system !< A, B, loads, flexibilities
+      type(multiplier_t), intent(in) :: multipliers !< x, e, q_o, a_o and the sizes of the step
       real(wp), intent(in) :: q(:)
       logical :: none(size(q))
       real(wp) :: of_body(system%n_bodies), least(multipliers%n_pairs), largest(multipliers%n_pairs)
-      integer(ip) :: i
 
       call measure_bodies(system, q, of_body)
       call measure_pairs(system, multipliers, of_body, least)
-      largest = 0.0_wp
-      do i = 1, size(q, kind=ip)
-         largest(multipliers%pair(i)) = max(largest(multipliers%pair(i)), abs(q(i)))
-      end do
+      largest = largest_of_pairs(multipliers, abs(q))
       none = largest(multipliers%pair) <= least(multipliers%pair)
    end function forces_that_are_none
 
    !> The largest load and contact force at a displacement of each body; at least a round-off of those on bodies that it touches.
+   !>
+   !> A body that has no load and touches loaded ones has contact forces that balance each other; if these are round-off as well,
+   !> what is round-off of its neighbours' forces is none on it.
    subroutine measure_bodies(system, q, of_body)
-      class(contact_system_t), intent(in) :: system
+      class(contact_system_t), intent(in) :: system !< A, B, loads, flexibilities
       real(wp), intent(in) :: q(:)
       real(wp), intent(out) :: of_body(:)        !< (bodies) [F]
       real(wp) :: force(system%n), own(size(of_body))
@@ -93,6 +105,8 @@ contains
    end subroutine measure_bodies
 
    !> The same of bodies without displacements: the largest load on a motion, and contact force along one.
+   !>
+   !> A rigid body has no forces at displacements: what acts on it is the work on its motions, of loads and of each contact force.
    pure subroutine measure_rigid_bodies(system, q, own)
       class(contact_system_t), intent(in) :: system
       real(wp), intent(in) :: q(:)
@@ -116,6 +130,9 @@ contains
 
    !> The force at each pair that is round-off of those on its bodies, or of what it bore in the increment before: of a pair that is
    !> unloaded nothing else may be left to compare with.
+   !>
+   !> Bilateral rows have LITTLE in place of NO_FORCE: a tie between two parts that hardly strain bears next to nothing, and that is
+   !> not worth steps.
    subroutine measure_pairs(system, multipliers, of_body, least)
       class(contact_system_t), intent(in) :: system
       type(multiplier_t), intent(in) :: multipliers
@@ -133,23 +150,8 @@ contains
       end do
    end subroutine measure_pairs
 
-   pure real(wp) function force_distance(multipliers, q, least) result(distance)
-      type(multiplier_t), intent(in) :: multipliers
-      real(wp), intent(in) :: q(:), least(:)
-      real(wp) :: force(size(least)), change(size(least))
-      integer(ip) :: i
-
-      force = least
-      change = 0.0_wp
-      do i = 1, size(q, kind=ip)
-         associate (k => multipliers%pair(i))
-            force(k) = max(force(k), abs(q(i)))
-            change(k) = max(change(k), abs(q(i) - multipliers%q_old(i)) - multipliers%noise(i))
-         end associate
-      end do
-      distance = greatest_ratio(change, force)
-   end function force_distance
-
+   !> |nu S_rho(p) - tau| pair by pair, over the largest bound of the pair, or that of the least pressure that counts there. A bound
+   !> that is no number is as far off as can be.
    real(wp) function bound_distance(line, multipliers, tau, image, least) result(distance)
       type(contact_line_t), intent(in) :: line
       type(multiplier_t), intent(in) :: multipliers
@@ -173,6 +175,8 @@ contains
    end function bound_distance
 
    !> The largest pull on a motion, over the forces on its body.
+   !>
+   !> pull_of is kappa H_j; times the way |a - a_o| of the step it is the force that held the motion.
    pure real(wp) function pull_distance(system, multipliers, of_body) result(distance)
       class(contact_system_t), intent(in) :: system
       type(multiplier_t), intent(in) :: multipliers
@@ -184,6 +188,7 @@ contains
       end associate
    end function pull_distance
 
+   !> The largest part(i)/whole(i); where the whole is nothing there is nothing to be off by.
    pure real(wp) function greatest_ratio(part, whole) result(ratio)
       real(wp), intent(in) :: part(:), whole(:)
       integer(ip) :: i

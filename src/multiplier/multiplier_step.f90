@@ -1,13 +1,33 @@
-!> One step of the proximal method of multipliers (R. T. Rockafellar 1976) on the sparse form of the bodies.
+!> One step of the proximal method of multipliers (R. T. Rockafellar, Math. Oper. Res. 1 (1976) 97-116) on the sparse form of the
+!> bodies.
 !>
 !> With the forces q_o and amplitudes a_o of the step before and the friction bound frozen, the step solves
 !>
-!>     A x + kappa (a - a_o) + B' q = f,   q = clip((B x + g0 + rho q_o)/(D + rho)),   rho_i = r c_i
+!>     A x + kappa H (a - a_o) + B' q = f,   q_i = clip((B_i x + g0_i + rho_i q_o,i)/(D_i + rho_i)),   rho_i = r c_i.
 !>
-!> by Newton's method with an exact line search: the gradient of a convex, piecewise quadratic function. clip puts a force at the
-!> bounds of its law, 0 <= q_n, |q_t| <= w tau. In a solution q = q_o and a = a_o, so rho and kappa have no part in it: hard
-!> contact and rows that depend on each other need neither a penalty nor pivots. c_i is the flexibility of the displacements at the
-!> row, so nothing depends on units, and every pair is treated by its own stiffness.
+!> clip puts a force between the bounds of its law, 0 <= q_n, |q_t| <= w tau; what it does is the state of the row:
+!>
+!>     FREE       inside: closed or sticking, B x + g0 = D q + rho (q - q_o), where q = q_o the law itself
+!>     AT_LOWER   q = lower: open, or slipping against T
+!>     AT_UPPER   q = upper: slipping along T
+!>     FROZEN     lower = upper: no friction
+!>
+!> In a solution q = q_o and a = a_o, so rho and kappa have no part in it: hard contact and rows that depend on each other need
+!> neither a penalty nor pivots, a body that touches nothing yet is held by kappa. c_i is the flexibility of the displacements at
+!> the row and H_j what the rows hold motion j with, so nothing depends on units, and every pair is treated by its own stiffness.
+!>
+!> The equations are the gradient of the convex, piecewise quadratic function
+!>
+!>     phi(x) = x'A x/2 - f'x + kappa (a - a_o)'H (a - a_o)/2 + sum_i psi_i(B_i x),   psi_i' = the clip above.
+!>
+!> Newton's method solves [A + sum over FREE rows of B_i'B_i/(D_i + rho_i) + kappa H] dx = -gradient, a positive definite matrix.
+!> The full step is taken where it leads to the states that it was made for (`try_full_step`): that is the minimum. Else dx is
+!> followed to the least phi on its line (`take_part_of_step`, atrito_line_search), so phi falls in every step, no set of states
+!> comes back, and the method ends. A row whose D + rho has changed by less than SAME_STIFFNESS keeps the stiffness that was
+!> factored: then the step is a little less than Newton's.
+!>
+!> Round-off: B x + g0 is added up from step to step, of motions far larger than what is missing only round-off would be left of
+!> it; `noise` is what that does to a force, and neither changes a state nor is a distance from the solution.
 module atrito_multiplier_step
    use atrito_bound_qp, only: bound_qp_t, box_bounds_t, box_state_t, FREE, AT_LOWER, AT_UPPER, FROZEN
    use atrito_constraint_rows, only: constraint_rows_t, multiply_rows, add_transposed
@@ -22,7 +42,7 @@ module atrito_multiplier_step
    implicit none (type, external)
    private
    public :: begin_multipliers, start_closed, take_multiplier_step, refine_step, accept_step, set_forces, pull_of, &
-             take_least_forces, clear_round_off, rho_of
+             take_least_forces, clear_round_off, largest_of_pairs, rho_of
 
    integer(ip), parameter :: MOST_NEWTON = 200_ip
    integer(ip), parameter :: PATIENCE = 20_ip         !< Newton steps without a full one
@@ -38,8 +58,11 @@ module atrito_multiplier_step
 contains
 
    !> At rest: no forces, no displacements.
+   !>
+   !> hold: H_j = sum_i B_ij^2/c_i over the rows, the stiffness by which the rows would hold motion j if all were closed. A spring
+   !> in a row adds its compliance to c_i.
    subroutine begin_multipliers(system, pair, multipliers, compliance)
-      class(contact_system_t), intent(in) :: system
+      class(contact_system_t), intent(in) :: system !< A, B, loads, flexibilities
       integer(ip), intent(in) :: pair(:)         !< (m) of each row
       type(multiplier_t), intent(out) :: multipliers
       real(wp), intent(in), optional :: compliance(:) !< (m) of springs: a soft one holds its body no firmer than it is [L/F]
@@ -69,11 +92,14 @@ contains
    end subroutine begin_multipliers
 
    !> All points closed, and stuck where there is friction, whatever their forces.
+   !>
+   !> One linear solve with all rows FREE, as if glued. Where the bodies come to is a good place to begin: the true motion is near
+   !> to it where contact holds them, and where it does not they leave from there.
    subroutine start_closed(system, bounds, multipliers, state, status)
-      class(contact_system_t), intent(inout) :: system
-      type(box_bounds_t), intent(in) :: bounds
-      type(multiplier_t), intent(inout) :: multipliers
-      type(box_state_t), intent(inout) :: state
+      class(contact_system_t), intent(inout) :: system !< A, B, loads, flexibilities
+      type(box_bounds_t), intent(in) :: bounds !< of the m forces [F], and their D [L/F]
+      type(multiplier_t), intent(inout) :: multipliers !< x, e, q_o, a_o and the sizes of the step
+      type(box_state_t), intent(inout) :: state !< states of the m unknowns, q, a, r
       type(status_t), intent(out) :: status
       real(wp) :: residual(system%n)
 
@@ -92,11 +118,14 @@ contains
    end subroutine start_closed
 
    !> Forces and states from the displacements.
+   !>
+   !> z = (e + rho q_o)/(D + rho) is the force without bounds, q = clip(z), r = e - D q the residual of the law. The state says on
+   !> which piece of the clip z lies.
    subroutine set_forces(system, bounds, multipliers, state, de)
-      class(contact_system_t), intent(in) :: system
-      type(box_bounds_t), intent(in) :: bounds
-      type(multiplier_t), intent(inout) :: multipliers
-      type(box_state_t), intent(inout) :: state
+      class(contact_system_t), intent(in) :: system !< A, B, loads, flexibilities
+      type(box_bounds_t), intent(in) :: bounds !< of the m forces [F], and their D [L/F]
+      type(multiplier_t), intent(inout) :: multipliers !< x, e, q_o, a_o and the sizes of the step
+      type(box_state_t), intent(inout) :: state !< states of the m unknowns, q, a, r
       !> B dx of the step that has been taken: of motions far larger than it, round-off alone would be left of e, and the forces
       !> would lose the balance that the step has given them.
       real(wp), intent(in), optional :: de(:)
@@ -130,6 +159,8 @@ contains
    end subroutine set_forces
 
    !> A bilateral row may hold displacements that are none: their round-off is that of the other displacements of the body.
+   !>
+   !> An equation u_i = 0 has e = 0 exactly; what round-off does to it is that of solving for the whole body.
    subroutine raise_noise(system, multipliers)
       class(contact_system_t), intent(in) :: system
       type(multiplier_t), intent(inout) :: multipliers
@@ -151,6 +182,8 @@ contains
    end subroutine raise_noise
 
    !> f - A x - kappa (a - a_o) - B' q.
+   !>
+   !> Minus the gradient of phi at x, where q = clip((B x + g0 + rho q_o)/(D + rho)) is that of these displacements.
    subroutine residual_of(system, multipliers, q, residual)
       class(contact_system_t), intent(in) :: system
       type(multiplier_t), intent(in) :: multipliers
@@ -174,22 +207,43 @@ contains
       rho = multipliers%r*multipliers%part*system%flexibility
    end function rho_of
 
-   !> The stiffness [F/L] by which each rigid motion is pulled to where it was before the step.
-   pure function pull_of(multipliers) result(pull)
+   !> The largest value at the rows of each pair; 0 where it has none.
+   pure function largest_of_pairs(multipliers, values) result(largest)
       type(multiplier_t), intent(in) :: multipliers
+      real(wp), intent(in) :: values(:)          !< (m) >= 0
+      real(wp) :: largest(multipliers%n_pairs)
+      integer(ip) :: i
+
+      largest = 0.0_wp
+      do i = 1, size(values, kind=ip)
+         largest(multipliers%pair(i)) = max(largest(multipliers%pair(i)), values(i))
+      end do
+   end function largest_of_pairs
+
+   !> The stiffness [F/L] by which each rigid motion is pulled to where it was before the step.
+   !>
+   !> kappa H_j: a share kappa of what the rows would hold motion j with. 0 has no place in it: a motion that no row sees is alone
+   !> in its equation, and gets H_j = 1.
+   pure function pull_of(multipliers) result(pull)
+      type(multiplier_t), intent(in) :: multipliers !< x, e, q_o, a_o and the sizes of the step
       real(wp) :: pull(size(multipliers%hold))
 
       pull = multipliers%kappa*multipliers%hold
    end function pull_of
 
    !> Solves for one step. status: as system%factor.
+   !>
+   !>     residual = -gradient of phi;  factor for the states;  dx = H^-1 residual;  full step, or a part of it
+   !>
+   !> until a full step stays in the states that it was made for. `changed` tells the loop that it did not at first. After PATIENCE
+   !> steps a change of forces by round-off is none: points at the edge of contact may change their states for ever.
    subroutine take_multiplier_step(system, shape, bounds, multipliers, state, history, status)
-      class(contact_system_t), intent(inout) :: system
+      class(contact_system_t), intent(inout) :: system !< A, B, loads, flexibilities
       type(bound_qp_t), intent(in) :: shape   !< numbers of unknowns and weights, for the history
-      type(box_bounds_t), intent(in) :: bounds
-      type(multiplier_t), intent(inout) :: multipliers
-      type(box_state_t), intent(inout) :: state
-      type(solve_history_t), intent(inout) :: history
+      type(box_bounds_t), intent(in) :: bounds !< of the m forces [F], and their D [L/F]
+      type(multiplier_t), intent(inout) :: multipliers !< x, e, q_o, a_o and the sizes of the step
+      type(box_state_t), intent(inout) :: state !< states of the m unknowns, q, a, r
+      type(solve_history_t), intent(inout) :: history !< every linear solve is added
       type(status_t), intent(out) :: status
       real(wp) :: residual(system%n), dx(system%n), de(system%rows%n), before(system%rows%n)
       integer(ip) :: newton
@@ -199,6 +253,7 @@ contains
       multipliers%changed = .false.
       call set_forces(system, bounds, multipliers, state)
       do newton = 1, MOST_NEWTON
+         ! minus the gradient, the matrix of the present states, Newton's direction
          call residual_of(system, multipliers, state%q, residual)
          call provide_factor(system, bounds, state, multipliers, status)
          if (.not. is_ok(status)) return
@@ -220,12 +275,15 @@ contains
 
    !> Of a long way that a body went, and of the forces that closed gaps far larger than its strains, round-off is left in its
    !> forces: the factor that is there solves for it, as long as no state changes.
+   !>
+   !> The residual of the equations beside the largest force on each body; what is more than BALANCED is solved for with the factor
+   !> that is there, at most MOST_REFINEMENTS times. A step that leaves more than REFINES of it is taken back.
    subroutine refine_step(system, bounds, of_body, multipliers, state)
-      class(contact_system_t), intent(inout) :: system
-      type(box_bounds_t), intent(in) :: bounds
+      class(contact_system_t), intent(inout) :: system !< A, B, loads, flexibilities
+      type(box_bounds_t), intent(in) :: bounds !< of the m forces [F], and their D [L/F]
       real(wp), intent(in) :: of_body(:)         !< (bodies) largest force on each [F]
-      type(multiplier_t), intent(inout) :: multipliers
-      type(box_state_t), intent(inout) :: state
+      type(multiplier_t), intent(inout) :: multipliers !< x, e, q_o, a_o and the sizes of the step
+      type(box_state_t), intent(inout) :: state !< states of the m unknowns, q, a, r
       type(multiplier_t) :: kept
       type(box_state_t) :: kept_state
       real(wp) :: residual(system%n), de(system%rows%n), part, least
@@ -257,6 +315,10 @@ contains
    end subroutine refine_step
 
    !> Factors for the present states, unless the last factor is as good.
+   !>
+   !> A new factor is needed when a row has another stiffness, the pull has changed, or somebody else has factored the system since
+   !> (generation). A pivot of an amplitude that is not positive means that the pull is round-off beside the stiffness of a stiff
+   !> body: then it grows by 100.
    subroutine provide_factor(system, bounds, state, multipliers, status)
       class(contact_system_t), intent(inout) :: system
       type(box_bounds_t), intent(in) :: bounds
@@ -288,6 +350,9 @@ contains
    end subroutine provide_factor
 
    !> The full step, where it leads to the states that it was made for.
+   !>
+   !> The states are those of x + dx where each row stays on its piece of the clip, but for SAME_STATE of the largest force of its
+   !> pair and the round-off of the row. Then phi is quadratic between, and x + dx its minimum.
    subroutine try_full_step(system, bounds, dx, de, multipliers, state, stays)
       class(contact_system_t), intent(in) :: system
       type(box_bounds_t), intent(in) :: bounds
@@ -298,12 +363,10 @@ contains
       integer(ip) :: i
       real(wp) :: rho, z, slack, scale(multipliers%n_pairs)
 
-      scale = 0.0_wp
-      do i = 1, system%rows%n
-         scale(multipliers%pair(i)) = max(scale(multipliers%pair(i)), abs(state%q(i)))
-      end do
+      scale = largest_of_pairs(multipliers, abs(state%q))
       stays = .true.
       do i = 1, system%rows%n
+         ! z at x + dx: does the row stay on its piece of the clip?
          rho = multipliers%r*multipliers%part(i)*system%flexibility(i)
          z = (multipliers%e(i) + de(i) + rho*multipliers%q_old(i))/(bounds%d(i) + rho)
          slack = SAME_STATE*scale(multipliers%pair(i)) + multipliers%noise(i)
@@ -322,6 +385,10 @@ contains
    end subroutine try_full_step
 
    !> As far along the step as the convex function falls.
+   !>
+   !> phi'(x + t dx) = -dx'residual_without_rows + t dx'(A + kappa H) dx + sum_i de_i clip((e_i + t de_i + rho_i q_o,i)/(D_i +
+   !> rho_i)): the function of atrito_line_search. Work is told over a unit of length: forces times displacements may leave the
+   !> range of numbers.
    subroutine take_part_of_step(system, bounds, residual, dx, de, multipliers, state)
       class(contact_system_t), intent(in) :: system
       type(box_bounds_t), intent(in) :: bounds
@@ -330,6 +397,7 @@ contains
       type(box_state_t), intent(inout) :: state
       real(wp) :: adx(system%n), constant, slope, t, unit
 
+      ! slope: dx'(A + kappa H) dx; constant: phi' at x without the rows
       call system%multiply(dx, adx)
       unit = unit_of(reshape(dx, [system%n, 1_ip]))   ! work over it: forces times displacements may be no numbers
       slope = dot_product(dx/unit, adx)
@@ -346,6 +414,8 @@ contains
    end subroutine take_part_of_step
 
    !> Of the forces that move the bodies alike the least.
+   !>
+   !> Rows that may change: those without compliance that are FREE, or at a bound with r = 0 but for round-off.
    subroutine take_least_forces(system, rows, weight, bounds, multipliers, state, is_shared)
       class(contact_system_t), intent(in) :: system
       type(constraint_rows_t), intent(in) :: rows !< over displacements alone
@@ -364,6 +434,8 @@ contains
    end subroutine take_least_forces
 
    !> A pressure that is round-off is none: the point is open.
+   !>
+   !> Rows of contact alone: a bilateral row may have a force of any size and sign.
    subroutine clear_round_off(shape, none, multipliers, state)
       type(bound_qp_t), intent(in) :: shape
       logical, intent(in) :: none(:)             !< (m) of a pair without any force but round-off
@@ -381,10 +453,12 @@ contains
    end subroutine clear_round_off
 
    !> What the step has found is where the next one starts.
+   !>
+   !> The forces and the amplitudes of the proximal terms; displacements are not in any.
    subroutine accept_step(system, state, multipliers)
-      class(contact_system_t), intent(in) :: system
-      type(box_state_t), intent(in) :: state
-      type(multiplier_t), intent(inout) :: multipliers
+      class(contact_system_t), intent(in) :: system !< A, B, loads, flexibilities
+      type(box_state_t), intent(in) :: state !< states of the m unknowns, q, a, r
+      type(multiplier_t), intent(inout) :: multipliers !< x, e, q_o, a_o and the sizes of the step
 
       multipliers%q_old = state%q
       multipliers%a_old = multipliers%x(system%n - system%k + 1:)

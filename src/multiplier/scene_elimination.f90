@@ -1,4 +1,13 @@
 !> Numbers and order of elimination of all bodies of a scene together, with the contact points as elements.
+!>
+!> Unknowns are the displacements of one body after the other, then the amplitudes of the rigid motions of floating bodies. As many
+!> displacements of a floating body as it has motions get a spring to the ground, so that K is positive definite on u_e: those by
+!> which the motions are best told apart. With Z the motions at the displacements, that is the largest row of Z, then the largest
+!> of what is left of the others without its direction, and so on: the pivots of an elimination with row interchanges.
+!>
+!> The order is one nested dissection of the elements and the points (order_elements of the multifrontal solver). A point joins the
+!> bodies that meet at it, the motions of a body are one more node of its points. A leaf of the dissection is cut in two: nodes
+!> that no point touches have a front that never changes and may serve for equal leaves; the others come behind them.
 module atrito_scene_elimination
    use atrito_assembly, only: fem_t
    use atrito_bodies, only: body_t, mode_at
@@ -33,8 +42,11 @@ contains
 
    !> Numbers the unknowns of all bodies, one body behind the other, then the amplitudes of their rigid motions, and chooses for
    !> each motion the equations that a spring holds it by.
+   !>
+   !> With body b: its displacements are before(b) + 1 .. before(b) + n, its motions first_motion(b) .. first_motion(b) +
+   !> n_motions(b) - 1.
    subroutine number_scene(fem, numbering)
-      type(fem_t), intent(in) :: fem
+      type(fem_t), intent(in) :: fem !< bodies and elements
       type(scene_numbering_t), intent(out) :: numbering
       integer(ip) :: b, n, k
 
@@ -65,6 +77,10 @@ contains
 
    !> As many displacements as there are motions, by which the motions are best told apart: the largest row of Z, what is left of
    !> the others without it, and so on.
+   !>
+   !> z(:, i) is what is left of the motions at displacement i. The one that is left with most becomes a spring; its direction is
+   !> taken out of all others (Gram and Schmidt). After as many as there are motions the springs hold them all, as firmly as single
+   !> springs can.
    pure subroutine choose_springs(fem, body, before, spring)
       type(fem_t), intent(in) :: fem
       type(body_t), intent(in) :: body
@@ -98,11 +114,15 @@ contains
 
    !> Nested dissection of the elements and the points; the rigid motions of a body are one more node of its points. The last
    !> unknowns may be kept: theirs are the last positions, in their order.
+   !>
+   !> 1. Elements of the mesh, then points, each as a list of nodes (list_elements); node n_nodes + b stands for the motions of body
+   !> b. 2. order_elements cuts the graph of nodes in halves, again and again: parts of nodes with their parents. 3. Parts of nodes
+   !> become parts of equations (build_elimination).
    function eliminate_scene(fem, rows, line, numbering, n_kept) result(elimination)
-      type(fem_t), intent(in) :: fem
-      type(contact_rows_t), intent(in) :: rows
-      type(contact_line_t), intent(in) :: line
-      type(scene_numbering_t), intent(in) :: numbering
+      type(fem_t), intent(in) :: fem !< bodies and elements
+      type(contact_rows_t), intent(in) :: rows !< of all points, over nodes
+      type(contact_line_t), intent(in) :: line !< points, laws, average S_rho
+      type(scene_numbering_t), intent(in) :: numbering !< of the unknowns
       integer(ip), intent(in), optional :: n_kept !< a node has all of its unknowns kept, or none; left out: none is
       type(elimination_t) :: elimination
       type(dissection_t) :: parts
@@ -134,6 +154,8 @@ contains
    end function eliminate_scene
 
    !> Nodes and motions whose unknowns are kept are not eliminated.
+   !>
+   !> A part of a scene that other processes have parts of keeps the unknowns that several of them have; they are the last ones.
    pure subroutine leave_out_kept(fem, numbering, n_eliminated, wanted)
       type(fem_t), intent(in) :: fem
       type(scene_numbering_t), intent(in) :: numbering
@@ -153,6 +175,9 @@ contains
    end subroutine leave_out_kept
 
    !> The elements of the mesh, then the points that have a row. A motion that none of them sees stands with an element of its body.
+   !>
+   !> The dissection takes the centre of an element from its first CORNERS nodes. Nodes with more than MOST_ROWS rows say nothing
+   !> about where a point is, and the carriers of a rigid surface are everywhere: they come behind the others.
    subroutine list_elements(fem, rows, line, numbering, nodes, n_nodes_of)
       type(fem_t), intent(in) :: fem
       type(contact_rows_t), intent(in) :: rows
@@ -200,6 +225,8 @@ contains
    end subroutine list_elements
 
    !> Nodes with too many rows to be corners.
+   !>
+   !> One face that a thousand points see would join all of them in the graph of the dissection.
    pure function find_crowded(n_nodes, rows) result(crowded)
       integer(ip), intent(in) :: n_nodes
       type(contact_rows_t), intent(in) :: rows
@@ -214,6 +241,9 @@ contains
    end function find_crowded
 
    !> The nodes of the row, those first that may be corners, as often as it takes to have four, and the motions of their bodies.
+   !>
+   !> order_elements wants at least CORNERS nodes of each element; a point on a point of a rigid surface has fewer, and repeats
+   !> them.
    pure subroutine list_nodes_of_point(fem, rows, crowded, numbering, j, nodes, n)
       type(fem_t), intent(in) :: fem
       type(contact_rows_t), intent(in) :: rows
@@ -254,6 +284,9 @@ contains
 
    !> From parts of nodes to parts of equations. A leaf is cut in two: first the nodes that no point touches, whose front never
    !> changes and has equals, then the others.
+   !>
+   !> Parts come in the order of elimination, children before parents: last(q) is the last position of part q, parent(q) the part
+   !> whose front takes its update. new_part maps the parts of nodes to those of equations, of which a cut leaf has two.
    subroutine build_elimination(fem, numbering, parts, changes, elimination)
       type(fem_t), intent(in) :: fem
       type(scene_numbering_t), intent(in) :: numbering
@@ -263,6 +296,7 @@ contains
       integer(ip) :: new_part(parts%n), p, q, n, first
       logical :: is_leaf(parts%n)
 
+      ! a part without children is a leaf
       is_leaf = .true.
       do p = 1, parts%n
          if (parts%parent(p) > 0) is_leaf(parts%parent(p)) = .false.
@@ -273,6 +307,7 @@ contains
       first = 1
       do p = 1, parts%n
          associate (nodes => parts%order(first:parts%last(p)))
+            ! first the nodes that no point touches, in a part of their own
             if (is_leaf(p) .and. any(changes(nodes)) .and. .not. all(changes(nodes))) then
                q = q + 1
                call place_nodes(fem, numbering, pack(nodes,.not. changes(nodes)), n, elimination%position)
@@ -296,6 +331,7 @@ contains
       elimination%parent = elimination%parent(:q)
    end subroutine build_elimination
 
+   !> The next places in the order of elimination for the unknowns of some nodes: displacements, or the motions of a body.
    pure subroutine place_nodes(fem, numbering, nodes, n, place)
       type(fem_t), intent(in) :: fem
       type(scene_numbering_t), intent(in) :: numbering

@@ -1,5 +1,12 @@
 !> What the two matrices of a scene (atrito_assembled_scene, atrito_shared_scene) have in common: the numbers of the unknowns, the
 !> right hand sides of the rows, and the loads.
+!>
+!>     g0 = B u_prescribed - gap (or rest slip)      what the rows see without displacements
+!>     c_i = sum over the nodes of row i of d' K_n^-1 d, d its entries there, K_n the 2 x 2 stiffness of the node by itself
+!>     f, and h = Z' f on the amplitudes
+!>
+!> c_i, the flexibility of the row as its own nodes have it, is the same however the scene is turned. It is the scale of rho and of
+!> the pull, so nothing depends on units.
 module atrito_scene_system
    use atrito_assembly, only: fem_t
    use atrito_contact_line, only: contact_line_t, rest_of
@@ -40,6 +47,8 @@ module atrito_scene_system
 contains
 
    !> Whether a solve has failed since this was asked last. status: STATUS_INTERNAL then, in place of what it was; else it stays.
+   !>
+   !> A solve over processes may fail in one of them; the interface of a solve has no status, so it is asked afterwards.
    subroutine take_trouble(self, status)
       class(scene_system_t), intent(in) :: self
       type(status_t), intent(inout) :: status
@@ -58,9 +67,11 @@ contains
    end subroutine release_load
 
    !> What prescribed displacements, initial gaps and rest slips leave of the rows: g0.
+   !>
+   !> The same numbers as in the condensed form (set_right_hand_sides), but for what the loads do: here displacements are unknowns.
    subroutine set_scene_gaps(rows, line, value, scene)
-      type(contact_rows_t), intent(in) :: rows
-      type(contact_line_t), intent(in) :: line
+      type(contact_rows_t), intent(in) :: rows !< of all points, over nodes
+      type(contact_line_t), intent(in) :: line !< points, laws, average S_rho
       real(wp), intent(in) :: value(:, :)        !< (2, n_nodes) prescribed displacements [L]
       class(scene_system_t), intent(inout) :: scene
       integer(ip) :: i
@@ -79,10 +90,13 @@ contains
    end subroutine set_scene_gaps
 
    !> b' K^-1 b over the displacements of a row, with the stiffness of each node by itself: the same however the scene is turned.
+   !>
+   !> A row without free displacements, between a held node and a rigid surface, has none; it gets that of the softest row, so that
+   !> rho is no less there than elsewhere.
    subroutine set_flexibility(fem, rows, line, diagonal, coupling, scene)
-      type(fem_t), intent(in) :: fem
-      type(contact_rows_t), intent(in) :: rows
-      type(contact_line_t), intent(in) :: line
+      type(fem_t), intent(in) :: fem !< bodies and elements
+      type(contact_rows_t), intent(in) :: rows !< of all points, over nodes
+      type(contact_line_t), intent(in) :: line !< points, laws, average S_rho
       real(wp), intent(in) :: diagonal(:), coupling(:) !< (n) of the stiffness (sum_diagonals), at the nodes of the rows at least
       class(scene_system_t), intent(inout) :: scene
       real(wp) :: d(2)
@@ -108,6 +122,8 @@ contains
    end subroutine set_flexibility
 
    !> d' K^-1 d for the free displacements of a node.
+   !>
+   !> By elimination of the first displacement: d1^2/k11 + (d2 - d1 k12/k11)^2/(k22 - k12^2/k11). One that is held takes no part.
    pure real(wp) function node_flexibility(equation, before, diagonal, coupling, d) result(c)
       integer(ip), intent(in) :: equation(2), before
       real(wp), intent(in) :: diagonal(:), coupling(:) !< coupling: of a displacement with the other one of its node, at the first
@@ -128,8 +144,11 @@ contains
    end function node_flexibility
 
    !> Takes the applied forces, and those less the forces of the prescribed displacements.
+   !>
+   !> The load on a motion is the work of the applied forces alone: what prescribed displacements and temperatures do is in balance.
+   !> Where its terms cancel but for LOAD_ROUND_OFF it is none, or a body without load would move.
    subroutine set_scene_load(fem, f, free_load, scene)
-      type(fem_t), intent(in) :: fem
+      type(fem_t), intent(in) :: fem !< bodies and elements
       real(wp), intent(in) :: f(:, :), free_load(:, :) !< (2, n_nodes) [F]
       class(scene_system_t), intent(inout) :: scene
       integer(ip) :: node, dof, b, k
@@ -152,8 +171,10 @@ contains
    end subroutine set_scene_load
 
    !> Displacements without rigid motions at the free dofs, (2, n_nodes).
+   !>
+   !> u_e; u = u_e + Z a is put together when it is recovered (add_rigid_motions).
    pure subroutine displacements_of(fem, scene, x, u)
-      type(fem_t), intent(in) :: fem
+      type(fem_t), intent(in) :: fem !< bodies and elements
       class(scene_system_t), intent(in) :: scene
       real(wp), intent(in) :: x(:)               !< (n) [L]
       real(wp), intent(inout) :: u(:, :)         !< (2, n_nodes) [L]: the free dofs are set

@@ -1,9 +1,13 @@
 !> Motions that nothing holds and no load drives, on the sparse form of the bodies.
 !>
-!> With the states of a solution, one step of the proximal method leaves such a motion as it is and takes all others to less than a
-!> millionth: a <- H^-1 (kappa a), H the matrix that was factored last. So a vector without pattern becomes an undetermined motion,
-!> or nothing. Of the displacements that differ by undetermined motions those are given whose relative displacements at the points
-!> are least.
+!> With the states of a solution, H being the matrix that was factored last, the step a <- H^-1 (kappa a) leaves such a motion as
+!> it is, since nothing but the pull kappa is in H for it; any other motion is held by stiffnesses of the rows and is taken to less
+!> than a millionth. So a vector without pattern, twice through the step, becomes an undetermined motion, or nothing; what is left
+!> is made orthogonal to those that are known, until nothing is left (subspace iteration with the eigenvalues 1 and 0).
+!>
+!> Of the displacements that differ by undetermined motions those are given whose relative displacements at the points, |B (x + V
+!> s)|^2, are least: the bodies stay together. That is taken back where a point would penetrate or slip along with its friction;
+!> what is best there atrito_idle_motions finds. In a history amplitudes count from those of the increment before.
 module atrito_undetermined_motions
    use atrito_bodies, only: simplest_motion
    use atrito_bound_qp, only: box_bounds_t, box_state_t, FREE, AT_LOWER, AT_UPPER
@@ -22,22 +26,27 @@ module atrito_undetermined_motions
    real(wp), parameter :: STAYS = 0.999_wp       !< of an undetermined motion without its round-off
    real(wp), parameter :: STAYS_PUT = 1.0e-9_wp  !< of a row in a motion of size one
    real(wp), parameter :: DEPENDENT = 1.0e-8_wp
+   real(wp), parameter :: GOLDEN = 0.6180339887498949_wp
 
 contains
 
    !> Takes the least motion, unless points would penetrate or slip with their friction. undetermined: one of the motions, (k); not
    !> allocated when there is none. position: where the bodies were before, from where it counts.
+   !>
+   !> basis: the undetermined motions; the amplitudes are measured from `position`, the displacements of the increment before, so
+   !> that a body stays where it is.
    subroutine settle_undetermined_motions(system, bounds, multipliers, state, undetermined, position)
-      class(contact_system_t), intent(in) :: system
-      type(box_bounds_t), intent(in) :: bounds
-      type(multiplier_t), intent(inout) :: multipliers
-      type(box_state_t), intent(inout) :: state
+      class(contact_system_t), intent(in) :: system !< A, B, loads, flexibilities
+      type(box_bounds_t), intent(in) :: bounds !< of the m forces [F], and their D [L/F]
+      type(multiplier_t), intent(inout) :: multipliers !< x, e, q_o, a_o and the sizes of the step
+      type(box_state_t), intent(inout) :: state !< states of the m unknowns, q, a, r
       real(wp), allocatable, intent(out) :: undetermined(:)
       real(wp), intent(in), optional :: position(:) !< (k) [L]; not there: 0
       real(wp), allocatable :: basis(:, :)
       type(multiplier_t) :: least
       type(box_state_t) :: least_state
 
+      ! the rest is tried on copies, as it may be taken back
       call find_undetermined_motions(system, multipliers, basis)
       if (size(basis, 2) == 0) return
       allocate (undetermined, source=simplest_motion(basis(system%n - system%k + 1:, :)))
@@ -57,6 +66,8 @@ contains
    end subroutine settle_undetermined_motions
 
    !> Whether r > 0 at an open point or one that slips at its lower bound, or r < 0 at one that slips at its upper one.
+   !>
+   !> Motions of bodies do not change forces, only r = B x + g0 - D q. Where r gets the other sign the point would close, or stick.
    pure logical function changes_a_state(bounds, state, r, slack) result(changes)
       type(box_bounds_t), intent(in) :: bounds
       type(box_state_t), intent(in) :: state
@@ -67,20 +78,25 @@ contains
    end function changes_a_state
 
    !> basis: (n, motions), their amplitudes orthonormal; the displacements in them are round-off.
+   !>
+   !> For each candidate: a vector without pattern, orthogonal to the motions that are known; two steps of the proximal method;
+   !> orthogonal again. What is left after that (more than NO_PART) is undetermined, unless it strains something (take_out_held,
+   !> STAYS).
    subroutine find_undetermined_motions(system, multipliers, basis)
       class(contact_system_t), intent(in) :: system
       type(multiplier_t), intent(in) :: multipliers
       real(wp), allocatable, intent(out) :: basis(:, :)
       real(wp) :: v(system%n), before
       real(wp), allocatable :: found(:, :)
-      integer(ip) :: n, i
+      integer(ip) :: n, i, j
 
       allocate (found(system%n, min(MOST_UNDETERMINED, system%k)))
       n = 0
       associate (first => system%n - system%k + 1)
          do i = 1, size(found, 2, kind=ip)
             v = 0.0_wp
-            v(first:) = without_pattern(system%k, i)
+            ! numbers between -1/2 and 1/2 with no relation to the bodies
+            v(first:) = [(modulo(GOLDEN*real(j*(j + 2*i), wp), 1.0_wp) - 0.5_wp, j=1, system%k)]
             call orthogonalise(found(first:, :n), v(first:))
             before = norm2(v)
             call apply_step(system, multipliers, v)
@@ -98,6 +114,9 @@ contains
    end subroutine find_undetermined_motions
 
    !> An undetermined motion strains nothing: what strain there is is round-off of the step, and is taken out.
+   !>
+   !> v <- v - H^-1 (A v + B' s B v), twice: what the rows and the bodies feel of v goes. A motion that loses a thousandth of itself
+   !> by that was held, weakly.
    subroutine take_out_held(system, multipliers, v)
       class(contact_system_t), intent(in) :: system
       type(multiplier_t), intent(in) :: multipliers
@@ -114,16 +133,6 @@ contains
       end do
    end subroutine take_out_held
 
-   !> Numbers between -1/2 and 1/2 with no relation to the bodies.
-   pure function without_pattern(n, seed) result(v)
-      integer(ip), intent(in) :: n, seed
-      real(wp) :: v(n)
-      real(wp), parameter :: GOLDEN = 0.6180339887498949_wp
-      integer(ip) :: i
-
-      v = [(modulo(GOLDEN*real(i*(i + 2*seed), wp), 1.0_wp) - 0.5_wp, i=1, n)]
-   end function without_pattern
-
    pure subroutine orthogonalise(basis, v)
       real(wp), intent(in) :: basis(:, :)
       real(wp), intent(inout) :: v(:)
@@ -135,6 +144,8 @@ contains
    end subroutine orthogonalise
 
    !> a <- H^-1 (kappa a), with the displacements that go with it.
+   !>
+   !> The step from rest with a_o = a and no loads: x = H^-1 (0, kappa H a).
    subroutine apply_step(system, multipliers, v)
       class(contact_system_t), intent(in) :: system
       type(multiplier_t), intent(in) :: multipliers
@@ -148,6 +159,8 @@ contains
    end subroutine apply_step
 
    !> Least squares of B x over the undetermined motions; those that no row sees get the amplitude zero.
+   !>
+   !> First x without its part along them, so that motions that no row sees get the amplitude zero; then the least |B x + B V s|^2.
    subroutine reduce_motion(system, basis, x)
       class(contact_system_t), intent(in) :: system
       real(wp), intent(in) :: basis(:, :)

@@ -8,7 +8,7 @@
 !> A part has numbers of its own for nodes, elements, bodies, points, rows and unknowns; a contact line and contact rows say only
 !> which points have which rows, and over which nodes.
 module atrito_scene_part
-   use atrito_assembled_scene, only: assembled_scene_t, assemble_part
+   use atrito_assembled_scene, only: assembled_scene_t, assemble_numbered
    use atrito_assembly, only: fem_t
    use atrito_bodies, only: bodies_t
    use atrito_contact_line, only: contact_line_t
@@ -42,7 +42,7 @@ contains
       type(contact_rows_t) :: no_rows
       type(contact_line_t) :: no_line
 
-      call assemble_part(part%fem, part%rows, part%line, part%spring_stiffness, part%n_kept, part%scene, status)
+      call assemble_numbered(part%fem, part%rows, part%line, part%scene, status, part%spring_stiffness, part%n_kept)
       deallocate (part%fem%mesh)
       part%fem = no_fem
       part%rows = no_rows

@@ -5,7 +5,7 @@ module atrito_extremes
    use atrito_kinds, only: ip, wp
    use atrito_mesh, only: mesh_t
    use atrito_points, only: contact_points_t
-   use atrito_results, only: results_t, contact_result_t, extreme_t
+   use atrito_results, only: results_t, extreme_t
    implicit none (type, external)
    private
    public :: find_extremes, EXTREME_NAMES
@@ -37,15 +37,20 @@ contains
       type(contact_points_t), intent(in) :: points(:)  !< of each pair
       type(results_t), intent(inout) :: results
       type(largest_t) :: largest
-      integer(ip) :: node, i
+      integer(ip) :: k, i, j
 
-      do node = 1, mesh%n_nodes
-         if (body_of_node(node) == 0) cycle
-         call take_displacement(results%u(:, node), node, mesh%x(:, node), largest)
-         call take_stress(results%nodal_stress(:, node), node, mesh%x(:, node), largest)
+      do k = 1, mesh%n_nodes
+         if (body_of_node(k) == 0) cycle
+         call take_displacement(results%u(:, k), k, mesh%x(:, k), largest)
+         call take_stress(results%nodal_stress(:, k), k, mesh%x(:, k), largest)
       end do
       do i = 1, size(points, kind=ip)
-         call take_contact(results%contact(i), points(i)%node, largest)
+         associate (c => results%contact(i), node => points(i)%node)
+            do j = 1, c%n
+               call take(PRESSURE, c%pressure(j), 0.0_wp, node(j), c%x(:, j), largest)
+               call take(SHEAR, abs(c%shear(j)), ROUND_OFF*largest%value(PRESSURE), node(j), c%x(:, j), largest)
+            end do
+         end associate
       end do
       call list_extremes(mesh, largest, results%extremes)
    end subroutine find_extremes
@@ -104,19 +109,6 @@ contains
       call take(S1, max(mean + radius, s(3)), slack, node, x, largest)
       call take(S3, max(radius - mean, -s(3)), slack, node, x, largest)
    end subroutine take_stress
-
-   !> The points of a pair.
-   pure subroutine take_contact(contact, nodes, largest)
-      type(contact_result_t), intent(in) :: contact
-      integer(ip), intent(in) :: nodes(:)              !< of the slave at the points
-      type(largest_t), intent(inout) :: largest
-      integer(ip) :: j
-
-      do j = 1, contact%n
-         call take(PRESSURE, contact%pressure(j), 0.0_wp, nodes(j), contact%x(:, j), largest)
-         call take(SHEAR, abs(contact%shear(j)), ROUND_OFF*largest%value(PRESSURE), nodes(j), contact%x(:, j), largest)
-      end do
-   end subroutine take_contact
 
    !> Keeps the larger of a value and the largest one so far.
    pure subroutine take(quantity, value, slack, node, x, largest)

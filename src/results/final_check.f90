@@ -243,9 +243,9 @@ contains
       type(had_t), intent(in), optional :: had   !< of the increments before
       real(wp), intent(in), optional :: condition !< of the equations of the contact line
       real(wp), allocatable :: uncertain(:)
-      real(wp) :: p(line%n), gap(line%n), slip(line%n), t(line%n), tau(line%n)
+      real(wp) :: p(line%n), gap(line%n), slip(line%n), t(line%n), tau(line%n), far
       type(contact_scales_t) :: scales
-      integer(ip) :: j, last
+      integer(ip) :: j, k, last
       logical :: rows_hold
       character(len=:), allocatable :: wrong
 
@@ -269,7 +269,8 @@ contains
       do j = 1, line%n - line%n_bilateral
          if (j > last) then
             last = last_of_pair(line, j)
-            call measure_pair(rows, line, results, uncertain, j, last, p, scales)
+            far = maxval([(max(abs(point_x(results, k, 1_ip)), abs(point_x(results, k, 2_ip))), k=j, last)])
+            call measure_places(rows, results%u, uncertain, j, last, maxval(line%delta(j:last)*p(j:last)), far, scales)
             scales%friction = maxval(tau(j:last))
          end if
          wrong = ''
@@ -347,25 +348,6 @@ contains
       end if
       uncertain = largest(of_node)
    end subroutine find_uncertain_displacements
-
-   !> The scales of one pair: its own pressure, and what is certain of its gaps and slips.
-   pure subroutine measure_pair(rows, line, results, uncertain, first, last, p, scales)
-      type(contact_rows_t), intent(in) :: rows
-      type(contact_line_t), intent(in) :: line
-      type(results_t), intent(in) :: results
-      real(wp), intent(in) :: uncertain(:)       !< (n_nodes) [L]
-      integer(ip), intent(in) :: first, last     !< points of the pair
-      real(wp), intent(in) :: p(:)
-      type(contact_scales_t), intent(out) :: scales
-      real(wp) :: far
-      integer(ip) :: j
-
-      far = 0.0_wp
-      do j = first, last
-         far = max(far, abs(point_x(results, j, 1_ip)), abs(point_x(results, j, 2_ip)))
-      end do
-      call measure_places(rows, results%u, uncertain, first, last, maxval(line%delta(first:last)*p(first:last)), far, scales)
-   end subroutine measure_pair
 
    pure subroutine gather_fields(results, p, gap, slip, t)
       type(results_t), intent(in) :: results

@@ -63,17 +63,12 @@ contains
          end if
          contact%joint(j) = k
          contact%follows(j) = .false.
-         if (j > 1) contact%follows(j) = contact%joint(j - 1) == k .and. are_neighbours(points, j)
+         if (j == 1) cycle
+         ! neighbours carry at least half of the face between them each
+         contact%follows(j) = contact%joint(j - 1) == k .and. &
+                              points%s(j) - points%s(j - 1) <= (1 + SLACK)*(points%length(j) + points%length(j - 1))
       end do
    end subroutine find_joints
-
-   !> Neighbours carry at least half of the face between them each.
-   pure logical function are_neighbours(points, j)
-      type(contact_points_t), intent(in) :: points
-      integer(ip), intent(in) :: j
-
-      are_neighbours = points%s(j) - points%s(j - 1) <= (1 + SLACK)*(points%length(j) + points%length(j - 1))
-   end function are_neighbours
 
    !> The sums of one joint. Forces are those of the master upon the slave.
    pure subroutine sum_joint(contact, i, joint)

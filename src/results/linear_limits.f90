@@ -94,7 +94,7 @@ contains
       if (contact%n == 0) return
       most = maxval([abs(pack(contact%slip, contact%pressure > 0.0_wp)), 0.0_wp])
       ! the points do not reach farther than the body
-      if (most <= min(shortest, LARGE_SLIP*extent(contact%x))) return
+      if (most <= min(shortest, LARGE_SLIP*maxval(maxval(contact%x, dim=2) - minval(contact%x, dim=2)))) return
       bound = LARGE_SLIP*extent_of_nodes(model%mesh%x, bodies%list(bodies%of_node(model%points(i)%node(1)))%nodes)
       if (most <= min(shortest, bound)) return
       do j = 1, contact%n
@@ -105,7 +105,7 @@ contains
       end do
    end subroutine find_large_slip
 
-   !> The same of some nodes [L].
+   !> The larger of width and height of some nodes [L].
    pure real(wp) function extent_of_nodes(x, nodes) result(extent)
       real(wp), intent(in) :: x(:, :)
       integer(ip), intent(in) :: nodes(:)                !< one or more
@@ -134,13 +134,6 @@ contains
       end do
       if (length <= 0.0_wp) length = HUGE_REAL
    end function master_length
-
-   !> The larger of width and height [L].
-   pure real(wp) function extent(x)
-      real(wp), intent(in) :: x(:, :)                    !< (2, n), n > 0
-
-      extent = max(maxval(x(1, :)) - minval(x(1, :)), maxval(x(2, :)) - minval(x(2, :)))
-   end function extent
 
    !> What passes its bound, and what follows.
    subroutine warn_of_large(results, asks_nlgeom)

@@ -4,7 +4,7 @@ module atrito_number_range
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use atrito_element_table, only: SHAPES
    use atrito_kinds, only: ip, wp
-   use atrito_model, only: material_t, model_t
+   use atrito_model, only: model_t
    use atrito_results, only: results_t
    use atrito_scene_data, only: scene_data_t
    use atrito_status, only: status_t, is_ok, reword_status, STATUS_NOT_CONVERGED, STATUS_SINGULAR
@@ -91,29 +91,23 @@ contains
    pure function stiffness_range(model) result(bounds)
       type(model_t), intent(in) :: model
       real(wp) :: bounds(2), modulus(2)
-      integer :: i
+      integer :: i, k
 
       bounds = [huge(bounds), 0.0_wp]
       do i = 1, size(model%sections)
          associate (section => model%sections(i))
             if (section%material == 0) cycle
-            modulus = modulus_range(model%materials(section%material))
+            associate (material => model%materials(section%material))
+               ! an incompressible one resists a change of its volume with much more
+               modulus = [material%young, material%young/max(1.0_wp - 2.0_wp*material%poisson, 1.0e-3_wp)]
+               if (material%is_orthotropic) modulus = [minval([(material%stiffness(k, k), k=1, size(material%stiffness, 1))]), &
+                                                       maxval(abs(material%stiffness))]
+            end associate
             if (section%thickness > 0.0_wp) modulus = modulus*section%thickness
             bounds = [min(bounds(1), modulus(1)), max(bounds(2), modulus(2))]
          end associate
       end do
    end function stiffness_range
-
-   !> The least and the greatest modulus of a material [F/L^2]; an incompressible one resists a change of its volume with much more.
-   pure function modulus_range(material) result(bounds)
-      type(material_t), intent(in) :: material
-      real(wp) :: bounds(2)
-      integer :: i
-
-      bounds = [material%young, material%young/max(1.0_wp - 2.0_wp*material%poisson, 1.0e-3_wp)]
-      if (material%is_orthotropic) bounds = [minval([(material%stiffness(i, i), i=1, size(material%stiffness, 1))]), &
-                                             maxval(abs(material%stiffness))]
-   end function modulus_range
 
    !> What is no number counts as the largest one.
    pure real(wp) function largest_of(values) result(largest)

@@ -1,5 +1,6 @@
 !> The motions of rigid surfaces and the reactions at their reference nodes, and results without the nodes that carried them.
 module atrito_rigid_results
+   use atrito_body_motions, only: motions_of_bodies
    use atrito_contact_solution, only: contact_solution_t
    use atrito_kinds, only: ip, wp
    use atrito_mesh, only: is_revolved
@@ -84,8 +85,8 @@ contains
       real(wp), intent(in) :: a(:)                     !< amplitudes of all motions
       type(results_t), intent(in) :: results
       type(rigid_result_t), intent(out) :: body
-      real(wp) :: motion(3), mode(3), arm(2)
-      integer(ip) :: b, k, first, n, nodes(3)
+      real(wp) :: motion(3), mode(3), all_modes(3, data%fem%bodies%n), arm(2)
+      integer(ip) :: b, k, nodes(3)
 
       associate (bodies => data%fem%bodies)
          b = bodies%n - bodies%n_rigid + i
@@ -94,12 +95,8 @@ contains
          body%is_section = data%model%rigid_bodies(i)%is_section
          body%node = data%fem%mesh%node_id(data%model%rigid_bodies(i)%node)
          call prescribed_motion(data%model, data%rigid_prescribed, i, body%is_prescribed, motion)
-         first = 1
-         do k = 1, b - 1
-            first = first + size(bodies%list(k)%modes, 2, kind=ip)
-         end do
-         n = size(bodies%list(b)%modes, 2, kind=ip)
-         mode = matmul(bodies%list(b)%modes, a(first:first + n - 1))
+         all_modes = motions_of_bodies(bodies, a)
+         mode = all_modes(:, b)
       end associate
       body%u = motion(:2) + mode(:2)
       body%rotation = motion(3) + mode(3)/body%size

@@ -1,7 +1,7 @@
 !> The forces of bilateral rows in the resultants: those of inclined supports are reactions, those of springs and equations may go
 !> to the ground.
 module atrito_row_forces
-   use atrito_bilateral_rows, only: bilateral_rows_t, ROW_SUPPORT, ROW_SPRING, ROW_EQUATION
+   use atrito_bilateral_rows, only: ROW_SUPPORT, ROW_SPRING, ROW_EQUATION
    use atrito_contact_solution, only: contact_solution_t
    use atrito_displacements, only: add_bilateral_forces
    use atrito_kinds, only: ip, wp
@@ -22,6 +22,7 @@ contains
       type(results_t), intent(inout) :: results
       real(wp), intent(out) :: others(2)                   !< resultant of springs and equations [F]
       real(wp) :: q(data%rows%n), to_ground(2, data%fem%mesh%n_nodes)
+      integer(ip) :: j
 
       associate (kind => data%model%bilateral%kind, n => data%rows%n - data%rows%n_bilateral)
          q = data%line%weight*solution%p
@@ -31,23 +32,14 @@ contains
          call add_bilateral_forces(data%rows, kind == ROW_SUPPORT, q, to_ground)
          contact = contact - to_ground
          results%reaction = results%reaction - to_ground
-         call mark_supports(data%model%bilateral, results%prescribed)
+         do j = 1, data%rows%n_bilateral                   ! reactions along both axes, whatever the direction of the support
+            if (kind(j) == ROW_SUPPORT) results%prescribed(:, data%rows%node(data%rows%first(n + j))) = .true.
+         end do
          to_ground = 0.0_wp
          call add_bilateral_forces(data%rows, kind == ROW_SPRING .or. kind == ROW_EQUATION, q, to_ground)
          others = sum(to_ground, dim=2)
       end associate
    end subroutine share_out_rows
-
-   !> Nodes with a support along another direction have reactions along both axes.
-   pure subroutine mark_supports(bilateral, prescribed)
-      type(bilateral_rows_t), intent(in) :: bilateral
-      logical, intent(inout) :: prescribed(:, :)           !< (2, n_nodes)
-      integer(ip) :: j
-
-      do j = 1, bilateral%n
-         if (bilateral%kind(j) == ROW_SUPPORT) prescribed(:, bilateral%node(bilateral%first(j))) = .true.
-      end do
-   end subroutine mark_supports
 
    !> A force at the node of a pre-tension section is one of two that balance each other: it is in no resultant.
    pure subroutine leave_out_sections(data, reaction, contact, balance)

@@ -3,16 +3,18 @@ module atrito_solution_warnings
    use atrito_blas_info, only: is_reference_blas
    use atrito_body_motions, only: find_moved_body, motion_text
    use atrito_condensed_body, only: hourglass_text
+   use atrito_contact_line, only: contact_line_t
+   use atrito_contact_rows, only: contact_rows_t
    use atrito_contact_solution, only: contact_solution_t
    use atrito_friction_law, only: FRICTION_NONE
    use atrito_hourglass, only: worst_hourglass
    use atrito_kinds, only: ip, wp
    use atrito_linear_limits, only: warn_of_large
-   use atrito_messages, only: add_warning
+   use atrito_mesh, only: mesh_t
+   use atrito_messages, only: add_note, add_warning
    use atrito_model, only: model_t
    use atrito_results, only: results_t
    use atrito_scene_data, only: scene_data_t
-   use atrito_shared_points, only: note_shared_points
    use atrito_strings, only: to_text
    implicit none (type, external)
    private
@@ -21,6 +23,7 @@ module atrito_solution_warnings
    real(wp), parameter :: MANY_DIGITS = 10.0_wp             !< lost digits worth a warning
    real(wp), parameter :: MUCH_LOST = 1.0e8_wp              !< condition of the contact line worth a warning
    real(wp), parameter :: LARGE_FRICTION = 3.0_wp           !< from here on other solutions have been seen
+   integer(ip), parameter :: MOST_NAMED = 5                 !< nodes in a note
    real(wp), parameter :: LARGE_HOURGLASS = 1.0_wp          !< as much strain energy as is seen is not
 
 contains
@@ -110,5 +113,57 @@ contains
                           //measured//'; below 1 others are rare)')
       end if
    end subroutine warn_of_others
+
+   !> Names the points whose own force is not unique.
+   subroutine note_shared_points(mesh, rows, line, solution)
+      type(mesh_t), intent(in) :: mesh
+      type(contact_rows_t), intent(in) :: rows
+      type(contact_line_t), intent(in) :: line
+      type(contact_solution_t), intent(in) :: solution
+      logical :: is_shared(line%n)
+      integer(ip), allocatable :: nodes(:)
+      integer(ip) :: j
+
+      if (.not. allocated(solution%is_shared)) return
+      is_shared = .false.
+      do j = 1, line%n
+         if (line%normal(j) > 0) is_shared(j) = solution%is_shared(line%normal(j))
+         if (line%tangential(j) > 0) is_shared(j) = is_shared(j) .or. solution%is_shared(line%tangential(j))
+      end do
+      nodes = mesh%node_id(rows%node(rows%first(pack([(j, j=1, line%n)], is_shared))))
+      if (size(nodes) == 0) return
+      call add_note('N-SHARED', shared_text(merge('points and joints', 'contact points   ', line%n_bilateral > 0), &
+                                            size(nodes, kind=ip), each_once(nodes)) &
+                    //'; displacements and sums of the forces are, and of the forces the least are given')
+   end subroutine note_shared_points
+
+   !> Without those that were there before: two pairs may have their point at one node.
+   pure function each_once(nodes) result(once)
+      integer(ip), intent(in) :: nodes(:)
+      integer(ip), allocatable :: once(:)
+      integer(ip) :: i
+
+      once = nodes(:0)
+      do i = 1, size(nodes, kind=ip)
+         if (.not. any(once == nodes(i))) once = [once, nodes(i)]
+         if (size(once) > MOST_NAMED) return
+      end do
+   end function each_once
+
+   function shared_text(things, n, nodes) result(text)
+      character(len=*), intent(in) :: things
+      integer(ip), intent(in) :: n                   !< points
+      integer(ip), intent(in) :: nodes(:)            !< the first ones and one more
+      character(len=:), allocatable :: text
+      integer(ip) :: i
+
+      text = trim(things)//' share what they ask, so that the force of '//to_text(n) &
+             //trim(merge(' points', ' point ', n > 1))//' is not unique: '// &
+             trim(merge('nodes', 'node ', size(nodes) > 1))//' '//to_text(nodes(1))
+      do i = 2, min(size(nodes, kind=ip), MOST_NAMED)
+         text = text//', '//to_text(nodes(i))
+      end do
+      if (size(nodes) > MOST_NAMED) text = text//', ...'
+   end function shared_text
 
 end module atrito_solution_warnings

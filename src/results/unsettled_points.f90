@@ -4,7 +4,7 @@ module atrito_unsettled_points
    use atrito_contact_line, only: contact_line_t, friction_bound
    use atrito_contact_rows, only: contact_rows_t
    use atrito_contact_solution, only: contact_solution_t
-   use atrito_kinds, only: ip, wp
+   use atrito_kinds, only: ip
    use atrito_mesh, only: mesh_t
    use atrito_points, only: contact_points_t
    use atrito_results, only: results_t, unsettled_t
@@ -39,8 +39,10 @@ contains
       if (.not. allocated(results%verdict)) results%verdict = 'not converged'
       if (size(order) > 0) then
          results%verdict = results%verdict//'; '//unsettled_text(results%unsettled)
-      else
-         results%verdict = results%verdict//slowest_text(mesh, rows, line, solution)
+      else if (line%has_friction .and. allocated(solution%p)) then
+         i = maxloc(abs(friction_bound(line, solution%p) - solution%tau), dim=1, kind=ip)
+         results%verdict = results%verdict//'; no point changes its state, the friction bound is off most at node ' &
+                           //to_text(mesh%node_id(rows%node(rows%first(i))))
       end if
    end subroutine report_unsettled
 
@@ -94,21 +96,5 @@ contains
          if (size(unsettled) > MOST_NAMED) text = text//', ...'
       end if
    end function unsettled_text
-
-   !> No point changes its state: where the friction bound is furthest from its image.
-   function slowest_text(mesh, rows, line, solution) result(text)
-      type(mesh_t), intent(in) :: mesh
-      type(contact_rows_t), intent(in) :: rows
-      type(contact_line_t), intent(in) :: line
-      type(contact_solution_t), intent(in) :: solution
-      character(len=:), allocatable :: text
-      real(wp) :: change(line%n)
-
-      text = ''
-      if (.not. line%has_friction .or. .not. allocated(solution%p)) return
-      change = abs(friction_bound(line, solution%p) - solution%tau)
-      text = '; no point changes its state, the friction bound is off most at node ' &
-             //to_text(mesh%node_id(rows%node(rows%first(maxloc(change, dim=1)))))
-   end function slowest_text
 
 end module atrito_unsettled_points

@@ -3,31 +3,22 @@
 !> element is one of the deck's, states are of their enumeration, times lie in their step, reals are finite (what is not defined
 !> may be NaN), and text has no control characters. That is asked before anything is used.
 module atrito_check_found
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_is_nan
    use atrito_element_table, only: POINT_COUNT
    use atrito_extremes, only: EXTREME_NAMES
    use atrito_iteration, only: iteration_t
    use atrito_kinds, only: ip, wp
    use atrito_mesh, only: find_element, find_node
    use atrito_model, only: rigid_body_name, step_t
+   use atrito_record_checks, only: require, is_finite, is_any_infinite, is_list, is_text, is_plain, is_same_time
    use atrito_restart_state, only: restart_state_t
    use atrito_results, only: body_motion_t, contact_result_t, extreme_t, history_t, observed_list_t, observed_t, results_t, &
                              scene_t, view_frame, POINT_OPEN, POINT_SLIP
    use atrito_scene_data, only: scene_data_t
    use atrito_strings, only: string_t, to_text
-   use atrito_utf8, only: has_controls
    implicit none (type, external)
    private
-   public :: check_found, require, is_finite, is_list, is_plain
+   public :: check_found
 
-   !> Round-off of times, which are sums.
-   real(wp), parameter :: SAME_TIME = 1.0e-12_wp
-   character(len=*), parameter :: LETTERS = ' oc=+-'  !< of unsettled_t%states
-
-   !> An allocated array of so many finite numbers.
-   interface is_list
-      module procedure is_list_of_reals, is_list_of_columns, is_list_of_integers, is_list_of_logicals
-   end interface is_list
 
 contains
 
@@ -58,15 +49,6 @@ contains
       call require(wrong, is_ordered(history%iterations%step, history%iterations%increment, state), 'order of iterations')
       call check_observed_list(size(observed), history%observed, state, wrong)
    end subroutine check_found
-
-   !> Keeps the first complaint.
-   pure subroutine require(wrong, condition, what)
-      character(len=:), allocatable, intent(inout) :: wrong
-      logical, intent(in) :: condition
-      character(len=*), intent(in) :: what
-
-      if (.not. (condition .or. allocated(wrong))) wrong = what
-   end subroutine require
 
    !> Whether one place of a history, step and increment, is another or before it.
    pure logical function is_before(one, other)
@@ -129,18 +111,12 @@ contains
          began = sum(steps(:frame%step - 1)%increments%period)
          call require(wrong, frame%increment >= 1 .and. frame%increment <= way%most, 'the number')
          call require(wrong, frame%step_time > 0.0_wp .and. frame%step_time <= way%period, 'the time')
-         call require(wrong, is_same(frame%time, began + frame%step_time), 'the time')
+         call require(wrong, is_same_time(frame%time, began + frame%step_time), 'the time')
          call require(wrong, frame%ends_step .eqv. frame%step_time >= way%period, 'the end')
       end associate
       call require(wrong, frame%converged .and. frame%law_holds, 'the outcome')
       call require(wrong, is_plain(frame%verdict), 'the verdict')
    end subroutine check_time
-
-   pure logical function is_same(one, other)
-      real(wp), intent(in) :: one, other
-
-      is_same = abs(one - other) <= SAME_TIME*(abs(one) + abs(other))
-   end function is_same
 
    !> What there is at nodes, elements and bilateral rows.
    pure subroutine check_fields(data, frame, wrong)
@@ -488,73 +464,5 @@ contains
       call require(wrong, all(shape(list%values) == [n, int(list%n)]), 'observed')
       call require(wrong, is_ordered(list%step, list%increment, state), 'order of observed')
    end subroutine check_observed_list
-
-   !> Whether all values are numbers, none of them infinite.
-   pure logical function is_finite(values)
-      real(wp), intent(in) :: values(:)
-
-      is_finite = all(ieee_is_finite(values))
-   end function is_finite
-
-   !> NaN is none.
-   pure logical function is_any_infinite(values)
-      real(wp), intent(in) :: values(:)
-
-      is_any_infinite = any(.not. (ieee_is_finite(values) .or. ieee_is_nan(values)))
-   end function is_any_infinite
-
-   pure logical function is_list_of_reals(values, n) result(is_list)
-      real(wp), allocatable, intent(in) :: values(:)
-      integer(ip), intent(in) :: n
-
-      is_list = allocated(values)
-      if (is_list) is_list = size(values) == n
-      if (is_list) is_list = is_finite(values)
-   end function is_list_of_reals
-
-   pure logical function is_list_of_columns(values, m, n) result(is_list)
-      real(wp), allocatable, intent(in) :: values(:, :)
-      integer(ip), intent(in) :: m, n
-      integer(ip) :: i
-
-      is_list = allocated(values)
-      if (is_list) is_list = all(shape(values) == [m, n])
-      if (.not. is_list) return
-      do i = 1, n
-         is_list = is_list .and. is_finite(values(:, i))
-      end do
-   end function is_list_of_columns
-
-   pure logical function is_list_of_integers(values, n) result(is_list)
-      integer(ip), allocatable, intent(in) :: values(:)
-      integer(ip), intent(in) :: n
-
-      is_list = allocated(values)
-      if (is_list) is_list = size(values) == n
-   end function is_list_of_integers
-
-   pure logical function is_list_of_logicals(values, n) result(is_list)
-      logical, allocatable, intent(in) :: values(:)
-      integer(ip), intent(in) :: n
-
-      is_list = allocated(values)
-      if (is_list) is_list = size(values) == n
-   end function is_list_of_logicals
-
-   pure logical function is_text(text, expected)
-      character(len=:), allocatable, intent(in) :: text
-      character(len=*), intent(in) :: expected
-
-      is_text = allocated(text)
-      if (is_text) is_text = len(text) == len(expected) .and. text == expected
-   end function is_text
-
-   !> A line without control characters; what is not allocated has none.
-   pure logical function is_plain(text)
-      character(len=:), allocatable, intent(in) :: text
-
-      is_plain = .true.
-      if (allocated(text)) is_plain = .not. has_controls(text) .and. scan(text, achar(9)//achar(10)//achar(13)) == 0
-   end function is_plain
 
 end module atrito_check_found

@@ -1,20 +1,18 @@
 !> Whether the state of a restart file, from which the next increment begins, can be of this deck: see atrito_check_found.
 module atrito_check_start
    use atrito_bound_qp, only: FREE, FROZEN
-   use atrito_check_found, only: is_finite, is_list, is_plain, require
    use atrito_contact_form, only: CONTACT_DENSE, CONTACT_SPARSE
    use atrito_contact_line, only: last_contact_pair, pairs_of_unknowns, tangential_of
    use atrito_kinds, only: ip, wp
    use atrito_model, only: model_t, nodal_values_t
    use atrito_multipliers, only: multiplier_t
+   use atrito_record_checks, only: require, is_finite, is_list, is_plain, is_same_time, may_be
    use atrito_restart_state, only: restart_state_t, warm_start_t
    use atrito_results, only: scene_t
    use atrito_scene_data, only: scene_data_t
    implicit none (type, external)
    private
    public :: check_place, check_start
-
-   real(wp), parameter :: SAME_TIME = 1.0e-12_wp      !< round-off of times, which are sums
 
 contains
 
@@ -34,7 +32,7 @@ contains
          call require(wrong, state%increment >= 1 .and. state%increment <= way%most, 'increment')
          call require(wrong, state%step_time > 0.0_wp .and. state%step_time <= way%period, 'step_time')
          call require(wrong, state%ends_step .eqv. state%step_time >= way%period, 'ends_step')
-         call require(wrong, abs(state%began - began) <= SAME_TIME*began, 'began')
+         call require(wrong, is_same_time(state%began, began), 'began')
          call require(wrong, state%length > 0.0_wp, 'length')
          call require(wrong, state%condition >= 0.0_wp .and. state%grain >= 0.0_wp, 'condition')
          call require(wrong, state%contact_form == CONTACT_DENSE .or. state%contact_form == CONTACT_SPARSE, 'contact_form')
@@ -135,13 +133,5 @@ contains
          end if
       end associate
    end subroutine check_multipliers
-
-   pure logical function may_be(values, n)
-      real(wp), allocatable, intent(in) :: values(:)
-      integer(ip), intent(in) :: n
-
-      may_be = .not. allocated(values)
-      if (.not. may_be) may_be = is_list(values, n)
-   end function may_be
 
 end module atrito_check_start

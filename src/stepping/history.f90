@@ -5,60 +5,37 @@
 !> and nothing else.
 module atrito_history
    use atrito_body_cache, only: body_cache_t, release_bodies
-   use atrito_check_found, only: check_found
-   use atrito_check_start, only: check_place, check_start
    use atrito_contact_scales, only: had_t, widen
    use atrito_contact_solution, only: contact_solution_t
    use atrito_history_lists, only: add_frame, add_iterations, add_row, move_frame, trim_lists
    use atrito_history_rows, only: row_of_pair
-   use atrito_force_sense, only: force_sense_t, pair_force, tell_forces, watch_forces
+   use atrito_force_sense, only: tell_forces, watch_forces
+   use atrito_history_run, only: run_t, is_recorded, is_resumed, resume, record
    use atrito_increment, only: complete_results, is_solved, solve_increment
    use atrito_increment_length, only: cut_increment, is_longer_than_least, lengthen, next_time, progress_t
    use atrito_kinds, only: ip, wp
-   use atrito_model, only: is_due, model_t, requests_t, step_t
+   use atrito_model, only: is_due, model_t, requests_t
    use atrito_observer, only: note_observed, observer_t
    use atrito_pressure_warnings, only: warn_of_pressures
    use atrito_recorder, only: recorder_t
    use atrito_reporter, only: reporter_t, report_progress
-   use atrito_restart_state, only: restart_state_t, slip_memory_t
-   use atrito_results, only: ending_t, extreme_t, frame_store_t, history_t, results_t, scene_t
+   use atrito_results, only: ending_t, extreme_t, frame_store_t, history_t, results_t
    use atrito_rigid_bodies, only: hold_the_same
    use atrito_rigid_results, only: leave_mesh_alone
    use atrito_rigid_steps, only: begin_motions_from, released_forces
    use atrito_scene_builder, only: list_held
-   use atrito_scene_data, only: check_known_points, drop_assembled, scene_data_t, set_time
+   use atrito_scene_data, only: check_known_points, drop_assembled, set_time
    use atrito_scene_forecast, only: forecast_memory
    use atrito_slip_memory, only: begin_memory, put_rest, remember_slips
    use atrito_solution_warnings, only: warn, idle_text
-   use atrito_solve, only: begin_scene, note_method, solve_options_t, solve_static, CONTACT_SPARSE
-   use atrito_status, only: is_ok, reword_status, set_status, status_t, STATUS_DECK, STATUS_NOT_CONVERGED, STATUS_SINGULAR
+   use atrito_solve, only: begin_scene, note_method, solve_options_t, solve_static
+   use atrito_status, only: is_ok, reword_status, set_status, status_t, STATUS_NOT_CONVERGED, STATUS_SINGULAR
    use atrito_step_change, only: begin_from, changes_form
    use atrito_step_loads, only: moment_t
    use atrito_strings, only: to_text
-   use atrito_warm_start, only: put_start, take_start
    implicit none (type, external)
    private
    public :: solve_history
-
-   !> A history that is being solved.
-   type :: run_t
-      type(solve_options_t) :: options
-      type(reporter_t) :: reporter
-      type(scene_data_t) :: data
-      type(scene_t) :: scene                        !< with what is known of the bodies since they were factored
-      type(step_t) :: step                          !< that began with other supports than the one before
-      type(slip_memory_t) :: memory
-      type(results_t) :: last                       !< the last increment that converged
-      logical :: has_last = .false.
-      real(wp) :: began = 0.0_wp                    !< when the step began, time of the history
-      real(wp) :: condition = 1.0_wp                !< the largest of the contact line
-      type(force_sense_t) :: sense
-      integer(ip) :: n_frames = 0, n_rows = 0, n_iterations = 0 !< of the history so far
-      character(len=:), allocatable :: idle         !< the first motion of a printed increment that nothing determines, and when
-      integer(ip) :: n_idle = 0                     !< printed increments with one
-      class(recorder_t), pointer :: recorder => null()
-      class(observer_t), pointer :: observer => null() !< not associated: nothing is observed
-   end type run_t
 
 contains
 
@@ -114,132 +91,6 @@ contains
       call drop_assembled(run%data)
       call release_bodies(store)
    end subroutine solve_history
-
-   !> Whether increments are recorded, or have been before.
-   pure logical function is_recorded(run)
-      type(run_t), intent(in) :: run
-
-      is_recorded = is_resumed(run)
-      if (associated(run%recorder)) is_recorded = is_recorded .or. run%recorder%every > 0
-   end function is_recorded
-
-   pure logical function is_resumed(run)
-      type(run_t), intent(in) :: run
-
-      is_resumed = .false.
-      if (associated(run%recorder)) is_resumed = run%recorder%resumes
-   end function is_resumed
-
-   !> Makes the scene of the step in which a history was interrupted, and goes behind the increment that was recorded last.
-   subroutine resume(model, store, run, history, now, status)
-      type(model_t), intent(in), target :: model
-      type(body_cache_t), intent(inout) :: store
-      type(run_t), intent(inout), target :: run
-      type(history_t), intent(inout) :: history      !< empty; stays so without success
-      type(progress_t), intent(out) :: now
-      type(status_t), intent(out) :: status
-      type(solve_options_t) :: as_before
-      character(len=:), allocatable :: wrong
-      integer(ip) :: first, i
-
-      associate (state => run%recorder%state)
-         call check_place(model, state, wrong)
-         if (allocated(wrong)) then
-            call refuse_record(run%recorder, wrong, status)
-            return
-         end if
-         run%step = model%steps(state%step)
-         if (allocated(state%from)) run%step%prescribed%from = state%from
-         if (allocated(state%from_of_motions)) run%step%rigid_prescribed%from = state%from_of_motions
-         as_before = run%options
-         as_before%contact_form = int(state%contact_form)   ! its choice depends on the memory of the machine
-         call begin_scene(model, as_before, store, .false., run%data, run%scene, status, run%step)
-         if (.not. is_ok(status)) return
-         call check_start(run%data, run%scene, state, wrong)
-         if (.not. allocated(run%recorder%observed)) allocate (run%recorder%observed(0))
-         call check_found(run%data, run%scene, run%recorder%observed, run%recorder%found, state, wrong)
-         if (allocated(wrong)) then
-            call refuse_record(run%recorder, wrong, status)
-            return
-         end if
-         run%data%reason = state%contact_reason
-         run%scene%contact_reason = state%contact_reason
-         if (.not. allocated(state%from)) run%data%step => model%steps(state%step)
-         call begin_memory(model, run%data%points%n, run%memory)
-         ! a form that is asked for serves all steps so far, one that was chosen this one
-         first = merge(1_ip, state%step, run%options%contact_form == CONTACT_SPARSE)
-         call note_method(run%data, model%steps(first:state%step))
-         run%data%keeps = .true.
-         run%data%asks_for_bases = .true.
-         if (allocated(state%released)) run%data%released = state%released
-         run%data%fem%grain = state%grain
-         if (allocated(state%had_motion)) call widen(run%data%had, state%had_motion, state%had_force)
-         state%memory%is_incremental = run%memory%is_incremental
-         run%memory = state%memory
-         call put_rest(run%memory, run%data%line)
-         run%last = state%last
-         run%has_last = .true.
-         run%scene%bodies = state%last%scene%bodies
-         run%condition = state%condition
-         run%sense%asked = sum([(pair_force(state%last%contact(i)), i=1, size(state%last%contact, kind=ip))])
-         run%began = state%began
-         now = progress_t(state%increment, state%step_time, state%length)
-      end associate
-      call take_start(run%recorder%state%start, run%data%last)
-      history = run%recorder%found
-      run%n_frames = size(history%frames, kind=ip)
-      run%n_rows = size(history%rows, kind=ip)
-      run%n_iterations = size(history%iterations, kind=ip)
-   end subroutine resume
-
-   !> A record that has what its deck does not give.
-   subroutine refuse_record(recorder, wrong, status)
-      class(recorder_t), intent(in) :: recorder
-      character(len=*), intent(in) :: wrong          !< what, in words
-      type(status_t), intent(inout) :: status
-      character(len=:), allocatable :: source
-
-      source = 'the restart file'
-      if (allocated(recorder%source)) source = recorder%source
-      call set_status(status, STATUS_DECK, source//': does not fit this deck: '//wrong)
-   end subroutine refuse_record
-
-   !> Hands on what was found so far, where that is asked for. The next increment starts from what is recorded and from nothing
-   !> else, so that it does not matter which run solves it.
-   subroutine record(now, run, history)
-      type(progress_t), intent(in) :: now
-      type(run_t), intent(inout), target :: run
-      type(history_t), intent(inout) :: history
-      type(restart_state_t) :: state
-
-      if (.not. associated(run%recorder)) return
-      if (run%recorder%every == 0 .or. .not. is_due(run%recorder%every, now%increment, run%last%ends_step)) return
-      call trim_lists(run%n_frames, run%n_rows, run%n_iterations, history)
-      state%step = run%last%step
-      state%increment = now%increment
-      state%step_time = now%time
-      state%length = now%length
-      state%ends_step = run%last%ends_step
-      state%began = run%began
-      state%condition = run%condition
-      state%grain = run%data%fem%grain
-      if (allocated(run%data%had%motion)) then
-         state%had_motion = run%data%had%motion
-         state%had_force = run%data%had%force
-      end if
-      state%contact_form = int(run%data%contact_form, ip)
-      state%contact_reason = run%data%reason
-      if (associated(run%data%step, run%step)) then
-         state%from = run%step%prescribed%from
-         if (allocated(run%step%rigid_prescribed%from)) state%from_of_motions = run%step%rigid_prescribed%from
-      end if
-      if (allocated(run%data%released)) state%released = run%data%released
-      state%memory = run%memory
-      state%last = run%last
-      call put_start(run%data%last, state%start)
-      call take_start(state%start, run%data%last)
-      call run%recorder%record(history, state)
-   end subroutine record
 
    !> Whether there is one step that is one increment, which is not cut.
    pure logical function has_one_increment(model)
@@ -333,6 +184,7 @@ contains
       type(results_t) :: results
       type(contact_solution_t) :: solution
       real(wp) :: to
+      logical :: may_be_cut
 
       associate (control => model%steps(k)%increments)
          if (now%increment == 0) now%length = control%initial
@@ -355,8 +207,13 @@ contains
                call record(now, run, history)
             else
                now%length = min(now%length, to - now%time)
-               if (.not. (may_be_cut(status) .and. is_longer_than_least(control, now%length))) then
-                  call explain(results, status)
+               ! shorter increments are of use where there is no solution, not where memory or the deck fail
+               may_be_cut = is_ok(status) .or. any(status%code == [STATUS_NOT_CONVERGED, STATUS_SINGULAR])
+               if (.not. (may_be_cut .and. is_longer_than_least(control, now%length))) then
+                  if (is_ok(status)) then
+                     if (.not. allocated(results%verdict)) results%verdict = 'not converged'
+                     call set_status(status, STATUS_NOT_CONVERGED, results%verdict)
+                  end if
                   call end_early(k, now, run, history, status)
                   return
                end if
@@ -367,13 +224,6 @@ contains
          end do
       end associate
    end subroutine go_through_step
-
-   !> Shorter increments are of use where there is no solution, not where memory or the deck fail.
-   pure logical function may_be_cut(status)
-      type(status_t), intent(in) :: status
-
-      may_be_cut = is_ok(status) .or. status%code == STATUS_NOT_CONVERGED .or. status%code == STATUS_SINGULAR
-   end function may_be_cut
 
    subroutine try_increment(k, increment, to, store, run, results, solution, status)
       integer(ip), intent(in) :: k, increment
@@ -417,6 +267,7 @@ contains
       type(contact_solution_t), intent(in) :: solution
       type(run_t), intent(inout) :: run
       type(history_t), intent(inout) :: history
+      character(len=:), allocatable :: idle
       integer(ip) :: i
 
       run%data%last = solution
@@ -435,42 +286,16 @@ contains
       if (associated(run%observer)) call note_observed(run%observer, run%data, results, history%observed)
       if (run%data%is_printed) then
          results%scene%memory = forecast_memory(model, run%data, results%scene)
-         call note_idle(results, idle_text(run%data, solution), run)
+         idle = idle_text(run%data, solution)
+         if (len(idle) > 0) then
+            if (run%n_idle == 0) run%idle = idle//' (step '//to_text(results%step)//', increment '//to_text(results%increment)
+            run%n_idle = run%n_idle + 1
+         end if
          call add_frame(results, run%n_frames, history)
       end if
       call move_frame(results, run%last)
       run%has_last = .true.
    end subroutine keep_increment
-
-   pure subroutine note_idle(results, text, run)
-      type(results_t), intent(in) :: results
-      character(len=*), intent(in) :: text           !< idle_text of the increment
-      type(run_t), intent(inout) :: run
-
-      if (len(text) == 0) return
-      if (run%n_idle == 0) run%idle = text//' (step '//to_text(results%step)//', increment '//to_text(results%increment)
-      run%n_idle = run%n_idle + 1
-   end subroutine note_idle
-
-   !> What is told of them in the end; '' where there was none.
-   pure function idle_increments(run) result(text)
-      type(run_t), intent(in) :: run
-      character(len=:), allocatable :: text
-
-      text = ''
-      if (run%n_idle > 0) text = run%idle//')'
-      if (run%n_idle > 1) text = run%idle//' and '//to_text(run%n_idle - 1_ip)//' more of those printed)'
-   end function idle_increments
-
-   !> Why an increment has no solution, as a status.
-   pure subroutine explain(results, status)
-      type(results_t), intent(in) :: results
-      type(status_t), intent(inout) :: status
-
-      if (.not. is_ok(status)) return
-      call set_status(status, STATUS_NOT_CONVERGED, 'not converged')
-      if (allocated(results%verdict)) call set_status(status, STATUS_NOT_CONVERGED, results%verdict)
-   end subroutine explain
 
    !> The history ends here: what converged last is printed, whatever was asked for.
    subroutine end_early(k, now, run, history, status)
@@ -484,7 +309,10 @@ contains
       reason = 'no reason is known'
       if (allocated(status%text)) reason = status%text
       history%ending = ending_t(.true., k, max(now%increment, 1_ip), run%began + now%time + now%length, reason)
-      if (allocated(status%text)) call reword_status(status, ending_text(history%ending)//reason)
+      associate (ending => history%ending)
+         if (allocated(status%text)) call reword_status(status, 'ended in step '//to_text(ending%step)//', increment ' &
+                                                        //to_text(ending%increment)//', time '//to_text(ending%time)//': '//reason)
+      end associate
       if (.not. run%has_last .or. now%increment == 0) return
       if (run%data%is_printed .and. run%last%ends_step) return
       if (run%n_frames > 0) then
@@ -501,19 +329,11 @@ contains
       call add_frame(run%last, run%n_frames, history)
    end subroutine end_early
 
-   !> Where a history ended.
-   pure function ending_text(ending) result(text)
-      type(ending_t), intent(in) :: ending
-      character(len=:), allocatable :: text
-
-      text = 'ended in step '//to_text(ending%step)//', increment '//to_text(ending%increment)//', time ' &
-             //to_text(ending%time)//': '
-   end function ending_text
-
    !> Lists to their lengths, and what a careful user should know, once.
    subroutine finish(run, history)
       type(run_t), intent(inout) :: run
       type(history_t), intent(inout) :: history
+      character(len=:), allocatable :: idle
       integer(ip) :: i
 
       call trim_lists(run%n_frames, run%n_rows, run%n_iterations, history)
@@ -527,7 +347,10 @@ contains
          run%last%contraction = max(run%last%contraction, history%frames(i)%contraction)
          run%last%contraction_estimate = max(run%last%contraction_estimate, history%frames(i)%contraction_estimate)
       end do
-      call warn(run%data, run%data%last, run%last, idle_increments(run))
+      idle = ''
+      if (run%n_idle > 0) idle = run%idle//')'
+      if (run%n_idle > 1) idle = run%idle//' and '//to_text(run%n_idle - 1_ip)//' more of those printed)'
+      call warn(run%data, run%data%last, run%last, idle)
       call warn_of_pressures(run%data%model, history)
       call tell_forces(run%last%scene%pairs, run%last%contact, run%sense)
    end subroutine finish

@@ -4,12 +4,12 @@ module atrito_increment
    use atrito_body_cache, only: body_cache_t
    use atrito_body_sums, only: sum_bodies
    use atrito_body_motions, only: add_rigid_motions, body_text, find_moved_body, how_it_moves
-   use atrito_contact_form, only: can_be_dense, contact_form_name, CONTACT_AUTO, CONTACT_DENSE, CONTACT_SPARSE
+   use atrito_condensed_body, only: check_held
+   use atrito_contact_form, only: contact_form_name, CONTACT_AUTO, CONTACT_DENSE, CONTACT_SPARSE
    use atrito_contact_rows, only: bodies_of_row
    use atrito_contact_scales, only: usual_growth, force_round_off, NONE_OF_HAD
    use atrito_contact_solution, only: contact_solution_t
-   use atrito_controls, only: controls_t, METHOD_ANDERSON, METHOD_NEWTON, METHOD_PICARD
-   use atrito_dense_form, only: solve_dense_form
+   use atrito_controls, only: controls_t, METHOD_ANDERSON
    use atrito_displacements, only: contact_forces
    use atrito_extremes, only: find_extremes
    use atrito_final_check, only: check_equilibrium, check_balance, check_law, equilibrium_t
@@ -17,18 +17,22 @@ module atrito_increment
    use atrito_joint_sums, only: sum_joints
    use atrito_idle_motions, only: settle_idle_motions, stop_slow_motion
    use atrito_kinds, only: ip, wp
+   use atrito_ladder, only: RUNGS, is_tried, controls_of_rung, rung_text
    use atrito_linear_limits, only: find_large
    use atrito_mesh, only: is_revolved
    use atrito_number_range, only: explain_range
    use atrito_outer_loop, only: FREE_MOTION
+   use atrito_picard_loop, only: is_too_much
    use atrito_recovery, only: recover_contact, recover_stress, estimate_error
    use atrito_reporter, only: report_progress
-   use atrito_results, only: results_t, scene_t
+   use atrito_results, only: results_t
    use atrito_rigid_results, only: take_rigid_results
+   use atrito_row_entries, only: first_motions
    use atrito_row_forces, only: share_out_rows, clear_balance, leave_out_sections
-   use atrito_scene_data, only: scene_data_t, drop_assembled, forces_at_end
+   use atrito_scene_data, only: scene_data_t, assemble, drop_assembled, forces_at_end
    use atrito_section_forces, only: sum_cuts
-   use atrito_sparse_form, only: solve_sparse_form
+   use atrito_solve_condensed, only: solve_condensed, release_condensed
+   use atrito_solve_multiplier, only: solve_multiplier
    use atrito_status, only: status_t, is_ok
    use atrito_step_loads, only: moment_t
    use atrito_strings, only: to_text
@@ -43,24 +47,6 @@ module atrito_increment
    !> Entries of C to go through where either form may be taken: with 400 unknown forces 900 linear solves, with 100 15,000.
    real(wp), parameter :: MOST_ENTRIES = 1.5e8_wp
 
-   !> What is tried where the first attempt found no solution and there is no proof that there is none: other forms and methods.
-   type :: attempt_t
-      integer :: form, method
-      integer(ip) :: times = 1                             !< MAXIT
-      real(wp) :: relaxation = 1.0_wp
-      logical :: is_coarse = .false.                       !< controls_t
-   end type attempt_t
-
-   !> In this order. Of 7,500 random scenes the first solved 113, the second, with its own attempts (atrito_outer_loop), 56, the
-   !> others one, one, one and two.
-   type(attempt_t), parameter :: ATTEMPTS(6) = [attempt_t(CONTACT_SPARSE, METHOD_ANDERSON), &
-                                                attempt_t(CONTACT_DENSE, METHOD_ANDERSON), &
-                                                attempt_t(CONTACT_DENSE, METHOD_NEWTON), &
-                                                attempt_t(CONTACT_DENSE, METHOD_ANDERSON, is_coarse=.true.), &
-                                                attempt_t(CONTACT_DENSE, METHOD_ANDERSON, 3), &
-                                                attempt_t(CONTACT_DENSE, METHOD_PICARD, 10, 0.3_wp)]
-   integer, parameter :: BRIEF = 2, QUICK = 3              !< of them where a shorter increment may do, and where points are many:
-   integer, parameter :: MOST_PATIENT = 400                !< unknown forces
    integer, parameter :: MOST_CHANGES = 3                  !< of loads that hang on the digits of the deck
 
 contains
@@ -73,36 +59,18 @@ contains
       type(results_t), intent(inout) :: results             !< with the scene; nothing else is there yet
       type(contact_solution_t), intent(out) :: solution
       type(status_t), intent(out) :: status
-      type(controls_t) :: controls, first
+      type(controls_t) :: controls
 
       controls = data%step%controls
-      controls%is_brief = data%may_cut
       if (asked_form == CONTACT_AUTO) controls%most_entries = MOST_ENTRIES
-      first = controls
-      first%is_first = asked_form == CONTACT_AUTO
-      call solve_one_form(data, data%contact_form, first, store, results, solution, status)
+      call solve_one_form(data, data%contact_form, controls, store, results, solution, status)
       if (results%scene%near_elements .and. .not. is_solved(results, status)) then
          call solve_without_near(data, controls, store, results, solution, status)
       end if
-      if (asked_form == CONTACT_AUTO .and. has_failed(data) .and. .not. is_ok(status)) then
-         ! what is singular for the one form need not be so for the other
-         if (can_be_dense(size(data%line%point, kind=ip))) then
-            call solve_one_form(data, CONTACT_DENSE, controls, store, results, solution, status)
-         end if
-      end if
-      if (asked_form == CONTACT_AUTO .and. is_ok(status) .and. .not. (results%converged .and. results%law_holds)) then
-         call try_others(data, controls, store, results, solution)
-      end if
+      if (is_ok(status) .and. .not. is_solved(results, status)) call climb(data, asked_form, controls, store, results, solution)
+      if (.not. data%keeps) call release_condensed(data, store)
       if (.not. is_solved(results, status)) call explain_range(data, results, status)
    end subroutine solve_increment
-
-   !> Whether the matrix of the sparse form had no factor the last time.
-   pure logical function has_failed(data)
-      type(scene_data_t), intent(in) :: data
-
-      has_failed = allocated(data%assembled)
-      if (has_failed) has_failed = data%assembled%failed > 0
-   end function has_failed
 
    !> Whether an increment has a solution: the outer loop converged and the final check holds.
    pure logical function is_solved(results, status)
@@ -145,6 +113,8 @@ contains
       type(contact_solution_t), intent(out) :: solution
       type(status_t), intent(out) :: status
       real(wp), allocatable :: u(:, :)                      ! without rigid motions, (2, n_nodes) [L]
+      character(len=:), allocatable :: verdict
+      integer(ip) :: b
       logical :: again
       integer :: change
 
@@ -162,8 +132,14 @@ contains
       if (data%is_printed) call complete_results(data, results)
       call start_phase('check')
       call check_law(data%rows, data%line, max(controls%tolerance, solution%residual), results, data%fem%bodies%of_node, &
-                     growth_of_bodies(data, results%scene), data%had, solution%inner%condition)
-      call judge_failed_check(data, results, status)
+                     [(usual_growth(data%fem%bodies%list(b)%n, results%scene%bodies(b)%digits_lost), b=1, data%fem%bodies%n)], &
+                     data%had, solution%inner%condition)
+      if (results%converged .and. .not. results%law_holds .and. data%line%n > 0) then
+         call move_alloc(results%verdict, verdict)
+         again = .false.
+         call judge(data, results, verdict, again, status)
+         call move_alloc(verdict, results%verdict)
+      end if
       call stop_phase('check')
       call take_rigid_results(data, solution, results)
    end subroutine solve_one_form
@@ -179,14 +155,19 @@ contains
       real(wp), allocatable, intent(out) :: u(:, :)         !< without rigid motions, (2, n_nodes) [L]
       logical, intent(inout) :: again                       !< in: whether loads may change; out: they have
       type(status_t), intent(out) :: status
+      type(controls_t) :: own
       logical :: may_change
 
       may_change = again
       again = .false.
       if (form == CONTACT_SPARSE) then
-         call solve_sparse_form(data, controls, results, solution, u, status)
+         call solve_assembled(data, controls, results, solution, u, status)
       else
-         call solve_dense_form(data, controls, store, results, solution, u, status)
+         own = controls
+         own%asks_contraction = data%is_printed
+         call solve_condensed(data, own, store, results%scene, solution, u, status)
+         results%contraction_estimate = solution%contraction_estimate
+         if (solution%factorisations > 0) results%factorisations = solution%factorisations
       end if
       if (allocated(data%assembled)) call data%assembled%check_solves(status)   ! whatever came of a solve that failed
       solution%form = form
@@ -201,26 +182,48 @@ contains
       call stop_phase('recover')
    end subroutine solve_form
 
+   !> The sparse form: all bodies in one matrix, which is assembled where it is not there.
+   subroutine solve_assembled(data, controls, results, solution, u, status)
+      type(scene_data_t), intent(inout) :: data
+      type(controls_t), intent(in) :: controls
+      type(results_t), intent(inout) :: results
+      type(contact_solution_t), intent(out) :: solution
+      real(wp), allocatable, intent(out) :: u(:, :)         !< without rigid motions, (2, n_nodes) [L]
+      type(status_t), intent(out) :: status
+      integer(ip) :: b
+
+      call start_phase('assemble')
+      do b = 1, data%fem%bodies%n                  ! a floating body that no contact point touches is held by nothing
+         if (is_ok(status)) call check_held(data%fem, b, status)
+      end do
+      if (is_ok(status)) call assemble(data, status)
+      call stop_phase('assemble')
+      if (.not. is_ok(status)) return
+      results%scene%near_elements = data%assembled%is_near
+      call start_phase('iterate')
+      call solve_multiplier(data, data%assembled, controls, solution, u, status)
+      results%factorisations = solution%factorisations
+      call stop_phase('iterate')
+      if (allocated(u) .and. .not. data%keeps) call drop_assembled(data)   ! the stresses want the memory of the factors
+   end subroutine solve_assembled
+
    !> Where nothing acts on a body any more, what is left of its displacements and of the forces on it is round-off of what it had.
    pure subroutine clear_what_is_left(data, solution, u)
       type(scene_data_t), intent(in) :: data
       type(contact_solution_t), intent(inout) :: solution
       real(wp), intent(inout) :: u(:, :)                    !< without rigid motions, (2, n_nodes) [L]
       logical :: is_still(data%fem%bodies%n)
-      integer(ip) :: b, i, j, first, n
+      integer(ip) :: first(data%fem%bodies%n + 1), b, i, j
 
-      is_still = .false.
-      first = 1
+      first = first_motions(data%fem%bodies)
       do b = 1, data%fem%bodies%n
-         associate (body => data%fem%bodies%list(b), a => solution%state%a)
-            n = size(body%modes, 2, kind=ip)
-            is_still(b) = maxval(abs(u(:, body%nodes))) + sum(abs(a(first:first + n - 1))) <= NONE_OF_HAD*data%had%motion(b)
-            is_still(b) = is_still(b) .and. all(data%f(:, body%nodes) == 0.0_wp)
+         associate (nodes => data%fem%bodies%list(b)%nodes, a => solution%state%a(first(b):first(b + 1) - 1))
+            is_still(b) = maxval(abs(u(:, nodes))) + sum(abs(a)) <= NONE_OF_HAD*data%had%motion(b) .and. &
+                          all(data%f(:, nodes) == 0.0_wp)
             if (is_still(b)) then
-               u(:, body%nodes) = 0.0_wp
-               a(first:first + n - 1) = 0.0_wp
+               u(:, nodes) = 0.0_wp
+               a = 0.0_wp
             end if
-            first = first + n
          end associate
       end do
       do i = 1, size(data%line%point, kind=ip)
@@ -235,71 +238,48 @@ contains
       end do
    end subroutine clear_what_is_left
 
-   !> By how much round-off grows in the displacements of each body, as far as its factorisation tells.
-   pure function growth_of_bodies(data, scene) result(growth)
-      type(scene_data_t), intent(in) :: data
-      type(scene_t), intent(in) :: scene
-      real(wp) :: growth(data%fem%bodies%n)
-      integer(ip) :: b
-
-      do b = 1, size(growth, kind=ip)
-         growth(b) = usual_growth(data%fem%bodies%list(b)%n, scene%bodies(b)%digits_lost)
-      end do
-   end function growth_of_bodies
-
-   !> One attempt after the other. What is found counts when it converges and its law holds.
-   subroutine try_others(data, controls, store, results, solution)
+   !> One rung after the other. What is found counts when it converges and its law holds; else all is as it was.
+   subroutine climb(data, asked_form, controls, store, results, solution)
       type(scene_data_t), intent(inout) :: data
-      type(controls_t), intent(in) :: controls
-      type(body_cache_t), intent(inout) :: store
-      type(results_t), intent(inout) :: results
-      type(contact_solution_t), intent(inout) :: solution
-      type(controls_t) :: other
-      integer :: i, last
-
-      if (controls%method /= METHOD_ANDERSON) return        ! the user's own choice
-      last = size(ATTEMPTS)
-      if (size(data%line%point) > MOST_PATIENT) last = QUICK
-      if (controls%is_brief) last = BRIEF
-      do i = 1, last
-         if (ATTEMPTS(i)%form == CONTACT_SPARSE .and. data%contact_form == CONTACT_SPARSE) cycle
-         other = controls
-         other%method = ATTEMPTS(i)%method
-         other%max_iterations = ATTEMPTS(i)%times*controls%max_iterations
-         other%relaxation = ATTEMPTS(i)%relaxation
-         other%is_coarse = ATTEMPTS(i)%is_coarse
-         call try_form(data, ATTEMPTS(i)%form, other, store, results, solution)
-         if (results%converged .and. results%law_holds) return
-      end do
-   end subroutine try_others
-
-   subroutine try_form(data, form, controls, store, results, solution)
-      type(scene_data_t), intent(inout) :: data
-      integer, intent(in) :: form                           !< CONTACT_DENSE or CONTACT_SPARSE
+      integer, intent(in) :: asked_form                     !< CONTACT_*
       type(controls_t), intent(in) :: controls
       type(body_cache_t), intent(inout) :: store
       type(results_t), intent(inout) :: results
       type(contact_solution_t), intent(inout) :: solution
       type(results_t) :: other
       type(contact_solution_t) :: other_solution
+      type(controls_t) :: its_controls
       type(status_t) :: status
+      integer(ip) :: m, solves
+      integer :: i
 
-      if (form == CONTACT_DENSE .and. .not. can_be_dense(size(data%line%point, kind=ip))) return
-      call report_progress(data%reporter, 'no solution; the '//contact_form_name(form)//' form of the contact system'// &
-                           attempt_text(data%step%controls%max_iterations, controls))
-      call begin_results(results, other)
-      other%scene%contact_form = contact_form_name(form)
-      other%scene%contact_reason = 'what was tried before found no solution'
-      call solve_one_form(data, form, controls, store, other, other_solution, status)
-      if (.not. (is_ok(status) .and. other%converged .and. other%law_holds)) return
-      solution = other_solution
-      results = other
-   end subroutine try_form
+      if (controls%method /= METHOD_ANDERSON) return        ! the user's own choice
+      m = size(data%line%point, kind=ip)
+      solves = merge(solution%history%n, 0_ip, data%contact_form == CONTACT_DENSE)
+      do i = 1, size(RUNGS)
+         if (.not. is_tried(i, data%contact_form, asked_form, m, data%may_cut)) cycle
+         if (RUNGS(i)%form == CONTACT_DENSE .and. is_too_much(controls, m, solves)) cycle
+         its_controls = controls_of_rung(RUNGS(i), controls)
+         call report_progress(data%reporter, 'no solution; the '//contact_form_name(RUNGS(i)%form) &
+                              //' form of the contact system'//rung_text(RUNGS(i), its_controls))
+         call begin_results(results, other)
+         if (RUNGS(i)%form /= data%contact_form) then
+            other%scene%contact_form = contact_form_name(RUNGS(i)%form)
+            other%scene%contact_reason = 'what was tried before found no solution'
+         end if
+         call solve_one_form(data, RUNGS(i)%form, its_controls, store, other, other_solution, status)
+         if (RUNGS(i)%form == CONTACT_DENSE) solves = solves + other_solution%history%n
+         if (.not. is_solved(other, status)) cycle
+         solution = other_solution
+         results = other
+         return
+      end do
+   end subroutine climb
 
    !> Scene, and place in the history, of another attempt.
    pure subroutine begin_results(results, other)
       type(results_t), intent(in) :: results
-      type(results_t), intent(inout) :: other
+      type(results_t), intent(out) :: other
 
       other%scene = results%scene
       other%step = results%step
@@ -307,20 +287,8 @@ contains
       other%time = results%time
       other%step_time = results%step_time
       other%ends_step = results%ends_step
+      other%factorisations = results%factorisations         ! of bodies that serve again
    end subroutine begin_results
-
-   !> What an attempt is, besides its form.
-   function attempt_text(usual, controls) result(text)
-      integer(ip), intent(in) :: usual                      !< MAXIT of the deck
-      type(controls_t), intent(in) :: controls
-      character(len=:), allocatable :: text
-
-      text = ''
-      if (controls%method == METHOD_NEWTON) text = ', NEWTON'
-      if (controls%method == METHOD_PICARD) text = ', PICARD, RELAXATION='//to_text(controls%relaxation)
-      if (controls%is_coarse) text = text//', coarse round-off'
-      if (controls%max_iterations > usual) text = text//', MAXIT='//to_text(controls%max_iterations)
-   end function attempt_text
 
    !> Without a solution: whether there can be one. Free motion becomes a proof of it, or a last iterate that did not converge.
    subroutine judge_outcome(data, results, solution, again, status)
@@ -329,7 +297,6 @@ contains
       type(contact_solution_t), intent(inout) :: solution
       logical, intent(inout) :: again                      !< in: whether loads may change; out: they have
       type(status_t), intent(inout) :: status
-      real(wp), allocatable :: f_end(:, :)
       logical :: moves, may_change
 
       may_change = again
@@ -342,9 +309,8 @@ contains
       if (moves) solution%verdict = trim(merge('no friction bound that was tried holds the bodies', &
                                                'no contact forces that were tried hold the bodies', &
                                                data%line%has_friction))//moving_text(data, solution)
-      call forces_at_end(data, moment_t(results%step_time, results%time), f_end)
       again = may_change
-      call judge_balance(data, f_end, results%scene%pairs, solution%verdict, again, status)
+      call judge(data, results, solution%verdict, again, status)
       if (may_change .and. is_ok(status) .and. .not. again) call stop_slow_motion(data, solution, again)
    end subroutine judge_outcome
 
@@ -363,19 +329,18 @@ contains
       text = ': '//body_text(data%fem, b)//' would '//how_it_moves(data%fem, b, mode)
    end function moving_text
 
-   !> The same where the loop ended well and the final check did not.
-   subroutine judge_failed_check(data, results, status)
+   !> Whether there can be a solution, in words behind the verdict. status: STATUS_SINGULAR where none can be.
+   subroutine judge(data, results, verdict, again, status)
       type(scene_data_t), intent(inout) :: data
-      type(results_t), intent(inout) :: results
+      type(results_t), intent(in) :: results                !< when, and the pairs
+      character(len=:), allocatable, intent(inout) :: verdict
+      logical, intent(inout) :: again                       !< in: whether loads may change; out: they have
       type(status_t), intent(inout) :: status
       real(wp), allocatable :: f_end(:, :)
-      logical :: again
 
-      if (results%law_holds .or. .not. results%converged .or. data%line%n == 0) return
       call forces_at_end(data, moment_t(results%step_time, results%time), f_end)
-      again = .false.
-      call judge_balance(data, f_end, results%scene%pairs, results%verdict, again, status)
-   end subroutine judge_failed_check
+      call judge_balance(data, f_end, results%scene%pairs, verdict, again, status)
+   end subroutine judge
 
    !> What is worth its time where it is printed: sums by joint, stresses and their error, the largest of all, the limits of
    !> a linear theory.
@@ -455,7 +420,11 @@ contains
       ! with the contact forces less those of bilateral rows that are supports
       if (data%step%requests%bodies) call sum_bodies(data%fem, results%u, data%f, results%reaction, contact, results%bodies)
       call recover_contact(data%line, data%rows, data%points, solution, results%u, results%contact)
-      call copy_history(solution, results)
+      allocate (results%iterations(0))
+      if (solution%history%n > 0) results%iterations = solution%history%records(:solution%history%n)
+      results%outer_iterations = solution%history%outer
+      results%linear_solves = max(solution%history%n, 1_ip)
+      results%contraction = solution%contraction
       call measure_sizes(data, contact, results, solution)
    end subroutine recover
 
@@ -483,30 +452,14 @@ contains
       type(scene_data_t), intent(in) :: data
       type(contact_solution_t), intent(in) :: solution
       type(contact_sizes_t) :: sizes
-      integer(ip) :: b, first, n
+      integer(ip) :: first(data%fem%bodies%n + 1), b
 
       sizes%force = data%line%weight*hypot(solution%p, solution%t)
       sizes%pair = data%line%pair
       sizes%rows = data%rows
       sizes%had = data%had
-      allocate (sizes%motion(data%fem%bodies%n))
-      first = 1
-      do b = 1, data%fem%bodies%n
-         n = size(data%fem%bodies%list(b)%modes, 2, kind=ip)
-         sizes%motion(b) = sum(abs(solution%state%a(first:first + n - 1)))
-         first = first + n
-      end do
+      first = first_motions(data%fem%bodies)
+      sizes%motion = [(sum(abs(solution%state%a(first(b):first(b + 1) - 1))), b=1, data%fem%bodies%n)]
    end function sizes_at_points
-
-   pure subroutine copy_history(solution, results)
-      type(contact_solution_t), intent(in) :: solution
-      type(results_t), intent(inout) :: results
-
-      allocate (results%iterations(0))
-      if (solution%history%n > 0) results%iterations = solution%history%records(:solution%history%n)
-      results%outer_iterations = solution%history%outer
-      results%linear_solves = max(solution%history%n, 1_ip)
-      results%contraction = solution%contraction
-   end subroutine copy_history
 
 end module atrito_increment

@@ -33,42 +33,27 @@ contains
       type(model_t), intent(in) :: model
       type(scene_data_t), intent(in) :: data
       type(scene_t), intent(in) :: scene             !< with its bodies, and what was held so far
-      integer(lp) :: solving, recovering
+      integer(lp) :: solving, kept, recovering
+      logical :: is_sparse
 
       if (data%is_distributed) then
          bytes = scene%memory
          return
       end if
       recovering = recovery_bytes(model, int(model%mesh%n_nodes, lp), int(model%mesh%n_elements, lp)) + request_bytes(model, data)
+      is_sparse = data%contact_form == CONTACT_SPARSE
+      solving = load_bytes(model) + merge(scene%solving, dense_solving_bytes(scene), is_sparse)
       if (is_solved_by_increments(model)) then
-         solving = solving_bytes(data, scene) + kept_factor_bytes(data, scene) + load_bytes(model) + recovering + &
-                   history_bytes(model, data%line%n, stress_rows(model)) + field_growth(model)
-      else if (data%contact_form == CONTACT_SPARSE) then
-         solving = max(scene%solving + load_bytes(model), recovering)
+         ! the factor of the contact system of the increment before, from which the next one starts, is there besides
+         kept = merge(0_lp, REAL_BYTES*int(scene%n_normal + scene%n_tangential, lp)**2, is_sparse)
+         solving = solving + kept + recovering + history_bytes(model, data%line%n, stress_rows(model)) + field_growth(model)
+      else if (is_sparse) then
+         solving = max(solving, recovering)
       else
-         solving = dense_solving_bytes(scene) + load_bytes(model)
          solving = max(solving, recovering) + share_of(LEFT_BEHIND, min(solving, recovering))
       end if
       bytes = max(scene%peak_before, scene%memory_before + LATER_BYTES + solving + field_library_bytes(data))
    end function forecast_memory
-
-   !> Factors, and what else is there while it is solved.
-   pure integer(lp) function solving_bytes(data, scene) result(bytes)
-      type(scene_data_t), intent(in) :: data
-      type(scene_t), intent(in) :: scene
-
-      bytes = scene%solving
-      if (data%contact_form /= CONTACT_SPARSE) bytes = dense_solving_bytes(scene)
-   end function solving_bytes
-
-   !> The factor of the contact system of the increment before, from which the next one starts.
-   pure integer(lp) function kept_factor_bytes(data, scene) result(bytes)
-      type(scene_data_t), intent(in) :: data
-      type(scene_t), intent(in) :: scene
-
-      bytes = 0
-      if (data%contact_form /= CONTACT_SPARSE) bytes = REAL_BYTES*int(scene%n_normal + scene%n_tangential, lp)**2
-   end function kept_factor_bytes
 
    !> Of fields and of restart files: one library.
    pure integer(lp) function field_library_bytes(data) result(bytes)

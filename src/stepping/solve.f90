@@ -11,7 +11,7 @@ module atrito_solve
    use atrito_number_range, only: is_out_of_range
    use atrito_reporter, only: reporter_t
    use atrito_results, only: results_t, scene_t
-   use atrito_scene_data, only: scene_data_t, asked_t, prepare, assemble, drop_assembled, check_known_points
+   use atrito_scene_data, only: scene_data_t, solve_options_t, prepare, assemble, drop_assembled, check_known_points
    use atrito_scene_forecast, only: forecast_memory
    use atrito_scene_survey, only: describe_scene, describe_order, count_fronts, check_scene
    use atrito_solution_warnings, only: warn, idle_text
@@ -26,9 +26,6 @@ module atrito_solve
    public :: CONTACT_AUTO, CONTACT_DENSE, CONTACT_SPARSE
 
    integer, parameter :: SOLVER_AUTO = 0
-
-   type, extends(asked_t) :: solve_options_t
-   end type solve_options_t
 
 contains
 
@@ -56,7 +53,7 @@ contains
       type(step_t), intent(in), target, optional :: step    !< left out: the first of the model
 
       call start_phase('order')
-      call prepare(model, store, options%asked_t, data, status, step)
+      call prepare(model, store, options, data, status, step)
       if (data%is_distributed) then
          if (is_ok(status)) call begin_distributed(options, data, scene, status)
          call stop_phase('order')

@@ -34,11 +34,11 @@ box_bounds_t       fields/restart_file.f90 exchange_start bounds
 multiplier_t       fields/restart_file.f90 exchange_multipliers multipliers factorisations,solves,generation,part,before
 warm_start_t       stepping/warm_start.f90 put_start start
 warm_start_t       stepping/warm_start.f90 take_start start
-contact_solution_t stepping/warm_start.f90 put_start solution factor,inner,converged,verdict,factorisations,body_motion,body_force,has_settled
+contact_solution_t stepping/warm_start.f90 put_start solution factor,inner,converged,verdict,factorisations,body_motion,body_force,has_settled,contraction_estimate
 slip_memory_t      fields/restart_file.f90 exchange_state memory is_incremental
-run_t              stepping/history.f90 record run options,reporter,scene,has_last,observer,sense,idle,n_idle
-run_t              stepping/history.f90 resume run reporter,observer,idle,n_idle
-progress_t         stepping/history.f90 record now cuts
+run_t              stepping/history_run.f90 record run options,reporter,scene,has_last,observer,sense,idle,n_idle
+run_t              stepping/history_run.f90 resume run reporter,observer,idle,n_idle
+progress_t         stepping/history_run.f90 record now cuts
 model_t            model/fingerprint.f90 * model deck_path,deck_name,heading,parameters,instances,levels,node_sets,element_sets,springs,ties,equations,inclined,sources,restart_every,asks_nlgeom,solver_mesh,provenance,as_run
 mesh_t             model/fingerprint.f90 digest_of_mesh mesh node_map,element_map
 material_t         model/fingerprint.f90 digest_of_materials material name
@@ -54,7 +54,7 @@ nodal_values_t     model/fingerprint.f90 add_nodal_values values source
 element_load_t     model/fingerprint.f90 add_element_loads loads line,source
 amplitude_t        model/fingerprint.f90 add_amplitudes amplitude name
 increments_t       model/fingerprint.f90 add_way way
-controls_t         model/fingerprint.f90 add_way controls is_brief,is_first
+controls_t         model/fingerprint.f90 add_way controls is_rung,asks_contraction
 requests_t         model/fingerprint.f90 add_requests requests
 frequencies_t      model/fingerprint.f90 add_requests every
 requested_t        model/fingerprint.f90 add_requested requested
@@ -81,6 +81,6 @@ must_find() { # must_find FILE SED-COMMAND TEXT
 must_find model/types/results.f90 's/^      logical :: law_holds = .*/&\n      real(wp), allocatable :: wear(:), worn(:)/' 'frame_numbers_t: worn'
 must_find fields/exchange_results.f90 '/contact%slip_increment/d' 'contact_result_t: slip_increment'
 must_find model/types/results.f90 's/^      type(scene_t) :: scene/&\n      type(ending_t) :: ending/' 'ending_t has no rule'
-must_find stepping/history.f90 '/run%condition = state%condition/d' 'run_t: condition'
+must_find stepping/history_run.f90 '/run%condition = state%condition/d' 'run_t: condition'
 must_find model/types/model.f90 's/^   type :: pair_t$/   type :: couple_t/' 'there is no type pair_t'
 finish

@@ -3,21 +3,23 @@ module atrito_controls
    use atrito_kinds, only: ip, wp
    implicit none (type, external)
    private
-   public :: controls_t, METHOD_ANDERSON, METHOD_PICARD, METHOD_NEWTON, METHOD_NAME
+   public :: controls_t, METHOD_ANDERSON, METHOD_PICARD, METHOD_NEWTON, METHOD_NAME, METHOD_EASED
 
    integer(ip), parameter :: METHOD_ANDERSON = 1, METHOD_PICARD = 2, METHOD_NEWTON = 3
    character(len=8), parameter :: METHOD_NAME(3) = ['ANDERSON', 'PICARD  ', 'NEWTON  ']
+   !> From the solution with much more friction to that with the deck's: no deck asks for it.
+   integer(ip), parameter :: METHOD_EASED = 4
 
    !> Of the outer iteration. A deck gives the first four.
    type :: controls_t
       integer(ip) :: method = METHOD_ANDERSON
       real(wp) :: tolerance = 1.0e-10_wp            !< of the outer loop
       integer(ip) :: max_iterations = 100           !< outer iterations
-      real(wp) :: relaxation = 1.0_wp               !< of PICARD, 0 < r <= 1
+      real(wp) :: relaxation = 1.0_wp               !< of PICARD and of the mixing of ANDERSON, 0 < r <= 1
       logical :: is_coarse = .false.                !< bound_qp_t%is_coarse: states that round-off turns to and fro
       real(wp) :: most_entries = huge(1.0_wp)       !< of C to go through, over all linear solves, before it is given up
-      logical :: is_brief = .false.                 !< a shorter increment may do: what takes long is not tried
-      logical :: is_first = .false.                 !< others come later: the dense form makes one attempt alone
+      logical :: is_rung = .false.                  !< tried before without a solution: the increment before is no start
+      logical :: asks_contraction = .true.          !< the estimate of the contraction of the loop is printed
    end type controls_t
 
 end module atrito_controls

@@ -7,7 +7,8 @@ module body_cases
    use atrito_condensed_body, only: condensed_body_t, condense_body, set_load
    use atrito_contact_line, only: contact_line_t, number_unknowns
    use atrito_body_motions, only: add_rigid_motions
-   use atrito_contact_problem, only: build_problem
+   use atrito_constraint_rows, only: constraint_rows_t
+   use atrito_contact_problem, only: build_flexibility, set_right_hand_sides
    use atrito_contact_rows, only: contact_rows_t, build_rows
    use atrito_contact_solution, only: contact_solution_t
    use atrito_controls, only: controls_t, METHOD_ANDERSON
@@ -23,6 +24,7 @@ module body_cases
    use atrito_reporter, only: reporter_t
    use atrito_results, only: body_result_t
    use atrito_solver_choice, only: SOLVER_SKYLINE
+   use atrito_row_entries, only: build_constraint_rows
    use atrito_status, only: status_t, is_ok
    use dense_measures, only: norm_one
    use surface_pairs, only: pair_surfaces
@@ -151,6 +153,7 @@ contains
       real(wp), allocatable, intent(out) :: u(:, :)    !< (2, n_nodes) [L]
       logical, intent(out) :: ok
       type(condensed_body_t) :: condensed(2)
+      type(constraint_rows_t) :: b_rows
       type(bound_qp_t) :: problem
       type(body_result_t) :: result
       type(status_t) :: status
@@ -163,7 +166,9 @@ contains
          if (.not. ok) return
          call set_load(scene%fem, b, scene%f, condensed(b))
       end do
-      call build_problem(scene%fem, condensed, scene%rows, scene%line, scene%value, scene%f, problem)
+      call build_constraint_rows(scene%fem, scene%rows, scene%line, .false., b_rows)
+      call build_flexibility(scene%fem, condensed, b_rows, scene%rows, scene%line, problem)
+      call set_right_hand_sides(scene%fem, condensed, b_rows, scene%rows, scene%line, scene%value, scene%f, problem)
       call solve_contact_line(problem, scene%line, controls_t(METHOD_ANDERSON, 1.0e-12_wp, 100_ip, 1.0_wp), &
                               reporter_t(quiet=.true.), solution, status)
       ok = is_ok(status) .and. solution%converged

@@ -4,7 +4,7 @@ module shared_cases
    use atrito_contact_form, only: CONTACT_SPARSE
    use atrito_messages, only: count_messages, SEVERITY_ERROR
    use atrito_model, only: model_t
-   use atrito_scene_data, only: scene_data_t, asked_t, prepare
+   use atrito_scene_data, only: scene_data_t, solve_options_t, prepare
    use atrito_status, only: status_t, is_ok
    use model_cases, only: build
    implicit none (type, external)
@@ -88,7 +88,7 @@ contains
       logical, intent(out) :: ok
       type(model_t), pointer :: model
       type(body_cache_t) :: store
-      type(asked_t) :: asked
+      type(solve_options_t) :: asked
       type(status_t) :: status
 
       allocate (model)

@@ -1,4 +1,4 @@
-!> Puts a solution of the dense form right where elements that are near have one stiffness (atrito_assembly).
+!> Puts a solution of the condensed form right where elements that are near have one stiffness (atrito_assembly).
 !>
 !> The bodies were factored with K~ in place of K. With the forces q and the displacements u that were found with it,
 !>
@@ -7,9 +7,10 @@
 !>     u <- u + K~^-1 (r - B' dq),
 !>
 !> which leaves K~^-1 (K~ - K) times the error. Where a body floats K~^-1 is the inverse of atrito_condensed_body; r is in balance.
-module atrito_dense_refinement
+module atrito_solution_refinement
    use atrito_bound_qp, only: bound_qp_t
    use atrito_condensed_body, only: condensed_body_t, set_load
+   use atrito_constraint_rows, only: constraint_rows_t
    use atrito_contact_problem, only: add_displacements
    use atrito_contact_solution, only: contact_solution_t
    use atrito_controls, only: controls_t
@@ -17,13 +18,13 @@ module atrito_dense_refinement
    use atrito_internal_forces, only: internal_forces
    use atrito_kinds, only: ip, wp, HUGE_REAL
    use atrito_outer_loop, only: continue_contact_line
+   use atrito_problem, only: problem_t
    use atrito_reporter, only: report_progress
-   use atrito_scene_data, only: scene_data_t
    use atrito_status, only: status_t, is_ok
    use atrito_strings, only: to_text
    implicit none (type, external)
    private
-   public :: refine_dense_solution
+   public :: refine_solution
 
    !> The reduced load of a body, put aside.
    type :: load_t
@@ -47,46 +48,59 @@ module atrito_dense_refinement
 
 contains
 
-   !> Refines as often as it takes. Where `is_right` is false the solution is of no use.
-   subroutine refine_dense_solution(data, controls, bodies, problem, solution, u, is_right)
-      type(scene_data_t), intent(in) :: data
-      type(controls_t), intent(in) :: controls
+   !> Refines as often as it takes. Where that does not lead to a solution, the one that was there is none either:
+   !> solution%converged is false.
+   !>
+   !> The residual is one pass over the elements with their own stiffnesses. Each step leaves K~^-1 (K~ - K) of the error, some 1e-6
+   !> to 1e-9 where near elements are near, so one or two steps do. A body that is so slender that the last digits of its nodes
+   !> matter makes more than TOO_MUCH of them: then K~ is no approximation of K.
+   subroutine refine_solution(problem, controls, bodies, rows, qp, solution, u)
+      class(problem_t), intent(in) :: problem !< the increment
+      type(controls_t), intent(in) :: controls !< method, tolerance, MAXIT
       type(condensed_body_t), intent(inout) :: bodies(:)  !< as they were, on return
-      type(bound_qp_t), intent(inout) :: problem
+      type(constraint_rows_t), intent(in) :: rows       !< of the unknowns over displacements
+      type(bound_qp_t), intent(inout) :: qp
       type(contact_solution_t), intent(inout) :: solution !< converged
       real(wp), intent(inout) :: u(:, :)                  !< without rigid motions, (2, n_nodes) [L]
-      logical, intent(out) :: is_right
       type(load_t) :: loads(size(bodies))
       type(status_t) :: status
       type(state_t) :: now
       real(wp) :: share, last_share
+      logical :: is_right
       integer(ip) :: step, b
 
       do b = 1, size(bodies, kind=ip)
          call move_alloc(bodies(b)%load, loads(b)%reduced)
       end do
       now%u = u
-      now%contact = contact_forces(data%fem, data%rows, data%line, solution)
+      now%contact = contact_forces(problem%fem, problem%rows, problem%line, solution)
       last_share = HUGE_REAL
       do step = 1, MOST_STEPS
-         call find_residual(data, now, share)
+         ! r = f - B'q - K u, and its share of the largest force
+         call find_residual(problem, now, share)
          is_right = share <= TOO_MUCH
          if (.not. is_right .or. share <= ENOUGH .or. share > FALLS*last_share) exit
-         call report_progress(data%reporter, 'refine  residual '//to_text(share, 3)//' by the last digits of the nodes')
-         call correct(data, controls, bodies, problem, solution, now, status)
+         call report_progress(problem%reporter, 'refine  residual '//to_text(share, 3)//' by the last digits of the nodes')
+         call correct(problem, controls, bodies, rows, qp, solution, now, status)
          is_right = is_ok(status) .and. solution%converged
          if (.not. is_right .or. share**2 <= ENOUGH) exit ! the next one will be no more than round-off
          last_share = share
       end do
       u = now%u
+      if (.not. is_right) then
+         solution%converged = .false.
+         solution%verdict = 'refinement does not converge'
+      end if
       do b = 1, size(bodies, kind=ip)
          call move_alloc(loads(b)%reduced, bodies(b)%load)
       end do
-   end subroutine refine_dense_solution
+   end subroutine refine_solution
 
    !> f - B'q - K u at the free dofs, 0 at the others; and its largest entry over the largest force.
-   subroutine find_residual(data, now, share)
-      type(scene_data_t), intent(in) :: data
+   !>
+   !> By the stiffness of each element, at the price of a pass over the mesh; reactions count as forces, not as residuals.
+   subroutine find_residual(problem, now, share)
+      class(problem_t), intent(in) :: problem
       type(state_t), intent(inout) :: now
       real(wp), intent(out) :: share
       real(wp) :: energy, largest
@@ -95,19 +109,19 @@ contains
       if (.not. allocated(now%residual)) allocate (now%residual, mold=now%u)
       now%residual = 0.0_wp
       energy = 0.0_wp
-      call internal_forces(data%fem, now%u, now%residual, energy)
+      call internal_forces(problem%fem, now%u, now%residual, energy)
       share = 0.0_wp
       largest = 0.0_wp
-      if (allocated(data%thermal)) then
-         now%residual = now%residual - data%thermal
-         largest = maxval(abs(data%thermal))
+      if (allocated(problem%thermal)) then
+         now%residual = now%residual - problem%thermal
+         largest = maxval(abs(problem%thermal))
       end if
       do node = 1, size(now%u, 2, kind=ip)
          do dof = 1, 2
             associate (r => now%residual(dof, node), contact => now%contact(dof, node))
-               r = data%f(dof, node) - contact - r
-               largest = max(largest, abs(data%f(dof, node)), abs(contact))
-               if (data%held(dof, node)) then
+               r = problem%f(dof, node) - contact - r
+               largest = max(largest, abs(problem%f(dof, node)), abs(contact))
+               if (problem%held(dof, node)) then
                   largest = max(largest, abs(r))
                   r = 0.0_wp
                else
@@ -120,11 +134,15 @@ contains
    end subroutine find_residual
 
    !> One step.
-   subroutine correct(data, controls, bodies, problem, solution, now, status)
-      type(scene_data_t), intent(in) :: data
+   !>
+   !> The loads of the bodies become the residuals, g0 gets what they move the points by, the line is solved again from its
+   !> solution, and the displacements change by F (r - B' dq).
+   subroutine correct(problem, controls, bodies, rows, qp, solution, now, status)
+      class(problem_t), intent(in) :: problem
       type(controls_t), intent(in) :: controls
       type(condensed_body_t), intent(inout) :: bodies(:)
-      type(bound_qp_t), intent(inout) :: problem
+      type(constraint_rows_t), intent(in) :: rows       !< of the unknowns over displacements
+      type(bound_qp_t), intent(inout) :: qp
       type(contact_solution_t), intent(inout) :: solution
       type(state_t), intent(inout) :: now
       type(status_t), intent(out) :: status
@@ -132,21 +150,21 @@ contains
       integer(ip) :: b
 
       do b = 1, size(bodies, kind=ip)
-         if (data%fem%bodies%list(b)%is_rigid) cycle
-         call set_load(data%fem, b, now%residual, bodies(b))
+         if (problem%fem%bodies%list(b)%is_rigid) cycle
+         call set_load(problem%fem, b, now%residual, bodies(b))
       end do
-      call add_displacements(data%fem, bodies, data%rows, data%line, problem%g0)
-      call continue_contact_line(problem, data%line, controls, data%reporter, solution, status)
+      call add_displacements(problem%fem, bodies, rows, qp%g0)
+      call continue_contact_line(qp, problem%line, controls, problem%reporter, solution, status)
       if (.not. is_ok(status)) return
       change = -now%contact
-      now%contact = contact_forces(data%fem, data%rows, data%line, solution)
+      now%contact = contact_forces(problem%fem, problem%rows, problem%line, solution)
       change = change + now%contact
       allocate (moved, mold=now%u)
       moved = 0.0_wp
       do b = 1, size(bodies, kind=ip)
-         call elastic_displacements(data%fem, b, bodies(b), change, moved)
+         call elastic_displacements(problem%fem, b, bodies(b), change, moved)
       end do
       now%u = now%u + moved
    end subroutine correct
 
-end module atrito_dense_refinement
+end module atrito_solution_refinement

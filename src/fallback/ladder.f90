@@ -1,0 +1,86 @@
+!> The ladder: what is tried where an increment has no solution at first, rung by rung.
+!>
+!> Before a rung is tried it is asked whether there can be a solution (atrito_verdict): a proof that no forces which the contact
+!> can take balance the loads ends the increment. A rung is one more attempt by another form, another method, or another start;
+!> what it finds counts when it converges and passes the final check. C and the factors of the bodies serve all rungs of the
+!> condensed form.
+!>
+!> METHOD=PICARD and NEWTON of a deck are the user's own choice, and have no rungs; nor has --contact sparse.
+!>
+!> Two more stand where they are used, as they are no other method: each element with its own last digits, where near elements
+!> shared a stiffness (atrito_increment; tests/verify/near-elements, strip), and the plain start of a long line whose coarse line
+!> leads nowhere (atrito_outer_loop; tests/verify/many-points, plain).
+module atrito_ladder
+   use atrito_contact_form, only: can_be_dense, CONTACT_AUTO, CONTACT_DENSE, CONTACT_SPARSE
+   use atrito_controls, only: controls_t, METHOD_ANDERSON, METHOD_EASED, METHOD_NEWTON, METHOD_PICARD
+   use atrito_kinds, only: ip, wp
+   use atrito_strings, only: to_text
+   implicit none (type, external)
+   private
+   public :: rung_t, RUNGS, is_tried, controls_of_rung, rung_text
+
+   type :: rung_t
+      integer :: form, method
+      integer(ip) :: times = 1                             !< MAXIT of the deck
+      real(wp) :: relaxation = 1.0_wp
+      logical :: is_coarse = .false.                       !< all rows have the round-off of the largest
+   end type rung_t
+
+   !> In the order in which they are tried, each with scenes that have no solution without it (seed/number of random_scenes, in
+   !> tests/extremes/CMakeLists.txt). PICARD from the usual start, NEWTON, small steps alone and MAXIT=300 found nothing that these
+   !> do not.
+   type(rung_t), parameter :: RUNGS(4) = [ &
+      rung_t(CONTACT_SPARSE, METHOD_ANDERSON), &                       ! multipliers in place of active sets: 11/1, 11/137, 11/1172
+      rung_t(CONTACT_DENSE, METHOD_EASED), &                           ! from more friction: 11/154, 11/2226, 4711/821, 4711/2464
+      rung_t(CONTACT_DENSE, METHOD_ANDERSON, 4_ip, 0.3_wp, .true.), &  ! small steps, coarse round-off: 4711/3598
+      rung_t(CONTACT_DENSE, METHOD_PICARD, 10_ip, 0.3_wp)]             ! a damped loop: 4711/1469
+   integer, parameter :: BRIEF = 2, QUICK = 2              !< of them where a shorter increment may do, and where points are many:
+   integer(ip), parameter :: MOST_PATIENT = 400            !< unknown forces
+
+contains
+
+   !> Whether a rung is tried after a first attempt in form `first`.
+   pure logical function is_tried(i, first, asked, m, may_cut)
+      integer, intent(in) :: i                             !< of RUNGS
+      integer, intent(in) :: first, asked                  !< CONTACT_*; asked: by the user, or CONTACT_AUTO
+      integer(ip), intent(in) :: m                         !< unknown forces
+      logical, intent(in) :: may_cut                       !< a shorter increment is tried next
+
+      if (RUNGS(i)%form == CONTACT_SPARSE) then
+         is_tried = asked == CONTACT_AUTO .and. first == CONTACT_DENSE
+      else
+         is_tried = asked /= CONTACT_SPARSE .and. can_be_dense(m)
+      end if
+      if (may_cut) is_tried = is_tried .and. i <= BRIEF
+      if (m > MOST_PATIENT) is_tried = is_tried .and. i <= QUICK
+   end function is_tried
+
+   !> The controls of a deck as a rung changes them.
+   pure type(controls_t) function controls_of_rung(rung, usual) result(controls)
+      type(rung_t), intent(in) :: rung
+      type(controls_t), intent(in) :: usual
+
+      controls = usual
+      controls%method = rung%method
+      controls%max_iterations = rung%times*usual%max_iterations
+      controls%relaxation = rung%relaxation
+      controls%is_coarse = rung%is_coarse
+      controls%is_rung = .true.
+   end function controls_of_rung
+
+   !> What a rung is, besides its form.
+   function rung_text(rung, controls) result(text)
+      type(rung_t), intent(in) :: rung
+      type(controls_t), intent(in) :: controls             !< of the rung
+      character(len=:), allocatable :: text
+
+      text = ''
+      if (rung%method == METHOD_NEWTON) text = ', NEWTON'
+      if (rung%method == METHOD_EASED) text = ', from more friction'
+      if (rung%method == METHOD_PICARD) text = ', PICARD'
+      if (rung%relaxation < 1.0_wp) text = text//', RELAXATION='//to_text(rung%relaxation)
+      if (rung%is_coarse) text = text//', coarse round-off'
+      if (rung%times > 1) text = text//', MAXIT='//to_text(controls%max_iterations)
+   end function rung_text
+
+end module atrito_ladder
