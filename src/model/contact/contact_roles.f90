@@ -29,16 +29,26 @@ contains
       type(clearance_t), intent(in) :: clearances(:)
       type(build_context_t), intent(inout) :: context
       type(chain_report_t) :: report
+      type(contact_points_t), allocatable :: points(:)
       character(len=:), allocatable :: text
+      logical, dimension(context%model%mesh%n_nodes) :: is_faced, is_on_master
       real(wp) :: stiffness, fineness
-      integer(ip) :: i, former
+      integer(ip) :: i, k, former
 
       do i = 1, size(context%model%pairs, kind=ip)
          stiffness = slave_stiffness(context%model, i)
          if (stiffness < STIFFER) cycle
-         fineness = slave_fineness(context%model, i)
-         if (stiffness*(fineness - 1) < FINER) cycle
-         associate (surfaces => context%model%surfaces, pair => context%model%pairs(i))
+         associate (surfaces => context%model%surfaces, pair => context%model%pairs(i), mesh => context%model%mesh)
+            ! distances of the slave's points over one of the nodes of the master that they face
+            call pair_surfaces(context%model, [pair%slave], [pair%master], [pair%quadrature], points)
+            is_faced = .false.
+            is_on_master = .false.
+            if (points(1)%n > 0) is_faced(points(1)%entry) = .true.
+            do k = 1, surfaces(pair%master)%faces%n
+               is_on_master(face_nodes(mesh, surfaces(pair%master)%faces%element(k), surfaces(pair%master)%faces%face(k))) = .true.
+            end do
+            fineness = real(points(1)%n - 1, wp)/max(count(is_faced .and. is_on_master) - 1, 1)
+            if (stiffness*(fineness - 1) < FINER) cycle
             text = 'the slave '//surfaces(pair%slave)%name//' is '//to_text(stiffness, 2)//' times as stiff as '// &
                    surfaces(pair%master)%name//' and '//to_text(fineness, 2)//' times as fine: '
             if (can_exchange(context%model, i, clearances)) then
@@ -48,7 +58,7 @@ contains
                former = pair%slave
                pair%slave = pair%master
                pair%master = former
-               call order_chain(context%model%mesh, surfaces(pair%slave)%faces, report)
+               call order_chain(mesh, surfaces(pair%slave)%faces, report)
             else
                call report_warning(context%deck, context%slaves(i), 'W-STIFF-SLAVE', text// &
                                    'pressures on it may alternate from node to node', &
@@ -59,26 +69,6 @@ contains
          end associate
       end do
    end subroutine choose_roles
-
-   !> Distances of the slave's points over one of the nodes of the master that they face.
-   real(wp) function slave_fineness(model, i) result(fineness)
-      type(model_t), intent(in) :: model
-      integer(ip), intent(in) :: i                     !< the pair
-      type(contact_points_t), allocatable :: points(:)
-      logical, dimension(model%mesh%n_nodes) :: is_faced, is_on_master
-      integer(ip) :: k
-
-      is_faced = .false.
-      is_on_master = .false.
-      associate (pair => model%pairs(i), faces => model%surfaces(model%pairs(i)%master)%faces)
-         call pair_surfaces(model, [pair%slave], [pair%master], [pair%quadrature], points)
-         if (points(1)%n > 0) is_faced(points(1)%entry) = .true.
-         do k = 1, faces%n
-            is_on_master(face_nodes(model%mesh, faces%element(k), faces%face(k))) = .true.
-         end do
-      end associate
-      fineness = real(points(1)%n - 1, wp)/max(count(is_faced .and. is_on_master) - 1, 1)
-   end function slave_fineness
 
    !> The master can be the slave, and nothing else in the deck hangs on who it is.
    logical function can_exchange(model, i, clearances) result(can)

@@ -141,18 +141,31 @@ contains
       integer(ip), intent(in) :: i_card
       type(build_context_t), intent(inout) :: context
       type(number_list_t) :: members
+      character(len=*), parameter :: WHAT = 'number of elements, the first included'
       type(repeat_t) :: repeats(3)
-      type(token_t) :: token
+      type(token_t) :: token, items(3)
       integer(lp) :: n, shift(3)
       integer(ip) :: line, i, j, k, master, first_new
-      logical :: ok
+      logical :: ok, good(3)
 
       associate (deck => context%deck, card => context%deck%cards(i_card))
          do line = card%first_line, card%first_line + card%n_lines - 1
             if (.not. deck%lines(line)%ok) cycle
             token = line_item(deck, deck%lines(line), 1_ip)
             call find_one_element(context, token, master, ok, 'ELGEN')
-            if (ok) call read_repeats(deck, deck%lines(line), repeats, ok)
+            if (.not. ok) cycle
+            repeats = repeat_t()
+            do k = 1, 3                                ! of each direction, where it is given
+               i = 3*k - 1
+               if (i > deck%lines(line)%n_tokens) exit
+               items = [(line_item(deck, deck%lines(line), j), j=i, i + 2)]
+               call get_integer(deck, items(1), WHAT, repeats(k)%n, good(1), 1_ip, 'ELGEN')
+               call get_integer(deck, items(2), 'increment of the node numbers', repeats(k)%node_step, good(2), 1_ip, 'ELGEN')
+               call get_integer(deck, items(3), 'increment of the element numbers', repeats(k)%element_step, good(3), 1_ip, 'ELGEN')
+               if (good(1) .and. repeats(k)%n <= 0) call report_error(deck, items(1), 'E-VALUE', to_text(repeats(k)%n)// &
+                                                             ' elements', expected=WHAT//': 1 or more', keyword='ELGEN')
+               ok = ok .and. all(good) .and. repeats(k)%n > 0
+            end do
             if (.not. ok) cycle
             ! the product of three integers may be larger than any of them can be
             n = int(min(product(real(repeats%n, wp)), real(huge(1_ip), wp)), lp)
@@ -175,33 +188,6 @@ contains
       end associate
       call put_named_set(i_card, context, numbers_of(members))
    end subroutine read_elgen_card
-
-   !> Of each direction, where it is given: number of elements, increments of the numbers of nodes and of elements.
-   subroutine read_repeats(deck, line, repeats, ok)
-      type(deck_t), intent(in) :: deck
-      type(data_line_t), intent(in) :: line
-      type(repeat_t), intent(out) :: repeats(3)
-      logical, intent(out) :: ok
-      character(len=*), parameter :: WHAT = 'number of elements, the first included'
-      integer(ip) :: k, column
-      logical :: good(3)
-
-      ok = .true.
-      do k = 1, 3
-         column = 3*k - 1
-         if (column > line%n_tokens) exit
-         associate (one => repeats(k))
-            call get_integer(deck, line_item(deck, line, column), WHAT, one%n, good(1), 1_ip, 'ELGEN')
-            call get_integer(deck, line_item(deck, line, column + 1), 'increment of the node numbers', one%node_step, &
-                             good(2), 1_ip, 'ELGEN')
-            call get_integer(deck, line_item(deck, line, column + 2), 'increment of the element numbers', one%element_step, &
-                             good(3), 1_ip, 'ELGEN')
-            if (good(1) .and. one%n <= 0) call report_error(deck, line_item(deck, line, column), 'E-VALUE', &
-                                       to_text(one%n)//' elements', expected=WHAT//': 1 or more', keyword='ELGEN')
-            ok = ok .and. all(good) .and. one%n > 0
-         end associate
-      end do
-   end subroutine read_repeats
 
    !> An element once more on other nodes.
    subroutine copy_element_once(token, place, keyword, context, master, shift, ok)
