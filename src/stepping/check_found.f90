@@ -19,7 +19,6 @@ module atrito_check_found
    private
    public :: check_found
 
-
 contains
 
    !> wrong: what does not fit, in words; not allocated: all does.
