@@ -242,8 +242,9 @@ contains
       drawn = 'points pt 7 ps 0.6*dot lc rgb "'//COLOUR(2)//'"'
       if (.not. shown%of_nodes) then
          drawn = 'points pt 5 ps 0.45*dot lc rgb "#80'//COLOUR(1) (2:)//'"'
-         if (member_count(drawing%model%element_sets%sets(shown%place)) <= MOST_FILLED) &
+         if (member_count(drawing%model%element_sets%sets(shown%place)) <= MOST_FILLED) then
             drawn = 'filledcurves closed lc rgb "#80'//COLOUR(1) (2:)//'"'
+         end if
       end if
       call put(plots, 'plot "sets.dat" index 0:'//to_text(n - 1)//' using 1:2 with lines lt 1 lw 0.8 lc rgb "#909090", \'//LF// &
                '   "sets.dat" index '//to_text(n + place - 1)//' using 1:2 with '//drawn)

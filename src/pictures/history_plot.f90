@@ -219,10 +219,10 @@ contains
       if (all(share >= LEAST_WORDED)) word = 'step '
       do i = 1, n
          if (i < n) call put(plots, 'set arrow from '//to_text(rows(ends(i))%time, 12)//', graph 0 to '// &
-                                  to_text(rows(ends(i))%time, 12)//', graph 1 nohead back lt 1 lw 1 lc rgb "#A0A0A0"')
+                             to_text(rows(ends(i))%time, 12)//', graph 1 nohead back lt 1 lw 1 lc rgb "#A0A0A0"')
          if (share(i) < LEAST_NUMBERED) cycle
          call put(plots, 'set label '//to_text(i + 10_ip)//' "'//word//to_text(rows(ends(i))%step)//'" at '// &
-                       to_text(0.5_wp*(begins(i) + rows(ends(i))%time), 12)//', graph 1.07 center textcolor rgb "#606060"')
+                  to_text(0.5_wp*(begins(i) + rows(ends(i))%time), 12)//', graph 1.07 center textcolor rgb "#606060"')
       end do
    end subroutine put_steps
 
@@ -338,7 +338,7 @@ contains
             side = ' left offset 0.8,-0.8'
             if (row%mean_slip > slip%low + 0.7_wp*span(slip)) side = ' right offset -0.8,0.8'
             call put(plots, 'set label '//to_text(i + 10_ip)//' "'//trim(labels(i))//'" at '//to_text(row%mean_slip, 9)// &
-                          '/slip_unit, '//to_text(-row%shear, 9)//'/unit'//side//' point pt 7 ps 1.3*dot lc rgb "black" front')
+                     '/slip_unit, '//to_text(-row%shear, 9)//'/unit'//side//' point pt 7 ps 1.3*dot lc rgb "black" front')
          end associate
       end do
    end subroutine put_ends

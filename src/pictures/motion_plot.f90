@@ -56,7 +56,7 @@ contains
       type(images_t) :: images
 
       images%frames = evenly(size(history%frames, kind=ip), MOST_IMAGES)
-      call begin_drawing(model, .not. most_lines(model%mesh%n_nodes, size(images%frames, kind=ip)), view, images%drawing)
+      call begin_drawing(model,.not. most_lines(model%mesh%n_nodes, size(images%frames, kind=ip)), view, images%drawing)
       images%drawing%heading = picture_title(origin_of(model, history))
       call measure(history, images)
       call write_data(plots, history, images)

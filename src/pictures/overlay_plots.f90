@@ -269,7 +269,7 @@ contains
          call put_terminal(plots, '1000,height')
          call put(plots, 'set multiplot title heading noenhanced'//LF//colour_styles(' lw 1.8 pt 7 ps 0.9*dot'))
          do i = 1, n
-            call put_quantity(plots, i, runs, .not. is_one, doubt)
+            call put_quantity(plots, i, runs,.not. is_one, doubt)
          end do
       end associate
       call put(plots, 'unset multiplot')

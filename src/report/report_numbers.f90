@@ -131,8 +131,9 @@ contains
          do i = 1, shown
             cells(i)%s = ''
             do other = groups(i)%first, groups(i)%last
-               if (item_text(top%table, quantity, other) == name) &
+               if (item_text(top%table, quantity, other) == name) then
                   cells(i)%s = shown_item(top, find_column(top%table, 'value'), other)
+               end if
             end do
          end do
          call add_named_row(page, name, dimension_of(top, name), cells)

@@ -164,7 +164,7 @@ contains
       integer :: rank(size(contents%names)), i, k
 
       do i = 1, size(rank)
-         rank(i) = findloc(FIRST == contents%names(i)%s, .true., dim=1)
+         rank (i) = findloc(FIRST == contents%names(i)%s, .true., dim=1)
          if (rank(i) == 0) rank(i) = size(FIRST) + merge(1, 2, contents%tops(i)%n_rows <= MOST_ROWS)
          if (has_own_section(contents%names(i)%s)) rank(i) = 0
       end do

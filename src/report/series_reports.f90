@@ -176,8 +176,9 @@ contains
          if (runs(i)%summary%n_rows == 0) cycle
          do row = last_increment(runs(i)%summary), runs(i)%summary%n_rows
             name = item_text(runs(i)%summary, find_column(runs(i)%summary, 'quantity'), row)
-            if (.not. any([(known(k)%s == name, k=1, size(known))]) .and. .not. any([(names(k)%s == name, k=1, size(names))])) &
+            if (.not. any([(known(k)%s == name, k=1, size(known))]) .and. .not. any([(names(k)%s == name, k=1, size(names))])) then
                call append_string(names, name)
+            end if
          end do
       end do
    end function columns_of

@@ -110,10 +110,11 @@ contains
       line = ''
       do i = 1, size(study%elements, kind=ip)
          associate (element => study%elements(i)%s)
-            if (has_points(study, element, x, y)) &
+            if (has_points(study, element, x, y)) then
                line = line//', "study.dat" index '//to_text(i - 1)//' using '//to_text(x)//':'//to_text(y)// &
-               ' with linespoints lt 1 lw 1.8 pt '//to_text(5 + 2*mod(i, 4_ip))//' ps 0.9*dot lc rgb "'// &
-               COLOUR(mod(i - 1, N_COLOURS) + 1)//'" title '//quoted(element//slope_text(study, element, x, y))
+                      ' with linespoints lt 1 lw 1.8 pt '//to_text(5 + 2*mod(i, 4_ip))//' ps 0.9*dot lc rgb "'// &
+                      COLOUR(mod(i - 1, N_COLOURS) + 1)//'" title '//quoted(element//slope_text(study, element, x, y))
+            end if
          end associate
       end do
       if (len(line) == 0) then

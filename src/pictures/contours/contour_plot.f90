@@ -271,8 +271,9 @@ contains
                             ') format="%uint8" using (field($1)/unit) with image')
       end associate
       n_inner = drawing%n_inner
-      if (n_inner > 0 .and. drawing%model%mesh%n_nodes <= FEW_NODES) &
+      if (n_inner > 0 .and. drawing%model%mesh%n_nodes <= FEW_NODES) then
          call add_lines(MESH_PLOT, 0_ip, n_inner - 1, 'lt 1 lw 0.4 lc rgb "#606060"', curves)
+      end if
       call add_lines(MESH_PLOT, n_inner, drawing%lines%n_runs - 1, 'lt 1 lw 1.2 lc rgb "#303030"', curves)
       call add_rigid_lines(MESH_PLOT, drawing, 'lt 1 lw 4 lc rgb "#404040"', .false., curves)
       call put_plot(plots, curves)
