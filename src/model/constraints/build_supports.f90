@@ -156,7 +156,7 @@ contains
       type(by_number_t), intent(inout) :: numbered
       integer(ip), allocatable :: nodes(:)
       real(wp), allocatable :: values(:)               ! of the nodes
-      logical, allocatable :: turns(:)                 ! those that are reference nodes
+      logical, allocatable :: loose(:), turns(:)       ! nodes without unknowns, and those that are reference nodes
       integer(ip) :: dof, i
       logical :: held(LAST_DOF), ok
 
@@ -168,7 +168,12 @@ contains
          call read_values(is_function, in_model, context, nodes, held, values, ok)
       end if
       if (.not. ok) return
-      call note_loose(context, nodes)
+      loose = has_no_unknowns(context, nodes)
+      if (any(loose) .and. .not. has_errors()) then
+         call report_note(context%deck, line_token(context, 1_ip), 'N-NODE', 'node '// &
+                          ids_text(pack(context%model%mesh%node_id(nodes), loose))// &
+                          ' belongs to no element; the support has no effect there but on springs', keyword='BOUNDARY')
+      end if
       turns = is_reference(context, nodes)
       do dof = 1, LAST_DOF
          if (.not. held(dof) .or. (dof > PLANE_DOFS .and. dof /= ROTATION_DOF)) cycle
@@ -286,18 +291,6 @@ contains
                           //' do not exist in the plane; their value is 0', keyword='BOUNDARY')
       end if
    end function are_dofs
-
-   subroutine note_loose(context, nodes)
-      type(build_context_t), intent(in) :: context
-      integer(ip), intent(in) :: nodes(:)
-      logical :: loose(size(nodes))
-
-      loose = has_no_unknowns(context, nodes)
-      if (.not. any(loose) .or. has_errors()) return
-      call report_note(context%deck, line_token(context, 1_ip), 'N-NODE', 'node '// &
-                       ids_text(pack(context%model%mesh%node_id(nodes), loose))// &
-                       ' belongs to no element; the support has no effect there but on springs', keyword='BOUNDARY')
-   end subroutine note_loose
 
    !> A node of no element that is held at 0 in all steps is the ground, for springs.
    pure subroutine note_ground(context, node, dof, value)

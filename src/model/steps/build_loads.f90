@@ -11,7 +11,7 @@ module atrito_build_loads
    use atrito_local_axes, only: dof_direction
    use atrito_load_lists, only: condition_t, condition_list_t, add_condition, add_part, dof_slot, nodal_values_of, &
                                 element_loads_of, SLOTS
-   use atrito_model, only: model_t, nodal_values_t, LOAD_BODY, LOAD_HYDROSTATIC, LOAD_LINEAR, LOAD_TRACTION, SURFACE_ELEMENTS
+   use atrito_model, only: nodal_values_t, LOAD_BODY, LOAD_HYDROSTATIC, LOAD_LINEAR, LOAD_TRACTION, SURFACE_ELEMENTS
    use atrito_number_list, only: number_list_t, add_number, numbers_of
    use atrito_numbers, only: read_integer
    use atrito_plane_state, only: STATES
@@ -288,9 +288,9 @@ contains
                                             expected='elements on the outline of the body', keyword='DLOAD')
    end subroutine load_faces
 
-   !> Loads upon the mass of elements, as a force per volume. GRAV: density times acceleration along a direction g, rho a g. CENTRIF:
-   !> density times the square of the angular velocity times the way from the axis, rho w^2 S (x - x0), as a linear and a constant
-   !> force.
+   !> Loads upon the mass of elements, as a force per volume. GRAV: density times acceleration along a direction g, rho a g.
+   !> CENTRIF: density times the square of the angular velocity times the way from the axis, rho w^2 S (x - x0), as a linear and a
+   !> constant force.
    subroutine load_masses(context, elements, load, turns, magnitude, good)
       type(build_context_t), intent(inout) :: context
       integer(ip), intent(in) :: elements(:)
@@ -299,7 +299,7 @@ contains
       real(wp), intent(in) :: magnitude                !< acceleration [L/T^2], or square of the angular velocity [1/T^2]
       logical, intent(in) :: good                      !< elements and magnitude are known
       real(wp) :: way(3), constant(2), force
-      integer(ip) :: i
+      integer(ip) :: i, section
       logical :: ok, is_ring
 
       if (turns) then
@@ -312,7 +312,9 @@ contains
       if (.not. (ok .and. good)) return
       call need_density(context, elements)
       do i = 1, size(elements, kind=ip)
-         force = density_of(context%model, elements(i))*magnitude
+         force = 0.0_wp
+         section = context%model%section_of(elements(i))
+         if (section > 0) force = context%model%materials(context%model%sections(section)%material)%density*magnitude
          if (turns) then
             load%kind = LOAD_LINEAR
             call add_load(context, load, elements(i), force*way)
@@ -321,14 +323,6 @@ contains
          if (.not. turns .or. any(abs(constant) > 0.0_wp)) call add_load(context, load, elements(i), force*constant)
       end do
    end subroutine load_masses
-
-   pure real(wp) function density_of(model, element) result(density)
-      type(model_t), intent(in) :: model
-      integer(ip), intent(in) :: element
-
-      density = 0.0_wp
-      if (model%section_of(element) > 0) density = model%materials(model%sections(model%section_of(element))%material)%density
-   end function density_of
 
    subroutine need_density(context, elements)
       type(build_context_t), intent(in) :: context
