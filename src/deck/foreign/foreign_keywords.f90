@@ -45,12 +45,13 @@ contains
    !> The place of a subject; 0: there is none of this key.
    pure integer function subject_named(key) result(place)
       character(len=*), intent(in) :: key
-      type(subject_t), allocatable :: subjects(:)
+      type(string_t), allocatable :: lines(:)
 
-      call take_subjects(subjects)
-      do place = size(subjects), 1, -1
-         if (subjects(place)%key == key) return
+      call take_foreign_lines(lines)
+      do place = 1, size(lines)                    ! the subjects stand before all else
+         if (begins_with(lines(place)%s, 'subject '//key//' | ') .or. begins_with(lines(place)%s, 'scene '//key//' | ')) return
       end do
+      place = 0
    end function subject_named
 
    !> What is known of a keyword that is not in the table.
