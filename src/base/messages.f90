@@ -4,7 +4,7 @@
 !> prints them; numerical warnings carry none. The listing repeats all of them.
 module atrito_messages
    use atrito_kinds, only: ip
-   use atrito_strings, only: string_t, append_string, join, to_text
+   use atrito_strings, only: string_t, append_string, begins_with, ends_with, join, to_text
    use atrito_utf8, only: visible
    implicit none (type, external)
    private
@@ -91,8 +91,11 @@ contains
          is_same = a%id == b%id
          return
       end if
-      if (.not. is_same) is_same = a%severity == b%severity .and. tells_a_name(a)
-      if (is_same) is_same = a%text == b%text
+      if (a%text /= b%text) then                   ! asked first: a deck can be wrong in every line
+         is_same = .false.
+      else if (.not. is_same) then
+         is_same = a%severity == b%severity .and. tells_a_name(a)
+      end if
    end function is_same
 
    !> Of other lines the same need not be said again: what has no effect, and what is refused by its name.
@@ -115,8 +118,7 @@ contains
       tells_a_name = .false.
       if (.not. (allocated(message%id) .and. allocated(message%text))) return
       if (index(IDS, ' '//message%id//' ') == 0) return
-      tells_a_name = index(message%text, UNKNOWN) == 1 .or. &
-                     index(message%text, MISSING, back=.true.) == len(message%text) - len(MISSING) + 1
+      tells_a_name = begins_with(message%text, UNKNOWN) .or. ends_with(message%text, MISSING)
    end function tells_a_name
 
    !> A warning without a place.

@@ -3,8 +3,7 @@ module atrito_cards
    use atrito_kinds, only: ip, wp
    use atrito_deck, only: deck_t, card_t, option_t, token_t, KEYWORD_UNKNOWN, token_text, part_of, is_empty_token, is_quoted
    use atrito_diagnostics, only: report_error, refuse_card, report_note, report_outside
-   use atrito_foreign_keywords, only: subject_t, ask_keyword, ask_element_type, ask_option, take_subjects, NOT_FOREIGN, &
-                                      FOREIGN_IGNORED, FOREIGN_OUTSIDE
+   use atrito_foreign_keywords, only: ask_keyword, ask_element_type, ask_option, NOT_FOREIGN, FOREIGN_IGNORED, FOREIGN_OUTSIDE
    use atrito_items, only: get_real, get_integer, get_name
    use atrito_keyword, only: option_spec_t, KIND_FLAG, KIND_NAME, KIND_WORD, KIND_OPTIONAL_WORD, KIND_REAL, KIND_INTEGER
    use atrito_keyword_table, only: find_keyword, find_option_spec, find_choice, keyword_names, option_names, choice_names, packed
@@ -54,7 +53,6 @@ contains
       type(card_t), intent(inout) :: card
       character(len=:), allocatable :: name
       type(string_t), allocatable :: near(:)
-      type(subject_t), allocatable :: subjects(:)
       integer :: verdict, subject
 
       name = upper_case(token_text(deck, card%place))
@@ -64,9 +62,8 @@ contains
          card%is_ignored = .true.
          call report_note(deck, card%place, 'N-IGNORED', '*'//name//' has no effect')
       case (FOREIGN_OUTSIDE)
-         call take_subjects(subjects)
-         card%is_outside = subjects(subject)%is_scene
-         card%changes_model = subjects(subject)%key == 'change'
+         card%is_outside = deck%subjects(subject)%is_scene
+         card%changes_model = deck%subjects(subject)%key == 'change'
          if (subject == deck%subject .or. is_company(deck, name)) return   ! of elements, or of a keyword, that are refused
          call report_outside(deck, card%place, '*'//name, subject)
       case (NOT_FOREIGN)

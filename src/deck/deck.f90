@@ -4,6 +4,7 @@
 !> later message can show where it comes from.
 module atrito_deck
    use atrito_edits, only: edits_t
+   use atrito_foreign_keywords, only: subject_t, take_subjects
    use atrito_gmsh_mesh, only: gmsh_mesh_t, move_mesh
    use atrito_kinds, only: ip, lp, wp
    use atrito_growth, only: make_room_in => make_room
@@ -109,6 +110,7 @@ module atrito_deck
       type(parameter_t), allocatable :: parameters(:)
       type(name_list_t) :: parameter_names         !< in their order
       type(keyword_t), allocatable :: keywords(:)  !< the keyword table
+      type(subject_t), allocatable :: subjects(:)  !< what lies outside, by other programs' names
       logical :: has_lost_parameters = .false.     !< definitions that could not be read: an unknown one may be among them
       logical :: is_outside = .false.              !< a scene that atrito does not solve: what only follows is not reported
       integer :: subject = 0                       !< of the elements that it does not solve
@@ -354,6 +356,7 @@ contains
       type(deck_t), intent(inout) :: deck
 
       allocate (deck%sources(4), deck%cards(64), deck%lines(256), deck%tokens(1024), deck%parameters(16), deck%meshes(0))
+      call take_subjects(deck%subjects)
    end subroutine allocate_deck
 
    !> Room for more items and lines, made once: a list that doubles is there three times while it does.

@@ -2,7 +2,6 @@
 module atrito_diagnostics
    use atrito_kinds, only: ip
    use atrito_deck, only: deck_t, card_t, token_t, token_text, reading_order, take_source_line
-   use atrito_foreign_keywords, only: subject_t, take_subjects
    use atrito_messages, only: message_t, add_message, has_room, count_messages, ID_OUTSIDE, MOST_ERRORS, WIDEST_SOURCE, &
                               SEVERITY_ERROR, SEVERITY_WARNING, SEVERITY_NOTE
    use atrito_name_list, only: name_list_t, names_of
@@ -60,11 +59,9 @@ contains
       type(token_t), intent(in) :: token
       character(len=*), intent(in) :: name                  !< as in the deck, or as in the list
       integer, intent(in) :: subject                        !< its place, atrito_foreign_keywords
-      type(subject_t), allocatable :: subjects(:)
 
-      call take_subjects(subjects)
-      call report(deck, token, SEVERITY_ERROR, ID_OUTSIDE, name//' is outside of atrito: '//subjects(subject)%what, &
-                  expected=subjects(subject)%instead)
+      call report(deck, token, SEVERITY_ERROR, ID_OUTSIDE, name//' is outside of atrito: '//deck%subjects(subject)%what, &
+                  expected=deck%subjects(subject)%instead)
    end subroutine report_outside
 
    !> As report_error, a warning.

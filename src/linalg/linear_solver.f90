@@ -11,6 +11,13 @@
 !> S is full, symmetric and positive semidefinite: singular where supports leave the body a motion. It is far smaller than K, and
 !> all iterations of the contact problem work on it; K_ii is factored once.
 !>
+!> Two springs in a row, k_1 from the ground to a node and k_2 from there to the contact, have
+!>
+!>     K_ii = k_1 + k_2,   K_ic = -k_2,   K_cc = k_2,        S = k_2 - k_2^2/(k_1 + k_2) = k_1 k_2/(k_1 + k_2):
+!>
+!> S is what the contact feels of the body, here of the springs one behind the other. A column of S is the forces at the contact
+!> when one of its unknowns is moved by 1, the others are held, and the interior is free.
+!>
 !> Use: create, add every element matrix (one by one, or all in a store), factor; then get_schur, and for every load reduce, find
 !> x_c, expand. Without retained equations reduce followed by expand solves K x = f.
 module atrito_linear_solver

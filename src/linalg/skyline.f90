@@ -3,6 +3,12 @@
 !> Storage. Of column j of the upper triangle the entries from row m_j (`first`), the first that is not zero, down to the diagonal
 !> stand one behind the other in `values`, column after column; place(j) is where the diagonal is. The elimination makes nothing
 !> above m_j: g_ij below is k_ij less a sum over the rows k >= m_j, and so it is 0 where i < m_j. Hence L' takes the place of K.
+!> Zeros below m_j are kept, as k_24 is here, since the elimination may fill them:
+!>
+!>     [ k_11   .    k_13   .   ]        values:  k_11 | k_22 | k_13 k_23 k_33 | k_24 k_34 k_44
+!>     [       k_22  k_23   0   ]        place:     1      2              5                8
+!>     [             k_33  k_34 ]        first:     1      2              1                2
+!>     [                   k_44 ]
 !>
 !> Elimination by active columns (Bathe, Finite Element Procedures, 8.2.3). With g = D L' in the making, column j is
 !>

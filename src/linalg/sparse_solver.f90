@@ -10,6 +10,10 @@
 !> leaves the columns of the factor, L and H, and a matrix on the border that is added to the front of the parent. The last front
 !> has the retained equations alone; it is assembled and not eliminated, and so is the Schur complement.
 !>
+!> Of a plane mesh of n unknowns, numbered by nested dissection, the factor has about n log n entries and takes n^1.5 operations; a
+!> band or a skyline has n^1.5 and n^2, as a front line across the mesh has n^0.5 unknowns all the way. Most operations are in the
+!> last few fronts, which are dense matrices of n^0.5 rows: there the work goes at the rate of BLAS.
+!>
 !> Fronts that are equal, number by number, are factored once (atrito_front_tree): of a regular mesh a few hundred out of many
 !> thousands.
 !>

@@ -3,7 +3,7 @@
 !> not in the table.
 module atrito_foreign_keywords
    use atrito_foreign_lines, only: take_foreign_lines
-   use atrito_strings, only: string_t, append_string, upper_case
+   use atrito_strings, only: string_t, append_string, begins_with, upper_case
    implicit none (type, external)
    private
    public :: subject_t, ask_keyword, ask_element_type, ask_option, foreign_keywords, take_subjects, subject_named, NOT_FOREIGN, &
@@ -27,7 +27,7 @@ contains
       integer :: i, k, first, second, n
 
       call take_foreign_lines(lines)
-      n = count([(index(lines(i)%s, 'subject ') == 1 .or. index(lines(i)%s, 'scene ') == 1, i=1, size(lines))])
+      n = count([(begins_with(lines(i)%s, 'subject ') .or. begins_with(lines(i)%s, 'scene '), i=1, size(lines))])
       allocate (subjects(n))
       do i = 1, n                                  ! they stand before all else
          associate (line => lines(i)%s)
@@ -45,12 +45,13 @@ contains
    !> The place of a subject; 0: there is none of this key.
    pure integer function subject_named(key) result(place)
       character(len=*), intent(in) :: key
-      type(subject_t), allocatable :: subjects(:)
+      type(string_t), allocatable :: lines(:)
 
-      call take_subjects(subjects)
-      do place = size(subjects), 1, -1
-         if (subjects(place)%key == key) return
+      call take_foreign_lines(lines)
+      do place = 1, size(lines)                    ! the subjects stand before all else
+         if (begins_with(lines(place)%s, 'subject '//key//' | ') .or. begins_with(lines(place)%s, 'scene '//key//' | ')) return
       end do
+      place = 0
    end function subject_named
 
    !> What is known of a keyword that is not in the table.
@@ -59,15 +60,17 @@ contains
       integer, intent(out) :: verdict              !< NOT_FOREIGN, FOREIGN_IGNORED, FOREIGN_OUTSIDE
       integer, intent(out) :: subject              !< of FOREIGN_OUTSIDE; else 0
       character(len=:), allocatable :: head
+      type(string_t), allocatable :: lines(:)
 
       verdict = NOT_FOREIGN
       subject = 0
-      call look_up('ignored keywords', word, head)
+      call take_foreign_lines(lines)
+      call look_up(lines, 'ignored keywords', word, head)
       if (allocated(head)) then
          verdict = FOREIGN_IGNORED
          return
       end if
-      call look_up('keywords ', word, head)
+      call look_up(lines, 'keywords ', word, head)
       if (.not. allocated(head)) return
       verdict = FOREIGN_OUTSIDE
       subject = subject_named(head)
@@ -78,27 +81,28 @@ contains
       character(len=*), intent(in) :: name         !< KEYWORD/OPTION or KEYWORD/OPTION=WORD, in capitals, without blanks
       integer, intent(out) :: verdict              !< NOT_FOREIGN, FOREIGN_IGNORED, FOREIGN_OUTSIDE
       character(len=:), allocatable, intent(out) :: text !< why it has no effect, or what to do instead
+      type(string_t), allocatable :: lines(:)
 
       verdict = FOREIGN_IGNORED
-      call look_up('without effect: ', name, text)
+      call take_foreign_lines(lines)
+      call look_up(lines, 'without effect: ', name, text)
       if (allocated(text)) return
       verdict = FOREIGN_OUTSIDE
-      call look_up('instead: ', name, text)
+      call look_up(lines, 'instead: ', name, text)
       if (allocated(text)) return
       verdict = NOT_FOREIGN
       text = ''
    end subroutine ask_option
 
    !> What stands between the kind of a line and its names, of the line that has a name among them; not allocated: there is none.
-   pure subroutine look_up(kind, name, head)
+   pure subroutine look_up(lines, kind, name, head)
+      type(string_t), intent(in) :: lines(:)
       character(len=*), intent(in) :: kind, name
       character(len=:), allocatable, intent(out) :: head
-      type(string_t), allocatable :: lines(:)
       integer :: i, bar
 
-      call take_foreign_lines(lines)
       do i = 1, size(lines)
-         if (index(lines(i)%s, kind) /= 1) cycle
+         if (.not. begins_with(lines(i)%s, kind)) cycle
          bar = index(lines(i)%s, ' | ')
          if (is_among(name, lines(i)%s(bar + 3:))) head = lines(i)%s(len(kind) + 1:bar - 1)
          if (allocated(head)) return
@@ -119,7 +123,7 @@ contains
       if (verdict == FOREIGN_IGNORED) kind = 'ignored keywords'
       call take_foreign_lines(lines)
       do i = 1, size(lines)
-         if (index(lines(i)%s, kind) == 1) call append_names(lines(i)%s(index(lines(i)%s, ' | ') + 3:), names)
+         if (begins_with(lines(i)%s, kind)) call append_names(lines(i)%s(index(lines(i)%s, ' | ') + 3:), names)
       end do
    end function foreign_keywords
 
@@ -136,27 +140,45 @@ contains
       end do
    end subroutine append_names
 
-   !> A word is one of the names of a list, blanks apart.
+   !> A word is one of the names of a list, blanks apart: letter by letter, since all words of a deck may be unknown.
    pure logical function is_among(word, list)
       character(len=*), intent(in) :: word         !< in capitals, without blanks
       character(len=*), intent(in) :: list         !< a comma between two names
 
-      is_among = index(','//trim(without_blanks(list))//',', ','//word//',') > 0 .and. len(word) > 0 .and. index(word, ',') == 0
+      integer :: i, n                              ! n: letters that the name and the word have in common; -1: it is another
+
+      n = 0
+      do i = 1, len(list)
+         if (list(i:i) == ',') then
+            if (n == len(word)) exit
+            n = 0
+         else if (n >= 0 .and. list(i:i) /= ' ') then
+            n = n + 1
+            if (n > len(word)) then
+               n = -1
+            else if (word(n:n) /= list(i:i)) then
+               n = -1
+            end if
+         end if
+      end do
+      is_among = n == len(word) .and. n > 0
    end function is_among
 
    !> The subject of elements of other programs; 0: no program has such a type, as far as is known.
    pure integer function ask_element_type(name) result(subject)
       character(len=*), intent(in) :: name
       character(len=:), allocatable :: word, key
+      type(string_t), allocatable :: lines(:)
       integer :: n
 
+      call take_foreign_lines(lines)
       word = trim(upper_case(name))
       key = special_plane_type(word)
       n = len(word)
       if (len(key) > 0) n = 0
       do n = n, 1, -1                              ! the longest beginning counts
          if (.not. goes_on(word, n)) cycle
-         call look_up('elements ', word(:n), key)
+         call look_up(lines, 'elements ', word(:n), key)
          if (allocated(key)) exit
       end do
       subject = 0
@@ -200,19 +222,5 @@ contains
       goes_on = len_trim(word) == n .or. n > 2
       if (.not. goes_on) goes_on = scan(word(n + 1:n + 1), '123456789') == 1
    end function goes_on
-
-   pure function without_blanks(name) result(word)
-      character(len=*), intent(in) :: name
-      character(len=len(name)) :: word
-      integer :: i, n
-
-      word = ''
-      n = 0
-      do i = 1, len_trim(name)
-         if (name(i:i) == ' ') cycle
-         n = n + 1
-         word(n:n) = name(i:i)
-      end do
-   end function without_blanks
 
 end module atrito_foreign_keywords
