@@ -24,7 +24,7 @@ module atrito_master
    use atrito_kinds, only: ip, wp
    use atrito_mesh, only: mesh_t, face_end, face_nodes
    use atrito_piece_tree, only: piece_tree_t, search_t, plant, begin_search, next_leaf, FACING
-   use atrito_pieces, only: pieces_t, allocate_pieces, sag_of, sweep_of, place_at, normal_at, cross_piece, cross, END_TOLERANCE
+   use atrito_pieces, only: pieces_t, allocate_pieces, sag_of, place_at, normal_at, cross_piece, cross, END_TOLERANCE
    use atrito_slave_faces, only: sine, CORNER
    use atrito_smooth_normals, only: smooth_surface
    implicit none (type, external)
@@ -155,7 +155,9 @@ contains
          do i = 1, n
             if (.not. is_arc(i)) cycle
             master%centre(:, i) = centre(:, i)
-            master%sweep(i) = sweep_of(ends(:, i), ends(:, i + 1), centre(:, i))
+            associate (from => ends(:, i) - centre(:, i), to => ends(:, i + 1) - centre(:, i))
+               master%sweep(i) = atan2(cross(from, to), dot_product(from, to))
+            end associate
          end do
       end if
       allocate (master%ends(2, 2, n), curvature(n), master%bend(n), source=0.0_wp)

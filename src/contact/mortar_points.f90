@@ -44,7 +44,7 @@ module atrito_mortar_points
    use atrito_mortar_segments, only: segments_t, slave_face_t, cut_slave, join_curves, take_face, place_on_face, direction_at
    use atrito_plane_state, only: depth_at
    use atrito_pieces, only: cross_piece, place_at
-   use atrito_points, only: contact_points_t, terms_t, allocate_points, add_point, add_entries, add_term, trim_points
+   use atrito_points, only: contact_points_t, terms_t, allocate_points, add_point, add_entries, add_term, drop_points
    use atrito_shape_functions, only: face_shape_values, gauss_rule
    use atrito_revolved_faces, only: is_at_axis, hats
    use atrito_slave_faces, only: nodal_rule_t, nodal_rule, common_ends, sine, clear_small_component, CORNER
@@ -405,7 +405,7 @@ contains
          if (.not. is_revolved(mesh)) call place_force(mesh, j, points)
          call gather(rows%master, of_other(first_other(j):first_other(j + 1) - 1), j, points)
       end do
-      call trim_points(points)
+      call drop_points([0_ip], points)
    end subroutine finish_points
 
    !> The terms of each of n points.

@@ -72,19 +72,22 @@ module atrito_mortar_segments
 
 contains
 
-   !> Cuts all faces.
+   !> Cuts all faces of a slave. The directions of sight at the ends of faces are normals of the smooth surface.
    pure subroutine cut_slave(mesh, slave, master, segments)
       type(mesh_t), intent(in) :: mesh
       type(face_list_t), intent(in) :: slave        !< one chain, ordered (order_chain)
       type(master_t), intent(in) :: master
       type(segments_t), intent(out) :: segments
       type(slave_face_t) :: face
-      real(wp), allocatable :: cuts(:)
+      real(wp), allocatable :: ends(:, :, :), cuts(:)
       integer(ip) :: i
 
-      call find_directions(mesh, slave, master%grain, segments)
-      allocate (segments%first(slave%n + 1), source=1_ip)
+      call smooth_surface(mesh, slave, ends, segments%curvature, segments%bend, master%grain)
+      allocate (segments%direction(2, 3, slave%n), segments%first(slave%n + 1))
+      segments%direction(:, :2, :) = ends
+      segments%first(1) = 1
       do i = 1, slave%n
+         segments%direction(:, 3, i) = outward_normal(mesh%x(:, face_nodes(mesh, slave%element(i), slave%face(i))), 0.0_wp)
          face = take_face(mesh, slave, i, segments)
          segments%first(i + 1) = segments%first(i)
          call find_cuts(face, master, cuts)
@@ -115,23 +118,6 @@ contains
          end do
       end do
    end subroutine join_curves
-
-   !> The directions of sight: normals of the smooth surface.
-   pure subroutine find_directions(mesh, slave, grain, segments)
-      type(mesh_t), intent(in) :: mesh
-      type(face_list_t), intent(in) :: slave
-      real(wp), intent(in) :: grain                 !< to which the nodes are known [L]
-      type(segments_t), intent(inout) :: segments
-      real(wp), allocatable :: ends(:, :, :)
-      integer(ip) :: i
-
-      call smooth_surface(mesh, slave, ends, segments%curvature, segments%bend, grain)
-      allocate (segments%direction(2, 3, slave%n))
-      segments%direction(:, :2, :) = ends
-      do i = 1, slave%n
-         segments%direction(:, 3, i) = outward_normal(mesh%x(:, face_nodes(mesh, slave%element(i), slave%face(i))), 0.0_wp)
-      end do
-   end subroutine find_directions
 
    !> Face i of the slave.
    pure function take_face(mesh, slave, i, segments) result(face)

@@ -27,8 +27,7 @@ module atrito_nodal_points
    use atrito_piece_tree, only: is_far_off
    use atrito_pieces, only: place_at
    use atrito_plane_state, only: depth_at, IS_TAPERED, STATES
-   use atrito_points, only: contact_points_t, terms_t, allocate_points, add_point, add_entries, drop_points, &
-                            trim_points
+   use atrito_points, only: contact_points_t, terms_t, allocate_points, add_point, add_entries, drop_points
    use atrito_revolved_faces, only: revolved_face_t, revolve_face, note_mixed, mix_rows
    use atrito_shape_functions, only: face_shape_values
    use atrito_slave_faces, only: nodal_rule_t, nodal_rule, common_ends, turn_at, sine, clear_small_component, CORNER
@@ -75,7 +74,6 @@ contains
       call allocate_points(3*slave%n, 3*slave%n*NODAL_ENTRIES, points)
       call place_points(mesh, thickness, slave, used, master%grain, points, curvature, mixed)
       call look_for_master(mesh, master, master_faces, curvature, points)
-      call trim_points(points)
       if (.not. master%rigid) points%matching = are_matching(mesh, slave, master, points)
       call mix_rows(mixed, points)
       call drop_points(common_ends(mesh, slave, master_faces), points)

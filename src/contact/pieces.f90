@@ -19,7 +19,7 @@ module atrito_pieces
    use atrito_kinds, only: ip, wp, EPS_MACH
    implicit none (type, external)
    private
-   public :: pieces_t, allocate_pieces, sag_of, sweep_of, place_at, normal_at, cross_piece, box_of_piece, cross
+   public :: pieces_t, allocate_pieces, sag_of, place_at, normal_at, cross_piece, box_of_piece, cross
    public :: END_TOLERANCE
 
    !> A piece is x = a + t d + 4 t (1 - t) sag with t in [0,1]: a face of elements, or a rigid segment. A rigid arc turns a round
@@ -58,13 +58,6 @@ contains
       sag = x(:, 3) - 0.5_wp*(x(:, 1) + x(:, 2))
       if (norm2(sag) <= 8*EPS_MACH*maxval(abs(x))) sag = 0.0_wp
    end function sag_of
-
-   !> The angle from one end of an arc to the other, as seen from its centre.
-   pure real(wp) function sweep_of(from, to, centre) result(sweep)
-      real(wp), intent(in) :: from(2), to(2), centre(2)  !< [L]
-
-      sweep = atan2(cross(from - centre, to - centre), dot_product(from - centre, to - centre))
-   end function sweep_of
 
    !> The place of a piece at a share t of it, 0 at its first end and 1 at its second [L]: on a line, a parabola or an arc.
    pure function place_at(pieces, i, t) result(x)

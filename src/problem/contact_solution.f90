@@ -118,7 +118,7 @@ contains
       type(contact_line_t), intent(in) :: line
       real(wp), intent(in) :: tau(:), image(:)        !< (n) [F/L^2]
       logical, intent(in), optional :: beside_noise   !< pairs whose bound is round-off of the strongest do not count
-      real(wp) :: none
+      real(wp) :: none, scale
       integer(ip) :: first, last
 
       residual = 0.0_wp
@@ -127,22 +127,12 @@ contains
       first = 1
       do while (first <= line%n)
          last = last_of_pair(line, first)
-         residual = max(residual, residual_of_pair(tau(first:last), image(first:last), none))
+         scale = largest_of(tau(first:last), image(first:last))     ! divides both first, so that no small bound overflows
+         if (scale > none) residual = max(residual, maxval(abs(image(first:last)/scale - tau(first:last)/scale)))
          first = last + 1
       end do
       if (.not. all(ieee_is_finite(image))) residual = HUGE_REAL   ! maxval passes over what is not a number
    end function relative_residual
-
-   !> |image - tau|/|tau| of one pair, both divided first so that no small bound overflows.
-   pure real(wp) function residual_of_pair(tau, image, none) result(residual)
-      real(wp), intent(in) :: tau(:), image(:)
-      real(wp), intent(in) :: none                    !< a bound that is none
-      real(wp) :: scale
-
-      residual = 0.0_wp
-      scale = largest_of(tau, image)
-      if (scale > none) residual = maxval(abs(image/scale - tau/scale))
-   end function residual_of_pair
 
    !> The largest size of a bound and its image; 0 of none.
    pure real(wp) function largest_of(tau, image)

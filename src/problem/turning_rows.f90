@@ -22,7 +22,7 @@ module atrito_turning_rows
    use atrito_contact_rows, only: contact_rows_t
    use atrito_growth, only: make_room, resize
    use atrito_kinds, only: ip, wp
-   use atrito_points, only: contact_points_t, sliding_t
+   use atrito_points, only: contact_points_t
    use atrito_sliding_bodies, only: motions_left
    use atrito_sliding_motions, only: first_of_master
    implicit none (type, external)
@@ -69,7 +69,10 @@ contains
       do i = 1, size(points, kind=ip)
          do j = 1, points(i)%n
             m = m + 1
-            if (points(i)%rigid .or. .not. rubs(i) .or. .not. is_curved(points(i)%sliding)) cycle
+            associate (sliding => points(i)%sliding)       ! one of the sides is round, and both slide along themselves
+               if (points(i)%rigid .or. .not. (rubs(i) .and. sliding%exists)) cycle
+               if (.not. (sliding%is_round .or. sliding%meets_round)) cycle
+            end associate
             call find_turn(points(i), j, fem, may_turn, rows%normal(:, m), node, turn, n)
             if (n == 0) cycle
             call make_room(turns%row, turns%n, turns%n + n)
@@ -83,13 +86,6 @@ contains
       end do
       if (turns%n > 0) call add_turns(turns, rows)
    end subroutine balance_rows
-
-   !> Whether one of the sides is round, and both slide along themselves.
-   pure logical function is_curved(sliding)
-      type(sliding_t), intent(in) :: sliding
-
-      is_curved = sliding%exists .and. (sliding%is_round .or. sliding%meets_round)
-   end function is_curved
 
    !> The nodes that tell the rotation of the master at a point, and what is n's in its rows; n = 0: nothing is.
    pure subroutine find_turn(points, j, fem, may_turn, normal, node, turn, n)
