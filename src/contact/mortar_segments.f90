@@ -105,7 +105,7 @@ contains
    pure subroutine join_curves(master, slave_compliance, master_compliance, segments)
       type(master_t), intent(in) :: master
       real(wp), intent(in) :: slave_compliance(:), master_compliance(:) !< of the faces [L^2/F]; nothing of a rigid master
-      type(segments_t), intent(inout) :: segments
+      type(segments_t), intent(inout) :: segments   !< those of the faces before
       real(wp) :: share
       integer(ip) :: i, k
 
@@ -122,8 +122,8 @@ contains
    !> Face i of the slave.
    pure function take_face(mesh, slave, i, segments) result(face)
       type(mesh_t), intent(in) :: mesh
-      type(face_list_t), intent(in) :: slave
-      integer(ip), intent(in) :: i
+      type(face_list_t), intent(in) :: slave        !< one chain, ordered
+      integer(ip), intent(in) :: i                  !< face of the slave
       type(segments_t), intent(in) :: segments
       type(slave_face_t) :: face
 
@@ -139,18 +139,18 @@ contains
 
    !> The place on a face of the slave at a coordinate of its own [L].
    pure function place_on_face(face, t) result(x)
-      type(slave_face_t), intent(in) :: face
+      type(slave_face_t), intent(in) :: face        !< of the slave
       real(wp), intent(in) :: t                     !< in [-1,1]
-      real(wp) :: x(2)
+      real(wp) :: x(2)                              !< [L]
 
       x = matmul(face%x(:, :face%n), face_shape_values(face%n, t))
    end function place_on_face
 
    !> The unit vector along which a place of the face looks for the master.
    pure function direction_at(face, t) result(d)
-      type(slave_face_t), intent(in) :: face
+      type(slave_face_t), intent(in) :: face        !< of the slave
       real(wp), intent(in) :: t                     !< in [-1,1]
-      real(wp) :: d(2)
+      real(wp) :: d(2)                              !< unit vector
 
       d = matmul(face%direction(:, :face%n), face_shape_values(face%n, t))
       d = d/norm2(d)
@@ -158,9 +158,9 @@ contains
 
    !> Ends of the face and places that face an end of a piece of the master, in ascending order; none where the master lies aside.
    pure subroutine find_cuts(face, master, cuts)
-      type(slave_face_t), intent(in) :: face
+      type(slave_face_t), intent(in) :: face        !< of the slave
       type(master_t), intent(in) :: master
-      real(wp), allocatable, intent(out) :: cuts(:)
+      real(wp), allocatable, intent(out) :: cuts(:) !< on the face, from -1 to 1
       type(search_t) :: search
       real(wp) :: strip, t
       integer(ip) :: first, last, i, k, n
@@ -189,7 +189,7 @@ contains
    !> Whether a place of the face that looks at an end of a piece may see it: from in front, and not from deep inside. What lies on
    !> the other side of a ring is behind the point where the directions meet; whether it cuts would hang on rounding.
    pure logical function can_see(face, t, master, i, k)
-      type(slave_face_t), intent(in) :: face
+      type(slave_face_t), intent(in) :: face        !< of the slave
       real(wp), intent(in) :: t                     !< in [-1,1]
       type(master_t), intent(in) :: master
       integer(ip), intent(in) :: i, k               !< the piece; 0 its first end, 1 the last
@@ -201,7 +201,7 @@ contains
                 distance >= -max(face%length, norm2(master%d(:, i)))
    end function can_see
 
-   !> Cuts in ascending order between -1 and 1, each once.
+   !> Cuts in ascending order between -1 and 1, each once; those nearer than SAME_CUT to the one before are it.
    pure function sorted_cuts(list) result(cuts)
       real(wp), intent(in) :: list(:)               !< in (-1,1)
       real(wp), allocatable :: cuts(:)
@@ -220,7 +220,7 @@ contains
 
    !> Half of the width [L] of the strip that a face looks into: its own, and what the directions spread on the way to the master.
    pure real(wp) function strip_of(face, master) result(strip)
-      type(slave_face_t), intent(in) :: face
+      type(slave_face_t), intent(in) :: face        !< of the slave
       type(master_t), intent(in) :: master
       real(wp) :: spread, far
 
@@ -233,9 +233,14 @@ contains
       strip = strip + spread*far
    end function strip_of
 
-   !> Where on the face the line of sight goes through x: Newton's method for cross(x - x(t), d(t)) = 0; outside [-1,1] if nowhere.
+   !> Where on the face the line of sight goes through x: Newton's method for F(t) = cross(x - x(t), d(t)) = 0; outside
+   !> [-1,1] if nowhere.
+   !>
+   !> It begins at the foot of x on the chord, and ends behind a step below DONE, whose error is about the square of
+   !> that, or below the rounding of the coordinates. Where the derivative vanishes, as where the directions of sight
+   !> meet, there is no such place.
    pure real(wp) function facing_place(face, x) result(t)
-      type(slave_face_t), intent(in) :: face
+      type(slave_face_t), intent(in) :: face        !< of the slave
       real(wp), intent(in) :: x(2)                  !< [L]
       real(wp), parameter :: NOWHERE = 9.0_wp
       real(wp) :: away(2), d(2), slope(2), value, derivative, step
@@ -259,11 +264,11 @@ contains
 
    !> The parts of the face between cuts that face a piece of the master.
    pure subroutine add_segments(face, master, cuts, i_face, segments)
-      type(slave_face_t), intent(in) :: face
+      type(slave_face_t), intent(in) :: face        !< of the slave
       type(master_t), intent(in) :: master
-      real(wp), intent(in) :: cuts(:)
-      integer(ip), intent(in) :: i_face
-      type(segments_t), intent(inout) :: segments
+      real(wp), intent(in) :: cuts(:)               !< rising, from -1 to 1
+      integer(ip), intent(in) :: i_face             !< number of the face
+      type(segments_t), intent(inout) :: segments   !< those of the faces before
       type(sight_t) :: sight
       real(wp) :: t, covered
       integer(ip) :: k, before

@@ -81,7 +81,7 @@ contains
       type(contact_line_t), intent(in) :: line
       type(bound_qp_t), intent(in) :: problem         !< of which the shape counts
       real(wp), intent(in) :: g0(:)                   !< (m) [L]
-      type(contact_solution_t), intent(inout) :: solution
+      type(contact_solution_t), intent(inout) :: solution !< inner%condition is set
       integer(ip) :: i
 
       solution%tau = [(0.0_wp, i=1, line%n)]
@@ -108,7 +108,7 @@ contains
 
    !> Estimates the condition of the last solve, which takes as long as some solutions with its factor.
    subroutine judge_condition(solution)
-      type(contact_solution_t), intent(inout) :: solution
+      type(contact_solution_t), intent(inout) :: solution !< inner%condition is set
 
       solution%inner%condition = condition_of(solution%factor)
    end subroutine judge_condition
@@ -136,7 +136,7 @@ contains
 
    !> The largest size of a bound and its image; 0 of none.
    pure real(wp) function largest_of(tau, image)
-      real(wp), intent(in) :: tau(:), image(:)
+      real(wp), intent(in) :: tau(:), image(:)      !< [F/L^2]
 
       largest_of = 0.0_wp
       if (size(tau) > 0) largest_of = max(maxval(abs(tau)), maxval(abs(image)))
