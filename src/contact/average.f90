@@ -39,7 +39,7 @@ contains
 
    !> W = 1: the local law.
    pure function identity_average(n) result(w)
-      integer(ip), intent(in) :: n
+      integer(ip), intent(in) :: n                  !< points
       type(average_t) :: w
 
       w%first = [1_ip]
@@ -49,7 +49,7 @@ contains
 
    !> More points, each of them its own average.
    pure subroutine add_identity_rows(n, w)
-      integer(ip), intent(in) :: n
+      integer(ip), intent(in) :: n                  !< points
       type(average_t), intent(inout) :: w
       integer(ip) :: j, entries
 
@@ -66,7 +66,7 @@ contains
       real(wp), intent(in) :: x(:, :)      !< (2, n) [L]
       real(wp), intent(in) :: length(:)    !< quadrature weights [L]
       real(wp), intent(in) :: rho          !< [L], >= 0
-      integer(ip), intent(in) :: kernel
+      integer(ip), intent(in) :: kernel             !< KERNEL_*
       integer(ip), intent(in), optional :: start(:)  !< the first points of the pairs on the surface; two pairs may share a node
       type(average_t) :: w
       integer(ip) :: j, k
@@ -93,7 +93,7 @@ contains
    !> Rows and columns of W. A point is near another as that one is near it, so that the points one after the other, each put into
    !> the rows of its neighbours, make the columns of every row rise.
    pure subroutine find_entries(x, rho, w)
-      real(wp), intent(in) :: x(:, :), rho
+      real(wp), intent(in) :: x(:, :), rho          !< (2, n) [L]; [L]
       type(average_t), intent(inout) :: w
       type(grid_t) :: grid
       integer(ip), allocatable :: near(:), next(:)
@@ -129,7 +129,7 @@ contains
    pure integer(lp) function count_entries(x, rho, most, start) result(entries)
       real(wp), intent(in) :: x(:, :)      !< (2, n) [L]
       real(wp), intent(in) :: rho          !< [L], >= 0
-      integer(lp), intent(in) :: most
+      integer(lp), intent(in) :: most               !< entries
       integer(ip), intent(in), optional :: start(:)  !< as in build_average
       type(grid_t) :: grid
       integer(ip) :: near(size(x, 2)), j, n, n_near
@@ -151,7 +151,7 @@ contains
 
    !> exp(rho^2/(r^2 - rho^2)) at q = r/rho, zero from q = 1 on.
    pure real(wp) function kernel_value(q)
-      real(wp), intent(in) :: q
+      real(wp), intent(in) :: q                     !< >= 0
 
       kernel_value = 0.0_wp
       if (q < 1.0_wp) kernel_value = exp(1.0_wp/((q - 1.0_wp)*(q + 1.0_wp)))
@@ -160,8 +160,8 @@ contains
 
    !> The least distance [L] of two points that follow each other in a pair.
    pure real(wp) function least_spacing(x, start)
-      real(wp), intent(in) :: x(:, :)
-      integer(ip), intent(in), optional :: start(:)
+      real(wp), intent(in) :: x(:, :)               !< (2, n) [L]
+      integer(ip), intent(in), optional :: start(:) !< as in build_average
       logical :: begins(size(x, 2))
       integer(ip) :: j
 
@@ -176,7 +176,7 @@ contains
    !> P = W p.
    pure function apply_average(w, p) result(average)
       type(average_t), intent(in) :: w
-      real(wp), intent(in) :: p(:)
+      real(wp), intent(in) :: p(:)                  !< (n) pressures [F/L^2]
       real(wp) :: average(size(p))
       integer(ip) :: j
 

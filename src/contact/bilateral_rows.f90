@@ -49,7 +49,9 @@ contains
       rows%first(1) = 1
    end subroutine begin_rows
 
-   !> Appends a row; entries of one node are added up, and those that are 0 are left out.
+   !> Appends a row, sum_k vectors(:, k) . u(nodes(k)) = value + compliance q; entries of one node are added up, and
+   !> those that are 0 are left out. weight: what shared forces are divided by; identity: kind of row, group of rows
+   !> that are judged together, place in the model's list.
    pure subroutine add_row(nodes, vectors, value, compliance, weight, identity, rows)
       integer(ip), intent(in) :: nodes(:)
       real(wp), intent(in) :: vectors(:, :)          !< (2, entries)

@@ -1,7 +1,12 @@
 !> The friction laws at a point, equation (5) with phi of the paper and Coulomb's with a stick slope.
 !>
-!> Both are t = min(|u_T| / c, tau) sign(u_T), with the bound tau and the stick compliance c: eps / tau for the law of Oden and
-!> Pires, 1 / k for Coulomb's. c = 0 is exact stick.
+!>     t = min(|u_T|/c, tau) sign(u_T)
+!>
+!> with the slip u_T, the bound tau and the stick compliance c. The law of Oden and Pires (NONLOCAL) has c = eps/tau:
+!> friction grows to its full value within the slip eps, whatever that value is. Coulomb's law with a stick slope k
+!> (LOCAL) has c = 1/k: it grows by the same slope at every pressure, and is full at the slip tau/k. c = 0 is exact
+!> stick, |t| <= tau with u_T = 0, or t = +-tau with slip the same way. t acts on the master along T; the stress of (5)
+!> on the slave is -t.
 module atrito_friction_law
    use atrito_kinds, only: ip, wp
    implicit none (type, external)

@@ -24,7 +24,7 @@ module atrito_master
    use atrito_kinds, only: ip, wp
    use atrito_mesh, only: mesh_t, face_end, face_nodes
    use atrito_piece_tree, only: piece_tree_t, search_t, plant, begin_search, next_leaf, FACING
-   use atrito_pieces, only: pieces_t, allocate_pieces, sag_of, sweep_of, place_at, normal_at, cross_piece, cross, END_TOLERANCE
+   use atrito_pieces, only: pieces_t, allocate_pieces, sag_of, place_at, normal_at, cross_piece, cross, END_TOLERANCE
    use atrito_slave_faces, only: sine, CORNER
    use atrito_smooth_normals, only: smooth_surface
    implicit none (type, external)
@@ -64,7 +64,7 @@ contains
    !> The faces of elements as a master; their outside lies at the right of the direction of travel.
    pure subroutine master_of_faces(mesh, faces, master, grain)
       type(mesh_t), intent(in) :: mesh
-      type(face_list_t), intent(in) :: faces
+      type(face_list_t), intent(in) :: faces        !< of the master, in the order of its pieces
       type(master_t), intent(out) :: master
       real(wp), intent(in), optional :: grain       !< to which the nodes of the mesh are known [L]; left out: all digits
       integer(ip), allocatable :: nodes(:)
@@ -100,10 +100,10 @@ contains
    end subroutine begin_ends
 
    !> At a node that two faces share the curvature is the mean of theirs, so that it does not matter which one is seen; at a corner
-   !> each has its own.
+   !> each has its own, and the corner is noted as a kink.
    pure subroutine join_faces(mesh, faces, curvature, master)
       type(mesh_t), intent(in) :: mesh
-      type(face_list_t), intent(in) :: faces
+      type(face_list_t), intent(in) :: faces        !< of the master, in the order of its pieces
       real(wp), intent(in) :: curvature(:)
       type(master_t), intent(inout) :: master
       type(id_map_t) :: begins                      ! face of its first node
@@ -136,7 +136,9 @@ contains
       call plant(master%pieces_t, master%tree)
    end subroutine turn_master
 
-   !> Rigid segments: the outward normal is the direction of travel turned by +90 degrees.
+   !> Rigid segments and arcs: the outward normal is the direction of travel turned by +90 degrees. They have the
+   !> curvature that they are given, 1/R of an arc and 0 of a segment, and no smooth surface is made of them: a joint is
+   !> a kink where the normal turns, by A_KINK or more altogether, or where the curvature jumps.
    pure subroutine master_of_segments(ends, master, is_arc, centre)
       real(wp), intent(in) :: ends(:, :)            !< (2, segments + 1) [L]
       type(master_t), intent(out) :: master
@@ -155,7 +157,9 @@ contains
          do i = 1, n
             if (.not. is_arc(i)) cycle
             master%centre(:, i) = centre(:, i)
-            master%sweep(i) = sweep_of(ends(:, i), ends(:, i + 1), centre(:, i))
+            associate (from => ends(:, i) - centre(:, i), to => ends(:, i + 1) - centre(:, i))
+               master%sweep(i) = atan2(cross(from, to), dot_product(from, to))
+            end associate
          end do
       end if
       allocate (master%ends(2, 2, n), curvature(n), master%bend(n), source=0.0_wp)
@@ -179,7 +183,7 @@ contains
    !> bent piece it is right as it is.
    pure function smooth_normal(master, i, t) result(n)
       type(master_t), intent(in) :: master
-      integer(ip), intent(in) :: i
+      integer(ip), intent(in) :: i                  !< piece
       real(wp), intent(in) :: t                     !< in [0,1]
       real(wp) :: n(2), share(2)
 
@@ -195,7 +199,7 @@ contains
    !> that, and it does not depend on who is the slave. Of straight sides it is the slave's.
    pure real(wp) function share_of_master(master, i, t, slave_curvature) result(share)
       type(master_t), intent(in) :: master
-      integer(ip), intent(in) :: i
+      integer(ip), intent(in) :: i                  !< piece
       real(wp), intent(in) :: t                     !< in [0,1]
       real(wp), intent(in) :: slave_curvature       !< [1/L] >= 0
       real(wp) :: both
@@ -207,7 +211,7 @@ contains
    !> How far a place of a piece is a kink of the master, 0..1: the next piece, which is another side, begins within `reach` of it.
    pure real(wp) function kink_near(master, i, t, reach) result(kink)
       type(master_t), intent(in) :: master
-      integer(ip), intent(in) :: i
+      integer(ip), intent(in) :: i                  !< piece
       real(wp), intent(in) :: t                     !< in [0,1]
       real(wp), intent(in) :: reach                 !< [L]
       real(wp) :: away
@@ -224,7 +228,7 @@ contains
    !> lies deeper inside than the longer of the slave's face and the piece. A piece that the line misses by END_TOLERANCE or less is
    !> taken only where no other is as near. The distance is that to the piece or its continuation.
    pure function look_along(x, normal, reach, master) result(best)
-      real(wp), intent(in) :: x(2), normal(2)
+      real(wp), intent(in) :: x(2), normal(2)       !< place [L] and unit vector of the line
       real(wp), intent(in) :: reach                 !< length of the slave's face [L]
       type(master_t), intent(in) :: master
       type(sight_t) :: best
@@ -246,11 +250,11 @@ contains
 
    !> Takes a piece where it is nearer than the best so far, or as near and earlier in the list.
    pure subroutine look_at_piece(x, normal, reach, master, i, nearest, best)
-      real(wp), intent(in) :: x(2), normal(2), reach
+      real(wp), intent(in) :: x(2), normal(2), reach !< line; length of the slave's face [L]
       type(master_t), intent(in) :: master
-      integer(ip), intent(in) :: i
+      integer(ip), intent(in) :: i                  !< piece
       real(wp), intent(inout) :: nearest            !< [L]
-      type(sight_t), intent(inout) :: best
+      type(sight_t), intent(inout) :: best          !< the best so far
       real(wp) :: t(2), distance, nearness
       integer(ip) :: k, n_roots
 
@@ -271,7 +275,7 @@ contains
 
    !> Round-off does not move a point off a node of the master.
    pure real(wp) function at_node(t) result(place)
-      real(wp), intent(in) :: t
+      real(wp), intent(in) :: t                     !< share of the piece, 0 to 1
       integer(ip) :: k
 
       place = t
@@ -282,7 +286,7 @@ contains
 
    !> The end of the master that the line through x along the normal misses by no more than its distance times `turn`.
    pure function look_at_end(x, normal, reach, turn, master) result(best)
-      real(wp), intent(in) :: x(2), normal(2), reach
+      real(wp), intent(in) :: x(2), normal(2), reach !< line; length of the slave's face [L]
       real(wp), intent(in) :: turn                  !< sine of the angle by which the normal is in doubt
       type(master_t), intent(in) :: master
       type(sight_t) :: best
@@ -294,10 +298,11 @@ contains
       if (away > turn*abs(best%distance) .or. best%distance < -max(reach, norm2(master%d(:, best%piece)))) best = sight_t()
    end function look_at_end
 
-   !> The master's end that is nearest to the line through x along the normal, of the pieces that face it. Where none does, piece 0;
-   !> or the nearest of all, on any side.
+   !> The master's end y that is nearest to the line through x along the normal n, |cross(y - x, n)| being the least, of
+   !> the pieces that face it. Where none does, piece 0; or the nearest of all, on any side. A corner of the slave needs
+   !> one where the mean normal of its two faces misses the master.
    pure function nearest_end(x, normal, master, any_side) result(best)
-      real(wp), intent(in) :: x(2), normal(2)
+      real(wp), intent(in) :: x(2), normal(2)       !< place [L] and unit vector of the line
       type(master_t), intent(in) :: master
       logical, intent(in), optional :: any_side
       type(sight_t) :: best
@@ -323,12 +328,12 @@ contains
 
    !> Takes an end of a piece where it is nearer than the best so far, or as near and earlier in the list.
    pure subroutine look_at_ends(x, normal, master, i, facing_below, least, best)
-      real(wp), intent(in) :: x(2), normal(2)
+      real(wp), intent(in) :: x(2), normal(2)       !< place [L] and unit vector of the line
       type(master_t), intent(in) :: master
-      integer(ip), intent(in) :: i
+      integer(ip), intent(in) :: i                  !< piece
       real(wp), intent(in) :: facing_below          !< cosine of the two normals from which on it is seen from behind
       real(wp), intent(inout) :: least              !< [L]
-      type(sight_t), intent(inout) :: best
+      type(sight_t), intent(inout) :: best          !< the best so far
       real(wp) :: away, d(2), t
       integer(ip) :: k
 

@@ -44,7 +44,7 @@ module atrito_mortar_points
    use atrito_mortar_segments, only: segments_t, slave_face_t, cut_slave, join_curves, take_face, place_on_face, direction_at
    use atrito_plane_state, only: depth_at
    use atrito_pieces, only: cross_piece, place_at
-   use atrito_points, only: contact_points_t, terms_t, allocate_points, add_point, add_entries, add_term, trim_points
+   use atrito_points, only: contact_points_t, terms_t, allocate_points, add_point, add_entries, add_term, drop_points
    use atrito_shape_functions, only: face_shape_values, gauss_rule
    use atrito_revolved_faces, only: is_at_axis, hats
    use atrito_slave_faces, only: nodal_rule_t, nodal_rule, common_ends, sine, clear_small_component, CORNER
@@ -144,7 +144,7 @@ contains
       type(mesh_t), intent(in) :: mesh
       type(face_list_t), intent(in) :: slave        !< one chain, ordered
       type(segments_t), intent(in) :: segments
-      integer(ip), intent(in) :: i
+      integer(ip), intent(in) :: i                  !< face of the slave
       integer(ip) :: k
 
       k = i - 1
@@ -160,12 +160,12 @@ contains
    !> The integrals over the segments of a face.
    subroutine integrate_face(mesh, face, i, tips, segments, faces, master, integrals)
       type(mesh_t), intent(in) :: mesh
-      type(slave_face_t), intent(in) :: face
+      type(slave_face_t), intent(in) :: face        !< of the slave
       integer(ip), intent(in) :: i, tips(:)         !< nodes of both sides
       type(segments_t), intent(in) :: segments
       type(face_list_t), intent(in) :: faces        !< of the master
       type(master_t), intent(in) :: master
-      type(face_integrals_t), intent(out) :: integrals
+      type(face_integrals_t), intent(out) :: integrals !< of the face
       real(wp) :: gauss(N_GAUSS), weights(N_GAUSS), t, weight
       integer(ip), allocatable :: nodes(:)
       integer(ip) :: k, g
@@ -190,16 +190,22 @@ contains
       if (integrals%is_whole) call make_dual(face%n, integrals)
    end subroutine integrate_face
 
-   !> Adds what a place of the slave is worth. Displacements that are linear along a chord show nothing of the curve that both sides
-   !> take under pressure: it bulges by curvature/8 times the square of the chord in its middle.
+   !> Adds what a place x(t) of the slave is worth to the integrals, with ds = weight |dx/dt| and the depth h there:
+   !>
+   !>     length += psi ds,   weight += psi h ds,   normal += psi n h ds,   gap += psi (g + bulge) h ds,   slave += psi phi' h ds,
+   !>
+   !> and the master's psi phi_m' h ds. Displacements that are linear along a chord show nothing of the curve that both
+   !> sides take under pressure: it bulges over a chord c by k c^2/8 (1 - t^2), k its curvature. On the master's chord,
+   !> with t in [0,1], that is k c^2/2 t (1 - t); on the slave's, less its own bulge, see lift_of. A weight of 0 counts
+   !> for the least gap alone.
    pure subroutine add_place(face, t, weight, master, piece, nodes, curvature, integrals)
-      type(slave_face_t), intent(in) :: face
+      type(slave_face_t), intent(in) :: face        !< of the slave
       real(wp), intent(in) :: t, weight             !< on the face, in [-1,1]
       type(master_t), intent(in) :: master
       integer(ip), intent(in) :: piece              !< of the master, that the place faces
       integer(ip), intent(in) :: nodes(:)           !< of the piece; none of a rigid one
       real(wp), intent(in) :: curvature             !< of the curve that both sides take under pressure [1/L]
-      type(face_integrals_t), intent(inout) :: integrals
+      type(face_integrals_t), intent(inout) :: integrals !< of the face
       real(wp) :: ds, psi(MOST), phi(MOST), on_master, normal(2), across(2), gap, distance, bulge
 
       associate (n => face%n)
@@ -234,7 +240,7 @@ contains
    pure real(wp) function lift_of(square, master, piece, is_chord, curvature) result(lift)
       real(wp), intent(in) :: square                !< of the chord's length [L^2]
       type(master_t), intent(in) :: master
-      integer(ip), intent(in) :: piece
+      integer(ip), intent(in) :: piece              !< of the master
       logical, intent(in) :: is_chord               !< the piece of the master is one, too
       real(wp), intent(in) :: curvature             !< of the curve that both sides take under pressure [1/L]
 
@@ -244,12 +250,13 @@ contains
    end function lift_of
 
    !> Whether a face is covered whole, and which nodes get a weighting function where it is not: those that are covered, or the
-   !> one that is nearest to what is.
+   !> one that is nearest to what is. A node within AT_NODE outside of what is covered counts as
+   !> covered, so where both sides end together the rounding of their coordinates decides nothing.
    pure subroutine judge_cover(face, tips, from, to, integrals)
-      type(slave_face_t), intent(in) :: face
+      type(slave_face_t), intent(in) :: face        !< of the slave
       integer(ip), intent(in) :: tips(:)            !< nodes without a point
       real(wp), intent(in) :: from(:), to(:)        !< of its segments
-      type(face_integrals_t), intent(inout) :: integrals
+      type(face_integrals_t), intent(inout) :: integrals !< of the face
       real(wp), parameter :: NODES(MOST) = [-1.0_wp, 1.0_wp, 0.0_wp]
       real(wp) :: away(MOST)
       logical :: may_have(MOST)
@@ -274,10 +281,10 @@ contains
    !> The place t in [0,1] of a piece that a place of the slave faces, the direction in which they would touch, and how far off it
    !> is along that.
    pure subroutine look_at_piece(face, t, master, piece, on_master, normal, gap)
-      type(slave_face_t), intent(in) :: face
-      real(wp), intent(in) :: t
+      type(slave_face_t), intent(in) :: face        !< of the slave
+      real(wp), intent(in) :: t                     !< on the face, in [-1,1]
       type(master_t), intent(in) :: master
-      integer(ip), intent(in) :: piece
+      integer(ip), intent(in) :: piece              !< of the master
       real(wp), intent(out) :: on_master, normal(2), gap !< gap: [L]
       real(wp) :: x(2), d(2), roots(2), distance, nearest
       integer(ip) :: k, n
@@ -300,10 +307,10 @@ contains
 
    !> Adds a place's part of the master's integrals. A node is looked for among those of the pieces before.
    pure subroutine add_master(nodes, values, psi, integrals)
-      integer(ip), intent(in) :: nodes(:)
+      integer(ip), intent(in) :: nodes(:)           !< of the piece
       real(wp), intent(in) :: values(:)             !< shape functions
       real(wp), intent(in) :: psi(MOST)             !< times weight [L^2]
-      type(face_integrals_t), intent(inout) :: integrals
+      type(face_integrals_t), intent(inout) :: integrals !< of the face
       integer(ip) :: k, at, recent
 
       recent = max(integrals%n - 2*MOST, 0_ip)
@@ -318,10 +325,15 @@ contains
       end do
    end subroutine add_master
 
-   !> From shape functions to the functions that are dual to them: psi = A phi, A = D M^-1, M = int phi phi', D = diag(int phi).
+   !> From shape functions to the functions that are dual to them: psi = A phi, A = D M^-1, M = int phi phi' h ds, D =
+   !> diag(int phi h ds).
+   !>
+   !> All integrals are linear in psi, so those with the dual functions are A times those with phi. The weights stay: A has row sums
+   !> that keep them, sum_b A_ab D_bb = D_aa, since M 1 = D 1. Lengths and normals, means round the node, are those with phi.
+   !> int psi phi' h ds = A M = D, exactly.
    subroutine make_dual(n, integrals)
-      integer(ip), intent(in) :: n
-      type(face_integrals_t), intent(inout) :: integrals
+      integer(ip), intent(in) :: n                  !< nodes of the face
+      type(face_integrals_t), intent(inout) :: integrals !< of the face
       real(wp) :: m(n, n), a(n, n)
       integer(ip) :: k
       integer :: info
@@ -342,14 +354,15 @@ contains
       end do
    end subroutine make_dual
 
-   !> Adds the integrals of a face to its points.
+   !> Adds the integrals of a face to its points, which are made when their node is met for the first time. At a corner of the slave
+   !> the gap is that along the master's normals, and these make the normal of the point.
    pure subroutine add_face(mesh, face, rule, s, integrals, rows, points)
       type(mesh_t), intent(in) :: mesh
-      type(slave_face_t), intent(in) :: face
+      type(slave_face_t), intent(in) :: face        !< of the slave
       type(nodal_rule_t), intent(in) :: rule        !< of the face
       real(wp), intent(in) :: s                     !< arc length at the beginning of the face [L]
-      type(face_integrals_t), intent(in) :: integrals
-      type(rows_t), intent(inout) :: rows
+      type(face_integrals_t), intent(in) :: integrals !< of the face
+      type(rows_t), intent(inout) :: rows           !< of the faces so far
       type(contact_points_t), intent(inout) :: points
       integer(ip) :: order(MOST), k, a, b, j
 
@@ -383,7 +396,7 @@ contains
    !> psi change their signs, and with them the mean may be below all gaps: sides that touch beside a bend do not overlap.
    subroutine finish_points(mesh, rows, points)
       type(mesh_t), intent(in) :: mesh
-      type(rows_t), intent(in) :: rows
+      type(rows_t), intent(in) :: rows              !< of all faces
       type(contact_points_t), intent(inout) :: points
       integer(ip), allocatable :: first_own(:), first_other(:), of_own(:), of_other(:)
       real(wp) :: round_off
@@ -405,12 +418,12 @@ contains
          if (.not. is_revolved(mesh)) call place_force(mesh, j, points)
          call gather(rows%master, of_other(first_other(j):first_other(j + 1) - 1), j, points)
       end do
-      call trim_points(points)
+      call drop_points([0_ip], points)
    end subroutine finish_points
 
    !> The terms of each of n points.
    subroutine list_terms(n, terms, first, of_point)
-      integer(ip), intent(in) :: n
+      integer(ip), intent(in) :: n                  !< nodes of the face
       type(terms_t), intent(in) :: terms
       integer(ip), allocatable, intent(out) :: first(:)    !< (n + 1)
       integer(ip), allocatable, intent(out) :: of_point(:) !< those of point j are first(j) .. first(j + 1) - 1
@@ -437,10 +450,11 @@ contains
    end subroutine place_force
 
    !> Appends terms of a point to its row, those of one node together, over its weight: its own node first, others by number.
+   !> Coefficients below ROUND_OFF are left out; they are rounding of the integrals.
    pure subroutine gather(terms, list, j, points)
       type(terms_t), intent(in) :: terms
       integer(ip), intent(in) :: list(:)            !< terms of the point
-      integer(ip), intent(in) :: j
+      integer(ip), intent(in) :: j                  !< point
       type(contact_points_t), intent(inout) :: points
       integer(ip) :: order(size(list)), k
       real(wp) :: value

@@ -72,19 +72,22 @@ module atrito_mortar_segments
 
 contains
 
-   !> Cuts all faces.
+   !> Cuts all faces of a slave. The directions of sight at the ends of faces are normals of the smooth surface.
    pure subroutine cut_slave(mesh, slave, master, segments)
       type(mesh_t), intent(in) :: mesh
       type(face_list_t), intent(in) :: slave        !< one chain, ordered (order_chain)
       type(master_t), intent(in) :: master
       type(segments_t), intent(out) :: segments
       type(slave_face_t) :: face
-      real(wp), allocatable :: cuts(:)
+      real(wp), allocatable :: ends(:, :, :), cuts(:)
       integer(ip) :: i
 
-      call find_directions(mesh, slave, master%grain, segments)
-      allocate (segments%first(slave%n + 1), source=1_ip)
+      call smooth_surface(mesh, slave, ends, segments%curvature, segments%bend, master%grain)
+      allocate (segments%direction(2, 3, slave%n), segments%first(slave%n + 1))
+      segments%direction(:, :2, :) = ends
+      segments%first(1) = 1
       do i = 1, slave%n
+         segments%direction(:, 3, i) = outward_normal(mesh%x(:, face_nodes(mesh, slave%element(i), slave%face(i))), 0.0_wp)
          face = take_face(mesh, slave, i, segments)
          segments%first(i + 1) = segments%first(i)
          call find_cuts(face, master, cuts)
@@ -102,7 +105,7 @@ contains
    pure subroutine join_curves(master, slave_compliance, master_compliance, segments)
       type(master_t), intent(in) :: master
       real(wp), intent(in) :: slave_compliance(:), master_compliance(:) !< of the faces [L^2/F]; nothing of a rigid master
-      type(segments_t), intent(inout) :: segments
+      type(segments_t), intent(inout) :: segments   !< those of the faces before
       real(wp) :: share
       integer(ip) :: i, k
 
@@ -116,28 +119,11 @@ contains
       end do
    end subroutine join_curves
 
-   !> The directions of sight: normals of the smooth surface.
-   pure subroutine find_directions(mesh, slave, grain, segments)
-      type(mesh_t), intent(in) :: mesh
-      type(face_list_t), intent(in) :: slave
-      real(wp), intent(in) :: grain                 !< to which the nodes are known [L]
-      type(segments_t), intent(inout) :: segments
-      real(wp), allocatable :: ends(:, :, :)
-      integer(ip) :: i
-
-      call smooth_surface(mesh, slave, ends, segments%curvature, segments%bend, grain)
-      allocate (segments%direction(2, 3, slave%n))
-      segments%direction(:, :2, :) = ends
-      do i = 1, slave%n
-         segments%direction(:, 3, i) = outward_normal(mesh%x(:, face_nodes(mesh, slave%element(i), slave%face(i))), 0.0_wp)
-      end do
-   end subroutine find_directions
-
    !> Face i of the slave.
    pure function take_face(mesh, slave, i, segments) result(face)
       type(mesh_t), intent(in) :: mesh
-      type(face_list_t), intent(in) :: slave
-      integer(ip), intent(in) :: i
+      type(face_list_t), intent(in) :: slave        !< one chain, ordered
+      integer(ip), intent(in) :: i                  !< face of the slave
       type(segments_t), intent(in) :: segments
       type(slave_face_t) :: face
 
@@ -153,18 +139,18 @@ contains
 
    !> The place on a face of the slave at a coordinate of its own [L].
    pure function place_on_face(face, t) result(x)
-      type(slave_face_t), intent(in) :: face
+      type(slave_face_t), intent(in) :: face        !< of the slave
       real(wp), intent(in) :: t                     !< in [-1,1]
-      real(wp) :: x(2)
+      real(wp) :: x(2)                              !< [L]
 
       x = matmul(face%x(:, :face%n), face_shape_values(face%n, t))
    end function place_on_face
 
    !> The unit vector along which a place of the face looks for the master.
    pure function direction_at(face, t) result(d)
-      type(slave_face_t), intent(in) :: face
+      type(slave_face_t), intent(in) :: face        !< of the slave
       real(wp), intent(in) :: t                     !< in [-1,1]
-      real(wp) :: d(2)
+      real(wp) :: d(2)                              !< unit vector
 
       d = matmul(face%direction(:, :face%n), face_shape_values(face%n, t))
       d = d/norm2(d)
@@ -172,9 +158,9 @@ contains
 
    !> Ends of the face and places that face an end of a piece of the master, in ascending order; none where the master lies aside.
    pure subroutine find_cuts(face, master, cuts)
-      type(slave_face_t), intent(in) :: face
+      type(slave_face_t), intent(in) :: face        !< of the slave
       type(master_t), intent(in) :: master
-      real(wp), allocatable, intent(out) :: cuts(:)
+      real(wp), allocatable, intent(out) :: cuts(:) !< on the face, from -1 to 1
       type(search_t) :: search
       real(wp) :: strip, t
       integer(ip) :: first, last, i, k, n
@@ -203,7 +189,7 @@ contains
    !> Whether a place of the face that looks at an end of a piece may see it: from in front, and not from deep inside. What lies on
    !> the other side of a ring is behind the point where the directions meet; whether it cuts would hang on rounding.
    pure logical function can_see(face, t, master, i, k)
-      type(slave_face_t), intent(in) :: face
+      type(slave_face_t), intent(in) :: face        !< of the slave
       real(wp), intent(in) :: t                     !< in [-1,1]
       type(master_t), intent(in) :: master
       integer(ip), intent(in) :: i, k               !< the piece; 0 its first end, 1 the last
@@ -215,7 +201,7 @@ contains
                 distance >= -max(face%length, norm2(master%d(:, i)))
    end function can_see
 
-   !> Cuts in ascending order between -1 and 1, each once.
+   !> Cuts in ascending order between -1 and 1, each once; those nearer than SAME_CUT to the one before are it.
    pure function sorted_cuts(list) result(cuts)
       real(wp), intent(in) :: list(:)               !< in (-1,1)
       real(wp), allocatable :: cuts(:)
@@ -234,7 +220,7 @@ contains
 
    !> Half of the width [L] of the strip that a face looks into: its own, and what the directions spread on the way to the master.
    pure real(wp) function strip_of(face, master) result(strip)
-      type(slave_face_t), intent(in) :: face
+      type(slave_face_t), intent(in) :: face        !< of the slave
       type(master_t), intent(in) :: master
       real(wp) :: spread, far
 
@@ -247,9 +233,14 @@ contains
       strip = strip + spread*far
    end function strip_of
 
-   !> Where on the face the line of sight goes through x: Newton's method for cross(x - x(t), d(t)) = 0; outside [-1,1] if nowhere.
+   !> Where on the face the line of sight goes through x: Newton's method for F(t) = cross(x - x(t), d(t)) = 0; outside
+   !> [-1,1] if nowhere.
+   !>
+   !> It begins at the foot of x on the chord, and ends behind a step below DONE, whose error is about the square of
+   !> that, or below the rounding of the coordinates. Where the derivative vanishes, as where the directions of sight
+   !> meet, there is no such place.
    pure real(wp) function facing_place(face, x) result(t)
-      type(slave_face_t), intent(in) :: face
+      type(slave_face_t), intent(in) :: face        !< of the slave
       real(wp), intent(in) :: x(2)                  !< [L]
       real(wp), parameter :: NOWHERE = 9.0_wp
       real(wp) :: away(2), d(2), slope(2), value, derivative, step
@@ -273,11 +264,11 @@ contains
 
    !> The parts of the face between cuts that face a piece of the master.
    pure subroutine add_segments(face, master, cuts, i_face, segments)
-      type(slave_face_t), intent(in) :: face
+      type(slave_face_t), intent(in) :: face        !< of the slave
       type(master_t), intent(in) :: master
-      real(wp), intent(in) :: cuts(:)
-      integer(ip), intent(in) :: i_face
-      type(segments_t), intent(inout) :: segments
+      real(wp), intent(in) :: cuts(:)               !< rising, from -1 to 1
+      integer(ip), intent(in) :: i_face             !< number of the face
+      type(segments_t), intent(inout) :: segments   !< those of the faces before
       type(sight_t) :: sight
       real(wp) :: t, covered
       integer(ip) :: k, before

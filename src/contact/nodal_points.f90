@@ -27,8 +27,7 @@ module atrito_nodal_points
    use atrito_piece_tree, only: is_far_off
    use atrito_pieces, only: place_at
    use atrito_plane_state, only: depth_at, IS_TAPERED, STATES
-   use atrito_points, only: contact_points_t, terms_t, allocate_points, add_point, add_entries, drop_points, &
-                            trim_points
+   use atrito_points, only: contact_points_t, terms_t, allocate_points, add_point, add_entries, drop_points
    use atrito_revolved_faces, only: revolved_face_t, revolve_face, note_mixed, mix_rows
    use atrito_shape_functions, only: face_shape_values
    use atrito_slave_faces, only: nodal_rule_t, nodal_rule, common_ends, turn_at, sine, clear_small_component, CORNER
@@ -75,7 +74,6 @@ contains
       call allocate_points(3*slave%n, 3*slave%n*NODAL_ENTRIES, points)
       call place_points(mesh, thickness, slave, used, master%grain, points, curvature, mixed)
       call look_for_master(mesh, master, master_faces, curvature, points)
-      call trim_points(points)
       if (.not. master%rigid) points%matching = are_matching(mesh, slave, master, points)
       call mix_rows(mixed, points)
       call drop_points(common_ends(mesh, slave, master_faces), points)
@@ -85,8 +83,8 @@ contains
    !> only as good as the faces resolve the curve: at the end of the master it may miss by as much as the normal turns at the face.
    pure logical function finds_master(mesh, slave, i, master) result(finds)
       type(mesh_t), intent(in) :: mesh
-      type(face_list_t), intent(in) :: slave
-      integer(ip), intent(in) :: i
+      type(face_list_t), intent(in) :: slave        !< one chain, ordered
+      integer(ip), intent(in) :: i                  !< face of the slave
       type(master_t), intent(in) :: master
       type(nodal_rule_t) :: rule
       integer(ip) :: k
@@ -102,8 +100,8 @@ contains
    !> A node of the face finds the master, or the middle of a straight one does.
    pure logical function sees_master(mesh, slave, i, master) result(sees)
       type(mesh_t), intent(in) :: mesh
-      type(face_list_t), intent(in) :: slave
-      integer(ip), intent(in) :: i
+      type(face_list_t), intent(in) :: slave        !< one chain, ordered
+      integer(ip), intent(in) :: i                  !< face of the slave
       type(master_t), intent(in) :: master
       type(nodal_rule_t) :: rule
       type(sight_t) :: sight
@@ -120,10 +118,10 @@ contains
    !> Whether a node of face i sees the master along the face's normal there, or an end of it within the doubt about that normal.
    pure logical function node_finds(mesh, slave, i, rule, k, master) result(finds)
       type(mesh_t), intent(in) :: mesh
-      type(face_list_t), intent(in) :: slave
-      integer(ip), intent(in) :: i
+      type(face_list_t), intent(in) :: slave        !< one chain, ordered
+      integer(ip), intent(in) :: i                  !< face of the slave
       type(nodal_rule_t), intent(in) :: rule           !< of face i
-      integer(ip), intent(in) :: k
+      integer(ip), intent(in) :: k                  !< node of the face, in the order of travel
       type(master_t), intent(in) :: master
       type(sight_t) :: sight
 
@@ -136,16 +134,18 @@ contains
       finds = sight%piece > 0
    end function node_finds
 
-   !> One point a slave node; weights and normals of the faces that share it are summed.
+   !> One point a slave node; weights and normals of the faces that share it are summed: l_j = sum l_a, w_j = sum l_a
+   !> h_a, and the normal is that of sum l_a n_a. The curvature of a point is the mean of its faces', weighted by l_a,
+   !> and AT_CORNER where they meet at a corner.
    pure subroutine place_points(mesh, thickness, slave, used, grain, points, curvature, mixed)
       type(mesh_t), intent(in) :: mesh
-      real(wp), intent(in) :: thickness(:)
-      type(face_list_t), intent(in) :: slave
-      logical, intent(in) :: used(:)
+      real(wp), intent(in) :: thickness(:)          !< of each element [L]
+      type(face_list_t), intent(in) :: slave        !< one chain, ordered
+      logical, intent(in) :: used(:)                !< (faces) that take part
       real(wp), intent(in) :: grain                 !< to which the nodes are known [L]
       type(contact_points_t), intent(inout) :: points
       real(wp), allocatable, intent(out) :: curvature(:) !< of the slave at the points [1/L]
-      type(terms_t), intent(inout) :: mixed
+      type(terms_t), intent(inout) :: mixed         !< of rows at the axis
       real(wp), allocatable :: ends(:, :, :), of_face(:), bend(:)
       type(id_map_t) :: place                       ! point of a node
       type(nodal_rule_t) :: rule
@@ -189,12 +189,13 @@ contains
       end do
    end subroutine place_points
 
-   !> Initial distances, and the master's shape functions where each point faces it. A distance that is round-off of the
-   !> coordinates is none: displacements may be smaller than that.
+   !> Initial distances, and the master's shape functions where each point faces it: the row u_j - sum phi_k(t) u_k. A
+   !> distance that is round-off of the coordinates is none: displacements may be smaller than that. A point at a corner
+   !> of the slave whose mean normal misses the master takes the end that is nearest to it.
    pure subroutine look_for_master(mesh, master, faces, curvature, points)
       type(mesh_t), intent(in) :: mesh
       type(master_t), intent(in) :: master
-      type(face_list_t), intent(in) :: faces
+      type(face_list_t), intent(in) :: faces        !< of the master
       real(wp), intent(in) :: curvature(:)          !< of the slave at the points [1/L]
       type(contact_points_t), intent(inout) :: points
       type(sight_t) :: sight
@@ -223,14 +224,17 @@ contains
       if (.not. master%rigid) call find_coarsest(mesh, master, faces, points)
    end subroutine look_for_master
 
-   !> The gap is measured along the normal that both sides have in common; at a kink of the master it is the slave's. A corner of
-   !> the slave looks along it once more, since the mean normal of its faces may lead far away.
+   !> The gap is measured along the normal that both sides have in common, n ~ (1 - f) n_s - f n_m, f = k_s/(k_s + k_m)
+   !> with the curvatures of both sides (share_of_master). f fades out where the master has a kink within NEAR_KINK of
+   !> the point's length, since the normal beyond it is another one, and where the sides hardly face each other
+   !> (ASLANT): the normal is the slave's there. A corner of the slave, whose curvature is without bound, takes the
+   !> master's normal and looks along it once more, since the mean normal of its faces may lead far away.
    pure subroutine turn_to_common_normal(master, curvature, x, length, sight, normal, gap)
       type(master_t), intent(in) :: master
       real(wp), intent(in) :: curvature             !< of the slave [1/L]
       real(wp), intent(in) :: x(2), length          !< [L]
-      type(sight_t), intent(inout) :: sight
-      real(wp), intent(inout) :: normal(2)
+      type(sight_t), intent(inout) :: sight         !< what the point sees
+      real(wp), intent(inout) :: normal(2)          !< in: of the slave; out: of both sides
       real(wp), intent(inout) :: gap                !< [L]
       real(wp) :: n(2), of_master(2), share
       type(sight_t) :: again
@@ -255,7 +259,7 @@ contains
    pure subroutine find_coarsest(mesh, master, faces, points)
       type(mesh_t), intent(in) :: mesh
       type(master_t), intent(in) :: master
-      type(face_list_t), intent(in) :: faces
+      type(face_list_t), intent(in) :: faces        !< of the master
       type(contact_points_t), intent(inout) :: points
       type(sight_t) :: sight
       real(wp) :: distance, spacing, d(2)
@@ -276,10 +280,10 @@ contains
       end do
    end subroutine find_coarsest
 
-   !> Each slave node faces a master node, neighbours face neighbours, and both sides are of one order.
+   !> Each slave node faces a master node (it has a coefficient of -1), neighbours face neighbours, and both sides are of one order.
    pure logical function are_matching(mesh, slave, master, points)
       type(mesh_t), intent(in) :: mesh
-      type(face_list_t), intent(in) :: slave
+      type(face_list_t), intent(in) :: slave        !< one chain, ordered
       type(master_t), intent(in) :: master
       type(contact_points_t), intent(in) :: points
       integer(ip) :: i

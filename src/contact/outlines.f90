@@ -57,8 +57,8 @@ contains
    !> The outer faces of all elements in the order of these, without those of cuts.
    subroutine list_outlines(mesh, around, body_of_element, outlines, cut)
       type(mesh_t), intent(in) :: mesh
-      type(node_elements_t), intent(in) :: around
-      integer(ip), intent(in) :: body_of_element(:)
+      type(node_elements_t), intent(in) :: around   !< elements round each node
+      integer(ip), intent(in) :: body_of_element(:) !< (elements)
       type(outlines_t), intent(out) :: outlines
       type(face_list_t), intent(in), optional :: cut !< faces that hold together with others
       integer(ip) :: i
@@ -79,7 +79,7 @@ contains
 
    !> Takes some faces out of a list.
    pure subroutine leave_out(some, faces)
-      type(face_list_t), intent(in) :: some
+      type(face_list_t), intent(in) :: some         !< that go
       type(face_list_t), intent(inout) :: faces
       integer(ip) :: i
 
@@ -92,7 +92,8 @@ contains
       end associate
    end subroutine leave_out
 
-   !> Where a face ends another one begins; two of them where corners of a body meet, and then neither goes on.
+   !> The face that goes on where each ends: the one that begins at its last node, unless the normal turns by a corner
+   !> there. Where corners of two bodies, or of one, meet in a node two faces begin, and neither goes on.
    subroutine join_faces(mesh, outlines)
       type(mesh_t), intent(in) :: mesh
       type(outlines_t), intent(inout) :: outlines
@@ -118,9 +119,9 @@ contains
    !> Outward unit normal of a face at t in [-1, 1].
    pure function normal_of(mesh, faces, i, t) result(normal)
       type(mesh_t), intent(in) :: mesh
-      type(face_list_t), intent(in) :: faces
-      integer(ip), intent(in) :: i
-      real(wp), intent(in) :: t
+      type(face_list_t), intent(in) :: faces        !< of the outlines
+      integer(ip), intent(in) :: i                  !< face
+      real(wp), intent(in) :: t                     !< on the face, in [-1,1]
       real(wp) :: normal(2)
 
       normal = outward_normal(mesh%x(:, face_nodes(mesh, faces%element(i), faces%face(i))), t)
@@ -131,7 +132,7 @@ contains
    subroutine look_around(mesh, outlines, rigid, distance, seen)
       type(mesh_t), intent(in) :: mesh
       type(outlines_t), intent(in) :: outlines
-      type(master_t), intent(in) :: rigid(:)
+      type(master_t), intent(in) :: rigid(:)        !< all rigid surfaces that may be seen
       real(wp), intent(in) :: distance               !< [L]; 0: half of the longer one of the two faces, of the face for a rigid one
       type(sighting_t), allocatable, intent(out) :: seen(:)   !< (faces)
       type(master_t) :: all
@@ -159,8 +160,8 @@ contains
    pure subroutine aim(mesh, outlines, i, line)
       type(mesh_t), intent(in) :: mesh
       type(outlines_t), intent(in) :: outlines
-      integer(ip), intent(in) :: i
-      type(line_t), intent(out) :: line
+      integer(ip), intent(in) :: i                  !< face
+      type(line_t), intent(out) :: line             !< of sight
       integer(ip), allocatable :: nodes(:)
 
       nodes = face_nodes(mesh, outlines%faces%element(i), outlines%faces%face(i))
@@ -169,16 +170,18 @@ contains
       line%near = ROUND_OFFS*EPS_MACH*maxval(abs(mesh%x(:, nodes)))
    end subroutine aim
 
-   !> The nearest face of another body that is not hidden by the own one, in front or behind.
+   !> The nearest face of another body that is not hidden by the own one, in front or behind: of the faces that the line
+   !> crosses those of the own body make front and back, then each of another body between these is asked. Of faces as
+   !> near the first of the list counts.
    pure subroutine look_at_bodies(outlines, i, line, all, is_given, piece, away, seen)
       type(outlines_t), intent(in) :: outlines
-      integer(ip), intent(in) :: i
-      type(line_t), intent(in) :: line
+      integer(ip), intent(in) :: i                  !< face
+      type(line_t), intent(in) :: line              !< of sight
       type(master_t), intent(in) :: all              !< all faces of the outlines
       logical, intent(in) :: is_given                !< the limit is the distance that the user gives
-      integer(ip), allocatable, intent(inout) :: piece(:)
-      real(wp), allocatable, intent(inout) :: away(:)
-      type(sighting_t), intent(inout) :: seen
+      integer(ip), allocatable, intent(inout) :: piece(:) !< room for a list
+      real(wp), allocatable, intent(inout) :: away(:) !< room for its distances [L]
+      type(sighting_t), intent(inout) :: seen       !< the best so far
       real(wp) :: front, back, limit
       integer(ip) :: k, n
 
@@ -206,8 +209,8 @@ contains
    !> All pieces of a master that face the line and lie on it, no farther off than the limit on either side; a piece that is
    !> crossed twice stands there twice.
    pure subroutine look_both_ways(line, master, piece, away, n)
-      type(line_t), intent(in) :: line
-      type(master_t), intent(in) :: master
+      type(line_t), intent(in) :: line              !< of sight
+      type(master_t), intent(in) :: master          !< whose pieces are looked at
       integer(ip), allocatable, intent(inout) :: piece(:)    !< the first n are they; they grow where they are too short
       real(wp), allocatable, intent(inout) :: away(:)        !< [L] along the normal
       integer(ip), intent(out) :: n
@@ -227,12 +230,12 @@ contains
 
    !> Adds the places where the line meets one piece, each with its distance along the line.
    pure subroutine add_crossings(line, master, i, piece, away, n)
-      type(line_t), intent(in) :: line
-      type(master_t), intent(in) :: master
+      type(line_t), intent(in) :: line              !< of sight
+      type(master_t), intent(in) :: master          !< whose pieces are looked at
       integer(ip), intent(in) :: i                   !< the piece
-      integer(ip), allocatable, intent(inout) :: piece(:)
-      real(wp), allocatable, intent(inout) :: away(:)
-      integer(ip), intent(inout) :: n
+      integer(ip), allocatable, intent(inout) :: piece(:) !< room for a list
+      real(wp), allocatable, intent(inout) :: away(:) !< room for its distances [L]
+      integer(ip), intent(inout) :: n               !< crossings so far
       real(wp) :: t(2), distance
       integer(ip) :: k, n_roots
 
@@ -250,13 +253,13 @@ contains
       end do
    end subroutine add_crossings
 
-   !> A rigid surface that is nearer than what is seen of the bodies.
+   !> A rigid surface that is nearer than what is seen of the bodies; of several the nearest, of those as near the first.
    pure subroutine look_at_rigid(line, rigid, piece, away, seen)
-      type(line_t), intent(in) :: line
-      type(master_t), intent(in) :: rigid(:)
-      integer(ip), allocatable, intent(inout) :: piece(:)
-      real(wp), allocatable, intent(inout) :: away(:)
-      type(sighting_t), intent(inout) :: seen
+      type(line_t), intent(in) :: line              !< of sight
+      type(master_t), intent(in) :: rigid(:)        !< all rigid surfaces that may be seen
+      integer(ip), allocatable, intent(inout) :: piece(:) !< room for a list
+      real(wp), allocatable, intent(inout) :: away(:) !< room for its distances [L]
+      type(sighting_t), intent(inout) :: seen       !< the best so far
       integer(ip) :: r, k, n
 
       do r = 1, size(rigid, kind=ip)

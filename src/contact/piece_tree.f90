@@ -70,8 +70,8 @@ contains
    !> Puts the pieces into the tree. Those that are near each other come one after the other (Morton's order of their first ends),
    !> and are halved until few are left.
    pure subroutine plant(pieces, tree)
-      class(pieces_t), intent(in) :: pieces
-      type(piece_tree_t), intent(out) :: tree
+      class(pieces_t), intent(in) :: pieces         !< those of the tree
+      type(piece_tree_t), intent(out) :: tree       !< over all pieces
       integer(lp) :: key(pieces%n)
       real(wp) :: low(2), extent
       integer(ip) :: i
@@ -122,7 +122,7 @@ contains
 
    !> The boxes of a branch and of all below it.
    pure recursive subroutine enclose(pieces, tree, k, first, last)
-      class(pieces_t), intent(in) :: pieces
+      class(pieces_t), intent(in) :: pieces         !< those of the tree
       type(piece_tree_t), intent(inout) :: tree
       integer(ip), intent(in) :: k                  !< the branch
       integer(ip), intent(in) :: first, last        !< its pieces in the order
@@ -157,7 +157,7 @@ contains
    !> Whether all pieces lie farther off the line than `turn` times their greatest distance from x, or turn their backs on it.
    pure logical function is_far_off(tree, x, normal, turn)
       type(piece_tree_t), intent(in) :: tree
-      real(wp), intent(in) :: x(2), normal(2)
+      real(wp), intent(in) :: x(2), normal(2)       !< place [L] and unit vector of the line
       real(wp), intent(in) :: turn                  !< sine of the angle by which the normal may be in doubt
       type(search_t) :: search
       real(wp) :: across, along, farthest
@@ -174,8 +174,8 @@ contains
    !> The line of a search, and the rounding that its comparisons may have.
    pure subroutine aim(tree, x, normal, search)
       type(piece_tree_t), intent(in) :: tree
-      real(wp), intent(in) :: x(2), normal(2)
-      type(search_t), intent(out) :: search
+      real(wp), intent(in) :: x(2), normal(2)       !< place [L] and unit vector of the line
+      type(search_t), intent(out) :: search         !< at its beginning
 
       search%x = x
       search%normal = normal
@@ -185,20 +185,22 @@ contains
    !> A search for what the line through x along the normal crosses, or (not crossing) comes near.
    pure subroutine begin_search(tree, x, normal, crossing, search)
       type(piece_tree_t), intent(in) :: tree
-      real(wp), intent(in) :: x(2), normal(2)
-      logical, intent(in) :: crossing
-      type(search_t), intent(out) :: search
+      real(wp), intent(in) :: x(2), normal(2)       !< place [L] and unit vector of the line
+      logical, intent(in) :: crossing               !< only what the line crosses
+      type(search_t), intent(out) :: search         !< at its beginning
 
       call aim(tree, x, normal, search)
       search%crossing = crossing
       if (tree%n > 0) call add_branch(tree, 1_ip, 1_ip, tree%n, search)
    end subroutine begin_search
 
-   !> Whether anything in a branch may face the line, and how far off it is at least: across the line and along it.
+   !> Whether anything in a branch may face the line, and how far off it is at least: across the line and along it. The
+   !> bounds of n.m, of cross(y - x, n) and of (y - x).n over the boxes are sums of the bounds of their two terms, each
+   !> at an end of its interval.
    pure subroutine judge_branch(branch, search, facing_it, across, along)
-      type(branch_t), intent(in) :: branch
+      type(branch_t), intent(in) :: branch          !< that is judged
       type(search_t), intent(in) :: search
-      logical, intent(out) :: facing_it
+      logical, intent(out) :: facing_it             !< something may face the line
       real(wp), intent(out) :: across, along        !< [L]
       real(wp) :: low(2), high(2)
 
@@ -216,7 +218,7 @@ contains
 
    !> How far 0 lies off an interval.
    pure real(wp) function away_from(low, high)
-      real(wp), intent(in) :: low, high
+      real(wp), intent(in) :: low, high             !< ends of the interval
 
       away_from = max(low, -high, 0.0_wp)
    end function away_from
@@ -224,8 +226,8 @@ contains
    !> Adds a branch to those that are to be looked at.
    pure subroutine add_branch(tree, k, first, last, search)
       type(piece_tree_t), intent(in) :: tree
-      integer(ip), intent(in) :: k, first, last
-      type(search_t), intent(inout) :: search
+      integer(ip), intent(in) :: k, first, last     !< branch; its pieces in the order
+      type(search_t), intent(inout) :: search       !< with the branches that wait
       real(wp) :: across, along
       logical :: facing_it
 
@@ -236,8 +238,8 @@ contains
 
    !> The farther ones first; of those that are as near the one that comes later is looked at first.
    pure subroutine put_in_order(new, search)
-      type(waiting_t), intent(in) :: new
-      type(search_t), intent(inout) :: search
+      type(waiting_t), intent(in) :: new            !< to be put among those that wait
+      type(search_t), intent(inout) :: search       !< with the branches that wait
       integer(ip) :: i
 
       if (.not. allocated(search%waiting)) allocate (search%waiting(FIRST_LENGTH))
@@ -254,7 +256,7 @@ contains
    pure subroutine next_leaf(tree, found, search, first, last)
       type(piece_tree_t), intent(in) :: tree
       real(wp), intent(in) :: found                 !< [L]
-      type(search_t), intent(inout) :: search
+      type(search_t), intent(inout) :: search       !< with the branches that wait
       integer(ip), intent(out) :: first, last       !< places in the order; none: last < first
       type(waiting_t) :: next
       integer(ip) :: middle

@@ -19,7 +19,7 @@ module atrito_pieces
    use atrito_kinds, only: ip, wp, EPS_MACH
    implicit none (type, external)
    private
-   public :: pieces_t, allocate_pieces, sag_of, sweep_of, place_at, normal_at, cross_piece, box_of_piece, cross
+   public :: pieces_t, allocate_pieces, sag_of, place_at, normal_at, cross_piece, box_of_piece, cross
    public :: END_TOLERANCE
 
    !> A piece is x = a + t d + 4 t (1 - t) sag with t in [0,1]: a face of elements, or a rigid segment. A rigid arc turns a round
@@ -59,18 +59,11 @@ contains
       if (norm2(sag) <= 8*EPS_MACH*maxval(abs(x))) sag = 0.0_wp
    end function sag_of
 
-   !> The angle from one end of an arc to the other, as seen from its centre.
-   pure real(wp) function sweep_of(from, to, centre) result(sweep)
-      real(wp), intent(in) :: from(2), to(2), centre(2)  !< [L]
-
-      sweep = atan2(cross(from - centre, to - centre), dot_product(from - centre, to - centre))
-   end function sweep_of
-
    !> The place of a piece at a share t of it, 0 at its first end and 1 at its second [L]: on a line, a parabola or an arc.
    pure function place_at(pieces, i, t) result(x)
       class(pieces_t), intent(in) :: pieces
-      integer(ip), intent(in) :: i
-      real(wp), intent(in) :: t
+      integer(ip), intent(in) :: i                  !< piece
+      real(wp), intent(in) :: t                     !< share of the piece, 0 to 1
       real(wp) :: x(2)
 
       if (is_arc(pieces, i)) then
@@ -83,8 +76,8 @@ contains
    !> Outward unit normal of a piece.
    pure function normal_at(pieces, i, t) result(n)
       class(pieces_t), intent(in) :: pieces
-      integer(ip), intent(in) :: i
-      real(wp), intent(in) :: t
+      integer(ip), intent(in) :: i                  !< piece
+      real(wp), intent(in) :: t                     !< share of the piece, 0 to 1
       real(wp) :: n(2), d(2)
 
       if (is_arc(pieces, i)) then
@@ -101,7 +94,7 @@ contains
    !> Whether a piece is an arc; a sweep of 0 stands for a line or a parabola.
    pure logical function is_arc(pieces, i)
       class(pieces_t), intent(in) :: pieces
-      integer(ip), intent(in) :: i
+      integer(ip), intent(in) :: i                  !< piece
 
       is_arc = abs(pieces%sweep(i)) > 0.0_wp
    end function is_arc
@@ -114,7 +107,7 @@ contains
    !> middle node makes a cusp nothing is known of them.
    pure subroutine box_of_piece(pieces, i, low, high, normal_low, normal_high)
       class(pieces_t), intent(in) :: pieces
-      integer(ip), intent(in) :: i
+      integer(ip), intent(in) :: i                  !< piece
       real(wp), intent(out) :: low(2), high(2)      !< [L]
       real(wp), intent(out) :: normal_low(2), normal_high(2)
       real(wp) :: ends(2, 2), normals(2, 2), radius, bulge(2), spare
@@ -141,10 +134,10 @@ contains
    !> Where the line through x along the normal crosses a piece: up to two places t, also beyond the ends.
    pure subroutine cross_piece(pieces, i, x, normal, t, n_roots)
       class(pieces_t), intent(in) :: pieces
-      integer(ip), intent(in) :: i
-      real(wp), intent(in) :: x(2), normal(2)
-      real(wp), intent(out) :: t(2)
-      integer(ip), intent(out) :: n_roots
+      integer(ip), intent(in) :: i                  !< piece
+      real(wp), intent(in) :: x(2), normal(2)       !< place [L] and unit vector of the line
+      real(wp), intent(out) :: t(2)                 !< the places, the first n_roots are in use
+      integer(ip), intent(out) :: n_roots           !< 0, 1 or 2
 
       if (is_arc(pieces, i)) then
          call cross_arc(pieces, i, x, normal, t, n_roots)
@@ -158,9 +151,9 @@ contains
    pure subroutine cross_parabola(pieces, i, x, normal, t, n_roots)
       class(pieces_t), intent(in) :: pieces
       integer(ip), intent(in) :: i                  !< the piece
-      real(wp), intent(in) :: x(2), normal(2)
-      real(wp), intent(out) :: t(2)
-      integer(ip), intent(out) :: n_roots
+      real(wp), intent(in) :: x(2), normal(2)       !< place [L] and unit vector of the line
+      real(wp), intent(out) :: t(2)                 !< the places, the first n_roots are in use
+      integer(ip), intent(out) :: n_roots           !< 0, 1 or 2
       real(wp) :: a, b, c, q, discriminant
 
       t = 0.0_wp
@@ -191,9 +184,9 @@ contains
    pure subroutine cross_arc(pieces, i, x, normal, t, n_roots)
       class(pieces_t), intent(in) :: pieces
       integer(ip), intent(in) :: i                  !< the piece
-      real(wp), intent(in) :: x(2), normal(2)
-      real(wp), intent(out) :: t(2)
-      integer(ip), intent(out) :: n_roots
+      real(wp), intent(in) :: x(2), normal(2)       !< place [L] and unit vector of the line
+      real(wp), intent(out) :: t(2)                 !< the places, the first n_roots are in use
+      integer(ip), intent(out) :: n_roots           !< 0, 1 or 2
       real(wp) :: from(2), place(2), along, across, radius, distance
       integer(ip) :: k
 

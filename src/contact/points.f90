@@ -19,7 +19,7 @@ module atrito_points
    use atrito_mesh, only: mesh_t
    implicit none (type, external)
    private
-   public :: contact_points_t, sliding_t, terms_t, allocate_points, add_point, add_entries, add_term, drop_points, trim_points
+   public :: contact_points_t, sliding_t, terms_t, allocate_points, add_point, add_entries, add_term, drop_points
 
    !> A motion in which both sides of a pair slide along themselves (atrito_sliding_motions).
    type :: sliding_t
@@ -137,30 +137,14 @@ contains
       terms%value(terms%n) = value
    end subroutine add_term
 
-   !> Takes away the points of some nodes.
+   !> Takes away the points of some nodes, and gives back what was allocated for more points and entries.
    pure subroutine drop_points(nodes, points)
       integer(ip), intent(in) :: nodes(:)           !< 0: none
       type(contact_points_t), intent(inout) :: points
-      integer(ip) :: i
-
-      call take_points(pack([(i, i=1, points%n)], [(.not. any(nodes == points%node(i)), i=1, points%n)]), points)
-   end subroutine drop_points
-
-   !> Gives back what was allocated for more points and entries.
-   pure subroutine trim_points(points)
-      type(contact_points_t), intent(inout) :: points
-      integer(ip) :: i
-
-      call take_points([(i, i=1, points%n)], points)
-   end subroutine trim_points
-
-   !> Some of the points, in the order of a list, and no room for others.
-   pure subroutine take_points(list, points)
-      integer(ip), intent(in) :: list(:)            !< places of the points
-      type(contact_points_t), intent(inout) :: points
-      integer(ip), allocatable :: entries(:)
+      integer(ip), allocatable :: list(:), entries(:)
       integer(ip) :: i, k
 
+      list = pack([(i, i=1, points%n)], [(.not. any(nodes == points%node(i)), i=1, points%n)])
       entries = [((k, k=points%first(list(i)), points%first(list(i) + 1) - 1), i=1, size(list, kind=ip))]
       points%entry = points%entry(entries)
       points%coefficient = points%coefficient(entries)
@@ -177,6 +161,6 @@ contains
       points%length = points%length(list)
       points%weight = points%weight(list)
       points%gap = points%gap(list)
-   end subroutine take_points
+   end subroutine drop_points
 
 end module atrito_points

@@ -50,7 +50,7 @@ contains
 
    !> Hat functions over the nodes at -1, 1 and 0 that are in use, constant beyond them: they add up to one and are not negative.
    pure function hats(in_use, t) result(psi)
-      logical, intent(in) :: in_use(MOST)
+      logical, intent(in) :: in_use(MOST)           !< nodes that have a function
       real(wp), intent(in) :: t                    !< [-1,1]
       real(wp) :: psi(MOST)
 
@@ -72,11 +72,14 @@ contains
       end select
    end function hats
 
-   !> The weights and normals of a face, exact for straight faces and curved ones of the second degree.
+   !> The weights and normals of a face: W_a n_a = int psi_a n 2 pi r ds, of which W_a is the length and n_a the
+   !> direction, so that a uniform pressure has the nodal forces that the shape functions give it. With r and N of the
+   !> first degree the integrand is of the second degree on straight faces of two nodes, of the fifth on parabolas (N, r
+   !> and dx/dt): three Gauss points are exact.
    pure function revolve_face(mesh, state, thickness, rule) result(face)
       type(mesh_t), intent(in) :: mesh
       integer(ip), intent(in) :: state             !< place in STATES
-      real(wp), intent(in) :: thickness
+      real(wp), intent(in) :: thickness             !< of the element [L]
       type(nodal_rule_t), intent(in) :: rule       !< of the face
       type(revolved_face_t) :: face
       real(wp) :: x(2, MOST), vector(2, MOST), places(MOST)
@@ -105,11 +108,11 @@ contains
       face%share = face%share(order, order)
    end function revolve_face
 
-   !> Adds the integrals over a part of a face.
+   !> Adds the integrals over a part of a face: int psi_a n 2 pi r ds, and where rows are mixed int psi_j N_a 2 pi r ds.
    pure subroutine add_part(x, places, state, thickness, part, face, vector)
       real(wp), intent(in) :: x(:, :)              !< in the order of face_nodes [L]
       real(wp), intent(in) :: places(:)            !< what the depth goes by at these nodes (depth_places) [L]
-      integer(ip), intent(in) :: state
+      integer(ip), intent(in) :: state              !< place in STATES
       real(wp), intent(in) :: thickness, part(2)   !< part: of [-1,1]
       type(revolved_face_t), intent(inout) :: face
       real(wp), intent(inout) :: vector(2, MOST)   !< int psi n 2 pi r ds [L^2]
@@ -135,9 +138,9 @@ contains
    !> nodes. The part of its weight that a point has from this face goes to the nodes of the face, in the ratio of int
    !> psi_j N_a 2 pi r ds.
    pure subroutine note_mixed(face, points, mixed)
-      type(revolved_face_t), intent(in) :: face
+      type(revolved_face_t), intent(in) :: face     !< from revolve_face
       integer(ip), intent(in) :: points(MOST)      !< of its nodes, in the order of travel
-      type(terms_t), intent(inout) :: mixed
+      type(terms_t), intent(inout) :: mixed         !< those of the faces so far
       integer(ip) :: j, a
 
       if (.not. face%mixes) return
@@ -152,8 +155,8 @@ contains
    !> their nodes, and its own with what is left of the weight. The gaps go with the rows. A row has its own node first,
    !> then others of the slave, then the master's.
    pure subroutine mix_rows(mixed, points)
-      type(terms_t), intent(in) :: mixed
-      type(contact_points_t), intent(inout) :: points
+      type(terms_t), intent(in) :: mixed            !< from note_mixed
+      type(contact_points_t), intent(inout) :: points !< with the rows of nodes; out: of points
       integer(ip), allocatable :: terms(:), list(:), entry(:)
       real(wp), allocatable :: coefficient(:), gap(:)
       real(wp) :: part(points%n)                   ! of each point's row in row j
@@ -198,7 +201,7 @@ contains
    !> Adds to the entry of a node in the last row, which is made where there is none yet.
    pure subroutine add_to_row(node, value, first, entry, coefficient, n)
       integer(ip), intent(in) :: node
-      real(wp), intent(in) :: value
+      real(wp), intent(in) :: value                 !< of the entry
       integer(ip), intent(in) :: first             !< entry of the row
       integer(ip), allocatable, intent(inout) :: entry(:)
       real(wp), allocatable, intent(inout) :: coefficient(:)

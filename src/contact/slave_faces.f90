@@ -56,8 +56,8 @@ contains
    !> Sine of the angle by which the normal turns along a face, or from it to the next ones of the chain; 0 at a corner.
    pure real(wp) function turn_at(mesh, slave, i, rule) result(turn)
       type(mesh_t), intent(in) :: mesh
-      type(face_list_t), intent(in) :: slave
-      integer(ip), intent(in) :: i
+      type(face_list_t), intent(in) :: slave        !< one chain, ordered
+      integer(ip), intent(in) :: i                  !< face of the slave
       type(nodal_rule_t), intent(in) :: rule        !< of face i
       type(nodal_rule_t) :: other
       integer(ip) :: k
@@ -83,8 +83,8 @@ contains
    !> A component of the normal that is round-off of the coordinates is none: along a symmetry line or a supported base the rows of
    !> the points are zero only then.
    pure subroutine clear_small_component(x, length, normal)
-      real(wp), intent(in) :: x(2), length
-      real(wp), intent(inout) :: normal(2)
+      real(wp), intent(in) :: x(2), length          !< place and length of the point [L]
+      real(wp), intent(inout) :: normal(2)          !< unit vector
 
       where (abs(normal) < max(1.0e-13_wp, 8*EPS_MACH*maxval(abs(x))/length)) normal = 0.0_wp
       normal = normal/norm2(normal)
@@ -94,8 +94,8 @@ contains
    !> normals are the nodal forces of a uniform pressure, to the last bit: the shape functions times dx/dt are cubics.
    pure function nodal_rule(mesh, element, face) result(rule)
       type(mesh_t), intent(in) :: mesh
-      integer(ip), intent(in) :: element, face
-      type(nodal_rule_t) :: rule
+      integer(ip), intent(in) :: element, face      !< element and its side
+      type(nodal_rule_t) :: rule                    !< in the order of travel
       integer(ip) :: nodes(3), k, n
       real(wp) :: x(2, 3), t(3), w(3)
 

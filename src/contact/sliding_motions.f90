@@ -61,7 +61,7 @@ contains
       type(face_list_t), intent(in) :: slave
       type(face_list_t), intent(in) :: faces        !< of the master; n = 0: it is rigid
       type(master_t), intent(in) :: master
-      type(contact_points_t), intent(in) :: points
+      type(contact_points_t), intent(in) :: points  !< of the pair
       real(wp), intent(in) :: grain                 !< to which all nodes of the mesh are known [L]
       type(chords_t), intent(out) :: chords
       logical :: is_seen(master%n)
@@ -98,8 +98,8 @@ contains
    !> One chord of a straight face, two of a bent one.
    pure subroutine add_face(x, of_slave, chords)
       real(wp), intent(in) :: x(:, :)               !< (2, 2 or 3) ends and middle [L]
-      logical, intent(in) :: of_slave
-      type(chords_t), intent(inout) :: chords
+      logical, intent(in) :: of_slave               !< else of the master
+      type(chords_t), intent(inout) :: chords       !< those so far
       logical :: is_bent
 
       is_bent = size(x, 2) == 3
@@ -116,8 +116,8 @@ contains
    !> The outside lies at the right of the direction of travel.
    pure subroutine add_chord(a, b, of_slave, chords)
       real(wp), intent(in) :: a(2), b(2)            !< [L]
-      logical, intent(in) :: of_slave
-      type(chords_t), intent(inout) :: chords
+      logical, intent(in) :: of_slave               !< else of the master
+      type(chords_t), intent(inout) :: chords       !< those so far
 
       chords%n = chords%n + 1
       chords%place(:, chords%n) = 0.5_wp*a + 0.5_wp*b
@@ -129,8 +129,8 @@ contains
    !> A rigid segment is a chord; three of an arc say that it is round.
    pure subroutine add_piece(master, i, chords)
       type(master_t), intent(in) :: master
-      integer(ip), intent(in) :: i
-      type(chords_t), intent(inout) :: chords
+      integer(ip), intent(in) :: i                  !< chord, or piece of the master
+      type(chords_t), intent(inout) :: chords       !< those so far
       real(wp), parameter :: THIRDS(3) = [1.0_wp, 3.0_wp, 5.0_wp]/6.0_wp
       integer(ip) :: k, n
 
@@ -144,9 +144,13 @@ contains
       end do
    end subroutine add_piece
 
-   !> Half a unit of the last printed digit of coordinates [L], by those of the first decade, which have as many decimals as the
-   !> next one or, printed with so many digits, one less; where they are round numbers by the next one. Three digits are meant as
-   !> they are.
+   !> Half a unit of the last printed digit of coordinates [L]: to so much the nodes of a deck are known.
+   !>
+   !> The coordinates of the first decade, 10^m <= |x| <= max |x|, have as many decimals as those of the next one below
+   !> or, printed with so many digits, one less. With d digits from 10^m on the unit of the last one is 10^(m + 1 - d),
+   !> and the grain half of it. Where the first decade has round numbers the next one tells. Up to three digits are
+   !> meant as they are (0.25 is a quarter, not 0.25 +- 0.005), and more than MOST_DIGITS are not rounded: the grain is
+   !> the round-off of the largest coordinate then.
    pure real(wp) function printed_grain(x) result(grain)
       real(wp), intent(in) :: x(:, :)               !< (2, n) [L]
       integer, parameter :: ROUND = 3
@@ -166,7 +170,7 @@ contains
    !> The digits of those of some numbers that lie in a range, counted from a decade on; one more than are looked for where there
    !> are more.
    pure integer function digits_of(x, least, most, decade) result(digits)
-      real(wp), intent(in) :: x(:, :), least, most, decade
+      real(wp), intent(in) :: x(:, :), least, most, decade !< (2, n); the range; the decade
       real(wp), parameter :: SPARE = 1.0e-3_wp
       real(wp) :: per_unit
       integer :: i, k
@@ -185,8 +189,14 @@ contains
       end do
    end function digits_of
 
-   !> The sliding motion of a pair, where there is one: of both sides; of a pin in a hole with some clearance, whose centres differ,
-   !> that of the pin; of a curve on a straight side, whose normal counts, the translation along that.
+   !> The sliding motion of a pair, where there is one. In this order:
+   !>
+   !> 1. all chords are parallel: the translation along both sides;
+   !> 2. one side is straight and the other is not, a wheel on a plane: the translation along the straight side, whose normal counts
+   !>    (is_of_both = .false.; meets_round where the other side is a circle);
+   !> 3. the bisectors of all chords meet in one point: the rotation about the common centre;
+   !> 4. each side is round by itself, one convex and one hollow, a pin in a hole with some clearance: the rotation of the
+   !>    pin, if the centres are no farther apart than the smaller radius.
    subroutine find_sliding(chords, motion)
       type(chords_t), intent(in) :: chords
       type(sliding_t), intent(out) :: motion
@@ -216,7 +226,9 @@ contains
       motion = own(merge(1, 2, own(1)%is_convex))   ! the pin's
    end subroutine find_sliding
 
-   !> A translation, where all chords are parallel.
+   !> A translation, where all chords are parallel: across the mean normal, weighted by the squares of the lengths, the
+   !> master's normals turned round. A component of the normal that the digits of the nodes leave in doubt is none:
+   !> sides along an axis stay so.
    pure subroutine find_straight(chords, motion)
       type(chords_t), intent(in) :: chords
       type(sliding_t), intent(inout) :: motion
@@ -238,6 +250,10 @@ contains
    end subroutine find_straight
 
    !> A rotation, where the bisectors of all chords meet; none of fewer than LEAST_CHORDS.
+   !>
+   !> A motion v(x) = t + w perp(x - o), o the mean of the middles of the chords, is along chord f where r_f . (t, w L)
+   !> = 0, r_f = (n_f, n_f . perp(x_f - o)/L). The eigenvector (t, w L) of A = sum h_f^2 r_f r_f' with the least
+   !> eigenvalue is the motion that is least across the chords; it is a rotation about c = o + perp(t)/w.
    subroutine find_round(chords, motion)
       type(chords_t), intent(in) :: chords
       type(sliding_t), intent(out) :: motion
@@ -268,7 +284,7 @@ contains
 
    !> Some of the chords, in arrays of their number.
    pure type(chords_t) function only(asked, chords) result(some)
-      logical, intent(in) :: asked(:)
+      logical, intent(in) :: asked(:)               !< (n) those that are wanted
       type(chords_t), intent(in) :: chords
       integer(ip) :: i
 
@@ -282,10 +298,11 @@ contains
       some%grain = chords%grain
    end function only
 
-   !> Whether a chord slides along itself, but for the digits of its ends and the resolution of the curve.
+   !> Whether a chord slides along itself, |n . v| <= doubt |v|, but for the digits of its ends, 3 g/h, and the
+   !> resolution of the curve, (h/R)^2/100 (R is |v| of a rotation).
    pure logical function slides(chords, i, motion)
       type(chords_t), intent(in) :: chords
-      integer(ip), intent(in) :: i
+      integer(ip), intent(in) :: i                  !< chord, or piece of the master
       type(sliding_t), intent(in) :: motion
       real(wp) :: v(2), doubt
 
@@ -298,7 +315,7 @@ contains
    !> Whether the motion of another pair serves as well as a pair's own, at all chords that its own serves at.
    pure logical function serves(chords, other, own)
       type(chords_t), intent(in) :: chords
-      type(sliding_t), intent(in) :: other, own
+      type(sliding_t), intent(in) :: other, own     !< of the other pair, of this one
       integer(ip) :: i
 
       serves = other%is_round .eqv. own%is_round
@@ -307,7 +324,7 @@ contains
 
    !> The motion of another pair with the size of a pair's own.
    pure type(sliding_t) function adopted(other, own) result(motion)
-      type(sliding_t), intent(in) :: other, own
+      type(sliding_t), intent(in) :: other, own     !< of the other pair, of this one
 
       motion = own
       motion%direction = other%direction
@@ -324,14 +341,15 @@ contains
       if (motion%is_round) v = perp(x - motion%centre)
    end function velocity
 
-   !> Turns the rows of a pair along a motion that both sides have. The normal of a point becomes the one across the motion where
-   !> the force acts on the slave; where the master's share acts, the motion may have a part along that, and some of the force
-   !> passes from the nodes on one side of that place to those on the other. Where one side alone is straight, points at which the
-   !> other one has turned away stay as they are.
+   !> Turns the rows of a pair along a motion that both sides have, so that it moves no point along its normal: n . v =
+   !> 0. The normal of a point becomes the one across the motion where the force acts on the slave; where the master's
+   !> share acts, the motion may have a part along that, and some of the force passes from the nodes on one side of that
+   !> place to those on the other. Where one side alone is straight, points at which the other one has turned away stay
+   !> as they are.
    pure subroutine turn_points(motion, mesh, points)
       type(sliding_t), intent(in) :: motion
       type(mesh_t), intent(in) :: mesh
-      type(contact_points_t), intent(inout) :: points
+      type(contact_points_t), intent(inout) :: points !< of the pair
       real(wp) :: normal(2, points%n), v(2), most
       logical :: is_turned(points%n)
       integer(ip) :: j, k, m
@@ -358,11 +376,11 @@ contains
       end do
    end subroutine turn_points
 
-   !> Whether no point moves along its normal as it is.
+   !> Whether no point moves along its normal as it is, neither what is the slave's of its row nor what is the master's.
    pure logical function is_along(motion, mesh, points)
       type(sliding_t), intent(in) :: motion
       type(mesh_t), intent(in) :: mesh
-      type(contact_points_t), intent(in) :: points
+      type(contact_points_t), intent(in) :: points  !< of the pair
       real(wp) :: moved(2)                          ! by what is the slave's and what is the master's
       integer(ip) :: i, j, k
 
@@ -382,8 +400,8 @@ contains
    !> The first of the master's entries of a point: those of the slave stand before and add up to one; beside a face of three nodes
    !> some may be negative.
    pure integer(ip) function first_of_master(points, j) result(k)
-      type(contact_points_t), intent(in) :: points
-      integer(ip), intent(in) :: j
+      type(contact_points_t), intent(in) :: points  !< of the pair
+      integer(ip), intent(in) :: j                  !< point
       real(wp), parameter :: NEARLY = 1.0e-9_wp
       real(wp) :: total
 
@@ -394,13 +412,14 @@ contains
       end do
    end function first_of_master
 
-   !> By what normals may be off: by the digits of the nodes; and at an end of a chain, where a curve goes on that the faces do not
-   !> show, as at a line of symmetry, by half of the turn from one straight face to the next, or by what a parabola is off.
+   !> By what normals may be off [rad]: by the digits of the nodes, 3 g/l_j; and at an end of a chain, where a curve
+   !> goes on that the faces do not show, as at a line of symmetry, by half of the turn from one straight face to the
+   !> next, or by what a parabola is off.
    pure subroutine note_doubt(mesh, slave, grain, points)
       type(mesh_t), intent(in) :: mesh
       type(face_list_t), intent(in) :: slave        !< one chain, ordered (order_chain)
       real(wp), intent(in) :: grain                 !< [L]
-      type(contact_points_t), intent(inout) :: points
+      type(contact_points_t), intent(inout) :: points !< of the pair
       type(nodal_rule_t) :: rule
       integer(ip) :: i, k, j
       real(wp) :: turn
@@ -422,8 +441,8 @@ contains
    !> Where the force of a point acts on the slave [L].
    pure function force_place(mesh, points, j) result(x)
       type(mesh_t), intent(in) :: mesh
-      type(contact_points_t), intent(in) :: points
-      integer(ip), intent(in) :: j
+      type(contact_points_t), intent(in) :: points  !< of the pair
+      integer(ip), intent(in) :: j                  !< point
       real(wp) :: x(2), o(2), away(2)
       integer(ip) :: k
 
@@ -435,11 +454,14 @@ contains
       x = o + away
    end function force_place
 
-   !> The least change of the master's coefficients, weighted by themselves, that keeps their sum and leaves no motion along n.
+   !> The least change of the master's coefficients, weighted by themselves, that keeps their sum and leaves no motion along n: with
+   !> a_k = n . v(x_k) the changes d_k that minimise sum d_k^2/|c_k| under sum d_k = 0 and sum (c_k + d_k) a_k = 0 are
+   !>
+   !>     d_k = -|c_k| (a_k - mean a) (sum c_i a_i)/sum |c_i| (a_i - mean a)^2,     mean a = sum |c_i| a_i/sum |c_i|.
    pure subroutine shift_force(motion, mesh, n, node, coefficient)
       type(sliding_t), intent(in) :: motion
       type(mesh_t), intent(in) :: mesh
-      real(wp), intent(in) :: n(2)
+      real(wp), intent(in) :: n(2)                  !< normal of the point
       integer(ip), intent(in) :: node(:)            !< of the master
       real(wp), intent(inout) :: coefficient(:)     !< their sum is -1
       real(wp) :: along(size(node)), mean, spread_of

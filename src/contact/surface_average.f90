@@ -37,9 +37,9 @@ contains
 
    !> W over the points of all pairs.
    pure subroutine average_surfaces(points, rules, w)
-      type(contact_points_t), intent(in) :: points(:)
+      type(contact_points_t), intent(in) :: points(:) !< one a pair
       type(average_rule_t), intent(in) :: rules(:)   !< one a pair
-      type(average_t), intent(out) :: w
+      type(average_t), intent(out) :: w             !< (points of all pairs)
       type(part_t) :: parts(size(points))
       integer(ip) :: i, n
 
@@ -54,9 +54,9 @@ contains
 
    !> How many entries average_surfaces would make, more than `most` only about.
    pure integer(lp) function count_surface_entries(points, rules, most) result(entries)
-      type(contact_points_t), intent(in) :: points(:)
+      type(contact_points_t), intent(in) :: points(:) !< one a pair
       type(average_rule_t), intent(in) :: rules(:)   !< one a pair
-      integer(lp), intent(in) :: most
+      integer(lp), intent(in) :: most               !< beyond which an estimate does
       type(part_t) :: parts(size(points))
       integer(ip) :: i, n
 
@@ -69,8 +69,8 @@ contains
 
    !> The groups of pairs on one surface, each as often as it has laws.
    pure subroutine list_parts(points, rules, parts, n)
-      type(contact_points_t), intent(in) :: points(:)
-      type(average_rule_t), intent(in) :: rules(:)
+      type(contact_points_t), intent(in) :: points(:) !< one a pair
+      type(average_rule_t), intent(in) :: rules(:)  !< one a pair
       type(part_t), intent(out) :: parts(:)          !< the first n are in use
       integer(ip), intent(out) :: n
       logical :: is_last(size(points))
@@ -91,16 +91,18 @@ contains
       end do
    end subroutine list_parts
 
+   !> Whether two pairs are averaged by the same radius and kernel.
    elemental logical function same_law(a, b)
       type(average_rule_t), intent(in) :: a, b
 
       same_law = .not. abs(a%rho - b%rho) > 0.0_wp .and. a%kernel == b%kernel
    end function same_law
 
-   !> The pairs, those that are averaged together one after the other; where such a group ends.
+   !> The pairs, those that are averaged together one after the other; where such a group ends. The key of a pair is the
+   !> number of its surface, and for one that is averaged by itself its own number besides.
    pure subroutine group_pairs(points, rules, order, is_last)
-      type(contact_points_t), intent(in) :: points(:)
-      type(average_rule_t), intent(in) :: rules(:)
+      type(contact_points_t), intent(in) :: points(:) !< one a pair
+      type(average_rule_t), intent(in) :: rules(:)  !< one a pair
       integer(ip), intent(out) :: order(:)           !< (pairs)
       logical, intent(out) :: is_last(:)             !< (pairs) the pair at this place is the last of its group
       logical :: is_alone(size(points))
@@ -109,10 +111,7 @@ contains
 
       n = size(points, kind=ip)
       is_alone = look_from_one_face(points, rules%surface)
-      do i = 1, n
-         key(i) = int(rules(i)%surface, lp)*2_lp*int(n, lp)
-         if (is_alone(i)) key(i) = key(i) + int(i, lp)
-      end do
+      key = int(rules%surface, lp)*2_lp*int(n, lp) + merge([(int(i, lp), i=1, n)], 0_lp, is_alone)
       order = sorted_places(key)
       is_last = .true.
       do i = 1, n - 1
@@ -120,10 +119,12 @@ contains
       end do
    end subroutine group_pairs
 
-   !> Which pairs have a face in common with another one on the same surface.
+   !> Which pairs have a face in common with another one on the same surface. All faces of all pairs are listed, the
+   !> pairs in the order of their surfaces, and sorted by their number: equal faces then follow each other, and of these
+   !> equal surfaces.
    pure function look_from_one_face(points, surface) result(is_alone)
-      type(contact_points_t), intent(in) :: points(:)
-      integer(ip), intent(in) :: surface(:)
+      type(contact_points_t), intent(in) :: points(:) !< one a pair
+      integer(ip), intent(in) :: surface(:)          !< (pairs)
       logical :: is_alone(size(points))
       integer(lp), allocatable :: face(:)
       integer(ip), allocatable :: pair(:), order(:)
@@ -139,7 +140,6 @@ contains
             pair = [pair, [(p, k=1, size(points(p)%faces, kind=ip))]]
          end associate
       end do
-      ! equal faces follow each other, and of these equal surfaces
       order = sorted_places(face)
       do i = 2, size(order, kind=ip)
          associate (a => order(i - 1), b => order(i))
@@ -151,10 +151,10 @@ contains
 
    !> The points of some pairs one after the other; those of the pairs that take part in its law take their rows from it.
    pure subroutine gather_points(points, pairs, takes, part)
-      type(contact_points_t), intent(in) :: points(:)
-      integer(ip), intent(in) :: pairs(:)
+      type(contact_points_t), intent(in) :: points(:) !< one a pair
+      integer(ip), intent(in) :: pairs(:)           !< of one group
       logical, intent(in) :: takes(:)                !< (pairs)
-      type(part_t), intent(inout) :: part
+      type(part_t), intent(inout) :: part           !< empty; out: all but w
       integer(ip) :: i, k, n
 
       n = sum(points(pairs)%n)
@@ -172,11 +172,11 @@ contains
       end do
    end subroutine gather_points
 
-   !> The rows of all parts; each point has one.
+   !> The rows of all parts, their columns numbered by the points of all pairs; each point has one row, from the part that takes it.
    pure subroutine join_parts(n, parts, w)
       integer(ip), intent(in) :: n                   !< points of all pairs
-      type(part_t), intent(in) :: parts(:)
-      type(average_t), intent(out) :: w
+      type(part_t), intent(in) :: parts(:)          !< with their w
+      type(average_t), intent(out) :: w             !< (points of all pairs)
       integer(ip) :: i, j, k
 
       w%n = n

@@ -67,7 +67,7 @@ contains
    !> y <- y + factor B' q.
    pure subroutine add_transposed(rows, factor, q, y)
       type(constraint_rows_t), intent(in) :: rows
-      real(wp), intent(in) :: factor
+      real(wp), intent(in) :: factor                !< 1 or -1, mostly
       real(wp), intent(in) :: q(:)               !< (n) [F]
       real(wp), intent(inout) :: y(:)            !< (n_columns) [F]
       integer(ip) :: i, k
@@ -98,7 +98,7 @@ contains
    !> The rows of each point that count, the first one first.
    pure subroutine list_rows_of_points(rows, used, rows_of)
       type(constraint_rows_t), intent(in) :: rows
-      logical, intent(in) :: used(:)
+      logical, intent(in) :: used(:)                !< (n) rows that count
       integer(ip), allocatable, intent(out) :: rows_of(:, :) !< (MOST_OF_POINT, points); 0: none
       integer(ip) :: i
 
@@ -108,10 +108,12 @@ contains
       end do
    end subroutine list_rows_of_points
 
-   !> Takes out the points that dofs of their own make independent, until there is none.
+   !> Takes out the points that dofs of their own make independent, until there is none (steps 1 and 2 at the head of
+   !> the module). The queue is a ring of as many places as points wait at first; a point goes in again when it has
+   !> become alone with a dof.
    subroutine set_aside(rows, rows_of, waits)
       type(constraint_rows_t), intent(in) :: rows
-      integer(ip), intent(in) :: rows_of(:, :)
+      integer(ip), intent(in) :: rows_of(:, :)      !< (MOST_OF_POINT, points) of each; 0: none
       logical, intent(inout) :: waits(:)         !< (points) in: points with rows; out: those that may depend on others
       type(touches_t) :: touches
       integer(ip), allocatable :: queue(:), dofs(:)
@@ -145,10 +147,11 @@ contains
       end do
    end subroutine set_aside
 
+   !> The points that touch each dof, and the sum of their numbers.
    pure subroutine count_touches(rows, rows_of, waits, touches)
       type(constraint_rows_t), intent(in) :: rows
-      integer(ip), intent(in) :: rows_of(:, :)
-      logical, intent(in) :: waits(:)
+      integer(ip), intent(in) :: rows_of(:, :)      !< (MOST_OF_POINT, points) of each; 0: none
+      logical, intent(in) :: waits(:)               !< (points) that may depend on others
       type(touches_t), intent(out) :: touches
       integer(ip) :: j
 
@@ -166,7 +169,7 @@ contains
    !> The dofs of a point's rows, each once.
    pure function dofs_of_point(rows, own) result(dofs)
       type(constraint_rows_t), intent(in) :: rows
-      integer(ip), intent(in) :: own(:)
+      integer(ip), intent(in) :: own(:)             !< rows of the point; 0: none
       integer(ip), allocatable :: dofs(:)
       integer(ip) :: i, k
 
@@ -179,10 +182,11 @@ contains
       end do
    end function dofs_of_point
 
-   !> Whether a point's rows are independent on the dofs that it alone touches.
+   !> Whether a point's rows are independent on the dofs that it alone touches: what these dofs have of the first row,
+   !> and of the second row across the first (one step of Gram and Schmidt), is more than INDEPENDENT of the whole row.
    pure logical function stands_alone(rows, own, touches)
       type(constraint_rows_t), intent(in) :: rows
-      integer(ip), intent(in) :: own(:)
+      integer(ip), intent(in) :: own(:)             !< rows of the point; 0: none
       type(touches_t), intent(in) :: touches
       integer(ip), allocatable :: dofs(:)
       real(wp), allocatable :: a(:), b(:)
@@ -201,9 +205,9 @@ contains
    !> A row on some dofs, and its length on all.
    pure subroutine spread_row(rows, i, dofs, a, whole)
       type(constraint_rows_t), intent(in) :: rows
-      integer(ip), intent(in) :: i, dofs(:)
-      real(wp), allocatable, intent(out) :: a(:)
-      real(wp), intent(out) :: whole
+      integer(ip), intent(in) :: i, dofs(:)         !< row; dofs
+      real(wp), allocatable, intent(out) :: a(:)    !< (dofs) entries of the row
+      real(wp), intent(out) :: whole                !< length of the row on all dofs
       integer(ip) :: k
 
       allocate (a(size(dofs)), source=0.0_wp)
@@ -216,9 +220,9 @@ contains
    !> Lists the rows of the points that are left by what shares dofs, in the order of the points.
    subroutine group(rows, rows_of, waits, first, member)
       type(constraint_rows_t), intent(in) :: rows
-      integer(ip), intent(in) :: rows_of(:, :)
-      logical, intent(in) :: waits(:)
-      integer(ip), allocatable, intent(out) :: first(:), member(:)
+      integer(ip), intent(in) :: rows_of(:, :)      !< (MOST_OF_POINT, points) of each; 0: none
+      logical, intent(in) :: waits(:)               !< (points) that may depend on others
+      integer(ip), allocatable, intent(out) :: first(:), member(:) !< as in list_components
       integer(ip), allocatable :: root(:), component(:, :), points(:), of_points(:)
       integer(ip) :: j, n
 
@@ -241,9 +245,9 @@ contains
    !> A common root for all points that shared dofs lead to.
    subroutine join_points(rows, rows_of, waits, root)
       type(constraint_rows_t), intent(in) :: rows
-      integer(ip), intent(in) :: rows_of(:, :)
-      logical, intent(in) :: waits(:)
-      integer(ip), allocatable, intent(out) :: root(:)
+      integer(ip), intent(in) :: rows_of(:, :)      !< (MOST_OF_POINT, points) of each; 0: none
+      logical, intent(in) :: waits(:)               !< (points) that may depend on others
+      integer(ip), allocatable, intent(out) :: root(:) !< (points) first point that each is joined with
       integer(ip), allocatable :: holder(:), dofs(:)
       integer(ip) :: j, k, a, b
 
@@ -267,8 +271,9 @@ contains
       end do
    end subroutine join_points
 
+   !> The root of a point: the first of all points that are joined with it.
    pure integer(ip) function root_of(root, j)
-      integer(ip), intent(in) :: root(:), j
+      integer(ip), intent(in) :: root(:), j         !< (points); point
 
       root_of = j
       do while (root(root_of) /= root_of)

@@ -1,4 +1,10 @@
 !> The form of the contact system: the flexibility of all points, a dense matrix; or all bodies in one sparse matrix.
+!>
+!> With m unknown contact forces and n displacements the dense form (condensed/) keeps a matrix of m^2 numbers and takes
+!> some m^3 operations a solution; the sparse form (multiplier/) takes some n operations times a large factor, as often
+!> as it factors and solves. So the predicted costs are m^3 and 1e5 n, and the cheaper form is taken, unless one is
+!> asked for, the method is one of the dense form, or the dense matrices (the flexibility, its scaled part, its factor)
+!> would take more than half of the memory.
 module atrito_contact_form
    use atrito_kinds, only: ip, lp, wp
    use atrito_strings, only: to_text

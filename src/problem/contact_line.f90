@@ -88,7 +88,7 @@ contains
    !> The tangential unknown at the point of each of the n normal ones; 0: none; -1: no point of contact.
    pure function tangential_of(line, n) result(i)
       type(contact_line_t), intent(in) :: line
-      integer(ip), intent(in) :: n
+      integer(ip), intent(in) :: n                  !< normal unknowns
       integer(ip) :: i(n)
 
       i = line%tangential(line%point(:n))
@@ -98,7 +98,7 @@ contains
    !> The last point of the pair that begins at `first`.
    pure integer(ip) function last_of_pair(line, first) result(last)
       type(contact_line_t), intent(in) :: line
-      integer(ip), intent(in) :: first
+      integer(ip), intent(in) :: first              !< its first point
 
       last = line%n
       if (.not. allocated(line%pair)) return
@@ -112,8 +112,8 @@ contains
    !> Pressure p [F/L^2] at the points from the forces q.
    pure function pressure_of(line, q) result(p)
       type(contact_line_t), intent(in) :: line
-      real(wp), intent(in) :: q(:)
-      real(wp) :: p(line%n)
+      real(wp), intent(in) :: q(:)                  !< (unknowns) forces [F]
+      real(wp) :: p(line%n)                         !< [F/L^2]
       integer(ip) :: j
 
       do j = 1, line%n
@@ -130,7 +130,7 @@ contains
    !> u_T [L] at which the friction of a point is none.
    pure real(wp) function rest_of(line, j) result(rest)
       type(contact_line_t), intent(in) :: line
-      integer(ip), intent(in) :: j
+      integer(ip), intent(in) :: j                  !< point
 
       rest = 0.0_wp
       if (allocated(line%rest)) rest = line%rest(j)
@@ -139,8 +139,8 @@ contains
    !> Friction stress t [F/L^2] at the points (it acts on the master along T).
    pure function shear_force_of(line, q, tau) result(t)
       type(contact_line_t), intent(in) :: line
-      real(wp), intent(in) :: q(:), tau(:)
-      real(wp) :: t(line%n)
+      real(wp), intent(in) :: q(:), tau(:)          !< (unknowns) [F], (n) friction bounds [F/L^2]
+      real(wp) :: t(line%n)                         !< [F/L^2]
       integer(ip) :: j
 
       do j = 1, line%n
@@ -157,7 +157,7 @@ contains
    !> What is none of a slip that is known [L].
    pure real(wp) function slip_noise(line, j) result(noise)
       type(contact_line_t), intent(in) :: line
-      integer(ip), intent(in) :: j
+      integer(ip), intent(in) :: j                  !< point
 
       noise = 0.0_wp
       if (allocated(line%noise)) noise = line%noise(j)
@@ -167,8 +167,8 @@ contains
    !> strain, leave it open within its bound: it keeps what it had.
    pure real(wp) function known_shear(line, j, tau) result(t)
       type(contact_line_t), intent(in) :: line
-      integer(ip), intent(in) :: j
-      real(wp), intent(in) :: tau
+      integer(ip), intent(in) :: j                  !< point
+      real(wp), intent(in) :: tau                   !< friction bound [F/L^2]
 
       associate (slip => line%known_slip(j) - rest_of(line, j))
          if (max(abs(slip), sticking_slip(line%law(j), tau)) > slip_noise(line, j)) then
@@ -185,7 +185,7 @@ contains
    pure real(wp) function slip_of_unknown(bounds, state, i) result(slip)
       type(box_bounds_t), intent(in) :: bounds
       type(box_state_t), intent(in) :: state
-      integer(ip), intent(in) :: i
+      integer(ip), intent(in) :: i                  !< tangential unknown
 
       slip = bounds%d(i)*state%q(i)
       if (state%state(i) /= FREE) slip = slip + state%r(i)
@@ -194,18 +194,19 @@ contains
    !> The friction bound tau = nu S_rho(p) [F/L^2] at the points; tensions within an iteration count as none.
    pure function friction_bound(line, p) result(tau)
       type(contact_line_t), intent(in) :: line
-      real(wp), intent(in) :: p(:)
-      real(wp) :: tau(line%n)
+      real(wp), intent(in) :: p(:)                  !< (n) pressures [F/L^2]
+      real(wp) :: tau(line%n)                       !< [F/L^2]
 
       tau = line%law%nu*apply_average(line%average, max(p, 0.0_wp))
    end function friction_bound
 
-   !> Bounds and compliances of the normal forces, and all points closed, none with friction.
+   !> Bounds and compliances of the normal forces, 0 <= q and D = delta/w, those of bilateral rows without a bound; and
+   !> all points closed, none with friction.
    pure subroutine normal_bounds(line, problem, bounds, state)
       type(contact_line_t), intent(in) :: line
-      type(bound_qp_t), intent(in) :: problem
-      type(box_bounds_t), intent(out) :: bounds
-      type(box_state_t), intent(out) :: state
+      type(bound_qp_t), intent(in) :: problem       !< of which the shape counts
+      type(box_bounds_t), intent(out) :: bounds     !< lower, upper [F], d [L/F]
+      type(box_state_t), intent(out) :: state       !< all free or frozen, no forces
       integer(ip) :: i
 
       allocate (bounds%lower(problem%m), bounds%d(problem%m), source=0.0_wp)
@@ -219,11 +220,12 @@ contains
       state%state(problem%n_normal + 1:) = FROZEN
    end subroutine normal_bounds
 
-   !> Bounds and compliances of the tangential forces for a friction bound. Points that had none begin stuck; points that have
-   !> none now take no part. The bound HUGE_REAL is none at all: stuck whatever the force.
+   !> Bounds and compliances of the tangential forces for a friction bound: -w tau <= q <= w tau, D = c(tau)/w. Points
+   !> that had none begin stuck; points that have none now take no part. The bound HUGE_REAL is none at all: stuck
+   !> whatever the force.
    pure subroutine set_friction_bounds(line, problem, tau, bounds, state)
       type(contact_line_t), intent(in) :: line
-      type(bound_qp_t), intent(in) :: problem
+      type(bound_qp_t), intent(in) :: problem       !< of which the shape counts
       real(wp), intent(in) :: tau(:)                  !< (n) [F/L^2]
       type(box_bounds_t), intent(inout) :: bounds
       type(box_state_t), intent(inout) :: state

@@ -46,7 +46,7 @@ contains
 
    !> The rows of all pairs, one pair after the other, and the bilateral ones behind them.
    pure subroutine build_rows(points, rows, bilateral)
-      type(contact_points_t), intent(in) :: points(:)
+      type(contact_points_t), intent(in) :: points(:) !< one a pair
       type(contact_rows_t), intent(out) :: rows
       type(bilateral_rows_t), intent(in), optional :: bilateral
       integer(ip) :: i, j, m
@@ -97,7 +97,7 @@ contains
 
    !> Gaps of all points at a time of a step that resolves overlaps: what is allowed of an overlap is no overlap to contact.
    pure subroutine allow_overlap(points, share, rows)
-      type(contact_points_t), intent(in) :: points(:)
+      type(contact_points_t), intent(in) :: points(:) !< one a pair
       real(wp), intent(in) :: share(:)               !< (pairs) of the initial overlap, that is allowed
       type(contact_rows_t), intent(inout) :: rows
       integer(ip) :: i, first
@@ -118,7 +118,7 @@ contains
    !> The distance of two sides from what contact takes for it.
    pure real(wp) function true_gap(rows, j, gap)
       type(contact_rows_t), intent(in) :: rows
-      integer(ip), intent(in) :: j
+      integer(ip), intent(in) :: j                  !< row
       real(wp), intent(in) :: gap                    !< [L]
 
       true_gap = gap
@@ -128,7 +128,7 @@ contains
    !> What the displacement of the node of entry k is multiplied by in row j along a direction.
    pure function vector_of_entry(rows, j, k, direction) result(vector)
       type(contact_rows_t), intent(in) :: rows
-      integer(ip), intent(in) :: j, k
+      integer(ip), intent(in) :: j, k               !< row, entry
       real(wp), intent(in) :: direction(2)           !< n or T of the point
       real(wp) :: vector(2)
 
@@ -139,7 +139,7 @@ contains
    !> The direction of entry k of row j, which its coefficient goes with.
    pure function direction_of_entry(rows, j, k, direction) result(vector)
       type(contact_rows_t), intent(in) :: rows
-      integer(ip), intent(in) :: j, k
+      integer(ip), intent(in) :: j, k               !< row, entry
       real(wp), intent(in) :: direction(2)           !< n or T of the point
       real(wp) :: vector(2)
 
@@ -153,7 +153,7 @@ contains
    !> What is n's of entry k of row j besides.
    pure function turn_of_entry(rows, j, k, direction) result(vector)
       type(contact_rows_t), intent(in) :: rows
-      integer(ip), intent(in) :: j, k
+      integer(ip), intent(in) :: j, k               !< row, entry
       real(wp), intent(in) :: direction(2)           !< n or T of the point
       real(wp) :: vector(2)
 
@@ -165,7 +165,7 @@ contains
    !> 1 for the normal row of a point, 2 for its tangential one.
    pure integer function which_row(rows, j, direction)
       type(contact_rows_t), intent(in) :: rows
-      integer(ip), intent(in) :: j
+      integer(ip), intent(in) :: j                  !< row
       real(wp), intent(in) :: direction(2)           !< n or T of the point
 
       which_row = merge(2, 1, dot_product(direction, rows%tangent(:, j)) > 0.5_wp)
@@ -174,8 +174,8 @@ contains
    !> The relative displacement [L] of point j along a direction.
    pure real(wp) function row_value(rows, j, direction, u) result(value)
       type(contact_rows_t), intent(in) :: rows
-      integer(ip), intent(in) :: j
-      real(wp), intent(in) :: direction(2)
+      integer(ip), intent(in) :: j                  !< row
+      real(wp), intent(in) :: direction(2)          !< n or T of the point
       real(wp), intent(in) :: u(:, :)                !< (2, n_nodes) [L]
       integer(ip) :: k
 
@@ -198,7 +198,7 @@ contains
    !> The body of each entry of a row.
    pure function bodies_of_row(rows, j, body_of_node) result(bodies)
       type(contact_rows_t), intent(in) :: rows
-      integer(ip), intent(in) :: j, body_of_node(:)
+      integer(ip), intent(in) :: j, body_of_node(:) !< row; (n_nodes) body of each node, 0: none
       integer(ip) :: bodies(rows%first(j + 1) - rows%first(j))
 
       bodies = body_of_node(rows%node(rows%first(j):rows%first(j + 1) - 1))

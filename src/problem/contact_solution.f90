@@ -82,7 +82,7 @@ contains
       type(contact_line_t), intent(in) :: line
       type(bound_qp_t), intent(in) :: problem         !< of which the shape counts
       real(wp), intent(in) :: g0(:)                   !< (m) [L]
-      type(contact_solution_t), intent(inout) :: solution
+      type(contact_solution_t), intent(inout) :: solution !< inner%condition is set
       integer(ip) :: i
 
       solution%tau = [(0.0_wp, i=1, line%n)]
@@ -109,7 +109,7 @@ contains
 
    !> Estimates the condition of the last solve, which takes as long as some solutions with its factor.
    subroutine judge_condition(solution)
-      type(contact_solution_t), intent(inout) :: solution
+      type(contact_solution_t), intent(inout) :: solution !< inner%condition is set
 
       solution%inner%condition = condition_of(solution%factor)
    end subroutine judge_condition
@@ -119,7 +119,7 @@ contains
       type(contact_line_t), intent(in) :: line
       real(wp), intent(in) :: tau(:), image(:)        !< (n) [F/L^2]
       logical, intent(in), optional :: beside_noise   !< pairs whose bound is round-off of the strongest do not count
-      real(wp) :: none
+      real(wp) :: none, scale
       integer(ip) :: first, last
 
       residual = 0.0_wp
@@ -128,26 +128,16 @@ contains
       first = 1
       do while (first <= line%n)
          last = last_of_pair(line, first)
-         residual = max(residual, residual_of_pair(tau(first:last), image(first:last), none))
+         scale = largest_of(tau(first:last), image(first:last))     ! divides both first, so that no small bound overflows
+         if (scale > none) residual = max(residual, maxval(abs(image(first:last)/scale - tau(first:last)/scale)))
          first = last + 1
       end do
       if (.not. all(ieee_is_finite(image))) residual = HUGE_REAL   ! maxval passes over what is not a number
    end function relative_residual
 
-   !> |image - tau|/|tau| of one pair, both divided first so that no small bound overflows.
-   pure real(wp) function residual_of_pair(tau, image, none) result(residual)
-      real(wp), intent(in) :: tau(:), image(:)
-      real(wp), intent(in) :: none                    !< a bound that is none
-      real(wp) :: scale
-
-      residual = 0.0_wp
-      scale = largest_of(tau, image)
-      if (scale > none) residual = maxval(abs(image/scale - tau/scale))
-   end function residual_of_pair
-
    !> The largest size of a bound and its image; 0 of none.
    pure real(wp) function largest_of(tau, image)
-      real(wp), intent(in) :: tau(:), image(:)
+      real(wp), intent(in) :: tau(:), image(:)      !< [F/L^2]
 
       largest_of = 0.0_wp
       if (size(tau) > 0) largest_of = max(maxval(abs(tau)), maxval(abs(image)))

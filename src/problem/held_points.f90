@@ -18,9 +18,10 @@ module atrito_held_points
 
 contains
 
-   !> Turns the normals of such points, and notes which rows are held.
+   !> Turns the normals of such points, and notes which rows are held. Along the new normal n' a gap that is s across the face is
+   !> s/(n . n'), and a weight of w (n . n') leaves the same force along it.
    pure subroutine straighten_held_points(bilateral, fem, points)
-      type(bilateral_rows_t), intent(in) :: bilateral
+      type(bilateral_rows_t), intent(in) :: bilateral !< with the supports along their own directions
       type(fem_t), intent(in) :: fem
       type(contact_points_t), intent(inout) :: points(:)
       real(wp), allocatable :: support(:, :)         ! (2, n_nodes) along what a node is held; 0: not at all
@@ -52,12 +53,14 @@ contains
       end do
    end subroutine straighten_held_points
 
-   !> The direction along which a node is held: an axis, or that of a support along one of its own.
+   !> The direction along which a node is held: an axis, where one of its dofs has no equation, or that of a support
+   !> along one of its own, a bilateral row of this node alone. A node with both, or with no free dof, is held along any
+   !> direction (is_fixed).
    pure subroutine list_supports(bilateral, fem, support, is_fixed)
-      type(bilateral_rows_t), intent(in) :: bilateral
+      type(bilateral_rows_t), intent(in) :: bilateral !< with the supports along their own directions
       type(fem_t), intent(in) :: fem
-      real(wp), allocatable, intent(out) :: support(:, :)
-      logical, intent(out) :: is_fixed(:)
+      real(wp), allocatable, intent(out) :: support(:, :)  !< (2, n_nodes) unit vectors; 0: not held
+      logical, intent(out) :: is_fixed(:)            !< (n_nodes)
       integer(ip) :: node, j
 
       allocate (support(2, fem%mesh%n_nodes), source=0.0_wp)
@@ -79,8 +82,8 @@ contains
 
    !> The direction along which all nodes of a row are held; 0 where there is none, or all are held along any.
    pure function common_support(support, is_fixed) result(d)
-      real(wp), intent(in) :: support(:, :)
-      logical, intent(in) :: is_fixed(:)
+      real(wp), intent(in) :: support(:, :)          !< (2, nodes of the row) along what each is held; 0: not at all
+      logical, intent(in) :: is_fixed(:)             !< (nodes of the row) held along any direction
       real(wp) :: d(2)
       integer(ip) :: k
 

@@ -30,11 +30,12 @@ module atrito_motion_rows
 
 contains
 
-   !> G of all unknown forces by rows, and h = Z'f with the size of its terms.
+   !> G of all unknown forces by rows, and h = Z'f with the size of its terms, |Z'||f|. The motions of all bodies are
+   !> numbered one body after the other; a row has at most MOST_MODES entries for each body that it touches.
    pure subroutine build_motion_rows(fem, rows, line, f, motions)
       type(fem_t), intent(in) :: fem
-      type(contact_rows_t), intent(in) :: rows
-      type(contact_line_t), intent(in) :: line
+      type(contact_rows_t), intent(in) :: rows      !< directions and coefficients
+      type(contact_line_t), intent(in) :: line      !< which unknown is of which point
       real(wp), intent(in) :: f(:, :)                !< (2, n_nodes) applied forces [F]
       type(motion_rows_t), intent(out) :: motions
       integer(ip) :: first_motion(fem%bodies%n + 1), b, i, n
@@ -70,7 +71,7 @@ contains
    pure function motion_rates(rows, v, sizes) result(rate)
       type(motion_rows_t), intent(in) :: rows
       real(wp), intent(in) :: v(:)               !< (k) [L]
-      logical, intent(in) :: sizes
+      logical, intent(in) :: sizes                  !< of the terms without their signs
       real(wp) :: rate(rows%m)                   !< [L]
       integer(ip) :: i, e
 
@@ -90,7 +91,7 @@ contains
    pure function motion_forces(rows, q, sizes) result(force)
       type(motion_rows_t), intent(in) :: rows
       real(wp), intent(in) :: q(:)               !< (m) [F]
-      logical, intent(in) :: sizes
+      logical, intent(in) :: sizes                  !< of the terms without their signs
       real(wp) :: force(rows%k)                  !< [F]
       integer(ip) :: i, e
 

@@ -1,5 +1,5 @@
-!> Where a history stands after a converged increment: all that the next one begins from. Filled and taken by solve/, kept in a
-!> restart file by output/.
+!> Where a history stands after a converged increment: all that the next one begins from. stepping/ fills it and goes on from it,
+!> fields/ keeps it in a restart file.
 module atrito_restart_state
    use atrito_bound_qp, only: box_bounds_t, box_state_t
    use atrito_kinds, only: ip, wp
@@ -9,7 +9,7 @@ module atrito_restart_state
    private
    public :: restart_state_t, slip_memory_t, warm_start_t
 
-   !> What the contact line is started from; factors are not among it. See contact_solution_t in solve/.
+   !> What the contact line is started from; factors are not among it. See contact_solution_t.
    type :: warm_start_t
       integer(ip) :: form = 0                       !< CONTACT_*; 0: there is nothing to start from
       real(wp), allocatable :: p(:), tau(:), t(:)   !< at the points [F/L^2]
@@ -21,7 +21,7 @@ module atrito_restart_state
       type(multiplier_t), allocatable :: multipliers !< of the sparse form
    end type warm_start_t
 
-   !> What friction remembers: see atrito_slip_memory in solve/.
+   !> What friction remembers: see atrito_slip_memory.
    type :: slip_memory_t
       logical, allocatable :: is_incremental(:)      !< (points) the law has a rest slip
       real(wp), allocatable :: rest(:)               !< (points) s0 [L]

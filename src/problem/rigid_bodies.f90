@@ -68,10 +68,10 @@ contains
    !> The rows of a pair with the nodes of its rigid master behind those of the slave. The slave's coefficients add up
    !> to `whole`, 1.
    pure subroutine attach_to(body, reference, nodes, points)
-      type(rigid_body_t), intent(in) :: body
+      type(rigid_body_t), intent(in) :: body        !< the master of the pair
       real(wp), intent(in) :: reference(2)             !< [L]
-      integer(ip), intent(in) :: nodes(CARRIERS)
-      type(contact_points_t), intent(inout) :: points
+      integer(ip), intent(in) :: nodes(CARRIERS)    !< that carry its motion
+      type(contact_points_t), intent(inout) :: points !< of the pair
       integer(ip) :: first(points%n + 1), entry(size(points%entry) + CARRIERS*points%n), j, n
       real(wp) :: coefficient(size(entry)), arm(2), whole
 
@@ -93,7 +93,9 @@ contains
       points%coefficient = coefficient
    end subroutine attach_to
 
-   !> The nodes of moving surfaces have no free displacements, and those of what is prescribed. The reference nodes have theirs.
+   !> The nodes of moving surfaces have no free displacements: they move by what is prescribed of the body, u_R + phi
+   !> perp(x_i - x_R), and the rest comes in with the motions. Of the reference node, a node of the mesh, those
+   !> displacements are held that are prescribed.
    pure subroutine hold_carriers(model, prescribed, held, value)
       type(model_t), intent(in) :: model
       type(nodal_values_t), intent(in) :: prescribed   !< dofs of reference nodes
@@ -115,7 +117,9 @@ contains
       end do
    end subroutine hold_carriers
 
-   !> Which of u1, u2 and the rotation of a rigid body are prescribed, and their values: 0 for those that are free.
+   !> Which of u1, u2 and the rotation of a rigid body are prescribed, and their values: 0 for those that are free. On
+   !> the full circle a body of revolution can neither leave its axis nor turn: u1 and the rotation are held. A
+   !> pre-tension section moves along u1 of its reference node alone.
    pure subroutine prescribed_motion(model, prescribed, i, is_prescribed, motion)
       type(model_t), intent(in) :: model
       type(nodal_values_t), intent(in) :: prescribed   !< dofs of reference nodes
@@ -138,7 +142,7 @@ contains
    !> Whether two lists leave the same motions free.
    pure logical function hold_the_same(model, one, other) result(same)
       type(model_t), intent(in) :: model
-      type(nodal_values_t), intent(in) :: one, other
+      type(nodal_values_t), intent(in) :: one, other !< dofs of reference nodes
       logical :: is_prescribed(MOTIONS), is_in_other(MOTIONS)
       real(wp) :: motion(MOTIONS)
       integer(ip) :: i
@@ -152,10 +156,11 @@ contains
       end do
    end function hold_the_same
 
-   !> The rigid bodies behind those of elements.
+   !> The rigid bodies behind those of elements. One takes part (is_touched) where points face its surface, a row has
+   !> one of its nodes, or it is a pre-tension section.
    pure subroutine append_rigid_bodies(model, points, bodies)
       type(model_t), intent(in) :: model
-      type(contact_points_t), intent(in) :: points(:)
+      type(contact_points_t), intent(in) :: points(:) !< one a pair
       type(bodies_t), intent(inout) :: bodies
       type(body_t), allocatable :: list(:)
       logical :: has_points(0:size(model%surfaces)), has_row(model%mesh%n_nodes + CARRIERS*size(model%rigid_bodies))
@@ -188,7 +193,8 @@ contains
       bodies%n = bodies%n + bodies%n_rigid
    end subroutine append_rigid_bodies
 
-   !> What is left free of each rigid body: its modes, and where they move the nodes that carry it.
+   !> What is left free of each rigid body: its modes, columns of the identity (u1, u2, rotation), and where they move
+   !> the nodes that carry it. It changes from step to step with what is prescribed.
    pure subroutine set_rigid_motions(model, prescribed, bodies)
       type(model_t), intent(in) :: model
       type(nodal_values_t), intent(in) :: prescribed   !< dofs of reference nodes
@@ -209,8 +215,8 @@ contains
    !> The dofs of its nodes that a rigid body's free motions move; the others are held.
    pure subroutine mark_moving(mesh, body, equation)
       type(mesh_t), intent(in) :: mesh
-      type(body_t), intent(in) :: body
-      integer(ip), intent(inout) :: equation(:, :)
+      type(body_t), intent(in) :: body              !< a rigid one, with its modes
+      integer(ip), intent(inout) :: equation(:, :)  !< (2, n_nodes)
       integer(ip) :: k, dof, m
 
       do k = 1, size(body%nodes, kind=ip)
@@ -225,7 +231,8 @@ contains
       end do
    end subroutine mark_moving
 
-   !> The forces on reference nodes, moments as couples on the nodes that carry the motion.
+   !> The forces on reference nodes; a moment M as the couple -M/L, M/L along x2 on the first two nodes that carry the
+   !> motion, L apart along x1.
    pure subroutine add_rigid_loads(model, loads, f)
       type(model_t), intent(in) :: model
       type(nodal_values_t), intent(in) :: loads        !< at dofs of reference nodes

@@ -29,10 +29,10 @@ contains
    !> for, else of those alone that have no displacements, so that B' q has all that the forces do to every body.
    pure subroutine build_constraint_rows(fem, rows, line, with_motions, constraints)
       type(fem_t), intent(in) :: fem
-      type(contact_rows_t), intent(in) :: rows
-      type(contact_line_t), intent(in) :: line
-      logical, intent(in) :: with_motions
-      type(constraint_rows_t), intent(out) :: constraints
+      type(contact_rows_t), intent(in) :: rows      !< directions and coefficients
+      type(contact_line_t), intent(in) :: line      !< which unknown is of which point
+      logical, intent(in) :: with_motions           !< of all bodies; else of rigid ones alone
+      type(constraint_rows_t), intent(out) :: constraints !< B, and G behind it
       integer(ip) :: before(fem%bodies%n + 1), first_motion(fem%bodies%n + 1), b, i, at, n
 
       before(1) = 0
@@ -65,9 +65,11 @@ contains
       if (with_motions) call drop_unseen_motions(before(fem%bodies%n + 1), constraints)
    end subroutine build_constraint_rows
 
-   !> A motion that no row sees but for the rounding of coordinates that supports allow it by (find_rigid_modes) is seen by none.
+   !> A motion that no row sees but for the rounding of coordinates that supports allow it by (find_rigid_modes) is seen
+   !> by none: its column of G is set to 0. No equation could be
+   !> solved for its amplitude.
    pure subroutine drop_unseen_motions(n_displacements, constraints)
-      integer(ip), intent(in) :: n_displacements
+      integer(ip), intent(in) :: n_displacements    !< columns before the motions
       type(constraint_rows_t), intent(inout) :: constraints
       real(wp), parameter :: UNSEEN = 1.0e-10_wp
       real(wp) :: seen(n_displacements + 1:constraints%n_columns)
@@ -85,14 +87,15 @@ contains
       end do
    end subroutine drop_unseen_motions
 
+   !> The entries of a row of B over the displacements: its vectors at the dofs with equations.
    pure subroutine displacements_of_row(fem, rows, line, i, before, n, column, value)
       type(fem_t), intent(in) :: fem
-      type(contact_rows_t), intent(in) :: rows
-      type(contact_line_t), intent(in) :: line
+      type(contact_rows_t), intent(in) :: rows      !< directions and coefficients
+      type(contact_line_t), intent(in) :: line      !< which unknown is of which point
       integer(ip), intent(in) :: i               !< unknown force
       integer(ip), intent(in) :: before(:)       !< (bodies) columns of the bodies before
       integer(ip), intent(out) :: n              !< entries
-      integer(ip), intent(inout) :: column(:)
+      integer(ip), intent(inout) :: column(:)       !< of the entries
       real(wp), intent(inout) :: value(:)
       real(wp) :: direction(2), vector(2)
       integer(ip) :: k, dof, node
@@ -111,15 +114,16 @@ contains
       end do
    end subroutine displacements_of_row
 
-   !> The direction of an unknown at the nodes of its point, moved by the rigid motions of their bodies.
+   !> The entries of a row of G = B Z: G_im = sum_k (c_k d_i + turn) . z_m(x_k) over the nodes k of the row that motion
+   !> m moves. Entries below ROUND_OFF are left out.
    pure subroutine motions_of_row(fem, rows, line, i, first_motion, n, motion, value, rigid_only)
       type(fem_t), intent(in) :: fem
-      type(contact_rows_t), intent(in) :: rows
-      type(contact_line_t), intent(in) :: line
+      type(contact_rows_t), intent(in) :: rows      !< directions and coefficients
+      type(contact_line_t), intent(in) :: line      !< which unknown is of which point
       integer(ip), intent(in) :: i               !< unknown force
       integer(ip), intent(in) :: first_motion(:) !< (bodies) number of the first motion of each
       integer(ip), intent(out) :: n              !< entries
-      integer(ip), intent(inout) :: motion(:)
+      integer(ip), intent(inout) :: motion(:)       !< of the entries
       real(wp), intent(inout) :: value(:)
       logical, intent(in), optional :: rigid_only !< of rigid bodies alone; default .false.
       real(wp) :: direction(2), vector(2), turn(2), z(2, MOST_MODES)
@@ -159,7 +163,7 @@ contains
    !> The motions of a body at one of its nodes; 0 at the dofs that are held, and in the columns of motions that it does not have.
    pure function modes_at_node(fem, b, node) result(z)
       type(fem_t), intent(in) :: fem
-      integer(ip), intent(in) :: b, node
+      integer(ip), intent(in) :: b, node            !< body, one of its nodes
       real(wp) :: z(2, MOST_MODES)
       integer(ip) :: dof, j
 
@@ -186,8 +190,8 @@ contains
 
    !> Unit vector along which an unknown force acts: the normal or the tangent of its point.
    pure function direction_of(rows, line, i) result(d)
-      type(contact_rows_t), intent(in) :: rows
-      type(contact_line_t), intent(in) :: line
+      type(contact_rows_t), intent(in) :: rows      !< directions and coefficients
+      type(contact_line_t), intent(in) :: line      !< which unknown is of which point
       integer(ip), intent(in) :: i               !< unknown force
       real(wp) :: d(2)
 
@@ -195,9 +199,13 @@ contains
       if (line%normal(line%point(i)) == i) d = rows%normal(:, line%point(i))
    end function direction_of
 
-   !> What forces work on the rigid motions of all bodies, h = Z' f over the free dofs, and the size of what that is the sum of. A
-   !> body whose forces balance but for round-off rests: it has no load. The place where a force acts is known to rounding of the
-   !> coordinates alone, so what turns a body has a size though all forces act at its centre.
+   !> What forces work on the rigid motions of all bodies, h_m = sum over free dofs of z_m f, and the size of what that
+   !> is the sum of, sum |z_m f|.
+   !>
+   !> A body whose forces balance but for round-off, |h_m| <= 1e-14 of their sizes in all of its motions, rests: it has
+   !> no load. The place where a force acts is known to rounding of the coordinates alone, so what turns a body has a
+   !> size though all forces act at its centre: at least LEVER times the forces, times the distance of the centre from
+   !> the origin over the size of the body.
    pure subroutine loads_on_motions(fem, f, work, work_size)
       type(fem_t), intent(in) :: fem
       real(wp), intent(in) :: f(:, :)                !< (2, n_nodes) [F]
@@ -223,11 +231,12 @@ contains
       end do
    end subroutine loads_on_motions
 
-   !> What forces work on a rigid motion, over the free dofs; and the size of what that is the sum of.
+   !> What forces work on a rigid motion, sum over the free dofs of f z; and the size of what that is the sum of, sum |f
+   !> z|, by which cancellation is judged.
    pure subroutine work_on_motion(fem, body, mode, f, work, work_size)
       type(fem_t), intent(in) :: fem
       type(body_t), intent(in) :: body
-      integer(ip), intent(in) :: mode
+      integer(ip), intent(in) :: mode               !< column of body%modes
       real(wp), intent(in) :: f(:, :)            !< (2, n_nodes) [F]
       real(wp), intent(out) :: work, work_size   !< [F]
       real(wp) :: term

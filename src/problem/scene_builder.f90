@@ -29,7 +29,7 @@ contains
    !> Mesh and sections, prescribed dofs and values, and the points of every pair; build_bodies adds the bodies.
    subroutine build_scene(model, step, fem, held, value, points)
       type(model_t), intent(in), target :: model
-      type(step_t), intent(in) :: step
+      type(step_t), intent(in) :: step              !< what it prescribes
       type(fem_t), intent(out) :: fem
       logical, allocatable, intent(out) :: held(:, :)          !< (2, n_nodes)
       real(wp), allocatable, intent(out) :: value(:, :)        !< (2, n_nodes) prescribed displacements [L]
@@ -40,12 +40,8 @@ contains
       if (has_moving_surfaces(model)) fem%mesh => model%solver_mesh
       fem%grain = grain_of(model%mesh%x(:, :model%mesh%n_nodes))
       fem%section_of = model%section_of
-      allocate (fem%sections(size(model%sections)))
-      do i = 1, size(model%sections, kind=ip)
-         associate (section => model%sections(i), material => model%materials(model%sections(i)%material))
-            fem%sections(i) = elasticity_of(section, material)
-         end associate
-      end do
+      fem%sections = [(elasticity_of(model%sections(i), model%materials(model%sections(i)%material)), &
+                       i=1, size(model%sections, kind=ip))]
       if (allocated(step%heating)) fem%heating = step%heating
       call list_held(model, step, held, value)
       if (allocated(model%points)) then
@@ -60,7 +56,7 @@ contains
    subroutine build_bodies(model, held, points, asked, fem)
       type(model_t), intent(in) :: model
       logical, intent(in) :: held(:, :)                        !< (2, n_nodes)
-      type(contact_points_t), intent(in) :: points(:)
+      type(contact_points_t), intent(in) :: points(:) !< one a pair
       integer, intent(in) :: asked                             !< solver asked for, or 0
       type(fem_t), intent(inout) :: fem
       integer(ip), allocatable :: first(:), contact_nodes(:)
@@ -78,10 +74,13 @@ contains
       if (has_moving_surfaces(model)) call append_rigid_bodies(model, points, fem%bodies)
    end subroutine build_bodies
 
-   !> A body that hangs on one node alone could turn about it while the others are eliminated: the one farthest from it stays, too.
+   !> The nodes of a body whose displacements are kept by the condensation. A body that hangs on one node alone, by a
+   !> tie or a spring, could turn about it while the others are eliminated, and the factorisation would meet a pivot of
+   !> nothing: the node that is farthest from it stays, too.
    pure function enough_nodes(fem, b, nodes, hangs) result(kept)
       type(fem_t), intent(in) :: fem
-      integer(ip), intent(in) :: b, nodes(:)
+      integer(ip), intent(in) :: b                             !< body
+      integer(ip), intent(in) :: nodes(:)                      !< of it, in contact or bilateral rows
       logical, intent(in) :: hangs                             !< there are rows that single nodes hang on
       integer(ip), allocatable :: kept(:)
       integer(ip) :: i
@@ -96,7 +95,7 @@ contains
    !> Prescribed dofs and their displacements, those of the nodes that carry motions of rigid surfaces, too.
    pure subroutine list_held(model, step, held, value)
       type(model_t), intent(in) :: model
-      type(step_t), intent(in) :: step
+      type(step_t), intent(in) :: step              !< what it prescribes
       logical, allocatable, intent(out) :: held(:, :)          !< (2, nodes of the solver's mesh)
       real(wp), allocatable, intent(out) :: value(:, :)        !< [L]
       integer(ip) :: i, n_nodes
@@ -114,11 +113,13 @@ contains
       if (has_moving_surfaces(model)) call hold_carriers(model, step%rigid_prescribed, held, value)
    end subroutine list_held
 
-   !> The nodes of each body that take part in contact and bilateral rows, each once, in the order of the points.
+   !> The nodes of each body that take part in contact and bilateral rows, each once, in the order of the points. The
+   !> order is that of the last equations of the bodies: neighbours on the contact line stay neighbours in the
+   !> flexibility.
    subroutine list_contact_nodes(bodies, points, bilateral, first, nodes)
-      type(bodies_t), intent(in) :: bodies
-      type(contact_points_t), intent(in) :: points(:)
-      type(bilateral_rows_t), intent(in) :: bilateral
+      type(bodies_t), intent(in) :: bodies          !< body of each node
+      type(contact_points_t), intent(in) :: points(:) !< one a pair
+      type(bilateral_rows_t), intent(in) :: bilateral !< rows that tie nodes
       integer(ip), allocatable, intent(out) :: first(:)    !< (bodies + 1)
       integer(ip), allocatable, intent(out) :: nodes(:)    !< those of body i are nodes(first(i):first(i + 1) - 1)
       logical, allocatable :: taken(:)

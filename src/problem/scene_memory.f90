@@ -1,4 +1,5 @@
-!> Whether the machine can hold the matrices of a scene, asked before they are made.
+!> Whether the machine can hold the matrices of a scene, asked before they are made: a scene that is too large ends with
+!> E-MEMORY and the numbers, not with the system's out-of-memory killer.
 module atrito_scene_memory
    use atrito_kinds, only: ip, lp
    use atrito_memory, only: available_memory, memory_text
@@ -54,6 +55,7 @@ contains
       end if
    end subroutine check_average_memory
 
+   !> Adds the message, and sets a status without a text of its own.
    subroutine refuse(deck_path, text, status)
       character(len=:), allocatable, intent(in) :: deck_path
       character(len=*), intent(in) :: text

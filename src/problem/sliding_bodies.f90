@@ -32,7 +32,7 @@ contains
    !> stand, as along an axis, leave nothing in doubt.
    subroutine let_slide(rubs, points, fem, bilateral)
       logical, intent(in) :: rubs(:)                !< (pairs) with friction
-      type(contact_points_t), intent(inout) :: points(:)
+      type(contact_points_t), intent(inout) :: points(:) !< one a pair
       type(fem_t), intent(inout) :: fem
       type(bilateral_rows_t), intent(in) :: bilateral
       real(wp) :: motion(4)
@@ -60,8 +60,8 @@ contains
    !> A free body whose middle is all but the centre of the motion is turned about that one: its rotation then moves no row at all,
    !> where the distance between both would leave it the little of a translation, which no equation can be solved for.
    pure subroutine turn_about(sliding, body)
-      type(sliding_t), intent(in) :: sliding
-      type(body_t), intent(inout) :: body
+      type(sliding_t), intent(in) :: sliding        !< of a pair
+      type(body_t), intent(inout) :: body           !< one of the pair's
 
       if (.not. sliding%is_round .or. size(body%modes, 2) < 3) return
       if (maxval(abs(sliding%centre - body%centre)) <= ALL_BUT*body%size) body%centre = sliding%centre
@@ -69,14 +69,15 @@ contains
 
    !> Whether a translation is along an axis: its rows are exact as they are.
    pure logical function is_along_axis(sliding)
-      type(sliding_t), intent(in) :: sliding
+      type(sliding_t), intent(in) :: sliding        !< of a pair
 
       is_along_axis = .not. sliding%is_round .and. any(abs(sliding%direction) <= 0.0_wp)
    end function is_along_axis
 
-   !> The motion as one of the modes of a body, and what work along it is none, over the sum of the forces.
+   !> The motion as one of the modes of a body, and what work along it is none, over the sum of the forces: a rotation
+   !> about c is the body's rotation about its centre o, perp(x - o)/L, and the translation perp(o - c)/L.
    pure function motion_of_body(sliding, body) result(motion)
-      type(sliding_t), intent(in) :: sliding
+      type(sliding_t), intent(in) :: sliding        !< of a pair
       type(body_t), intent(in) :: body
       real(wp) :: motion(4), way(2)
 
@@ -91,7 +92,7 @@ contains
    !> Whether the supports of a body allow a motion, to the digits.
    pure logical function is_left_free(modes, motion)
       real(wp), intent(in) :: modes(:, :)           !< (3, motions) that supports leave
-      real(wp), intent(in) :: motion(4)
+      real(wp), intent(in) :: motion(4)             !< from motion_of_body
       real(wp) :: rest(3)
       integer(ip) :: j
 
@@ -104,8 +105,8 @@ contains
 
    !> Adds a motion to those of a body, once.
    pure subroutine add_motion(motion, body)
-      real(wp), intent(in) :: motion(4)
-      type(body_t), intent(inout) :: body
+      real(wp), intent(in) :: motion(4)             !< from motion_of_body
+      type(body_t), intent(inout) :: body           !< one of the pair's
       integer(ip) :: j
 
       if (body%is_rigid) return
@@ -130,12 +131,15 @@ contains
       end do
    end subroutine balance_loads
 
-   !> A rotation is taken out by a couple: forces along the rotation about the mean of the nodes, which have no sum.
+   !> Takes the work W = sum f . z of the forces on a motion z out of them, where it is none: |W| <= doubt sum |f|. The
+   !> least change of the forces does it, f <- f - z W/sum z^2. A rotation of a body with all three motions is taken out
+   !> by a couple: forces along the rotation about the mean of the nodes, which have no sum, so that no translation gets
+   !> a load by it.
    pure subroutine balance_body(fem, body, motion, f)
       type(fem_t), intent(in) :: fem
       type(body_t), intent(in) :: body
-      real(wp), intent(in) :: motion(4)
-      real(wp), intent(inout) :: f(:, :)
+      real(wp), intent(in) :: motion(4)             !< from motion_of_body
+      real(wp), intent(inout) :: f(:, :)            !< (2, n_nodes) [F]
       real(wp) :: along(2, size(body%nodes)), mean(2), work
       integer(ip) :: i, dof
 

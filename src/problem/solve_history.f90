@@ -53,18 +53,19 @@ contains
    !> An outer iteration ended with this residual of the friction bounds.
    pure subroutine end_outer(history, residual)
       type(solve_history_t), intent(inout) :: history
-      real(wp), intent(in) :: residual
+      real(wp), intent(in) :: residual              !< |nu S_rho(p) - tau|/|tau|
 
       history%last_residual = residual
       if (history%n > 0) history%records(history%n)%residual = residual
    end subroutine end_outer
 
-   !> Records a solve.
+   !> Records a solve: a row of iterations.tab. What is compared from solve to solve are the displacements r + D q of
+   !> the points (the opening or slip, without what the laws give way) and the stresses q/w.
    pure subroutine record_solve(history, problem, bounds, state)
       type(solve_history_t), intent(inout) :: history
-      type(bound_qp_t), intent(in) :: problem
+      type(bound_qp_t), intent(in) :: problem       !< of which the shape counts
       type(box_bounds_t), intent(in) :: bounds
-      type(box_state_t), intent(in) :: state
+      type(box_state_t), intent(in) :: state        !< after the solve
       type(iteration_t) :: record
       real(wp) :: moved(problem%m), stress(problem%m)
       integer(ip) :: n
@@ -96,7 +97,7 @@ contains
 
    !> |now - before|/|now| in the largest norm; 0 where there is nothing now.
    pure real(wp) function relative_change(now, before) result(change)
-      real(wp), intent(in) :: now(:), before(:)
+      real(wp), intent(in) :: now(:), before(:)     !< of this solve and the one before
       real(wp) :: scale
 
       change = 0.0_wp
@@ -105,12 +106,14 @@ contains
       if (scale > 0.0_wp) change = maxval(abs(now/scale - before/scale))
    end function relative_change
 
-   !> Points without pressure are open; of the closed ones those whose tangential unknown is free stick, the others slip.
+   !> Counts the states of points: those without pressure are open; of the closed ones those whose tangential unknown is
+   !> free stick, the others slip. The states of the last solve of each outer iteration are kept, OUTER_KEPT of them,
+   !> the oldest going first.
    pure subroutine count_states(history, problem, state, record)
       type(solve_history_t), intent(inout) :: history
-      type(bound_qp_t), intent(in) :: problem
-      type(box_state_t), intent(in) :: state
-      type(iteration_t), intent(inout) :: record
+      type(bound_qp_t), intent(in) :: problem       !< of which the shape counts
+      type(box_state_t), intent(in) :: state        !< after the solve
+      type(iteration_t), intent(inout) :: record    !< its counts of states are set
       integer(ip) :: now(problem%n_normal), i
 
       now = [(point_state(history, state, i), i=1, problem%n_normal)]
@@ -127,7 +130,7 @@ contains
    !> The state of a point, IS_OPEN and so on; 0 of a bilateral row, which is no point of contact.
    pure integer(ip) function point_state(history, state, i) result(now)
       type(solve_history_t), intent(in) :: history
-      type(box_state_t), intent(in) :: state
+      type(box_state_t), intent(in) :: state        !< after the solve
       integer(ip), intent(in) :: i                   !< normal unknown
       integer(ip) :: t
 
@@ -146,7 +149,7 @@ contains
 
    !> A letter a state: o open, c closed without friction, = sticking, + slipping along T, - against it.
    pure function state_letters(states) result(text)
-      integer(ip), intent(in) :: states(:)
+      integer(ip), intent(in) :: states(:)          !< IS_OPEN and so on
       character(len=size(states)) :: text
       integer :: i
 

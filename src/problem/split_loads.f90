@@ -40,7 +40,7 @@ contains
 
    !> Adds a force at a place to a resultant and its moment, and the sizes of its terms, by which round-off is judged.
    pure subroutine add_force(sum, x, f)
-      type(resultant_t), intent(inout) :: sum
+      type(resultant_t), intent(inout) :: sum       !< of what came before
       real(wp), intent(in) :: x(2)                  !< where it acts [L]
       real(wp), intent(in) :: f(2)                  !< [F]
       real(wp) :: arm(2)
@@ -54,12 +54,12 @@ contains
    !> Adds what of a load acts ahead of the line, or behind it.
    pure subroutine add_part_of_load(model, loads, i, line, ahead, factor, sum)
       type(model_t), intent(in) :: model
-      type(element_load_t), intent(in) :: loads
+      type(element_load_t), intent(in) :: loads     !< all loads on elements
       integer(ip), intent(in) :: i                  !< the load
-      type(cut_line_t), intent(in) :: line
+      type(cut_line_t), intent(in) :: line          !< that parts the element
       logical, intent(in) :: ahead                  !< the part ahead of the line; else that behind it
       real(wp), intent(in) :: factor                !< of the forces
-      type(resultant_t), intent(inout) :: sum
+      type(resultant_t), intent(inout) :: sum       !< of what came before
       type(corner_t), allocatable :: corners(:)
       integer(ip) :: nodes(MOST_OUTLINE), k, n
       integer(ip), allocatable :: face(:)
@@ -83,11 +83,11 @@ contains
    !> The load on a triangle or on a straight piece of a face.
    pure subroutine add_load_on(model, loads, i, corners, factor, sum)
       type(model_t), intent(in) :: model
-      type(element_load_t), intent(in) :: loads
-      integer(ip), intent(in) :: i
+      type(element_load_t), intent(in) :: loads     !< all loads on elements
+      integer(ip), intent(in) :: i                  !< load
       type(corner_t), intent(in) :: corners(:)
-      real(wp), intent(in) :: factor
-      type(resultant_t), intent(inout) :: sum
+      real(wp), intent(in) :: factor                !< of the forces
+      type(resultant_t), intent(inout) :: sum       !< of what came before
       real(wp) :: x(2, size(corners)), fe(2, size(corners))
       integer(ip) :: k
 
@@ -103,9 +103,9 @@ contains
    !> The share of an element's area that lies ahead of the line, or behind it, and its centre.
    pure subroutine part_of_area(model, element, line, ahead, share, centre)
       type(model_t), intent(in) :: model
-      integer(ip), intent(in) :: element
-      type(cut_line_t), intent(in) :: line
-      logical, intent(in) :: ahead
+      integer(ip), intent(in) :: element            !< that the line parts
+      type(cut_line_t), intent(in) :: line          !< that parts the element
+      logical, intent(in) :: ahead                  !< the part ahead of the line; else that behind it
       real(wp), intent(out) :: share                !< 0 to 1
       real(wp), intent(out) :: centre(2)            !< [L]
       type(corner_t), allocatable :: whole(:), part(:)
@@ -143,9 +143,9 @@ contains
    !> Nodes of an element as corners; one that is as near to the line as round-off lies on it.
    pure function corners_at(model, element, line, nodes) result(corners)
       type(model_t), intent(in) :: model
-      integer(ip), intent(in) :: element
-      type(cut_line_t), intent(in) :: line
-      integer(ip), intent(in) :: nodes(:)
+      integer(ip), intent(in) :: element            !< that the line parts
+      type(cut_line_t), intent(in) :: line          !< that parts the element
+      integer(ip), intent(in) :: nodes(:)           !< of the outline or of a chord
       type(corner_t) :: corners(size(nodes))
       integer(ip) :: k
 
@@ -160,7 +160,7 @@ contains
    !> What of a polygon, or of an open line of corners, lies on one side of the line.
    pure function part_beside(corners, ahead, closed) result(part)
       type(corner_t), intent(in) :: corners(:)
-      logical, intent(in) :: ahead, closed
+      logical, intent(in) :: ahead, closed          !< part ahead; a polygon, else an open line
       type(corner_t), allocatable :: part(:)
       type(corner_t) :: found(2*size(corners))
       real(wp) :: side
@@ -185,7 +185,7 @@ contains
 
    !> Where the line goes through between two corners.
    pure type(corner_t) function between(a, b) result(corner)
-      type(corner_t), intent(in) :: a, b
+      type(corner_t), intent(in) :: a, b            !< on different sides of the line
       real(wp) :: share
 
       share = a%height/(a%height - b%height)

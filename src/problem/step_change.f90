@@ -1,4 +1,7 @@
-!> From one step of a history to the next.
+!> From one step of a history to the next: where prescribed displacements begin, and whether the form of the contact system changes.
+!>
+!> Within a step a prescribed displacement goes on from where it was at the end of the step before (`from`). What was free
+!> before has no such value in the deck: it begins where the body has come to.
 module atrito_step_change
    use atrito_controls, only: METHOD_ANDERSON
    use atrito_kinds, only: ip, wp

@@ -22,7 +22,7 @@ module atrito_turning_rows
    use atrito_contact_rows, only: contact_rows_t
    use atrito_growth, only: make_room, resize
    use atrito_kinds, only: ip, wp
-   use atrito_points, only: contact_points_t, sliding_t
+   use atrito_points, only: contact_points_t
    use atrito_sliding_bodies, only: motions_left
    use atrito_sliding_motions, only: first_of_master
    implicit none (type, external)
@@ -46,10 +46,10 @@ contains
    !> Takes the rotation of the master out of the rows of points of curved sides between bodies that may turn.
    subroutine balance_rows(rubs, points, fem, bilateral, rows)
       logical, intent(in) :: rubs(:)                !< (pairs) with friction
-      type(contact_points_t), intent(in) :: points(:)
+      type(contact_points_t), intent(in) :: points(:) !< one a pair
       type(fem_t), intent(in) :: fem
       type(bilateral_rows_t), intent(in) :: bilateral
-      type(contact_rows_t), intent(inout) :: rows
+      type(contact_rows_t), intent(inout) :: rows   !< of all pairs
       real(wp), parameter :: NO_TURN = 1.0e-9_wp    ! of a motion
       logical :: may_turn(fem%bodies%n)
       type(turns_t) :: turns
@@ -69,7 +69,10 @@ contains
       do i = 1, size(points, kind=ip)
          do j = 1, points(i)%n
             m = m + 1
-            if (points(i)%rigid .or. .not. rubs(i) .or. .not. is_curved(points(i)%sliding)) cycle
+            associate (sliding => points(i)%sliding)       ! one of the sides is round, and both slide along themselves
+               if (points(i)%rigid .or. .not. (rubs(i) .and. sliding%exists)) cycle
+               if (.not. (sliding%is_round .or. sliding%meets_round)) cycle
+            end associate
             call find_turn(points(i), j, fem, may_turn, rows%normal(:, m), node, turn, n)
             if (n == 0) cycle
             call make_room(turns%row, turns%n, turns%n + n)
@@ -84,23 +87,20 @@ contains
       if (turns%n > 0) call add_turns(turns, rows)
    end subroutine balance_rows
 
-   !> Whether one of the sides is round, and both slide along themselves.
-   pure logical function is_curved(sliding)
-      type(sliding_t), intent(in) :: sliding
-
-      is_curved = sliding%exists .and. (sliding%is_round .or. sliding%meets_round)
-   end function is_curved
-
    !> The nodes that tell the rotation of the master at a point, and what is n's in its rows; n = 0: nothing is.
+   !>
+   !> d is the sum of all coefficients times places, x_s - x_m, since these are 1 and -1 in all. With s_k along the face
+   !> less their mean the rotation is w = -sum s_k n . u_k/sum s_k^2, so the normal row gets w (T . d) and the
+   !> tangential one -w (n . d).
    pure subroutine find_turn(points, j, fem, may_turn, normal, node, turn, n)
-      type(contact_points_t), intent(in) :: points
-      integer(ip), intent(in) :: j
+      type(contact_points_t), intent(in) :: points  !< of the pair
+      integer(ip), intent(in) :: j                  !< point
       type(fem_t), intent(in) :: fem
       logical, intent(in) :: may_turn(:)            !< (bodies)
-      real(wp), intent(in) :: normal(2)
-      integer(ip), intent(out) :: node(:)
+      real(wp), intent(in) :: normal(2)             !< of the point
+      integer(ip), intent(out) :: node(:)           !< the first n are in use
       real(wp), intent(out) :: turn(:, :)           !< (2, n) [1]
-      integer(ip), intent(out) :: n
+      integer(ip), intent(out) :: n                 !< 0: nothing is taken out
       real(wp) :: o(2), d(2), apart(2), s(size(node)), spread_of
       integer(ip) :: body, k, last
 
@@ -139,11 +139,11 @@ contains
 
    !> Adds the nodes of the master at a point that belong to a body.
    pure subroutine add_master(points, j, fem, body, node, n)
-      type(contact_points_t), intent(in) :: points
-      integer(ip), intent(in) :: j
+      type(contact_points_t), intent(in) :: points  !< of the pair
+      integer(ip), intent(in) :: j                  !< point
       type(fem_t), intent(in) :: fem
-      integer(ip), intent(in) :: body
-      integer(ip), intent(inout) :: node(:), n
+      integer(ip), intent(in) :: body               !< whose nodes count
+      integer(ip), intent(inout) :: node(:), n      !< the first n are in use
       integer(ip) :: k
 
       do k = first_of_master(points, j), points%first(j + 1) - 1
@@ -154,10 +154,11 @@ contains
       end do
    end subroutine add_master
 
-   !> Gives the rows of points what is n's of some nodes; those that a row has not yet become entries of it.
+   !> Gives the rows of points what is n's of some nodes; those that a row has not yet become entries of it, with a
+   !> coefficient of 0. The rows are written anew, one behind the other, since they grow.
    pure subroutine add_turns(turns, rows)
-      type(turns_t), intent(in) :: turns
-      type(contact_rows_t), intent(inout) :: rows
+      type(turns_t), intent(in) :: turns            !< rising by rows
+      type(contact_rows_t), intent(inout) :: rows   !< of all pairs
       integer(ip), allocatable :: node(:)
       real(wp), allocatable :: coefficient(:), turn(:, :)
       integer(ip) :: first(rows%n + 1), m, i, k, e, n, last
