@@ -90,8 +90,11 @@ contains
       end do
    end function build_average
 
-   !> Rows and columns of W. A point is near another as that one is near it, so that the points one after the other, each put into
-   !> the rows of its neighbours, make the columns of every row rise.
+   !> Rows and columns of W: row j has the points that are nearer to point j than rho.
+   !>
+   !> A point is near another as that one is near it, so instead of sorting each row the points are put, one after the
+   !> other, into the rows of all their neighbours: the columns of every row rise. It is done twice, the first time to
+   !> count the entries of each row.
    pure subroutine find_entries(x, rho, w)
       real(wp), intent(in) :: x(:, :), rho          !< (2, n) [L]; [L]
       type(average_t), intent(inout) :: w
@@ -125,7 +128,7 @@ contains
    end subroutine find_entries
 
    !> How many entries build_average would make. Counting ends where there are more than `most`; what is told then is an estimate,
-   !> from the points counted so far.
+   !> from the points counted so far: their entries times the points there are over those that were counted.
    pure integer(lp) function count_entries(x, rho, most, start) result(entries)
       real(wp), intent(in) :: x(:, :)      !< (2, n) [L]
       real(wp), intent(in) :: rho          !< [L], >= 0
@@ -149,7 +152,7 @@ contains
       end do
    end function count_entries
 
-   !> exp(rho^2/(r^2 - rho^2)) at q = r/rho, zero from q = 1 on.
+   !> exp(rho^2/(r^2 - rho^2)) at q = r/rho, that is exp(1/((q - 1)(q + 1))), zero from q = 1 on: all its derivatives vanish there.
    pure real(wp) function kernel_value(q)
       real(wp), intent(in) :: q                     !< >= 0
 
@@ -158,7 +161,9 @@ contains
       if (kernel_value < NO_WEIGHT) kernel_value = 0.0_wp
    end function kernel_value
 
-   !> The least distance [L] of two points that follow each other in a pair.
+   !> The least distance [L] of two points that follow each other in a pair: with rho at or below it no point has a
+   !> neighbour. The first point of a pair may stand at the place of the last one of the pair before, which is no
+   !> spacing.
    pure real(wp) function least_spacing(x, start)
       real(wp), intent(in) :: x(:, :)               !< (2, n) [L]
       integer(ip), intent(in), optional :: start(:) !< as in build_average

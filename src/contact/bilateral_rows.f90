@@ -97,7 +97,8 @@ contains
       end associate
    end subroutine trim_rows
 
-   !> Room for `most` rows and `most_entries` entries; the n rows and their entries stay.
+   !> Room for `most` rows and `most_entries` entries; the n rows and their entries stay. Rooms that double keep the
+   !> time of n rows at some n copies.
    pure subroutine set_room(n, most, entries, most_entries, rows)
       integer(ip), intent(in) :: n, most, entries, most_entries
       type(bilateral_rows_t), intent(inout) :: rows

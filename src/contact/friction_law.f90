@@ -44,7 +44,8 @@ contains
       if (law%kind == FRICTION_NONLOCAL) u = law%eps
    end function sticking_slip
 
-   !> t [F/L^2] at a known slip; a point of exact stick that does not move has none of its own.
+   !> t [F/L^2] at a known slip: tau sign(u_T) from the largest slip of a sticking point on, below it in proportion. A
+   !> point of exact stick that does not move has none of its own.
    pure elemental real(wp) function friction_stress(law, tau, slip) result(t)
       type(friction_law_t), intent(in) :: law
       real(wp), intent(in) :: tau, slip    !< [F/L^2], [L]

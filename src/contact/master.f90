@@ -208,7 +208,9 @@ contains
       share = slave_curvature/(both + max(master%straight - 0.1_wp*both, 0.0_wp))
    end function share_of_master
 
-   !> How far a place of a piece is a kink of the master, 0..1: the next piece, which is another side, begins within `reach` of it.
+   !> How far a place of a piece is a kink of the master, 0..1: the next piece, which is another side, begins within
+   !> `reach` of it. It falls linearly with the distance a from the end, kink (1 - a/reach), so that a point that moves
+   !> past a kink has no jump of its normal.
    pure real(wp) function kink_near(master, i, t, reach) result(kink)
       type(master_t), intent(in) :: master
       integer(ip), intent(in) :: i                  !< piece
@@ -248,7 +250,9 @@ contains
       end do
    end function look_along
 
-   !> Takes a piece where it is nearer than the best so far, or as near and earlier in the list.
+   !> Takes a piece where it is nearer than the best so far, or as near and earlier in the list. A line that misses the
+   !> piece by no more than END_TOLERANCE of it is moved to its end, but counts as farther off by twice that, so that a
+   !> piece that is met properly wins.
    pure subroutine look_at_piece(x, normal, reach, master, i, nearest, best)
       real(wp), intent(in) :: x(2), normal(2), reach !< line; length of the slave's face [L]
       type(master_t), intent(in) :: master

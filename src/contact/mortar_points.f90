@@ -70,10 +70,8 @@ module atrito_mortar_points
       logical :: has_point(MOST) = .true.           !< nodes that get a weighting function
       real(wp) :: length(MOST) = 0.0_wp             !< int psi ds [L]
       real(wp) :: weight(MOST) = 0.0_wp             !< int psi h ds [L^2]
-      real(wp) :: normal(2, MOST) = 0.0_wp          !< int psi n h ds [L^2], n the direction in which the sides touch
-      real(wp) :: gap(MOST) = 0.0_wp                !< int psi g h ds [L^3]
-      real(wp) :: across(2, MOST) = 0.0_wp          !< the same with the master's normals, and ...
-      real(wp) :: distance(MOST) = 0.0_wp           !< ... along them
+      real(wp) :: normal(2, MOST, 2) = 0.0_wp       !< int psi n h ds [L^2], n (1) common to both sides, (2) the master's
+      real(wp) :: gap(MOST, 2) = 0.0_wp             !< int psi g h ds [L^3], g along these
       real(wp) :: least = huge(1.0_wp)              !< of g [L]
       real(wp) :: slave(MOST, MOST) = 0.0_wp        !< int psi_a phi_b h ds [L^2]
       integer(ip) :: n = 0                          !< nodes of the master
@@ -91,6 +89,10 @@ module atrito_mortar_points
 contains
 
    !> The points of a slave that faces a master, on a deformable master's faces or rigid.
+   !>
+   !> 1. The faces are cut into segments (cut_slave), and the curve that both sides take is found (join_curves).
+   !> 2. Face by face the integrals over its segments are taken (integrate_face) and added to the points at its nodes (add_face).
+   !> 3. The points get unit normals, mean gaps, and rows over their weight, terms of one node together (finish_points).
    subroutine pair_by_mortar(mesh, thickness, slave, master_faces, master, compliance, master_compliance, points)
       type(mesh_t), intent(in) :: mesh
       real(wp), intent(in) :: thickness(:)          !< of each element [L]
@@ -139,7 +141,9 @@ contains
       call finish_points(mesh, rows, points)
    end subroutine pair_by_mortar
 
-   !> Face i and the one before it meet at a corner, and both see the master: the normal there is the master's, whatever the slopes.
+   !> Face i and the one before it (of the first face the last one, as on a ring) meet at a corner, and both see the
+   !> master: the normal there is the master's, whatever the slopes, since the mean of both faces' normals would be that
+   !> of neither.
    pure logical function is_corner_before(mesh, slave, segments, i) result(is_corner)
       type(mesh_t), intent(in) :: mesh
       type(face_list_t), intent(in) :: slave        !< one chain, ordered
@@ -157,7 +161,9 @@ contains
       end associate
    end function is_corner_before
 
-   !> The integrals over the segments of a face.
+   !> The integrals over the segments of a face: N_GAUSS points on each, t = ((1 - g) from + (1 + g) to)/2, exact to
+   !> degree five, and both ends for the least gap. A face that is covered whole gets its dual functions at the end,
+   !> when int phi_a phi_b is known.
    subroutine integrate_face(mesh, face, i, tips, segments, faces, master, integrals)
       type(mesh_t), intent(in) :: mesh
       type(slave_face_t), intent(in) :: face        !< of the slave
@@ -206,7 +212,8 @@ contains
       integer(ip), intent(in) :: nodes(:)           !< of the piece; none of a rigid one
       real(wp), intent(in) :: curvature             !< of the curve that both sides take under pressure [1/L]
       type(face_integrals_t), intent(inout) :: integrals !< of the face
-      real(wp) :: ds, psi(MOST), phi(MOST), on_master, normal(2), across(2), gap, distance, bulge
+      real(wp) :: ds, psi(MOST), phi(MOST), on_master, normal(2, 2), gap(2), bulge
+      integer(ip) :: v
 
       associate (n => face%n)
          phi = 0.0_wp
@@ -216,19 +223,19 @@ contains
          ds = weight*norm2(face_direction(face%x(:, :n), t))
          integrals%length = integrals%length + ds*psi
          ds = ds*depth_at(face%state, face%thickness, dot_product(phi(:n), face%places(:n)))
-         call look_at_piece(face, t, master, piece, on_master, normal, gap)
-         across = -smooth_normal(master, piece, on_master)
-         distance = dot_product(place_at(master, piece, on_master) - place_on_face(face, t), across)
+         call look_at_piece(face, t, master, piece, on_master, normal(:, 1), gap(1))
+         normal(:, 2) = -smooth_normal(master, piece, on_master)
+         gap(2) = dot_product(place_at(master, piece, on_master) - place_on_face(face, t), normal(:, 2))
          bulge = 0.0_wp
          if (size(nodes) == 2) bulge = 0.5_wp*curvature*on_master*(1 - on_master)*sum(master%d(:, piece)**2)
          if (n == 2) bulge = bulge + 0.125_wp*(1 - t**2)*lift_of(face%length**2, master, piece, size(nodes) == 2, curvature)
          gap = gap + bulge
-         integrals%across = integrals%across + ds*spread(across, 2, MOST)*spread(psi, 1, 2)
-         integrals%distance = integrals%distance + (ds*(distance + bulge))*psi
-         integrals%normal = integrals%normal + ds*spread(normal, 2, MOST)*spread(psi, 1, 2)
+         do v = 1, 2
+            integrals%normal(:, :, v) = integrals%normal(:, :, v) + ds*spread(normal(:, v), 2, MOST)*spread(psi, 1, 2)
+            integrals%gap(:, v) = integrals%gap(:, v) + (ds*gap(v))*psi
+         end do
          integrals%weight = integrals%weight + ds*psi
-         integrals%least = min(integrals%least, gap, distance + bulge)
-         integrals%gap = integrals%gap + (ds*gap)*psi
+         integrals%least = min(integrals%least, gap(1), gap(2))
          integrals%slave = integrals%slave + ds*spread(psi, 2, MOST)*spread(phi, 1, MOST)
       end associate
       if (.not. master%rigid) call add_master(nodes, face_shape_values(size(nodes, kind=ip), 2*on_master - 1), ds*psi, integrals)
@@ -305,7 +312,8 @@ contains
       gap = dot_product(place_at(master, piece, on_master) - x, normal)
    end subroutine look_at_piece
 
-   !> Adds a place's part of the master's integrals. A node is looked for among those of the pieces before.
+   !> Adds a place's part of the master's integrals, int psi_a phi_k h ds. A node is looked for among those of the last
+   !> pieces alone: one that comes again later has another entry, and both are added up by gather.
    pure subroutine add_master(nodes, values, psi, integrals)
       integer(ip), intent(in) :: nodes(:)           !< of the piece
       real(wp), intent(in) :: values(:)             !< shape functions
@@ -345,8 +353,8 @@ contains
       end do
       call solve_lu(m, a, info)                     ! M^-1 D, the transpose of A
       a = transpose(a)
-      integrals%gap(:n) = matmul(a, integrals%gap(:n))
-      integrals%distance(:n) = matmul(a, integrals%distance(:n))
+      integrals%gap(:n, 1) = matmul(a, integrals%gap(:n, 1))
+      integrals%gap(:n, 2) = matmul(a, integrals%gap(:n, 2))
       integrals%master(:n, :integrals%n) = matmul(a, integrals%master(:n, :integrals%n))
       integrals%slave = 0.0_wp
       do k = 1, n
@@ -364,7 +372,7 @@ contains
       type(face_integrals_t), intent(in) :: integrals !< of the face
       type(rows_t), intent(inout) :: rows           !< of the faces so far
       type(contact_points_t), intent(inout) :: points
-      integer(ip) :: order(MOST), k, a, b, j
+      integer(ip) :: order(MOST), k, a, b, j, v
 
       order = [1_ip, 2_ip, 3_ip]
       if (face%n == 3) order = [1_ip, 3_ip, 2_ip]
@@ -374,13 +382,9 @@ contains
          call add_point(mesh, face%node(a), s + rule%s(k), points, rows%place, j)
          points%length(j) = points%length(j) + integrals%length(a)
          points%weight(j) = points%weight(j) + integrals%weight(a)
-         if (face%is_corner(a)) then
-            points%gap(j) = points%gap(j) + integrals%distance(a)
-            points%normal(:, j) = points%normal(:, j) + integrals%across(:, a)
-         else
-            points%gap(j) = points%gap(j) + integrals%gap(a)
-            points%normal(:, j) = points%normal(:, j) + integrals%normal(:, a)
-         end if
+         v = merge(2, 1, face%is_corner(a))
+         points%gap(j) = points%gap(j) + integrals%gap(a, v)
+         points%normal(:, j) = points%normal(:, j) + integrals%normal(:, a, v)
          rows%least(j) = min(rows%least(j), integrals%least)
          call add_term(j, face%node(a), integrals%slave(a, a), rows%slave)
          do b = 1, face%n
@@ -394,6 +398,8 @@ contains
 
    !> Unit normals, mean gaps, and the rows by points: of each the slave's nodes, its own first, then the master's. The functions
    !> psi change their signs, and with them the mean may be below all gaps: sides that touch beside a bend do not overlap.
+   !>
+   !>     n_j = N/|N|,  N = int psi_j n h ds;     s_j = max(int psi_j g h ds/W_j, least g);     c_jk = int psi_j phi_k h ds/W_j
    subroutine finish_points(mesh, rows, points)
       type(mesh_t), intent(in) :: mesh
       type(rows_t), intent(in) :: rows              !< of all faces

@@ -156,7 +156,9 @@ contains
       d = d/norm2(d)
    end function direction_at
 
-   !> Ends of the face and places that face an end of a piece of the master, in ascending order; none where the master lies aside.
+   !> Ends of the face and places that face an end of a piece of the master, in ascending order; none where the master
+   !> lies aside. The pieces are those within the strip of the face, by a search that passes over what does not face it;
+   !> both ends of a piece are looked for, since at an end of the master no other piece has it.
    pure subroutine find_cuts(face, master, cuts)
       type(slave_face_t), intent(in) :: face        !< of the slave
       type(master_t), intent(in) :: master
@@ -218,7 +220,9 @@ contains
       cuts = cuts(:n)
    end function sorted_cuts
 
-   !> Half of the width [L] of the strip that a face looks into: its own, and what the directions spread on the way to the master.
+   !> Half of the width [L] of the strip that a face looks into: its own length, which is twice what is needed for
+   !> straight sides, and what the directions spread on the way to the master, the sine between them times the distance
+   !> of the farthest piece.
    pure real(wp) function strip_of(face, master) result(strip)
       type(slave_face_t), intent(in) :: face        !< of the slave
       type(master_t), intent(in) :: master
@@ -262,7 +266,8 @@ contains
       if (i <= MOST_STEPS) t = NOWHERE
    end function facing_place
 
-   !> The parts of the face between cuts that face a piece of the master.
+   !> The parts of the face between cuts that face a piece of the master. Between two cuts the line of sight passes no
+   !> end of a piece, so what the middle sees is seen from the whole part.
    pure subroutine add_segments(face, master, cuts, i_face, segments)
       type(slave_face_t), intent(in) :: face        !< of the slave
       type(master_t), intent(in) :: master

@@ -26,7 +26,9 @@ module atrito_neighbours
 
 contains
 
-   !> A grid for points that are neighbours when they are less than `reach` apart.
+   !> A grid for points that are neighbours when they are less than `reach` apart. A cell has the width of the reach and
+   !> some more, so that rounding of x/width puts no neighbour two cells away; no more than MOST cells along a direction
+   !> have numbers.
    pure subroutine build_grid(x, reach, grid)
       real(wp), intent(in) :: x(:, :)                !< (2, n) [L]
       real(wp), intent(in) :: reach                  !< [L], > 0

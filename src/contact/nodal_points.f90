@@ -53,6 +53,12 @@ module atrito_nodal_points
 contains
 
    !> Points of the slave that face the master. n = 0 when none does.
+   !>
+   !> 1. Which faces take part: those all of whose nodes find the master (finds_master).
+   !> 2. A point at each node of these, with length, weight, normal and curvature (place_points).
+   !> 3. What each point faces: gap, common normal, row (look_for_master).
+   !> 4. At the axis of revolution the rows of a face's nodes are mixed to those of its points (mix_rows).
+   !> 5. Nodes at the tip of a crack, of both sides, have no point (common_ends).
    pure subroutine pair_with_master(mesh, thickness, slave, master_faces, master, points)
       type(mesh_t), intent(in) :: mesh
       real(wp), intent(in) :: thickness(:)          !< of each element [L]
@@ -97,7 +103,8 @@ contains
       end do
    end function finds_master
 
-   !> A node of the face finds the master, or the middle of a straight one does.
+   !> A node of the face finds the master, or the middle of a straight one does: for the message about a pair none of
+   !> whose faces sees the master with all of its nodes.
    pure logical function sees_master(mesh, slave, i, master) result(sees)
       type(mesh_t), intent(in) :: mesh
       type(face_list_t), intent(in) :: slave        !< one chain, ordered
@@ -254,8 +261,9 @@ contains
       gap = dot_product(place_at(master, sight%piece, sight%t) - x, normal)
    end subroutine turn_to_common_normal
 
-   !> Where neighbours on the slave lie farthest apart, by the distance of the master's nodes that are faced from the middle
-   !> between them: what is pushed between them meets no point.
+   !> Where neighbours on the slave lie farthest apart, by the distance of the master's nodes that are faced from the
+   !> middle between them: what is pushed between them meets no point. coarseness is the largest ratio of these two
+   !> distances, coarse_node where it is; the check of the deck warns of it.
    pure subroutine find_coarsest(mesh, master, faces, points)
       type(mesh_t), intent(in) :: mesh
       type(master_t), intent(in) :: master

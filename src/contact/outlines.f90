@@ -54,7 +54,8 @@ module atrito_outlines
 
 contains
 
-   !> The outer faces of all elements in the order of these, without those of cuts.
+   !> The outer faces of all elements in the order of these, without those of cuts: both sides of a pre-tension section
+   !> hold together, and are no contact.
    subroutine list_outlines(mesh, around, body_of_element, outlines, cut)
       type(mesh_t), intent(in) :: mesh
       type(node_elements_t), intent(in) :: around   !< elements round each node
@@ -156,7 +157,8 @@ contains
       end do
    end subroutine look_around
 
-   !> From the middle of a face along its normal.
+   !> The line of sight of a face: from its middle along its normal. Crossings no farther off than rounding of the
+   !> coordinates (near) are the face itself or what touches it, and hide nothing.
    pure subroutine aim(mesh, outlines, i, line)
       type(mesh_t), intent(in) :: mesh
       type(outlines_t), intent(in) :: outlines
@@ -207,7 +209,7 @@ contains
    end subroutine look_at_bodies
 
    !> All pieces of a master that face the line and lie on it, no farther off than the limit on either side; a piece that is
-   !> crossed twice stands there twice.
+   !> crossed twice stands there twice. The list is in the order of the search, not of the distances.
    pure subroutine look_both_ways(line, master, piece, away, n)
       type(line_t), intent(in) :: line              !< of sight
       type(master_t), intent(in) :: master          !< whose pieces are looked at

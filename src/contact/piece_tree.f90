@@ -154,7 +154,9 @@ contains
       branch%normal_high = max(branch%normal_high, other%normal_high)
    end subroutine widen
 
-   !> Whether all pieces lie farther off the line than `turn` times their greatest distance from x, or turn their backs on it.
+   !> Whether all pieces lie farther off the line than `turn` times their greatest distance from x, or turn their backs
+   !> on it: a line in doubt by the angle with this sine meets none. The box of the whole tree tells; most faces of a
+   !> long slave are so far off a short master.
    pure logical function is_far_off(tree, x, normal, turn)
       type(piece_tree_t), intent(in) :: tree
       real(wp), intent(in) :: x(2), normal(2)       !< place [L] and unit vector of the line
@@ -236,7 +238,9 @@ contains
       call put_in_order(waiting_t(k, first, last, merge(along, across, search%crossing)), search)
    end subroutine add_branch
 
-   !> The farther ones first; of those that are as near the one that comes later is looked at first.
+   !> Puts a branch among those that wait, by insertion: the farther ones first, so that the nearest is taken from the
+   !> end of the list; of those that are as near the one that comes later is looked at first. Some log n branches wait,
+   !> so the list is short.
    pure subroutine put_in_order(new, search)
       type(waiting_t), intent(in) :: new            !< to be put among those that wait
       type(search_t), intent(inout) :: search       !< with the branches that wait
@@ -252,7 +256,9 @@ contains
       search%n = search%n + 1
    end subroutine put_in_order
 
-   !> The next pieces to be looked at: those of the nearest branch, if it is not farther off than what was found.
+   !> The next pieces to be looked at: those of the nearest branch, if it is not farther off than what was found. A
+   !> branch that is no leaf is replaced by its halves. None: nothing that still waits can be nearer, the search is at
+   !> its end.
    pure subroutine next_leaf(tree, found, search, first, last)
       type(piece_tree_t), intent(in) :: tree
       real(wp), intent(in) :: found                 !< [L]

@@ -180,7 +180,8 @@ contains
       end if
    end subroutine cross_parabola
 
-   !> Where the line through x along the normal crosses an arc's circle.
+   !> Where the line through x along the normal crosses an arc's circle: twice or not at all; a line that only touches
+   !> it does not cross. t is outside of [0,1] where the place is on the circle but not on the arc.
    pure subroutine cross_arc(pieces, i, x, normal, t, n_roots)
       class(pieces_t), intent(in) :: pieces
       integer(ip), intent(in) :: i                  !< the piece

@@ -73,7 +73,7 @@ module atrito_points
 
 contains
 
-   !> Room for points without entries.
+   !> Room for points without entries. Lengths, weights, normals and gaps begin at 0: faces add to them.
    pure subroutine allocate_points(most, most_entries, points)
       integer(ip), intent(in) :: most, most_entries  !< points and entries at the most
       type(contact_points_t), intent(inout) :: points
@@ -85,7 +85,7 @@ contains
                 points%gap(most), source=0.0_wp)
    end subroutine allocate_points
 
-   !> The point of a node, which is made when it is new.
+   !> The point of a node, which is made when it is new: faces that share a node share its point.
    pure subroutine add_point(mesh, node, s, points, place, j)
       type(mesh_t), intent(in) :: mesh
       integer(ip), intent(in) :: node

@@ -8,7 +8,10 @@
 !>
 !>     (1/W_j) int psi_j (u_slave - u_master) 2 pi r ds,   W_j = int psi_j 2 pi r ds > 0,
 !>
-!> whose sum is one, so that a uniform pressure is still carried exactly, and that on the axis has a value.
+!> whose sum is one, so that a uniform pressure is still carried exactly, and that on the axis has a value. The row of
+!> such a point is a mean of the rows of the nodes of its faces: with S_ja = int psi_j N_a 2 pi r ds on a face, u_slave
+!> = sum_a N_a u_a makes it sum_a S_ja/W_j (row of node a), and what the weight has from other faces stays with its own
+!> node.
 module atrito_revolved_faces
    use atrito_face_geometry, only: face_direction, outward_normal
    use atrito_growth, only: make_room
@@ -38,7 +41,9 @@ module atrito_revolved_faces
 
 contains
 
-   !> Whether a face of the second degree touches the axis of its body of revolution, or nearly so.
+   !> Whether a face of the second degree touches the axis of its body of revolution, or nearly so: it begins within
+   !> AT_AXIS of its extent along the radius from r = 0, where int N 2 pi r ds of its first node would be next to
+   !> nothing, or negative.
    pure logical function is_at_axis(state, x)
       integer(ip), intent(in) :: state             !< place in STATES
       real(wp), intent(in) :: x(:, :)              !< its nodes [L]

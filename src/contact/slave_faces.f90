@@ -53,7 +53,8 @@ contains
       where (.not. is_common) nodes = 0
    end function common_ends
 
-   !> Sine of the angle by which the normal turns along a face, or from it to the next ones of the chain; 0 at a corner.
+   !> Sine of the angle by which the normal turns along a face, or from it to the next ones of the chain; 0 at a corner,
+   !> where the faces do not stand for a curve. By so much a normal at the end of the face may be off that of the curve.
    pure real(wp) function turn_at(mesh, slave, i, rule) result(turn)
       type(mesh_t), intent(in) :: mesh
       type(face_list_t), intent(in) :: slave        !< one chain, ordered

@@ -56,6 +56,8 @@ module atrito_sliding_motions
 contains
 
    !> The chords of the faces that take part: those of the slave that are not left out, and those that its points see.
+   !> The grain is that of the mesh or of these nodes alone, whichever is coarser; faces as short as ten grains tell
+   !> that the nodes were not rounded to it.
    pure subroutine list_chords(mesh, slave, faces, master, points, grain, chords)
       type(mesh_t), intent(in) :: mesh
       type(face_list_t), intent(in) :: slave

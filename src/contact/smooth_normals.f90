@@ -35,6 +35,10 @@ contains
 
    !> Unit normals at the ends of each face, the mean of both faces unless they meet at a corner; the curvature of each, the
    !> turn of the normal along it and at its ends over its length, but for what is rounding; and the same with its sign.
+   !>
+   !> The faces may come in any order: the face that goes on where another ends is found by its first node. A first loop
+   !> looks at each face by itself, a second one at each joint; the turn at a joint belongs to both of its faces, half
+   !> and half where a face has two.
    pure subroutine smooth_surface(mesh, faces, ends, curvature, bend, grain)
       type(mesh_t), intent(in) :: mesh
       type(face_list_t), intent(in) :: faces

@@ -52,7 +52,8 @@ contains
       call join_parts(sum(points%n), parts(:n), w)
    end subroutine average_surfaces
 
-   !> How many entries average_surfaces would make, more than `most` only about.
+   !> How many entries average_surfaces would make, more than `most` only about: every law of a group is counted over
+   !> all of its points, though each point takes one row in the end.
    pure integer(lp) function count_surface_entries(points, rules, most) result(entries)
       type(contact_points_t), intent(in) :: points(:) !< one a pair
       type(average_rule_t), intent(in) :: rules(:)   !< one a pair

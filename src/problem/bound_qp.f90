@@ -6,6 +6,14 @@
 !>     free   lower <= q <= upper and r = 0      (closed, sticking)
 !>     fixed  q = lower and r <= 0, or q = upper and r >= 0      (open, slipping)
 !>
+!> These are the conditions of the minimum of the complementary energy of the bodies under the bounds,
+!>
+!>     1/2 q' (C + D) q - g0' q -> min     with  lower <= q <= upper,   G' q = h,
+!>
+!> a being the multipliers of equilibrium and r those of the bounds: with L = 1/2 q' (C + D) q - g0' q - a' (G' q - h)
+!> the gradient by q is -r. C is positive semidefinite and D >= 0, so every solution is a minimum, and where the rows of
+!> the free unknowns are independent there is one.
+!>
 !> C is the flexibility of the bodies seen from the points, D the compliances of the laws (delta/w, eps/(w tau)), G the rigid
 !> motions at the points, h the loads' work on them (docs/theory/formulation.md, section 4).
 !> With a shift v in the state, r = g0 + v - (C + D) q + G a. What solves it stands in condensed/: atrito_free_set where the free

@@ -41,7 +41,8 @@ module atrito_constraint_rows
 
 contains
 
-   !> y = B x, and the sums of the sizes of its terms.
+   !> y = B x, the relative displacements of the points, and the sums of the sizes of its terms, |B| |x|: round-off of y
+   !> is some EPS_MACH of these.
    pure subroutine multiply_rows(rows, x, y, sizes)
       type(constraint_rows_t), intent(in) :: rows
       real(wp), intent(in) :: x(:)               !< (n_columns) [L]
@@ -64,7 +65,7 @@ contains
       end do
    end subroutine multiply_rows
 
-   !> y <- y + factor B' q.
+   !> y <- y + factor B' q: the forces of the contact on the dofs, added row by row; rows without a force are passed over.
    pure subroutine add_transposed(rows, factor, q, y)
       type(constraint_rows_t), intent(in) :: rows
       real(wp), intent(in) :: factor                !< 1 or -1, mostly
@@ -80,7 +81,8 @@ contains
       end do
    end subroutine add_transposed
 
-   !> Components of the rows that may depend on each other; rows outside `used` do not count.
+   !> Components of the rows that may depend on each other; rows outside `used` do not count, as those of open points.
+   !> No component: the forces are unique.
    subroutine list_components(rows, used, first, member)
       type(constraint_rows_t), intent(in) :: rows
       logical, intent(in) :: used(:)             !< (n)
@@ -166,7 +168,7 @@ contains
       end do
    end subroutine count_touches
 
-   !> The dofs of a point's rows, each once.
+   !> The dofs of a point's rows, each once: some four to ten, so they are looked for one by one.
    pure function dofs_of_point(rows, own) result(dofs)
       type(constraint_rows_t), intent(in) :: rows
       integer(ip), intent(in) :: own(:)             !< rows of the point; 0: none
@@ -202,7 +204,7 @@ contains
       stands_alone = norm2(b - dot_product(a, b)*a) > INDEPENDENT*whole
    end function stands_alone
 
-   !> A row on some dofs, and its length on all.
+   !> A row on some dofs, as a vector over these, and its length on all.
    pure subroutine spread_row(rows, i, dofs, a, whole)
       type(constraint_rows_t), intent(in) :: rows
       integer(ip), intent(in) :: i, dofs(:)         !< row; dofs
@@ -242,7 +244,8 @@ contains
       end do
    end subroutine group
 
-   !> A common root for all points that shared dofs lead to.
+   !> A common root for all points that shared dofs lead to: of each dof the first point that has it is kept, and every
+   !> other one that comes is joined with it, the larger root becoming a child of the smaller.
    subroutine join_points(rows, rows_of, waits, root)
       type(constraint_rows_t), intent(in) :: rows
       integer(ip), intent(in) :: rows_of(:, :)      !< (MOST_OF_POINT, points) of each; 0: none

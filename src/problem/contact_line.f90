@@ -85,7 +85,8 @@ contains
       if (line%n_bilateral > 0) last = line%pair(line%n - line%n_bilateral + 1) - 1
    end function last_contact_pair
 
-   !> The tangential unknown at the point of each of the n normal ones; 0: none; -1: no point of contact.
+   !> The tangential unknown at the point of each of the n normal ones; 0: none, without friction; -1: no point of
+   !> contact, a bilateral row.
    pure function tangential_of(line, n) result(i)
       type(contact_line_t), intent(in) :: line
       integer(ip), intent(in) :: n                  !< normal unknowns
@@ -95,7 +96,8 @@ contains
       where (line%point(:n) > line%n - line%n_bilateral) i = -1
    end function tangential_of
 
-   !> The last point of the pair that begins at `first`.
+   !> The last point of the pair that begins at `first`; the points of a pair follow each other. Where no pairs are told
+   !> all are of one.
    pure integer(ip) function last_of_pair(line, first) result(last)
       type(contact_line_t), intent(in) :: line
       integer(ip), intent(in) :: first              !< its first point
@@ -109,7 +111,9 @@ contains
       end do
    end function last_of_pair
 
-   !> Pressure p [F/L^2] at the points from the forces q.
+   !> Pressure p [F/L^2] at the points from the forces q: p = q/w, or (u_n - s)^+/delta of a known overlap. A known
+   !> overlap of a contact without delta is an error of the deck, and has been told. Bilateral rows have their force
+   !> over their weight, of either sign.
    pure function pressure_of(line, q) result(p)
       type(contact_line_t), intent(in) :: line
       real(wp), intent(in) :: q(:)                  !< (unknowns) forces [F]
@@ -127,7 +131,8 @@ contains
       end do
    end function pressure_of
 
-   !> u_T [L] at which the friction of a point is none.
+   !> u_T [L] at which the friction of a point is none: laws with memory count the slip from there (atrito_slip_memory),
+   !> others from 0.
    pure real(wp) function rest_of(line, j) result(rest)
       type(contact_line_t), intent(in) :: line
       integer(ip), intent(in) :: j                  !< point
@@ -136,7 +141,7 @@ contains
       if (allocated(line%rest)) rest = line%rest(j)
    end function rest_of
 
-   !> Friction stress t [F/L^2] at the points (it acts on the master along T).
+   !> Friction stress t [F/L^2] at the points (it acts on the master along T): t = q/w, or the law's of a slip that is known.
    pure function shear_force_of(line, q, tau) result(t)
       type(contact_line_t), intent(in) :: line
       real(wp), intent(in) :: q(:), tau(:)          !< (unknowns) [F], (n) friction bounds [F/L^2]
@@ -180,8 +185,8 @@ contains
       end associate
    end function known_shear
 
-   !> u_T less the rest slip [L] of a tangential unknown: that of its law where it sticks, which has more digits than the
-   !> displacements.
+   !> u_T less the rest slip [L] of a tangential unknown, D q + r: that of its law, c t, where it sticks (r = 0), which
+   !> has more digits than the displacements; and what it slides by besides where its friction is full.
    pure real(wp) function slip_of_unknown(bounds, state, i) result(slip)
       type(box_bounds_t), intent(in) :: bounds
       type(box_state_t), intent(in) :: state
@@ -191,7 +196,8 @@ contains
       if (state%state(i) /= FREE) slip = slip + state%r(i)
    end function slip_of_unknown
 
-   !> The friction bound tau = nu S_rho(p) [F/L^2] at the points; tensions within an iteration count as none.
+   !> The friction bound tau = nu S_rho(p) [F/L^2] at the points, tau_j = nu_j sum_k W_jk max(p_k, 0): tensions, which
+   !> an iteration may have and a solution has not, count as none.
    pure function friction_bound(line, p) result(tau)
       type(contact_line_t), intent(in) :: line
       real(wp), intent(in) :: p(:)                  !< (n) pressures [F/L^2]

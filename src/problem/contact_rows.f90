@@ -44,7 +44,9 @@ module atrito_contact_rows
 
 contains
 
-   !> The rows of all pairs, one pair after the other, and the bilateral ones behind them.
+   !> The rows of all pairs, one pair after the other, and the bilateral ones behind them. What is asked of the points
+   !> for rows alone comes along: gaps, the doubt about the normals, which rows supports hold, the length that a point
+   !> stands for.
    pure subroutine build_rows(points, rows, bilateral)
       type(contact_points_t), intent(in) :: points(:) !< one a pair
       type(contact_rows_t), intent(out) :: rows
@@ -115,7 +117,7 @@ contains
       if (allocated(rows%allowed)) rows%gap(:first) = rows%gap(:first) + rows%allowed(:first)
    end subroutine allow_overlap
 
-   !> The distance of two sides from what contact takes for it.
+   !> The distance of two sides from what contact takes for it, less the overlap that a step allows at its time.
    pure real(wp) function true_gap(rows, j, gap)
       type(contact_rows_t), intent(in) :: rows
       integer(ip), intent(in) :: j                  !< row
@@ -125,7 +127,8 @@ contains
       if (allocated(rows%allowed)) true_gap = gap - rows%allowed(j)
    end function true_gap
 
-   !> What the displacement of the node of entry k is multiplied by in row j along a direction.
+   !> What the displacement of the node of entry k is multiplied by in row j along a direction d: b_k = c_k d + e_k n,
+   !> the part of B that the node has. The forces of q_j on the nodes are b_k q_j.
    pure function vector_of_entry(rows, j, k, direction) result(vector)
       type(contact_rows_t), intent(in) :: rows
       integer(ip), intent(in) :: j, k               !< row, entry
@@ -162,7 +165,7 @@ contains
       vector = rows%turn(which_row(rows, j, direction), k)*rows%normal(:, j)
    end function turn_of_entry
 
-   !> 1 for the normal row of a point, 2 for its tangential one.
+   !> 1 for the normal row of a point, 2 for its tangential one: the direction is n or T, so d . T tells.
    pure integer function which_row(rows, j, direction)
       type(contact_rows_t), intent(in) :: rows
       integer(ip), intent(in) :: j                  !< row
@@ -171,7 +174,8 @@ contains
       which_row = merge(2, 1, dot_product(direction, rows%tangent(:, j)) > 0.5_wp)
    end function which_row
 
-   !> The relative displacement [L] of point j along a direction.
+   !> The relative displacement [L] of point j along a direction, sum_k c_k d . u_k + sum_k e_k n . u_k; of a bilateral
+   !> row sum_k v_k . u_k.
    pure real(wp) function row_value(rows, j, direction, u) result(value)
       type(contact_rows_t), intent(in) :: rows
       integer(ip), intent(in) :: j                  !< row

@@ -86,7 +86,8 @@ contains
       if (allocated(had%force)) force = NONE_OF_HAD*maxval(had%force)
    end function force_round_off
 
-   !> By how much round-off grows in the displacements of a body.
+   !> By how much round-off grows in the displacements of a body: max(5e4, 10 n, 10^(digits that pivots lost)), which stands for the
+   !> condition of its stiffness.
    elemental real(wp) function usual_growth(n, digits_lost) result(growth)
       integer(ip), intent(in) :: n               !< equations
       real(wp), intent(in) :: digits_lost        !< by its worst pivot
@@ -94,7 +95,8 @@ contains
       growth = max(USUAL_CONDITION, CONDITION_A_DOF*n, 10.0_wp**digits_lost)
    end function usual_growth
 
-   !> Slips and gaps of a pair that are none, scales%slip and %gap.
+   !> Slips and gaps of a pair that are none, scales%slip and %gap: 1e-9 of the largest |N_j u|, |T_j u| and overlap
+   !> delta p, and the uncertainty of the displacements at its points; of gaps the rounding of coordinates besides.
    pure subroutine measure_places(rows, u, uncertain, first, last, overlap, far, scales)
       type(contact_rows_t), intent(in) :: rows
       real(wp), intent(in) :: u(:, :)            !< (2, n_nodes) [L]

@@ -60,7 +60,9 @@ contains
       if (allocated(solution)) serves_as_start = solution%form == form
    end function serves_as_start
 
-   !> Whether no contact force is asked for: without any nothing overlaps, and what bilateral rows prescribe is so.
+   !> Whether no contact force is asked for: without any nothing overlaps, g0 <= 0 at the points, what bilateral rows
+   !> prescribe is so, g0 = 0, and no known overlap makes a pressure. The solution is q = 0 then, and no problem is
+   !> solved for it (let_rest).
    pure logical function asks_no_force(line, problem, g0)
       type(contact_line_t), intent(in) :: line
       type(bound_qp_t), intent(in) :: problem         !< of which the shape counts
@@ -77,7 +79,7 @@ contains
       end associate
    end function asks_no_force
 
-   !> The solution without contact forces.
+   !> The solution without contact forces: all points open, r = g0, friction frozen at 0.
    pure subroutine let_rest(line, problem, g0, solution)
       type(contact_line_t), intent(in) :: line
       type(bound_qp_t), intent(in) :: problem         !< of which the shape counts
@@ -98,7 +100,7 @@ contains
       solution%converged = .true.
    end subroutine let_rest
 
-   !> The friction bound that the law has in a state: what all loops take next, and stop at.
+   !> The friction bound that the law has in a state, Phi(tau) = nu S_rho(p): what all loops take next, and stop at.
    pure function bound_of_state(line, solution) result(tau)
       type(contact_line_t), intent(in) :: line
       type(contact_solution_t), intent(in) :: solution

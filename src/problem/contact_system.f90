@@ -4,6 +4,10 @@
 !> of floating bodies: u = u_e + Z a. A is the stiffness of the bodies; at as many displacements of a floating body as it has
 !> motions there is a spring to the ground besides. It takes no force where the forces on the body balance, and only says which
 !> part of u is u_e.
+!>
+!> What a method may ask is to multiply by A, to factor A + B' R B + P with stiffnesses R >= 0 of the rows and P >= 0 of
+!> the amplitudes, and to solve with the last factor. What A is made of, and where its parts are, it does not know: one
+!> sparse matrix of all bodies (multiplier/), a dense one in tests, parts of a scene elsewhere.
 module atrito_contact_system
    use atrito_constraint_rows, only: constraint_rows_t
    use atrito_kinds, only: ip, lp, wp

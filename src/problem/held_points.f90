@@ -1,4 +1,5 @@
-!> Points at nodes that supports hold along or across the normal, as where a line of symmetry goes through a contact.
+!> Points at nodes that supports hold along or across the normal, as where a line of symmetry goes through a contact: there the
+!> tangential row has no displacement, and on a curve that begins at the line the normal should be along it.
 !>
 !> The normal of a curved side is known there to the resolution of the faces or to the digits of the nodes, and may be slightly off
 !> the direction d of the support. What d leaves of the row is then n - d (n . d), an error e, and a row e . u is held by forces as
@@ -80,7 +81,8 @@ contains
       end do
    end subroutine list_supports
 
-   !> The direction along which all nodes of a row are held; 0 where there is none, or all are held along any.
+   !> The direction d along which all nodes of a row are held; 0 where there is none, where two of them are held along
+   !> different ones (the cross product is more than round-off), or all are held along any: such a row has no unknown.
    pure function common_support(support, is_fixed) result(d)
       real(wp), intent(in) :: support(:, :)          !< (2, nodes of the row) along what each is held; 0: not at all
       logical, intent(in) :: is_fixed(:)             !< (nodes of the row) held along any direction

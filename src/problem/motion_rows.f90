@@ -17,6 +17,7 @@ module atrito_motion_rows
    private
    public :: motion_rows_t, build_motion_rows, motion_rates, motion_forces
 
+   !> G by the entries of its rows, and h.
    type :: motion_rows_t
       integer(ip) :: m = 0                       !< unknown contact forces
       integer(ip) :: k = 0                       !< rigid motions
@@ -67,7 +68,7 @@ contains
       motions%value = motions%value(:n)
    end subroutine build_motion_rows
 
-   !> G v; or, with sizes, the sum of the terms without their signs.
+   !> G v, the openings and slips [L] of a motion with the amplitudes v; or, with sizes, |G| |v|.
    pure function motion_rates(rows, v, sizes) result(rate)
       type(motion_rows_t), intent(in) :: rows
       real(wp), intent(in) :: v(:)               !< (k) [L]
@@ -87,7 +88,7 @@ contains
       end do
    end function motion_rates
 
-   !> G' q; or, with sizes, the sum of the terms without their signs.
+   !> G' q, the work [F] of the contact forces on the motions of amplitude one; or, with sizes, |G|' |q|.
    pure function motion_forces(rows, q, sizes) result(force)
       type(motion_rows_t), intent(in) :: rows
       real(wp), intent(in) :: q(:)               !< (m) [F]

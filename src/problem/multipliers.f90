@@ -1,5 +1,13 @@
 !> What the sparse form of the contact system keeps from one increment to the next: displacements of all bodies with the amplitudes
 !> of their motions, and the sizes of step and pull. A restart file has it, too.
+!>
+!> A step of the method (multiplier/) solves
+!>
+!>     A x + kappa hold (a - a_o) + B' q = f,     q = clip((B x + g0 + rho q_o)/(D + rho)),     rho_i = r part_i c_i,
+!>
+!> from the forces q_o and the amplitudes a_o of the step before: rho is a compliance that each row has besides that of
+!> its law, c_i the flexibility of the row (atrito_contact_system), and kappa keeps a motion near where it was. Both
+!> vanish from the solution when q = q_o and a = a_o.
 module atrito_multipliers
    use atrito_kinds, only: ip, wp
    implicit none (type, external)

@@ -61,7 +61,8 @@ contains
       f(:, nodes) = f(:, nodes) + fe
    end subroutine add_element_load
 
-   !> The forces of a load on an element or on a face, or on a part of it that has such a shape, too.
+   !> The forces of a load on an element or on a face, or on a part of it that has such a shape, too: the number of
+   !> nodes tells the shape, and the thickness or the radius comes from their places.
    pure subroutine forces_of_load(model, loads, i, x, places, fe)
       type(model_t), intent(in) :: model
       type(element_load_t), intent(in) :: loads     !< all loads on elements

@@ -31,15 +31,18 @@ module atrito_rigid_bodies
 
 contains
 
-   !> Whether rigid surfaces move with reference nodes, which are nodes of the mesh that is solved then.
+   !> Whether rigid surfaces move with reference nodes: the mesh that is solved is then solver_mesh, with the nodes that
+   !> carry the motions behind those of the deck.
    pure logical function has_moving_surfaces(model)
       type(model_t), intent(in) :: model
 
       has_moving_surfaces = allocated(model%solver_mesh)
    end function has_moving_surfaces
 
-   !> Adds to the points of each pair whose master moves what that moves by where they meet it. In a rotation the places along a
-   !> normal move alike along it, so it does not matter which of them is taken for the gap.
+   !> Adds to the points of each pair whose master moves what that moves by where they meet it, x + g n. In a rotation
+   !> the places along a normal move alike along it, n . perp(x + g n - x_R) = n . perp(x - x_R), so it does not matter
+   !> which of them is taken for the gap. The coefficients are -N_i, that is -(1 - a1 - a2), -a1, -a2, for the three
+   !> nodes of the body.
    pure subroutine attach_points(model, points)
       type(model_t), intent(in) :: model
       type(contact_points_t), intent(inout) :: points(:)   !< one a pair
@@ -54,7 +57,7 @@ contains
       end do
    end subroutine attach_points
 
-   !> The rigid body of each surface, 0 where there is none.
+   !> The rigid body of each surface, 0 where there is none: a surface that no reference node moves stays where it is.
    pure function bodies_of_surfaces(model) result(body)
       type(model_t), intent(in) :: model
       integer(ip) :: body(size(model%surfaces)), i
@@ -139,7 +142,7 @@ contains
       end do
    end subroutine prescribed_motion
 
-   !> Whether two lists leave the same motions free.
+   !> Whether two lists of prescribed dofs leave the same motions free: the unknowns of both have the same numbers then.
    pure logical function hold_the_same(model, one, other) result(same)
       type(model_t), intent(in) :: model
       type(nodal_values_t), intent(in) :: one, other !< dofs of reference nodes
@@ -180,12 +183,12 @@ contains
          associate (body => list(bodies%n + i))
             body%name = rigid_body_name(model, i)
             body%is_rigid = .true.
-            body%is_touched = model%rigid_bodies(i)%is_section
             body%nodes = nodes
             allocate (body%elements(0), body%modes(MOTIONS, 0))
             body%centre = model%mesh%x(:, model%rigid_bodies(i)%node)
             body%size = model%rigid_bodies(i)%size
-            body%is_touched = body%is_touched .or. has_points(model%rigid_bodies(i)%surface) .or. any(has_row(nodes))
+            body%is_touched = model%rigid_bodies(i)%is_section .or. has_points(model%rigid_bodies(i)%surface) &
+                              .or. any(has_row(nodes))
          end associate
          bodies%of_node(nodes) = bodies%n + i
       end do

@@ -27,6 +27,9 @@ contains
 
    !> B by rows, its columns the displacements of one body after the other, then the rigid motions: of all bodies if they are asked
    !> for, else of those alone that have no displacements, so that B' q has all that the forces do to every body.
+   !>
+   !> Room is made for 2 entries a node and MOST_MODES a body that a row touches, the rows are written one behind the
+   !> other, and the room that is left is given back. A row with no entry has no unknown, and is not here.
    pure subroutine build_constraint_rows(fem, rows, line, with_motions, constraints)
       type(fem_t), intent(in) :: fem
       type(contact_rows_t), intent(in) :: rows      !< directions and coefficients
@@ -66,8 +69,7 @@ contains
    end subroutine build_constraint_rows
 
    !> A motion that no row sees but for the rounding of coordinates that supports allow it by (find_rigid_modes) is seen
-   !> by none: its column of G is set to 0. No equation could be
-   !> solved for its amplitude.
+   !> by none: its column of G is set to 0. No equation could be solved for its amplitude.
    pure subroutine drop_unseen_motions(n_displacements, constraints)
       integer(ip), intent(in) :: n_displacements    !< columns before the motions
       type(constraint_rows_t), intent(inout) :: constraints
@@ -188,7 +190,8 @@ contains
       end do
    end function first_motions
 
-   !> Unit vector along which an unknown force acts: the normal or the tangent of its point.
+   !> Unit vector along which an unknown force acts: the normal of its point, if the unknown is the normal one there, or
+   !> the tangent.
    pure function direction_of(rows, line, i) result(d)
       type(contact_rows_t), intent(in) :: rows      !< directions and coefficients
       type(contact_line_t), intent(in) :: line      !< which unknown is of which point

@@ -27,6 +27,10 @@ module atrito_scene_builder
 contains
 
    !> Mesh and sections, prescribed dofs and values, and the points of every pair; build_bodies adds the bodies.
+   !>
+   !> The points are those of the check of the deck, which has paired the sides; a model that was made without a deck is
+   !> paired here. grain is what the coordinates of the mesh are known to: elements that differ by no more have one
+   !> stiffness.
    subroutine build_scene(model, step, fem, held, value, points)
       type(model_t), intent(in), target :: model
       type(step_t), intent(in) :: step              !< what it prescribes
@@ -52,7 +56,8 @@ contains
       if (has_moving_surfaces(model)) call attach_points(model, points)
    end subroutine build_scene
 
-   !> Bodies, equations (contact nodes last) and rigid motions.
+   !> Bodies, equations (contact nodes last) and rigid motions. The order of the other equations is made for the solver
+   !> of the body: a small profile where it takes one.
    subroutine build_bodies(model, held, points, asked, fem)
       type(model_t), intent(in) :: model
       logical, intent(in) :: held(:, :)                        !< (2, n_nodes)

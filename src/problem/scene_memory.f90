@@ -32,14 +32,16 @@ contains
                                        memory_text(memory), status)
    end subroutine check_memory
 
-   !> So many entries of an average are not too many.
+   !> So many entries of an average are not too many: 12 bytes each, and a number of the default kind for the last one.
    integer(lp) function most_average_entries(limit) result(most)
       integer(lp), intent(in) :: limit                 !< bytes; what the machine has counts where it is less
 
       most = min(min(limit, available_memory())/ENTRY_BYTES, int(huge(1_ip), lp))
    end function most_average_entries
 
-   !> The same as check_memory of the average over contact points, before they are averaged; the entries must have numbers.
+   !> The same as check_memory of the average over contact points, before they are averaged: with n points and m
+   !> neighbours of each within rho there are n m entries, which are many for a large rho. The entries must have
+   !> numbers, too.
    subroutine check_average_memory(deck_path, n, entries, limit, status)
       character(len=:), allocatable, intent(in) :: deck_path
       integer(ip), intent(in) :: n                     !< contact points

@@ -89,7 +89,8 @@ contains
       motion(4) = GRAINS*sliding%grain/body%size
    end function motion_of_body
 
-   !> Whether the supports of a body allow a motion, to the digits.
+   !> Whether the supports of a body allow a motion, to the digits: what is left of it when its parts along the motions
+   !> that they leave are taken out one by one is no more than is in doubt.
    pure logical function is_left_free(modes, motion)
       real(wp), intent(in) :: modes(:, :)           !< (3, motions) that supports leave
       real(wp), intent(in) :: motion(4)             !< from motion_of_body
@@ -103,7 +104,7 @@ contains
       is_left_free = maxval(abs(rest)) <= max(motion(4), EXACT)*maxval(abs(motion(:3)))
    end function is_left_free
 
-   !> Adds a motion to those of a body, once.
+   !> Adds a motion to those of a body along which its loads are to be balanced, once; rigid bodies have no loads that digits spoil.
    pure subroutine add_motion(motion, body)
       real(wp), intent(in) :: motion(4)             !< from motion_of_body
       type(body_t), intent(inout) :: body           !< one of the pair's

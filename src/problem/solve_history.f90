@@ -33,7 +33,7 @@ module atrito_solve_history
 
 contains
 
-   !> Nothing is recorded yet, of the same unknowns.
+   !> Nothing is recorded yet, of the same unknowns: a loop goes on from the solution of the increment before.
    pure subroutine restart_history(history)
       type(solve_history_t), intent(inout) :: history
       type(solve_history_t) :: new
@@ -42,7 +42,7 @@ contains
       history = new
    end subroutine restart_history
 
-   !> The next outer iteration begins.
+   !> The next outer iteration begins, with frozen friction bounds; its inner solves are counted from 1.
    pure subroutine begin_outer(history)
       type(solve_history_t), intent(inout) :: history
 

@@ -51,7 +51,8 @@ contains
       sum%terms = sum%terms + [norm2(f), norm2(arm)*norm2(f)]
    end subroutine add_force
 
-   !> Adds what of a load acts ahead of the line, or behind it.
+   !> Adds what of a load acts ahead of the line, or behind it: of a force per volume on the triangles of the element's
+   !> part, of one on a face on the chords that are left of it.
    pure subroutine add_part_of_load(model, loads, i, line, ahead, factor, sum)
       type(model_t), intent(in) :: model
       type(element_load_t), intent(in) :: loads     !< all loads on elements
@@ -80,7 +81,8 @@ contains
       end if
    end subroutine add_part_of_load
 
-   !> The load on a triangle or on a straight piece of a face.
+   !> Adds the load on a triangle or on a straight piece of a face: its nodal forces at the corners, which have the
+   !> resultant and the moment of the load, exactly.
    pure subroutine add_load_on(model, loads, i, corners, factor, sum)
       type(model_t), intent(in) :: model
       type(element_load_t), intent(in) :: loads     !< all loads on elements
@@ -100,7 +102,8 @@ contains
       end do
    end subroutine add_load_on
 
-   !> The share of an element's area that lies ahead of the line, or behind it, and its centre.
+   !> The share of an element's area that lies ahead of the line, or behind it, and its centre: on the full circle the
+   !> hoop stresses of an element that is parted are shared out by it.
    pure subroutine part_of_area(model, element, line, ahead, share, centre)
       type(model_t), intent(in) :: model
       integer(ip), intent(in) :: element            !< that the line parts

@@ -43,7 +43,9 @@ module atrito_turning_rows
 
 contains
 
-   !> Takes the rotation of the master out of the rows of points of curved sides between bodies that may turn.
+   !> Takes the rotation of the master out of the rows of points of curved sides between bodies that may turn: of pairs
+   !> with friction, since without it nothing resists a slip that is none, and both of whose bodies have a rotation
+   !> among the motions that supports leave.
    subroutine balance_rows(rubs, points, fem, bilateral, rows)
       logical, intent(in) :: rubs(:)                !< (pairs) with friction
       type(contact_points_t), intent(in) :: points(:) !< one a pair
@@ -137,7 +139,7 @@ contains
       turn(2, :n) = s(:n)*(apart(1)/spread_of)
    end subroutine find_turn
 
-   !> Adds the nodes of the master at a point that belong to a body.
+   !> Adds the nodes of the master at a point that belong to a body, each once.
    pure subroutine add_master(points, j, fem, body, node, n)
       type(contact_points_t), intent(in) :: points  !< of the pair
       integer(ip), intent(in) :: j                  !< point
