@@ -71,12 +71,12 @@ contains
             if (allocated(points(i)%is_held)) rows%is_held(:, m) = points(i)%is_held(:, j)
             if (allocated(points(i)%doubt)) rows%doubt(m) = points(i)%doubt(j)
             rows%first(m + 1) = rows%first(m) + (points(i)%first(j + 1) - points(i)%first(j))
-            rows%longest = max(rows%longest, rows%first(m + 1) - rows%first(m))
          end do
       end do
       rows%node = [(points(i)%entry, i=1, size(points, kind=ip))]
       rows%coefficient = [(points(i)%coefficient, i=1, size(points, kind=ip))]
       if (rows%n_bilateral > 0) call append_bilateral(bilateral, m, rows)
+      rows%longest = maxval([0_ip, rows%first(2:) - rows%first(:rows%n)])
    end subroutine build_rows
 
    !> The bilateral rows behind m rows of points.
@@ -93,7 +93,6 @@ contains
       rows%gap(m + 1:) = bilateral%value
       do j = 1, bilateral%n
          rows%first(m + j + 1) = rows%before_vectors + bilateral%first(j + 1)
-         rows%longest = max(rows%longest, bilateral%first(j + 1) - bilateral%first(j))
       end do
    end subroutine append_bilateral
 
