@@ -152,7 +152,7 @@ contains
       end if
    end function direction_of_entry
 
-   !> What is n's of entry k of row j besides.
+   !> What is n's of entry k of row j besides, e_k n; 0 where no row has such entries, and in bilateral rows.
    pure function turn_of_entry(rows, j, k, direction) result(vector)
       type(contact_rows_t), intent(in) :: rows
       integer(ip), intent(in) :: j, k               !< row, entry
@@ -198,7 +198,7 @@ contains
       end do
    end function row_value
 
-   !> The body of each entry of a row.
+   !> The body of each entry of a row; those of a point of contact are two, those of a tie or an equation may be more.
    pure function bodies_of_row(rows, j, body_of_node) result(bodies)
       type(contact_rows_t), intent(in) :: rows
       integer(ip), intent(in) :: j, body_of_node(:) !< row; (n_nodes) body of each node, 0: none
