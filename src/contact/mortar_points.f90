@@ -286,7 +286,7 @@ contains
    end subroutine judge_cover
 
    !> The place t in [0,1] of a piece that a place of the slave faces, the direction in which they would touch, and how far off it
-   !> is along that.
+   !> is along that. The line of sight may cross a parabola twice; the nearer place counts, and one beyond an end is the end.
    pure subroutine look_at_piece(face, t, master, piece, on_master, normal, gap)
       type(slave_face_t), intent(in) :: face        !< of the slave
       real(wp), intent(in) :: t                     !< on the face, in [-1,1]

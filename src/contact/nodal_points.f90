@@ -85,8 +85,10 @@ contains
       call drop_points(common_ends(mesh, slave, master_faces), points)
    end subroutine pair_with_master
 
-   !> A face is a candidate when each of its nodes finds the master along the face's normal there. On a curved slave that normal is
-   !> only as good as the faces resolve the curve: at the end of the master it may miss by as much as the normal turns at the face.
+   !> A face is a candidate when each of its nodes finds the master along the face's normal there. On a curved slave
+   !> that normal is only as good as the faces resolve the curve: at the end of the master it may miss by as much as the
+   !> normal turns at the face, that is by the distance times the sine of the angle from this face to its neighbours
+   !> (turn_at).
    pure logical function finds_master(mesh, slave, i, master) result(finds)
       type(mesh_t), intent(in) :: mesh
       type(face_list_t), intent(in) :: slave        !< one chain, ordered

@@ -117,7 +117,7 @@ contains
       end associate
    end subroutine join_faces
 
-   !> Outward unit normal of a face at t in [-1, 1].
+   !> Outward unit normal of a face of the outlines at t in [-1, 1], -1 at its first node and 1 at its last.
    pure function normal_of(mesh, faces, i, t) result(normal)
       type(mesh_t), intent(in) :: mesh
       type(face_list_t), intent(in) :: faces        !< of the outlines

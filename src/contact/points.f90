@@ -104,7 +104,7 @@ contains
       points%s(points%n) = s
    end subroutine add_point
 
-   !> Appends to the entries of the last point so far those that are not 0.
+   !> Appends to the entries of the last point so far those that are not 0; points get their entries one after the other.
    pure subroutine add_entries(nodes, coefficients, i, points)
       integer(ip), intent(in) :: nodes(:)
       real(wp), intent(in) :: coefficients(:)

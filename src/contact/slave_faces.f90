@@ -81,8 +81,9 @@ contains
       if (dot_product(a, b) < 0.0_wp) sine = 1.0_wp
    end function sine
 
-   !> A component of the normal that is round-off of the coordinates is none: along a symmetry line or a supported base the rows of
-   !> the points are zero only then.
+   !> A component of the normal that is round-off of the coordinates is none: along a symmetry line or a supported base
+   !> the rows of the points are zero only then. Below 1e-13, or 8 EPS_MACH |x|/l for a point of the length l far from
+   !> the origin, it is round-off.
    pure subroutine clear_small_component(x, length, normal)
       real(wp), intent(in) :: x(2), length          !< place and length of the point [L]
       real(wp), intent(inout) :: normal(2)          !< unit vector

@@ -333,7 +333,7 @@ contains
       motion%centre = other%centre
    end function adopted
 
-   !> The motion at a place, of any size.
+   !> The motion at a place, of any size: the direction of a translation, perp(x - c) of a rotation about c.
    pure function velocity(motion, x) result(v)
       type(sliding_t), intent(in) :: motion
       real(wp), intent(in) :: x(2)                  !< [L]
@@ -440,7 +440,7 @@ contains
       end do
    end subroutine note_doubt
 
-   !> Where the force of a point acts on the slave [L].
+   !> Where the force of a point acts on the slave [L]: sum c_k x_k over the slave's nodes, taken from the first of them.
    pure function force_place(mesh, points, j) result(x)
       type(mesh_t), intent(in) :: mesh
       type(contact_points_t), intent(in) :: points  !< of the pair

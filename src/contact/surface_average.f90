@@ -35,7 +35,8 @@ module atrito_surface_average
 
 contains
 
-   !> W over the points of all pairs.
+   !> W over the points of all pairs: P = W p, P_j the mean pressure round point j on its slave surface. W is the
+   !> identity where no pair has neighbours within its radius; that is noted, since the law is local then.
    pure subroutine average_surfaces(points, rules, w)
       type(contact_points_t), intent(in) :: points(:) !< one a pair
       type(average_rule_t), intent(in) :: rules(:)   !< one a pair

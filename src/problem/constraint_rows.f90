@@ -88,27 +88,18 @@ contains
       logical, intent(in) :: used(:)             !< (n)
       integer(ip), allocatable, intent(out) :: first(:)    !< (components + 1)
       integer(ip), allocatable, intent(out) :: member(:)   !< rows; those of component i are first(i) .. first(i+1)-1
-      integer(ip), allocatable :: rows_of(:, :)
+      integer(ip), allocatable :: rows_of(:, :)  ! (MOST_OF_POINT, points) those that count; 0: none
       logical, allocatable :: waits(:)
-
-      call list_rows_of_points(rows, used, rows_of)
-      waits = rows_of(1, :) > 0
-      call set_aside(rows, rows_of, waits)
-      call group(rows, rows_of, waits, first, member)
-   end subroutine list_components
-
-   !> The rows of each point that count, the first one first.
-   pure subroutine list_rows_of_points(rows, used, rows_of)
-      type(constraint_rows_t), intent(in) :: rows
-      logical, intent(in) :: used(:)                !< (n) rows that count
-      integer(ip), allocatable, intent(out) :: rows_of(:, :) !< (MOST_OF_POINT, points); 0: none
       integer(ip) :: i
 
       allocate (rows_of(MOST_OF_POINT, maxval([rows%point, 0_ip])), source=0_ip)
       do i = 1, rows%n
          if (used(i)) rows_of(merge(1, 2, rows_of(1, rows%point(i)) == 0), rows%point(i)) = i
       end do
-   end subroutine list_rows_of_points
+      waits = rows_of(1, :) > 0
+      call set_aside(rows, rows_of, waits)
+      call group(rows, rows_of, waits, first, member)
+   end subroutine list_components
 
    !> Takes out the points that dofs of their own make independent, until there is none (steps 1 and 2 at the head of
    !> the module). The queue is a ring of as many places as points wait at first; a point goes in again when it has

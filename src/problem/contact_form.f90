@@ -63,7 +63,7 @@ contains
       bytes = 3*8_lp*int(n_unknowns, lp)**2
    end function dense_bytes
 
-   !> Whether the dense form is worth a try where the sparse one does not converge.
+   !> Whether the dense form is worth a try where the sparse one does not converge: up to MOST_DENSE unknowns it takes some seconds.
    elemental logical function can_be_dense(n_unknowns)
       integer(ip), intent(in) :: n_unknowns
 

@@ -68,7 +68,8 @@ contains
       line%tangential = unpack([(j, j=m + 1, size(line%point, kind=ip))], has_tangential, 0_ip)
    end subroutine number_unknowns
 
-   !> The contact pair of each unknown; those of bilateral rows are groups behind the pairs.
+   !> The contact pair of each unknown; those of bilateral rows are groups behind the pairs. Forces are judged by the
+   !> largest of their own pair or group, so that a weak one beside a strong one keeps its digits.
    pure function pairs_of_unknowns(line) result(pair)
       type(contact_line_t), intent(in) :: line
       integer(ip) :: pair(size(line%point))

@@ -71,12 +71,12 @@ contains
             if (allocated(points(i)%is_held)) rows%is_held(:, m) = points(i)%is_held(:, j)
             if (allocated(points(i)%doubt)) rows%doubt(m) = points(i)%doubt(j)
             rows%first(m + 1) = rows%first(m) + (points(i)%first(j + 1) - points(i)%first(j))
-            rows%longest = max(rows%longest, rows%first(m + 1) - rows%first(m))
          end do
       end do
       rows%node = [(points(i)%entry, i=1, size(points, kind=ip))]
       rows%coefficient = [(points(i)%coefficient, i=1, size(points, kind=ip))]
       if (rows%n_bilateral > 0) call append_bilateral(bilateral, m, rows)
+      rows%longest = maxval([0_ip, rows%first(2:) - rows%first(:rows%n)])
    end subroutine build_rows
 
    !> The bilateral rows behind m rows of points.
@@ -93,7 +93,6 @@ contains
       rows%gap(m + 1:) = bilateral%value
       do j = 1, bilateral%n
          rows%first(m + j + 1) = rows%before_vectors + bilateral%first(j + 1)
-         rows%longest = max(rows%longest, bilateral%first(j + 1) - bilateral%first(j))
       end do
    end subroutine append_bilateral
 
@@ -153,7 +152,7 @@ contains
       end if
    end function direction_of_entry
 
-   !> What is n's of entry k of row j besides.
+   !> What is n's of entry k of row j besides, e_k n; 0 where no row has such entries, and in bilateral rows.
    pure function turn_of_entry(rows, j, k, direction) result(vector)
       type(contact_rows_t), intent(in) :: rows
       integer(ip), intent(in) :: j, k               !< row, entry
@@ -199,7 +198,7 @@ contains
       end do
    end function row_value
 
-   !> The body of each entry of a row.
+   !> The body of each entry of a row; those of a point of contact are two, those of a tie or an equation may be more.
    pure function bodies_of_row(rows, j, body_of_node) result(bodies)
       type(contact_rows_t), intent(in) :: rows
       integer(ip), intent(in) :: j, body_of_node(:) !< row; (n_nodes) body of each node, 0: none

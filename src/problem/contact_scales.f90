@@ -46,7 +46,7 @@ contains
       printed_as_none = merge(PRINTED_ZERO*of_all, 0.0_wp, of_body <= PRINTED_ZERO*of_all)
    end function printed_as_none
 
-   !> Takes another increment into account.
+   !> Takes another increment into account: the largest motion and force of each body so far.
    pure subroutine widen(had, motion, force)
       type(had_t), intent(inout) :: had
       real(wp), intent(in) :: motion(:), force(:) !< (bodies) [L], [F]

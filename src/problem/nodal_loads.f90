@@ -21,7 +21,8 @@ module atrito_nodal_loads
 
 contains
 
-   !> f(2, n_nodes) [F]: concentrated loads, pressures on faces, forces per volume.
+   !> f(2, n_nodes) [F]: concentrated loads, pressures on faces, forces per volume. All of them add up, also several on
+   !> one node or face.
    pure subroutine nodal_loads(model, step, f)
       type(model_t), intent(in) :: model
       type(step_t), intent(in) :: step              !< with the loads of this increment

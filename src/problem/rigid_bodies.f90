@@ -215,7 +215,8 @@ contains
       end do
    end subroutine set_rigid_motions
 
-   !> The dofs of its nodes that a rigid body's free motions move; the others are held.
+   !> The dofs of its nodes that a rigid body's free motions move; the others are held. They have no equations of their
+   !> own: MOVES_RIGIDLY says that a contact row with such a dof has an unknown force all the same.
    pure subroutine mark_moving(mesh, body, equation)
       type(mesh_t), intent(in) :: mesh
       type(body_t), intent(in) :: body              !< a rigid one, with its modes

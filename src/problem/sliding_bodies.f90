@@ -50,7 +50,10 @@ contains
             motion = motion_of_body(points(i)%sliding, fem%bodies%list(b(k)))
             if (.not. is_left_free(motions_left(fem, bilateral, b(k)), motion)) cycle
             is_free = .true.
-            if (is_along_axis(points(i)%sliding) .or. points(i)%sliding%grain <= EXACT*points(i)%sliding%extent) cycle
+            associate (sliding => points(i)%sliding)       ! along an axis rows are exact as they are
+               if (.not. sliding%is_round .and. any(abs(sliding%direction) <= 0.0_wp)) cycle
+               if (sliding%grain <= EXACT*sliding%extent) cycle
+            end associate
             call add_motion(motion, fem%bodies%list(b(k)))
          end do
          if (is_free .and. .not. is_exact) call turn_points(points(i)%sliding, fem%mesh, points(i))
@@ -66,13 +69,6 @@ contains
       if (.not. sliding%is_round .or. size(body%modes, 2) < 3) return
       if (maxval(abs(sliding%centre - body%centre)) <= ALL_BUT*body%size) body%centre = sliding%centre
    end subroutine turn_about
-
-   !> Whether a translation is along an axis: its rows are exact as they are.
-   pure logical function is_along_axis(sliding)
-      type(sliding_t), intent(in) :: sliding        !< of a pair
-
-      is_along_axis = .not. sliding%is_round .and. any(abs(sliding%direction) <= 0.0_wp)
-   end function is_along_axis
 
    !> The motion as one of the modes of a body, and what work along it is none, over the sum of the forces: a rotation
    !> about c is the body's rotation about its centre o, perp(x - o)/L, and the translation perp(o - c)/L.
