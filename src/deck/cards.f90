@@ -5,8 +5,9 @@ module atrito_cards
    use atrito_diagnostics, only: report_error, refuse_card, report_note, report_outside
    use atrito_foreign_keywords, only: ask_keyword, ask_element_type, ask_option, NOT_FOREIGN, FOREIGN_IGNORED, FOREIGN_OUTSIDE
    use atrito_items, only: get_real, get_integer, get_name
-   use atrito_keyword, only: option_spec_t, KIND_FLAG, KIND_NAME, KIND_WORD, KIND_OPTIONAL_WORD, KIND_REAL, KIND_INTEGER
-   use atrito_keyword_table, only: find_keyword, find_option_spec, find_choice, keyword_names, option_names, choice_names, packed
+   use atrito_keyword, only: keyword_t, option_spec_t, KIND_FLAG, KIND_NAME, KIND_WORD, KIND_OPTIONAL_WORD, KIND_REAL, KIND_INTEGER
+   use atrito_keyword_table, only: define_keyword, find_keyword, find_option_spec, find_choice, keyword_names, option_names, &
+                                   choice_names, packed
    use atrito_keyword_text, only: option_text_of, with_dimension, choices_text
    use atrito_messages, only: ID_OUTSIDE
    use atrito_lexer, only: find_equals
@@ -118,18 +119,19 @@ contains
       character(len=:), allocatable :: why
       integer(ip) :: equals, last
       integer :: k, verdict
+      type(keyword_t) :: definition
 
       k = find_keyword(deck%keywords, keyword(2:))
       last = index(text//',', ',') - 1
       equals = find_equals(text, 1_ip, last)
       has_options = equals > 0
       if (k == KEYWORD_UNKNOWN) return
-      associate (definition => deck%keywords(k))
-         if (size(definition%options) == 0) has_options = .false.
-         if (has_options .or. size(definition%options) == 0) return
-         call ask_option(packed(definition%name)//'/'//packed(text(:last)), verdict, why)
-         has_options = verdict /= NOT_FOREIGN .or. find_option_spec(definition, text(:last)) > 0 .or. definition%name == 'STEP'
-      end associate
+      definition = deck%keywords(k)
+      call define_keyword(deck%definitions, definition)
+      if (size(definition%options) == 0) has_options = .false.
+      if (has_options .or. size(definition%options) == 0) return
+      call ask_option(packed(definition%name)//'/'//packed(text(:last)), verdict, why)
+      has_options = verdict /= NOT_FOREIGN .or. find_option_spec(definition, text(:last)) > 0 .or. definition%name == 'STEP'
    end function has_options
 
    !> Checks the options of a card whose keyword is known; card%ok tells the outcome.

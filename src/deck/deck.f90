@@ -11,6 +11,7 @@ module atrito_deck
    use atrito_keyword, only: keyword_t, LEVEL_MODEL, LEVEL_STEP
    use atrito_lexer, only: trim_place
    use atrito_name_list, only: name_list_t, add_name
+   use atrito_strings, only: string_t
    implicit none (type, external)
    private
    public :: source_t, token_t, option_t, card_t, data_line_t, scope_t, parameter_t, deck_t
@@ -109,7 +110,8 @@ module atrito_deck
       type(token_t), allocatable :: tokens(:)
       type(parameter_t), allocatable :: parameters(:)
       type(name_list_t) :: parameter_names         !< in their order
-      type(keyword_t), allocatable :: keywords(:)  !< the keyword table
+      type(keyword_t), allocatable :: keywords(:)  !< the keyword table: heads, and the definitions of those that the deck has
+      type(string_t), allocatable :: definitions(:) !< its lines
       type(subject_t), allocatable :: subjects(:)  !< what lies outside, by other programs' names
       logical :: has_lost_parameters = .false.     !< definitions that could not be read: an unknown one may be among them
       logical :: is_outside = .false.              !< a scene that atrito does not solve: what only follows is not reported

@@ -15,7 +15,7 @@ module atrito_reader
    use atrito_instances, only: expand_instances
    use atrito_items, only: has_option, option_text, option_word
    use atrito_keyword, only: keyword_t, KIND_TEXT
-   use atrito_keyword_table, only: keyword_table
+   use atrito_keyword_table, only: define_keyword, take_table
    use atrito_lexer, only: line_t, items_t, take_line, split_items, count_data_lines, LINE_COMMENT, LINE_KEYWORD, LINE_DATA
    use atrito_memory, only: available_memory, memory_text
    use atrito_note_edits, only: note_edits
@@ -74,7 +74,7 @@ contains
       integer(lp) :: identity(2)
 
       deck%path = path
-      deck%keywords = keyword_table()
+      call take_table(deck%definitions, deck%keywords)
       call allocate_deck(deck)
       call read_settings(settings, reading%settings, status)
       if (is_ok(status)) call read_file(path, text, status, identity=identity)
@@ -183,6 +183,7 @@ contains
 
       call gather_items(deck, reading, cursor, line, items)
       call make_card(deck, items, card)
+      if (card%keyword /= KEYWORD_UNKNOWN) call define_keyword(deck%definitions, deck%keywords(card%keyword))
       call check_order(deck, reading%order, card)
       if (card%name == 'INCLUDE') then
          call check_options(deck, card)

@@ -82,7 +82,8 @@ module atrito_keyword
       character(len=:), allocatable :: parent    !< keyword to whose block it belongs; '' : none
       character(len=:), allocatable :: summary   !< one line
       character(len=:), allocatable :: doc       !< further sentences; may be ''
-      type(option_spec_t), allocatable :: options(:)
+      integer :: line = 0                        !< of its head among those of all definitions
+      type(option_spec_t), allocatable :: options(:) !< these three only once they have been asked for (define_keyword)
       type(form_t), allocatable :: forms(:)      !< size 0: no data lines
       type(string_t), allocatable :: example(:)
    end type keyword_t

@@ -23,7 +23,7 @@ module atrito_keyword_reader
    use atrito_strings, only: string_t, string_list_t, add_string, take_strings, append_string, to_text
    implicit none (type, external)
    private
-   public :: read_keywords
+   public :: read_keywords, read_heads, define_keyword
 
    character(len=*), parameter :: ELEMENTS = '<elements>'
 
@@ -34,45 +34,81 @@ contains
       type(string_t), intent(in) :: lines(:)                    !< those that go on joined
       type(keyword_t), allocatable, intent(out) :: table(:)
       character(len=:), allocatable, intent(out) :: wrong       !< the last line that cannot be read; not allocated: there is none
-      type(string_t), allocatable :: parts(:)
-      integer, allocatable :: first(:)
       integer :: i
 
-      call unfold_lines(lines, parts)
-      first = pack([(i, i=1, size(parts))], [(parts(i)%s(1:1) == '*', i=1, size(parts))])
-      allocate (table(size(first)))
-      first = [first, size(parts) + 1]
+      call read_heads(lines, table, wrong)
       do i = 1, size(table)
-         call read_keyword(parts(first(i):first(i + 1) - 1), table(i), wrong)
+         call define_keyword(lines, table(i), wrong)
       end do
    end subroutine read_keywords
 
-   !> Puts groups and the lines of elements where they are used.
-   pure subroutine unfold_lines(lines, parts)
-      type(string_t), intent(in) :: lines(:)
-      type(string_t), allocatable, intent(out) :: parts(:)
-      type(string_list_t) :: unfolded
-      integer :: i, k
-      logical :: is_group
+   !> The same by their heads alone.
+   pure subroutine read_heads(lines, table, wrong)
+      type(string_t), intent(in) :: lines(:)                    !< those that go on joined
+      type(keyword_t), allocatable, intent(out) :: table(:)
+      character(len=:), allocatable, intent(out) :: wrong       !< the last line that cannot be read; not allocated: there is none
+      integer :: i, n
 
-      is_group = .false.
+      n = 0
       do i = 1, size(lines)
-         associate (line => lines(i)%s)
-            if (begins(line, 'define ') .or. begins(line, '*')) is_group = begins(line, 'define ')
-            if (is_group) cycle
-            if (begins(line, 'use ')) then
-               call copy_group(lines, line(5:), unfolded)
-            else if (line == 'element lines') then
-               do k = 1, MOST_NODES
-                  if (SHAPES(k)%n_nodes > 0) call add_element_lines(int(k, ip), unfolded)
-               end do
-            else
-               call add_string(unfolded, line)
-            end if
-         end associate
+         if (lines(i)%s(1:1) == '*') n = n + 1
+      end do
+      allocate (table(n))
+      n = 0
+      do i = 1, size(lines)
+         if (lines(i)%s(1:1) /= '*') cycle
+         n = n + 1
+         table(n)%line = i
+         call read_head(lines(i)%s, table(n), wrong)
+      end do
+   end subroutine read_heads
+
+   !> Reads what stands behind the head of a keyword, unless it has been read: a deck has a few of a hundred keywords.
+   pure subroutine define_keyword(lines, keyword, wrong)
+      type(string_t), intent(in) :: lines(:)
+      type(keyword_t), intent(inout) :: keyword
+      character(len=:), allocatable, intent(inout), optional :: wrong !< as of read_heads
+      character(len=:), allocatable :: fault
+      type(string_list_t) :: unfolded
+      type(string_t), allocatable :: parts(:)
+      integer :: i
+
+      if (allocated(keyword%options)) return
+      do i = keyword%line + 1, size(lines)
+         if (begins(lines(i)%s, 'define ') .or. begins(lines(i)%s, '*')) exit
+         call unfold(lines, lines(i)%s, unfolded)
       end do
       call take_strings(unfolded, parts)
-   end subroutine unfold_lines
+      call read_definition(parts, keyword, fault)
+      if (present(wrong) .and. allocated(fault)) wrong = fault
+   end subroutine define_keyword
+
+   !> Adds a line, or those of the group or the elements that it stands for.
+   pure recursive subroutine unfold(lines, line, unfolded)
+      type(string_t), intent(in) :: lines(:)
+      character(len=*), intent(in) :: line
+      type(string_list_t), intent(inout) :: unfolded
+      integer :: first, i
+
+      if (line == 'element lines') then
+         do i = 1, MOST_NODES
+            if (SHAPES(i)%n_nodes > 0) call add_element_lines(int(i, ip), unfolded)
+         end do
+         return
+      else if (.not. begins(line, 'use ')) then
+         call add_string(unfolded, line)
+         return
+      end if
+      do first = 1, size(lines)
+         if (.not. begins(lines(first)%s, 'define ')) cycle
+         if (lines(first)%s(8:) == line(5:)) exit
+      end do
+      if (first > size(lines)) call add_string(unfolded, line)      ! there is no such group: a line that is wrong
+      do i = first + 1, size(lines)
+         if (begins(lines(i)%s, 'define ') .or. begins(lines(i)%s, '*')) return
+         call unfold(lines, lines(i)%s, unfolded)
+      end do
+   end subroutine unfold
 
    pure logical function begins(text, word)
       character(len=*), intent(in) :: text, word
@@ -80,28 +116,6 @@ contains
       begins = text(1:1) == word(1:1)                 ! no line is empty
       if (begins) begins = text(:min(len(text), len(word))) == word
    end function begins
-
-   !> Copies the lines of a group, with those of the groups that it uses.
-   pure recursive subroutine copy_group(lines, name, copies)
-      type(string_t), intent(in) :: lines(:)
-      character(len=*), intent(in) :: name
-      type(string_list_t), intent(inout) :: copies
-      integer :: i, first
-
-      do first = 1, size(lines)
-         if (.not. begins(lines(first)%s, 'define ')) cycle
-         if (lines(first)%s(8:) == name) exit
-      end do
-      if (first > size(lines)) call add_string(copies, 'use '//name)      ! there is no such group: a line that is wrong
-      do i = first + 1, size(lines)
-         if (begins(lines(i)%s, 'define ') .or. begins(lines(i)%s, '*')) return
-         if (begins(lines(i)%s, 'use ')) then
-            call copy_group(lines, lines(i)%s(5:), copies)
-         else
-            call add_string(copies, lines(i)%s)
-         end if
-      end do
-   end subroutine copy_group
 
    !> The data lines of the elements of one shape.
    pure subroutine add_element_lines(shape, lines)
@@ -134,20 +148,19 @@ contains
       end do
    end function element_types
 
-   pure subroutine read_keyword(lines, keyword, wrong)
-      type(string_t), intent(in) :: lines(:)           !< its own; the first has its name
+   pure subroutine read_definition(lines, keyword, wrong)
+      type(string_t), intent(in) :: lines(:)           !< behind its head
       type(keyword_t), intent(inout) :: keyword
       character(len=:), allocatable, intent(inout) :: wrong
       character(len=:), allocatable :: word, rest
       integer :: i, n_options, n_forms
 
-      call read_head(lines(1)%s, keyword, wrong)
       n_options = count([(begins(lines(i)%s, 'option '), i=1, size(lines))])
       n_forms = count([(begins(lines(i)%s, 'lines '), i=1, size(lines))])
       allocate (keyword%options(n_options), keyword%forms(n_forms), keyword%example(0))
       n_options = 0
       n_forms = 0
-      do i = 2, size(lines)
+      do i = 1, size(lines)
          word = lines(i)%s
          call cut_off(word, ' ', rest)
          select case (word)
@@ -168,7 +181,7 @@ contains
             wrong = lines(i)%s
          end select
       end do
-   end subroutine read_keyword
+   end subroutine read_definition
 
    !> `*NAME | LEVEL | summary`.
    pure subroutine read_head(line, keyword, wrong)

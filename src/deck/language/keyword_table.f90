@@ -2,11 +2,12 @@
 module atrito_keyword_table
    use atrito_keyword, only: keyword_t, choice_t, option_spec_t
    use atrito_keyword_lines, only: take_keyword_lines
-   use atrito_keyword_reader, only: read_keywords
+   use atrito_keyword_reader, only: define_keyword, read_heads, read_keywords
    use atrito_strings, only: string_t, append_string, upper_case
    implicit none (type, external)
    private
-   public :: keyword_table, find_keyword, find_option_spec, find_choice, keyword_names, option_names, choice_names, packed
+   public :: keyword_table, take_table, define_keyword, find_keyword, find_option_spec, find_choice
+   public :: keyword_names, option_names, choice_names, packed
 
 contains
 
@@ -19,6 +20,16 @@ contains
       call take_keyword_lines(lines)
       call read_keywords(lines, table, wrong)
    end function keyword_table
+
+   !> Its lines, and the keywords by their heads alone.
+   subroutine take_table(lines, table)
+      type(string_t), allocatable, intent(out) :: lines(:)
+      type(keyword_t), allocatable, intent(out) :: table(:)
+      character(len=:), allocatable :: wrong
+
+      call take_keyword_lines(lines)
+      call read_heads(lines, table, wrong)
+   end subroutine take_table
 
    !> A keyword without its blanks and in capitals: they do not matter (`*ENDSTEP`).
    pure function packed(name) result(word)
