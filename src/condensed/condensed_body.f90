@@ -92,7 +92,7 @@ contains
       call stop_phase('factor')
    end subroutine condense_body
 
-   !> status: STATUS_SINGULAR when a body can move, or take a shape without strain, and no contact point touches it.
+   !> A body that can move, or take a shape without strain, and that no contact point touches: status is STATUS_SINGULAR.
    !>
    !> A body that contact points touch may be held by them: that is known when the line is solved.
    subroutine check_held(fem, i_body, status)

@@ -119,8 +119,9 @@ contains
       end do
       solution%verdict = 'the outer loop did not converge in '//to_text(task%controls%max_iterations)//' iterations (residual ' &
                          //to_text(solution%residual, 3)//')'
-      if (is_too_much(task%controls, task%problem%m, solution%history%n)) &
+      if (is_too_much(task%controls, task%problem%m, solution%history%n)) then
          solution%verdict = 'the loop was given up after '//to_text(solution%history%n)//' linear solves'
+      end if
       if (.not. solution%inner%solved) solution%verdict = 'the active set did not settle'
    end subroutine iterate
 

@@ -63,8 +63,9 @@ contains
       logical :: known
 
       last = rows%first(rows%n + 1) - 1
-      if (rows%n == size(rows%value) .or. last + size(nodes) > size(rows%node)) &
+      if (rows%n == size(rows%value) .or. last + size(nodes) > size(rows%node)) then
          call set_room(rows%n, 2*(rows%n + 1_ip), last, 2*(last + size(nodes, kind=ip)), rows)
+      end if
       rows%n = rows%n + 1
       do k = 1, size(nodes, kind=ip)
          if (all(vectors(:, k) == 0.0_wp)) cycle

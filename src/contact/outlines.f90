@@ -86,7 +86,7 @@ contains
 
       if (some%n == 0) return
       associate (kept => pack([(i, i=1, faces%n)], [(.not. any(some%element(:some%n) == faces%element(i) .and. &
-                                                              some%face(:some%n) == faces%face(i)), i=1, faces%n)]))
+                                                               some%face(:some%n) == faces%face(i)), i=1, faces%n)]))
          faces%n = size(kept, kind=ip)
          faces%element(:faces%n) = faces%element(kept)
          faces%face(:faces%n) = faces%face(kept)

@@ -62,7 +62,7 @@ contains
          card%step = order%n_steps
       case ('END STEP')
          if (.not. (order%in_step .or. order%lost_step)) call refuse_card(deck, card, 'E-STEP', '*END STEP without a *STEP', &
-                                                                     '*STEP before it')
+                                                                          '*STEP before it')
          order%in_step = .false.
       case default
          call check_level(deck, order, card)
@@ -99,12 +99,12 @@ contains
          card%ok = .false.
       else if (order%n_steps > 0 .and. .not. order%in_step) then
          call refuse_card(deck, card, 'E-STEP', '*'//trim(card%name)//' stands after an *END STEP', &
-                     'a *STEP, or nothing behind it')
+                          'a *STEP, or nothing behind it')
       else if (level == LEVEL_MODEL .and. order%in_step .and. .not. is_removal(deck, card)) then
          call refuse_card(deck, card, 'E-LEVEL', '*'//trim(card%name)//' stands inside the step', 'its place before *STEP')
       else if (level == LEVEL_STEP .and. .not. order%in_step) then
          call refuse_card(deck, card, 'E-LEVEL', '*'//trim(card%name)//' stands outside of a step', &
-                     'its place between *STEP and *END STEP')
+                          'its place between *STEP and *END STEP')
       end if
    end subroutine check_level
 
@@ -147,7 +147,7 @@ contains
             order%parent_ok = card%ok
          else if (keyword%parent /= order%parent .and. order%parent /= LOST) then
             call refuse_card(deck, card, 'E-PARENT', '*'//trim(card%name)//' belongs to no *'//keyword%parent, &
-                        'its place behind *'//keyword%parent)
+                             'its place behind *'//keyword%parent)
          end if
       end associate
    end subroutine check_parent

@@ -134,7 +134,7 @@ contains
       type(hdf5_file_t), intent(inout) :: file
       character(len=*), intent(in) :: path
       real(wp), contiguous, target, intent(in) :: values(:, :)   !< (components, rows), none of them 0
-      character(len=*), intent(in) :: name, dimension !< attributes: what it is, in words, and in F and L; '-' for none
+      character(len=*), intent(in) :: name, dimension !< what it is, in words, and in F and L ('-': none), as attributes
 
       call write_dataset(file, path, H5T_NATIVE_DOUBLE, shape(values, kind=hsize_t), c_loc(values))
       call put_attribute(file, path, 'name', name)

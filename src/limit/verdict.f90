@@ -33,8 +33,9 @@ contains
       call build_motion_rows(data%fem, data%rows, data%line, data%f, motions)
       call prove_balance(motions, data%line, certificate)
       is_doubtful = .false.
-      if (certificate%verdict == BALANCE_IMPOSSIBLE) &
+      if (certificate%verdict == BALANCE_IMPOSSIBLE) then
          is_doubtful = is_within_digits(data, motions, certificate%motion, certificate%q)
+      end if
       again = again .and. is_doubtful
       if (again) then
          associate (v => certificate%motion)

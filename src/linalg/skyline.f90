@@ -314,7 +314,7 @@ contains
       end do
    end subroutine get_skyline_schur
 
-   !> Forward: f_j <- f_j - sum of l_kj f_k from the first equation to the last, then the division by D, which must wait until
+   !> Forwards f_j <- f_j - sum of l_kj f_k from the first equation to the last, then the division by D, which must wait until
    !> nobody wants L^-1 f any more. f_i becomes D^-1 L^-1 f_i; the columns of retained equations hold D^-1 L^-1 K_ic, so the same
    !> loop serves f_c: sum over k of (D^-1 L^-1 K_ic)_kj (L^-1 f_i)_k is what K_ci K_ii^-1 f_i has in row j. All loads are taken
    !> with a column while it is in the cache.

@@ -251,7 +251,7 @@ contains
    pure integer(ip) function side_between(mesh, element, from, to, middle) result(side)
       type(mesh_t), intent(in) :: mesh
       integer(ip), intent(in) :: element, from, to
-      integer(ip), intent(in), optional :: middle   !< default: any or none
+      integer(ip), intent(in), optional :: middle   !< left out: any or none
 
       do side = 1, side_count(mesh, element)
          if (mesh%nodes(side, element) /= from .or. mesh%nodes(face_end(mesh, element, side), element) /= to) cycle

@@ -168,7 +168,7 @@ contains
    subroutine note_undetermined_mesh(context)
       type(build_context_t), intent(inout) :: context
       character(len=19), parameter :: NOUNS(7) = [character(len=19) :: 'node set', 'earlier node set', 'element set', &
-                                                  'earlier element set', 'surface', 'node', 'element']
+                                                                                'earlier element set', 'surface', 'node', 'element']
       integer :: i
 
       do i = 1, size(NOUNS)

@@ -50,7 +50,7 @@ contains
                               digest_of_materials(model))
          parts(3) = make_part('surfaces', to_text(size(model%surfaces, kind=ip))//' surfaces', digest_of_surfaces(model))
          parts(4) = make_part('surface interactions', to_text(size(model%interactions, kind=ip))//' interactions', &
-                         digest_of_interactions(model))
+                              digest_of_interactions(model))
          parts(5) = make_part('contact pairs', to_text(size(model%pairs, kind=ip))//' pairs', digest_of_pairs(model))
          parts(6) = make_part('ties, equations and springs', to_text(model%bilateral%n)//' rows', digest_of_rows(model%bilateral))
          parts(7) = make_part('options', options, of_options)

@@ -352,8 +352,9 @@ contains
       if (loop%distance%pull > NO_LOAD) whole = max(whole, loop%distance%pull)
       solution%converged = multipliers%settled .and. whole <= tolerance
       call note_residual(loop%progress, outer, whole)
-      if (multipliers%settled .and. outer - loop%progress%best_outer >= STALE .and. whole <= STALE_DISTANCE) &
+      if (multipliers%settled .and. outer - loop%progress%best_outer >= STALE .and. whole <= STALE_DISTANCE) then
          solution%converged = .true.
+      end if
       ! a weak pull counts where the forces have come to rest
       loop%steady = merge(loop%steady + 1_ip, 0_ip, loop%distance%drive > STEADY_PULL*loop%drive .and. loop%distance%drive > &
                           merge(MOVES_SLOWLY, MOVES, loop%distance%forces <= LITTLE_LEFT))

@@ -77,7 +77,7 @@ contains
                                                        state%state == AT_UPPER .and. r < -slack))
    end function changes_a_state
 
-   !> basis: (n, motions), their amplitudes orthonormal; the displacements in them are round-off.
+   !> The basis (n, motions) has orthonormal amplitudes; the displacements in them are round-off.
    !>
    !> For each candidate: a vector without pattern, orthogonal to the motions that are known; two steps of the proximal method;
    !> orthogonal again. What is left after that (more than NO_PART) is undetermined, unless it strains something (take_out_held,

@@ -209,7 +209,7 @@ contains
       do i = 1, bodies%n_rigid
          call prescribed_motion(model, prescribed, i, is_prescribed, motion)
          associate (body => bodies%list(bodies%n - bodies%n_rigid + i))
-            body%modes = IDENTITY(:, pack([(m, m=1, MOTIONS)], .not. is_prescribed))
+            body%modes = IDENTITY(:, pack([(m, m=1, MOTIONS)],.not. is_prescribed))
             call mark_moving(model%solver_mesh, body, bodies%equation)
          end associate
       end do

@@ -15,7 +15,7 @@ module atrito_scene_memory
 
 contains
 
-   !> status: STATUS_DECK, and an error, when a scene needs more than there is: more than the limit that was asked for,
+   !> Refuses, by STATUS_DECK and an error, a scene that needs more than there is: more than the limit that was asked for,
    !> or than the machine has free with what the process has already.
    subroutine check_memory(deck_path, what, needed, limit, status, held)
       character(len=:), allocatable, intent(in) :: deck_path   !< a model made without a deck has none

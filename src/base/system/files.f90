@@ -144,9 +144,9 @@ contains
       type(status_t), intent(out) :: status
       character(len=*), parameter :: PLAIN = '; a plain file is expected'
       character(len=60), parameter :: REASONS(8) = [character(len=60) :: 'cannot be read: no such file', &
-                                    'cannot be read: permission denied', 'is a folder', 'is a pipe or a terminal'//PLAIN, &
-                                    'is a device'//PLAIN, 'is a file of the system'//PLAIN, &
-                                    'is outside of the folder of --confine', 'cannot be read']
+                                             'cannot be read: permission denied', 'is a folder', 'is a pipe or a terminal'//PLAIN, &
+                                                                           'is a device'//PLAIN, 'is a file of the system'//PLAIN, &
+                                                                          'is outside of the folder of --confine', 'cannot be read']
 
       call set_status(status, STATUS_FILE, path//': '//trim(REASONS(min(-code, size(REASONS)))))
    end subroutine tell_unread

@@ -204,7 +204,7 @@ contains
       if (.not. words%ok) return
       if (n < 0) call fail(words, 'a negative number', 'a number of lines')
       if (n > (len(words%text) - words%position)/least + 1) call fail(words, 'the rest of the file is too short for so many', &
-                                                                'as many as follow')
+                                                                      'as many as follow')
    end subroutine check_count
 
    !> Fails, with a message at the word that was read last, where a number is not positive.

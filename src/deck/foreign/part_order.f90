@@ -125,8 +125,8 @@ contains
 
       if (.not. parts%in_block) then
          call refuse_card(deck, card, 'E-PART', '*'//trim(card%name)//' without '//trim(merge('a *PART     ', 'an *INSTANCE', &
-                                                                               card%name == 'END PART')), &
-                     '*'//trim(card%name(5:))//' before it')
+                                                                                              card%name == 'END PART')), &
+                          '*'//trim(card%name(5:))//' before it')
       else if (parts%block /= card%name(5:)) then
          call refuse_card(deck, card, 'E-PART', '*'//trim(card%name)//' inside '//open_text(parts), '*END '//trim(parts%block))
       end if
@@ -141,7 +141,7 @@ contains
       type(card_t), intent(inout) :: card
 
       if (parts%in_block .and. .not. parts%is_told) call refuse_card(deck, card, 'E-PART', '*'//trim(card%name)//' inside '// &
-                                                                open_text(parts), '*END '//trim(parts%block)//' before it')
+                                                                     open_text(parts), '*END '//trim(parts%block)//' before it')
       parts%in_block = .false.
    end subroutine refuse_nesting
 

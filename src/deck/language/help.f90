@@ -37,7 +37,7 @@ contains
       type(string_t), allocatable, intent(out) :: lines(:)
       type(keyword_t), allocatable :: table(:)
       character(len=33), parameter :: TITLES(3) = [character(len=33) :: 'Model, before *STEP', &
-                                                                      'Step, between *STEP and *END STEP', 'Both']
+                                                                                        'Step, between *STEP and *END STEP', 'Both']
       integer :: i, level
 
       allocate (lines(0))

@@ -29,7 +29,7 @@ module atrito_keyword
    integer, parameter :: KIND_TEXT = 10          !< the whole line
    integer, parameter :: KIND_REAL_OR_NAME = 11  !< a number, or a set
    character(len=9), parameter :: KIND_NAMES(11) = [character(len=9) :: 'flag', 'name', 'word', '[word]', 'real', 'integer', &
-                                                                                     'file', 'id', 'id/name', 'text', 'real/name']
+                                                                                       'file', 'id', 'id/name', 'text', 'real/name']
 
    character(len=*), parameter :: NO_EFFECT = 'has no effect' !< said of an item that is a number and is not used
    integer, parameter :: ANY_NUMBER = huge(1)    !< no upper limit of lines or items

@@ -9,12 +9,12 @@ module atrito_keyword_text
 
    !> Where a keyword may stand, by LEVEL_*.
    character(len=34), parameter :: LEVEL_TEXTS(3) = [character(len=34) :: 'model, before *STEP', &
-                                                                         'step, between *STEP and *END STEP', 'model or step']
+                                                                               'step, between *STEP and *END STEP', 'model or step']
    !> By KIND_*: what stands behind the name of an option, and what a value is.
    character(len=15), parameter :: VALUES(11) = [character(len=15) :: '', '=name', '=word', '[=word]', '=real', '=integer', &
-                                                                      '=file', '', '=number or name', '', '=real or name']
+                                                                                '=file', '', '=number or name', '', '=real or name']
    character(len=20), parameter :: WORDS(11) = [character(len=20) :: 'no value', 'a name', 'a word', 'a word', 'a real', &
-                                          'an integer', 'a file', 'an integer', 'an integer or a name', 'text', 'a real or a name']
+                                           'an integer', 'a file', 'an integer', 'an integer or a name', 'text', 'a real or a name']
 
 contains
 

@@ -34,7 +34,7 @@ contains
 
       ! with room for the sections' nodes, too
       allocate (context%model%rigid_bodies(count_cards(context%deck, 'RIGID BODY') + count_cards(context%deck, &
-                                                                                                'PRE-TENSION SECTION')))
+                                                                                                 'PRE-TENSION SECTION')))
       do i = 1, context%deck%n_cards
          if (keyword_name(context%deck%cards(i)) == 'RIGID BODY') call read_card(context%deck%cards(i), context)
       end do

@@ -224,7 +224,7 @@ contains
                            expected=trim(merge('*BOUNDARY, FUNCTION in the step     ', '0 [L] here; other values in the step', &
                                                is_function)), keyword='BOUNDARY')
       end if
-      if (all(ok(2:3))) ok(2) = are_dofs(context, first, last, value, .not. is_function .and. size(nodes) > 0 .and. &
+      if (all(ok(2:3))) ok(2) = are_dofs(context, first, last, value,.not. is_function .and. size(nodes) > 0 .and. &
                                          all(is_reference(context, nodes)))
       values = spread(value, 1, size(nodes))
       if (is_function .and. ok(4)) call evaluate_function(context%deck, place, context%model%mesh%x(:, nodes), values, ok(4), &

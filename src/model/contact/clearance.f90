@@ -105,7 +105,7 @@ contains
       if (ok .and. (has_table .eqv. one%is_uniform)) then
          ok = .false.
          call report_error(context%deck, card%place, 'E-CONFLICT', '*CLEARANCE with '//trim(merge('both VALUE and TABULAR   ', &
-                                                                                      'neither VALUE nor TABULAR', has_table)), &
+                                                                                         'neither VALUE nor TABULAR', has_table)), &
                            expected='VALUE=, or TABULAR and data lines node, gap', keyword='CLEARANCE')
       end if
       ok = ok .and. one%pair > 0

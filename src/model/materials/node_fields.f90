@@ -317,7 +317,7 @@ contains
       if (.not. any(context%model%sections%is_tapered)) then
          i = findloc(context%deck%cards(:context%deck%n_cards)%name, THICKNESS, dim=1, kind=ip)
          if (i > 0 .and. .not. has_errors()) call report_note(context%deck, context%deck%cards(i)%place, 'N-THICKNESS', &
-                                                   'no *SOLID SECTION has NODAL THICKNESS: the thickness of nodes has no effect', &
+                                                    'no *SOLID SECTION has NODAL THICKNESS: the thickness of nodes has no effect', &
                                                               keyword=THICKNESS)
          return
       end if

@@ -298,7 +298,7 @@ contains
          what = 'number of '//trim(NOUN(k))//', a positive integer'
          call get_integer(deck, line_item(deck, line, k + 1), what, copies%n(k), good, keyword='BLOCK')
          if (good .and. copies%n(k) <= 0) call report_error(deck, line_item(deck, line, k + 1), 'E-VALUE', 'COPY of '// &
-                                         to_text(copies%n(k))//' '//trim(NOUN(k)), expected=what, keyword='BLOCK')
+                                                           to_text(copies%n(k))//' '//trim(NOUN(k)), expected=what, keyword='BLOCK')
          ok = ok .and. good .and. copies%n(k) > 0
       end do
       do k = 1, 4

@@ -163,7 +163,7 @@ contains
                call get_integer(deck, items(2), 'increment of the node numbers', repeats(k)%node_step, good(2), 1_ip, 'ELGEN')
                call get_integer(deck, items(3), 'increment of the element numbers', repeats(k)%element_step, good(3), 1_ip, 'ELGEN')
                if (good(1) .and. repeats(k)%n <= 0) call report_error(deck, items(1), 'E-VALUE', to_text(repeats(k)%n)// &
-                                                             ' elements', expected=WHAT//': 1 or more', keyword='ELGEN')
+                                                                      ' elements', expected=WHAT//': 1 or more', keyword='ELGEN')
                ok = ok .and. all(good) .and. repeats(k)%n > 0
             end do
             if (.not. ok) cycle

@@ -226,7 +226,7 @@ contains
       end do
       if (missing%n == 0) return
       call report_error(deck, token, id, 'no such '//noun//' in this range: '//ids_text(numbers_of(missing) - &
-                                                      scope_shift(deck, token))//scope_text(deck, token), &
+                                                                               scope_shift(deck, token))//scope_text(deck, token), &
                         expected='numbers that all exist', keyword=keyword)
    end subroutine read_range
 

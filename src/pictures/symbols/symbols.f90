@@ -341,7 +341,7 @@ contains
    !> The factor by which an amplitude multiplies at the end of the step; 1 where it has come to 0, and without one.
    pure real(wp) function end_factor(symbols, amplitude) result(factor)
       type(symbols_t), intent(in) :: symbols
-      integer(ip), intent(in) :: amplitude          !< 0: none
+      integer(ip), intent(in) :: amplitude          !< place in the model; 0 where there is none
 
       factor = 1.0_wp
       if (amplitude > 0) factor = last_factor(symbols%model, symbols%step, amplitude)
