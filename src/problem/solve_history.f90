@@ -143,7 +143,8 @@ contains
       else if (t == 0) then
          now = IS_CLOSED
       else
-         now = BY_TANGENTIAL(state%state(t))
+         now = IS_CLOSED                             ! on its way to a bound, too (atrito_goldfarb_idnani)
+         if (state%state(t) <= FROZEN) now = BY_TANGENTIAL(state%state(t))
       end if
    end function point_state
 
