@@ -26,7 +26,7 @@ contains
       integer(ip), intent(in) :: outer               !< its number
       real(wp), intent(in) :: residual               !< relative, >= 0
 
-      if (residual >= 0.5_wp*progress%best) return
+      if (.not. residual < 0.5_wp*progress%best) return   ! a NaN is no progress
       progress%best = residual
       progress%best_outer = outer
    end subroutine note_residual

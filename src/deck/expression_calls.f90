@@ -80,7 +80,8 @@ contains
       type(argument_t), allocatable, intent(inout) :: list(:)
       character(len=:), allocatable, intent(inout) :: problem
       integer, intent(inout) :: place
-      integer :: i, end
+      type(argument_t), allocatable :: longer(:)
+      integer :: i, n
 
       i = first_behind(text, first - 1)
       if (i > last) then
@@ -88,8 +89,13 @@ contains
          problem = 'a name or a number is missing'
          return
       end if
-      end = first + len_trim(replaced(text(first:last))) - 1
-      list = [list, argument_t(text(i:end), i, end)]
+      n = size(list)
+      allocate (longer(n + 1))                         ! gfortran leaks a text in an array constructor
+      longer(:n) = list
+      longer(n + 1)%first = i
+      longer(n + 1)%last = first + len_trim(replaced(text(first:last))) - 1
+      longer(n + 1)%text = text(i:longer(n + 1)%last)
+      call move_alloc(longer, list)
    end subroutine add_argument
 
    !> Tabs as blanks.

@@ -69,11 +69,12 @@ contains
       call put_attribute(file, '/', 'converged', merge(0_ip, 1_ip, origin%not_converged))
       if (origin%not_converged) call put_attribute(file, '/', 'NOT CONVERGED', warning_of(history))
       call put_mesh(file, model%mesh, mesh_grids)
-      associate (frames => history%frames(due))        ! which increments there are, and at what time: a row each
-         call put_integers(file, '/increments/step', 'number of the step', frames%step)
-         call put_integers(file, '/increments/increment', 'number of the increment in its step', frames%increment)
-         call put_rows(file, '/increments/time', 'time of the history', '-', reshape(frames%time, [1, size(due)]))
-      end associate
+      ! which increments there are, and at what time: a row each (frames themselves are large, and are not copied)
+      call put_integers(file, '/increments/step', 'number of the step', [(history%frames(due(i))%step, i=1, size(due))])
+      call put_integers(file, '/increments/increment', 'number of the increment in its step', &
+                        [(history%frames(due(i))%increment, i=1, size(due))])
+      call put_rows(file, '/increments/time', 'time of the history', '-', &
+                    reshape([(history%frames(due(i))%time, i=1, size(due))], [1, size(due)]))
       do i = 1, size(due)
          call view_frame(history, due(i), results)
          frame%grids = mesh_grids

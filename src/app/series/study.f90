@@ -16,7 +16,7 @@ module atrito_study
    use atrito_series, only: claim_output, find_origin, begin_pictures, print_closing
    use atrito_status, only: status_t, is_ok, STATUS_OK, STATUS_USAGE, STATUS_NOT_CONVERGED, STATUS_INTERNAL
    use atrito_strings, only: string_t, join, to_text
-   use atrito_study_errors, only: study_t, study_probe_t
+   use atrito_study_errors, only: study_t
    use atrito_study_plan, only: plan_study
    use atrito_study_plot, only: write_study_plot
    use atrito_study_runs, only: make_timed_run, find_probe, make_command, has_failed, put_row, take_row, PROBES
@@ -116,8 +116,12 @@ contains
       deallocate (runs%study%probes)
       allocate (runs%study%probes(size(list)))
       do i = 1, size(list, kind=ip)
-         runs%study%probes(i) = study_probe_t(trim(PROBES(list(i))), list(i) == 1, probed_row(runs))
-         allocate (runs%study%probes(i)%values(size(runs%study%quantities)), source=ieee_value(1.0_wp, ieee_quiet_nan))
+         associate (probe => runs%study%probes(i))     ! gfortran leaks a text in a structure constructor
+            probe%what = trim(PROBES(list(i)))
+            probe%is_penalty = list(i) == 1
+            probe%row = probed_row(runs)
+            allocate (probe%values(size(runs%study%quantities)), source=ieee_value(1.0_wp, ieee_quiet_nan))
+         end associate
       end do
       call make_tasks(runs, list + size(runs%study%rows, kind=ip), times)
    end subroutine make_probes
