@@ -18,7 +18,7 @@ for change in *.diff; do
    if cmake -S tree -B built -DBUILD_TESTING=OFF -DCMAKE_BUILD_TYPE=None -DCMAKE_Fortran_FLAGS=-O0 >log 2>&1 && cmake --build built -j "$jobs" >>log 2>&1; then
       for deck in tree/input/*.inp; do
          name=$(basename "$deck" .inp)
-built/bin/atrito "$deck" --quiet -o "out/$name" >log 2>&1 || fail "$change: $name does not run"
+         built/bin/atrito "$deck" --quiet -o "out/$name" >log 2>&1 || fail "$change: $name does not run"
       done
    else
       fail "$change is not built"

@@ -185,12 +185,12 @@ contains
       associate (loads => symbols%model%steps(symbols%step)%element_loads)
          do i = 1, loads%n
             e = loads%element(i)
-            value = loads%value(:3, i)
             factor = load_factor(symbols, i)
             if (loads%kind(i) == LOAD_BODY) then
-               density(:, e) = density(:, e) + factor*value(:2)
+               density(:, e) = density(:, e) + factor*loads%value(:2, i)
             else if (loads%kind(i) == LOAD_LINEAR) then
                x = mean_of(symbols%model%mesh, symbols%model%mesh%x, e)
+               value = loads%value(:3, i)
                density(:, e) = density(:, e) + factor*[value(1)*x(1) + value(2)*x(2), value(2)*x(1) + value(3)*x(2)]
             end if
          end do
