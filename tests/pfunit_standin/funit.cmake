@@ -1,5 +1,5 @@
 # Makes module funit: the assertions, and by name alone all else that pFUnit 4.14's module FUnit exports (its own,
-# and those of FUnit_Core, PF_Assert and fHamcrest; `stub` is one of its procedures). A test module that has a procedure of such a name
+# and those of FUnit_Core, PF_Assert and fHamcrest). A test module that has a procedure of such a name
 # compiles with neither.
 set(types
    Test TestSuite TestMethod TestResult TestRunner BaseTestRunner RemoteRunner RobustRunner TestListener TestListenerVector

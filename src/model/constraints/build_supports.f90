@@ -79,9 +79,9 @@ contains
       call read_cards(context, context%open%number, numbered)
       do i = 1, before%n
          associate (old => before%list(i))
-            ! a displacement that is given anew by OP=NEW begins with what it has come to, that of a reference node with 0
+            ! a displacement that is given anew by OP=NEW begins with what it has come to
             entry = context%dof_entry(dof_slot(old%dof), old%place)
-            if (entry > 0 .and. .not. is_reference(context, old%place)) context%open%supports%list(entry)%from = old%from
+            if (entry > 0) context%open%supports%list(entry)%from = old%from
          end associate
       end do
       if (before%n > 0) call note_released(before, context)

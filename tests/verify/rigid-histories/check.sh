@@ -116,6 +116,12 @@ steps once '*AMPLITUDE, NAME=HALF/0, 0, 1, 0.5/*STEP/*STATIC/*BOUNDARY/1000, 2, 
 run 0 once.inp once --digits 17 --quiet
 near 'one increment with an amplitude' "$(end once 1 u1)" 0.0005 1e-17
 
+# Given anew by OP=NEW it goes on from where it is
+steps anew '*STEP/*STATIC/*BOUNDARY/1000, 1/1000, 2, 2, -0.02/*END STEP/*STEP/*STATIC/0.5, 1, 0.5, 0.5/*BOUNDARY, OP=NEW/BLOCK-BOTTOM, 1, 2/1000, 6/1000, 1/1000, 2, 2, -0.03/*CONTACT PRINT, FREQUENCY=1/*END STEP'
+both anew anew.inp
+near 'given anew: half way' "$(end anew-dense 2 u2 1)" -0.025 1e-16
+near 'given anew' "$(end anew-dense 2 u2 2)" -0.03 1e-16
+
 # A rotation that is not small is told
 { sed '/^\*STEP/,$d; /^1000, 6$/d' "$here/push.inp"
    echo '*STEP/*STATIC/*BOUNDARY/1000, 1/1000, 6, 6, 0.2/*CLOAD/1000, 2, -20/*END STEP' | tr / '\n'; } >larger.inp
