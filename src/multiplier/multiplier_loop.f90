@@ -35,6 +35,7 @@ module atrito_multiplier_loop
    use atrito_accelerator, only: anderson_t
    use atrito_bound_qp, only: bound_qp_t, box_state_t, FREE, AT_LOWER, AT_UPPER, FROZEN
    use atrito_constraint_rows, only: constraint_rows_t, multiply_rows
+   use atrito_contact_fronts, only: find_fronts, has_long_pair
    use atrito_contact_line, only: contact_line_t, pressure_of, shear_force_of, normal_bounds, set_friction_bounds, &
                                   last_contact_pair, pairs_of_unknowns, tangential_of
    use atrito_contact_solution, only: contact_solution_t, asks_no_force, let_rest, FREE_MOTION, bound_of_state
@@ -46,7 +47,7 @@ module atrito_multiplier_loop
    use atrito_multiplier_distance, only: distance_t, measure_distance, measure_bodies, forces_that_are_none, NO_FORCE_AFTER
    use atrito_multiplier_pace, only: loop_t, follow_drift, choose_steps, pull_firmly_again, next_bound, LEAST_KAPPA, USUAL_KAPPA, &
                                      NO_LOAD, LITTLE_LEFT, STALE_DISTANCE
-   use atrito_multiplier_step, only: begin_multipliers, start_closed, take_multiplier_step, refine_step, accept_step, &
+   use atrito_multiplier_step, only: begin_multipliers, close_all, start_closed, take_multiplier_step, refine_step, accept_step, &
                                      take_least_forces, clear_round_off, largest_of_pairs
    use atrito_loop_progress, only: note_residual, report_step
    use atrito_reporter, only: reporter_t
@@ -93,6 +94,7 @@ contains
       type(anderson_t) :: anderson
       real(wp) :: tau(line%n), image(line%n), of_body(system%n_bodies)
       integer(ip) :: outer
+      logical :: found
 
       before = solution
       call begin_solution(system, line, shape, multipliers, solution)
@@ -105,6 +107,11 @@ contains
       if (has_multipliers(before)) then
          call start_from(before, shape, line, multipliers, solution)
       else
+         call close_all(solution%bounds, solution%state)
+      end if
+      found = .false.
+      if (has_long_pair(line)) call start_at_fronts(system, shape, line, reporter, multipliers, solution, found, status)
+      if (.not. (found .or. has_multipliers(before))) then
          call start_closed(system, solution%bounds, multipliers, solution%state, status)
       end if
       if (.not. is_ok(status)) return
@@ -161,6 +168,30 @@ contains
       is_used_up = outer >= OUTERS_A_MAXIT*max_iterations .or. factorisations > FACTORISATIONS_A_MAXIT*max_iterations
       if (is_used_up) is_used_up = outer - loop%progress%best_outer > outer/4
    end function is_used_up
+
+   !> The fronts of long pairs, as one outer iteration of the history.
+   !>
+   !> With a weak pull: what friction holds needs none, and a strong one would keep fronts from their places.
+   subroutine start_at_fronts(system, shape, line, reporter, multipliers, solution, found, status)
+      class(contact_system_t), intent(inout) :: system
+      type(bound_qp_t), intent(in) :: shape
+      type(contact_line_t), intent(in) :: line
+      type(reporter_t), intent(in) :: reporter
+      type(multiplier_t), intent(inout) :: multipliers
+      type(contact_solution_t), intent(inout) :: solution
+      logical, intent(out) :: found
+      type(status_t), intent(out) :: status
+      real(wp) :: kappa
+
+      kappa = multipliers%kappa
+      multipliers%kappa = USUAL_KAPPA
+      call begin_outer(solution%history)
+      call find_fronts(system, shape, line, multipliers, solution, found, status)
+      call end_outer(solution%history, 1.0_wp)
+      if (.not. found) multipliers%kappa = kappa
+      if (is_ok(status)) call report_step(reporter, 'fronts', 0_ip, solution%history, &
+                                          '  factorisations '//to_text(multipliers%factorisations), '')
+   end subroutine start_at_fronts
 
    pure logical function has_multipliers(solution)
       type(contact_solution_t), intent(in) :: solution

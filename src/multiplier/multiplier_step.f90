@@ -41,7 +41,8 @@ module atrito_multiplier_step
    use atrito_status, only: status_t, is_ok
    implicit none (type, external)
    private
-   public :: begin_multipliers, start_closed, take_multiplier_step, refine_step, accept_step, set_forces, pull_of, &
+   public :: residual_of, provide_factor
+   public :: begin_multipliers, close_all, start_closed, take_multiplier_step, refine_step, accept_step, set_forces, pull_of, &
              take_least_forces, clear_round_off, largest_of_pairs, rho_of
 
    integer(ip), parameter :: MOST_NEWTON = 200_ip
@@ -91,6 +92,15 @@ contains
       where (multipliers%hold <= 0.0_wp) multipliers%hold = 1.0_wp
    end subroutine begin_multipliers
 
+   !> All points closed, and stuck where there is friction.
+   pure subroutine close_all(bounds, state)
+      type(box_bounds_t), intent(in) :: bounds !< of the m forces [F]
+      type(box_state_t), intent(inout) :: state !< states of the m unknowns, q, a, r
+
+      state%state = merge(FROZEN, FREE, bounds%lower == bounds%upper)
+      state%q = 0.0_wp
+   end subroutine close_all
+
    !> All points closed, and stuck where there is friction, whatever their forces.
    !>
    !> One linear solve with all rows FREE, as if glued. Where the bodies come to is a good place to begin: the true motion is near
@@ -103,9 +113,7 @@ contains
       type(status_t), intent(out) :: status
       real(wp) :: residual(system%n)
 
-      state%state = FREE
-      where (bounds%lower == bounds%upper) state%state = FROZEN
-      state%q = 0.0_wp
+      call close_all(bounds, state)
       where (state%state == FREE) state%q = multipliers%e/(bounds%d + rho_of(system, multipliers))
       call residual_of(system, multipliers, state%q, residual)
       call provide_factor(system, bounds, state, multipliers, status)

@@ -1,0 +1,285 @@
+!> Long contact lines: where stick ends and slip begins, and where contact ends, before the steps of the multipliers.
+!>
+!> Newton's method with a line search (atrito_multiplier_step) falls in every step and always ends, but its step goes as far as a
+!> few points change: a front between stick and slip moves by a few points a solve, however fine the mesh is. On a long line the
+!> fronts are found first, by a primal and dual active set: solve with the states held, let the law say of each point whether it
+!> would be in another state,
+!>
+!>     closed -> open    p < 0             stick -> slip    |t| > tau
+!>     open -> closed    u_n > s           slip -> stick    the slip goes against its friction
+!>
+!> and change all of them at once. What is new is how far a front goes. Near a front at its place the excess of the stress over
+!> its bound is -C sqrt(s) at the distance s on one side, the slip or the gap is A s^(3/2) on the other (as at the edge of Hertz'
+!> contact, and of Cattaneo's stick zone). At a front that is wrong by d, to first order in d,
+!>
+!>     d short        excess  -C (s - d)^(1/2)  ~  -C s^(1/2) + C d/2 s^(-1/2)     > 0 for s < d/2
+!>     d too far      slip     A (s - d)^(3/2)  ~   A s^(3/2) - 3 A d/2 s^(1/2)    < 0 for s < 3 d/2
+!>
+!> So a run of m points beside a front that would leave the inner state takes as many more with it, and of a run that would come
+!> back only two thirds do: then the error d falls to what the next term says, and not by half in each solve. Where a front goes on
+!> in the same direction by runs that do not get shorter (its neighbourhood is not as above, or m is one), it goes twice as
+!> far each time. So the number of solves does not grow with the number of points.
+!>
+!> The friction bound is frozen while more than FEW_CHANGES of the points change, as in the Picard loop, and follows the pressures
+!> then. The states that come out are a start for the steps of the multipliers, which go to the last digit and ask whether they are
+!> right. Where the states do not come to rest in MOST_SOLVES (bodies that nothing holds while all slips, say), they begin without.
+module atrito_contact_fronts
+   use atrito_bound_qp, only: bound_qp_t, box_bounds_t, box_state_t, FREE, AT_LOWER, AT_UPPER, FROZEN
+   use atrito_constraint_rows, only: multiply_rows
+   use atrito_contact_line, only: contact_line_t, last_of_pair, pairs_of_unknowns, set_friction_bounds
+   use atrito_contact_solution, only: contact_solution_t, bound_of_state, relative_residual
+   use atrito_contact_system, only: contact_system_t
+   use atrito_kinds, only: ip, wp
+   use atrito_multiplier_step, only: residual_of, provide_factor, rho_of, largest_of_pairs
+   use atrito_multipliers, only: multiplier_t
+   use atrito_solve_history, only: solve_history_t, record_solve
+   use atrito_status, only: status_t, is_ok
+   implicit none (type, external)
+   private
+   public :: find_fronts, has_long_pair, move_fronts, front_moves_t
+
+   !> What the fronts did in the last step, at each point of the line; 0 where no front passed.
+   type :: front_moves_t
+      integer(ip), allocatable :: found(:)       !< (points) length of the run that the law has changed
+      integer(ip), allocatable :: went(:)        !< (points) length of what the front took of it, and beyond
+   end type front_moves_t
+
+   integer(ip), parameter :: LONG_PAIR = 100_ip    !< points of a pair from which on fronts are worth it
+   integer(ip), parameter :: MOST_SOLVES = 30_ip
+   real(wp), parameter :: FEW_CHANGES = 0.01_wp    !< of the points: the friction bound may follow
+   real(wp), parameter :: BOUND_FOUND = 1.0e-3_wp  !< distance of the bound from that of the pressures, relative
+   real(wp), parameter :: NO_EXCESS = 1.0e-10_wp   !< of the largest force of the pair
+
+contains
+
+   !> Whether a pair has so many points that its fronts are worth following.
+   pure logical function has_long_pair(line)
+      type(contact_line_t), intent(in) :: line
+      integer(ip) :: first, last
+
+      has_long_pair = .false.
+      first = 1
+      do while (first <= line%n - line%n_bilateral)
+         last = last_of_pair(line, first)
+         has_long_pair = has_long_pair .or. last - first + 1 >= LONG_PAIR
+         first = last + 1
+      end do
+   end function has_long_pair
+
+   !> States, friction bound, forces and displacements near a solution. found: whether the states came to rest; else the
+   !> displacements and forces are as they were. status: that of system%factor.
+   subroutine find_fronts(system, shape, line, multipliers, solution, found, status)
+      class(contact_system_t), intent(inout) :: system !< A, B, loads, flexibilities
+      type(bound_qp_t), intent(in) :: shape   !< numbers of unknowns and weights
+      type(contact_line_t), intent(in) :: line !< points, laws, average S_rho
+      type(multiplier_t), intent(inout) :: multipliers !< x, e, q_o, a_o and the sizes of the step
+      type(contact_solution_t), intent(inout) :: solution !< states, bound tau; what is found
+      logical, intent(out) :: found
+      type(status_t), intent(out) :: status
+      type(multiplier_t) :: kept
+      type(contact_solution_t) :: begun
+      type(front_moves_t) :: normal, tangential
+      integer(ip) :: before(system%rows%n), raw(system%rows%n), solves, changes
+      real(wp) :: noise(system%rows%n)
+      logical :: follows
+
+      kept = multipliers
+      begun = solution
+      found = .false.
+      follows = .true.
+      call multiply_rows(system%rows, multipliers%x, multipliers%e, noise)
+      multipliers%e = multipliers%e + system%g0
+      do solves = 1, MOST_SOLVES
+         before = solution%state%state
+         call solve_with_states(system, solution%bounds, multipliers, solution%state, status)
+         if (.not. is_ok(status)) exit
+         call record_solve(solution%history, shape, solution%bounds, solution%state)
+         if (follows) solution%tau = bound_of_state(line, solution)
+         call set_friction_bounds(line, shape, solution%tau, solution%bounds, solution%state)
+         raw = states_of_law(system, shape, solution%bounds, multipliers, solution%state, before)
+         changes = count(raw /= before, kind=ip)
+         found = changes == 0 .and. relative_residual(line, solution%tau, bound_of_state(line, solution)) <= BOUND_FOUND
+         follows = changes <= FEW_CHANGES*line%n
+         solution%state%state = raw
+         call move_fronts(line, line%normal, before, raw, solution%state%state, normal)
+         call move_fronts(line, line%tangential, before, raw, solution%state%state, tangential)
+         ! the proximal terms stand at what is found
+         multipliers%q_old = min(max(solution%state%q, solution%bounds%lower), solution%bounds%upper)
+         multipliers%a_old = multipliers%x(system%n - system%k + 1:)
+         if (found) return
+      end do
+      multipliers%x = kept%x
+      multipliers%q_old = kept%q_old
+      multipliers%a_old = kept%a_old
+      solution%state = begun%state
+      solution%bounds = begun%bounds
+      solution%tau = begun%tau
+   end subroutine find_fronts
+
+   !> The displacements for which FREE rows obey their law and the others have the force of their bound.
+   !>
+   !>     A x + kappa H (a - a_o) + B' q = f,   q_i = (B_i x + g0_i + rho_i q_o,i)/(D_i + rho_i) in FREE rows, else its bound
+   !>
+   !> Linear: one solve with the matrix of the states. q is not clipped: where it is beyond a bound, the law asks for another state.
+   subroutine solve_with_states(system, bounds, multipliers, state, status)
+      class(contact_system_t), intent(inout) :: system
+      type(box_bounds_t), intent(in) :: bounds
+      type(multiplier_t), intent(inout) :: multipliers
+      type(box_state_t), intent(inout) :: state
+      type(status_t), intent(out) :: status
+      real(wp) :: dx(system%n), de(system%rows%n)
+
+      call set_forces_of_states()
+      call residual_of(system, multipliers, state%q, dx)
+      call provide_factor(system, bounds, state, multipliers, status)
+      if (.not. is_ok(status)) return
+      call system%solve(dx)
+      multipliers%solves = multipliers%solves + 1
+      multipliers%x = multipliers%x + dx
+      call multiply_rows(system%rows, dx, de)
+      multipliers%e = multipliers%e + de
+      call set_forces_of_states()
+      state%a = multipliers%x(system%n - system%k + 1:)
+
+   contains
+
+      subroutine set_forces_of_states()
+         associate (rho => rho_of(system, multipliers))
+            where (state%state == FREE) state%q = (multipliers%e + rho*multipliers%q_old)/(bounds%d + rho)
+         end associate
+         where (state%state == AT_LOWER) state%q = bounds%lower
+         where (state%state == AT_UPPER) state%q = bounds%upper
+         where (state%state == FROZEN) state%q = 0.0_wp
+         state%r = multipliers%e - bounds%d*state%q
+      end subroutine set_forces_of_states
+
+   end subroutine solve_with_states
+
+   !> The state that the law gives each row, from that which it was solved with.
+   !>
+   !> A slipping point that ought to slip the other way sticks first: what it does then the next solve tells.
+   function states_of_law(system, shape, bounds, multipliers, state, before) result(raw)
+      class(contact_system_t), intent(in) :: system
+      type(bound_qp_t), intent(in) :: shape
+      type(box_bounds_t), intent(in) :: bounds   !< with the friction bound of the next solve
+      type(multiplier_t), intent(in) :: multipliers
+      type(box_state_t), intent(in) :: state     !< q and r of the solve; states with points FROZEN that have no friction now
+      integer(ip), intent(in) :: before(:)       !< (m) states of the solve
+      integer(ip) :: raw(size(before)), i
+      real(wp) :: force, slip, largest(multipliers%n_pairs)
+
+      largest = largest_of_pairs(multipliers, abs(state%q))
+      do i = 1, size(before, kind=ip)
+         force = NO_EXCESS*largest(multipliers%pair(i))
+         slip = force*(bounds%d(i) + system%flexibility(i))
+         raw(i) = before(i)
+         if (i > shape%n_normal .and. state%state(i) == FROZEN) then
+            raw(i) = FROZEN
+         else if (before(i) == FROZEN .and. state%state(i) /= FROZEN) then
+            raw(i) = FREE
+         else if (before(i) == FREE) then
+            if (state%q(i) < bounds%lower(i) - force) raw(i) = AT_LOWER
+            if (state%q(i) > bounds%upper(i) + force) raw(i) = AT_UPPER
+         else if (before(i) == AT_LOWER) then
+            if (state%r(i) > slip) raw(i) = FREE
+         else if (before(i) == AT_UPPER) then
+            if (state%r(i) < -slip) raw(i) = FREE
+         end if
+      end do
+   end function states_of_law
+
+   !> Moves the fronts: runs of points that change alike, beside a point that has been in their new state on one side.
+   pure subroutine move_fronts(line, unknown, before, raw, new, moves)
+      type(contact_line_t), intent(in) :: line   !< whose points follow each other along each pair
+      integer(ip), intent(in) :: unknown(:)      !< (points) normal or tangential unknown of each; 0: none
+      integer(ip), intent(in) :: before(:)       !< (m) states
+      integer(ip), intent(in) :: raw(:)          !< (m) states that the law asks for
+      integer(ip), intent(inout) :: new(:)       !< (m) at first raw; states with the fronts where they go to
+      type(front_moves_t), intent(inout) :: moves !< of the step before; of this one
+      type(front_moves_t) :: last_moves
+      integer(ip) :: first, last, from, to, side, edge, m, taken, i, j
+
+      if (.not. allocated(moves%found)) then
+         allocate (moves%found(line%n), moves%went(line%n), source=0_ip)
+      end if
+      last_moves = moves
+      moves%found = 0
+      moves%went = 0
+      last = 0
+      do
+         first = last + 1
+         if (first > line%n) exit
+         last = first
+         if (unknown(first) == 0) cycle
+         from = before(unknown(first))
+         to = raw(unknown(first))
+         if (from == to) cycle
+         do while (changes_alike(last + 1))
+            last = last + 1
+         end do
+         ! the front is on one side of the run, which it goes away from
+         side = 0
+         if (is_in(first - 1, to)) side = 1
+         if (is_in(last + 1, to)) side = side - 1
+         if (side == 0) cycle
+         m = last - first + 1
+         edge = merge(first - 1, last + 1, side > 0)
+         if (from == FREE) then
+            taken = 2*m
+            if (2*m >= last_moves%found(edge)) taken = max(taken, 2*last_moves%went(edge))
+         else if (to == FREE) then
+            taken = (2*m + 1)/3
+         else
+            cycle
+         end if
+         do i = 1, max(m, taken)
+            j = edge + side*i
+            if (i > m) then
+               if (.not. stays_in(j, from)) exit
+            end if
+            if (i > taken) then
+               new(unknown(j)) = from
+            else
+               new(unknown(j)) = to
+               moves%found(j) = m
+               moves%went(j) = taken
+            end if
+         end do
+      end do
+
+   contains
+
+      pure logical function of_pair(j)
+         integer(ip), intent(in) :: j
+
+         of_pair = j >= 1 .and. j <= line%n
+         if (.not. of_pair) return
+         of_pair = unknown(j) > 0
+         if (allocated(line%pair)) of_pair = of_pair .and. line%pair(j) == line%pair(first)
+      end function of_pair
+
+      !> Whether the point was in a state.
+      pure logical function is_in(j, state)
+         integer(ip), intent(in) :: j, state
+
+         is_in = of_pair(j)
+         if (is_in) is_in = before(unknown(j)) == state
+      end function is_in
+
+      pure logical function stays_in(j, state)
+         integer(ip), intent(in) :: j, state
+
+         stays_in = is_in(j, state)
+         if (stays_in) stays_in = raw(unknown(j)) == state
+      end function stays_in
+
+      pure logical function changes_alike(j)
+         integer(ip), intent(in) :: j
+
+         changes_alike = is_in(j, from)
+         if (changes_alike) changes_alike = raw(unknown(j)) == to
+      end function changes_alike
+
+   end subroutine move_fronts
+
+end module atrito_contact_fronts
