@@ -157,7 +157,8 @@ contains
 
    !> The state that the law gives each row, from that which it was solved with.
    !>
-   !> A slipping point that ought to slip the other way sticks first: what it does then the next solve tells.
+   !> A slipping point that ought to slip the other way sticks first: what it does then the next solve tells. A point that has
+   !> friction again, since it closes, slips at first, as it does now: stuck amid a zone of slip it would bear the shear of all of it.
    function states_of_law(system, shape, bounds, multipliers, state, before) result(raw)
       class(contact_system_t), intent(in) :: system
       type(bound_qp_t), intent(in) :: shape
@@ -175,8 +176,8 @@ contains
          raw(i) = before(i)
          if (i > shape%n_normal .and. state%state(i) == FROZEN) then
             raw(i) = FROZEN
-         else if (before(i) == FROZEN .and. state%state(i) /= FROZEN) then
-            raw(i) = FREE
+         else if (before(i) == FROZEN .and. i > shape%n_normal) then
+            raw(i) = merge(AT_UPPER, AT_LOWER, state%r(i) >= 0.0_wp)
          else if (before(i) == FREE) then
             if (state%q(i) < bounds%lower(i) - force) raw(i) = AT_LOWER
             if (state%q(i) > bounds%upper(i) + force) raw(i) = AT_UPPER
