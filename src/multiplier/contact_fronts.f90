@@ -46,6 +46,7 @@ module atrito_contact_fronts
 
    integer(ip), parameter :: LONG_PAIR = 100_ip    !< points of a pair from which on fronts are worth it
    integer(ip), parameter :: MOST_SOLVES = 30_ip
+   integer(ip), parameter :: LOOKS_AHEAD = 8_ip    !< points that do not change, before those that do are looked for no more
    real(wp), parameter :: FEW_CHANGES = 0.01_wp    !< of the points: the friction bound may follow
    real(wp), parameter :: BOUND_FOUND = 1.0e-3_wp  !< distance of the bound from that of the pressures, relative
    real(wp), parameter :: NO_EXCESS = 1.0e-10_wp   !< of the largest force of the pair
@@ -189,7 +190,7 @@ contains
       end do
    end function states_of_law
 
-   !> Moves the fronts: runs of points that change alike, beside a point that has been in their new state on one side.
+   !> Moves the fronts: where points of two states are neighbours, and those of one side would be in the state of the other.
    pure subroutine move_fronts(line, unknown, before, raw, new, moves)
       type(contact_line_t), intent(in) :: line   !< whose points follow each other along each pair
       integer(ip), intent(in) :: unknown(:)      !< (points) normal or tangential unknown of each; 0: none
@@ -198,7 +199,7 @@ contains
       integer(ip), intent(inout) :: new(:)       !< (m) at first raw; states with the fronts where they go to
       type(front_moves_t), intent(inout) :: moves !< of the step before; of this one
       type(front_moves_t) :: last_moves
-      integer(ip) :: first, last, from, to, side, edge, m, taken, i, j
+      integer(ip) :: j
 
       if (.not. allocated(moves%found)) then
          allocate (moves%found(line%n), moves%went(line%n), source=0_ip)
@@ -206,38 +207,59 @@ contains
       last_moves = moves
       moves%found = 0
       moves%went = 0
-      last = 0
-      do
-         first = last + 1
-         if (first > line%n) exit
-         last = first
-         if (unknown(first) == 0) cycle
-         from = before(unknown(first))
-         to = raw(unknown(first))
-         if (from == to) cycle
-         do while (changes_alike(last + 1))
-            last = last + 1
-         end do
-         ! the front is on one side of the run, which it goes away from
-         side = 0
-         if (is_in(first - 1, to)) side = 1
-         if (is_in(last + 1, to)) side = side - 1
-         if (side == 0) cycle
-         m = last - first + 1
-         edge = merge(first - 1, last + 1, side > 0)
-         if (from == FREE) then
-            taken = 2*m
-            if (2*m >= last_moves%found(edge)) taken = max(taken, 2*last_moves%went(edge))
-         else if (to == FREE) then
-            taken = (2*m + 1)/3
-         else
-            cycle
+      do j = 1, line%n - 1
+         if (unknown(j) == 0 .or. unknown(j + 1) == 0) cycle
+         if (allocated(line%pair)) then
+            if (line%pair(j) /= line%pair(j + 1)) cycle
          end if
-         do i = 1, max(m, taken)
-            j = edge + side*i
-            if (i > m) then
-               if (.not. stays_in(j, from)) exit
-            end if
+         associate (left => before(unknown(j)), right => before(unknown(j + 1)))
+            ! one of the two is stuck or closed
+            if (left == right .or. (left /= FREE .and. right /= FREE) .or. left == FROZEN .or. right == FROZEN) cycle
+         end associate
+         call move_front(line, unknown, before, raw, last_moves, j, 1_ip, new, moves)
+         call move_front(line, unknown, before, raw, last_moves, j + 1, -1_ip, new, moves)
+      end do
+   end subroutine move_fronts
+
+   !> Moves one front in one direction: the points beside it take the state of the point `edge`, which is the last one behind it.
+   !>
+   !> Stresses beside a front may go up and down from point to point (sides that do not match): its run is the longest of which at
+   !> least half of the points would change.
+   pure subroutine move_front(line, unknown, before, raw, last_moves, edge, side, new, moves)
+      type(contact_line_t), intent(in) :: line
+      integer(ip), intent(in) :: unknown(:), before(:), raw(:)
+      type(front_moves_t), intent(in) :: last_moves
+      integer(ip), intent(in) :: edge, side      !< the front is beside that point; direction in which it may go, 1 or -1
+      integer(ip), intent(inout) :: new(:)
+      type(front_moves_t), intent(inout) :: moves
+      integer(ip) :: from, to, m, taken, i, changing
+
+      to = before(unknown(edge))
+      from = before(unknown(edge + side))
+      ! where the points behind it change as well there is no front
+      if (raw(unknown(edge)) /= to) return
+      m = 0
+      changing = 0
+      i = 0
+      do while (is_from(i + 1) .and. i <= 2*changing + LOOKS_AHEAD)
+         i = i + 1
+         if (raw(unknown(edge + side*i)) /= to) cycle
+         changing = changing + 1
+         if (2*changing >= i) m = i
+      end do
+      ! a run that ends at another front is no run of this one
+      if (m == 0 .or. .not. is_from(m + 1)) return
+      if (from == FREE) then
+         taken = 2*m
+         if (line%tangential(edge) == unknown(edge) .and. 2*m >= last_moves%found(edge)) taken = max(taken, 2*last_moves%went(edge))
+      else
+         taken = (2*m + 1)/3
+      end if
+      ! it came from there: its place is between
+      if (last_moves%went(edge + side) > 0) taken = min(taken, max(1_ip, 2*last_moves%went(edge + side)/3))
+      do i = 1, max(m, taken)
+         if (.not. is_from(i)) exit
+         associate (j => edge + side*i)
             if (i > taken) then
                new(unknown(j)) = from
             else
@@ -245,42 +267,22 @@ contains
                moves%found(j) = m
                moves%went(j) = taken
             end if
-         end do
+         end associate
       end do
 
    contains
 
-      pure logical function of_pair(j)
-         integer(ip), intent(in) :: j
+      !> Whether the i-th point in front of the edge is of the same pair and in the state that is left.
+      pure logical function is_from(i)
+         integer(ip), intent(in) :: i
 
-         of_pair = j >= 1 .and. j <= line%n
-         if (.not. of_pair) return
-         of_pair = unknown(j) > 0
-         if (allocated(line%pair)) of_pair = of_pair .and. line%pair(j) == line%pair(first)
-      end function of_pair
+         is_from = edge + side*i >= 1 .and. edge + side*i <= line%n
+         if (.not. is_from) return
+         is_from = unknown(edge + side*i) > 0
+         if (is_from .and. allocated(line%pair)) is_from = line%pair(edge + side*i) == line%pair(edge)
+         if (is_from) is_from = before(unknown(edge + side*i)) == from
+      end function is_from
 
-      !> Whether the point was in a state.
-      pure logical function is_in(j, state)
-         integer(ip), intent(in) :: j, state
-
-         is_in = of_pair(j)
-         if (is_in) is_in = before(unknown(j)) == state
-      end function is_in
-
-      pure logical function stays_in(j, state)
-         integer(ip), intent(in) :: j, state
-
-         stays_in = is_in(j, state)
-         if (stays_in) stays_in = raw(unknown(j)) == state
-      end function stays_in
-
-      pure logical function changes_alike(j)
-         integer(ip), intent(in) :: j
-
-         changes_alike = is_in(j, from)
-         if (changes_alike) changes_alike = raw(unknown(j)) == to
-      end function changes_alike
-
-   end subroutine move_fronts
+   end subroutine move_front
 
 end module atrito_contact_fronts

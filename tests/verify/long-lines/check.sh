@@ -1,0 +1,72 @@
+# Long contact lines (src/multiplier/contact_fronts.f90): the number of linear solves does not grow with the number of points, and the
+# answer is that of the condensed form, which follows no fronts. Two layers that do not match, pressed and pushed so that they slip over
+# a part of the line: from one end, from both, the upper one softer, with an average of the pressures over 50 points, with a stick slope.
+. "$(dirname "$0")/../lib.sh"
+
+# layers POINTS PUSH-LEFT PUSH-RIGHT MODULUS-ABOVE FRICTION >DECK
+layers() {
+   cat <<DECK
+*BLOCK, TYPE=CPE4, ELSET=LOW, NX=$1, NY=4
+0., 0.
+15., 0.
+15., 1.
+0., 1.
+*BLOCK, TYPE=CPE4, ELSET=HIGH, NX=$(($1 * 29 / 30)), NY=4
+0., 1.
+15., 1.
+15., 2.
+0., 2.
+*MATERIAL, NAME=BELOW
+*ELASTIC
+1000., .3
+*MATERIAL, NAME=ABOVE
+*ELASTIC
+$4, .3
+*SOLID SECTION, ELSET=LOW, MATERIAL=BELOW
+*SOLID SECTION, ELSET=HIGH, MATERIAL=ABOVE
+*SURFACE INTERACTION, NAME=JOINT
+$5
+*CONTACT PAIR, INTERACTION=JOINT
+LOW-TOP, HIGH-BOTTOM
+*BOUNDARY
+LOW-BOTTOM, 1, 2
+*STEP
+*STATIC
+*DSLOAD
+HIGH-TOP, P, 1.
+*CLOAD
+HIGH-LEFT, 1, $2
+HIGH-RIGHT, 1, $3
+*CONTACT PRINT
+*END STEP
+DECK
+}
+
+# does_not_grow NAME ARGUMENTS..: at most 28 solves at 200 and at 800 points, at 200 points what the condensed form finds.
+does_not_grow() {
+   name=$1
+   shift
+   for n in 200 800; do
+      layers "$n" "$@" >"$name-$n.inp"
+      run 0 "$name-$n.inp" "$name-$n" --contact sparse --quiet
+      below "$name: solves at $n points" "$(column "$name-$n/iterations.tab" inner | wc -l)" 29
+      for state in 1 2; do
+         below "$name: $n points less those of status $state" \
+            $((n - $(column "$name-$n/contact.tab" status | grep -c "^$state\$"))) $((n - 9))
+      done
+   done
+   run 0 "$name-200.inp" "$name-condensed" --contact dense --quiet
+   same_tables "$name: both forms" "$name-200/contact.tab" "$name-condensed/contact.tab" 1e-7
+}
+
+does_not_grow left 0.5 0. 1000. '*FRICTION
+.3'
+does_not_grow both 0.4 -0.35 1000. '*FRICTION
+.3'
+does_not_grow soft 0.4 0. 50. '*FRICTION
+.3'
+does_not_grow averaged 0.5 0. 1000. '*FRICTION, NONLOCAL
+.3, 0., 1.'
+does_not_grow sloped 0.5 0. 1000. '*FRICTION
+.3, 1e4'
+finish
