@@ -5,7 +5,7 @@
 !> only once an error has been reported, so a deck is never accepted with something left out.
 module atrito_build_context
    use atrito_build_parts, only: open_step_t, inherited_t, replaced_t, numbered_t, block_t, section_cut_t, &
-                                 BLOCK_SIDES, LOOSE_HELD, LOOSE_RELEASED, LOOSE_MOVES
+                                 node_finder_t, BLOCK_SIDES, LOOSE_HELD, LOOSE_RELEASED, LOOSE_MOVES
    use atrito_curves, only: curve_list_t, line_list_t
    use atrito_deck, only: deck_t, card_t, token_t, data_line_t, token_text, is_empty_token, line_item, keyword_name, scope_shift, &
                           scope_text, model_number
@@ -19,6 +19,7 @@ module atrito_build_context
    use atrito_messages, only: count_messages, SEVERITY_ERROR
    use atrito_model, only: model_t
    use atrito_motion, only: motion_t
+   use atrito_named_nodes, only: part_place_name
    use atrito_name_list, only: name_list_t, add_name, find_name, has_name
    use atrito_numbers, only: read_integer, NUMBER_OK
    use atrito_refinement, only: refinement_t
@@ -26,7 +27,7 @@ module atrito_build_context
    implicit none (type, external)
    private
    public :: LOOSE_HELD, LOOSE_RELEASED, LOOSE_MOVES
-   public :: build_context_t, open_step_t, inherited_t, replaced_t, numbered_t, block_t, section_cut_t
+   public :: build_context_t, open_step_t, inherited_t, replaced_t, numbered_t, block_t, section_cut_t, node_finder_t
    public :: BLOCK_SIDES
    public :: prepare_context, add_context_block, note_undetermined_mesh, line_token, open_line
    public :: invalidate_block, invalidate_name, spoil_number, is_invalid, is_undetermined, has_errors, has_lost_elements
@@ -51,6 +52,7 @@ module atrito_build_context
       integer(ip), allocatable :: block_of_card(:)     !< for each card the first one; 0: none
       integer(ip) :: elements_to_come = 0              !< of blocks whose elements are not made yet
       type(line_list_t) :: lines
+      type(node_finder_t) :: finder                    !< of all nodes of elements
       type(curve_list_t) :: curves                     !< lines that carry names
       type(curve_list_t) :: node_surfaces              !< of *SURFACE, TYPE=NODE
       integer(ip), allocatable :: mesh_shift(:)        !< of the node numbers of each mesh of the deck; < 0: it is refused
@@ -265,11 +267,15 @@ contains
    recursive logical function is_invalid(context, name) result(invalid)
       type(build_context_t), intent(in) :: context
       character(len=*), intent(in) :: name
+      character(len=:), allocatable :: block
+      integer(ip) :: place
       integer :: i, k
 
       invalid = .false.
       if (.not. has_errors()) return
+      call part_place_name(name, block, place)
       invalid = is_invalid_block(context, name)
+      if (place > 0) invalid = invalid .or. is_invalid_block(context, block)
       do i = 1, size(BLOCK_SIDES)
          k = len(name) - len_trim(BLOCK_SIDES(i))
          if (invalid .or. k < 0) cycle
