@@ -31,20 +31,24 @@ contains
       logical, intent(in) :: json                   !< one object a line
       type(message_t) :: message
       integer(ip) :: i, printed(SEVERITY_NOTE), n(SEVERITY_NOTE)
+      integer :: pass
 
       n = 0
-      do i = first, count_messages()
-         message = get_message(i)
-         if (quiet .and. message%severity == SEVERITY_NOTE) cycle
-         n(message%severity) = n(message%severity) + 1
-         if (json .or. n(message%severity) <= MOST_ERRORS) call print_message(message, json)
+      do pass = 1, merge(1, 2, json)                ! the errors last, where they are looked for
+         do i = first, count_messages()
+            message = get_message(i)
+            if (quiet .and. message%severity == SEVERITY_NOTE) cycle
+            if (.not. json .and. ((message%severity == SEVERITY_ERROR) .neqv. pass == 2)) cycle
+            n(message%severity) = n(message%severity) + 1
+            if (json .or. n(message%severity) <= MOST_ERRORS) call print_message(message, json)
+         end do
       end do
       if (json) then
          if (first == 1) call print_rest(quiet)
          return
       end if
       printed = min(n, int(MOST_ERRORS, ip))
-      do i = 1, SEVERITY_NOTE
+      do i = SEVERITY_NOTE, 1, -1
          if (n(i) > printed(i)) call print_line('... the first '//to_text(printed(i))//' of '//to_text(n(i))//' '//trim(WORDS(i)), &
                                                 error_unit)
       end do

@@ -21,6 +21,7 @@ module atrito_run
    use atrito_messages, only: message_t, count_messages, sort_messages, SEVERITY_ERROR
    use atrito_model, only: model_t
    use atrito_observations, only: observations_t, read_observations
+   use atrito_older_results, only: note_older_results
    use atrito_option_table, only: place_of_word
    use atrito_page, only: page_t, print_page
    use atrito_parameter_text, only: list_parameters
@@ -92,6 +93,7 @@ contains
          type(history_t) :: history
 
          call solve_history(model, solve_options(command), reporter, history, status, store, recorder, observations, frames)
+         if (last_frame(history) == 0) call note_older_results(output_folder(command), model%deck_path, model%provenance)
          call print_messages(command%quiet, n_printed + 1, command%json)
          associate (n => last_frame(history))
             if (n > 0) call agree_on_outcome(status, history%frames(n), history%ending%is_early)
@@ -238,7 +240,11 @@ contains
          call build_model(deck, model, command%refine, shape=command%shape, state=command%state)
          if (.not. has_hdf5()) call refuse_field_files(deck)
          call stop_phase('mesh')
+         call list_parameters(deck, [string_t ::], model%provenance%parameters)
+         call options_of_run(command, model%provenance%options)
          call sort_messages()
+         if (present(keeps_deck) .and. count_messages(SEVERITY_ERROR) > 0) call note_older_results(output_folder(command), &
+                                                                                   command%names(1)%s, model%provenance)
          silent = .false.
          if (present(only_errors)) silent = only_errors .and. count_messages(SEVERITY_ERROR) == 0
          if (.not. silent) call print_messages(command%quiet, 1_ip, command%json)
@@ -249,8 +255,6 @@ contains
                             ': the deck has elements of the other plane state')
          end if
       end if
-      call list_parameters(deck, [string_t ::], model%provenance%parameters)
-      call options_of_run(command, model%provenance%options)
       if (present(keeps_deck) .and. is_ok(status)) call keep_deck(deck, model, status)
       code = status%code
       if (.not. is_ok(status)) call print_status(status, command%names(1)%s, command%json)
