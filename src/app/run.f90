@@ -6,7 +6,7 @@ module atrito_run
    use atrito_build_model, only: build_model
    use atrito_build_requests, only: refuse_field_files
    use atrito_command_line, only: command_t, output_folder, TASK_RUN
-   use atrito_console, only: print_message, print_messages, print_status
+   use atrito_console, only: print_message, print_messages, print_status, reporter_of
    use atrito_deck, only: deck_t
    use atrito_deck_as_run, only: take_deck_as_run
    use atrito_element_table, only: DEGREE_OF, KINDS, kind_named
@@ -31,7 +31,7 @@ module atrito_run
    use atrito_reader, only: read_deck
    use atrito_report_maker, only: make_run_report
    use atrito_rank_distribution, only: distribute_over_ranks
-   use atrito_reporter, only: reporter_t, report_progress
+   use atrito_reporter, only: reporter_t, report_phase
    use atrito_restart_file, only: restart_name
    use atrito_restart_recorder, only: restart_recorder_t, begin_recorder
    use atrito_results, only: history_t, results_t, last_frame
@@ -68,7 +68,7 @@ contains
 
       call forget_inputs()
       call take_threads(command)                    ! the other ranks have nothing to do yet
-      reporter%quiet = command%quiet .or. command%json
+      reporter = reporter_of(command)
       call load_model(command, reporter, model, n_printed, code, keeps_deck=.true.)
       if (code == STATUS_OK) call prepare_observations(command, model, observations, code)
       if (code == STATUS_OK) then
@@ -97,11 +97,13 @@ contains
          call print_messages(command%quiet, n_printed + 1, command%json)
          associate (n => last_frame(history))
             if (n > 0) call agree_on_outcome(status, history%frames(n), history%ending%is_early)
-            if (.not. is_ok(status)) call print_status(status, model%deck_path, command%json)
             code = status%code
+            if (n > 0) then
+               call take_threads(command)           ! the other ranks have nothing more to do
+               call write_run(command, reporter, model, history, code)
+            end if
+            if (.not. is_ok(status)) call print_status(status, model%deck_path, command%json)
             if (n == 0) return
-            call take_threads(command)              ! the other ranks have nothing more to do
-            call write_run(command, reporter, model, history, code)
             if (.not. present(facts)) return
             facts = facts_of(model, history%frames(n))
             facts%is_written = code == status%code      ! else they could not be
@@ -190,7 +192,7 @@ contains
       integer(ip) :: n_printed
 
       folder = output_folder(command)
-      call report_progress(reporter, 'write '//folder)
+      call report_phase(reporter, 'write '//folder)
       n_printed = count_messages()
       ! not allocated: an optional argument that is not there
       if (command%plot) pictures = plot_names(model, history)
@@ -205,7 +207,7 @@ contains
          return
       end if
       if (command%plot) then
-         call report_progress(reporter, 'plot  '//plot_folder(folder))
+         call report_phase(reporter, 'plot  '//plot_folder(folder))
          call write_plots(model, history, folder, command%view, pictures)
       end if
       if (command%report) call make_run_report(command, model, history, written, pictures)
@@ -229,7 +231,7 @@ contains
       type(status_t) :: status
       logical :: silent
 
-      call report_progress(reporter, 'read  '//command%names(1)%s)
+      call report_phase(reporter, 'read  '//command%names(1)%s)
       call start_phase('read')
       call read_deck(command%names(1)%s, command%settings, deck, status)
       call stop_phase('read')
@@ -244,7 +246,7 @@ contains
          call options_of_run(command, model%provenance%options)
          call sort_messages()
          if (present(keeps_deck) .and. count_messages(SEVERITY_ERROR) > 0) call note_older_results(output_folder(command), &
-                                                                                   command%names(1)%s, model%provenance)
+                                                                                               command%names(1)%s, model%provenance)
          silent = .false.
          if (present(only_errors)) silent = only_errors .and. count_messages(SEVERITY_ERROR) == 0
          if (.not. silent) call print_messages(command%quiet, 1_ip, command%json)

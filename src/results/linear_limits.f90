@@ -84,8 +84,8 @@ contains
                        value_text(results%large_rotation)//': above '//to_text(LARGE_ROTATION)//' rad the linear theory, in which' &
                                //' forces and normals keep their directions and a rotation makes strains, does not know the motion')
       if (results%large_slip%value > 0.0_wp) call add_warning('W-LARGE', 'the largest slip of a closed point is '// &
-                          value_text(results%large_slip)//': above '//to_text(LARGE_SLIP)//' of the length of its contact the '// &
-                        'linear theory, in which a point faces what it faced without loads, does not know what it has come to')
+                           value_text(results%large_slip)//': above '//to_text(LARGE_SLIP)//' of the length of its contact the '// &
+                             'linear theory, in which a point faces what it faced without loads, does not know what it has come to')
    end subroutine warn_of_large
 
    !> `0.12 at element 7 (1.5, 0)`

@@ -113,7 +113,7 @@ contains
                 to_text(results%contraction_estimate, 3)//measured//'); with a coefficient below '// &
                 to_text(nu/results%contraction_estimate, 3)//' one alone is expected'
          if (results%contraction > 0.0_wp .and. results%contraction < 1.0_wp) text = text// &
-                    '. What is measured is the way to this solution, and tells nothing of others'
+                                                       '. What is measured is the way to this solution, and tells nothing of others'
       else
          text = text//'from '//to_text(LARGE_FRICTION)//' on scenes with several solutions are known; '
          if (results%contraction_estimate > 0.0_wp) then

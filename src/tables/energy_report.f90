@@ -65,7 +65,7 @@ contains
       if (abs(e%pressure) > ROUND_OFF*e%scale) call add_energy('half of the work of pressures', e%pressure)
       if (abs(e%rest) <= AGREES*e%scale) then
          if (e%scale > 0.0_wp) call add_entry(page, 'the energy and these works', 'agree to '// &
-                                                 number(abs(e%rest)/e%scale, 2)//' of the largest')
+                                              number(abs(e%rest)/e%scale, 2)//' of the largest')
          return
       end if
       reasons = ''

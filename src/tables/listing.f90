@@ -34,7 +34,7 @@ module atrito_listing
    integer, parameter :: WIDTH = 100                !< columns
    integer, parameter :: DIGITS = 6                 !< of numbers for people
    character(len=22), parameter :: SAID_ELSEWHERE(*) = &
-                                  [character(len=22) :: 'error_estimate_percent', 'strain_energy', 'external_work']
+                                   [character(len=22) :: 'error_estimate_percent', 'strain_energy', 'external_work']
    real(wp), parameter :: LEAST_CONTRACTION = 1.0e-6_wp      !< below it nothing couples pressure and friction but round-off
 
 contains
