@@ -32,6 +32,7 @@ module atrito_build_model
    use atrito_contact_roles, only: choose_roles
    use atrito_contact_rules, only: contact_rules_t, read_contact_rules
    use atrito_deck, only: deck_t, count_lines, token_text, line_item, keyword_name
+   use atrito_diagnostics, only: report_error
    use atrito_build_context, only: build_context_t, prepare_context, has_errors
    use atrito_faces, only: chain_report_t, list_node_elements
    use atrito_found_contact, only: find_contact
@@ -51,6 +52,7 @@ module atrito_build_model
    use atrito_sources, only: keep_sources
    use atrito_strings, only: deck_name
    use atrito_turn_supports, only: turn_supports
+   use atrito_units, only: units_t, N_UNITS
    implicit none (type, external)
    private
    public :: build_model
@@ -114,6 +116,7 @@ contains
       context%model => model
       context%memory = memory
       call take_titles(deck, model)
+      call take_units(deck, model%units)
       call take_parameters(deck, model)
       call build_steps(context)
       call build_amplitudes(context)
@@ -206,6 +209,26 @@ contains
          end do
       end do
    end subroutine take_titles
+
+   !> *UNITS.
+   subroutine take_units(deck, units)
+      type(deck_t), intent(in) :: deck
+      type(units_t), intent(inout) :: units
+      integer(ip) :: i, k
+
+      do i = 1, deck%n_cards
+         associate (card => deck%cards(i))
+            if (keyword_name(card) /= 'UNITS' .or. card%n_lines == 0) cycle
+            if (.not. deck%lines(card%first_line)%ok) cycle
+            if (allocated(units%names(1)%s)) call report_error(deck, card%place, 'E-TWICE', '*UNITS is given twice', &
+                                                               expected='one *UNITS a deck', keyword='UNITS')
+            do k = 1, min(N_UNITS, deck%lines(card%first_line)%n_tokens)
+               units%names(k)%s = token_text(deck, line_item(deck, deck%lines(card%first_line), k))
+               if (len(units%names(k)%s) == 0) deallocate (units%names(k)%s)
+            end do
+         end associate
+      end do
+   end subroutine take_units
 
    subroutine take_parameters(deck, model)
       type(deck_t), intent(in) :: deck

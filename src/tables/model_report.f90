@@ -7,6 +7,7 @@ module atrito_model_report
    use atrito_kinds, only: ip, wp
    use atrito_rigid_report, only: describe_references
    use atrito_strings, only: to_text
+   use atrito_units, only: unit_names
    use atrito_mesh, only: is_revolved
    use atrito_orthotropy, only: SPATIAL, inverse_of
    use atrito_sets, only: set_count
@@ -43,6 +44,8 @@ contains
       character(len=:), allocatable :: text
       integer(ip) :: rigid
 
+      text = unit_names(model%units)
+      if (len(text) > 0) call add_entry(page, 'units', text)
       call add_entry(page, 'nodes', to_text(model%mesh%n_nodes))
       call add_entry(page, 'elements', to_text(model%mesh%n_elements)//element_types(model))
       if (model%levels > 0) call add_entry(page, 'refined', plural(model%levels, 'time', 'times')// &

@@ -13,6 +13,7 @@ module atrito_model
    use atrito_mesh, only: mesh_t
    use atrito_sets, only: set_list_t
    use atrito_faces, only: face_list_t
+   use atrito_units, only: units_t
    use atrito_friction_law, only: FRICTION_NONE, FRICTION_LOCAL, FRICTION_NONLOCAL, KERNEL_POINTS, KERNEL_LINE
    implicit none (type, external)
    private
@@ -227,6 +228,7 @@ module atrito_model
       character(len=:), allocatable :: deck_path    !< as the user wrote it
       character(len=:), allocatable :: deck_name    !< without folder and .inp
       type(string_t), allocatable :: heading(:)
+      type(units_t) :: units                        !< that the deck names
       type(provenance_t) :: provenance              !< for the heads of tables; empty: the heads have none of it
       type(named_text_t), allocatable :: as_run(:)  !< the deck as it is run, for the writer alone; not allocated: it is not kept
       type(parameter_value_t), allocatable :: parameters(:)
