@@ -2,17 +2,19 @@
 module atrito_console
    use, intrinsic :: iso_c_binding, only: c_int
    use, intrinsic :: iso_fortran_env, only: error_unit
+   use atrito_command_line, only: command_t
    use atrito_kinds, only: ip
    use atrito_message_json, only: json_of_message
    use atrito_messages, only: message_t, count_messages, get_message, format_message, place_of_message, severity_word, &
                               SEVERITY_ERROR, SEVERITY_NOTE, MOST_ERRORS
+   use atrito_reporter, only: reporter_t, begin_line, PROGRESS_ALL, PROGRESS_PHASES
    use atrito_status, only: status_t, STATUS_USAGE, STATUS_FILE
    use atrito_strings, only: string_t, to_text
-   use atrito_system, only: c_is_terminal
+   use atrito_system, only: c_is_terminal, c_terminal_width, hide_line
    use atrito_version, only: PROGRAM_NAME
    implicit none (type, external)
    private
-   public :: print_messages, print_status, print_message, print_line, print_lines, paint_message
+   public :: print_messages, print_status, print_message, print_line, print_lines, paint_message, reporter_of
 
    integer(c_int), parameter :: STANDARD_ERROR = 2
    character(len=*), parameter :: ESCAPE = achar(27)//'['
@@ -31,20 +33,24 @@ contains
       logical, intent(in) :: json                   !< one object a line
       type(message_t) :: message
       integer(ip) :: i, printed(SEVERITY_NOTE), n(SEVERITY_NOTE)
+      integer :: pass
 
       n = 0
-      do i = first, count_messages()
-         message = get_message(i)
-         if (quiet .and. message%severity == SEVERITY_NOTE) cycle
-         n(message%severity) = n(message%severity) + 1
-         if (json .or. n(message%severity) <= MOST_ERRORS) call print_message(message, json)
+      do pass = 1, merge(1, 2, json)                ! the errors last, where they are looked for
+         do i = first, count_messages()
+            message = get_message(i)
+            if (quiet .and. message%severity == SEVERITY_NOTE) cycle
+            if (.not. json .and. ((message%severity == SEVERITY_ERROR) .neqv. pass == 2)) cycle
+            n(message%severity) = n(message%severity) + 1
+            if (json .or. n(message%severity) <= MOST_ERRORS) call print_message(message, json)
+         end do
       end do
       if (json) then
          if (first == 1) call print_rest(quiet)
          return
       end if
       printed = min(n, int(MOST_ERRORS, ip))
-      do i = 1, SEVERITY_NOTE
+      do i = SEVERITY_NOTE, 1, -1
          if (n(i) > printed(i)) call print_line('... the first '//to_text(printed(i))//' of '//to_text(n(i))//' '//trim(WORDS(i)), &
                                                 error_unit)
       end do
@@ -63,6 +69,7 @@ contains
          call print_line(json_of_message(message), error_unit)
       else
          lines = format_message(message)
+         if (c_is_terminal(STANDARD_ERROR) /= 0) lines = format_message(message, terminal_width())
          if (wants_colours()) lines(1)%s = paint_message(message, lines(1)%s)
          call print_lines(lines, error_unit)
       end if
@@ -120,6 +127,7 @@ contains
       integer, intent(in) :: unit
       integer :: i, ios
 
+      call hide_line()
       do i = 1, size(lines)
          write (unit, '(a)', iostat=ios) lines(i)%s
          if (ios /= 0) return
@@ -127,15 +135,43 @@ contains
       flush (unit, iostat=ios)                       ! a run that is interrupted later has told it
    end subroutine print_lines
 
-   !> Standard error is a terminal, which is not a dumb one, and the user does not object: NO_COLOR, where it is set, is empty.
+   !> Of a terminal, where the user does not object: NO_COLOR, where it is set, is empty.
    logical function wants_colours()
+
+      wants_colours = can_rewrite()
+      if (wants_colours) wants_colours = len(variable('NO_COLOR')) == 0
+   end function wants_colours
+
+   !> Columns of the terminal: as it says, as COLUMNS says, or 80.
+   integer function terminal_width() result(width)
+      character(len=:), allocatable :: columns
+      integer :: ios
+
+      width = int(c_terminal_width(STANDARD_ERROR))
+      if (width > 0) return
+      columns = variable('COLUMNS')
+      read (columns, '(i9)', iostat=ios) width
+      if (ios /= 0 .or. width <= 0) width = 80
+   end function terminal_width
+
+   !> Standard error is a terminal, which is not a dumb one.
+   logical function can_rewrite()
       character(len=:), allocatable :: terminal
 
-      wants_colours = c_is_terminal(STANDARD_ERROR) /= 0
-      if (.not. wants_colours) return
+      can_rewrite = c_is_terminal(STANDARD_ERROR) /= 0
+      if (.not. can_rewrite) return
       terminal = variable('TERM')
-      wants_colours = len(variable('NO_COLOR')) == 0 .and. len(terminal) > 0 .and. terminal /= 'dumb'
-   end function wants_colours
+      can_rewrite = len(terminal) > 0 .and. terminal /= 'dumb'
+   end function can_rewrite
+
+   !> Who tells how the work of a command comes along.
+   type(reporter_t) function reporter_of(command) result(reporter)
+      type(command_t), intent(in) :: command
+
+      reporter%quiet = command%quiet .or. command%json
+      reporter%form = merge(PROGRESS_ALL, PROGRESS_PHASES, command%all_progress)
+      if (.not. (reporter%quiet .or. command%all_progress) .and. can_rewrite()) call begin_line(reporter)
+   end function reporter_of
 
    !> A variable of the environment; empty where it is not set.
    function variable(name) result(value)
@@ -155,8 +191,10 @@ contains
       character(len=:), allocatable :: painted, word
       integer :: first
 
+      painted = line
       word = severity_word(message%severity)
       first = len(place_of_message(message)) + 1
+      if (len(line) < first + len(word)) return     ! the place is broken
       painted = line(:first - 1)//ESCAPE//COLOURS(message%severity)//word//ESCAPE//'0m'//line(first + len(word):)
    end function paint_message
 

@@ -12,7 +12,7 @@ module atrito_driver
    use atrito_compare, only: comparison_t, begin_comparison, compare_paths
    use atrito_console, only: print_line, print_lines, print_message, print_messages, print_status
    use atrito_files, only: check_all_own
-   use atrito_help_pages, only: compose_man_page, compose_options, compose_usage
+   use atrito_help_pages, only: compose_man_page, compose_options, compose_topic, compose_usage
    use atrito_help, only: help_overview, help_keyword, help_manual
    use atrito_folder_claim, only: folder_claim_t, claim_folder, release_folder
    use atrito_keyword_table, only: keyword_table, keyword_names
@@ -224,6 +224,10 @@ contains
          call compose_bash_completion(page)
       case default
          call help_keyword(words, lines, is_known)
+         call compose_topic(words, page)
+         if (is_known) call print_lines(lines, output_unit)
+         is_known = is_known .or. page%n > 0
+         lines = lines(:0)
       end select
       code = STATUS_OK
       if (page%n > 0) then
@@ -232,7 +236,8 @@ contains
          call print_lines(lines, output_unit)
       else
          code = STATUS_USAGE
-         call print_wrong(wrong('there is no keyword '//words, nearest=nearest_names(words, keyword_names(keyword_table()), 3)), &
+         call print_wrong(wrong('there is no keyword, command or option '//words, &
+                                nearest=nearest_names(words, keyword_names(keyword_table()), 3)), &
                           'atrito help', command%json)
       end if
    end subroutine print_help

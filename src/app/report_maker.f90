@@ -1,12 +1,13 @@
 !> `--report`: hands what a command found to the room that writes reports, with the words of the command.
 module atrito_report_maker
+   use atrito_console, only: reporter_of
    use atrito_command_line, only: command_t, fetch_arguments, output_folder
    use atrito_gnuplot, only: shell_quoted
    use atrito_listing, only: date_text
    use atrito_model, only: model_t
    use atrito_report, only: report_t
    use atrito_report_file, only: REPORT_NAME
-   use atrito_reporter, only: reporter_t, report_progress
+   use atrito_reporter, only: reporter_t, report_phase
    use atrito_results, only: history_t
    use atrito_run_report, only: report_of_run
    use atrito_strings, only: string_t, append_string
@@ -41,8 +42,8 @@ contains
       type(string_t), allocatable :: arguments(:)
       type(reporter_t) :: reporter
 
-      reporter%quiet = command%quiet .or. command%json
-      call report_progress(reporter, 'report '//report%folder//'/'//REPORT_NAME)
+      reporter = reporter_of(command)
+      call report_phase(reporter, 'report '//report%folder//'/'//REPORT_NAME)
       call fetch_arguments(arguments)
       report%command = command_text(arguments)
       call write_report(report, date_text(), is_written)

@@ -6,7 +6,7 @@ module atrito_run
    use atrito_build_model, only: build_model
    use atrito_build_requests, only: refuse_field_files
    use atrito_command_line, only: command_t, output_folder, TASK_RUN
-   use atrito_console, only: print_message, print_messages, print_status
+   use atrito_console, only: print_message, print_messages, print_status, reporter_of
    use atrito_deck, only: deck_t
    use atrito_deck_as_run, only: take_deck_as_run
    use atrito_element_table, only: DEGREE_OF, KINDS, kind_named
@@ -21,6 +21,7 @@ module atrito_run
    use atrito_messages, only: message_t, count_messages, sort_messages, SEVERITY_ERROR
    use atrito_model, only: model_t
    use atrito_observations, only: observations_t, read_observations
+   use atrito_older_results, only: note_older_results
    use atrito_option_table, only: place_of_word
    use atrito_page, only: page_t, print_page
    use atrito_parameter_text, only: list_parameters
@@ -30,7 +31,7 @@ module atrito_run
    use atrito_reader, only: read_deck
    use atrito_report_maker, only: make_run_report
    use atrito_rank_distribution, only: distribute_over_ranks
-   use atrito_reporter, only: reporter_t, report_progress
+   use atrito_reporter, only: reporter_t, report_phase
    use atrito_restart_file, only: restart_name
    use atrito_restart_recorder, only: restart_recorder_t, begin_recorder
    use atrito_results, only: history_t, results_t, last_frame
@@ -67,7 +68,7 @@ contains
 
       call forget_inputs()
       call take_threads(command)                    ! the other ranks have nothing to do yet
-      reporter%quiet = command%quiet .or. command%json
+      reporter = reporter_of(command)
       call load_model(command, reporter, model, n_printed, code, keeps_deck=.true.)
       if (code == STATUS_OK) call prepare_observations(command, model, observations, code)
       if (code == STATUS_OK) then
@@ -92,14 +93,17 @@ contains
          type(history_t) :: history
 
          call solve_history(model, solve_options(command), reporter, history, status, store, recorder, observations, frames)
+         if (last_frame(history) == 0) call note_older_results(output_folder(command), model%deck_path, model%provenance)
          call print_messages(command%quiet, n_printed + 1, command%json)
          associate (n => last_frame(history))
             if (n > 0) call agree_on_outcome(status, history%frames(n), history%ending%is_early)
-            if (.not. is_ok(status)) call print_status(status, model%deck_path, command%json)
             code = status%code
+            if (n > 0) then
+               call take_threads(command)           ! the other ranks have nothing more to do
+               call write_run(command, reporter, model, history, code)
+            end if
+            if (.not. is_ok(status)) call print_status(status, model%deck_path, command%json)
             if (n == 0) return
-            call take_threads(command)              ! the other ranks have nothing more to do
-            call write_run(command, reporter, model, history, code)
             if (.not. present(facts)) return
             facts = facts_of(model, history%frames(n))
             facts%is_written = code == status%code      ! else they could not be
@@ -188,7 +192,7 @@ contains
       integer(ip) :: n_printed
 
       folder = output_folder(command)
-      call report_progress(reporter, 'write '//folder)
+      call report_phase(reporter, 'write '//folder)
       n_printed = count_messages()
       ! not allocated: an optional argument that is not there
       if (command%plot) pictures = plot_names(model, history)
@@ -203,7 +207,7 @@ contains
          return
       end if
       if (command%plot) then
-         call report_progress(reporter, 'plot  '//plot_folder(folder))
+         call report_phase(reporter, 'plot  '//plot_folder(folder))
          call write_plots(model, history, folder, command%view, pictures)
       end if
       if (command%report) call make_run_report(command, model, history, written, pictures)
@@ -227,7 +231,7 @@ contains
       type(status_t) :: status
       logical :: silent
 
-      call report_progress(reporter, 'read  '//command%names(1)%s)
+      call report_phase(reporter, 'read  '//command%names(1)%s)
       call start_phase('read')
       call read_deck(command%names(1)%s, command%settings, deck, status)
       call stop_phase('read')
@@ -238,7 +242,11 @@ contains
          call build_model(deck, model, command%refine, shape=command%shape, state=command%state)
          if (.not. has_hdf5()) call refuse_field_files(deck)
          call stop_phase('mesh')
+         call list_parameters(deck, [string_t ::], model%provenance%parameters)
+         call options_of_run(command, model%provenance%options)
          call sort_messages()
+         if (present(keeps_deck) .and. count_messages(SEVERITY_ERROR) > 0) call note_older_results(output_folder(command), &
+                                                                                               command%names(1)%s, model%provenance)
          silent = .false.
          if (present(only_errors)) silent = only_errors .and. count_messages(SEVERITY_ERROR) == 0
          if (.not. silent) call print_messages(command%quiet, 1_ip, command%json)
@@ -249,8 +257,6 @@ contains
                             ': the deck has elements of the other plane state')
          end if
       end if
-      call list_parameters(deck, [string_t ::], model%provenance%parameters)
-      call options_of_run(command, model%provenance%options)
       if (present(keeps_deck) .and. is_ok(status)) call keep_deck(deck, model, status)
       code = status%code
       if (.not. is_ok(status)) call print_status(status, command%names(1)%s, command%json)

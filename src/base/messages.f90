@@ -4,7 +4,7 @@
 !> prints them; numerical warnings carry none. The listing repeats all of them.
 module atrito_messages
    use atrito_kinds, only: ip
-   use atrito_strings, only: string_t, append_string, begins_with, ends_with, join, to_text
+   use atrito_strings, only: string_t, append_string, begins_with, break_line, ends_with, join, to_text
    use atrito_utf8, only: visible
    implicit none (type, external)
    private
@@ -17,7 +17,8 @@ module atrito_messages
    integer, parameter :: MOST_ERRORS = 50       !< errors printed; the rest is counted
    integer(ip), parameter :: MOST_KEPT = 1000   !< messages of a severity kept; the rest is counted
    character(len=*), parameter :: ID_OUTSIDE = 'E-OUTSIDE'
-   integer(ip), parameter :: WIDEST_SOURCE = 100 !< characters shown of a longer line of the deck
+   integer, parameter :: WIDEST_SOURCE = 100    !< characters shown of a longer line of the deck
+   integer, parameter :: LEAST_WIDTH = 40       !< of lines that are broken
 
    type :: message_t
       integer :: severity = SEVERITY_ERROR
@@ -194,32 +195,52 @@ contains
    end subroutine sort_messages
 
    !> The lines of a message as they are printed, docs/user/messages.md.
-   function format_message(message) result(lines)
+   function format_message(message, width) result(lines)
       type(message_t), intent(in) :: message
+      integer, intent(in), optional :: width        !< columns, where lines are broken
       type(string_t), allocatable :: lines(:)
       character(len=:), allocatable :: text
-      integer :: i
+      integer :: i, columns
 
       allocate (lines(0))
+      columns = huge(columns)
+      if (present(width)) columns = max(width, LEAST_WIDTH)
       text = place_of_message(message)//severity_word(message%severity)//' ['//message%id//'] '//message%text
       if (message%more > 0) text = text//' (and '//to_text(message%more)//' more '// &
                                    trim(merge('line ', 'lines', message%more == 1))//')'
-      call append_string(lines, text)
+      call append_broken(lines, '', text, 4, columns)
       if (allocated(message%source) .and. message%column > 0) then
-         call append_source(lines, message)
+         call append_source(lines, message, int(min(WIDEST_SOURCE, columns - 10)))
       end if
-      if (allocated(message%expected)) call append_string(lines, '    expected: '//message%expected)
+      if (allocated(message%expected)) call append_broken(lines, '    expected: ', message%expected, 14, columns)
       if (allocated(message%nearest)) then
-         if (size(message%nearest) > 0) call append_string(lines, '    nearest:  '//join(message%nearest, ', '))
+         if (size(message%nearest) > 0) call append_broken(lines, '    nearest:  ', join(message%nearest, ', '), 14, columns)
       end if
       if (allocated(message%known)) then
-         if (size(message%known) > 0) call append_string(lines, '    known:    '//join(message%known, ', '))
+         if (size(message%known) > 0) call append_broken(lines, '    known:    ', join(message%known, ', '), 14, columns)
       end if
       if (allocated(message%keyword)) call append_string(lines, '    see:      atrito help '//message%keyword)
       do i = 1, size(lines)
          lines(i)%s = visible(lines(i)%s)             ! names and paths are the user's
       end do
    end function format_message
+
+   !> A text behind its label, broken into lines of a width; those behind the first one have a margin.
+   subroutine append_broken(lines, label, text, margin, width)
+      type(string_t), allocatable, intent(inout) :: lines(:)
+      character(len=*), intent(in) :: label, text
+      integer, intent(in) :: margin, width
+      integer :: first, last, next
+
+      first = 1
+      call break_line(trim(text), width - max(len(label), 1), first, last, next)
+      call append_string(lines, label//text(:last))
+      do while (next <= len_trim(text))
+         first = next
+         call break_line(trim(text), width - margin - 1, first, last, next)
+         call append_string(lines, repeat(' ', margin)//text(first:last))
+      end do
+   end subroutine append_broken
 
    !> `FILE:LINE:COLUMN: `, what stands before the word of the severity; empty where there is no place at all.
    pure function place_of_message(message) result(text)
@@ -243,18 +264,19 @@ contains
    end function severity_word
 
    !> The deck's line and the marker below it; of a long line the part round the marker.
-   subroutine append_source(lines, message)
+   subroutine append_source(lines, message, widest)
       type(string_t), allocatable, intent(inout) :: lines(:)
       type(message_t), intent(in) :: message
+      integer, intent(in) :: widest                 !< characters of it
       character(len=:), allocatable :: before, after, shown
       integer :: first, last, length, column
 
       column = message%column - message%skipped
       first = 1
       last = len(message%source)
-      if (last > WIDEST_SOURCE) then
-         first = max(1, min(column - WIDEST_SOURCE/2, last - WIDEST_SOURCE + 1))
-         last = min(last, first + WIDEST_SOURCE - 1)
+      if (last > widest) then
+         first = max(1, min(column - widest/2, last - widest + 1))
+         last = min(last, first + widest - 1)
       end if
       before = repeat('.', merge(3, 0, first > 1))
       after = repeat('.', merge(3, 0, last < len(message%source)))

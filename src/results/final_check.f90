@@ -25,6 +25,7 @@ module atrito_final_check
       real(wp) :: largest_force = 0.0_wp       !< largest nodal force, applied, contact or reaction [F]
       real(wp) :: energy = 0.0_wp              !< strain energy [F L]
       logical :: holds = .false.
+      logical :: has_forces = .true.           !< that are more than round-off
    end type equilibrium_t
 
    !> What one run of nodes contributes to it.
@@ -53,7 +54,7 @@ contains
       type(contact_sizes_t), intent(in), optional :: sizes
       real(wp), intent(in), optional :: thermal(:, :) !< forces of the temperatures (2, n_nodes) [F]
       type(extremes_t) :: found(chunk_count(fem%mesh%n_nodes))
-      real(wp) :: allowed
+      real(wp) :: allowed, round_off
       integer(ip) :: run, first, last, node
 
       !$omp parallel do schedule(static) if (is_shared(fem%mesh%n_nodes))
@@ -76,7 +77,11 @@ contains
       allowed = FORCE_TOLERANCE*equilibrium%largest_force
       if (present(sizes)) allowed = allowed + force_round_off(sizes%had)
       ! the round-off is asked for where it matters
-      if (equilibrium%residual > allowed) allowed = allowed + ROUND_OFFS*EPS_MACH*largest_size(fem, u)
+      if (equilibrium%residual > allowed) then
+         round_off = ROUND_OFFS*EPS_MACH*largest_size(fem, u)
+         allowed = allowed + round_off
+         equilibrium%has_forces = equilibrium%largest_force > round_off .or. any(abs(f) > 0.0_wp)
+      end if
       equilibrium%holds = equilibrium%residual <= allowed .and. all(found%finite)
       if (equilibrium%holds .and. present(sizes)) then
          if (present(thermal)) then

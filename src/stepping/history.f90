@@ -18,7 +18,7 @@ module atrito_history
    use atrito_observer, only: note_observed, observer_t
    use atrito_pressure_warnings, only: warn_of_pressures
    use atrito_recorder, only: recorder_t
-   use atrito_reporter, only: reporter_t, report_progress
+   use atrito_reporter, only: reporter_t, report_place, report_progress, PROGRESS_LINE
    use atrito_results, only: ending_t, extreme_t, frame_store_t, history_t, results_t
    use atrito_rigid_bodies, only: hold_the_same
    use atrito_rigid_results, only: leave_mesh_alone
@@ -196,6 +196,7 @@ contains
                call end_early(k, now, run, history, status)
                return
             end if
+            call report_place(run%reporter, place_text(model, k, run%began, now), is_phase=now%increment == 1)
             run%data%may_cut = is_longer_than_least(control, min(now%length, to - now%time))
             call try_increment(k, now%increment, to, store, run, results, solution, status)
             history%factorisations = history%factorisations + results%factorisations
@@ -241,6 +242,7 @@ contains
       results%time = run%began + to
       results%ends_step = to >= run%data%step%increments%period
       run%data%is_printed = is_wanted(run%data%step%requests, increment, results%ends_step)
+      if (run%reporter%form == PROGRESS_LINE) run%data%reporter = run%reporter
       nullify (run%data%before)
       if (run%has_last) run%data%before => run%last%u
       call set_time(run%data, moment_t(to, results%time))
@@ -361,6 +363,19 @@ contains
 
       if (one%value > largest%value) largest = one
    end subroutine take_larger
+
+   !> `step 2 of 3`, and behind its first increment `step 2 of 3, increment 5, 45 %` of the whole history.
+   pure function place_text(model, k, began, now) result(text)
+      type(model_t), intent(in) :: model
+      integer(ip), intent(in) :: k                   !< the step
+      real(wp), intent(in) :: began                  !< its time
+      type(progress_t), intent(in) :: now
+      character(len=:), allocatable :: text
+
+      text = 'step '//to_text(k)//' of '//to_text(size(model%steps, kind=ip))
+      if (now%increment > 1) text = text//', increment '//to_text(now%increment)//', '// &
+                                    to_text(int(100*(began + now%time)/sum(model%steps%increments%period), ip))//' %'
+   end function place_text
 
    !> One line an increment.
    subroutine tell(reporter, results, cuts)

@@ -25,7 +25,7 @@ module atrito_increment
    use atrito_picard_loop, only: is_too_much
    use atrito_recovery, only: recover_contact, recover_stress, estimate_error
    use atrito_reporter, only: report_progress
-   use atrito_results, only: results_t
+   use atrito_results, only: results_t, has_forces
    use atrito_rigid_results, only: take_rigid_results
    use atrito_row_entries, only: first_motions
    use atrito_row_forces, only: share_out_rows, clear_balance, leave_out_sections
@@ -360,10 +360,21 @@ contains
       else
          call estimate_error(data%fem, results, strain_bound, data%wants_element_errors)
       end if
+      if (.not. (has_forces(results) .or. allocated(data%thermal))) call clear_stresses(results)
       call find_large(data%model, data%fem, strain_bound, results)
       call find_extremes(data%model%mesh, data%fem%bodies%of_node, data%points, results)
       call stop_phase('estimate')
    end subroutine complete_results
+
+   !> Without forces stresses are round-off of displacements.
+   pure subroutine clear_stresses(results)
+      type(results_t), intent(inout) :: results
+
+      if (allocated(results%stress)) results%stress = 0.0_wp
+      if (allocated(results%nodal_stress)) results%nodal_stress = 0.0_wp
+      if (allocated(results%element_error)) results%element_error = 0.0_wp
+      results%error_estimate = 0.0_wp
+   end subroutine clear_stresses
 
    !> Where there are several processes the others begin with the fields, while this one checks the equilibrium.
    subroutine begin_early(data, solution, u)
@@ -401,6 +412,11 @@ contains
       call add_rigid_motions(data%fem, solution%state%a, results%u)
       results%converged = solution%converged
       results%law_holds = equilibrium%holds .and. imbalance <= 1.0e-8_wp
+      if (results%law_holds .and. .not. equilibrium%has_forces) then   ! bodies that move without strain
+         results%reaction = 0.0_wp
+         results%strain_energy = 0.0_wp
+         equilibrium%residual = 0.0_wp
+      end if
       associate (force => max(equilibrium%largest_force, force_round_off(data%had)/NONE_OF_HAD))
          if (force > 0.0_wp) results%equilibrium_residual = equilibrium%residual/force
       end associate

@@ -9,7 +9,7 @@ module atrito_solve
    use atrito_messages, only: add_note
    use atrito_model, only: model_t, step_t
    use atrito_number_range, only: is_out_of_range
-   use atrito_reporter, only: reporter_t
+   use atrito_reporter, only: reporter_t, report_place
    use atrito_results, only: results_t, scene_t
    use atrito_scene_data, only: scene_data_t, solve_options_t, prepare, assemble, drop_assembled, check_known_points
    use atrito_scene_forecast, only: forecast_memory
@@ -99,6 +99,7 @@ contains
       call begin_scene(model, options, store, .false., data, results%scene, status)
       if (is_ok(status)) then
          data%reporter = reporter
+         call report_place(reporter, 'solve', is_phase=.true.)
          call note_method(data, model%steps(1:1))
          call solve_increment(data, options%contact_form, store, results, solution, status)
       end if

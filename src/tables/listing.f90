@@ -9,6 +9,7 @@ module atrito_listing
    use atrito_messages, only: count_messages, get_message, format_message
    use atrito_system, only: peak_memory
    use atrito_timers, only: phase_time_t, get_phases
+   use atrito_energy_report, only: describe_energies
    use atrito_extreme_report, only: describe_extremes
    use atrito_frame_tables, only: has_frame_rows
    use atrito_increments, only: increment_t, list_increments, has_history, increment_name, ending_text, time_text
@@ -22,7 +23,8 @@ module atrito_listing
    use atrito_row_tables, only: describe_rows
    use atrito_rigid_report, only: describe_rigid_bodies
    use atrito_scene_report, only: describe_needs, describe_bodies, describe_pairs
-   use atrito_summary, only: quantity_t, scales_t, summarise_pair, pair_quantities, step_quantities, measure_history, pair_name
+   use atrito_summary, only: quantity_t, scales_t, summarise_pair, pair_quantities, step_quantities, measure_history, pair_name, &
+                             closed_word
    use atrito_table, only: ZERO_SHARE
    use atrito_utf8, only: visible
    implicit none (type, external)
@@ -31,6 +33,8 @@ module atrito_listing
 
    integer, parameter :: WIDTH = 100                !< columns
    integer, parameter :: DIGITS = 6                 !< of numbers for people
+   character(len=22), parameter :: SAID_ELSEWHERE(*) = &
+                                   [character(len=22) :: 'error_estimate_percent', 'strain_energy', 'external_work']
    real(wp), parameter :: LEAST_CONTRACTION = 1.0e-6_wp      !< below it nothing couples pressure and friction but round-off
 
 contains
@@ -246,8 +250,9 @@ contains
       if (.not. allocated(results%iterations)) return
       if (size(results%iterations) == 0) return
       call add_blank(page)
-      call add_line(page, right('outer', 8)//right('inner', 6)//right('open', 7)//right('stick', 7)//right('slip', 7)// &
-                    right('d displ.', 14)//right('d pressure', 14)//right('d friction', 14)//right('residual', 14))
+      call add_line(page, right('outer', 8)//right('inner', 6)//right('open', 7)//right('stick', 7)// &
+                    right(closed_word(results%scene), 7)//right('d displ.', 14)// &
+                    right('d pressure', 14)//right('d friction', 14)//right('residual', 14))
       do i = 1, size(results%iterations)
          associate (row => results%iterations(i))
             call add_line(page, right(to_text(row%outer), 8)//right(to_text(row%inner), 6)//right(to_text(row%open), 7)// &
@@ -315,6 +320,10 @@ contains
          call add_line(page, '   pair '//to_text(i)//': '//pair_name(results, i))
          list = pair_quantities(summarise_pair(results%contact(i)), own(i))
          do j = 1, size(list)
+            if (.not. results%contact(i)%has_friction) then
+               if (list(j)%name == 'stick_points') cycle
+               if (list(j)%name == 'slip_points') list(j)%name = 'closed_points'
+            end if
             call add_quantity(page, list(j))
          end do
       end do
@@ -364,9 +373,10 @@ contains
       call add_blank(page)
       list = step_quantities(results)
       do i = 1, size(list)
-         if (list(i)%is_count .or. list(i)%name == 'error_estimate_percent') cycle
+         if (list(i)%is_count .or. any(list(i)%name == SAID_ELSEWHERE)) cycle
          call add_quantity(page, list(i))
       end do
+      call describe_energies(page, model, results)
       call add_entry(page, 'contact law, checked anew', trim(merge('holds at every point             ', &
                                                                    'DOES NOT HOLD, or was not reached', &
                                                                    results%converged .and. results%law_holds)))

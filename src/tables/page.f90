@@ -2,8 +2,9 @@
 module atrito_page
    use atrito_kinds, only: ip, lp, wp, is_nan
    use atrito_number_text, only: short_real
-   use atrito_strings, only: string_t, join, to_text
+   use atrito_strings, only: string_t, break_line, join, to_text
    use atrito_version, only: PROGRAM_NAME, PROGRAM_VERSION
+   use atrito_system, only: hide_line
    use atrito_utf8, only: visible
    implicit none (type, external)
    private
@@ -139,23 +140,13 @@ contains
       type(page_t), intent(inout) :: page
       character(len=*), intent(in) :: text
       integer, intent(in) :: margin                 !< blanks before each line
-      integer :: first, last, room, blank
+      integer :: first, last, next
 
-      room = page%width - margin
       first = 1
       do while (first <= len_trim(text))
-         last = len_trim(text)
-         if (last - first + 1 > room) then           ! before the last blank, else at the full width
-            blank = index(text(first:first + room), ' ', back=.true.)
-            last = first + room - 1
-            if (blank > 1) last = first + blank - 2
-         end if
+         call break_line(trim(text), page%width - margin, first, last, next)
          call add_line(page, repeat(' ', margin)//text(first:last))
-         first = last + 1
-         do while (first < len_trim(text))
-            if (text(first:first) /= ' ') exit
-            first = first + 1
-         end do
+         first = next
       end do
    end subroutine add_paragraph
 
@@ -165,6 +156,7 @@ contains
       integer, intent(in) :: unit
       integer :: i, ios
 
+      call hide_line()
       do i = 1, page%n
          write (unit, '(a)', iostat=ios) visible(page%lines(i)%s)
          if (ios /= 0) return

@@ -7,7 +7,7 @@ module atrito_screen
    use atrito_system, only: peak_memory
    use atrito_timers, only: phase_time_t, get_phases
    use atrito_model, only: model_t
-   use atrito_results, only: results_t, history_t, observed_t, scene_t, last_frame
+   use atrito_results, only: contact_result_t, results_t, history_t, observed_t, scene_t, has_forces, last_frame
    use atrito_increments, only: list_increments, has_history, increment_name, ending_text
    use atrito_extreme_report, only: add_extremes
    use atrito_model_report, only: describe_counts, describe_instances, describe_steps, is_history
@@ -18,7 +18,7 @@ module atrito_screen
                           plural
    use atrito_plot_files, only: plot_folder, told_pictures
    use atrito_report_file, only: REPORT_NAME
-   use atrito_summary, only: pair_summary_t, summarise_pair, body_count, pair_count, pair_name
+   use atrito_summary, only: pair_summary_t, summarise_pair, states_text, closed_word, body_count, pair_count, pair_name
    use atrito_table, only: TAB_ENDING, CSV_ENDING
    implicit none (type, external)
    private
@@ -141,8 +141,9 @@ contains
          call add_item(page, 'solver', solvers(scene)//iteration_text(model, results))
       end associate
       if (results%converged .and. results%law_holds) then
-         call add_item(page, 'checked', 'equilibrium to '//number(results%equilibrium_residual, 2)// &
-                       ' of the largest force; the contact law holds')
+         large = 'equilibrium to '//number(results%equilibrium_residual, 2)//' of the largest force'
+         if (.not. (has_forces(results) .or. results%equilibrium_residual > 0.0_wp)) large = 'no forces act'
+         call add_item(page, 'checked', large//'; the contact law holds')
          call add_item(page, 'estimated', 'error of '//number(results%error_estimate, 3)//' % of the energy norm')
          large = large_text(results)
          if (len(large) > 0) call add_item(page, 'but', large//': not small (W-LARGE)')
@@ -268,8 +269,8 @@ contains
       end do
       shown = min(n, MOST_OUTER, room - 2 - UNSETTLED_LINES)
       call add_rule(page, '-')
-      call add_line(page, right('outer', 7)//right('solves', 8)//right('open', 8)//right('stick', 8)//right('slip', 8)// &
-                    right('residual', 14))
+      call add_line(page, right('outer', 7)//right('solves', 8)//right('open', 8)//right('stick', 8)// &
+                    right(closed_word(results%scene), 8)//right('residual', 14))
       do i = n - shown + 1, n
          associate (row => results%iterations(ends(i)))
             call add_line(page, right(to_text(row%outer), 7)//right(to_text(row%inner), 8)//right(to_text(row%open), 8)// &
@@ -315,7 +316,7 @@ contains
       call add_line(page, row_text('', 'effective', 'max. p /', 'max. p /', 'resultant'))
       call add_line(page, row_text('contact pair', 'area [%]', 'uniform', 'triangular', 'from end [L]'))
       do i = 1, shown
-         call add_pair(page, to_text(i)//' '//pair_name(results, i), summarise_pair(results%contact(i)))
+         call add_pair(page, to_text(i)//' '//pair_name(results, i), results%contact(i))
       end do
       if (shown < size(results%contact)) then
          call add_line(page, '... and '//to_text(size(results%contact, kind=ip) - shown)//' more pairs in the listing')
@@ -329,19 +330,20 @@ contains
       text = left(label, LABEL_WIDTH)//right(area, 10)//right(uniform, 10)//right(triangular, 11)//right(distance, 14)
    end function row_text
 
-   subroutine add_pair(page, label, summary)
+   subroutine add_pair(page, label, contact)
       type(page_t), intent(inout) :: page
       character(len=*), intent(in) :: label
-      type(pair_summary_t), intent(in) :: summary
+      type(contact_result_t), intent(in) :: contact
+      type(pair_summary_t) :: summary
 
+      summary = summarise_pair(contact)
       call add_line(page, row_text(label, number(summary%effective_area_percent, DIGITS), &
                                    number(summary%max_pressure_over_uniform, DIGITS), &
                                    number(summary%max_pressure_over_triangular, DIGITS), &
                                    number(summary%resultant_from_end, DIGITS)))
       call add_line(page, left('  normal '//number(summary%normal_resultant, DIGITS)//', shear '// &
                                number(summary%shear_resultant, DIGITS)//' [F]; max. p '//number(summary%max_pressure, DIGITS)// &
-                               '; '//to_text(summary%open_points)//' open, '//to_text(summary%stick_points)// &
-                               ' stick, '//to_text(summary%slip_points)//' slip', WIDTH))
+                               '; '//states_text(contact, summary), WIDTH))
    end subroutine add_pair
 
    subroutine add_closing(page, folder, files)

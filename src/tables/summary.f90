@@ -2,7 +2,7 @@
 module atrito_summary
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
    use atrito_kinds, only: ip, wp
-   use atrito_strings, only: string_t, append_string
+   use atrito_strings, only: string_t, append_string, to_text
    use atrito_model, only: model_t
    use atrito_results, only: results_t, history_t, scene_t, contact_result_t, view_frame, &
                              POINT_OPEN, POINT_STICK, POINT_SLIP
@@ -10,7 +10,7 @@ module atrito_summary
    implicit none (type, external)
    private
    public :: pair_summary_t, quantity_t, scales_t
-   public :: summarise_pair, pair_quantities, step_quantities, quantity_names
+   public :: summarise_pair, pair_quantities, step_quantities, quantity_names, states_text, closed_word
    public :: measure_history
    public :: pair_count, pair_name, body_count
 
@@ -90,6 +90,25 @@ contains
          s%resultant_from_end = contact%s_end - s%resultant_from_start
       end associate
    end function summarise_pair
+
+   !> `2 open, 0 stick, 5 slip`; without friction a closed point is closed, whatever it does along the surface.
+   pure function states_text(contact, summary) result(text)
+      type(contact_result_t), intent(in) :: contact
+      type(pair_summary_t), intent(in) :: summary
+      character(len=:), allocatable :: text
+
+      text = to_text(summary%open_points)//' open, '
+      if (contact%has_friction) text = text//to_text(summary%stick_points)//' stick, '
+      text = text//to_text(summary%slip_points)//trim(merge(' slip  ', ' closed', contact%has_friction))
+   end function states_text
+
+   !> What points are that are neither open nor stick: `slip`, without any friction `closed`.
+   pure function closed_word(scene) result(word)
+      type(scene_t), intent(in) :: scene
+      character(len=:), allocatable :: word
+
+      word = trim(merge('slip  ', 'closed', scene%n_tangential > 0))
+   end function closed_word
 
    !> a/b, NaN where b is not positive.
    pure real(wp) function ratio(a, b)

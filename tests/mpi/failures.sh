@@ -132,7 +132,7 @@ esac
 # mpirun lets the other ranks go on for a second: the mesh takes longer.
 # kill_rank RANK SIGNAL: while the deck is solved.
 kill_rank() {
-   begin 3 "$deck" --refine 6 -o old
+   begin 3 "$deck" --refine 6 --progress all -o old
    await told err '^step '
    kill -"$2" "$(cat "pid.$1")" 2>/dev/null
    end
@@ -157,7 +157,7 @@ said_once 'SIGSEGV of rank 1' E-INTERRUPTED
 all_gone 'SIGSEGV of rank 1'
 
 # --- mpirun is told to end --------------------------------------------------------------------------------------------------------------
-begin 3 "$deck" --refine 6 -o old
+begin 3 "$deck" --refine 6 --progress all -o old
 await told err '^step '
 kill -TERM $run
 end

@@ -61,7 +61,7 @@ sed "s/^\*STATIC.*/&\n*CONTROLS, METHOD=PICARD/" "$plates" >picard.inp
 form_of 'dense, the method that is asked for' 'a method of the dense form' picard.inp --share all
 
 # ended from outside
-sh -c 'echo $$ >id; exec "$@"' sh top/run --ranks 2 "$sources/input/ex1-plate-on-rigid-support.inp" --refine 6 --share all -o ended >out 2>err &
+sh -c 'echo $$ >id; exec "$@"' sh top/run --ranks 2 "$sources/input/ex1-plate-on-rigid-support.inp" --refine 6 --share all --progress all -o ended >out 2>err &
 run=$!
 await told err '^step '
 kill -TERM "$(cat id)"

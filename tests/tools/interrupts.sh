@@ -90,7 +90,7 @@ strip 20
 factor() { # factor SIGNAL CODE FOLDER
    for level in 5 6; do
       : >err
-      "$atrito" "$deck" --refine $level -o "$3" 2>err >out &
+      "$atrito" "$deck" --refine $level -o "$3" --progress all 2>err >out &
       run=$!
       await $run told err '^factor '
       kill -"$1" $run 2>/dev/null
@@ -114,7 +114,7 @@ for signal in QUIT ALRM USR1 USR2 ABRT XCPU VTALRM PROF PWR IO STKFLT TRAP SYS S
    number=$(kill -l $signal 2>/dev/null) || continue
    : >err
    rm -rf drawn
-   "$atrito" "$deck" --refine 6 -o drawn/new 2>err >out &
+   "$atrito" "$deck" --refine 6 -o drawn/new --progress all 2>err >out &
    run=$!
    await $run told err '^factor '
    kill -$signal $run 2>/dev/null
@@ -195,7 +195,7 @@ wait
 # ignored at the start, it stays ignored
 strip 2000
 : >err
-"$atrito" strip.inp -o ignored 2>err >out &   # a job in the background: SIGINT is ignored
+"$atrito" strip.inp -o ignored --progress all 2>err >out &   # a job in the background: SIGINT is ignored
 run=$!
 await $run told err '^body '
 kill -INT $run 2>/dev/null

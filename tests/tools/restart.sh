@@ -251,7 +251,7 @@ for run in local:dense:1 local:sparse:2 memory:auto:2 memory:sparse:1 cut:dense:
    form=${run#*:}
    form=${form%:*}
    rm -rf whole
-   set -- "$deck.inp" --digits 17 --contact "$form" --threads "${run##*:}"
+   set -- "$deck.inp" --digits 17 --progress all --contact "$form" --threads "${run##*:}"
    "$atrito" "$@" -o whole >progress 2>&1
    code=$?
    [ -f "whole/$deck.h5" ] || { fail "$run: exit $code"; tail -n 3 progress; }
@@ -327,7 +327,7 @@ cmp -s end.h5 kept/block.restart.h5 || fail 'a run that was refused changed the 
 size=$(wc -c <end.h5)
 for blocks in 1 $((size/512 - 16)); do
    rm -rf full
-   (ulimit -f "$blocks"; exec "$atrito" block.inp --contact sparse -o full) 2>&1 | cat >said
+   (ulimit -f "$blocks"; exec "$atrito" block.inp --contact sparse --progress all -o full) 2>&1 | cat >said
    [ "$(grep -c '\[W-RESTART\]' said)" -eq 1 ] || { fail "$blocks blocks: not one warning"; grep -v '^ ' said; }
    [ "$(grep -c '^step ' said)" -eq 13 ] || fail "$blocks blocks: the history does not go on"
    [ -z "$(ls full/*.part 2>/dev/null)" ] || fail "$blocks blocks: a temporary file is left"

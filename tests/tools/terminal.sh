@@ -32,4 +32,30 @@ deck=$decks/ex1-plate-on-rigid-support.inp
 fits 'a run' "$deck" -o "$work/run"
 fits 'a sweep' sweep "$deck" --vary delta=1e-2,1e-3 -o "$work/sweep"
 fits 'a study' study "$deck" --levels 2 --elements cpe4,cpe9 -o "$work/study"
+
+# At a terminal (of script, util-linux) progress is one line that is gone in the end; elsewhere it has a line a phase.
+cp "$deck" "$work/deck.inp"
+cd "$work" || exit 9
+"$atrito" deck.inp -o run >said 2>told
+printf 'read  deck.inp\nsolve\nwrite run\n' | cmp -s - told || { fail 'progress, no terminal:'; cat told; }
+"$atrito" deck.inp -o run --progress all >said 2>told
+grep -q '^outer 1  solves ' told || fail 'progress of iterations is not told'
+if command -v script >/dev/null; then
+   mkdir bin
+   printf '#!/bin/sh\n[ -e slept ] || sleep 1.2\n: >slept\n' >bin/gnuplot      # the first waits long enough for the line
+   chmod +x bin/gnuplot
+   # shell COMMAND: what a terminal of 50 columns gets of it
+   shell() {
+      TERM=xterm NO_COLOR=1 PATH=$work/bin:$PATH script -qec "stty cols 50; $1" /dev/null </dev/null | tr -d '\r' >shown
+   }
+   shell "$atrito deck.inp -o run --plot --plot-box 0,0,1,1"
+   tr -d '\033' <shown | grep -Eq '\[K\[ *[0-9]+ s\] plot  run/plots\[K' || { fail 'no line of progress'; cat -v shown; }
+   sed "s/.*\[K//" shown >left
+   grep -q '^read \|^\[ *[0-9]' left && fail 'progress is left on the screen'
+   sed "s/, NSET/, NSTE/; s/SUPPORT$/SUPORT/" deck.inp >wrong.inp
+   shell "$atrito wrong.inp -o run"
+   grep -q N-OLDER shown || { fail 'the older results'; cat shown; }
+   tail -n 1 shown | grep -q 'in the deck$' || fail 'the errors do not come last'
+   [ -z "$(awk 'length($0) > 50' shown)" ] || { fail 'messages are wider than the terminal'; cat shown; }
+fi
 finish

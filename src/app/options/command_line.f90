@@ -50,6 +50,7 @@ module atrito_command_line
       integer(ip) :: digits = DEFAULT_DIGITS        !< of the tables
       logical :: is_csv = .false.                   !< of the tables: comma-separated values
       logical :: quiet = .false.
+      logical :: all_progress = .false.             !< a line an iteration, also at a terminal
       logical :: plot = .false.                     !< pictures by gnuplot
       type(plot_view_t) :: view                     !< what is asked of those of bodies
       logical :: report = .false.                   !< a page of HTML with everything, pictures too
@@ -290,7 +291,7 @@ contains
          call take_watched(given%value, command%watched, ok)
       case ('--elements')
          call take_elements(given%value, command%elements, ok)
-      case ('--solver', '--contact', '--share', '--format', '--messages')
+      case ('--solver', '--contact', '--share', '--format', '--messages', '--progress')
          call take_word(name, given%value, command, ok)
       case ('--plot-box')
          call read_box(given%value, command%view%box, ok)
@@ -327,6 +328,8 @@ contains
          command%is_csv = value == 'csv'
       case ('--messages')
          command%json = value == 'json'
+      case ('--progress')
+         command%all_progress = value == 'all'
       end select
    end subroutine take_word
 

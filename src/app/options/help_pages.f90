@@ -4,13 +4,14 @@
 module atrito_help_pages
    use atrito_keyword, only: keyword_t, LEVEL_MODEL, LEVEL_STEP, LEVEL_BOTH
    use atrito_keyword_table, only: keyword_table
-   use atrito_option_table, only: TASKS, task_form, called, option_group_t, group_options, option_text, phrase_text
+   use atrito_option_table, only: OPTIONS, TASKS, TASK_RUN, task_form, called, find_option, option_group_t, group_options, &
+                                  option_text, phrase_text, task_named, task_text
    use atrito_page, only: page_t, begin_page, add_blank, add_line, add_paragraph
-   use atrito_strings, only: upper_case
+   use atrito_strings, only: lower_case, upper_case
    use atrito_version, only: PROGRAM_NAME, PROGRAM_VERSION
    implicit none (type, external)
    private
-   public :: compose_usage, compose_options, compose_man_page
+   public :: compose_usage, compose_options, compose_topic, compose_man_page
 
    character(len=*), parameter :: SUMMARY = 'contact with friction between elastic bodies'
    character(len=*), parameter :: DESCRIPTION(*) = [character(len=320) :: &
@@ -34,6 +35,13 @@ module atrito_help_pages
                                    exit_code_t('5', 'a file cannot be read or written'), &
                                    exit_code_t('9', 'internal error'), &
                                    exit_code_t('129, 130, 143', 'ended by SIGHUP, SIGINT, SIGTERM; nothing half-written is left')]
+   character(len=*), parameter :: UNITS_TEXT(*) = [character(len=160) :: &
+            'atrito knows no units: lengths L and forces F of the deck are those of the results. Take two, and all else follows:', &
+                                                   '  L    F    stress F/L^2   E of steel   density F T^2/L^4 (with g in L/T^2)', &
+                                                   '  mm   N    MPa            210000       7.85e-9 t/mm^3, g = 9810', &
+                                                   '  m    N    Pa             2.1e11       7850 kg/m^3, g = 9.81', &
+                                                   '  m    kN   kPa            2.1e8        7.85 t/m^3, g = 9.81', &
+               'The thickness of a section is in L; pressures and slopes of contact are F/L^2 and F/L^3, a penalty delta is L^3/F.']
    integer, parameter :: WIDTH = 80                  !< columns of the screen
    integer, parameter :: ROFF = 0                    !< in the place of a column of the screen: the form of man(7)
 
@@ -65,6 +73,41 @@ contains
       call add_line(page, 'exit codes')
       call add_exit_codes(page, 18)
    end subroutine compose_options
+
+   !> `atrito help sweep`, `atrito help observe`, `atrito help units`: a command with its options, an option, or what stands here;
+   !> an empty page where it is none of these.
+   subroutine compose_topic(word, page)
+      character(len=*), intent(in) :: word
+      type(page_t), intent(out) :: page
+      character(len=:), allocatable :: name, commands
+      integer :: task, i
+
+      call begin_page(page, WIDTH)
+      name = lower_case(word)
+      task = task_named(name)
+      if (name == 'run') task = TASK_RUN
+      if (task /= TASK_RUN .or. name == 'run') then
+         call add_line(page, task_form(task))
+         call add_paragraph(page, trim(TASKS(task)%phrase), 4)
+         do i = 1, size(OPTIONS)
+            if (OPTIONS(i)%for_task(task)) call add_entry(page, option_text(i), phrase_text(i), 22)
+         end do
+      end if
+      i = find_option('--'//name(verify(name, '-'):))
+      if (i > 0) then
+         commands = ''
+         do task = 1, size(TASKS)
+            if (OPTIONS(i)%for_task(task)) commands = commands//', '//task_text(task)
+         end do
+         call add_line(page, option_text(i))
+         call add_paragraph(page, phrase_text(i), 4)
+         if (len_trim(OPTIONS(i)%words) == 0) call add_paragraph(page, trim(OPTIONS(i)%expected), 4)
+         call add_paragraph(page, 'of: '//commands(3:), 4)
+      end if
+      do i = 1, merge(size(UNITS_TEXT), 0, name == 'units')
+         call add_paragraph(page, trim(UNITS_TEXT(i)), 0)
+      end do
+   end subroutine compose_topic
 
    !> The manual page.
    subroutine compose_man_page(page)

@@ -27,7 +27,7 @@ module atrito_option_table
                               task_t('', 'DECK.inp', '[options]', 'solve the deck and write tables'), &
                               task_t('check', 'DECK.inp', '[options]', 'read and check all, tell what the scene needs'), &
                               task_t('compare', 'A B', '[--rtol R] [--atol A]', 'compare two tables, or two folders of them'), &
-                              task_t('help', '[KEYWORD]', '', 'the deck language; `atrito help all`: all of it'), &
+                              task_t('help', '[WORD]', '', 'a keyword of decks, a command, an option; all: all'), &
              task_t('sweep', 'DECK.inp', '--vary NAME=v1,v2,... [options]', 'one run a value of a parameter: --vary NAME=v1,...'), &
               task_t('study', 'DECK.inp', '--levels N [--elements LIST] [--reference Q=V]', 'error against run time: --levels N'), &
                               task_t('limit', 'DECK.inp', '--vary NAME=a:b [--tolerance T] [--watch NODE,DOF]', &
@@ -84,6 +84,9 @@ module atrito_option_table
                                 option_t('--confine', VALUE_FOLDER, [Y, Y, N, N, Y, Y, Y], &
                                          'for decks that are not trusted: reads nothing outside DIR, writes nothing outside -o', &
                                          expected='a folder, which holds the deck and all that it includes'), &
+                                option_t('--progress', 'NAME', [Y, N, N, N, Y, Y, Y], &
+                                         'a line that is rewritten at a terminal, else a line a phase; or a line an iteration', &
+                                         default='auto', words='auto all'), &
                          option_t('--quiet', '', [Y, Y, Y, N, Y, Y, Y], 'no progress, no notes, no summary; warnings and errors'), &
                                 option_t('--vary', 'NAME=VALUES', [N, N, N, N, Y, N, Y], &
                                 'values of a *PARAMETER: v1,v2,... of a sweep (several --vary: all combinations), a:b of a limit', &

@@ -8,7 +8,7 @@ module atrito_stability_limit
    use atrito_body_cache, only: body_cache_t
    use atrito_clp, only: has_clp, clp_trouble
    use atrito_command_line, only: command_t, output_folder
-   use atrito_console, only: print_messages, print_status
+   use atrito_console, only: print_messages, print_status, reporter_of
    use atrito_folder_claim, only: folder_claim_t, release_folder
    use atrito_frame_spool, only: begin_frames, end_frames, frame_spool_t
    use atrito_history, only: solve_history
@@ -18,7 +18,7 @@ module atrito_stability_limit
    use atrito_model, only: model_t
    use atrito_page, only: page_t
    use atrito_report, only: report_t
-   use atrito_reporter, only: reporter_t, report_progress
+   use atrito_reporter, only: reporter_t, report_phase
    use atrito_results, only: history_t, results_t
    use atrito_series_reports, only: begin_series, report_of_limit
    use atrito_series, only: claim_output, find_origin, begin_pictures, print_closing, seconds_since
@@ -109,7 +109,7 @@ contains
       real(wp) :: x
       integer :: step
 
-      reporter%quiet = command%quiet .or. command%json
+      reporter = reporter_of(command)
       store%keeps = .true.
       do
          call next_step(search, x, step)
@@ -124,7 +124,7 @@ contains
          if (code /= STATUS_OK) exit
          ! Puts it at its place among the others.
          limit%values = [pack(limit%values, limit%values%value < x), one, pack(limit%values, limit%values%value > x)]
-         call report_progress(reporter, limit%parameter//' = '//to_text(x, 12)//'  '//answer_text(one))
+         call report_phase(reporter, limit%parameter//' = '//to_text(x, 12)//'  '//answer_text(one))
       end do
    end subroutine ask_all
 

@@ -2,7 +2,7 @@
 module atrito_study
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
    use atrito_command_line, only: command_t, output_folder
-   use atrito_console, only: print_status
+   use atrito_console, only: print_status, reporter_of
    use atrito_folder_claim, only: folder_claim_t, release_folder
    use atrito_kinds, only: ip, wp
    use atrito_mpi, only: rank_count
@@ -10,7 +10,7 @@ module atrito_study
    use atrito_buffer, only: buffer_t, put, put_status, take, take_status
    use atrito_rank_tasks, only: rank_tasks_t, rank_times_t, work_for_first
    use atrito_report, only: report_t
-   use atrito_reporter, only: reporter_t, report_progress
+   use atrito_reporter, only: reporter_t, report_phase
    use atrito_run_request, only: make_tasks, print_lost
    use atrito_series_reports, only: begin_series, take_heading, report_of_study
    use atrito_series, only: claim_output, find_origin, begin_pictures, print_closing
@@ -57,7 +57,7 @@ contains
          call claim_output(command, ['study'], claim, status)
          code = status%code
          if (.not. is_ok(status)) return
-         runs%reporter%quiet = command%quiet .or. command%json
+         runs%reporter = reporter_of(command)
          call find_origin(command, origin)
          call make_rows(runs)
          if (.not. runs%is_stopped) then
@@ -112,7 +112,7 @@ contains
                      [row%has_delta, row%has_eps, row%has_stick_slope .and. .not. row%has_eps])
       end associate
       if (size(list) == 0) return
-      call report_progress(runs%reporter, 'half of delta, half of eps')
+      call report_phase(runs%reporter, 'half of delta, half of eps')
       deallocate (runs%study%probes)
       allocate (runs%study%probes(size(list)))
       do i = 1, size(list, kind=ip)
@@ -138,8 +138,8 @@ contains
 
       associate (rows => self%study%rows)
          if (task > size(rows)) return
-         call report_progress(self%reporter, 'run '//to_text(task)//' of '//to_text(size(rows, kind=ip))//'  ' &
-                              //rows(task)%element//', level '//to_text(rows(task)%level))
+         call report_phase(self%reporter, 'run '//to_text(task)//' of '//to_text(size(rows, kind=ip))//'  ' &
+                           //rows(task)%element//', level '//to_text(rows(task)%level))
       end associate
    end subroutine begin_task
 

@@ -7,7 +7,7 @@ module atrito_sweep
    use, intrinsic :: iso_c_binding, only: c_int
    use atrito_body_cache, only: body_cache_t
    use atrito_command_line, only: command_t, output_folder
-   use atrito_console, only: print_status
+   use atrito_console, only: print_status, reporter_of
    use atrito_folder_claim, only: folder_claim_t, release_folder
    use atrito_kinds, only: ip, lp, wp
    use atrito_messages, only: clear_messages
@@ -20,7 +20,7 @@ module atrito_sweep
    use atrito_processes, only: begin_worker, end_worker, share_integers
    use atrito_rank_tasks, only: rank_tasks_t, rank_times_t, work_for_first
    use atrito_report, only: report_t
-   use atrito_reporter, only: reporter_t, report_progress
+   use atrito_reporter, only: reporter_t, report_phase
    use atrito_run, only: run_deck
    use atrito_run_request, only: make_tasks, is_sound, print_lost
    use atrito_series_reports, only: begin_series, report_of_sweep
@@ -170,8 +170,8 @@ contains
       integer(ip), intent(in) :: task
       type(reporter_t) :: reporter
 
-      reporter%quiet = self%command%quiet .or. self%command%json
-      call report_progress(reporter, 'run '//to_text(task)//' of '//to_text(self%plan%n_runs)//'  '//self%plan%labels(task)%s)
+      reporter = reporter_of(self%command)
+      call report_phase(reporter, 'run '//to_text(task)//' of '//to_text(self%plan%n_runs)//'  '//self%plan%labels(task)%s)
       call note_begin(self%journal, self%plan, task)
    end subroutine begin_run
 
@@ -312,8 +312,8 @@ contains
       integer, allocatable :: order(:)
       integer :: i
 
-      reporter%quiet = command%quiet .or. command%json
-      call report_progress(reporter, 'plot  '//plot_folder(output_folder(command)))
+      reporter = reporter_of(command)
+      call report_phase(reporter, 'plot  '//plot_folder(output_folder(command)))
       order = pack([(i, i=1, size(runs))], runs%is_whole)
       allocate (drawn(0))
       if (size(order) == 0) return

@@ -61,6 +61,11 @@ contains
       integer :: i, j, equals
 
       equals = index(text, '=')
+      if (index(text, ':') > 0) then
+         call complain(text, 'a sweep takes values with commas between them, NAME=v1,v2,...; a range a:b is for atrito limit', &
+                       status)
+         return
+      end if
       variation%name = trim(adjustl(text(:max(equals - 1, 0))))
       variation%texts = split_at_commas(text(equals + 1:))
       allocate (variation%values(size(variation%texts)))

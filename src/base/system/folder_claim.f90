@@ -11,7 +11,7 @@ module atrito_folder_claim
    use atrito_paths, only: make_folder, remove_file, remove_folders
    use atrito_status, only: status_t, set_status, is_ok, STATUS_FILE
    use atrito_strings, only: string_t, to_text
-   use atrito_system, only: c_open_lock, c_close_lock, c_is_lock_of, c_lock_folder, note_path, forget_path
+   use atrito_system, only: c_open_lock, c_close_lock, c_is_lock_of, c_lock_folder, hide_line, note_path, forget_path
    use atrito_utf8, only: visible
    implicit none (type, external)
    private
@@ -79,6 +79,7 @@ contains
       integer :: ios
 
       if (c_lock_folder(descriptor, 0.0_wp) == 1) return
+      call hide_line()
       if (tells) write (error_unit, '(a)', iostat=ios) 'wait  another run writes into '//visible(folder)
       flush (error_unit, iostat=ios)
       if (c_lock_folder(descriptor, seconds) == 1) return

@@ -11,6 +11,7 @@
 #include <fenv.h>
 #include <poll.h>
 #include <pthread.h>
+#include <sched.h>
 #include <signal.h>
 #include <stdatomic.h>
 #include <stdint.h>
@@ -18,6 +19,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/file.h>
+#include <sys/ioctl.h>
 #include <sys/mman.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
@@ -397,6 +399,12 @@ int atrito_find_name(const char *folder, const char *ending, int n, char *name, 
 
 int atrito_is_terminal(int file) { return isatty(file); }
 
+/* Columns of a terminal; 0 where it does not say. */
+int atrito_terminal_width(int file) {
+   struct winsize size;
+   return ioctl(file, TIOCGWINSZ, &size) == 0 ? size.ws_col : 0;
+}
+
 /* A file that is not there yet: neither one that somebody has put there meanwhile nor what a link leads to is written into. */
 void *atrito_create_file(const char *path) {
    int file = open(path, O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
@@ -566,7 +574,125 @@ static int on_guard;                                /* between atrito_guard_exit
 /* The stack on which a handler runs when that of the main thread has overflown. */
 static _Alignas(16) char spare_stack[262144];
 
+/* ---- the line of progress ----
+ *
+ * A thread writes it to standard error, twice a second, so that it goes on while nothing is said; a run that is over before the first
+ * time has none. What it says is in memory that workers share: theirs is the same line. It takes the place of itself, and gives way
+ * to messages until there is something new. */
+
+static struct line {
+   atomic_flag is_taken;
+   int is_shown, is_away;
+   char place[256], detail[256];                    /* 'step 2 of 3, 45 %'; 'outer 4  ... residual 1e-3' */
+   struct timespec begin;
+} *line;
+static const char clear_line[] = "\r\033[K";
+enum { LINE_TICK = 500 /* ms */, LINE_TRIES = 10000 };
+
+/* Who had it may have been ended: nobody waits for ever. */
+static void take_line(void) {
+   for (int i = 0; atomic_flag_test_and_set(&line->is_taken) && i < LINE_TRIES; i++)
+      sched_yield();
+}
+
+static void leave_line(void) { atomic_flag_clear(&line->is_taken); }
+
+static void write_line_of_progress(void) {
+   char text[sizeof line->place + sizeof line->detail + 64];
+   struct timespec now;
+   int width = atrito_terminal_width(STDERR_FILENO), n;
+
+   clock_gettime(CLOCK_MONOTONIC, &now);
+   long seconds = (long)(now.tv_sec - line->begin.tv_sec) - (now.tv_nsec < line->begin.tv_nsec);
+   if (seconds < 60)
+      n = snprintf(text, sizeof text, "%s[%2ld s] %s", clear_line, seconds, line->place);
+   else
+      n = snprintf(text, sizeof text, "%s[%ld:%02ld min] %s", clear_line, seconds / 60, seconds % 60, line->place);
+   n += snprintf(text + n, sizeof text - (size_t)n, "%s%s", line->detail[0] ? "  " : "", line->detail);
+   int room = (width > 0 ? width : 80) - 1 + (int)sizeof clear_line - 1;
+   if (n > room)
+      for (n = room; n > 0 && (text[n] & 0xC0) == 0x80; n--) /* no half of a letter */
+         ;
+   ssize_t ignored = write(STDERR_FILENO, text, (size_t)n);
+   (void)ignored;
+   line->is_shown = 1;
+}
+
+static void *keep_line(void *unused) {
+   for (;;) {
+      poll(NULL, 0, LINE_TICK);
+      take_line();
+      if (!line->is_away)
+         write_line_of_progress();
+      leave_line();
+   }
+   return unused;
+}
+
+/* Something else is going to be written. */
+void atrito_hide_line(void) {
+   if (!line)
+      return;
+   take_line();
+   if (line->is_shown) {
+      ssize_t ignored = write(STDERR_FILENO, clear_line, sizeof clear_line - 1);
+      (void)ignored;
+   }
+   line->is_shown = 0;
+   line->is_away = 1;
+   leave_line();
+}
+
+/* What is done: a new place, of which nothing more is known, or a detail of it. */
+void atrito_set_line(int is_place, const char *text) {
+   if (!line)
+      return;
+   take_line();
+   if (is_place)
+      line->detail[0] = 0;
+   snprintf(is_place ? line->place : line->detail, sizeof line->place, "%s", text);
+   line->is_away = 0;
+   leave_line();
+}
+
+void *atrito_share_memory(size_t bytes);
+
+/* 1: from now on there is such a line; 0: the system has no thread for it. The thread leaves all signals to the others. */
+int atrito_begin_line(void) {
+   sigset_t all, before;
+   pthread_t thread;
+   pthread_attr_t attributes;
+   int is_made = 0;
+
+   if (line)
+      return 1;
+   line = atrito_share_memory(sizeof *line);
+   if (!line)
+      return 0;
+   line->is_away = 1;
+   clock_gettime(CLOCK_MONOTONIC, &line->begin);
+   sigfillset(&all);
+   pthread_sigmask(SIG_SETMASK, &all, &before);
+   if (pthread_attr_init(&attributes) == 0) {
+      pthread_attr_setstacksize(&attributes, 1 << 20); /* with room for what libraries keep for each thread */
+      pthread_attr_setdetachstate(&attributes, PTHREAD_CREATE_DETACHED);
+      is_made = pthread_create(&thread, &attributes, keep_line, NULL) == 0;
+      pthread_attr_destroy(&attributes);
+   }
+   pthread_sigmask(SIG_SETMASK, &before, NULL);
+   if (!is_made)
+      line = NULL;
+   else
+      atexit(atrito_hide_line);
+   return is_made;
+}
+
 static void say(const char *text) {
+   if (line && line->is_shown && !is_silent) {
+      line->is_shown = 0;
+      line->is_away = 1;
+      say(clear_line);
+   }
    ssize_t ignored = is_silent ? 0 : write(STDERR_FILENO, text, strlen(text));
    (void)ignored;
 }

@@ -9,7 +9,8 @@ module atrito_system
              c_remove_file, c_remove_folder, c_rename, c_true_path
    public :: c_open_input, c_identify, c_note_input, forget_inputs, c_is_input, &
              c_read_input, c_close_input, c_peek, c_read_system, c_find_name, c_confine
-   public :: c_is_terminal, c_create_file, c_write_line, c_write_text, c_close_file, c_settle_file, c_append_line
+   public :: c_is_terminal, c_terminal_width, c_begin_line, c_set_line, hide_line
+   public :: c_create_file, c_write_line, c_write_text, c_close_file, c_settle_file, c_append_line
    public :: c_open_lock, c_close_lock, c_is_lock_of, c_lock_folder
    public :: c_open_nameless, c_place_in_file, c_go_to_place, c_write_bytes, c_read_bytes
    public :: guard_interrupts, hold_interrupts, release_interrupts, note_path, forget_path, guard_exit, release_exit
@@ -100,6 +101,10 @@ module atrito_system
    procedure(ask_bytes), bind(C, name='atrito_stack_of_thread') :: stack_of_thread
    procedure(ask_bytes), bind(C, name='atrito_stack_limit') :: stack_limit
    procedure(act), bind(C, name='atrito_keep_freed_memory') :: keep_freed_memory
+   !> 1: from now on there is a line of progress on standard error.
+   procedure(ask), bind(C, name='atrito_begin_line') :: c_begin_line
+   !> It gives way to what is going to be written.
+   procedure(act), bind(C, name='atrito_hide_line') :: hide_line
    procedure(ask_bytes), bind(C, name='atrito_reusable_memory') :: reusable_memory
    !> 1: the file has its new name, in one step of the file system; whatever had that name is replaced.
    procedure(ask_two), bind(C, name='atrito_rename') :: c_rename
@@ -118,6 +123,17 @@ module atrito_system
          import :: c_int
          integer(c_int), value :: file              !< 1: standard output, 2: standard error
       end function c_is_terminal
+      !> Columns of it; 0: not known.
+      integer(c_int) function c_terminal_width(file) bind(C, name='atrito_terminal_width')
+         import :: c_int
+         integer(c_int), value :: file
+      end function c_terminal_width
+      !> What the line of progress says.
+      subroutine c_set_line(is_place, text) bind(C, name='atrito_set_line')
+         import :: c_char, c_int
+         integer(c_int), value :: is_place          !< 1: where the run is; 0: what it does there
+         character(kind=c_char), intent(in) :: text(*)
+      end subroutine c_set_line
       !> How many threads there can be beside this one, 0 to most: they are made, and end at once.
       integer(c_int) function c_count_threads(most) bind(C, name='atrito_count_threads')
          import :: c_int

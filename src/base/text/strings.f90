@@ -4,6 +4,7 @@ module atrito_strings
    implicit none (type, external)
    private
    public :: string_t, string_list_t, add_string, take_strings, replaced
+   public :: break_line
    public :: lower_case, upper_case, to_text, join, nearest_names, edit_distance, same_name, append_string, deck_name, count_symbol
    public :: begins_with, ends_with
 
@@ -370,5 +371,26 @@ contains
          if (index(letters, text(i:i)) > 0) replaced(i:i) = by
       end do
    end function replaced
+
+   !> One line of a text that is broken at its blanks: text(first:last), no longer than `room`; the next one begins at `next`.
+   pure subroutine break_line(text, room, first, last, next)
+      character(len=*), intent(in) :: text          !< without blanks at its end
+      integer, intent(in) :: room                   !< > 0
+      integer, intent(in) :: first
+      integer, intent(out) :: last, next            !< next > len(text): that was the last line
+      integer :: blank
+
+      last = len(text)
+      if (last - first + 1 > room) then             ! before the last blank, else at the full width
+         blank = index(text(first:first + room), ' ', back=.true.)
+         last = first + room - 1
+         if (blank > 1) last = first + blank - 2
+      end if
+      next = last + 1
+      do while (next < len(text))
+         if (text(next:next) /= ' ') exit
+         next = next + 1
+      end do
+   end subroutine break_line
 
 end module atrito_strings

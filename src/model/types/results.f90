@@ -7,7 +7,7 @@ module atrito_results
    private
    public :: results_t, contact_result_t, iteration_t, body_result_t, scene_t, pair_scene_t, balance_t, unsettled_t
    public :: body_motion_t, rigid_result_t, joint_t, cut_force_t, extreme_t, history_t, history_row_t, ending_t, last_frame
-   public :: observed_t, observed_list_t, frame_store_t, put_aside, view_frame
+   public :: observed_t, observed_list_t, frame_store_t, put_aside, view_frame, has_forces
    public :: POINT_OPEN, POINT_STICK, POINT_SLIP
 
    integer(ip), parameter :: POINT_OPEN = 0, POINT_STICK = 1, POINT_SLIP = 2   !< column status of contact.tab
@@ -311,5 +311,13 @@ contains
       history%store%has_failed = .true.             ! write_results reports it; what is shown instead has the right sizes
       frame => history%frames(last_frame(history))
    end subroutine view_frame
+
+   !> Whether anything acts upon the bodies.
+   pure logical function has_forces(results)
+      type(results_t), intent(in) :: results
+
+      has_forces = results%strain_energy > 0.0_wp
+      if (allocated(results%reaction) .and. .not. has_forces) has_forces = any(abs(results%reaction) > 0.0_wp)
+   end function has_forces
 
 end module atrito_results

@@ -11,7 +11,7 @@ told() { # FOLDER: steps, increments and outer iterations as they were told
 }
 
 for form in dense sparse; do
-   run 0 "$here/drag.inp" "drag-$form" --digits 17 --contact $form
+   run 0 "$here/drag.inp" "drag-$form" --digits 17 --contact $form --progress all
    near "$form back" "$(last "drag-$form" shear_resultant)" 10 1e-9
    near "$form normal" "$(last "drag-$form" normal_resultant)" 20 1e-9
    near "$form increments" "$(told "drag-$form" | wc -l)" 21 0
@@ -28,7 +28,7 @@ for form in dense sparse; do
    run 0 "$here/drag.inp" "there-$form" --digits 17 --contact $form --quiet --set back=0.1
    near "$form on" "$(last "there-$form" shear_resultant)" -10 1e-9
 done
-run 0 "$here/drag.inp" km --digits 17 --contact dense --set L=1e-3 --set F=1e-6
+run 0 "$here/drag.inp" km --digits 17 --contact dense --set L=1e-3 --set F=1e-6 --progress all
 told drag-dense >m.counts
 told km >km.counts
 cmp m.counts km.counts || complain 'other units, other iterations'
@@ -44,7 +44,7 @@ for form in dense sparse; do
    # pressed alone it is antisymmetric
    below "$form: what slipped stays" 0.5 "$(awk '{ s[NR] = $1 } END { for (i = 1; i <= 9; i++) { d = s[i] + s[10 - i]; if (d > m) m = d } print m }' \
       "back-$form.shear")"
-   run 4 "$here/push.inp" "fall-$form" --digits 17 --contact $form
+   run 4 "$here/push.inp" "fall-$form" --digits 17 --contact $form --progress all
    says "$form beyond" "fall-$form.err" 'ended in step 2, increment'
    says "$form beyond" "fall-$form.err" 'free to move along x1'
    says "$form beyond" "fall-$form.err" 'what converged before is written'
@@ -65,7 +65,7 @@ few() { # METHOD DATA: drag.inp with increments of half a way
 }
 few '' '0.5, 1, 0.001' >short.inp
 few ', DIRECT' '0.5, 1' >direct.inp
-run 0 short.inp short --digits 17
+run 0 short.inp short --digits 17 --progress all
 for step in 2 3; do
    below "few iterations, step $step: uncut" "$(grep -c "of step $step has no solution; cut" short.err | awk '{ print ($1 == 0) }')" 1
 done

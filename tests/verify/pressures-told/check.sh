@@ -17,6 +17,7 @@ silent() {
 told one 'CAP-BOTTOM on FLOOR: sides that curve apart touch at 1 point only, round node 226 (0, 0)' disc.inp
 says one one.err 'Faces there of 1/7 of their length'
 told three 'touch at 3 points only' disc.inp --set F=3000
+grep -Eq 'the energy and these works [.]+ agree to [0-9.]+e-1[0-9] ' three/disc.lst || complain 'three: the energies do not agree'
 told five 'touch at 5 points only' disc.inp --set F=7000 --set n=16
 silent seven W-FEW-POINTS disc.inp --set F=60000 --set n=16
 hertz=$(awk 'BEGIN { print sqrt(60000*210000/0.91/(10*atan2(0, -1))) }' </dev/null)

@@ -35,10 +35,30 @@ told turn-q2 turned-q2.inp rotation 0.1001 --set w=-0.1001
 
 silent slip-below scene.inp --set drag=0.0499
 told slip scene.inp slip 0.0501 --set drag=0.0501
-# Forty faces a side: one of them is 0.025 long.
+# Forty faces a side, one of them 0.025 long: the mesh does not matter, the length of the contact does.
 sed 's/NX=4/NX=40/' scene.inp >fine.inp
-silent face-below fine.inp --set drag=-0.0249
-told face fine.inp slip 0.0251 --set drag=-0.0251
+silent fine-below fine.inp --set drag=-0.0499
+told fine fine.inp slip 0.0501 --set drag=-0.0501
+# Energies add up: without friction what is stored is half of the work; dragged, a closed point is closed.
+grep -Eq 'the energy and these works [.]+ agree to [0-9.]+e-1[1-9] ' fine/fine.lst || complain 'fine: the energies do not agree'
+says 'fine: states' fine.out '0 open, 41 closed'
+says 'fine: states, listing' fine/fine.lst 'closed points .................... 41'
+
+# Bodies that are carried along: no forces, and no stresses of round-off.
+sed 's/^UPPER-TOP, 1, 1, <drag>/&\nUPPER-TOP, 2, 2, 0.3/' scene.inp >carried.inp
+run 0 carried.inp carried --set p=0 --set drag=0.01 --set gap=0.1
+says 'carried: the pair' carried.err '[N-OPEN] a pair that never closes: UPPER-BOTTOM on LOWER-TOP'
+says 'carried: the screen' carried.out 'no forces act; the contact law holds'
+near 'carried: stress' "$(awk '$2 == "mises" { print $3 }' carried/extremes.tab)" 0 0
+near 'carried: residual' "$(summary carried equilibrium_residual)" 0 0
+
+# A run that ends without results tells whose results its folder still holds.
+"$atrito" fine.inp -o fine --set drag=0.01 --set E=-1 --refine 1 >older.out 2>older.err
+[ $? -eq 2 ] || complain 'older: the exit code'
+says older older.err 'note [N-OLDER] fine still holds the results of another run (E = 1000, here -1, drag = -0.0501, here 0.01, without options)'
+tail -n 1 older.err | grep -q '^1 error in the deck' || complain 'older: the error does not come last'
+"$atrito" scene.inp -o none --set E=-1 >none.out 2>none.err
+! grep -q N-OLDER none.err || complain 'none: an empty folder holds nothing'
 
 # Rounding of printed coordinates is no overlap. The warning comes before anything is solved.
 silent rounding scene.inp --set gap=-1e-8
