@@ -17,7 +17,7 @@ module atrito_contact_plot
    implicit none (type, external)
    private
    public :: write_contact_plot, shown_frames, pair_title, law_text, put_contact_columns, shows_slip_bound, shear_range, state_of, &
-             N_STATES, STATE_WORD, STATE_COLOUR
+             N_STATES, STATE_WORD, STATE_COLOUR, STATE_DASH
 
    !> The bound of the shear is shown whole up to so many times the largest shear; a greater one would hide the shear itself.
    real(wp), parameter :: MOST_BOUND = 4.0_wp
@@ -35,6 +35,8 @@ module atrito_contact_plot
    integer(ip), parameter :: N_STATES = 4, STATE_CLOSED = 3 !< closed: without friction
    character(len=6), parameter :: STATE_WORD(0:N_STATES - 1) = ['open  ', 'stick ', 'slip  ', 'closed']
    integer, parameter :: STATE_COLOUR(0:N_STATES - 1) = [5, 3, 2, 6]   !< places in COLOUR
+   !> Without colours they are told by these.
+   character(len=8), parameter :: STATE_DASH(0:N_STATES - 1) = ['dt (1,1)', 'dt 1    ', 'dt (3,1)', 'dt 1    ']
 
 contains
 
