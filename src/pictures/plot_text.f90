@@ -13,6 +13,7 @@ module atrito_plot_text
    private
    public :: range_t, cover, padded, range_text, span, range_of
    public :: quoted, cleaned, picture_title, scene_title, engineering_exponent, power_text, colour_styles, evenly, round_step
+   public :: log_axis
    public :: LF, COLOUR, N_COLOURS, MOST_STYLES, GREEK_NU, GREEK_EPSILON, GREEK_RHO, GREEK_DELTA, PLUS_MINUS, TIMES
 
    character(len=1), parameter :: LF = achar(10)    !< between lines that are put together
@@ -226,6 +227,31 @@ contains
       if (i == 2*N_COLOURS) parts = 90              ! half of black is black
       write (colour_text(2:), '(3z2.2)') parts
    end function colour_of
+
+   !> Range and numbers of a logarithmic axis, for values that may lie within a decade: 1, 2, 5, 10, ..., of many the powers of ten.
+   pure function log_axis(axis, range, most) result(text)
+      character(len=1), intent(in) :: axis          !< x or y
+      type(range_t), intent(in) :: range            !< of the values, which are positive
+      integer(ip), intent(in) :: most               !< numbers that have room
+      character(len=:), allocatable :: text
+      integer(ip) :: n, power, i, stride
+      integer, parameter :: STEPS(3) = [1, 2, 5]
+
+      text = ''
+      n = 0
+      do power = floor(log10(range%low) - 0.2_wp, ip), ceiling(log10(range%high) + 0.2_wp, ip)
+         do i = 1, 3
+            if (STEPS(i)*10.0_wp**power < range%low/1.5_wp .or. STEPS(i)*10.0_wp**power > range%high*1.5_wp) cycle
+            n = n + 1
+            text = text//', '//to_text(STEPS(i)*10.0_wp**power, 6)
+         end do
+      end do
+      text = 'set '//axis//'range ['//to_text(range%low/1.5_wp, 6)//':'//to_text(range%high*1.5_wp, 6)//']; set '// &
+             axis//'tics ('//text(min(3, len(text) + 1):)//')'
+      if (n <= most) return
+      stride = 1 + int(log10(range%high/range%low)/most, ip)
+      text = text(:index(text, '(') - 1)//to_text(10.0_wp**stride)
+   end function log_axis
 
    !> The first number of the series 1, 2, 5, 10, ... that is not less.
    pure real(wp) function round_step(least) result(step)
