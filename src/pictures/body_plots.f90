@@ -5,13 +5,14 @@
 module atrito_body_plots
    use atrito_bodies, only: bodies_t, find_bodies
    use atrito_body_names, only: name_bodies
-   use atrito_drawing, only: drawing_t, begin_drawing, displace, displacement_scale, largest_length, write_lines, put_head, &
-                             put_plane, put_title, scale_title, put_scene, run_styles, body_style, body_title
+   use atrito_drawing, only: drawing_t, begin_drawing, displace, displacement_scale, overlap_scale, largest_length, write_lines, &
+                             put_head, put_plane, put_title, scale_title, put_scene, run_styles, body_style, body_title
    use atrito_kinds, only: ip, wp
+   use atrito_labels, only: put_labels
    use atrito_link_symbols, only: put_links
    use atrito_load_symbols, only: put_loads
    use atrito_model, only: model_t, step_t, nodal_values_t
-   use atrito_plot_files, only: MESH_PLOT, SCENE_PLOT, MECHANISM_PLOT
+   use atrito_plot_files, only: MESH_PLOT, SCENE_PLOT, MECHANISM_PLOT, SYMBOLS_OF
    use atrito_plot_scripts, only: plots_t, put, begin_script
    use atrito_plot_text, only: range_t, quoted, cleaned, picture_title, scene_title, colour_styles, LF
    use atrito_plot_view, only: plot_view_t, shows_none, warn_of_box
@@ -40,13 +41,14 @@ contains
       type(results_t), intent(in), target :: results
       type(plot_view_t), intent(in) :: view
       type(drawing_t), intent(out) :: drawing
-      real(wp) :: largest
+      real(wp) :: largest, reach
 
       call begin_drawing(model, model%mesh%n_nodes > MOST_NODES, view, drawing)
       drawing%results => results
       drawing%heading = picture_title(origin_of(model, results))
       largest = largest_length(results%u)
-      call displace(drawing, results%u, largest, displacement_scale(largest, drawing%size))
+      reach = overlap_scale(model, results, drawing%size)
+      call displace(drawing, results%u, largest, displacement_scale(largest, drawing%size, reach), reach)
       if (allocated(results%rigid)) drawing%rigid = results%rigid
    end subroutine draw_mesh
 
@@ -54,7 +56,7 @@ contains
    subroutine write_mesh_plot(plots, drawing)
       type(plots_t), intent(inout), target :: plots
       type(drawing_t), intent(inout) :: drawing     !< by draw_mesh; its window has room for the symbols while this is written
-      type(string_t), allocatable :: symbols(:)     ! curves over the bodies
+      type(string_t), allocatable :: symbols(:), styles(:)     ! curves over the bodies
       type(range_t) :: window(2)
       integer(ip) :: first
       logical :: is_big
@@ -66,14 +68,13 @@ contains
       call begin_script(plots, MESH_PLOT, 'the deformed mesh over the undeformed one', &
                         'Columns of mesh.dat: 1 x [L], 2 y [L], 3 u1 [L], 4 u2 [L]; a block a body and kind of line')
       call put_head(plots, drawing, '')
-      call put_plane(plots, drawing, legend_lines(symbols))
-      call put(plots, colour_styles(''))
-      call put_title(plots, scale_title(drawing))
       is_big = drawing%model%mesh%n_nodes > FEW_NODES
+      styles = run_styles(drawing, names_of_run(drawing), trim(merge('0.5', '1  ', is_big)), '2.5')
+      call put_bodies_plane(plots, drawing, [styles, symbols])
+      call put_title(plots, scale_title(drawing))
       first = 0
       if (is_big) first = drawing%n_inner
-      call put_scene(plots, drawing, first, 'undeformed', &
-                     run_styles(drawing, names_of_run(drawing), trim(merge('0.5', '1  ', is_big)), '2.5'), symbols)
+      call put_scene(plots, drawing, first, 'undeformed', styles, symbols)
       drawing%window = window
    end subroutine write_mesh_plot
 
@@ -97,7 +98,7 @@ contains
       type(model_t), intent(in), target :: model
       type(plot_view_t), intent(in) :: view
       type(drawing_t) :: drawing
-      type(string_t), allocatable :: symbols(:), names(:)
+      type(string_t), allocatable :: symbols(:), names(:), styles(:)
       type(bodies_t) :: bodies
       character(len=:), allocatable :: title
       integer(ip) :: i
@@ -110,20 +111,19 @@ contains
                         'Columns of scene.dat and scene-symbols.dat: 1 x [L], 2 y [L], 3 and 4 are 0; '// &
                         'of arrows 5 and 6 their components [L], of markers 5 their size')
       call put(plots, 'scale = 0'//LF//'heading = '//quoted(scene_title(model%deck_path, model%heading)))
-      call put_plane(plots, drawing, legend_lines(symbols))
-      call put(plots, colour_styles(''))
       title = 'before anything is solved'
       if (size(model%steps) > 1) title = title//': supports and loads of step '//to_text(shown_step(model%steps))//' of '// &
                                          to_text(size(model%steps, kind=ip))//', at its end'
-      call put_title(plots, '"\n'//title//'"')
       call find_bodies(model%mesh, bodies)
       call name_bodies(model, bodies)
       allocate (names(bodies%n))
       do i = 1, bodies%n
          names(i)%s = bodies%list(i)%name
       end do
-      call put_scene(plots, drawing, drawing%lines%n_runs, '', &
-                     run_styles(drawing, names, merge('0.4', '0.7', model%mesh%n_nodes > FEW_NODES), '2'), symbols)
+      styles = run_styles(drawing, names, merge('0.4', '0.7', model%mesh%n_nodes > FEW_NODES), '2')
+      call put_bodies_plane(plots, drawing, [styles, symbols])
+      call put_title(plots, '"\n'//title//'"')
+      call put_scene(plots, drawing, drawing%lines%n_runs, '', styles, symbols)
    end subroutine write_scene_plot
 
    !> The first step in which something acts; the first one where nothing does.
@@ -160,7 +160,7 @@ contains
       integer(ip) :: i, k, place                    ! among those that move, the fastest first; 0: it rests
 
       call begin_drawing(model, .true., view, drawing)
-      call displace(drawing, limit%collapse%u, 1.0_wp, mechanism_scale(limit%collapse, drawing%size))
+      call displace(drawing, limit%collapse%u, 1.0_wp, mechanism_scale(limit%collapse, drawing%size), huge(1.0_wp))
       allocate (drawing%rigid(0))
       if (allocated(model%rigid_bodies)) then       ! rigid surfaces are bodies behind those of elements
          deallocate (drawing%rigid)
@@ -177,17 +177,18 @@ contains
       call begin_script(plots, MECHANISM_PLOT, 'the mechanism of a scene at its limit', &
                         'Columns of mechanism.dat: 1 x [L], 2 y [L], 3 u1 [L], 4 u2 [L]; a block a body')
       call put(plots, 'scale = '//to_text(drawing%scale, 15)//'   # of the motion; change it here')
-      call put_plane(plots, drawing)
-      call put(plots, 'set style line 10 lt 1 lw 1.5 lc rgb "#404040"'//LF//colour_styles(' lw 2.5')//LF// &
-               'heading = '//quoted(cleaned(title, LONGEST_TITLE))//LF// &
+      call put(plots, 'heading = '//quoted(cleaned(title, LONGEST_TITLE))//LF// &
                'value = '//quoted('mechanism at '//limit%parameter//' = '//to_text(limit%falls, 8)))
-      call put_title(plots, 'sprintf("\n%s, its largest displacement drawn %g [L]", value, scale)')
       allocate (styles(drawing%lines%n_runs))
       do i = 1, size(styles, kind=ip)
          place = findloc(limit%collapse%bodies, drawing%lines%body(i), dim=1, kind=ip)
-         styles(i)%s = 'ls 10'
-         if (place > 0) styles(i)%s = body_style(drawing%lines%body(i))//body_title(limit%collapse%names(place)%s, place)
+         styles(i)%s = 'ls 32'
+         if (place > 0) styles(i)%s = body_style(drawing%lines%body(i))//' lw 2.5'// &
+                                      body_title(limit%collapse%names(place)%s, place, size(limit%collapse%bodies, kind=ip))
       end do
+      call put_bodies_plane(plots, drawing, styles)
+      call put_title(plots, 'sprintf("\n%s, its largest displacement drawn %g [L]", value, scale)')
+      call put(plots, 'set style line 32 lt 1 lw 1.5 lc rgb "#404040"')
       call put_scene(plots, drawing, 0_ip, 'undisplaced', styles, [string_t ::])
    end subroutine write_mechanism_plot
 
@@ -211,26 +212,38 @@ contains
       type(string_t), allocatable, intent(out) :: curves(:)   !< to be drawn over the bodies
       type(symbols_t) :: symbols
 
-      call begin_symbols(plots, picture, step, drawing, symbols)
+      call begin_symbols(plots, picture//SYMBOLS_OF, 'symbols of supports, loads and surfaces; columns: x [L]  y [L]  u1 [L]  '// &
+                         'u2 [L], and of an arrow its components [L], of a marker its size, of a label its text', drawing, symbols)
+      symbols%step = step
       if (picture == SCENE_PLOT) call put_surfaces(drawing%model, symbols)
       call put_links(symbols)
       call put_supports(symbols)
       call put_loads(symbols)
+      if (drawing%view%labels) call put_labels(drawing, symbols)
       drawing%window = symbols%window
       call move_alloc(symbols%curves, curves)
       call end_symbols(symbols)
    end subroutine write_symbols
 
-   !> Lines of the legend: symbols have long names, so two stand side by side below those of the bodies.
-   pure integer(ip) function legend_lines(curves) result(n)
-      type(string_t), intent(in) :: curves(:)
-      integer :: i
+   !> Ranges, terminal, axes, and what all curves have in common: room for their legend, colours of bodies, fonts of labels.
+   subroutine put_bodies_plane(plots, drawing, curves)
+      type(plots_t), intent(inout) :: plots
+      type(drawing_t), intent(in) :: drawing
+      type(string_t), intent(in) :: curves(:)       !< or their styles
+      integer(ip) :: n, i
+      logical :: is_long                            ! symbols have long names, so two stand side by side
 
-      n = 0
-      do i = 1, size(curves)
-         if (index(curves(i)%s, ' title ') > 0) n = n + 1
+      n = 1 + size(drawing%surface, kind=ip)
+      is_long = .false.
+      do i = 1, size(curves, kind=ip)
+         if (index(curves(i)%s, ' title ') == 0) cycle
+         n = n + 1
+         is_long = is_long .or. index(curves(i)%s, ' title "') > 0
       end do
-      n = 1 + (n + 1)/2
-   end function legend_lines
+      call put_plane(plots, drawing, 1 + (n - 1)/merge(2_ip, 4_ip, is_long))
+      call put(plots, colour_styles('', maxval(drawing%lines%body)))
+      if (drawing%view%labels) call put(plots, 'set style textbox opaque fc rgb "#ffffff" noborder margins 0.4,0.2'//LF// &
+                                        'SMALL = kind eq "png" ? ",8" : ",11"; MIDDLE = kind eq "png" ? ",9" : ",12"')
+   end subroutine put_bodies_plane
 
 end module atrito_body_plots

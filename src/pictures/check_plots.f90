@@ -4,7 +4,7 @@
 !> As with the pictures of a run, a failure is a warning, W-PLOT. Pictures of an earlier check are replaced; those of a run stay.
 module atrito_check_plots
    use atrito_body_plots, only: write_scene_plot
-   use atrito_drawing, only: drawing_t, begin_drawing, put_lines, put_place
+   use atrito_drawing, only: drawing_t, begin_drawing, put_lines, put_place, pixel_of
    use atrito_gnuplot, only: draw_written
    use atrito_kinds, only: ip, wp
    use atrito_mesh, only: side_count
@@ -19,7 +19,7 @@ module atrito_check_plots
    use atrito_sets, only: set_count, members_of, member_count
    use atrito_status, only: status_t
    use atrito_strings, only: string_t, append_string, to_text
-   use atrito_symbols, only: pixel_of, thinned
+   use atrito_symbols, only: thinned
    implicit none (type, external)
    private
    public :: write_check_plots, write_check_scripts, check_plot_names, shown_sets, shown_set_t, shown_pairs
@@ -112,7 +112,7 @@ contains
       integer(ip) :: i
 
       call begin_drawing(model, .true., view, drawing)
-      if (allocated(view%box)) drawing%window = shown_window(view, drawing%window)
+      drawing%window = shown_window(view, drawing%window)
       shown = shown_sets(model)
       call begin_data(plots, SET_PLOT, 'outlines of the bodies, then the members of each set; columns: x [L]  y [L]')
       call put_lines(plots, drawing, drawing%u, .false.)
@@ -212,7 +212,7 @@ contains
       n = set_count(drawing%model%node_sets) + set_count(drawing%model%element_sets)
       title = 'sets of elements and nodes'
       if (size(shown) < n) title = title//': '//to_text(size(shown, kind=ip))//' of '//to_text(n)
-      window = shown_window(drawing%view, drawing%window)
+      window = drawing%window
       call begin_script(plots, SET_PLOT, 'the sets of nodes and elements', &
                         'Columns of sets.dat: 1 x [L], 2 y [L]; outlines of the bodies, then a block a set')
       call put(plots, 'heading = '//quoted(scene_title(drawing%model%deck_path, drawing%model%heading))//LF// &

@@ -13,11 +13,13 @@ module atrito_contact_plot
                                GREEK_EPSILON, GREEK_RHO, GREEK_DELTA, PLUS_MINUS
    use atrito_results, only: results_t, contact_result_t, history_t, last_frame, view_frame, POINT_OPEN, POINT_SLIP
    use atrito_strings, only: to_text
+   use atrito_summary, only: pair_name
    use atrito_write_tables, only: origin_of
    implicit none (type, external)
    private
+   public :: pair_legend
    public :: write_contact_plot, shown_frames, pair_title, law_text, put_contact_columns, shows_slip_bound, shear_range, state_of, &
-             N_STATES, STATE_WORD, STATE_COLOUR
+             N_STATES, STATE_WORD, STATE_COLOUR, STATE_DASH
 
    !> The bound of the shear is shown whole up to so many times the largest shear; a greater one would hide the shear itself.
    real(wp), parameter :: MOST_BOUND = 4.0_wp
@@ -30,11 +32,13 @@ module atrito_contact_plot
    integer(ip), parameter :: FIRST_EARLY = 10       !< line style of the first of them
    !> Columns of contact.tab.
    integer(ip), parameter :: GAP = 7, PRESSURE = 8, SHEAR = 10, SLIP = 11
-   integer, parameter :: LONGEST_NAME = 30          !< characters of a surface's name
+   integer, parameter :: LONGEST_NAME = 64, LONGEST_LEGEND = 17   !< characters of a pair's name
 
    integer(ip), parameter :: N_STATES = 4, STATE_CLOSED = 3 !< closed: without friction
    character(len=6), parameter :: STATE_WORD(0:N_STATES - 1) = ['open  ', 'stick ', 'slip  ', 'closed']
    integer, parameter :: STATE_COLOUR(0:N_STATES - 1) = [5, 3, 2, 6]   !< places in COLOUR
+   !> Without colours they are told by these.
+   character(len=8), parameter :: STATE_DASH(0:N_STATES - 1) = ['dt (1,1)', 'dt 1    ', 'dt (3,1)', 'dt 1    ']
 
 contains
 
@@ -124,12 +128,18 @@ contains
       character(len=:), allocatable :: text
 
       text = 'pair '//to_text(pair)
-      if (.not. allocated(results%scene%pairs)) return
-      if (pair > size(results%scene%pairs)) return
-      associate (scene => results%scene%pairs(pair))
-         text = text//': '//cleaned(scene%slave, LONGEST_NAME)//' on '//cleaned(scene%master, LONGEST_NAME)
-      end associate
+      if (len(pair_name(results, pair)) > 0) text = text//': '//cleaned(pair_name(results, pair), LONGEST_NAME)
    end function pair_title
+
+   !> A pair in a legend, by the name of its slave: `1: plate-BOTTOM`.
+   pure function pair_legend(pair, name) result(text)
+      integer(ip), intent(in) :: pair
+      character(len=*), intent(in) :: name          !< `plate-BOTTOM on support-TOP`; '': not known
+      character(len=:), allocatable :: text
+
+      text = 'pair '//to_text(pair)
+      if (len(name) > 0) text = to_text(pair)//': '//cleaned(name(:index(name//' on ', ' on ') - 1), LONGEST_LEGEND)
+   end function pair_legend
 
    !> The parameters of a pair's laws, those that are in force.
    pure function law_text(law) result(text)

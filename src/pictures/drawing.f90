@@ -10,15 +10,15 @@ module atrito_drawing
    use atrito_number_text, only: trimmed_real
    use atrito_plot_files, only: JOINT_PLOT
    use atrito_plot_scripts, only: plots_t, put, begin_data, put_terminal, put_plot
-   use atrito_plot_text, only: range_t, cover, range_text, span, quoted, cleaned, LF, N_COLOURS, TIMES
+   use atrito_plot_text, only: range_t, cover, range_text, span, quoted, cleaned, round_step, LF, MOST_STYLES, TIMES
    use atrito_plot_view, only: plot_view_t, shown_window
    use atrito_results, only: results_t, rigid_result_t
    use atrito_strings, only: string_t, append_string, to_text
    implicit none (type, external)
    private
-   public :: drawing_t, begin_drawing, displace, displacement_scale, largest_length
+   public :: drawing_t, begin_drawing, displace, displacement_scale, overlap_scale, largest_length
    public :: write_lines, put_lines, put_rigid_lines, put_place, put_head, put_window, put_axes, put_plane, put_scene
-   public :: add_lines, add_rigid_lines, put_title, scale_title, displacement_text
+   public :: add_lines, add_rigid_lines, put_title, scale_title, displacement_text, overlap_text, put_ticks, pixel_of
    public :: run_styles, body_style, body_title, MOVED
 
    integer, parameter :: DIGITS = 7                 !< of the data: a picture has a thousand pixels
@@ -27,7 +27,12 @@ module atrito_drawing
    real(wp), parameter :: STRAIGHT = 3.0e-4_wp
    !> The largest displacement is drawn at most this long, as a share of the scene's diagonal.
    real(wp), parameter :: LARGEST_SHARE = 0.08_wp
-   integer(ip), parameter :: MOST_NAMES = 8         !< bodies in the legend
+   !> Sides that overlap by less than this share are seen to touch; where they would overlap by more the scale is less, but not so
+   !> small that the largest displacement is drawn shorter than the other share.
+   real(wp), parameter :: SEEN_SHARE = 0.004_wp, LEAST_SHARE = 0.005_wp
+   !> Of the plane of a picture, in pixels: put_window makes it so. Numbers at the axes are no nearer than APART.
+   real(wp), parameter :: PLANE_WIDTH = 860.0_wp, MOST_HEIGHT = 946.0_wp, APART = 70.0_wp
+   integer(ip), parameter :: MOST_NAMES = MOST_STYLES   !< bodies in the legend
    integer, parameter :: LONGEST_NAME = 24          !< characters of a body's name
    integer(ip), parameter :: LEGEND_LINE = 22       !< pixels
    !> How a script has a place with its displacement.
@@ -48,6 +53,7 @@ module atrito_drawing
       real(wp) :: size = 0.0_wp                         !< diagonal of the undisplaced bodies [L]
       real(wp) :: largest = 0.0_wp                      !< displacement [L]
       real(wp) :: scale = 0.0_wp                        !< of the displacements
+      logical :: overlaps = .false.                 !< that scale makes sides overlap
       type(plot_view_t) :: view                         !< what is asked of it
       type(rigid_result_t), allocatable :: rigid(:)     !< motions of the model's rigid bodies; without them they stay
    end type drawing_t
@@ -84,38 +90,65 @@ contains
    end subroutine begin_drawing
 
    !> Displaces the bodies, by the scale that is asked for, else by the one that is chosen, and widens the window to them.
-   pure subroutine displace(drawing, u, largest, chosen_scale)
+   pure subroutine displace(drawing, u, largest, chosen_scale, reach)
       type(drawing_t), intent(inout) :: drawing
       real(wp), intent(in) :: u(:, :)               !< (2, n_nodes) [L]
       real(wp), intent(in) :: largest               !< displacement [L]
       real(wp), intent(in) :: chosen_scale
+      real(wp), intent(in) :: reach                 !< a greater scale makes sides overlap
       integer :: i
 
       drawing%u = u
       drawing%largest = largest
       drawing%scale = chosen_scale
       if (allocated(drawing%view%scale)) drawing%scale = drawing%view%scale
+      drawing%overlaps = drawing%scale > reach
       do i = 1, 2
          call cover(drawing%window(i), drawing%model%mesh%x(i, :) + drawing%scale*u(i, :))
       end do
    end subroutine displace
 
-   !> The number of the series 1, 2, 5, 10, ... with which the largest displacement is drawn 3 to 8 % of the scene long; 1
-   !> where nothing moves.
-   pure real(wp) function displacement_scale(largest, size_of_scene) result(scale)
+   !> The number of the series 1, 2, 5, 10, ... with which the largest displacement is drawn 3 to 8 % of the scene long, or less
+   !> where sides would overlap; 1 where nothing moves.
+   pure real(wp) function displacement_scale(largest, size_of_scene, reach) result(scale)
       real(wp), intent(in) :: largest               !< displacement [L]
       real(wp), intent(in) :: size_of_scene         !< diagonal [L]
+      real(wp), intent(in), optional :: reach       !< a greater scale makes sides overlap
       real(wp) :: wanted, power
 
       scale = 1.0_wp
       if (largest <= tiny(largest)*1.0e3_wp .or. size_of_scene <= 0.0_wp) return
       wanted = LARGEST_SHARE*size_of_scene/largest
       if (.not. ieee_is_finite(wanted)) return
+      if (present(reach)) wanted = min(wanted, max(reach, wanted*LEAST_SHARE/LARGEST_SHARE))
       power = 10.0_wp**floor(log10(wanted))
       scale = power
       if (2.0_wp*power <= wanted) scale = 2.0_wp*power
       if (5.0_wp*power <= wanted) scale = 5.0_wp*power
    end function displacement_scale
+
+   !> The scale of the displacements beyond which sides are seen to overlap. A point with the initial gap s and the gap g has
+   !> s + scale (g - s) between the sides in the picture: with scale > 1 a gap that has closed looks like an overlap.
+   pure real(wp) function overlap_scale(model, results, size_of_scene) result(reach)
+      type(model_t), intent(in) :: model
+      type(results_t), intent(in) :: results
+      real(wp), intent(in) :: size_of_scene         !< diagonal [L]
+      real(wp) :: nearer
+      integer(ip) :: pair, j
+
+      reach = huge(1.0_wp)
+      if (.not. (allocated(model%points) .and. allocated(results%contact))) return
+      do pair = 1, min(size(model%points, kind=ip), size(results%contact, kind=ip))
+         associate (contact => results%contact(pair), initial => model%points(pair))
+            if (initial%n /= contact%n) cycle
+            do j = 1, contact%n
+               nearer = initial%gap(j) - contact%gap(j)
+               if (nearer > tiny(nearer)*1.0e3_wp) reach = min(reach, (max(0.0_wp, initial%gap(j)) + &
+                                                                       SEEN_SHARE*size_of_scene)/nearer)
+            end do
+         end associate
+      end do
+   end function overlap_scale
 
    !> The largest length of some vectors, those left out that are no numbers; 0 where there are none.
    pure real(wp) function largest_length(vectors) result(largest)
@@ -258,6 +291,26 @@ contains
       call put_axes(plots)
    end subroutine put_plane
 
+   !> Length of a pixel [L] in a picture of bodies.
+   pure real(wp) function pixel_of(shown) result(pixel)
+      type(range_t), intent(in) :: shown(2)         !< the window that is shown [L]
+
+      pixel = max(span(shown(1))/PLANE_WIDTH, span(shown(2))/MOST_HEIGHT)
+      if (.not. pixel > 0.0_wp) pixel = 1.0_wp
+   end function pixel_of
+
+   !> Border and names of the axes, and numbers at both, equally far apart.
+   subroutine put_ticks(plots, pixel)
+      type(plots_t), intent(inout) :: plots
+      real(wp), intent(in) :: pixel                 !< [L]
+      character(len=:), allocatable :: step
+
+      step = to_text(round_step(APART*pixel), 6)
+      call put(plots, 'set border lt 1 lw 1 lc rgb "#A0A0A0"'//LF// &
+               'set tics nomirror out scale 0.6 textcolor rgb "black" format "%h"'//LF// &
+               'set xtics '//step//'; set ytics '//step//LF//'set xlabel "x [L]"; set ylabel "y [L]"')
+   end subroutine put_ticks
+
    !> Ranges, and the height of the picture for a width of 1000.
    subroutine put_window(plots, drawing)
       type(plots_t), intent(inout) :: plots
@@ -271,20 +324,17 @@ contains
       if (allocated(drawing%view%box)) ratio = span(shown(2))/span(shown(1))
       call put(plots, 'set xrange '//range_text(shown(1))//LF//'set yrange '//range_text(shown(2))//LF// &
                'height = '//to_text(nint(160.0_wp + 860.0_wp*min(1.1_wp, max(0.15_wp, ratio)), ip)))
+      call put_ticks(plots, pixel_of(shown))
    end subroutine put_window
 
-   !> Border, marks, legend and the names of the axes of a picture of bodies, and the line styles 8 (undisplaced) and 9 (rigid).
+   !> Form and legend of a picture of bodies, and the line styles 30 (undisplaced) and 31 (rigid).
    subroutine put_axes(plots)
       type(plots_t), intent(inout) :: plots
 
       call put(plots, 'set size ratio -1')
       if (plots%name /= JOINT_PLOT) call put(plots, 'set clip two')
-      call put(plots, 'set border lt 1 lw 1 lc rgb "#A0A0A0"'//LF// &
-               'set tics nomirror out scale 0.6 textcolor rgb "black" format "%h"'//LF// &
-               'set key noautotitle outside bottom center horizontal Left reverse samplen 2 height 0.7'//LF// &
-               'set xlabel "x [L]"'//LF//'set ylabel "y [L]"')
-      if (plots%name == JOINT_PLOT) return
-      call put(plots, 'set style line 8 lt 1 lw 1 lc rgb "#B0B0B0"'//LF//'set style line 9 lt 1 lw 4 lc rgb "#404040"')
+      call put(plots, 'set key noautotitle outside bottom center horizontal Left reverse samplen 2 height 0.7'//LF// &
+               'set style line 30 lt 1 lw 1 lc rgb "#B0B0B0"'//LF//'set style line 31 lt 1 lw 4 lc rgb "#404040"')
    end subroutine put_axes
 
    !> The title: a label, for gnuplot measures titles as enhanced text even where they are not, and complains.
@@ -301,19 +351,28 @@ contains
       type(drawing_t), intent(in) :: drawing
       character(len=:), allocatable :: text
 
-      text = 'sprintf("\ndisplacements drawn %g '//TIMES//', the largest is %g [L]", scale, '//to_text(drawing%largest, 4)//')'
+      text = 'sprintf("\ndisplacements drawn %g '//TIMES//overlap_text(drawing)// &
+             ', the largest is %g [L]", scale, '//to_text(drawing%largest, 4)//')'
    end function scale_title
 
-   !> The scale of the displacements in words, for a string in double quotes.
-   pure function displacement_text(scale) result(text)
-      real(wp), intent(in) :: scale
+   pure function overlap_text(drawing) result(text)
+      type(drawing_t), intent(in) :: drawing
       character(len=:), allocatable :: text
 
-      text = 'displacements drawn '//to_text(scale)//' '//TIMES
-      if (scale <= 0.0_wp) text = 'undisplaced'
+      text = ''
+      if (drawing%overlaps) text = ', which makes sides overlap'
+   end function overlap_text
+
+   !> The scale of the displacements in words, for a string in double quotes.
+   pure function displacement_text(drawing) result(text)
+      type(drawing_t), intent(in) :: drawing
+      character(len=:), allocatable :: text
+
+      text = 'displacements drawn '//to_text(drawing%scale)//' '//TIMES//overlap_text(drawing)
+      if (drawing%scale <= 0.0_wp) text = 'undisplaced'
    end function displacement_text
 
-   !> The plot: where the bodies were (lines of style 8), where they go, each run of edges in its style, and rigid surfaces (9).
+   !> The plot: where the bodies were (lines of style 30), where they go, each run of edges in its style, and rigid surfaces (31).
    subroutine put_scene(plots, drawing, first, undisplaced, styles, more)
       type(plots_t), intent(inout) :: plots
       type(drawing_t), intent(in) :: drawing
@@ -326,27 +385,29 @@ contains
 
       n = size(styles, kind=ip)
       if (first < n) call append_string(curves, 'for [i='//to_text(first)//':'//to_text(n - 1)//'] "'//plots%name// &
-                                        '.dat" index i using 1:2 with lines ls 8 title i == '//to_text(first)//' ? "'// &
+                                        '.dat" index i using 1:2 with lines ls 30 title i == '//to_text(first)//' ? "'// &
                                         undisplaced//'" : ""')
       do i = 1, n
          call add_lines(plots%name, i - 1, i - 1, styles(i)%s, curves)
       end do
       if (first >= n) curves(1)%s = '  '//curves(1)%s
-      call add_rigid_lines(plots%name, drawing, 'ls 9', .true., curves)
+      call add_rigid_lines(plots%name, drawing, 'ls 31', .true., curves)
       call put_plot(plots, [curves, more])
    end subroutine put_scene
 
-   !> Adds the displaced lines of some blocks to the curves of a plot.
-   subroutine add_lines(name, first, last, style, curves)
+   !> Adds the lines of some blocks to the curves of a plot.
+   subroutine add_lines(name, first, last, style, curves, places)
       character(len=*), intent(in) :: name          !< of the data file, without .dat
       integer(ip), intent(in) :: first, last        !< blocks, from 0
       character(len=*), intent(in) :: style
       type(string_t), allocatable, intent(inout) :: curves(:)
-      character(len=:), allocatable :: blocks
+      character(len=*), intent(in), optional :: places   !< columns; default: displaced
+      character(len=:), allocatable :: columns
 
-      blocks = to_text(first)
-      if (last > first) blocks = blocks//':'//to_text(last)
-      call append_string(curves, '"'//name//'.dat" index '//blocks//' using '//MOVED//' with lines '//style)
+      columns = MOVED
+      if (present(places)) columns = places
+      call append_string(curves, '"'//name//'.dat" index '//to_text(first)//':'//to_text(last)//' using '//columns// &
+                         ' with lines '//style)
    end subroutine add_lines
 
    !> Adds the rigid surfaces, a block each behind the lines, to the curves of a plot. Those that do not move stay where they are
@@ -382,7 +443,8 @@ contains
       do i = 1, size(styles, kind=ip)
          associate (body => drawing%lines%body(i))
             styles(i)%s = body_style(body)//' lw '//inner
-            if (drawing%lines%kind(i) /= LINE_INNER) styles(i)%s = body_style(body)//' lw '//outer//body_title(names(body)%s, body)
+            if (drawing%lines%kind(i) /= LINE_INNER) styles(i)%s = body_style(body)//' lw '//outer// &
+                                                                   body_title(names(body)%s, body, size(names, kind=ip))
          end associate
       end do
    end function run_styles
@@ -392,17 +454,20 @@ contains
       integer(ip), intent(in) :: body
       character(len=:), allocatable :: text
 
-      text = 'ls '//to_text(mod(body - 1, N_COLOURS) + 1)
+      text = 'ls '//to_text(mod(body - 1, MOST_STYLES) + 1)
    end function body_style
 
-   !> The name of a body for the key; nothing for those that have no room there.
-   pure function body_title(name, place) result(text)
+   !> The name of a body for the key, where the last that has room says how many follow.
+   pure function body_title(name, place, n) result(text)
       character(len=*), intent(in) :: name
-      integer(ip), intent(in) :: place              !< among the bodies
+      integer(ip), intent(in) :: place, n           !< among the bodies, and how many they are
       character(len=:), allocatable :: text
 
       text = ''
-      if (place <= MOST_NAMES) text = ' title '//quoted(cleaned(name, LONGEST_NAME))//' noenhanced'
+      if (place > MOST_NAMES) return
+      text = cleaned(name, LONGEST_NAME)
+      if (place == MOST_NAMES .and. n > place) text = text//' and '//to_text(n - place)//' more'
+      text = ' title '//quoted(text)//' noenhanced'
    end function body_title
 
 end module atrito_drawing

@@ -5,31 +5,32 @@
 !> mean, weighted by n: a straight line for two joints, a star for more. The scripts read mesh.dat for the outlines.
 module atrito_force_plots
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-   use atrito_contact_plot, only: state_of, N_STATES, STATE_WORD, STATE_COLOUR
-   use atrito_drawing, only: drawing_t, put_place, put_head, put_plane, put_title, add_lines, add_rigid_lines, displacement_text, &
-                             largest_length, MOVED, scale_title
+   use atrito_contact_plot, only: state_of, N_STATES, STATE_WORD, STATE_COLOUR, STATE_DASH
+   use atrito_drawing, only: drawing_t, put_head, put_plane, put_title, add_lines, add_rigid_lines, displacement_text, &
+                             largest_length, scale_title
    use atrito_kinds, only: ip, wp, is_nan
    use atrito_model, only: model_t
    use atrito_number_text, only: trimmed_real
    use atrito_plot_files, only: TRACTION_PLOT, MESH_PLOT, JOINT_PLOT
-   use atrito_plot_scripts, only: plots_t, put, begin_data, begin_script, put_plot
-   use atrito_plot_text, only: range_t, cover, COLOUR, LF
+   use atrito_plot_scripts, only: plots_t, put, begin_script, put_plot
+   use atrito_plot_text, only: range_t, COLOUR, LF
    use atrito_results, only: results_t, contact_result_t, joint_t
-   use atrito_strings, only: string_t, append_string, to_text
+   use atrito_strings, only: string_t, to_text
    use atrito_summary, only: pair_count
+   use atrito_symbols, only: symbols_t, begin_symbols, end_symbols, begin_block, put_path, put_point, put_text, thinned, widen
    implicit none (type, external)
    private
-   public :: has_traction_plot, write_traction_plot, traction, arrow_stride, has_joint_plot, write_joint_plot
+   public :: has_traction_plot, write_traction_plot, traction, longest_arrow, has_joint_plot, write_joint_plot
 
-   integer(ip), parameter :: MOST_ARROWS = 3000
-   real(wp), parameter :: LONGEST = 0.12_wp         !< arrow, as a share of the scene's diagonal; shorter where there are many
-   real(wp), parameter :: MANY = 150.0_wp, SHORTEST = 0.25_wp !< points from which on they are, down to this share of it
+   real(wp), parameter :: LONGEST = 0.12_wp         !< arrow, as a share of the scene's diagonal
+   real(wp), parameter :: HALF_WAY = 0.45_wp, CLOSE = 0.02_wp   !< between pairs; nearer ones, as shares of the diagonal, are one
+   real(wp), parameter :: SHORTEST = 4.0_wp, BETWEEN = 9.0_wp   !< arrow, and distance of two of them [pixels]
+   character(len=6), parameter :: HEAD(0:N_STATES - 1) = ['empty ', 'filled', 'empty ', 'filled']
    integer, parameter :: ARROW_DIGITS = 6
 
    integer(ip), parameter :: N_WIDTHS = 5           !< of the line of thrust
    real(wp), parameter :: LEAST_SHARE = 1.0e-3_wp   !< of the largest n; a joint with less is not on the line of thrust
    real(wp), parameter :: MANY_JOINTS = 40.0_wp     !< from here on markers and lines are smaller
-   integer, parameter :: DIGITS = 7
 
 contains
 
@@ -64,87 +65,117 @@ contains
       end do
    end function largest_traction
 
-   !> Of many points each so manieth has an arrow.
-   pure integer(ip) function arrow_stride(n_points) result(stride)
-      integer(ip), intent(in) :: n_points
+   !> The longest arrow [L]: a share of the scene, but less than half of the way between the middles of two pairs, so that the
+   !> arrows of one do not cross those of another.
+   pure real(wp) function longest_arrow(results, size_of_scene) result(length)
+      type(results_t), intent(in) :: results
+      real(wp), intent(in) :: size_of_scene         !< diagonal [L]
+      real(wp) :: middle(2, size(results%contact)), apart
+      integer :: i, k
 
-      stride = (n_points + MOST_ARROWS - 1)/MOST_ARROWS
-   end function arrow_stride
+      length = LONGEST*size_of_scene
+      do i = 1, size(middle, 2)
+         associate (contact => results%contact(i))
+            middle(:, i) = sum(contact%x(:, :contact%n), dim=2)/max(1, contact%n)
+            do k = 1, merge(i - 1, 0, contact%n > 0)
+               apart = norm2(middle(:, i) - middle(:, k))
+               if (apart > CLOSE*size_of_scene .and. results%contact(k)%n > 0) length = min(length, HALF_WAY*apart)
+            end do
+         end associate
+      end do
+   end function longest_arrow
 
    !> Writes tractions.dat and tractions.gp beside mesh.dat.
    subroutine write_traction_plot(plots, drawing)
-      type(plots_t), intent(inout) :: plots
+      type(plots_t), intent(inout), target :: plots
       type(drawing_t), intent(inout) :: drawing     !< that of the mesh; its window has room for the arrows while this is written
+      type(symbols_t) :: symbols
       type(string_t), allocatable :: curves(:)
       type(range_t) :: window(2)
       character(len=:), allocatable :: fewer
-      real(wp) :: shorter, arrow, largest
-      integer(ip) :: i, n_points
-      logical :: has_state(0:N_STATES - 1)
+      real(wp) :: arrow, largest
+      integer(ip) :: n_drawn, n
 
-      n_points = sum(drawing%results%contact%n)
       largest = largest_traction(drawing%results)
-      shorter = max(SHORTEST, min(1.0_wp, sqrt(MANY/n_points)))     ! so that arrows do not hide each other
-      arrow = LONGEST*shorter*drawing%size/largest
+      arrow = longest_arrow(drawing%results, drawing%size)/largest
+      call begin_symbols(plots, TRACTION_PLOT, 'contact points by state, then all of them in lines; columns: x [L]  y [L]  '// &
+                         'u1 [L]  u2 [L]  traction upon the slave along x and y [F/L^2]', drawing, symbols)
+      call put_tractions(drawing%results, arrow, symbols, n_drawn, n)
+      call end_symbols(symbols)
       window = drawing%window
-      call write_tractions(plots, drawing, arrow, arrow_stride(n_points), has_state)
+      drawing%window = symbols%window
       call begin_script(plots, TRACTION_PLOT, 'the tractions of the contact upon the slaves', &
                         'Columns of '//TRACTION_PLOT//'.dat and of '//MESH_PLOT//'.dat: 1 x [L], 2 y [L], 3 u1 [L], 4 u2 [L];'// &
-                        LF//'# 5, 6 traction upon the slave [F/L^2], 7 state (0 open, 1 stick, 2 slip, 3 closed without friction)')
+                        LF//'# 5, 6 traction upon the slave [F/L^2]')
       call put_head(plots, drawing, 'arrow = '//to_text(arrow, ARROW_DIGITS)// &
                     '   # length of a traction of one; change it here'//LF)
       call put_plane(plots, drawing)
       fewer = ''
-      if (arrow_stride(n_points) > 1) fewer = ', one of '//to_text(arrow_stride(n_points))//' points'
+      if (n_drawn < n) fewer = ', at '//to_text(n_drawn)//' of '//to_text(n)//' points'
       call put_title(plots, '"\ntractions upon the slaves, up to '//to_text(largest, 4)//' [F/L^2]'//fewer//'; '// &
-                     displacement_text(drawing%scale)//'"')
-      call put(plots, 'head = '//to_text(0.003_wp + 0.005_wp*shorter, 3)//'   # length of the arrows'' heads')
-      allocate (curves(0))
+                     displacement_text(drawing)//'"')
       call add_lines(MESH_PLOT, drawing%n_inner, drawing%lines%n_runs - 1, 'lt 1 lw 1.2 lc rgb "#808080"', curves)
       call add_rigid_lines(MESH_PLOT, drawing, 'lt 1 lw 4 lc rgb "#404040"', .false., curves)
-      do i = 0, N_STATES - 1
-         if (has_state(i)) call append_string(curves, '"'//TRACTION_PLOT//'.dat" using '//MOVED//':($7 == '//to_text(i)// &
-                                              ' ? arrow*$5 : NaN):(arrow*$6) with vectors filled size screen head,18 lt 1'// &
-                                              ' lw 1.2 lc rgb "'//COLOUR(STATE_COLOUR(i))//'" title "'//trim(STATE_WORD(i))//'"')
-      end do
-      call put_plot(plots, curves)
+      call put_plot(plots, [curves, symbols%curves])
       drawing%window = window
    end subroutine write_traction_plot
 
-   !> Points with their tractions. The window is widened to their arrows.
-   subroutine write_tractions(plots, drawing, arrow, stride, has_state)
-      type(plots_t), intent(inout) :: plots
-      type(drawing_t), intent(inout) :: drawing
+   !> A block of arrows a state, none nearer to another than can be seen, and the lines through the ends of all.
+   subroutine put_tractions(results, arrow, symbols, n_drawn, n)
+      type(results_t), intent(in) :: results
       real(wp), intent(in) :: arrow                 !< length of a traction of one [L]
-      integer(ip), intent(in) :: stride             !< one of so many points has an arrow
-      logical, intent(out) :: has_state(0:)
-      real(wp) :: t(2), tip(2)
-      integer(ip) :: pair, j, i, state, n
+      type(symbols_t), intent(inout) :: symbols
+      integer(ip), intent(out) :: n_drawn, n        !< arrows, and points that are not too small for one
+      real(wp), dimension(2, sum(results%contact%n)) :: place, u, t
+      integer(ip) :: state(size(t, 2)), pair, j, i
+      logical :: is_drawn(size(t, 2)), goes_on(size(t, 2))
 
-      call begin_data(plots, TRACTION_PLOT, &
-                      'columns: x [L]  y [L]  u1 [L]  u2 [L]  traction upon the slave along x and y [F/L^2]  state')
-      has_state = .false.
-      n = 0
-      do pair = 1, pair_count(drawing%results)
-         associate (contact => drawing%results%contact(pair))
+      i = 0
+      do pair = 1, pair_count(results)
+         associate (contact => results%contact(pair))
             do j = 1, contact%n
-               t = traction(contact, j)
-               if (.not. all(ieee_is_finite(t))) cycle
-               if (all(abs(t) <= 0.0_wp)) cycle
-               n = n + 1
-               if (mod(n - 1, stride) > 0) cycle
-               state = state_of(contact%status(j), contact%has_friction)
-               has_state(state) = .true.
-               tip = contact%x(:, j) + drawing%scale*contact%u(:, j) + arrow*t
-               do i = 1, 2
-                  call cover(drawing%window(i), tip(i:i))
-               end do
-               call put_place(plots, [contact%x(:, j), contact%u(:, j)], trimmed_real(t(1), ARROW_DIGITS)//' '// &
-                              trimmed_real(t(2), ARROW_DIGITS)//' '//to_text(state))
+               i = i + 1
+               t(:, i) = traction(contact, j)
+               u(:, i) = contact%u(:, j)
+               place(:, i) = contact%x(:, j) + symbols%scale*u(:, i)
+               state(i) = state_of(contact%status(j), contact%has_friction)
+               goes_on(i) = j < contact%n
+               if (goes_on(i)) goes_on(i) = contact%follows(j + 1)
             end do
          end associate
       end do
-   end subroutine write_tractions
+      where (.not. (ieee_is_finite(t) .and. ieee_is_finite(place))) t = 0.0_wp
+      is_drawn = norm2(t, dim=1)*arrow >= SHORTEST*symbols%pixel
+      n = count(is_drawn, kind=ip)
+      is_drawn = unpack(thinned(place(:, pack([(i, i=1, size(is_drawn, kind=ip))], is_drawn)), BETWEEN*symbols%pixel), is_drawn, &
+                        .false.)
+      n_drawn = count(is_drawn, kind=ip)
+      do j = 0, N_STATES - 1
+         call begin_block(symbols, trim(STATE_WORD(j)), ':(arrow*$5):(arrow*$6)', 'with vectors '//trim(HEAD(j))// &
+                          ' head size screen 0.009,18 lt 1 lw 1.2 '//trim(STATE_DASH(j))//' lc rgb "'//COLOUR(STATE_COLOUR(j))// &
+                          '" title "'//trim(STATE_WORD(j))//'"')
+         do i = 1, size(state, kind=ip)
+            if (is_drawn(i) .and. state(i) == j) call put_traction(i)
+         end do
+      end do
+      call begin_block(symbols, 'ends of the arrows of all points', '', 'with lines lt 1 lw 0.8 lc rgb "#909090"', &
+                       '($1 + scale*$3 + arrow*$5):($2 + scale*$4 + arrow*$6)')
+      do i = 1, size(state, kind=ip)
+         call put_traction(i, goes_on(i))
+      end do
+
+   contains
+
+      subroutine put_traction(point, to_next)
+         integer(ip), intent(in) :: point
+         logical, intent(in), optional :: to_next   !< a line goes on
+
+         call put_text(symbols, u(:, point), place(:, point) - symbols%scale*u(:, point), &
+                       trimmed_real(t(1, point), ARROW_DIGITS)//' '//trimmed_real(t(2, point), ARROW_DIGITS), to_next)
+         call widen(symbols, reshape(place(:, point) + arrow*t(:, point), [2, 1]))
+      end subroutine put_traction
+
+   end subroutine put_tractions
 
    !> Whether a run has this picture: the deck asks for its joints and there are some.
    pure logical function has_joint_plot(model, results)
@@ -157,9 +188,10 @@ contains
 
    !> Writes joints.dat and joints.gp beside mesh.dat.
    subroutine write_joint_plot(plots, drawing)
-      type(plots_t), intent(inout) :: plots
+      type(plots_t), intent(inout), target :: plots
       type(drawing_t), intent(in) :: drawing        !< that of the mesh, with joints
-      type(string_t), allocatable :: lines(:), curves(:)    ! curves: of joints.dat, one a block
+      type(symbols_t) :: symbols
+      type(string_t), allocatable :: curves(:)
       real(wp) :: share(size(drawing%results%joints)), smaller, largest
 
       associate (joints => drawing%results%joints)
@@ -167,68 +199,54 @@ contains
          share = 0.0_wp
          where (.not. is_nan(joints%place(1))) share = joints%n/largest
          smaller = min(1.0_wp, max(0.45_wp, sqrt(MANY_JOINTS/real(max(1, size(joints)), wp))))
-         call begin_data(plots, JOINT_PLOT, 'joints by state, the line of thrust by width, places of the resultants; columns: '// &
-                         'x [L]  y [L]  u1 [L]  u2 [L], and n over the largest n of the places')
-         allocate (curves(0))
-         call put_states(plots, drawing%results, curves)
-         call put_thrust(plots, joints, share, curves)
-         call put_places(plots, joints, share, 'n up to '//to_text(largest, 4)//' [F]', curves)
+         call begin_symbols(plots, JOINT_PLOT, 'joints by state, the line of thrust by width, places of the resultants; '// &
+                            'columns: x [L]  y [L]  u1 [L]  u2 [L], and n over the largest n of the places', drawing, symbols)
+         call put_states(drawing%results, symbols)
+         call put_thrust(joints, share, symbols)
+         call put_places(joints, share, 'n up to '//to_text(largest, 4)//' [F]', symbols)
+         call end_symbols(symbols)
       end associate
       call begin_script(plots, JOINT_PLOT, 'the joints and the line of thrust', &
                         'Columns of '//MESH_PLOT//'.dat and '//JOINT_PLOT//'.dat: 1 x [L], 2 y [L], 3 u1 [L], 4 u2 [L]; '// &
                         '5 n over the largest n')
-      call put_head(plots, drawing, 'moved = "'//MOVED//'"'//LF)
+      call put_head(plots, drawing, '')
       call put_plane(plots, drawing)
       call put_title(plots, scale_title(drawing))
       call put(plots, 'marker = '//to_text(2.0_wp*smaller, 3)//'*dot'//LF//'thrust_width = '//to_text(0.8_wp*smaller, 3)//LF// &
                'joint_width = '//to_text(2.0_wp + 2.0_wp*smaller, 3))
-      lines = outlines(drawing)                     ! gfortran 12 loses what a function in an array constructor allocates
-      call put_plot(plots, [lines, curves])
+      call add_lines(MESH_PLOT, drawing%n_inner, drawing%lines%n_runs - 1, 'ls 30 title "undeformed"', curves, '1:2')
+      call add_lines(MESH_PLOT, drawing%n_inner, drawing%lines%n_runs - 1, 'lt 1 lw 1 lc rgb "#707070"', curves)
+      call add_rigid_lines(MESH_PLOT, drawing, 'ls 31', .false., curves)
+      call put_plot(plots, [curves, symbols%curves])
    end subroutine write_joint_plot
 
-   !> The outlines, undeformed and deformed, and rigid surfaces.
-   pure function outlines(drawing) result(curves)
-      type(drawing_t), intent(in) :: drawing
-      type(string_t), allocatable :: curves(:)
-      character(len=:), allocatable :: lines
-
-      lines = '"'//MESH_PLOT//'.dat" index '//to_text(drawing%n_inner)//':'//to_text(drawing%lines%n_runs - 1)
-      call append_string(curves, lines//' using 1:2 with lines lt 1 lw 1 lc rgb "#C8C8C8" title "undeformed"')
-      call append_string(curves, lines//' using @moved with lines lt 1 lw 1 lc rgb "#707070"')
-      associate (n => drawing%lines%n_runs, n_rigid => size(drawing%surface, kind=ip))
-         if (n_rigid > 0) call append_string(curves, '"'//MESH_PLOT//'.dat" index '//to_text(n)//':'//to_text(n + n_rigid - 1)// &
-                                             ' using 1:2 with lines lt 1 lw 4 lc rgb "#404040"')
-      end associate
-   end function outlines
-
    !> A block a state: what its points have of the joints, from middle to middle between the points.
-   subroutine put_states(plots, results, curves)
-      type(plots_t), intent(inout) :: plots
+   subroutine put_states(results, symbols)
       type(results_t), intent(in) :: results
-      type(string_t), allocatable, intent(inout) :: curves(:)
+      type(symbols_t), intent(inout) :: symbols
+      real(wp) :: v(4, 3)
       character(len=:), allocatable :: word
       integer(ip) :: state, i, j
-      logical :: begun
+      integer :: first, last
 
       do state = 0, N_STATES - 1
-         begun = .false.
          word = trim(STATE_WORD(state))
+         call begin_block(symbols, word, '', 'with lines lt 1 '//trim(STATE_DASH(state))//' lw joint_width lc rgb "'// &
+                          COLOUR(STATE_COLOUR(state))//'" title "'//word//'"')
          do i = 1, size(results%contact, kind=ip)
             associate (contact => results%contact(i))
                do j = 1, contact%n
                   if (state_of(contact%status(j), contact%has_friction) /= state) cycle
-                  call begin_block(plots, word, ' using @moved with lines lt 1 lw joint_width lc rgb "'// &
-                                   COLOUR(STATE_COLOUR(state))//'" title "'//word//'"', begun, curves)
-                  if (contact%follows(j)) call put_place(plots, 0.5_wp*(at_point(contact, j - 1) + at_point(contact, j)))
-                  call put_place(plots, at_point(contact, j))
-                  if (j < contact%n) then
-                     if (contact%follows(j + 1)) call put_place(plots, 0.5_wp*(at_point(contact, j) + at_point(contact, j + 1)))
-                  end if
-                  call put(plots, '')
+                  first = merge(1, 2, contact%follows(j))
+                  last = 2
+                  if (j < contact%n) last = merge(3, 2, contact%follows(j + 1))
+                  v(:, 2) = at_point(contact, j)
+                  if (first == 1) v(:, 1) = 0.5_wp*(at_point(contact, j - 1) + v(:, 2))
+                  if (last == 3) v(:, 3) = 0.5_wp*(v(:, 2) + at_point(contact, j + 1))
+                  call put_path(symbols, v(3:, first:last), v(:2, first:last))
                end do
             end associate
          end do
-         if (begun) call put(plots, '')
       end do
    end subroutine put_states
 
@@ -241,34 +259,29 @@ contains
    end function at_point
 
    !> A block a width: pieces from the places of a body's joints to their mean.
-   subroutine put_thrust(plots, joints, share, curves)
-      type(plots_t), intent(inout) :: plots
+   subroutine put_thrust(joints, share, symbols)
       type(joint_t), intent(in) :: joints(:)
       real(wp), intent(in) :: share(:)              !< n over the largest n; 0 for a joint that is open
-      type(string_t), allocatable, intent(inout) :: curves(:)
+      type(symbols_t), intent(inout) :: symbols
       real(wp), allocatable :: mean(:, :)
       integer(ip), allocatable :: n_joints(:)
       integer(ip) :: width, i, side
-      logical :: begun
 
       call find_means(joints, share, mean, n_joints)
       do width = 1, N_WIDTHS
-         begun = .false.
+         call begin_block(symbols, 'line of thrust, width '//to_text(width), '', 'with lines lt 1 lw '//to_text(width)// &
+                          '*thrust_width lc rgb "black"')
          do i = 1, size(joints, kind=ip)
             if (share(i) < LEAST_SHARE .or. min(N_WIDTHS, int(share(i)*N_WIDTHS, ip) + 1) /= width) cycle
             do side = 1, 2
                associate (body => joints(i)%bodies(side))
                   if (body == 0) cycle
                   if (n_joints(body) < 2) cycle
-                  call begin_block(plots, 'line of thrust, width '//to_text(width), ' using @moved with lines lt 1 lw '// &
-                                   to_text(width)//'*thrust_width lc rgb "black"', begun, curves)
-                  call put_place(plots, [joints(i)%place, joints(i)%u])
-                  call put_place(plots, mean(:, body))
-                  call put(plots, '')
+                  call put_path(symbols, reshape([joints(i)%u, mean(3:, body)], [2, 2]), &
+                                reshape([joints(i)%place, mean(:2, body)], [2, 2]))
                end associate
             end do
          end do
-         if (begun) call put(plots, '')
       end do
    end subroutine put_thrust
 
@@ -301,35 +314,18 @@ contains
    end subroutine find_means
 
    !> The last block: places of the resultants, with n over the largest n.
-   subroutine put_places(plots, joints, share, legend, curves)
-      type(plots_t), intent(inout) :: plots
+   subroutine put_places(joints, share, legend, symbols)
       type(joint_t), intent(in) :: joints(:)
       real(wp), intent(in) :: share(:)
       character(len=*), intent(in) :: legend
-      type(string_t), allocatable, intent(inout) :: curves(:)
+      type(symbols_t), intent(inout) :: symbols
       integer(ip) :: i
-      logical :: begun
 
-      begun = .false.
+      call begin_block(symbols, 'places of the resultants', ':(marker*(0.15 + 0.85*sqrt($5)))', &
+                       'with points pt 7 ps variable lc rgb "black" title "line of thrust, '//legend//'"')
       do i = 1, size(joints, kind=ip)
-         if (share(i) < LEAST_SHARE) cycle
-         call begin_block(plots, 'places of the resultants', ' using @moved:(marker*(0.15 + 0.85*sqrt($5)))'// &
-                          ' with points pt 7 ps variable lc rgb "black" title "line of thrust, '//legend//'"', begun, curves)
-         call put_place(plots, [joints(i)%place, joints(i)%u], trimmed_real(share(i), DIGITS))
+         if (share(i) >= LEAST_SHARE) call put_point(symbols, joints(i)%u, joints(i)%place, [share(i)])
       end do
    end subroutine put_places
-
-   !> Begins a block of joints.dat unless it is begun, and adds the curve that it is.
-   subroutine begin_block(plots, what, curve, begun, curves)
-      type(plots_t), intent(inout) :: plots
-      character(len=*), intent(in) :: what, curve
-      logical, intent(inout) :: begun
-      type(string_t), allocatable, intent(inout) :: curves(:)
-
-      if (begun) return
-      begun = .true.
-      call put(plots, '# '//what)
-      call append_string(curves, '"'//JOINT_PLOT//'.dat" index '//to_text(size(curves, kind=ip))//curve)
-   end subroutine begin_block
 
 end module atrito_force_plots

@@ -2,7 +2,7 @@
 !>
 !> The first script reads history.tab in the folder above; the second one has loop.dat, for the mean slip is in no table.
 module atrito_history_plot
-   use atrito_contact_plot, only: pair_title
+   use atrito_contact_plot, only: pair_title, pair_legend
    use atrito_increments, only: has_history
    use atrito_kinds, only: ip, wp
    use atrito_model, only: model_t, FRICTION_LOCAL, FRICTION_NONE
@@ -11,8 +11,9 @@ module atrito_history_plot
    use atrito_plot_scripts, only: plots_t, put, begin_data, begin_script, put_table, put_terminal, put_frame, put_panel
    use atrito_plot_text, only: range_t, cover, padded, span, range_of, quoted, picture_title, engineering_exponent, power_text, &
                                colour_styles, LF, N_COLOURS, GREEK_NU, PLUS_MINUS
-   use atrito_results, only: history_t, history_row_t, last_frame
+   use atrito_results, only: history_t, history_row_t, results_t, last_frame
    use atrito_strings, only: to_text
+   use atrito_summary, only: pair_name
    use atrito_write_tables, only: origin_of
    implicit none (type, external)
    private
@@ -138,13 +139,13 @@ contains
       call put_titles(plots, model, history, 'with the largest forces')
       call put_frame(plots, merge(4_ip, 3_ip, friction), range_of([0.0_wp, history%rows%time]), '"time"')
       call put(plots, 'height = 145 + 230*panels; top(i) = 1 - (85.0 + (i - 1)*230)/height   # room for the steps'//LF// &
-               'right = '//merge('0.85', '0.95', many .or. shows_bound(model, history%rows)))
+               'right = '//merge('0.80', '0.95', many .or. shows_bound(model, history%rows)))
       call put_terminal(plots, '1000,height')
       call put_styles(plots, history%rows)
       call put(plots, 'set multiplot title heading."\n".pair_line noenhanced')
       call put_steps(plots, history%rows)
       call put_panel(plots, 1_ip, 'normal resultant', 'F', range_of([0.0_wp, shown%normal]))
-      call put_curves(plots, COLUMN_NORMAL, history%rows, '', with_legend=many)
+      call put_curves(plots, COLUMN_NORMAL, history%rows, '', last=history%frames(last_frame(history)))
       do i = 1, min(MOST_STEPS, size(step_ends(history%rows), kind=ip))
          call put(plots, 'unset label '//to_text(i + 10_ip))
       end do
@@ -161,16 +162,16 @@ contains
                      ', table using 3:(-'//nu//'*$5/unit) with lines ls 8'
          end if
          call put_panel(plots, 2_ip, 'shear resultant', 'F', range)
-         call put_curves(plots, COLUMN_SHEAR, history%rows, bounds, with_legend=.false.)
+         call put_curves(plots, COLUMN_SHEAR, history%rows, bounds)
       else
          call put_panel(plots, 2_ip, 'largest pressure', 'F/L^2', range_of([0.0_wp, shown%max_pressure]))
-         call put_curves(plots, COLUMN_PRESSURE, history%rows, '', with_legend=.false.)
+         call put_curves(plots, COLUMN_PRESSURE, history%rows, '')
       end if
       call put_panel(plots, 3_ip, 'contact length', 'L', range_of([0.0_wp, shown%length]))
-      call put_curves(plots, COLUMN_LENGTH, history%rows, '', with_legend=.false.)
+      call put_curves(plots, COLUMN_LENGTH, history%rows, '')
       if (friction) then
          call put_panel(plots, 4_ip, 'dissipation', 'F L', range_of([0.0_wp, shown%dissipation]))
-         call put_curves(plots, COLUMN_DISSIPATION, history%rows, '', with_legend=.false.)
+         call put_curves(plots, COLUMN_DISSIPATION, history%rows, '')
       end if
       call put(plots, 'unset multiplot')
    end subroutine write_history_plot
@@ -239,12 +240,12 @@ contains
    end function shows_bound
 
    !> A curve a pair; the rows of the pairs alternate.
-   subroutine put_curves(plots, column, rows, more, with_legend)
+   subroutine put_curves(plots, column, rows, more, last)
       type(plots_t), intent(inout) :: plots
       integer(ip), intent(in) :: column             !< of history.tab
       type(history_row_t), intent(in) :: rows(:)
       character(len=*), intent(in) :: more          !< further curves, each behind a comma
-      logical, intent(in) :: with_legend
+      type(results_t), intent(in), optional :: last !< with the names of several pairs, for a legend
       integer(ip), allocatable :: pairs(:)
       character(len=:), allocatable :: line
       integer(ip) :: i
@@ -254,10 +255,18 @@ contains
       do i = 1, size(pairs, kind=ip)
          line = line//', table every '//to_text(maxval(rows%pair))//'::'//to_text(pairs(i) - 1_ip)//' using 3:(column('// &
                 to_text(column)//')/unit) with linespoints ls '//to_text(i)
-         if (with_legend) line = line//' title "pair '//to_text(pairs(i))//'"'
+         if (present(last) .and. maxval(rows%pair) > 1) line = line//legend_of(last, pairs(i))
       end do
       call put(plots, 'plot '//line(3:)//more)
    end subroutine put_curves
+
+   pure function legend_of(results, pair) result(text)
+      type(results_t), intent(in) :: results
+      integer(ip), intent(in) :: pair
+      character(len=:), allocatable :: text
+
+      text = ' title '//quoted(pair_legend(pair, pair_name(results, pair)))//' noenhanced'
+   end function legend_of
 
    !> Writes loop.dat, with a block a pair that is drawn, and loop.gp.
    subroutine write_loop_plot(plots, model, history)
@@ -283,7 +292,7 @@ contains
                         '5 time; a block a pair')
       call put_titles(plots, model, history, 'that slip most')
       call put_frame(plots, 1_ip, range_t(wide%low/10.0_wp**power, wide%high/10.0_wp**power), '""')
-      call put(plots, 'height = 620; bottom(i) = 70.0/height'//LF//'right = '//merge('0.95', '0.85', is_one)//LF// &
+      call put(plots, 'height = 620; bottom(i) = 70.0/height'//LF//'right = '//merge('0.95', '0.80', is_one)//LF// &
                'slip_unit = 1e'//to_text(power))
       call put_terminal(plots, '1000,height')
       call put_styles(plots, history%rows)
@@ -295,7 +304,7 @@ contains
       do i = 1, size(pairs, kind=ip)
          line = line//', "'//LOOP_PLOT//'.dat" index '//to_text(i - 1_ip)//' using ($1/slip_unit):(-$2/unit)'// &
                 ' with linespoints ls '//to_text(i)
-         if (size(pairs) > 1) line = line//' title "pair '//to_text(pairs(i))//'"'
+         if (size(pairs) > 1) line = line//legend_of(history%frames(last_frame(history)), pairs(i))
       end do
       call put(plots, 'plot '//line(3:)//LF//'unset multiplot')
    end subroutine write_loop_plot

@@ -4,8 +4,8 @@
 !> bodies and the contact points.
 module atrito_motion_plot
    use atrito_contact_plot, only: state_of, N_STATES, STATE_WORD, STATE_COLOUR
-   use atrito_drawing, only: drawing_t, begin_drawing, displace, displacement_scale, largest_length, put_lines, put_rigid_lines, &
-                             put_place, put_head, put_window, put_axes, MOVED
+   use atrito_drawing, only: drawing_t, begin_drawing, displace, displacement_scale, overlap_scale, largest_length, put_lines, &
+                             put_rigid_lines, put_place, put_head, put_window, put_axes, overlap_text, MOVED
    use atrito_increments, only: increment_name
    use atrito_kinds, only: ip, wp
    use atrito_model, only: model_t
@@ -68,13 +68,15 @@ contains
       type(history_t), intent(in), target :: history
       type(images_t), intent(inout) :: images
       type(results_t), pointer :: frame
-      real(wp) :: largest
+      real(wp) :: largest, reach
       integer(ip) :: i, pair, state
 
       largest = 0.0_wp
+      reach = huge(1.0_wp)
       do i = 1, size(images%frames, kind=ip)
          call view_frame(history, images%frames(i), frame)
          largest = max(largest, largest_length(frame%u))
+         reach = min(reach, overlap_scale(images%drawing%model, frame, images%drawing%size))
          do pair = 1, pair_count(frame)
             associate (contact => frame%contact(pair))
                if (contact%n > 0) images%pressure = max(images%pressure, maxval(contact%pressure(:contact%n)))
@@ -87,7 +89,7 @@ contains
       end do
       do i = 1, size(images%frames, kind=ip)
          call view_frame(history, images%frames(i), frame)
-         call displace(images%drawing, frame%u, largest, displacement_scale(largest, images%drawing%size))
+         call displace(images%drawing, frame%u, largest, displacement_scale(largest, images%drawing%size, reach), reach)
       end do
    end subroutine measure
 
@@ -159,8 +161,9 @@ contains
       call put_axes(plots)
       pressures = ''
       if (images%pressure > 0.0_wp) pressures = ', pressures up to '//to_text(images%pressure, 4)//' [F/L^2]'
-      call put(plots, 'set tmargin 4'//LF//'do for [k=1:images] {'//LF// &
-               'set label 1 heading.sprintf("\n%s; displacements drawn %g '//TIMES//pressures//'", name[k], scale)'// &
+      call put(plots, 'set tmargin 4'//LF//'do for [k=1:images] {')
+      call put(plots, 'set label 1 heading.sprintf("\n%s; displacements drawn %g '//TIMES// &
+               overlap_text(images%drawing)//pressures//'", name[k], scale)'// &
                ' at screen 0.5, screen 1 - 20.0/(0.8*height) center noenhanced')
       call put_image(plots, images, has_points(history%frames(size(history%frames))))
    end subroutine write_script
@@ -180,12 +183,12 @@ contains
       block = '"'//MOTION_PLOT//'.dat" index first'
       outlines = block//'+'//to_text(n_inner)//':first+'//to_text(n_lines - 1)//' using '
       call put(plots, 'first = '//to_text(n_rigid)//' + '//to_text(n_rigid + n_lines + merge(1, 0, has_contact))//'*(k - 1)')
-      call append_string(curves, outlines//'1:2 with lines ls 8 title "undeformed"')
+      call append_string(curves, outlines//'1:2 with lines ls 30 title "undeformed"')
       if (n_inner > 0) call append_string(curves, block//':first+'//to_text(n_inner - 1)//' using '//MOVED// &
                                           ' with lines lt 1 lw 1 lc rgb "#B0B0B0"')
       call append_string(curves, outlines//MOVED//' with lines lt 1 lw 2 lc rgb "#404040"')
       if (n_rigid > 0) call append_string(curves, '"'//MOTION_PLOT//'.dat" index first-'//to_text(n_rigid)//':first-1 using '// &
-                                          MOVED//' with lines ls 9 title "rigid"')
+                                          MOVED//' with lines ls 31 title "rigid"')
       if (has_contact) then
          points = block//'+'//to_text(n_lines)//' using '//MOVED//':'
          colours = '0'

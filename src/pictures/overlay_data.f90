@@ -5,6 +5,7 @@ module atrito_overlay_data
    use atrito_status, only: status_t, is_ok
    use atrito_read_table, only: table_file_t, read_table, table_path, find_column, item_text
    use atrito_plot_text, only: range_t, cover
+   use atrito_strings, only: to_text
    implicit none (type, external)
    private
    public :: overlay_t, overlay_run_t, overlay_pair_t, read_runs, is_logarithmic, field_t, FIELDS, QUANTITIES, LONGEST_LABEL
@@ -50,6 +51,7 @@ module atrito_overlay_data
 
    !> A contact pair over all runs.
    type :: overlay_pair_t
+      character(len=:), allocatable :: name        !< `OVER-BOTTOM on SUPPORT-TOP`; empty where no table tells it
       type(range_t) :: s
       type(range_t) :: field(size(FIELDS))
       integer(ip) :: most_points = 0
@@ -85,6 +87,7 @@ contains
       type(overlay_t), intent(inout) :: overlay    !< label, path and value of the runs are given
       type(table_file_t) :: table
       type(status_t) :: status
+      integer(ip) :: k
       integer :: i
 
       allocate (overlay%pairs(0))
@@ -96,28 +99,30 @@ contains
             if (.not. is_ok(status)) cycle
             run%not_converged = table%not_converged
             overlay%is_csv = table%is_csv
-            if (len(overlay%title) == 0) overlay%title = heading_of(table%text)
+            if (len(overlay%title) == 0) overlay%title = comment_of(table%text, 'heading')
             call cover_run(table, run, overlay%pairs)
+            do k = 1, size(overlay%pairs, kind=ip)
+               overlay%pairs(k)%name = comment_of(table%text, 'pair '//to_text(k))
+            end do
             call read_table(table_path(run%path, 'summary'), table, status)
             if (is_ok(status)) call take_quantities(table, run)
          end associate
       end do
    end subroutine read_runs
 
-   !> The first line `# heading: ...` of a table.
-   pure function heading_of(text) result(heading)
-      character(len=*), intent(in) :: text
-      character(len=:), allocatable :: heading
-      character(len=*), parameter :: MARK = new_line('a')//'# heading: '
+   !> The first line `# <what>: ...` of a table, without its mark; empty where there is none.
+   pure function comment_of(text, what) result(comment)
+      character(len=*), intent(in) :: text, what
+      character(len=:), allocatable :: comment
       integer :: first, length
 
-      heading = ''
-      first = index(text, MARK)
+      comment = ''
+      first = index(text, new_line('a')//'# '//what//': ')
       if (first == 0) return
-      first = first + len(MARK)
+      first = first + len(what) + 5
       length = index(text(first:), new_line('a')) - 1
-      if (length > 0) heading = trim(text(first:first + length - 1))
-   end function heading_of
+      if (length > 0) comment = trim(text(first:first + length - 1))
+   end function comment_of
 
    !> The last increment of a run, and the ranges of the pairs widened by what they have in it.
    subroutine cover_run(table, run, pairs)

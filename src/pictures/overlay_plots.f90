@@ -3,7 +3,7 @@
 !>
 !> As with the pictures of a run, a failure is a warning, W-PLOT.
 module atrito_overlay_plots
-   use atrito_contact_plot, only: put_contact_columns
+   use atrito_contact_plot, only: put_contact_columns, pair_legend
    use atrito_gnuplot, only: draw_written
    use atrito_kinds, only: ip, wp
    use atrito_number_text, only: trimmed_real
@@ -25,6 +25,7 @@ module atrito_overlay_plots
    integer, parameter :: MOST_NAMED = 30            !< runs named beside the colour bar
    integer, parameter :: MOST_MARKED = 40           !< points of a curve that has markers
    integer, parameter :: LONGEST_TITLE = 100        !< characters
+   integer, parameter :: MOST_NUMBERS = 8           !< of runs whose values are the numbers at an axis
    real(wp), parameter :: WIDEST = 0.78_wp          !< right end of the panels, as a share of the width
 
    real(wp), parameter :: LEAST_SPAN = 0.02_wp      !< of an axis, as a share of the value: what hardly varies is drawn so
@@ -139,7 +140,7 @@ contains
          call put_contact_columns(plots, number, '', 'last_step[i]', 'last_increment[i]')
          call put_runs(plots, runs, overlay%is_csv)
          call put(plots, 'heading = '//quoted(overlay%title)//LF// &
-                  'pair_line = '//quoted('pair '//to_text(number)//cleaned(doubt, LONGEST_TITLE)))
+                  'pair_line = '//quoted(cleaned(pair_line(number, pair%name)//doubt, LONGEST_TITLE)))
          call put_frame(plots, size(shown, kind=ip), along, '"s [L]"')
          call put(plots, 'right = '//to_text(min(WIDEST, 0.925_wp - 0.009_wp*real(label_width, wp)), 3)// &
                   '   # leaves room for the names')
@@ -156,6 +157,16 @@ contains
       end associate
       call put(plots, 'unset multiplot')
    end subroutine write_overlay
+
+   !> `pair 1: OVER-BOTTOM on SUPPORT-TOP`, or `pair 1`.
+   pure function pair_line(number, name) result(text)
+      integer(ip), intent(in) :: number
+      character(len=*), intent(in) :: name
+      character(len=:), allocatable :: text
+
+      text = 'pair '//to_text(number)
+      if (len(name) > 0) text = text//': '//name
+   end function pair_line
 
    !> Folder, name and value of each run.
    subroutine put_runs(plots, list, is_csv)
@@ -249,6 +260,7 @@ contains
       type(plots_t), intent(inout) :: plots
       type(overlay_t), intent(in) :: overlay
       type(overlay_t) :: sorted
+      character(len=:), allocatable :: heading
       integer(ip) :: i, n
       logical :: doubt
 
@@ -262,9 +274,15 @@ contains
          call begin_script(plots, OVERLAY_SUMMARY, 'quantities of several runs against the parameter that varies', &
                            'Columns of overlay-summary.dat: 1 parameter, 2 normal resultant [F], 3 effective area [%],'//LF// &
                            '# 4 largest pressure [F/L^2], 5 largest shear [F/L^2], 6 is 1 if not converged; a block a pair')
-         call put(plots, 'pairs = '//to_text(size(overlay%pairs, kind=ip))//LF//'heading = '//quoted(overlay%title))
+         call put(plots, 'pairs = '//to_text(size(overlay%pairs, kind=ip))//LF//'array name[pairs]')
+         do i = 1, size(overlay%pairs, kind=ip)
+            call put(plots, 'name['//to_text(i)//'] = '//quoted(pair_legend(i, overlay%pairs(i)%name)))
+         end do
+         heading = quoted(overlay%title)
+         if (is_one) heading = heading//'."\n".'//quoted(cleaned(pair_line(1_ip, overlay%pairs(1)%name), LONGEST_TITLE))
+         call put(plots, 'heading = '//heading)
          call put_frame(plots, n, parameter_range(runs%value), quoted(overlay%parameter))
-         if (is_logarithmic(runs%value)) call put(plots, 'set logscale x; x_format = "10^{%T}"')
+         call put_parameter_axis(plots, runs%value)
          if (is_one .and. .not. doubt) call put(plots, 'right = 0.95')   ! no legend
          call put_terminal(plots, '1000,height')
          call put(plots, 'set multiplot title heading noenhanced'//LF//colour_styles(' lw 1.8 pt 7 ps 0.9*dot'))
@@ -274,6 +292,31 @@ contains
       end associate
       call put(plots, 'unset multiplot')
    end subroutine write_summary_plot
+
+   !> A parameter whose values span decades has a logarithmic axis; where 0 is among them, one that is straight from 0 to the least
+   !> of the others. Of few values these are the numbers at the axis.
+   subroutine put_parameter_axis(plots, values)
+      type(plots_t), intent(inout) :: plots
+      real(wp), intent(in) :: values(:)             !< growing
+      character(len=:), allocatable :: numbers, least
+      integer :: i
+
+      if (is_logarithmic(values)) then
+         call put(plots, 'set logscale x; x_format = "10^{%T}"')
+      else if (is_logarithmic(pack(values, values > 0.0_wp)) .and. minval(values) >= 0.0_wp) then
+         least = to_text(minval(values, mask=values > 0.0_wp), 12)
+         call put(plots, 'least = '//least//LF//'set nonlinear x via x > least ? 1 + log10(x/least) : x/least '// &
+                  'inverse x > 1 ? least*10**(x - 1) : x*least')
+      else
+         return
+      end if
+      if (size(values) > MOST_NUMBERS) return
+      numbers = ''
+      do i = 1, size(values)
+         numbers = numbers//', '//to_text(values(i), 6)
+      end do
+      call put(plots, 'set xtics ('//numbers(3:)//'); x_format = "%g"')
+   end subroutine put_parameter_axis
 
    !> The runs with a summary, by growing value, so that lines go from left to right.
    pure function sort_by_value(list) result(sorted)
@@ -322,6 +365,8 @@ contains
       if (is_logarithmic(values)) then
          factor = (range%high/range%low)**0.03_wp
          range = range_t(range%low/factor, range%high*factor)
+      else if (is_logarithmic(pack(values, values > 0.0_wp)) .and. range%low >= 0.0_wp) then
+         range = range_t(-0.15_wp*minval(values, mask=values > 0.0_wp), 1.3_wp*range%high)
       else
          range = padded(range)
       end if
@@ -343,10 +388,16 @@ contains
       room = LEAST_SPAN*max(abs(range%low), abs(range%high))
       if (range%low <= range%high .and. span(range) < room) range = range_t(range%low - room, range%high + room)
       call put_panel(plots, place, trim(QUANTITIES(place)%label), trim(QUANTITIES(place)%dimension), range)
+      if (is_logarithmic([(runs(i)%quantity(place, :), i=1, size(runs))])) then
+         call put(plots, 'set logscale y; set yrange ['//to_text(range%low/1.5_wp, 6)//'/unit:'//to_text(range%high*1.5_wp, 6)// &
+                  '/unit]; set format y "10^{%T}"')
+      else
+         call put(plots, 'unset logscale y; set format y "%h"')
+      end if
       column = to_text(place + 1)
       line = 'plot for [i=1:pairs] "overlay-summary.dat" index i-1 using 1:($'//column// &
              '/unit) with linespoints ls (i-1)%'//to_text(N_COLOURS)//'+1'
-      if (place == 1 .and. has_pairs) line = line//' title sprintf("pair %d", i)'
+      if (place == 1 .and. has_pairs) line = line//' title name[i] noenhanced'
       if (has_doubt) line = line//', "overlay-summary.dat" using 1:($6 > 0 ? $'//column//'/unit : NaN) with points pt 6 lw 1.5 '// &
                             'ps 2*dot lc rgb "black"'
       if (place == 1 .and. has_doubt) line = line//' title "not converged"'

@@ -12,14 +12,16 @@ module atrito_plot_text
    implicit none (type, external)
    private
    public :: range_t, cover, padded, range_text, span, range_of
-   public :: quoted, cleaned, picture_title, scene_title, engineering_exponent, power_text, colour_styles, evenly
-   public :: LF, COLOUR, N_COLOURS, GREEK_NU, GREEK_EPSILON, GREEK_RHO, GREEK_DELTA, PLUS_MINUS, TIMES
+   public :: quoted, cleaned, picture_title, scene_title, engineering_exponent, power_text, colour_styles, evenly, round_step
+   public :: log_axis
+   public :: LF, COLOUR, N_COLOURS, MOST_STYLES, GREEK_NU, GREEK_EPSILON, GREEK_RHO, GREEK_DELTA, PLUS_MINUS, TIMES
 
    character(len=1), parameter :: LF = achar(10)    !< between lines that are put together
    !> The palette of Okabe and Ito, made for colour-blind readers, without its yellow, which is too pale for lines.
    integer(ip), parameter :: N_COLOURS = 7
    character(len=7), parameter :: COLOUR(N_COLOURS) = &
                                   ['#0072B2', '#D55E00', '#009E73', '#CC79A7', '#56B4E9', '#E69F00', '#000000']
+   integer(ip), parameter :: MOST_STYLES = 3*N_COLOURS  !< colours that can be told apart
    !> Letters in UTF-8.
    character(len=2), parameter :: GREEK_NU = char(206)//char(189), GREEK_EPSILON = char(206)//char(181), &
                                   GREEK_RHO = char(207)//char(129), GREEK_DELTA = char(206)//char(180), &
@@ -196,18 +198,72 @@ contains
       if (power /= 0) text = '10^{'//to_text(power)//'} '
    end function power_text
 
-   !> The line styles 1 to N_COLOURS, one a colour: lines of a script.
-   pure function colour_styles(looks) result(text)
+   !> The line styles from 1 on, one a colour: lines of a script.
+   pure function colour_styles(looks, n) result(text)
       character(len=*), intent(in) :: looks         !< what they have beside it, with a blank before it
+      integer(ip), intent(in), optional :: n        !< how many, MOST_STYLES at the most; default: N_COLOURS
       character(len=:), allocatable :: text
-      integer(ip) :: i
+      integer(ip) :: i, last
 
+      last = N_COLOURS
+      if (present(n)) last = min(n, MOST_STYLES)
       text = ''
-      do i = 1, N_COLOURS
-         text = text//LF//'set style line '//to_text(i)//' lt 1'//looks//' lc rgb "'//COLOUR(i)//'"'
+      do i = 1, last
+         text = text//LF//'set style line '//to_text(i)//' lt 1'//looks//' lc rgb "'//colour_of(i)//'"'
       end do
       text = text(2:)
    end function colour_styles
+
+   !> The colour of a style: those of the palette, then they with half of their light, then half way to white.
+   pure function colour_of(i) result(colour_text)
+      integer(ip), intent(in) :: i
+      character(len=7) :: colour_text
+      integer :: parts(3)
+
+      colour_text = COLOUR(mod(i - 1, N_COLOURS) + 1)
+      if (i <= N_COLOURS) return
+      read (colour_text(2:), '(3z2)') parts
+      parts = merge(parts/2, (parts + 255)/2, i <= 2*N_COLOURS)
+      if (i == 2*N_COLOURS) parts = 90              ! half of black is black
+      write (colour_text(2:), '(3z2.2)') parts
+   end function colour_of
+
+   !> Range and numbers of a logarithmic axis, for values that may lie within a decade: 1, 2, 5, 10, ..., of many the powers of ten.
+   pure function log_axis(axis, range, most) result(text)
+      character(len=1), intent(in) :: axis          !< x or y
+      type(range_t), intent(in) :: range            !< of the values, which are positive
+      integer(ip), intent(in) :: most               !< numbers that have room
+      character(len=:), allocatable :: text
+      integer(ip) :: n, power, i, stride
+      integer, parameter :: STEPS(3) = [1, 2, 5]
+
+      text = ''
+      n = 0
+      do power = floor(log10(range%low) - 0.2_wp, ip), ceiling(log10(range%high) + 0.2_wp, ip)
+         do i = 1, 3
+            if (STEPS(i)*10.0_wp**power < range%low/1.5_wp .or. STEPS(i)*10.0_wp**power > range%high*1.5_wp) cycle
+            n = n + 1
+            text = text//', '//to_text(STEPS(i)*10.0_wp**power, 6)
+         end do
+      end do
+      text = 'set '//axis//'range ['//to_text(range%low/1.5_wp, 6)//':'//to_text(range%high*1.5_wp, 6)//']; set '// &
+             axis//'tics ('//text(min(3, len(text) + 1):)//')'
+      if (n <= most) return
+      stride = 1 + int(log10(range%high/range%low)/most, ip)
+      text = text(:index(text, '(') - 1)//to_text(10.0_wp**stride)
+   end function log_axis
+
+   !> The first number of the series 1, 2, 5, 10, ... that is not less.
+   pure real(wp) function round_step(least) result(step)
+      real(wp), intent(in) :: least                 !< > 0
+      real(wp) :: power
+
+      power = 10.0_wp**floor(log10(least))
+      step = 10.0_wp*power
+      if (least <= 5.0_wp*power) step = 5.0_wp*power
+      if (least <= 2.0_wp*power) step = 2.0_wp*power
+      if (least <= power) step = power
+   end function round_step
 
    !> 1 to n, or evenly some of them, the first and the last among these.
    pure function evenly(n, most) result(list)

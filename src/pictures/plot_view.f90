@@ -1,4 +1,4 @@
-!> What a user asks of the pictures of bodies, `--plot-scale` and `--plot-box`.
+!> What a user asks of the pictures of bodies, `--plot-scale`, `--plot-box` and `--plot-labels`.
 module atrito_plot_view
    use atrito_kinds, only: wp
    use atrito_messages, only: add_warning
@@ -11,6 +11,7 @@ module atrito_plot_view
 
    type :: plot_view_t
       real(wp), allocatable :: scale                !< of the displacements, not negative; not allocated: by their size
+      logical :: labels = .false.                   !< numbers of nodes and elements, names of sets and surfaces
       real(wp), allocatable :: box(:)               !< (4) x1, y1, x2, y2 of what is shown, x1 < x2, y1 < y2 [L]; not allocated: all
    end type plot_view_t
 

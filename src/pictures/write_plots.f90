@@ -91,7 +91,7 @@ contains
       character(len=*), intent(in) :: folder                !< of the plots
       type(plot_view_t), intent(in) :: view
       type(status_t), intent(out) :: status
-      type(plots_t) :: plots
+      type(plots_t), target :: plots
       type(drawing_t) :: drawing
       integer(ip) :: i
 

@@ -180,12 +180,17 @@ contains
    end subroutine add_list
 
    !> The lines of a text as they are.
-   pure subroutine add_pre(page, text)
+   pure subroutine add_pre(page, text, attributes)
       type(page_t), intent(inout) :: page
       character(len=*), intent(in) :: text
+      character(len=*), intent(in), optional :: attributes   !< with a blank before them
       integer :: first, last
 
-      call add_line(page, '<pre>')
+      if (present(attributes)) then
+         call add_line(page, '<pre'//attributes//'>')
+      else
+         call add_line(page, '<pre>')
+      end if
       first = 1
       do while (first <= len(text))
          last = index(text(first:), achar(10))

@@ -11,7 +11,7 @@ module atrito_html_table
    use atrito_table, only: MARK_COLUMNS, MARK_DIMENSIONS, MARK_NOT_CONVERGED
    implicit none (type, external)
    private
-   public :: table_top_t, read_top, top_of_text, shown_item, dimension_of, is_rounded, ALL_ROWS, add_table, begin_rows, end_rows, &
+   public :: table_top_t, read_top, top_of_text, shown_item, dimension_of, ALL_ROWS, add_table, begin_rows, end_rows, &
              add_cells, add_named_row, MOST_ROWS, MANY_COLUMNS
 
    integer(ip), parameter :: ALL_ROWS = huge(1_ip)
@@ -151,14 +151,6 @@ contains
       end if
    end function shown_item
 
-   !> Whether any item that is shown has more digits in the file.
-   pure logical function is_rounded(top)
-      type(table_top_t), intent(in) :: top
-
-      is_rounded = .false.
-      if (top%table%n_rows > 0) is_rounded = any(top%table%kind == ITEM_REAL)
-   end function is_rounded
-
    !> Dimension of a quantity of a table with a row a quantity, from remarks as `[F L]: strain_energy external_work`; '' where the
    !> file names none.
    pure function dimension_of(top, quantity) result(dimension)
@@ -185,18 +177,16 @@ contains
       integer(ip) :: shown, first
       integer :: i
 
+      call add_line(page, '<div class="whole">')
       call add_element(page, 'h3', name)
       if (len(top%title) > 0) call add_note(page, top%title)
       do i = 1, merge(size(top%remarks), 0, size(top%remarks) <= MOST_REMARKS)
          call add_note(page, top%remarks(i)%s)
       end do
-      if (top%table%n_rows == 0) then
-         call add_element(page, 'p', 'The table has no rows.')
-         return
-      end if
       shown = min(top%table%n_rows, MOST_ROWS)
-      ! A row of the file becomes a column.
-      if (top%table%n_columns > MOST_COLUMNS) then
+      if (shown == 0) then
+         call add_element(page, 'p', 'The table has no rows.')
+      else if (top%table%n_columns > MOST_COLUMNS) then   ! a row of the file becomes a column
          do first = 1, shown, SIDE_BY_SIDE
             call add_turned(page, name, top, first, min(shown, first + SIDE_BY_SIDE - 1))
          end do
@@ -205,9 +195,8 @@ contains
       end if
       if (shown < top%n_rows) then
          call add_note(page, 'The first '//to_text(shown)//' of '//to_text(top%n_rows)//' rows; all are in '//top%table%name//'.')
-      else if (is_rounded(top)) then
-         call add_note(page, 'Numbers are rounded here; all digits are in '//top%table%name//'.')
       end if
+      call add_line(page, '</div>')
    end subroutine add_table
 
    subroutine add_upright(page, name, top, shown)

@@ -117,6 +117,8 @@ contains
       if (size(groups) == 0) return
       quantity = find_column(top%table, 'quantity')
       shown = min(size(groups, kind=ip), MOST_GROUPS)
+      call add_line(page, '<div class="whole">')
+      call add_element(page, 'h3', trim(merge('Quantities of the step ', 'Quantities of the pairs', of_steps)))
       call begin_rows(page, 'summary', .false.)
       call add_line(page, '<thead><tr><th class="word">quantity</th><th></th>')
       do i = 1, shown
@@ -141,6 +143,7 @@ contains
       call end_rows(page)
       if (shown < size(groups)) call add_note(page, 'The first '//to_text(shown)//' of '//to_text(size(groups, kind=ip))// &
                                               '; all are in '//top%table%name//'.')
+      call add_line(page, '</div>')
    end subroutine add_quantities
 
    !> The groups at the end of each step; where they would be too many, those at the end of the last step.

@@ -36,6 +36,7 @@ contains
       call begin_page(page, 80)
       allocate (left_out(0))
       free = room
+      if (size(names) > 0) call add_line(page, '<div class="pictures">')
       do i = 1, size(names)
          call choose_picture(plot_folder(folder), names(i)%s, free, picture)
          if (allocated(picture%bytes)) then
@@ -45,6 +46,7 @@ contains
             call append_string(left_out, names(i)%s)
          end if
       end do
+      if (size(names) > 0) call add_line(page, '</div>')
       if (size(left_out) > 0) call add_note(page, 'Left out, for the report would be too large: '//join(left_out, ', ')// &
                                             '. They are in '//plot_folder(folder)//'.')
    end subroutine compose_pictures

@@ -3,15 +3,15 @@ module atrito_report_sections
    use atrito_files, only: read_file
    use atrito_html, only: fact_t, add_fact, add_element, add_facts, add_note, add_pre, html_text, shortened
    use atrito_html_table, only: table_top_t, read_top, ALL_ROWS, add_table, MOST_ROWS
-   use atrito_kinds, only: ip
-   use atrito_messages, only: count_messages, get_message, format_message
+   use atrito_kinds, only: ip, lp
+   use atrito_messages, only: message_t, count_messages, get_message, format_message, SEVERITY_NOTE
    use atrito_page, only: page_t, add_line, plural
    use atrito_plot_files, only: plot_folder
    use atrito_report, only: report_t, page_section_t, begin_section, add_section
    use atrito_report_numbers, only: add_extremes, add_summary_numbers, add_quantities
    use atrito_residual_chart, only: add_residual_chart
    use atrito_status, only: status_t, is_ok
-   use atrito_strings, only: string_t, append_string, join, to_text
+   use atrito_strings, only: string_t, append_string, count_symbol, join, to_text
    implicit none (type, external)
    private
    public :: contents_t, read_contents, add_numbers, add_results, add_messages, add_sources
@@ -28,7 +28,8 @@ module atrito_report_sections
    character(len=*), parameter :: SUMMARY = 'summary', ITERATIONS = 'iterations', TIMING = 'timing', EXTREMES = 'extremes'
    !> Tables that come first.
    character(len=*), parameter :: FIRST(3) = [character(len=10) :: 'resultants', EXTREMES, 'sections']
-   integer(ip), parameter :: MOST_MESSAGES = 100
+   integer(ip), parameter :: MOST_NOTES = 100
+   integer, parameter :: WHOLE_DECK = 200, ENDS_OF_DECK(2) = [150, 40]   !< lines that are shown of a deck, and of a longer one
    integer, parameter :: MOST_LISTED = 200000       !< bytes of the listing
    integer, parameter :: LONGEST_VALUE = 4000       !< bytes of a line of parameters
    integer(ip), parameter :: MOST_FILES = 100
@@ -132,12 +133,11 @@ contains
                                                               to_text(size(report%pairs, kind=ip))//' pairs.')
          end if
          call add_quantities(section%page, contents%tops(i), .false.)
-         call add_section(sections, section)
-         call begin_section(section, 'Quantities of the step')
          call add_quantities(section%page, contents%tops(i), .true.)
          call add_section(sections, section)
       end if
       call begin_section(section, 'Tables')
+      if (size(contents%tops) > 0) call add_note(section%page, 'Reals have six digits here; all digits are in the files.')
       call add_tables(section%page, contents)
       call add_section(sections, section)
       i = place_of(contents, ITERATIONS)
@@ -178,19 +178,24 @@ contains
       end do
    end subroutine add_tables
 
-   !> Warnings and notes of the run, as they were printed.
+   !> All warnings of the run and its first notes, as they were printed.
    subroutine add_messages(report, sections)
       type(report_t), intent(in) :: report
       type(page_section_t), allocatable, intent(inout) :: sections(:)
       type(page_section_t) :: section
-      integer(ip) :: i
+      type(message_t) :: message
+      integer(ip) :: i, n_notes
 
       call begin_section(section, 'Messages')
       if (count_messages() == 0) call add_element(section%page, 'p', 'No warnings, no notes.')
-      do i = 1, min(count_messages(), MOST_MESSAGES)
-         call add_pre(section%page, shortened(join(format_message(get_message(i)), achar(10)), LONGEST_VALUE))
+      n_notes = 0
+      do i = 1, count_messages()
+         message = get_message(i)
+         if (message%severity == SEVERITY_NOTE) n_notes = n_notes + 1
+         if (message%severity /= SEVERITY_NOTE .or. n_notes <= MOST_NOTES) &
+            call add_pre(section%page, shortened(join(format_message(message), achar(10)), LONGEST_VALUE))
       end do
-      if (count_messages() > MOST_MESSAGES) call add_note(section%page, 'And '//to_text(count_messages() - MOST_MESSAGES)//' more.')
+      if (n_notes > MOST_NOTES) call add_note(section%page, 'And '//to_text(n_notes - MOST_NOTES)//' more notes.')
       if (allocated(report%other_messages)) call add_element(section%page, 'p', report%other_messages)
       call add_section(sections, section)
    end subroutine add_messages
@@ -230,6 +235,7 @@ contains
       if (size(report%pictures) > 0) call add_fact(places, 'pictures', &
                                                    plot_folder(report%folder)//': '//join(report%pictures, ', '))
       call add_plain('Files', places)
+      call add_deck(report, sections)
       call begin_section(section, 'Listing')
       do i = 1, n
          if (ending_of(report%files(i)%s) /= '.lst') cycle
@@ -253,5 +259,47 @@ contains
       end subroutine add_plain
 
    end subroutine add_sources
+
+   !> The deck as it was run, where its run wrote it, else as it stands in its file.
+   subroutine add_deck(report, sections)
+      type(report_t), intent(in) :: report
+      type(page_section_t), allocatable, intent(inout) :: sections(:)
+      type(page_section_t) :: section
+      character(len=:), allocatable :: path, text
+      type(status_t) :: status
+      integer :: i
+
+      path = report%deck
+      do i = 1, size(report%files)
+         if (ending_of(report%files(i)%s) == '.inp') path = report%folder//'/'//report%files(i)%s
+      end do
+      call read_file(path, text, status)
+      if (.not. is_ok(status)) return
+      call begin_section(section, 'Deck')
+      call add_note(section%page, path)
+      call add_pre(section%page, shortened(ends_of(text), MOST_LISTED), ' class="deck"')
+      call add_section(sections, section)
+   end subroutine add_deck
+
+   !> A text with some of its first and last lines, where it has many.
+   pure function ends_of(text) result(ends)
+      character(len=*), intent(in) :: text
+      character(len=:), allocatable :: ends
+      integer :: i, first, last
+      integer(lp) :: n
+
+      ends = text
+      n = count_symbol(text, achar(10))
+      if (n <= WHOLE_DECK) return
+      first = 0
+      do i = 1, ENDS_OF_DECK(1)
+         first = first + index(text(first + 1:), achar(10))
+      end do
+      last = len(text) + 1
+      do i = 0, ENDS_OF_DECK(2)
+         last = index(text(:last - 1), achar(10), back=.true.)
+      end do
+      ends = text(:first)//'   ... '//to_text(n - sum(ENDS_OF_DECK))//' lines ...'//text(last:)
+   end function ends_of
 
 end module atrito_report_sections

@@ -65,20 +65,26 @@ module atrito_write_report
                                   '@media (max-width:520px){main{padding:14px 12px 40px}h1{font-size:1.35rem}'//LF// &
                                   '.tiles{grid-template-columns:1fr 1fr;gap:8px}.tiles dd{font-size:1rem}'//LF// &
                                   '.plain div{grid-template-columns:1fr}.plain dd.small{grid-column:1}'//LF// &
-                                  'th,td{padding:.18em .45em}pre{font-size:11px}figure img{max-width:none;width:640px}}'//LF// &
+                                  'th,td{padding:.18em .45em}pre{font-size:11px}}'//LF// &
                                   '@page{size:A4;margin:14mm 13mm}'//LF// &
         '@media print{:root{color-scheme:light;--paper:#fff;--ink:#000;--soft:#444;--line:#bbb;--panel:#f6f6f6;--good:#064;'//LF// &
                                   '--good-paper:#fff;--bad:#900;--bad-paper:#fff;--accent:#0b5cad}'//LF// &
-                                  'body{font-size:10pt}main{max-width:none;padding:0}nav{display:none}'//LF// &
-                 'h1{font-size:16pt}h2{font-size:13pt;margin-top:1.4em}h2,h3,.note{break-after:avoid}footer{margin-top:1em}'//LF// &
+                 'body{font-size:9pt;line-height:1.3;orphans:1;widows:1}main{max-width:none;padding:0}nav{display:none}'//LF// &
+           'h1{font-size:16pt}h2{font-size:12pt;margin:.8em 0 .3em;padding-top:.3em}h3{font-size:9pt;margin:.6em 0 .2em}'//LF// &
+             'h2,h3,h2+.note{break-after:avoid}footer{margin-top:1em}section:has(details){display:none}'//LF// &
                                   '.verdict{border:1px solid;border-left-width:6px}'//LF// &
-                                  'figure,.tiles div,.plain div,table,tr,.verdict,svg.chart{break-inside:avoid}'//LF// &
-                    'figure{margin:.6em 0 1em}figure img{width:auto;max-width:100%;max-height:225mm;border:0;margin:0 auto}'//LF// &
-                                  'thead{display:table-header-group}'//LF// &
-                          '.scroll{overflow:visible}table{font-size:7pt}th,td{padding:.12em .45em}table.wide{font-size:6pt}'//LF// &
-                              'table.wide th,table.wide td{padding:.1em .3em}'//LF//'svg.chart{min-width:0;max-width:150mm}'//LF// &
-                                  '.tiles{grid-template-columns:repeat(4,1fr);gap:2mm}.tiles dd{font-size:11pt}'//LF// &
-                                  'pre{white-space:pre-wrap;font-size:6.6pt;border:0;padding:0}}'
+                                  'figure,.whole,.tiles div,.plain div,table,tr,.verdict,svg.chart{break-inside:avoid}'//LF// &
+            '.pictures{display:grid;grid-template-columns:1fr 1fr;gap:4mm 6mm}figure{margin:0;min-width:0}'//LF// &
+                                  'figure img{width:auto;max-width:100%;max-height:80mm;border:0;margin:0 auto}'//LF// &
+                                  '.whole{display:inline-block;vertical-align:top;width:min-content;margin-right:4mm}'//LF// &
+            'thead{display:table-header-group}figcaption,.note{font-size:7.5pt}.plain{font-size:8pt;columns:2}'//LF// &
+                          '.scroll{overflow:visible}table{font-size:6.5pt;line-height:1.15}'//LF// &
+            'th,td{padding:.1em .4em}table.wide{font-size:6pt}table.wide th,table.wide td{padding:.1em .3em}'//LF// &
+                                  'svg.chart{min-width:0;width:90mm}'//LF// &
+                                  '.tiles{grid-template-columns:repeat(5,1fr);gap:1.5mm}.tiles dd{font-size:10pt}'//LF// &
+                                  '.tiles div{padding:.3em .5em}.tiles dt,.tiles dd.small{font-size:7.5pt}'//LF// &
+                                  '.plain div{grid-template-columns:20mm 1fr}pre.deck{columns:2;font-size:5.7pt}'//LF// &
+                                  'pre{white-space:pre-wrap;font-size:6.2pt;border:0;padding:0;margin:.3em 0}}'
 
    integer, parameter :: MOST_BYTES = 3000000       !< of the page
    integer, parameter :: MOST_HEADING = 20          !< lines

@@ -2,12 +2,13 @@
 module atrito_stability_plot
    use atrito_body_plots, only: write_mechanism_plot
    use atrito_gnuplot, only: draw_written
-   use atrito_kinds, only: wp
+   use atrito_kinds, only: ip, wp
    use atrito_model, only: model_t
    use atrito_number_text, only: trimmed_real
    use atrito_plot_files, only: plot_folder, LIMIT_PLOT, MECHANISM_PLOT
    use atrito_plot_scripts, only: plots_t, begin_plots, end_plots, put, begin_data, begin_script, put_terminal
-   use atrito_plot_text, only: range_t, cover, padded, range_of, range_text, quoted, cleaned, LF, COLOUR
+   use atrito_plot_text, only: range_t, cover, padded, range_of, range_text, engineering_exponent, power_text, quoted, &
+                               cleaned, LF, COLOUR
    use atrito_plot_view, only: plot_view_t
    use atrito_stability_result, only: stability_t
    use atrito_status, only: status_t, STATUS_OK, STATUS_NOT_CONVERGED
@@ -69,7 +70,8 @@ contains
       type(stability_t), intent(in) :: limit
       type(range_t) :: across, up
       integer :: i
-      character(len=:), allocatable :: line, falls, fallen
+      character(len=:), allocatable :: line, falls, fallen, unit
+      integer(ip) :: power
 
       across = range_of([limit%stands, limit%falls])
       call cover(up, [0.0_wp])
@@ -78,6 +80,9 @@ contains
          call cover(across, [limit%values(i)%value])
          call cover(up, [limit%values(i)%displacement])
       end do
+      power = engineering_exponent(up)
+      unit = '1e'//to_text(power)
+      up = range_t(up%low/10.0_wp**power, up%high/10.0_wp**power)
       falls = 'first '//to_text(limit%falls, MANY_DIGITS)
       fallen = 'graph 0, graph 0 to '//falls
       if (limit%falls > limit%stands) fallen = falls//', graph 0 to graph 1'
@@ -91,9 +96,10 @@ contains
                'set arrow 1 from '//falls//', graph 0 rto 0, graph 1 nohead lt 1 lw 1.5 lc rgb "#D55E00"')
       call put_terminal(plots, '1000,560')
       call put(plots, 'set title '//quoted(cleaned(title, LONGEST_TITLE))//' noenhanced'//LF// &
-               'set xlabel '//quoted(limit%parameter)//' noenhanced; set ylabel '//quoted(limit%watched//' [L]')// &
-               ' noenhanced'//LF//'set key noautotitle outside bottom center horizontal Left reverse samplen 2.5')
-      line = 'plot "limit.dat" index 0 using 1:2 with linespoints lt 1 lw 1.8 pt 7 ps 0.9*dot lc rgb "'//COLOUR(1)// &
+               'set xlabel '//quoted(limit%parameter)//' noenhanced; set ylabel '// &
+               quoted(limit%watched//' ['//power_text(power)//'L]')//LF// &
+               'set key noautotitle outside bottom center horizontal Left reverse samplen 2.5')
+      line = 'plot "limit.dat" index 0 using 1:($2/'//unit//') with linespoints lt 1 lw 1.8 pt 7 ps 0.9*dot lc rgb "'//COLOUR(1)// &
              '" title "stands"'
       if (any(limit%values%code == STATUS_NOT_CONVERGED)) line = line//', "limit.dat" index 1 using 1:(0) with points lt 1'// &
                                                                  ' lw 1.5 pt 2 ps 1.1*dot lc rgb "#606060" title "undecided"'

@@ -1,12 +1,12 @@
-!> The picture of a study: error against processor time, and processor time against the number of displacements, both on
-!> logarithmic axes, a curve an element type, its last slope in the legend.
+!> The picture of a study: errors against the side of an element, the number of displacements and the processor time, and the time
+!> against the first two, all on logarithmic axes, a curve an element type, its last slope in the legend.
 module atrito_study_plot
    use atrito_gnuplot, only: draw_written
    use atrito_kinds, only: ip, wp, is_nan
    use atrito_number_text, only: trimmed_real
    use atrito_plot_files, only: plot_folder, STUDY_PLOT
    use atrito_plot_scripts, only: plots_t, begin_plots, end_plots, put, begin_data, begin_script, put_terminal
-   use atrito_plot_text, only: quoted, cleaned, LF, COLOUR, N_COLOURS
+   use atrito_plot_text, only: range_t, cover, log_axis, quoted, cleaned, LF, COLOUR, N_COLOURS
    use atrito_status, only: status_t
    use atrito_strings, only: string_t, to_text
    use atrito_study_errors, only: study_t
@@ -16,7 +16,9 @@ module atrito_study_plot
 
    integer, parameter :: LONGEST_TITLE = 90          !< characters
    !> Columns of study.dat; the errors of the quantities follow.
-   integer(ip), parameter :: DOFS = 1, SECONDS = 2, ESTIMATE = 3
+   integer(ip), parameter :: SIDE = 1, DOFS = 2, SECONDS = 3, ESTIMATE = 4
+   character(len=*), parameter :: X_LABELS(3) = [character(len=24) :: 'side of an element [L]', 'displacements', &
+                                                                                                'processor time [s]']
 
 contains
 
@@ -43,87 +45,96 @@ contains
       type(plots_t), intent(inout) :: plots
       type(study_t), intent(in) :: study
       character(len=:), allocatable :: line
-      integer :: i, j, k
+      integer(ip) :: j
+      integer :: i, k
 
-      call begin_data(plots, STUDY_PLOT, 'a block an element; columns: dofs, processor seconds, estimated error [%], errors of '// &
-                      'the quantities [%]')
+      call begin_data(plots, STUDY_PLOT, 'a block an element; columns: side of an element [L], dofs, processor seconds, '// &
+                      'estimated error [%], errors of the quantities [%]')
       do i = 1, size(study%elements)
          do k = 1, size(study%rows)
             if (study%rows(k)%element /= study%elements(i)%s) cycle
-            line = to_text(study%rows(k)%n_dofs)
-            do j = SECONDS, ESTIMATE
+            line = ''
+            do j = SIDE, ESTIMATE + size(study%quantities, kind=ip)
                line = line//' '//trimmed_real(column(study, k, j), 6)
             end do
-            do j = 1, size(study%quantities)
-               line = line//' '//trimmed_real(100*study%quantities(j)%error(k), 6)
-            end do
-            call put(plots, line)
+            call put(plots, line(2:))
          end do
          call put(plots, LF)
       end do
    end subroutine write_data
 
-   !> A panel a quantity that has errors, one of the estimate and one of the time.
+   !> A row of panels a quantity that has errors, one of the estimate and one of the time.
    subroutine write_script(plots, title, study)
       type(plots_t), intent(inout) :: plots
       character(len=*), intent(in) :: title
       type(study_t), intent(in) :: study
-      character(len=*), parameter :: TIME = 'processor time [s]'
       logical :: has_panel(size(study%quantities))
-      integer(ip) :: i, j, panels
+      integer(ip) :: i, j, rows
 
       ! a quantity without a reference has no errors to show, one that is held has nothing but rounding
       has_panel = [((any([(has_points(study, study%elements(i)%s, SECONDS, ESTIMATE + j), i=1, size(study%elements))]) &
                      .and. .not. study%quantities(j)%is_held), j=1, size(has_panel))]
-      panels = 2 + count(has_panel, kind=ip)
-      call begin_script(plots, STUDY_PLOT, 'error against run time, and run time against size', &
-                        'Columns of study.dat: 1 dofs, 2 processor seconds, 3 estimated error [%], 4 ... errors of the '// &
-                        'quantities [%]')
+      rows = 2 + count(has_panel, kind=ip)
+      call begin_script(plots, STUDY_PLOT, 'errors against the mesh and the run time, and run time against the mesh', &
+                        'Columns of study.dat: 1 side of an element [L], 2 dofs, 3 processor seconds, 4 estimated error [%], '// &
+                        '5 ... errors'//LF//'# of the quantities [%]')
       call put(plots, 'set logscale xy; set format x "%g"; set format y "%g"; set grid lt 1 lw 1 lc rgb "#E0E0E0"'//LF// &
                'set border 3 lt 1 lw 1 lc rgb "#404040"; set tics nomirror out scale 0.6 textcolor rgb "black"'//LF// &
-               'set lmargin at screen 0.12; set rmargin at screen 0.76'//LF// &
-               'set key at screen 0.775, graph 1 left top Left reverse samplen 2.5 noenhanced'//LF// &
-               'set style line 20 lt 1 dt 2 lw 1.2 lc rgb "#808080"')
-      call put_terminal(plots, '1000,'//to_text(60 + 320*panels))
-      call put(plots, 'set multiplot layout '//to_text(panels)//',1 title '// &
+               'unset mxtics; unset mytics'//LF//'set style line 20 lt 1 dt 2 lw 1.2 lc rgb "#808080"')
+      call put_terminal(plots, '1000,'//to_text(60 + 300*rows))
+      call put(plots, 'set multiplot layout '//to_text(rows)//',3 margins screen 0.1, screen 0.985, screen '// &
+               to_text(70.0_wp/(60 + 300*rows), 3)//', screen '//to_text(1 - 70.0_wp/(60 + 300*rows), 3)// &
+               ' spacing screen 0.06, screen '//to_text(95.0_wp/(60 + 300*rows), 3)//' title '// &
                quoted(cleaned(title, LONGEST_TITLE)//'   (slopes are those of the last two levels)')//' noenhanced')
       do j = 1, size(study%quantities, kind=ip)
-         if (has_panel(j)) call put_panel(plots, study, SECONDS, TIME, ESTIMATE + j, 'error of '//study%quantities(j)%name//' [%]')
+         if (has_panel(j)) call put_row(plots, study, ESTIMATE + j, 'error of '//study%quantities(j)%name//' [%]')
       end do
-      call put_panel(plots, study, SECONDS, TIME, ESTIMATE, 'estimated error, energy norm [%]')
-      call put_panel(plots, study, DOFS, 'displacements', SECONDS, TIME)
+      call put_row(plots, study, ESTIMATE, 'estimated error, energy norm [%]')
+      call put_row(plots, study, SECONDS, trim(X_LABELS(SECONDS)))
       call put(plots, 'unset multiplot')
    end subroutine write_script
 
-   !> One panel: column y against column x. Where no number can be drawn the panel is left empty. The label of the ordinate stands
-   !> at the same place in all panels, however long their numbers are.
-   subroutine put_panel(plots, study, x, x_label, y, y_label)
+   !> Column y against the side, the displacements and the time. A panel in which no number can be drawn is left empty.
+   subroutine put_row(plots, study, y, y_label)
       type(plots_t), intent(inout) :: plots
       type(study_t), intent(in) :: study
-      integer(ip), intent(in) :: x, y
-      character(len=*), intent(in) :: x_label, y_label
+      integer(ip), intent(in) :: y
+      character(len=*), intent(in) :: y_label
       character(len=:), allocatable :: line
-      integer(ip) :: i
+      type(range_t) :: range(2)
+      integer(ip) :: i, x
+      integer :: k
 
-      call put(plots, 'set xlabel '//quoted(x_label)//'; set label 1 '//quoted(y_label)// &
-               ' at screen 0.03, graph 0.5 center rotate by 90 noenhanced')
-      line = ''
-      do i = 1, size(study%elements, kind=ip)
-         associate (element => study%elements(i)%s)
-            if (has_points(study, element, x, y)) then
+      do x = SIDE, SECONDS
+         range = range_t()
+         line = ''
+         do i = 1, size(study%elements, kind=ip)
+            associate (element => study%elements(i)%s)
+               if (x == y .or. .not. has_points(study, element, x, y)) cycle
                line = line//', "study.dat" index '//to_text(i - 1)//' using '//to_text(x)//':'//to_text(y)// &
                       ' with linespoints lt 1 lw 1.8 pt '//to_text(5 + 2*mod(i, 4_ip))//' ps 0.9*dot lc rgb "'// &
                       COLOUR(mod(i - 1, N_COLOURS) + 1)//'" title '//quoted(element//slope_text(study, element, x, y))
-            end if
-         end associate
-      end do
-      if (len(line) == 0) then
-         call put(plots, 'set multiplot next')
-      else
-         if (y > ESTIMATE) line = line//', 1 with lines ls 20 title "1 %"'
+            end associate
+         end do
+         if (len(line) == 0) then
+            call put(plots, 'set multiplot next')
+            cycle
+         end if
+         do k = 1, size(study%rows)
+            if (is_point(study, k, x, y)) call cover(range(1), [column(study, k, x)])
+            if (is_point(study, k, x, y)) call cover(range(2), [column(study, k, y)])
+         end do
+         call cover(range(2), [0.5_wp*range(2)%low])   ! for the legend
+         call put(plots, log_axis('x', range(1), 4_ip)//LF//log_axis('y', range(2), 6_ip)//LF// &
+                  'set xlabel "'//trim(X_LABELS(x))//'"; unset label 1'//LF// &
+                  'set key '//trim(merge('right', 'left ', x == SIDE .neqv. y == SECONDS))// &
+                  ' bottom Left reverse opaque samplen 1.5')
+         if (x == SIDE) call put(plots, 'set label 1 '//quoted(y_label)// &
+                                 ' at screen 0.02, graph 0.5 center rotate by 90 noenhanced')
+         if (y > ESTIMATE .and. range(2)%low < 1.0_wp) line = line//', 1 with lines ls 20 title "1 %"'
          call put(plots, 'plot '//line(3:))
-      end if
-   end subroutine put_panel
+      end do
+   end subroutine put_row
 
    pure logical function has_points(study, element, x, y) result(has)
       type(study_t), intent(in) :: study
@@ -153,7 +164,7 @@ contains
          text = ''
          if (.not. (is_point(study, k, x, y) .and. is_point(study, k - 1, x, y))) cycle
          dx = log(column(study, k, x)/column(study, k - 1, x))
-         if (dx > 0.0_wp) text = ', slope '//to_text(log(column(study, k, y)/column(study, k - 1, y))/dx, 2)
+         if (abs(dx) > 0.0_wp) text = ', slope '//to_text(log(column(study, k, y)/column(study, k - 1, y))/dx, 2)
       end do
    end function slope_text
 
@@ -169,13 +180,15 @@ contains
       end associate
    end function is_point
 
-   !> A number of study.dat, errors as shares.
+   !> A number of study.dat.
    pure real(wp) function column(study, k, place)
       type(study_t), intent(in) :: study
       integer, intent(in) :: k                      !< row
       integer(ip), intent(in) :: place
 
       select case (place)
+      case (SIDE)
+         column = study%rows(k)%h
       case (DOFS)
          column = real(study%rows(k)%n_dofs, wp)
       case (SECONDS)
@@ -183,7 +196,7 @@ contains
       case (ESTIMATE)
          column = study%rows(k)%estimate
       case default
-         column = study%quantities(place - ESTIMATE)%error(k)
+         column = 100*study%quantities(place - ESTIMATE)%error(k)
       end select
    end function column
 

@@ -4,13 +4,13 @@ module atrito_frame_tables
    use atrito_extreme_report, only: build_extremes
    use atrito_kinds, only: ip, wp
    use atrito_plane_state, only: STRESS_NAMES
-   use atrito_strings, only: string_t
+   use atrito_strings, only: string_t, append_string, to_text
    use atrito_model, only: model_t, is_due
    use atrito_results, only: results_t, contact_result_t
    use atrito_resultant_report, only: has_resultants, build_resultants
    use atrito_rigid_report, only: build_rigid_table
    use atrito_row_tables, only: has_rows, build_ties, build_equations, build_springs
-   use atrito_summary, only: scales_t, pair_count
+   use atrito_summary, only: scales_t, pair_count, pair_name
    use atrito_table, only: table_t, begin_step_table, add_reals, add_real_columns, add_field, add_integers, add_integer_field, &
                            add_words, clear_small, one_word
    implicit none (type, external)
@@ -130,6 +130,9 @@ contains
          call copy_fields(results%contact(i), own(i), field(first:last, :))
       end do
       call begin_step_table(table, 'contact', 'a row a quadrature point of the slave surface', n, results%step)
+      do i = 1, pair_count(results)
+         if (len(pair_name(results, i)) > 0) call append_string(table%remarks, 'pair '//to_text(i)//': '//pair_name(results, i))
+      end do
       call add_integers(table, 'pair', pair)
       call add_integers(table, 'point', point)
       call add_real_columns(table, CONTACT_NAMES(:BEFORE_STATUS), CONTACT_DIMENSIONS(:BEFORE_STATUS), field)

@@ -32,7 +32,7 @@ yields 'decks/arch.inp' sweep decks/
 yields '--set --share --solver' plate.inp --s
 yields '--quiet' check --q
 yields '--quiet' compare --q
-yields '--plot --plot-box' check --plot
+yields '--plot --plot-box --plot-labels' check --plot
 yields '' check --dig
 yields '--version' -V --ver
 yields 'auto banded skyline sparse' --solver ''

@@ -116,8 +116,9 @@ contains
          error = wrong('a sweep needs the parameter that it varies', expected=task_form(TASK_SWEEP))
       else if (command%task == TASK_STUDY .and. command%levels == 0) then
          error = wrong('a study needs the number of its levels', expected=task_form(TASK_STUDY))
-      else if ((allocated(command%view%scale) .or. allocated(command%view%box)) .and. .not. command%plot) then
-         error = wrong('--plot-scale and --plot-box are of pictures', expected='--plot besides')
+      else if ((allocated(command%view%scale) .or. allocated(command%view%box) .or. command%view%labels) &
+               .and. .not. command%plot) then
+         error = wrong('--plot-scale, --plot-box and --plot-labels are of pictures', expected='--plot besides')
       else if (command%task == TASK_LIMIT .and. size(command%vary) /= 1) then
          error = wrong('a limit needs the one parameter that it varies', expected=task_form(TASK_LIMIT))
       else if (command%task == TASK_CHECK .and. allocated(command%folder) .and. .not. command%plot) then
@@ -299,6 +300,7 @@ contains
          ok = .true.
          command%plot = command%plot .or. name == '--plot' .or. name == '--report'
          command%report = command%report .or. name == '--report'
+         command%view%labels = command%view%labels .or. name == '--plot-labels'
          command%quiet = command%quiet .or. name == '--quiet'
          command%resume = command%resume .or. name == '--resume'
          if (allocated(given%value)) call take_number(name, given%value, command, ok)

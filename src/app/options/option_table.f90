@@ -39,10 +39,10 @@ module atrito_option_table
 
    !> An option, and which tasks know it.
    type :: option_t
-      character(len=12) :: name
-      character(len=12) :: value                    !< how its value is called, VALUE_... where it is a path; '': it has none
+      character(len=13) :: name
+      character(len=13) :: value                    !< how its value is called, VALUE_... where it is a path; '': it has none
       logical :: for_task(TASK_LIMIT)               !< run, check, compare, help, sweep, study, limit
-      character(len=120) :: phrase                  !< what it is for
+      character(len=130) :: phrase                  !< what it is for
       character(len=84) :: expected = ''            !< what its value may be; behind `words`, where there are any
       character(len=80) :: default = ''             !< what holds without it
       character(len=40) :: words = ''               !< the words that its value may be, blanks between them
@@ -78,6 +78,7 @@ module atrito_option_table
                    default='chosen by their size', expected='a number, 0 or more, by which displacements are drawn; with --plot'), &
                        option_t('--plot-box', 'X1,Y1,X2,Y2', [Y, Y, N, N, N, N, Y], 'what pictures of bodies show', default='all', &
                                          expected='x1,y1,x2,y2, two corners of what pictures show; with --plot'), &
+                      option_t('--plot-labels', '', [Y, Y, N, N, N, N, N], 'numbers and names in the pictures of mesh or scene'), &
                      option_t('--report', '', [Y, N, N, N, Y, Y, Y], 'all in one page, DIR/report.html; draws the pictures, too'), &
                option_t('--restart', VALUE_FILE, [Y, N, N, N, N, N, N], 'go on behind the increment in a file of *RESTART, WRITE', &
                                          expected='a restart file of this deck, NAME.restart.h5'), &

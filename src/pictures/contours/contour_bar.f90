@@ -1,17 +1,17 @@
 !> The bar of colours beside a contour picture: its range in steps of the series 1, 2, 5, 10, ..., and its colours.
 !>
-!> Colours of what has no sign go from dark to bright as evenly as the eye sees it (viridis, S. van der Walt and N. Smith); those of
-!> what has one from blue, negative, over grey, zero, to red (K. Moreland, Diverging color maps for scientific visualization, 2009):
-!> as far from grey on both sides as the value is from zero.
+!> Colours of what has no sign go from dark to bright as evenly as the eye sees it (viridis, S. van der Walt and N. Smith); those
+!> of what has one from dark blue, negative, over grey, zero, to bright yellow, positive, as far from grey on both sides as the
+!> value is from zero: so the sign is seen without colours, too.
 module atrito_contour_bar
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use atrito_kinds, only: ip, wp
-   use atrito_plot_text, only: range_t, cover, span, engineering_exponent
+   use atrito_plot_text, only: range_t, cover, span, engineering_exponent, round_step
    use atrito_sorting, only: sorted_places, order_key
    use atrito_strings, only: to_text
    implicit none (type, external)
    private
-   public :: bar_t, make_bar, usual_range, palette_text, round_step
+   public :: bar_t, make_bar, usual_range, palette_text, levels_of, BESIDE
 
    !> From low to high in equal bands. Values and steps are those of the field.
    type :: bar_t
@@ -34,8 +34,10 @@ module atrito_contour_bar
    integer, parameter :: N_EVEN = 10, N_SIGNED = 9
    integer, parameter :: EVEN(3, N_EVEN) = reshape([68, 1, 84, 72, 40, 120, 62, 73, 137, 49, 104, 142, 38, 130, 142, 31, 158, 137, &
                                                     53, 183, 121, 110, 206, 88, 181, 222, 43, 253, 231, 37], [3, N_EVEN])
-   integer, parameter :: SIGNED(3, N_SIGNED) = reshape([59, 76, 192, 98, 130, 234, 141, 176, 254, 184, 208, 249, 221, 221, 221, &
-                                                        245, 196, 172, 244, 154, 123, 222, 96, 77, 180, 4, 38], [3, N_SIGNED])
+   integer, parameter :: SIGNED(3, N_SIGNED) = reshape([12, 30, 95, 30, 75, 150, 60, 120, 190, 120, 160, 205, 178, 178, 180, &
+                                                        228, 180, 150, 250, 195, 120, 255, 218, 130, 255, 244, 175], [3, N_SIGNED])
+   integer(ip), parameter :: BESIDE = 255           !< the byte of a pixel beside the bodies
+   real(wp), parameter :: GREY(3) = [0.299_wp, 0.587_wp, 0.114_wp]   !< what a colour is without colours
 
 contains
 
@@ -63,10 +65,11 @@ contains
    end function make_bar
 
    !> The part of a field's range that a bar covers: all of it, but for values of a few pixels that are far from those of the
-   !> others, as at a corner where stresses have no limit. Else most of a picture would have one colour.
-   pure type(range_t) function usual_range(pixels, range) result(usual)
+   !> others and stand alone, as at a corner where stresses have no limit. Else most of a picture would have one colour.
+   pure type(range_t) function usual_range(pixels, range, is_smooth) result(usual)
       real(wp), intent(in) :: pixels(:)             !< NaN beside the bodies
       type(range_t), intent(in) :: range            !< of the field
+      logical, intent(in) :: is_smooth(2)           !< the largest value is, the least is: the bar goes up to it
       real(wp), allocatable :: value(:)
       integer(ip), allocatable :: place(:)
       integer(ip) :: n, i
@@ -81,8 +84,8 @@ contains
       i = 1 + int(RARE*size(value), ip)
       call cover(common, value(place([i, size(value, kind=ip) + 1 - i])))
       if (span(common) < LEAST_USUAL*span(range)) return
-      usual%low = max(range%low, common%low - MARGIN*span(common))
-      usual%high = min(range%high, common%high + MARGIN*span(common))
+      if (.not. is_smooth(2)) usual%low = max(range%low, common%low - MARGIN*span(common))
+      if (.not. is_smooth(1)) usual%high = min(range%high, common%high + MARGIN*span(common))
    end function usual_range
 
    !> The whole number below, as a real: of a small step round a large value it is no integer.
@@ -93,33 +96,50 @@ contains
       if (floor_of > value) floor_of = floor_of - 1.0_wp
    end function floor_of
 
-   !> The first number of the series 1, 2, 5, 10, ... that is not less.
-   pure real(wp) function round_step(least) result(step)
-      real(wp), intent(in) :: least                 !< > 0
-      real(wp) :: power
+   !> Levels of a band: the last of them is that of the line at its end.
+   pure integer(ip) function levels_of(bar) result(levels)
+      type(bar_t), intent(in) :: bar
 
-      power = 10.0_wp**floor(log10(least))
-      step = 10.0_wp*power
-      if (least <= 5.0_wp*power) step = 5.0_wp*power
-      if (least <= 2.0_wp*power) step = 2.0_wp*power
-      if (least <= power) step = power
-   end function round_step
+      levels = BESIDE/bar%n_bands
+   end function levels_of
 
-   !> The colours of the bands for gnuplot: their numbers and colours, with commas between them.
+   !> The colours of the levels for gnuplot, of which one that is missing has that of the one before it: numbers and colours with
+   !> commas between them.
    pure function palette_text(bar, is_signed) result(text)
       type(bar_t), intent(in) :: bar
       logical, intent(in) :: is_signed              !< the field may be positive and negative
       character(len=:), allocatable :: text
-      character(len=6) :: digits
       integer(ip) :: i
 
       text = ''
       do i = 1, bar%n_bands
-         if (i > 1) text = text//', '
-         write (digits, '(3z2.2)') band_colour(bar, i, is_signed)
-         text = text//to_text(i - 1)//' "#'//digits//'"'
+         associate (colour => band_colour(bar, i, is_signed), line => i*levels_of(bar) - 1)
+            text = text//', '//level_text(line - levels_of(bar) + 1, colour)//', '//level_text(line - 1, colour)//', '// &
+                   level_text(line, line_colour(colour))
+         end associate
       end do
+      text = text(3:)
    end function palette_text
+
+   !> `22 "#0D1E5E"`
+   pure function level_text(level, colour) result(text)
+      integer(ip), intent(in) :: level
+      integer, intent(in) :: colour(3)
+      character(len=:), allocatable :: text
+      character(len=6) :: digits
+
+      write (digits, '(3z2.2)') colour
+      text = to_text(level)//' "#'//digits//'"'
+   end function level_text
+
+   !> That of a line over a band: darker, over a dark one brighter.
+   pure function line_colour(colour) result(line)
+      integer, intent(in) :: colour(3)
+      integer :: line(3)
+
+      line = (2*colour)/3
+      if (dot_product(GREY, colour) < 90.0_wp) line = colour + (255 - colour)/3
+   end function line_colour
 
    !> The colour of a band: by its number, or by what lies in its middle.
    pure function band_colour(bar, i, is_signed) result(colour)

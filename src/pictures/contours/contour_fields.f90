@@ -4,7 +4,7 @@ module atrito_contour_fields
    use atrito_kinds, only: ip, wp
    use atrito_mesh, only: mesh_t
    use atrito_plot_files, only: CONTOUR_PLOTS
-   use atrito_plot_text, only: range_t, range_of
+   use atrito_plot_text, only: range_t, range_of, span
    use atrito_results, only: results_t, extreme_t
    implicit none (type, external)
    private
@@ -36,6 +36,7 @@ module atrito_contour_fields
       logical :: is_shown = .false.                 !< at a place at least; only then there are range and extremes
       type(range_t) :: range
       type(extreme_t) :: extreme(2)                 !< the largest and the least of what is shown
+      logical :: is_smooth(2) = .false.             !< the values round it are near it
       real(wp) :: drawn(2, 2) = 0.0_wp              !< and where in the picture [L]
    end type field_t
 
@@ -49,6 +50,7 @@ module atrito_contour_fields
 
    !> A stress whose largest is below this share of the largest of Mises' is none: what rounding left of it would be drawn.
    real(wp), parameter :: NO_STRESS = 1.0e-9_wp
+   real(wp), parameter :: NEAR = 0.2_wp             !< of the range: a value that differs by less from those round it is smooth
 
 contains
 
@@ -115,9 +117,10 @@ contains
    end function is_within
 
    !> Values, range and extremes of a field.
-   pure subroutine make_field(contour, results, nodes, elements, field)
+   pure subroutine make_field(contour, results, mesh, nodes, elements, field)
       type(contour_t), intent(in) :: contour
       type(results_t), intent(in) :: results
+      type(mesh_t), intent(in) :: mesh
       type(places_t), intent(in) :: nodes, elements
       type(field_t), intent(out) :: field
       type(range_t) :: range, mises
@@ -137,14 +140,15 @@ contains
       if (contour%of_elements) then
          call find_extremes(elements, field)
       else
-         call find_extremes(nodes, field)
+         call find_extremes(nodes, field, mesh)
       end if
    end subroutine make_field
 
    !> The largest and the least of what is shown.
-   pure subroutine find_extremes(places, field)
+   pure subroutine find_extremes(places, field, mesh)
       type(places_t), intent(in) :: places
       type(field_t), intent(inout) :: field
+      type(mesh_t), intent(in), optional :: mesh    !< where the places are nodes
       integer(ip) :: i, k, at(2)
 
       at = 0
@@ -160,7 +164,29 @@ contains
       do k = 1, 2
          field%extreme(k) = extreme_t(field%value(at(k)), places%id(at(k)), places%x(:, at(k)),.not. field%contour%of_elements)
          field%drawn(:, k) = places%drawn(:, at(k))
+         if (present(mesh)) field%is_smooth(k) = is_near_others(mesh, field, at(k))
       end do
    end subroutine find_extremes
+
+   !> Whether the value at a node differs little from the mean over the other nodes of its elements. At a corner without a limit it
+   !> goes with a power of the distance, so that it differs much from those next to it, however fine the mesh is.
+   pure logical function is_near_others(mesh, field, node) result(is_near)
+      type(mesh_t), intent(in) :: mesh
+      type(field_t), intent(in) :: field
+      integer(ip), intent(in) :: node
+      real(wp) :: total
+      integer(ip) :: e, n
+
+      total = 0.0_wp
+      n = 0
+      do e = 1, mesh%n_elements
+         associate (nodes => mesh%nodes(:mesh%shape(e), e))
+            if (all(nodes /= node)) cycle
+            total = total + sum(field%value(nodes)) - field%value(node)
+            n = n + size(nodes, kind=ip) - 1
+         end associate
+      end do
+      is_near = abs(field%value(node) - total/max(1_ip, n)) <= NEAR*span(field%range)
+   end function is_near_others
 
 end module atrito_contour_fields

@@ -6,10 +6,10 @@
 module atrito_contour_plot
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use atrito_body_plots, only: FEW_NODES
-   use atrito_contour_bar, only: round_step, bar_t, make_bar, usual_range, palette_text
+   use atrito_contour_bar, only: bar_t, make_bar, usual_range, palette_text, levels_of, BESIDE
    use atrito_contour_fields, only: contour_t, contours_of, field_t, places_t, node_places, element_places, make_field
    use atrito_contour_raster, only: raster_t, lay_raster, pixel_values
-   use atrito_drawing, only: drawing_t, add_lines, add_rigid_lines, displacement_text
+   use atrito_drawing, only: drawing_t, add_lines, add_rigid_lines, displacement_text, put_ticks
    use atrito_files, only: put_lines
    use atrito_kinds, only: ip, wp
    use atrito_plot_files, only: MESH_PLOT
@@ -32,11 +32,9 @@ module atrito_contour_plot
    integer(ip), parameter :: WIDTH = 1000
    !> Room round the window: with a bar beside it, whose label stands above it, and with one under it.
    integer(ip), parameter :: LEFT = 95, RIGHT(2) = [135_ip, 35_ip], BOTTOM(2) = [128_ip, 238_ip], TOP(2) = [84_ip, 62_ip]
-   integer(ip), parameter :: APART(2) = [70_ip, 30_ip] !< the marks of the axes are no nearer
    integer(ip), parameter :: MOST_HEIGHT = 900      !< of the window
    real(wp), parameter :: WIDE = 0.32_wp            !< height over width below which a bar beside the window were too short
 
-   integer(ip), parameter :: BESIDE = 255           !< the byte of a pixel beside the bodies
    integer, parameter :: DIGITS = 4                 !< of the largest and the least
 
 contains
@@ -61,27 +59,19 @@ contains
       layout%height = layout%bottom + layout%n(2) + TOP(form)
    end function make_layout
 
-   !> Ranges, terminal, margins and axes. The marks of an axis are so far apart that their numbers do not touch.
+   !> Ranges, terminal, margins and axes.
    subroutine put_layout(plots, layout)
       type(plots_t), intent(inout) :: plots
       type(layout_t), intent(in) :: layout
-      type(string_t) :: tics(2)
-      integer :: i
 
-      do i = 1, 2
-         tics(i)%s = to_text(round_step(APART(i)*span(layout%window(i))/layout%n(i)), 6)
-      end do
       call put(plots, 'set xrange '//range_text(layout%window(1))//LF//'set yrange '//range_text(layout%window(2))//LF// &
                'width = '//to_text(WIDTH)//'.0; height = '//to_text(layout%height)//'.0   # of the picture in pixels'//LF// &
                'across(pixels) = pixels/width'//LF//'up(pixels) = pixels/height')
       call put_terminal(plots, 'int(width),int(height)')
       call put(plots, 'set lmargin at screen across('//to_text(layout%left)//'); set rmargin at screen across('// &
                to_text(layout%left + layout%n(1))//')'//LF//'set bmargin at screen up('//to_text(layout%bottom)// &
-               '); set tmargin at screen up('//to_text(layout%bottom + layout%n(2))//')'//LF//'set clip two'//LF// &
-               'set border lt 1 lw 1 lc rgb "#A0A0A0"'//LF// &
-               'set tics nomirror out scale 0.6 textcolor rgb "black" format "%h"'//LF// &
-               'set xtics '//tics(1)%s//'; set ytics '//tics(2)%s//LF//'unset key'//LF// &
-               'set xlabel "x [L]"; set ylabel "y [L]"')
+               '); set tmargin at screen up('//to_text(layout%bottom + layout%n(2))//')'//LF//'set clip two; unset key')
+      call put_ticks(plots, span(layout%window(1))/layout%n(1))
    end subroutine put_layout
 
    !> Place of the bar, and what it is of: above a bar that stands, where long numbers at the bar are not in its way.
@@ -123,7 +113,7 @@ contains
          call element_places(mesh, drawing%u, scale, layout%window, elements)
       end associate
       do i = 1, size(list)
-         call make_field(list(i), drawing%results, nodes, elements, field)
+         call make_field(list(i), drawing%results, drawing%model%mesh, nodes, elements, field)
          call write_contour(plots, drawing, layout, raster, field)
       end do
    end subroutine write_contour_plots
@@ -141,42 +131,56 @@ contains
       pixels = pixel_values(raster, drawing%model%mesh, field%value, field%contour%of_elements)
       if (.not. field%is_shown) call cover(field%range, reshape(pixels, [size(pixels)]))   ! the window lies within an element
       if (field%range%low > field%range%high) field%range = range_t(0.0_wp, 0.0_wp)        ! or beside all of them
-      bar = make_bar(usual_range(reshape(pixels, [size(pixels)]), field%range))
+      bar = make_bar(usual_range(reshape(pixels, [size(pixels)]), field%range, field%is_smooth))
       call write_raster(plots, trim(field%contour%name), pixels, bar)
       call write_script(plots, drawing, layout, field, bar)
    end subroutine write_contour
 
-   !> <name>.bin: of each pixel a byte, from below. Each band of the bar is so many levels, and none lies in two bands.
+   !> <name>.bin: of each pixel a byte, from below. Each band of the bar is so many levels, and none lies in two bands; the last one
+   !> is that of a pixel with another band above it or to the right: these are the contour lines.
    subroutine write_raster(plots, name, pixels, bar)
       type(plots_t), intent(inout) :: plots
       character(len=*), intent(in) :: name
       real(wp), intent(in) :: pixels(:, :)          !< [F/L^2] or as the field
       type(bar_t), intent(in) :: bar
       character(len=size(pixels, 1)) :: row(1)
-      real(wp) :: per_level
-      integer :: i, j, level
+      integer(ip) :: level(size(pixels, 1) + 1, 2)  ! of a row and of the one above it
+      integer(ip) :: i, j, width, levels
 
       call begin_file(plots, name//'.bin')
-      per_level = bar%n_bands*levels_of(bar)/span(bar%range)
-      do j = 1, size(pixels, 2)
-         do i = 1, size(pixels, 1)
-            level = BESIDE
-            if (ieee_is_finite(pixels(i, j))) then
-               level = int(max(0.0_wp, min(real(BESIDE, wp), per_level*(pixels(i, j) - bar%range%low))))
-               level = min(level, bar%n_bands*levels_of(bar) - 1)
-            end if
-            row(1) (i:i) = char(level)
+      width = size(pixels, 1, kind=ip)
+      levels = levels_of(bar)
+      level = BESIDE
+      level(:width, 2) = level_of(pixels(:, 1))
+      do j = 1, size(pixels, 2, kind=ip)
+         level(:, 1) = level(:, 2)
+         level(:, 2) = BESIDE
+         if (j < size(pixels, 2)) level(:width, 2) = level_of(pixels(:, j + 1))
+         do i = 1, width
+            associate (it => level(i, 1), others => [level(i + 1, 1), level(i, 2)])
+               row(1) (i:i) = char(it)
+               if (it == BESIDE) cycle
+               if (any(others /= BESIDE .and. others/levels /= it/levels)) row(1) (i:i) = char((it/levels + 1)*levels - 1)
+            end associate
          end do
          call put_lines(plots%file, row)
       end do
+
+   contains
+
+      !> The level of a value, none of a line.
+      elemental integer(ip) function level_of(value) result(at)
+         real(wp), intent(in) :: value
+         integer(ip) :: band
+
+         at = BESIDE
+         if (.not. ieee_is_finite(value)) return
+         at = int(max(0.0_wp, min(real(BESIDE, wp), bar%n_bands*levels/span(bar%range)*(value - bar%range%low))), ip)
+         band = min(at/levels, bar%n_bands - 1)
+         at = max(band*levels, min(at, (band + 1)*levels - 2))
+      end function level_of
+
    end subroutine write_raster
-
-   !> Levels of a band.
-   pure integer(ip) function levels_of(bar) result(levels)
-      type(bar_t), intent(in) :: bar
-
-      levels = BESIDE/bar%n_bands
-   end function levels_of
 
    subroutine write_script(plots, drawing, layout, field, bar)
       type(plots_t), intent(inout) :: plots
@@ -198,7 +202,7 @@ contains
       call put_layout(plots, layout)
       if (field%contour%of_elements) title = title//', share of each element in '// &
                                              to_text(drawing%results%error_estimate, 3)//' %'
-      call put(plots, 'set label 1 heading."\n'//title//'; '//displacement_text(drawing%scale)// &
+      call put(plots, 'set label 1 heading."\n'//title//'; '//displacement_text(drawing)// &
                '" at screen 0.5, screen up(height - 20) center noenhanced')
       call put_bar(plots, layout, field, bar)
       if (field%is_shown) call put_extremes(plots, layout, field, bar)
@@ -212,7 +216,8 @@ contains
       type(field_t), intent(in) :: field
       type(bar_t), intent(in) :: bar
 
-      call put(plots, 'unit = 1e'//to_text(bar%exponent)//LF//'set palette maxcolors '//to_text(bar%n_bands)//' defined ('// &
+      call put(plots, 'unit = 1e'//to_text(bar%exponent)//LF//'set palette maxcolors '//to_text(bar%n_bands*levels_of(bar))// &
+               ' defined ('// &
                palette_text(bar, field%contour%is_signed)//')'//LF// &
                'set cbrange ['//to_text(bar%range%low, 10)//'/unit:'//to_text(bar%range%high, 10)//'/unit]'//LF// &
                'set cbtics '//to_text(merge(1, 2, bar%n_bands <= 10)*bar%step, 10)//'/unit format "%g"')

@@ -3,7 +3,7 @@
 !> Places go with their displacements, as those of the bodies do, so that a script that draws bodies displaced has the symbols where
 !> the bodies are. Lengths are given in pixels of a picture that is 1000 wide.
 module atrito_symbols
-   use atrito_drawing, only: drawing_t, put_place, MOVED
+   use atrito_drawing, only: drawing_t, put_place, pixel_of, MOVED
    use atrito_id_map, only: id_map_t, add_id, find_id
    use atrito_kinds, only: ip, wp
    use atrito_load_lists, only: amplitude_of
@@ -11,21 +11,19 @@ module atrito_symbols
    use atrito_mesh, only: mesh_t, face_end, middle_node, side_count
    use atrito_model, only: model_t, nodal_values_t
    use atrito_number_text, only: trimmed_real
-   use atrito_plot_files, only: SYMBOLS_OF
    use atrito_plot_scripts, only: plots_t, put, begin_data
    use atrito_plot_text, only: range_t, cover, span
+   use atrito_plot_view, only: shown_window
    use atrito_sorting, only: sorted_places, order_key
    use atrito_strings, only: string_t, append_string, to_text
    implicit none (type, external)
    private
-   public :: symbols_t, begin_symbols, end_symbols, begin_block, put_stroke, put_path, put_arrow, put_point
-   public :: pixel_of, thinned, thinned_nodes, places_of, find_outward, end_value, load_factor, place_of_node
+   public :: symbols_t, begin_symbols, end_symbols, begin_block, put_stroke, put_path, put_arrow, put_point, put_text, widen
+   public :: thinned, thinned_nodes, places_of, find_outward, end_value, load_factor, place_of_node
    public :: is_section_node, arrow_at
    public :: ARROW_LOOKS, SLANT
 
    integer, parameter :: DIGITS = 7
-   !> Of the plane of a picture, in pixels: put_window makes it so.
-   real(wp), parameter :: PLANE_WIDTH = 860.0_wp, MOST_HEIGHT = 946.0_wp, WITH_PADDING = 1.12_wp
    !> How a script draws arrows; colour and width follow.
    character(len=*), parameter :: ARROW_LOOKS = 'with vectors filled head size screen 0.011,16,60 fixed lt 1'
    real(wp), parameter :: NEARLY = 0.999_wp         !< of a spacing is far enough: nodes of a regular mesh
@@ -54,46 +52,38 @@ module atrito_symbols
 contains
 
    !> Begins the file. Plots and drawing are used until it ends.
-   subroutine begin_symbols(plots, picture, step, drawing, symbols)
+   subroutine begin_symbols(plots, name, what, drawing, symbols)
       type(plots_t), intent(inout), target :: plots
-      character(len=*), intent(in) :: picture       !< whose symbols they are, without ending
-      integer(ip), intent(in) :: step
+      character(len=*), intent(in) :: name          !< of the file, without .dat
+      character(len=*), intent(in) :: what          !< stands in it, and in its columns behind those of the places
       type(drawing_t), intent(in), target :: drawing    !< of the bodies
       type(symbols_t), intent(out) :: symbols
 
       symbols%plots => plots
       symbols%model => drawing%model
       symbols%u => drawing%u
-      symbols%step = step
-      symbols%pixel = pixel_of(drawing%window)
+      symbols%pixel = pixel_of(shown_window(drawing%view, drawing%window))
       symbols%window = drawing%window
       symbols%scale = drawing%scale
       allocate (symbols%curves(0))
-      symbols%data = '"'//picture//SYMBOLS_OF//'.dat"'
-      call begin_data(plots, picture//SYMBOLS_OF, 'symbols of supports, loads and surfaces; columns: x [L]  y [L]  u1 [L]  '// &
-                      'u2 [L], and of an arrow its components [L], of a marker its size')
+      symbols%data = '"'//name//'.dat"'
+      call begin_data(plots, name, what)
    end subroutine begin_symbols
-
-   !> Length of a pixel [L] in a picture of a window.
-   pure real(wp) function pixel_of(window) result(pixel)
-      type(range_t), intent(in) :: window(2)        !< [L]
-
-      pixel = WITH_PADDING*max(span(window(1))/PLANE_WIDTH, span(window(2))/MOST_HEIGHT)
-      if (.not. pixel > 0.0_wp) pixel = 1.0_wp
-   end function pixel_of
 
    !> Begins a block of symbols that are drawn alike, which ends the one before it; one into which nothing is put leaves no trace.
    !> columns: what `using` has behind the place, with its colon, or nothing.
-   subroutine begin_block(symbols, what, columns, drawn)
+   subroutine begin_block(symbols, what, columns, drawn, places)
       type(symbols_t), intent(inout) :: symbols
       character(len=*), intent(in) :: what          !< they are
       character(len=*), intent(in) :: columns
       character(len=*), intent(in) :: drawn         !< `with ...` and the title
+      character(len=*), intent(in), optional :: places  !< what `using` has for the place; default: displaced
 
       if (symbols%is_open) call put(symbols%plots, '')
       symbols%is_open = .false.
       symbols%what = what
       symbols%drawn = ' using '//MOVED//columns//' '//drawn
+      if (present(places)) symbols%drawn = ' using '//places//columns//' '//drawn
    end subroutine begin_block
 
    !> A block stands in the file from the first thing in it on: gnuplot does not count one that is empty, and would take the next
@@ -161,11 +151,24 @@ contains
       do i = 2, size(columns)
          text = text//' '//trimmed_real(columns(i), DIGITS)
       end do
+      call put_text(symbols, u, place, text)
+   end subroutine put_point
+
+   !> A point with what stands behind it, and unless a line goes on to the next one the end of the line.
+   subroutine put_text(symbols, u, place, text, goes_on)
+      type(symbols_t), intent(inout) :: symbols
+      real(wp), intent(in) :: u(2), place(2)        !< [L]
+      character(len=*), intent(in) :: text
+      logical, intent(in), optional :: goes_on
+
       call open_block(symbols)
       call put_place(symbols%plots, [place, u], text)
-      call put(symbols%plots, '')
       call widen(symbols, reshape(place + symbols%scale*u, [2, 1]))
-   end subroutine put_point
+      if (present(goes_on)) then
+         if (goes_on) return
+      end if
+      call put(symbols%plots, '')
+   end subroutine put_text
 
    pure subroutine widen(symbols, places)
       type(symbols_t), intent(inout) :: symbols

@@ -69,6 +69,7 @@ contains
       contact%slip = [1.0e-3_wp, 1.0e-5_wp, -1.0e-2_wp]
       contact%status = [0_ip, 1_ip, 2_ip]
       contact%weight = [0.5_wp, 1.0_wp, 0.5_wp]
+      contact%follows = [.false., .true., .true.]
       contact%s_end = 2.0_wp
       contact%has_friction = .true.
    end function make_contact

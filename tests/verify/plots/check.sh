@@ -235,6 +235,11 @@ done
 [ ! -s check.err ] || complain 'check --plot-box warns'
 "$atrito" check "$ex1" --plot --quiet --plot-box 5,5,6,6 -o boxed 2>check.err || complain 'check --plot-box beside the scene failed'
 says 'box beside the scene' check.err '[W-PLOT] --plot-box shows no body'
+# numbers and names, of a mesh of Gmsh too, whose groups have names
+"$atrito" check "$input/gmsh/plate-with-hole.inp" --plot --plot-labels --quiet -o named 2>check.err || complain 'check --plot-labels failed'
+pictures named scene sets
+for name in hole plate platen; do says 'names of groups' named/plots/scene-symbols.dat "\"$name\""; done
+says 'legend of labels' named/plots/scene.gp ' of 1342 nodes"'
 # beside a run, whose pictures stay; those of an earlier check go, with a scene that has no pair
 "$atrito" check "$ex1" --plot --quiet -o told 2>check.err || complain 'check into the folder of a run failed'
 pictures told mesh contact-1 scene sets pairs

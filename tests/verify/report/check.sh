@@ -35,7 +35,8 @@ sh "$here/must_fail.sh" "$judge" || complain 'the judge of pages'
 fine contour-mises.gp run 0 "$ex1" plate --report --set nu=0.25
 page plate 9 'Plate on its support' 'run of ex1-plate-on-support.inp' 'Solved and checked' 'support reactions, sum' '0, 1.5' 'Contact pairs' \
    'pair 1: OVER-BOTTOM on SUPPORT-TOP' 'strain_energy' 'reactions' 'The first 20 of 145 rows; all are in nodes.tab' 'Convergence' 'Times' \
-   'No warnings, no notes' '--set nu=0.25' 'BLAS' 'ex1-plate-on-support.lst' 'WHAT WAS UNDERSTOOD'
+   'No warnings, no notes' '--set nu=0.25' 'BLAS' 'ex1-plate-on-support.lst' 'WHAT WAS UNDERSTOOD' \
+   '*BLOCK, TYPE=CPE4, ELSET=OVER' 'all digits are in the files'
 grep -q 'largest displacement</dt><dd>[0-9.e-]*.\[L\]' plate/report.html || complain 'a key number has no dimension'
 says 'screen' plate.out 'report       plate/report.html'
 says 'progress' plate.err 'report plate/report.html'
@@ -52,6 +53,14 @@ done
 [ ! -e plate/report.html ] || complain 'an old page stays'
 [ "$(find plate -name '*.tmp*' | wc -l)" -eq 0 ] || complain 'something half-written is left'
 
+# what it takes on paper, two pictures a row
+if command -v chromium >/dev/null && command -v pdfinfo >/dev/null && [ "$have_gnuplot" = yes ]; then
+   "$atrito" "$ex1" -o paper --report --quiet
+   chromium --headless --no-sandbox --disable-gpu --no-pdf-header-footer --print-to-pdf=paper.pdf paper/report.html >paper.out 2>&1
+   pages=$(pdfinfo paper.pdf | awk '/^Pages/ { print $2 }')
+   [ "${pages:-7}" -le 6 ] || complain "ex1 takes $pages pages"
+fi
+
 # not converged
 sed 's/^\*STATIC/*STATIC\n*CONTROLS, METHOD=PICARD, MAXIT=2, TOLERANCE=1e-12/' "$ex1" >slow.inp
 run 3 slow.inp slow --report --quiet
@@ -64,7 +73,7 @@ page drag 12 '4 steps, 41 increments' 'step 4' 'The first 20 of 41 rows; all are
 [ "$have_gnuplot" = no ] || grep -q 'data:image/gif' drag/report.html || complain 'no moving picture'
 printf '*NODE\n1,0,0\n2,1,0\n3,1,1\n4,0,1\n*ELEMENT, TYPE=CPE4, ELSET=E\n1,1,2,3,4\n*MATERIAL, NAME=M\n*ELASTIC\n1,0\n*SOLID SECTION, ELSET=E, MATERIAL=M\n*BOUNDARY\n1,1,2\n2,2\n*STEP\n*STATIC\n*CLOAD\n3,2,1\n*END STEP\n' >lone.inp
 run 0 lone.inp lone --report --quiet
-page lone 7 'lone.inp' 'Solved and checked' '1 element, 4 nodes'
+page lone 7 '*CLOAD 3,2,1' 'lone.inp' 'Solved and checked' '1 element, 4 nodes'
 
 # what a user wrote: signs of HTML, several bytes, no UTF-8
 odd="o'd <b>&amp; \"x\" $(printf '\303\251').inp"

@@ -17,7 +17,7 @@ class Judge(html.parser.HTMLParser):
     def __init__(self):
         super().__init__(convert_charrefs=True)
         self.open, self.faults, self.ids, self.links, self.tags = [], [], [], [], set()
-        self.pictures, self.text, self.cells, self.rows = [], [], 0, []
+        self.pictures, self.text, self.cells, self.rows, self.divs = [], [], 0, [], []
 
     def fault(self, text):
         self.faults.append('line %d: %s' % (self.getpos()[0], text))
@@ -40,8 +40,14 @@ class Judge(html.parser.HTMLParser):
             self.picture(known)
         if tag == 'svg' and not known.get('aria-label'):
             self.fault('svg without words')
+        if tag == 'div':
+            self.divs.append(known.get('class'))
         if tag == 'table':
             self.rows.append([])
+            if 'scroll' not in self.divs:
+                self.fault('a table that is cut where the screen is narrow')
+        if tag == 'h3' and 'whole' not in self.divs:
+            self.fault('a heading that may be parted from its table')
         if tag == 'tr':
             self.cells = 0
         if tag in ('td', 'th'):
@@ -74,6 +80,8 @@ class Judge(html.parser.HTMLParser):
                 return
             self.fault('end of ' + tag)
             return
+        if tag == 'div' and self.divs:
+            self.divs.pop()
         if tag == 'tr':
             self.rows[-1].append(self.cells)
         if tag == 'table' and len(set(self.rows.pop())) > 1:

@@ -15,7 +15,8 @@ page() { # EXPECTED WHAT BODY [options]
    found=$?
    [ "$found" -eq "$wanted" ] || { echo "FAILED: $what: exit $found"; cat page.out; failures=$((failures + 1)); }
 }
-page 0 'sound' '<p id="a">x &lt; y</p><a href="#a">a</a><table><tr><td>1</td></tr><tr><td>2</td></tr></table>' --has 'x < y' --pictures 0
+page 0 'sound' '<p id="a">x &lt; y</p><a href="#a">a</a><div class="whole"><h3>b</h3><div class="scroll"><table><tr><td>1</td></tr><tr><td>2</td></tr></table></div></div>' \
+   --has 'x < y' --pictures 0
 page 1 'not closed' '<p>x'
 page 1 'crossed' '<p><em>x</p></em>'
 page 1 'a script' '<script>1</script>'
@@ -30,7 +31,9 @@ page 1 'a link to nowhere' '<a href="#b">x</a>'
 page 1 'an id twice' '<p id="a">x</p><p id="a">x</p>'
 page 1 'a bare &' '<p>x & y</p>'
 page 1 'a style from elsewhere' '<style>@import "x.css"</style>'
-page 1 'rows' '<table><tr><td>1</td></tr><tr><td>2</td><td>3</td></tr></table>'
+page 1 'rows' '<div class="scroll"><table><tr><td>1</td></tr><tr><td>2</td><td>3</td></tr></table></div>'
+page 1 'a table that does not scroll' '<table><tr><td>1</td></tr></table>'
+page 1 'a heading alone' '<h3>b</h3><div class="whole"><p>x</p></div>'
 page 1 'a text that is missing' '<p>x</p>' --has 'y'
 page 1 'a control character' "<p>$(printf '\001')</p>"
 page 1 'Latin-1' "<p>$(printf '\351')</p>"

@@ -133,7 +133,10 @@ says 'smooth field of triangles' out/study.tab '2 (cpe6) at the last level, as f
 # A quantity that the load prescribes tells nothing, and has no panel.
 "$atrito" study "$input/ex1-plate-on-support.inp" --levels 3 -o out --quiet --plot || complain 'held'
 says 'held' out/study.tab '# normal_resultant: 1.5 in every run, but for rounding'
-says 'held' out/plots/study.gp 'multiplot layout 3,1'
+says 'held' out/plots/study.gp 'multiplot layout 3,3'
+says 'against the mesh' out/plots/study.gp '"study.dat" index 0 using 1:5 with linespoints'
+says 'against displacements' out/plots/study.gp '"study.dat" index 0 using 2:4 with linespoints'
+near 'side of an element' "$(awk '/^[0-9]/ { print $1; exit }' out/plots/study.dat)" "$(value_of 0 deck h)" 1e-5
 
 # A history: the values of its end; a run that ends early has none.
 sed 's/NX=8, NY=4/NX=2, NY=1/' "$here/../stability-limit/push.inp" >push.inp
