@@ -41,6 +41,7 @@ module atrito_build_model
    use atrito_mesh, only: trim_mesh
    use atrito_messages, only: message_mark_t, mark_messages, forget_messages
    use atrito_model, only: model_t
+   use atrito_observed_lines, only: list_observed
    use atrito_node_fields, only: read_temperatures, read_node_thickness, check_temperatures
    use atrito_pairing, only: order_slaves, pair_all
    use atrito_plane_state, only: FULL_STATE
@@ -115,6 +116,7 @@ contains
       context%memory = memory
       call take_titles(deck, model)
       call take_parameters(deck, model)
+      call list_observed(deck, model%observed)
       call build_steps(context)
       call build_amplitudes(context)
       call build_instances(context)

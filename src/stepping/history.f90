@@ -62,7 +62,8 @@ contains
       end if
       if (has_one_increment(model) .and. .not. is_recorded(run)) then
          call solve_only_increment(model, options, reporter, history, status, store)
-         if (associated(run%observer) .and. is_ok(status)) call run%observer%observe(history%frames(1))
+         if (associated(run%observer) .and. is_ok(status)) call run%observer%observe(history%frames(1), &
+                                                                                                                     history%rows)
          return
       end if
       allocate (history%frames(0))
@@ -283,7 +284,8 @@ contains
       results%iterations%step = results%step
       results%iterations%increment = results%increment
       call add_iterations(results%iterations, run%n_iterations, history%iterations)
-      if (associated(run%observer)) call note_observed(run%observer, run%data, results, history%observed)
+      if (associated(run%observer)) call note_observed(run%observer, run%data, results, history%rows(:run%n_rows), &
+                                                        history%observed)
       if (run%data%is_printed) then
          results%scene%memory = forecast_memory(model, run%data, results%scene)
          idle = idle_text(run%data, solution)

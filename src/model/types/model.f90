@@ -17,7 +17,7 @@ module atrito_model
    implicit none (type, external)
    private
    public :: model_t, step_t, material_t, section_t, surface_t, interaction_t, pair_t, nodal_values_t, element_load_t
-   public :: rigid_body_t, instance_t, source_t, cut_t
+   public :: rigid_body_t, instance_t, source_t, cut_t, observed_line_t
    public :: amplitude_t, increments_t, frequencies_t, spring_t, tie_t, requests_t, requested_t, parameter_value_t
    public :: SURFACE_ELEMENTS, SURFACE_SEGMENTS, FORMULATION_STANDARD, FORMULATION_BBAR, FORMULATION_NAME
    public :: FRICTION_NONE, FRICTION_LOCAL, FRICTION_NONLOCAL, KERNEL_POINTS, KERNEL_LINE
@@ -195,6 +195,13 @@ module atrito_model
       logical :: overridden = .false.               !< by --set
    end type parameter_value_t
 
+   !> A line of *OBSERVE.
+   type :: observed_line_t
+      character(len=:), allocatable :: text         !< name = expression
+      character(len=:), allocatable :: file         !< as the user wrote it
+      integer(ip) :: line = 0, column = 0           !< of its first character
+   end type observed_line_t
+
    !> An instance of a part.
    type :: instance_t
       character(len=:), allocatable :: name, part
@@ -230,6 +237,7 @@ module atrito_model
       type(provenance_t) :: provenance              !< for the heads of tables; empty: the heads have none of it
       type(named_text_t), allocatable :: as_run(:)  !< the deck as it is run, for the writer alone; not allocated: it is not kept
       type(parameter_value_t), allocatable :: parameters(:)
+      type(observed_line_t), allocatable :: observed(:)
       type(instance_t), allocatable :: instances(:)
       type(mesh_t) :: mesh
       integer(ip) :: levels = 0                     !< of --refine: each element of the deck is 4**levels of the mesh
