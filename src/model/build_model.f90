@@ -10,6 +10,7 @@ module atrito_build_model
    use atrito_build_cuts, only: place_cuts
    use atrito_build_equations, only: build_equations
    use atrito_build_loads, only: build_loads
+   use atrito_build_paths, only: place_paths
    use atrito_build_pretension, only: build_pretension, add_pretension_rows
    use atrito_build_gmsh, only: read_mesh_nodes, read_mesh_elements
    use atrito_build_lines, only: is_line_card, read_lines, read_curves, turn_elements
@@ -169,6 +170,7 @@ contains
       call check_points_of_pairs(model, context)
       call set_interferences(interferences, context)
       call place_cuts(context)
+      call place_paths(context)
       call make_solver_mesh(model)
       call warn_of_overlap(model, context)
       call warn_of_loaded_contact(model, context)

@@ -14,7 +14,7 @@ module atrito_history
    use atrito_increment, only: complete_results, is_solved, solve_increment
    use atrito_increment_length, only: cut_increment, is_longer_than_least, lengthen, next_time, progress_t
    use atrito_kinds, only: ip, wp
-   use atrito_model, only: is_due, model_t, requests_t
+   use atrito_model, only: all_frequencies, is_due, model_t, requests_t
    use atrito_observer, only: note_observed, observer_t
    use atrito_pressure_warnings, only: warn_of_pressures
    use atrito_recorder, only: recorder_t
@@ -255,10 +255,7 @@ contains
       integer(ip), intent(in) :: increment
       logical, intent(in) :: ends_step
 
-      associate (every => requests%every)
-         is_wanted = any(is_due([every%nodes, every%reactions, every%stress, every%nodal_stress, every%contact, every%bodies, &
-                                 every%joints, every%sections, every%fields], increment, ends_step))
-      end associate
+      is_wanted = any(is_due(all_frequencies(requests%every), increment, ends_step))
    end function is_wanted
 
    !> A converged increment: rest slips, rows, iterations, and the frame where it is printed.

@@ -72,7 +72,7 @@ contains
             if (i <= n) one%text = one%line%text
             if (i > n) one%text = texts(i - n)%s
             one%name = observation_name(one%text)
-            one%text = one%text(index(one%text, '=') + 1:)
+            one%text = one%text(index(one%text//'=', '=') + 1:)
             call check_name(observations, i, is_ok, error)
             if (is_ok) call find_terms(model, observations, i, is_ok, error)
             if (.not. is_ok) return
@@ -88,7 +88,8 @@ contains
       character(len=*), intent(in) :: text
       character(len=:), allocatable :: name
 
-      name = trim(adjustl(text(:max(index(text, '=') - 1, 0))))
+      name = trim(adjustl(text))
+      if (index(text, '=') > 0) name = trim(adjustl(text(:index(text, '=') - 1)))
    end function observation_name
 
    !> The names of those of a deck, then of --observe.
