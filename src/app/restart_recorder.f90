@@ -46,6 +46,7 @@ contains
       type(status_t), intent(out) :: status
       character(len=:), allocatable :: options
       integer(lp) :: identity(2)
+      integer :: i
 
       recorder%resumes = allocated(command%restart)
       recorder%every = model%restart_every
@@ -53,15 +54,16 @@ contains
       recorder%folder = output_folder(command)
       recorder%name = restart_name(model)
       if (recorder%resumes) recorder%source = command%restart
-      if (allocated(command%observe)) recorder%observed = observation_names(command%observe)
+      recorder%observed = observation_names(model%observed, command%observe)
       recorder%deck_path = model%deck_path
       recorder%last_step = size(model%steps, kind=ip)
       ! what is solved by another form or another solver differs in the last digits
       options = '--contact '//trim(command%contact)//', --solver '//trim(command%solver)
       ! what was observed in increments that are not printed is in the file alone
-      if (allocated(command%observe)) then
-         if (size(command%observe) > 0) options = options//', --observe '//join(command%observe, ', --observe ')
-      end if
+      do i = 1, size(model%observed)
+         options = options//', *OBSERVE '//model%observed(i)%text
+      end do
+      if (size(command%observe) > 0) options = options//', --observe '//join(command%observe, ', --observe ')
       call take_fingerprint(model, options, recorder%fingerprint)
       if (.not. recorder%resumes) return
       call judge_file(command%restart, status, identity)

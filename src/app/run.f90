@@ -277,20 +277,23 @@ contains
       ok = count_messages(SEVERITY_ERROR) == 0
    end subroutine read_model
 
-   !> Reads the expressions of --observe. code: STATUS_USAGE for one that is wrong, which is printed.
+   !> Reads the expressions of the deck and of --observe. code: STATUS_DECK or STATUS_USAGE for one that is wrong, which is printed.
    subroutine prepare_observations(command, model, observations, code)
       type(command_t), intent(in) :: command
       type(model_t), intent(in) :: model
       type(observations_t), intent(out) :: observations
       integer, intent(out) :: code
       type(message_t) :: error
+      type(string_t), allocatable :: texts(:)
       logical :: ok
 
       code = STATUS_OK
-      if (.not. allocated(command%observe)) return
-      call read_observations(command%observe, model, observations, ok, error)
-      code = merge(STATUS_OK, STATUS_USAGE, ok)
-      if (.not. ok) call print_message(error, command%json)
+      texts = [string_t ::]
+      if (allocated(command%observe)) texts = command%observe
+      call read_observations(texts, model, observations, ok, error)
+      if (ok) return
+      code = merge(STATUS_DECK, STATUS_USAGE, error%line > 0)
+      call print_message(error, command%json)
    end subroutine prepare_observations
 
    !> Whether what the run is going to replace or remove is atrito's, and nothing that it has read. status: STATUS_FILE.

@@ -88,7 +88,7 @@ contains
 
       call clear_messages()
       call read_model(command, model, is_sound)
-      if (is_sound .and. size(command%observe) > 0) call read_observations(command%observe, model, observations, is_sound, error)
+      if (is_sound) call read_observations(command%observe, model, observations, is_sound, error)
       call clear_messages()
    end function is_sound
 

@@ -6,7 +6,7 @@
 module atrito_note_edits
    use atrito_as_run_names, only: mesh_copy_name
    use atrito_card_data, only: form_applies
-   use atrito_deck, only: deck_t, card_t, token_t, data_line_t, token_text, is_empty_token, KEYWORD_UNKNOWN
+   use atrito_deck, only: count_lines, deck_t, card_t, token_t, data_line_t, token_text, is_empty_token, KEYWORD_UNKNOWN
    use atrito_deck_expressions, only: evaluate_at, index_of_parameter
    use atrito_edits, only: append_edit, append_known_edit, take_known_edit
    use atrito_expressions, only: next_name
@@ -32,16 +32,17 @@ contains
       character(len=:), allocatable :: name
       type(token_t) :: place
       integer(ip) :: i, n_parameters, n_meshes
-      logical :: found
+      logical :: found, is_used
 
       if (count_messages(SEVERITY_ERROR) > 0) return
       n_parameters = 0
+      is_used = count_lines(deck, 'OBSERVE') > 0      ! by name: parameters stay, with their values
       n_meshes = 0
       do i = 1, deck%n_cards
          if (deck%cards(i)%keyword == KEYWORD_UNKNOWN) cycle
          select case (deck%cards(i)%name)
          case ('PARAMETER')
-            call note_parameters(deck, deck%cards(i), n_parameters)
+            call note_parameters(deck, deck%cards(i), is_used, n_parameters)
          case ('INCLUDE')
             n_meshes = n_meshes + 1
             call option_text(deck, deck%cards(i), 'INPUT', name, found, place)
@@ -54,24 +55,28 @@ contains
       end do
    end subroutine note_edits
 
-   !> `** PARAMETER`, and a comment a line with the value.
-   subroutine note_parameters(deck, card, n)
+   !> `** PARAMETER`, and a comment a line with the value; no comments where the deck still needs them.
+   subroutine note_parameters(deck, card, stay, n)
       type(deck_t), intent(inout) :: deck
       type(card_t), intent(in) :: card
+      logical, intent(in) :: stay
       integer(ip), intent(inout) :: n              !< parameters so far: each line defines the next
+      character(len=:), allocatable :: mark
       type(token_t) :: token
       integer(ip) :: i
 
+      mark = '** '
+      if (stay) mark = ''
       associate (place => card%place)
          i = index(deck%sources(place%source)%text(:place%first - 1), '*', back=.true.)
-         call append_edit(deck%edits, place%source, i, place%first - 1, '** ')
+         if (.not. stay) call append_edit(deck%edits, place%source, i, place%first - 1, mark)
       end associate
       do i = card%first_line, card%first_line + card%n_lines - 1
          token = deck%tokens(deck%lines(i)%first_token)
          n = n + 1
          associate (parameter => deck%parameters(n))
-            call append_edit(deck%edits, token%source, token%first, token%last, '** '//parameter%name//' = '// &
-                             exact_text(parameter%value))
+            call append_edit(deck%edits, token%source, token%first, token%last, mark// &
+                             parameter%name//' = '//exact_text(parameter%value))
          end associate
       end do
    end subroutine note_parameters

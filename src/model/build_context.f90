@@ -64,6 +64,8 @@ module atrito_build_context
       type(section_cut_t), allocatable :: cuts(:)
       type(token_t), allocatable :: cut_lines(:)       !< of each of the model's cuts its first item
       integer(ip) :: n_cuts = 0                        !< of the model so far
+      type(token_t), allocatable :: path_lines(:)      !< of each of the model's paths its first item
+      integer(ip) :: n_paths = 0                       !< of the model so far
       type(face_list_t) :: cut_faces                   !< of both sides of all cuts
       type(refinement_t) :: refinement                 !< how the mesh came from that of the deck, if it is another one
       real(wp), allocatable :: node_thickness(:)       !< *NODAL THICKNESS, 0 where there is none [L]; unallocated: no card

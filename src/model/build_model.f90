@@ -10,6 +10,7 @@ module atrito_build_model
    use atrito_build_cuts, only: place_cuts
    use atrito_build_equations, only: build_equations
    use atrito_build_loads, only: build_loads
+   use atrito_build_paths, only: place_paths
    use atrito_build_pretension, only: build_pretension, add_pretension_rows
    use atrito_build_gmsh, only: read_mesh_nodes, read_mesh_elements
    use atrito_build_lines, only: is_line_card, read_lines, read_curves, turn_elements
@@ -42,6 +43,7 @@ module atrito_build_model
    use atrito_mesh, only: trim_mesh
    use atrito_messages, only: message_mark_t, mark_messages, forget_messages
    use atrito_model, only: model_t
+   use atrito_observed_lines, only: list_observed
    use atrito_node_fields, only: read_temperatures, read_node_thickness, check_temperatures
    use atrito_pairing, only: order_slaves, pair_all
    use atrito_plane_state, only: FULL_STATE
@@ -118,6 +120,7 @@ contains
       call take_titles(deck, model)
       call take_units(deck, model%units)
       call take_parameters(deck, model)
+      call list_observed(deck, model%observed)
       call build_steps(context)
       call build_amplitudes(context)
       call build_instances(context)
@@ -170,6 +173,7 @@ contains
       call check_points_of_pairs(model, context)
       call set_interferences(interferences, context)
       call place_cuts(context)
+      call place_paths(context)
       call make_solver_mesh(model)
       call warn_of_overlap(model, context)
       call warn_of_loaded_contact(model, context)

@@ -72,6 +72,7 @@ module atrito_build_parts
       integer(ip) :: number = 1
       integer(ip) :: first_card = 1, last_card = 0     !< of the deck: its cards are among these (is_of_step)
       type(name_list_t) :: cut_names                   !< of its *SECTION PRINT so far
+      type(name_list_t) :: path_names                  !< of its *PATH PRINT so far
       integer(ip) :: first_token = 0                   !< of its lines: what stands before it is inherited
       integer(ip) :: line = 0                          !< of the deck, that is being read
       integer(ip) :: amplitude = 0                     !< that the card being read names

@@ -8,7 +8,7 @@ module atrito_fingerprint
    use atrito_digest, only: digest_t, add_to, add_allocated, digest_text
    use atrito_kinds, only: ip
    use atrito_mesh, only: mesh_t
-   use atrito_model, only: model_t, step_t, nodal_values_t, element_load_t, requested_t
+   use atrito_model, only: model_t, path_t, step_t, nodal_values_t, element_load_t, requested_t, all_frequencies
    use atrito_points, only: contact_points_t
    use atrito_strings, only: to_text
    implicit none (type, external)
@@ -308,10 +308,8 @@ contains
       call add_requested(digest, step%requests%fields)
       call add_to(digest, [step%requests%bodies, step%requests%joints, step%requests%nodal_stress])
       call add_allocated(digest, step%requests%node_s)
-      associate (every => step%requests%every)
-         call add_to(digest, [every%nodes, every%reactions, every%stress, every%nodal_stress, every%contact, every%bodies, &
-                              every%joints, every%sections, every%fields])
-      end associate
+      call add_to(digest, all_frequencies(step%requests%every))
+      if (allocated(step%requests%paths)) call add_paths(digest, model%paths(step%requests%paths))
       if (.not. allocated(step%requests%cuts)) return
       do i = 1, size(step%requests%cuts, kind=ip)
          associate (cut => model%cuts(step%requests%cuts(i)))
@@ -321,6 +319,22 @@ contains
          end associate
       end do
    end subroutine add_requests
+
+   pure subroutine add_paths(digest, paths)
+      type(digest_t), intent(inout) :: digest
+      type(path_t), intent(in) :: paths(:)
+      integer :: i
+
+      do i = 1, size(paths)
+         associate (path => paths(i))
+            call add_to(digest, path%name)
+            call add_to(digest, [path%is_arc, path%has_centre])
+            call add_to(digest, path%ends)
+            call add_to(digest, [path%centre, path%radius, path%angles])
+            call add_to(digest, [path%n_points, path%elset])
+         end associate
+      end do
+   end subroutine add_paths
 
    pure subroutine add_requested(digest, requested)
       type(digest_t), intent(inout) :: digest

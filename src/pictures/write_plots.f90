@@ -13,8 +13,9 @@ module atrito_write_plots
    use atrito_kinds, only: ip
    use atrito_model, only: model_t
    use atrito_motion_plot, only: write_motion_plot
+   use atrito_path_plot, only: plotted_paths, write_path_plot
    use atrito_plot_files, only: plot_folder, CONTACT_PLOT, MESH_PLOT, JOINT_PLOT, HISTORY_PLOT, LOOP_PLOT, MOTION_PLOT, &
-                                TRACTION_PLOT
+                                PATH_PLOT, TRACTION_PLOT
    use atrito_plot_scripts, only: plots_t, begin_plots, end_plots
    use atrito_plot_view, only: plot_view_t
    use atrito_results, only: results_t, history_t, last_frame
@@ -47,7 +48,7 @@ contains
    end subroutine write_plots
 
    !> Pictures of a run: the mesh, contours, tractions, what is drawn of a history, the joints where they are asked for, and each
-   !> pair that has points.
+   !> pair that has points, and paths.
    pure function plot_names(model, history) result(names)
       type(model_t), intent(in) :: model
       type(history_t), intent(in) :: history
@@ -68,6 +69,9 @@ contains
          if (has_joint_plot(model, results)) call append_string(names, JOINT_PLOT)
          do i = 1, plotted_pairs(model, results)
             if (results%contact(i)%n > 0) call append_string(names, CONTACT_PLOT//to_text(i))
+         end do
+         do i = 1, plotted_paths(model, results)
+            call append_string(names, PATH_PLOT//to_text(i))
          end do
       end associate
    end function plot_names
@@ -104,6 +108,9 @@ contains
          if (has_joint_plot(model, results)) call write_joint_plot(plots, drawing)
          do i = 1, plotted_pairs(model, results)
             if (results%contact(i)%n > 0) call write_contact_plot(plots, model, history, i)
+         end do
+         do i = 1, plotted_paths(model, results)
+            call write_path_plot(plots, model, history, i)
          end do
       end associate
       if (has_history_plot(model, history)) call write_history_plot(plots, model, history)

@@ -14,7 +14,7 @@ module atrito_history
    use atrito_increment, only: complete_results, is_solved, solve_increment
    use atrito_increment_length, only: cut_increment, is_longer_than_least, lengthen, next_time, progress_t
    use atrito_kinds, only: ip, wp
-   use atrito_model, only: is_due, model_t, requests_t
+   use atrito_model, only: all_frequencies, is_due, model_t, requests_t
    use atrito_observer, only: note_observed, observer_t
    use atrito_pressure_warnings, only: warn_of_pressures
    use atrito_recorder, only: recorder_t
@@ -62,7 +62,8 @@ contains
       end if
       if (has_one_increment(model) .and. .not. is_recorded(run)) then
          call solve_only_increment(model, options, reporter, history, status, store)
-         if (associated(run%observer) .and. is_ok(status)) call run%observer%observe(history%frames(1))
+         if (associated(run%observer) .and. is_ok(status)) call run%observer%observe(history%frames(1), &
+                                                                                                                     history%rows)
          return
       end if
       allocate (history%frames(0))
@@ -256,10 +257,7 @@ contains
       integer(ip), intent(in) :: increment
       logical, intent(in) :: ends_step
 
-      associate (every => requests%every)
-         is_wanted = any(is_due([every%nodes, every%reactions, every%stress, every%nodal_stress, every%contact, every%bodies, &
-                                 every%joints, every%sections, every%fields], increment, ends_step))
-      end associate
+      is_wanted = any(is_due(all_frequencies(requests%every), increment, ends_step))
    end function is_wanted
 
    !> A converged increment: rest slips, rows, iterations, and the frame where it is printed.
@@ -285,7 +283,8 @@ contains
       results%iterations%step = results%step
       results%iterations%increment = results%increment
       call add_iterations(results%iterations, run%n_iterations, history%iterations)
-      if (associated(run%observer)) call note_observed(run%observer, run%data, results, history%observed)
+      if (associated(run%observer)) call note_observed(run%observer, run%data, results, history%rows(:run%n_rows), &
+                                                        history%observed)
       if (run%data%is_printed) then
          results%scene%memory = forecast_memory(model, run%data, results%scene)
          idle = idle_text(run%data, solution)

@@ -6,7 +6,7 @@
 !> as none is cut or lengthened.
 module atrito_history_forecast
    use atrito_kinds, only: ip, lp
-   use atrito_model, only: model_t, step_t
+   use atrito_model, only: all_frequencies, model_t, step_t
    implicit none (type, external)
    private
    public :: is_solved_by_increments, history_bytes, field_growth
@@ -94,14 +94,10 @@ contains
    pure integer(lp) function printed_of(step)
       type(step_t), intent(in) :: step
 
-      associate (every => step%requests%every)
-         printed_of = maxval([due_of(step, every%nodes), due_of(step, every%reactions), due_of(step, every%stress), &
-                              due_of(step, every%nodal_stress), due_of(step, every%contact), due_of(step, every%bodies), &
-                              due_of(step, every%joints), due_of(step, every%sections), due_of(step, every%fields)])
-      end associate
+      printed_of = maxval(due_of(step, all_frequencies(step%requests%every)))
    end function printed_of
 
-   pure integer(lp) function due_of(step, every)
+   pure elemental integer(lp) function due_of(step, every)
       type(step_t), intent(in) :: step
       integer(ip), intent(in) :: every                 !< increments; none (0): at the end alone
 

@@ -2,7 +2,7 @@
 module atrito_observer
    use atrito_history_lists, only: add_observed
    use atrito_increment, only: complete_results
-   use atrito_results, only: observed_list_t, results_t
+   use atrito_results, only: history_row_t, observed_list_t, results_t
    use atrito_rigid_results, only: leave_mesh_alone
    use atrito_scene_data, only: scene_data_t
    implicit none (type, external)
@@ -18,20 +18,22 @@ module atrito_observer
 
    abstract interface
       !> Puts what is observed into the results, and changes nothing else of them.
-      subroutine observe_increment(self, results)
-         import :: observer_t, results_t
+      subroutine observe_increment(self, results, rows)
+         import :: history_row_t, observer_t, results_t
          class(observer_t), intent(inout) :: self
          type(results_t), intent(inout) :: results
+         type(history_row_t), intent(in) :: rows(:) !< of the history so far
       end subroutine observe_increment
    end interface
 
 contains
 
    !> Notes what is observed of a converged increment. Stresses of one that is not printed are there as long as that takes.
-   subroutine note_observed(observer, data, results, list)
+   subroutine note_observed(observer, data, results, rows, list)
       class(observer_t), intent(inout) :: observer
       type(scene_data_t), intent(inout) :: data
       type(results_t), intent(inout) :: results      !< of the increment; complete where it is printed
+      type(history_row_t), intent(in) :: rows(:)     !< of the history so far
       type(observed_list_t), intent(inout) :: list
       type(results_t) :: whole
 
@@ -39,10 +41,10 @@ contains
          whole = results
          call complete_results(data, whole)
          call leave_mesh_alone(data, whole)
-         call observer%observe(whole)
+         call observer%observe(whole, rows)
          call move_alloc(whole%observed, results%observed)
       else
-         call observer%observe(results)
+         call observer%observe(results, rows)
       end if
       call add_observed(results, list)
    end subroutine note_observed

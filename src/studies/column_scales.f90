@@ -12,7 +12,7 @@ module atrito_column_scales
       character(len=12) :: name
       character(len=15) :: columns(3)               !< blank: any
    end type kind_t
-   type(kind_t), parameter :: KINDS(11) = [kind_t('summary', ['quantity       ', 'value          ', '               ']), &
+   type(kind_t), parameter :: KINDS(12) = [kind_t('summary', ['quantity       ', 'value          ', '               ']), &
                                            kind_t('extremes', ['quantity       ', 'value          ', 'node_or_element']), &
                                            kind_t('resultants', ['keyword        ', 'fx             ', '               ']), &
                                            kind_t('nodal_stress', ['node           ', 'mises          ', '               ']), &
@@ -22,22 +22,25 @@ module atrito_column_scales
                                            kind_t('rigid', ['ur             ', 'moment         ', '               ']), &
                                            kind_t('joints', ['body_1         ', 'opening        ', '               ']), &
                                            kind_t('sections', ['cut            ', 'v              ', '               ']), &
+                                           kind_t('path', ['path           ', 's_along        ', '               ']), &
                                            kind_t('history', ['dissipation    ', 'elastic_energy ', '               '])]
 
    !> Columns of a kind of table that have one scale: components of one vector, or vectors that balance each other.
    type :: family_t
       character(len=12) :: kind
-      character(len=72) :: columns
+      character(len=80) :: columns
    end type family_t
    type(family_t), parameter :: &
-      FAMILIES(14) = [family_t('bodies', ' u1 u2 '), &
+      FAMILIES(17) = [family_t('bodies', ' u1 u2 '), &
                       family_t('bodies', ' loads_fx loads_fy supports_fx supports_fy contact_fx contact_fy '), &
                       family_t('bodies', ' loads_moment supports_moment contact_moment '), &
                       family_t('history', ' normal_resultant shear_resultant '), &
                       family_t('history', ' contact_length centre '), family_t('rigid', ' u1 u2 '), family_t('rigid', ' r1 r2 '), &
                       family_t('resultants', ' fx fy '), family_t('nodal_stress', ' s11 s22 s33 s12 mises '), &
                       family_t('joints', ' n t '), family_t('joints', ' x y '), family_t('joints', ' opening sliding '), &
-                      family_t('sections', ' n v '), family_t('sections', ' x y ')]
+                      family_t('sections', ' n v '), family_t('sections', ' x y '), &
+                      family_t('path', ' u1 u2 u_along u_across u_r u_t '), family_t('path', ' x y '), &
+                      family_t('path', ' s11 s22 s33 s12 mises s1 s2 tresca s_along s_across s_shear s_rr s_tt s_rt ')]
 
    real(wp), parameter :: MOST_GROUPS = 100000.0_wp  !< pairs and steps that even a table of few rows can have
 

@@ -1,8 +1,9 @@
 !> What `atrito limit` writes: limit.tab, mechanism.tab, and the closing lines on the screen.
 module atrito_stability_tables
+   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
    use atrito_kinds, only: ip, wp
    use atrito_page, only: page_t, begin_report, add_item, add_files, add_rule, number, plural, add_paragraph
-   use atrito_stability_result, only: stability_t, CODE_NOT_RUN
+   use atrito_stability_result, only: stability_t, stability_value_t, CODE_NOT_RUN
    use atrito_status, only: status_t, STATUS_OK, STATUS_NOT_CONVERGED
    use atrito_strings, only: string_t, append_string, to_text
    use atrito_table, only: table_t, origin_t, begin_table, add_reals, add_integers, add_words, one_word
@@ -33,6 +34,7 @@ contains
    pure subroutine build_values(limit, table)
       type(stability_t), intent(in) :: limit
       type(table_t), intent(out) :: table
+      integer :: i, k
 
       associate (values => limit%values)
          call begin_table(table, 'limit', 'a row a value of '//limit%parameter//'; displacement: '//limit%watched, &
@@ -47,8 +49,20 @@ contains
          call add_integers(table, 'iterations', values%iterations)
          call add_integers(table, 'linear_solves', values%solves)
          call add_integers(table, 'factorisations', values%factorisations)
+         do k = 1, size(limit%observed)
+            call add_reals(table, limit%observed(k)%s, 'mixed', [(observed_at(values(i), k), i=1, size(values))], 0.0_wp)
+         end do
       end associate
    end subroutine build_values
+
+   !> What is observed, k-th; nan where no run was made.
+   pure real(wp) function observed_at(one, k)
+      type(stability_value_t), intent(in) :: one
+      integer, intent(in) :: k
+
+      observed_at = ieee_value(1.0_wp, ieee_quiet_nan)
+      if (allocated(one%observed)) observed_at = one%observed(k)
+   end function observed_at
 
    pure subroutine build_mechanism(limit, table)
       type(stability_t), intent(in) :: limit

@@ -1,11 +1,12 @@
 !> The tables with rows of one increment each, docs/user/tables.md: contact, nodes, reactions, stress, bodies, joints, sections, by
-!> atrito_rigid_report rigid, and by atrito_row_tables ties, equations, springs.
+!> atrito_rigid_report rigid, by atrito_path_table path, and by atrito_row_tables ties, equations, springs.
 module atrito_frame_tables
    use atrito_extreme_report, only: build_extremes
    use atrito_kinds, only: ip, wp
    use atrito_plane_state, only: STRESS_NAMES
    use atrito_strings, only: string_t, append_string, to_text
    use atrito_model, only: model_t, is_due
+   use atrito_path_table, only: build_path_table
    use atrito_results, only: results_t, contact_result_t
    use atrito_resultant_report, only: has_resultants, build_resultants
    use atrito_rigid_report, only: build_rigid_table
@@ -32,8 +33,8 @@ contains
       type(results_t), intent(in) :: frame
       character(len=*), intent(in) :: name
       logical, intent(in) :: is_last
-      character(len=*), parameter :: ALONE(7) = [character(len=12) :: 'nodes', 'reactions', 'stress', 'nodal_stress', 'bodies', &
-                                                                                                               'joints', 'sections']
+      character(len=*), parameter :: ALONE(8) = [character(len=12) :: 'nodes', 'reactions', 'stress', 'nodal_stress', 'bodies', &
+                                                 'joints', 'sections', 'path']
       integer(ip) :: frequencies(0:size(ALONE))
 
       has = has_table(model, frame, name)
@@ -42,7 +43,7 @@ contains
       associate (every => model%steps(frame%step)%requests%every)
          ! what ties, equations and springs transmit and rigid surfaces do is printed as often as the contact
          frequencies = [every%contact, every%nodes, every%reactions, every%stress, every%nodal_stress, every%bodies, every%joints, &
-                        every%sections]
+                        every%sections, every%paths]
       end associate
       has = is_due(frequencies(findloc(ALONE == name, .true., dim=1)), frame%increment, frame%ends_step)
    end function has_frame_rows
@@ -52,8 +53,8 @@ contains
       type(model_t), intent(in) :: model
       type(results_t), intent(in) :: frame
       character(len=*), intent(in) :: name
-      character(len=*), parameter :: NAMES(11) = [character(len=12) :: 'contact', 'nodes', 'reactions', 'stress', 'nodal_stress', &
-                                                                  'bodies', 'joints', 'sections', 'rigid', 'extremes', 'resultants']
+      character(len=*), parameter :: NAMES(12) = [character(len=12) :: 'contact', 'nodes', 'reactions', 'stress', 'nodal_stress', &
+                                                          'bodies', 'joints', 'sections', 'path', 'rigid', 'extremes', 'resultants']
       logical :: is_there(size(NAMES))
       integer :: i
 
@@ -63,6 +64,7 @@ contains
                      requests%reactions .and. allocated(frame%reaction), requests%stress .and. allocated(frame%stress), &
                      requests%nodal_stress .and. allocated(frame%nodal_stress), requests%bodies .and. allocated(frame%bodies), &
                      requests%joints .and. allocated(frame%joints), allocated(requests%cuts) .and. allocated(frame%cuts), &
+                     allocated(requests%paths) .and. allocated(frame%nodal_stress), &
                      allocated(frame%rigid), allocated(frame%extremes), has_resultants(model)]
       end associate
       if (i > 0) has_table = is_there(i)
@@ -99,6 +101,8 @@ contains
          call build_joints(frame, scales, own, table)
       case ('sections')
          call build_sections(frame, scales, table)
+      case ('path')
+         call build_path_table(model, frame, scales, table)
       case ('ties')
          call build_ties(model, frame, scales, table)
       case ('equations')

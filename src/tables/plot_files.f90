@@ -16,7 +16,7 @@ module atrito_plot_files
    public :: list_plots, check_scripts, open_data
    public :: picture_endings, LOG_NAME, MESH_PLOT, OVERLAY_PLOT, OVERLAY_SUMMARY, CONTACT_PLOT, STUDY_PLOT, LIMIT_PLOT, &
              MECHANISM_PLOT, JOINT_PLOT, HISTORY_PLOT, LOOP_PLOT, MOTION_PLOT, TRACTION_PLOT, CONTOUR_PLOTS, SYMBOLS_OF, &
-             SCENE_PLOT, SET_PLOT, GAP_PLOT
+             SCENE_PLOT, SET_PLOT, GAP_PLOT, PATH_PLOT
 
    character(len=*), parameter :: MESH_PLOT = 'mesh', OVERLAY_SUMMARY = 'overlay-summary', STUDY_PLOT = 'study', &
                                   LIMIT_PLOT = 'limit', MECHANISM_PLOT = 'mechanism', JOINT_PLOT = 'joints', &
@@ -36,6 +36,7 @@ module atrito_plot_files
    integer, parameter :: OWNER(size(PICTURES)) = [PLOTS_OF_SWEEP, PLOTS_OF_STUDY, spread(PLOTS_OF_LIMIT, 1, 2), &
                                                   spread(PLOTS_OF_CHECK, 1, 4), spread(PLOTS_OF_RUN, 1, size(PICTURES) - 8)]
    character(len=*), parameter :: CONTACT_PLOT = 'contact-', OVERLAY_PLOT = 'overlay-'   !< and the number of the pair
+   character(len=*), parameter :: PATH_PLOT = 'path-'       !< and the number of the path
    character(len=*), parameter :: LOG_NAME = 'gnuplot.log'
    character(len=3), parameter :: ENDINGS(6) = ['gp ', 'dat', 'bin', 'png', 'svg', 'gif']
 
@@ -114,9 +115,7 @@ contains
       character(len=*), intent(in) :: folder        !< of the tables
       integer, intent(in) :: whose                  !< PLOTS_OF_*
       type(string_t), allocatable :: names(:)       !< without folder
-      character(len=:), allocatable :: numbered
       integer :: i
-      integer(ip) :: n
 
       allocate (names(0))
       if (.not. is_folder(plot_folder(folder))) return
@@ -125,14 +124,21 @@ contains
          if (OWNER(i) == whose) call append_picture(trim(PICTURES(i)))
       end do
       if (whose /= PLOTS_OF_RUN .and. whose /= PLOTS_OF_SWEEP) return
-      numbered = merge(CONTACT_PLOT, OVERLAY_PLOT, whose == PLOTS_OF_RUN)
-      n = 1
-      do while (has_picture(numbered//to_text(n)))
-         call append_picture(numbered//to_text(n))
-         n = n + 1
-      end do
+      call append_numbered(merge(CONTACT_PLOT, OVERLAY_PLOT, whose == PLOTS_OF_RUN))
+      if (whose == PLOTS_OF_RUN) call append_numbered(PATH_PLOT)
 
    contains
+
+      subroutine append_numbered(name)
+         character(len=*), intent(in) :: name       !< without number
+         integer(ip) :: n
+
+         n = 1
+         do while (has_picture(name//to_text(n)))
+            call append_picture(name//to_text(n))
+            n = n + 1
+         end do
+      end subroutine append_numbered
 
       subroutine append_picture(name)
          character(len=*), intent(in) :: name       !< without ending

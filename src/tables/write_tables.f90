@@ -19,10 +19,10 @@ module atrito_write_tables
    public :: write_tables, write_timing, list_table_files, origin_of, TABLE_NAMES
 
    !> Every table that atrito can write.
-   character(len=12), parameter :: TABLE_NAMES(18) = [character(len=12) :: 'contact', 'summary', 'extremes', 'resultants', &
-                                                              'history', 'nodes', 'reactions', 'stress', 'nodal_stress', 'bodies', &
-                                                                    'rigid', 'joints', 'sections', 'ties', 'equations', 'springs', &
-                                                                                                             'iterations', 'timing']
+   character(len=12), parameter :: TABLE_NAMES(19) = [character(len=12) :: 'contact', 'summary', 'extremes', 'resultants', &
+                                                      'history', 'nodes', 'reactions', 'stress', 'nodal_stress', 'bodies', &
+                                                      'rigid', 'joints', 'sections', 'path', 'ties', 'equations', 'springs', &
+                                                      'iterations', 'timing']
 
    !> What all tables of a run have in common.
    type :: common_t

@@ -39,7 +39,7 @@ slip_memory_t      fields/restart_file.f90 exchange_state memory is_incremental
 run_t              stepping/history_run.f90 record run options,reporter,scene,has_last,observer,sense,idle,n_idle
 run_t              stepping/history_run.f90 resume run reporter,observer,idle,n_idle
 progress_t         stepping/history_run.f90 record now cuts
-model_t            model/fingerprint.f90 * model deck_path,deck_name,heading,units,parameters,instances,levels,node_sets,element_sets,springs,ties,equations,inclined,sources,restart_every,asks_nlgeom,solver_mesh,provenance,as_run
+model_t            model/fingerprint.f90 * model deck_path,deck_name,heading,units,parameters,instances,levels,node_sets,element_sets,springs,ties,equations,inclined,sources,restart_every,asks_nlgeom,solver_mesh,provenance,as_run,observed
 mesh_t             model/fingerprint.f90 digest_of_mesh mesh node_map,element_map
 material_t         model/fingerprint.f90 digest_of_materials material name
 section_t          model/fingerprint.f90 digest_of_materials sections elset,is_tapered
@@ -56,7 +56,8 @@ amplitude_t        model/fingerprint.f90 add_amplitudes amplitude name
 increments_t       model/fingerprint.f90 add_way way
 controls_t         model/fingerprint.f90 add_way controls is_rung,asks_contraction
 requests_t         model/fingerprint.f90 add_requests requests
-frequencies_t      model/fingerprint.f90 add_requests every
+frequencies_t      model/types/model.f90 all_frequencies every
+path_t             model/fingerprint.f90 add_paths path place,s,x,along
 requested_t        model/fingerprint.f90 add_requested requested
 RULES
 

@@ -1,15 +1,17 @@
-!> The expressions of --observe: read once against the model, evaluated at the end of each increment.
+!> The expressions of *OBSERVE and --observe: read once against the model, evaluated at the end of each increment.
 module atrito_observations
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
    use atrito_expression_calls, only: call_t
    use atrito_expressions, only: evaluate_expression, expression_fault_t, is_name, list_calls
    use atrito_kinds, only: ip, is_nan, wp
+   use atrito_mesh, only: mesh_t
    use atrito_messages, only: add_warning, message_t, SEVERITY_ERROR
-   use atrito_model, only: model_t
+   use atrito_model, only: model_t, observed_line_t
    use atrito_observed_names, only: field_names, find_term, observable_names
-   use atrito_observed_terms, only: step_quantity_list, term_t, value_of_term, FIRST_FORCE, FIRST_STRESS, TERM_NODES, TERM_STEP
+   use atrito_observed_terms, only: is_of_strain, is_of_stress, step_quantity_list, term_t, value_of_term, TERM_STEP
    use atrito_observer, only: observer_t
-   use atrito_results, only: observed_t, results_t
+   use atrito_place_fields, only: nodal_strains
+   use atrito_results, only: history_row_t, observed_t, results_t
    use atrito_strings, only: nearest_names, same_name, string_t, to_text
    use atrito_summary, only: quantity_t
    implicit none (type, external)
@@ -19,6 +21,7 @@ module atrito_observations
    !> One of them.
    type :: observation_t
       character(len=:), allocatable :: name, text    !< text: the expression
+      type(observed_line_t) :: line                  !< of the deck; its text is not allocated where --observe gives it
       type(call_t), allocatable :: calls(:)          !< of it
       type(term_t), allocatable :: terms(:)          !< what they mean
       logical :: has_warned = .false.
@@ -30,6 +33,7 @@ module atrito_observations
       type(string_t), allocatable :: names(:)        !< parameters of the deck
       real(wp), allocatable :: values(:)
       logical :: has_own_degree = .false.            !< one of them is deg
+      type(mesh_t), allocatable :: mesh              !< where strains are asked for
    contains
       procedure :: observe => evaluate_all
    end type observations_t
@@ -43,32 +47,38 @@ module atrito_observations
 
 contains
 
-   !> Reads `NAME=EXPRESSION`, several. is_ok is false where one is wrong, and error says how.
+   !> Reads `NAME=EXPRESSION`, several: those of the deck, then the texts of --observe. is_ok is false where one is wrong, and error says how.
    subroutine read_observations(texts, model, observations, is_ok, error)
       type(string_t), intent(in) :: texts(:)
       type(model_t), intent(in) :: model
       type(observations_t), intent(out) :: observations
       logical, intent(out) :: is_ok
       type(message_t), intent(out) :: error
-      integer :: i
+      integer :: i, k, n
 
       is_ok = .true.
-      observations%is_there = size(texts) > 0
+      n = size(model%observed)
+      observations%is_there = n + size(texts) > 0
       if (.not. observations%is_there) return
-      allocate (observations%list(size(texts)), observations%names(size(model%parameters)))
+      allocate (observations%list(n + size(texts)), observations%names(size(model%parameters)))
       do i = 1, size(model%parameters)
          observations%names(i)%s = model%parameters(i)%name
          observations%has_own_degree = observations%has_own_degree .or. same_name(model%parameters(i)%name, 'deg')
       end do
       observations%values = model%parameters%value
-      do i = 1, size(texts)
+      do i = 1, size(observations%list)
          associate (one => observations%list(i))
-            one%name = observation_name(texts(i)%s)
-            one%text = texts(i)%s(index(texts(i)%s, '=') + 1:)
+            if (i <= n) one%line = model%observed(i)
+            if (i <= n) one%text = one%line%text
+            if (i > n) one%text = texts(i - n)%s
+            one%name = observation_name(one%text)
+            one%text = one%text(index(one%text//'=', '=') + 1:)
             call check_name(observations, i, is_ok, error)
             if (is_ok) call find_terms(model, observations, i, is_ok, error)
             if (.not. is_ok) return
             observations%wants_stress = observations%wants_stress .or. wants_stress(one%terms)
+            if (any([(is_of_strain(one%terms(k)), k=1, size(one%terms))]) .and. .not. allocated(observations%mesh)) &
+               allocate (observations%mesh, source=model%mesh)
          end associate
       end do
    end subroutine read_observations
@@ -78,18 +88,22 @@ contains
       character(len=*), intent(in) :: text
       character(len=:), allocatable :: name
 
-      name = trim(adjustl(text(:max(index(text, '=') - 1, 0))))
+      name = trim(adjustl(text))
+      if (index(text, '=') > 0) name = trim(adjustl(text(:index(text, '=') - 1)))
    end function observation_name
 
-   !> The names of several.
-   pure function observation_names(texts) result(names)
+   !> The names of those of a deck, then of --observe.
+   pure function observation_names(lines, texts) result(names)
+      type(observed_line_t), intent(in) :: lines(:)
       type(string_t), intent(in) :: texts(:)           !< NAME=EXPRESSION
       type(string_t), allocatable :: names(:)
-      integer :: i
+      integer :: i, n
 
-      allocate (names(size(texts)))
-      do i = 1, size(texts)
-         names(i)%s = observation_name(texts(i)%s)
+      n = size(lines)
+      allocate (names(n + size(texts)))
+      do i = 1, size(names)
+         if (i <= n) names(i)%s = observation_name(lines(i)%text)
+         if (i > n) names(i)%s = observation_name(texts(i - n)%s)
       end do
    end function observation_names
 
@@ -167,7 +181,7 @@ contains
       end associate
    end subroutine find_terms
 
-   !> An error of the command line, of which its words are known and where in the expression it is; of names that are known the
+   !> An error of the deck or the command line, of which its words are known and where in the expression it is; of names that are known the
    !> nearest are told, or all where none is near and they are few.
    subroutine complete_error(one, error)
       type(observation_t), intent(in) :: one
@@ -176,14 +190,32 @@ contains
       error%severity = SEVERITY_ERROR
       error%id = 'E-OBSERVE'
       error%file = 'atrito'
-      error%text = '--observe '//one%name//': '//error%text
-      if (error%column == 0) return
-      error%text = error%text//', column '//to_text(error%column)
-      error%source = one%text
-      if (.not. allocated(error%known)) return
-      error%nearest = nearest_names(one%text(error%column:error%column + error%length - 1), error%known, MOST_NEAREST)
-      if (size(error%nearest) > 0 .or. size(error%known) > FEW) deallocate (error%known)
+      error%text = label_of(one)//': '//error%text
+      if (error%column > 0 .and. allocated(error%known)) then
+         error%nearest = nearest_names(one%text(error%column:error%column + error%length - 1), error%known, MOST_NEAREST)
+         if (size(error%nearest) > 0 .or. size(error%known) > FEW) deallocate (error%known)
+      end if
+      if (allocated(one%line%text)) then
+         error%file = one%line%file
+         error%line = one%line%line
+         error%source = one%line%text
+         error%skipped = one%line%column - 1
+         error%column = error%column + one%line%column - 1 + index(one%line%text, '=')
+         error%keyword = 'OBSERVE'
+      else if (error%column > 0) then
+         error%text = error%text//', column '//to_text(error%column)
+         error%source = one%text
+      end if
    end subroutine complete_error
+
+   !> Whose an expression is, in messages.
+   pure function label_of(one) result(label)
+      type(observation_t), intent(in) :: one
+      character(len=:), allocatable :: label
+
+      label = '--observe '//one%name
+      if (allocated(one%line%text)) label = '*OBSERVE '//one%name
+   end function label_of
 
    !> Whether terms want what costs a recovery of stresses.
    pure logical function wants_stress(terms)
@@ -195,58 +227,57 @@ contains
       list = step_quantity_list()
       do i = 1, size(terms)
          associate (term => terms(i))
-            if (term%kind == TERM_NODES) wants_stress = wants_stress .or. is_stress(term%field)
+            wants_stress = wants_stress .or. is_of_stress(term)
             if (term%kind == TERM_STEP) wants_stress = wants_stress .or. list(term%field)%name == 'error_estimate_percent'
          end associate
       end do
    end function wants_stress
 
-   pure logical function is_stress(field)
-      integer, intent(in) :: field                   !< place in NODAL_FIELDS
-
-      is_stress = field >= FIRST_STRESS .and. field < FIRST_FORCE
-   end function is_stress
-
    !> Puts the values into the results.
-   subroutine evaluate_all(self, results)
+   subroutine evaluate_all(self, results, rows)
       class(observations_t), intent(inout) :: self
       type(results_t), intent(inout) :: results
+      type(history_row_t), intent(in) :: rows(:)     !< of the history so far
       type(observed_t), allocatable :: found(:)
+      real(wp), allocatable :: strain(:, :)
       integer :: i
 
+      if (allocated(self%mesh)) call nodal_strains(self%mesh, results%u, strain)
       allocate (found(size(self%list)))
       do i = 1, size(found)
          found(i)%name = self%list(i)%name
-         call evaluate(self%list(i), self%names, self%values, self%has_own_degree, results, found(i)%value)
+         call evaluate(self, i, results, rows, strain, found(i)%value)
       end do
       call move_alloc(found, results%observed)
    end subroutine evaluate_all
 
    !> nan where a quantity is not defined, or the arithmetic has no result, which is told the first time.
-   subroutine evaluate(one, names, values, own_degree, results, value)
-      type(observation_t), intent(inout) :: one
-      type(string_t), intent(in) :: names(:)         !< parameters
-      real(wp), intent(in) :: values(:)
-      logical, intent(in) :: own_degree              !< one of them is deg
+   subroutine evaluate(self, i, results, rows, strain, value)
+      class(observations_t), intent(inout) :: self
+      integer, intent(in) :: i                       !< which one
       type(results_t), intent(in) :: results
+      type(history_row_t), intent(in) :: rows(:)
+      real(wp), allocatable, intent(in) :: strain(:, :) !< at the nodes, where one is asked for
       real(wp), intent(out) :: value
       type(expression_fault_t) :: fault
-      real(wp) :: amounts(size(one%terms))
+      real(wp) :: amounts(size(self%list(i)%terms))
       integer :: k
 
       value = ieee_value(1.0_wp, ieee_quiet_nan)
-      do k = 1, size(amounts)
-         amounts(k) = value_of_term(one%terms(k), results)
-      end do
-      if (any(is_nan(amounts))) return
-      call evaluate_expression(one%text, names, values, value, fault, own_degree, one%calls, amounts)
-      if (.not. allocated(fault%text)) return
-      value = ieee_value(1.0_wp, ieee_quiet_nan)
-      if (one%has_warned) return
-      one%has_warned = .true.
-      call add_warning('W-OBSERVE', '--observe '//one%name//' is nan in step '//to_text(results%step)//', increment ' &
-                       //to_text(results%increment)//': '//fault%text//', column '//to_text(int(fault%first, ip))// &
-                       ' of '//one%text)
+      associate (one => self%list(i))
+         do k = 1, size(amounts)
+            amounts(k) = value_of_term(one%terms(k), results, rows, strain)
+         end do
+         if (any(is_nan(amounts))) return
+         call evaluate_expression(one%text, self%names, self%values, value, fault, self%has_own_degree, one%calls, amounts)
+         if (.not. allocated(fault%text)) return
+         value = ieee_value(1.0_wp, ieee_quiet_nan)
+         if (one%has_warned) return
+         one%has_warned = .true.
+         call add_warning('W-OBSERVE', label_of(one)//' is nan in step '//to_text(results%step)//', increment ' &
+                          //to_text(results%increment)//': '//fault%text//', column '//to_text(int(fault%first, ip))// &
+                          ' of '//one%text)
+      end associate
    end subroutine evaluate
 
 end module atrito_observations

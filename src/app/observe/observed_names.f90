@@ -1,15 +1,16 @@
 !> What the names of an expression of --observe mean in a model: terms, or what is wrong with them.
 module atrito_observed_names
-   use atrito_expression_calls, only: argument_t, call_t
+   use atrito_expression_calls, only: call_t
    use atrito_expression_names, only: DIGITS, reserved_names
    use atrito_kinds, only: ip
    use atrito_messages, only: message_t
    use atrito_model, only: model_t
    use atrito_numbers, only: read_integer, NUMBER_OK
-   use atrito_observed_places, only: find_place, has_element, has_support
-   use atrito_observed_terms, only: pair_quantity_list, step_quantity_list, term_t, FIRST_FORCE, FIRST_STRESS, NODAL_FIELDS, &
-                                    POINT_FIELDS, TAKE_LARGEST, TAKE_LEAST, TAKE_MEAN, TAKE_ONE, TAKE_SUM, TERM_NODES, TERM_PAIR, &
-                                    TERM_POINTS, TERM_STEP, TERM_TIME
+   use atrito_observed_arguments, only: complain_of_count, find_nodes, put_place
+   use atrito_place_fields, only: IS_POLAR
+   use atrito_observed_terms, only: pair_quantity_list, step_quantity_list, term_t, FIRST_FORCE, NODAL_FIELDS, &
+                                    POINT_FIELDS, TAKE_LARGEST, TAKE_LEAST, TAKE_MEAN, TAKE_ONE, TAKE_SUM, TERM_PAIR, &
+                                    TERM_POINTS, TERM_STEP, TERM_TIME, TERM_ZONE, ZONE_FIELDS
    use atrito_strings, only: string_t, append_string, lower_case, same_name, to_text
    use atrito_summary, only: quantity_t
    implicit none (type, external)
@@ -44,7 +45,9 @@ contains
          fault%text = name//' has a value at each contact point'
          fault%expected = 'max('//name//', pair), min(...) or mean(...)'
       else if (index_of(pair_quantity_list(), name) > 0) then
-         call find_of_pair(model, call, index_of(pair_quantity_list(), name), term, fault)
+         call find_of_pair(model, call, TERM_PAIR, index_of(pair_quantity_list(), name), term, fault)
+      else if (any(ZONE_FIELDS == name)) then
+         call find_of_pair(model, call, TERM_ZONE, findloc(ZONE_FIELDS == name, .true., dim=1), term, fault)
       else
          call find_of_step(model, call, name, term, fault)
       end if
@@ -64,7 +67,8 @@ contains
       if (term%field == 0 .and. name /= TIME_NAME) then
          fault%length = len(call%name, kind=ip)
          fault%text = 'unknown quantity '//call%name
-         fault%expected = 'u2(node), rf1(set), mean(mises, set), a quantity of summary.tab, a parameter of the deck, a function'
+         fault%expected = 'u2(node), s11(x, y), rf1(set), mean(mises, set), a quantity of summary.tab, a parameter of '// &
+                          'the deck, a function'
          fault%known = observable_names()
          do i = 1, size(model%parameters)
             call append_string(fault%known, model%parameters(i)%name)
@@ -75,20 +79,21 @@ contains
       end if
    end subroutine find_of_step
 
-   !> `max_pressure` or `max_pressure(2)`.
-   subroutine find_of_pair(model, call, field, term, fault)
+   !> `max_pressure`, `max_pressure(2)` or `contact_half_width(2)`.
+   subroutine find_of_pair(model, call, kind, field, term, fault)
       type(model_t), intent(in) :: model
       type(call_t), intent(in) :: call
-      integer, intent(in) :: field
+      integer, intent(in) :: kind, field             !< TERM_PAIR or TERM_ZONE
       type(term_t), intent(inout) :: term
       type(message_t), intent(inout) :: fault
 
-      term%kind = TERM_PAIR
+      term%kind = kind
       term%field = field
       if (call%has_parentheses .and. size(call%arguments) /= 1) then
          call complain_of_count(call, call%name//'(pair), pair being its number or its slave', fault)
       else
          call find_pair(model, call, 1, term%pair, fault)
+         if (.not. allocated(fault%text)) term%nu = model%interactions(model%pairs(term%pair)%interaction)%nu
       end if
    end subroutine find_of_pair
 
@@ -156,16 +161,16 @@ contains
       type(message_t), intent(inout) :: fault
       character(len=:), allocatable :: form
 
-      form = call%name//trim(merge('(node or set), the sum over the set', '(node or set of one node)          ', &
-                                   field >= FIRST_FORCE))
-      if (size(call%arguments) /= 1) then
-         call complain_of_count(call, form, fault)
-         return
+      form = call%name//'(node or set of one node), '//call%name//'(x, y), '//call%name//'(x, y, element set or instance)'
+      if (field >= FIRST_FORCE) then
+         form = call%name//'(node or set), the sum over the set'
+      else if (IS_POLAR(field)) then
+         form = call%name//'(x, y), '//call%name//'(x, y, xc, yc) about another centre than (0, 0), or a node or set for x, y'
       end if
-      call find_nodes(model, call%arguments(1), field, term, fault)
+      call find_nodes(model, call, 1, field, form, term, fault)
       if (allocated(fault%text)) return
       term%take = merge(TAKE_SUM, TAKE_ONE, field >= FIRST_FORCE)
-      if (term%take == TAKE_SUM .or. size(term%nodes) == 1) return
+      if (term%take == TAKE_SUM .or. term%is_place .or. size(term%nodes) == 1) return
       call put_place(call%arguments(1), fault)
       fault%text = call%arguments(1)%text//' has '//to_text(size(term%nodes, kind=ip))//' nodes'
       fault%expected = form//'; or mean('//call%name//', '//call%arguments(1)%text//'), min(...), max(...)'
@@ -193,10 +198,9 @@ contains
          fault%text = 'unknown quantity '//call%arguments(1)%text
          fault%expected = 'a quantity of nodes or contact points: '//call%name//'(mises, set), '//call%name//'(pressure, pair)'
          fault%known = field_names()
-      else if (of_nodes > 0 .and. size(call%arguments) /= 2) then
-         call complain_of_count(call, call%name//'('//field//', set)', fault)
       else if (of_nodes > 0) then
-         call find_nodes(model, call%arguments(2), of_nodes, term, fault)
+         call find_nodes(model, call, 2, of_nodes, call%name//'('//field//', set)'// &
+                         trim(merge(', with xc, yc behind it about a centre', repeat(' ', 38), index(field, '_') > 0)), term, fault)
       else if (size(call%arguments) > 2) then
          call complain_of_count(call, call%name//'('//field//', pair)', fault)
       else
@@ -205,53 +209,6 @@ contains
          call find_pair(model, call, 2, term%pair, fault)
       end if
    end subroutine find_aggregate
-
-   !> The nodes of an argument, where they have the field.
-   subroutine find_nodes(model, argument, field, term, fault)
-      type(model_t), intent(in) :: model
-      type(argument_t), intent(in) :: argument
-      integer, intent(in) :: field                   !< place in NODAL_FIELDS
-      type(term_t), intent(inout) :: term
-      type(message_t), intent(inout) :: fault
-
-      term%kind = TERM_NODES
-      term%field = field
-      call find_place(model, argument, term%nodes, term%weights, fault)
-      if (.not. allocated(fault%text)) then
-         if (field >= FIRST_FORCE) then
-            if (has_support(model, term%nodes)) return
-            fault%text = argument%text//' has no node with a prescribed displacement, so no reaction'
-            fault%expected = 'a node or set with supports'
-         else if (field >= FIRST_STRESS) then
-            if (has_element(model, term%nodes)) return
-            fault%text = argument%text//' has a node without elements, so without stresses'
-            fault%expected = 'nodes of elements'
-         else
-            return
-         end if
-      end if
-      call put_place(argument, fault)
-   end subroutine find_nodes
-
-   subroutine complain_of_count(call, form, fault)
-      type(call_t), intent(in) :: call
-      character(len=*), intent(in) :: form           !< how it should read
-      type(message_t), intent(inout) :: fault
-      integer(ip) :: n
-
-      n = size(call%arguments, kind=ip)
-      fault%text = call%name//' stands with '//to_text(n)//trim(merge(' argument ', ' arguments', n == 1))
-      if (n == 0) fault%text = call%name//' stands without argument'
-      fault%expected = form
-   end subroutine complain_of_count
-
-   subroutine put_place(argument, fault)
-      type(argument_t), intent(in) :: argument
-      type(message_t), intent(inout) :: fault
-
-      fault%column = int(argument%first, ip)
-      fault%length = int(argument%last - argument%first + 1, ip)
-   end subroutine put_place
 
    !> Place of a quantity among others; 0: it is none of them.
    pure integer function index_of(list, name) result(i)
@@ -285,6 +242,9 @@ contains
       list = [pair_quantity_list(), step_quantity_list()]
       do i = 1, size(list)
          call append_string(names, trim(list(i)%name))
+      end do
+      do i = 1, size(ZONE_FIELDS)
+         call append_string(names, trim(ZONE_FIELDS(i)))
       end do
       call append_string(names, TIME_NAME)
       call append_string(names, trim(AGGREGATES(1)))

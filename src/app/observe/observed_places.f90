@@ -7,6 +7,9 @@ module atrito_observed_places
    use atrito_face_loads, only: traction_load
    use atrito_kinds, only: ip, wp
    use atrito_mesh, only: depth_places, face_nodes, find_node
+   use atrito_bodies, only: bodies_t, find_bodies
+   use atrito_body_names, only: name_bodies
+   use atrito_element_places, only: find_nearest, find_places, place_t
    use atrito_messages, only: message_t
    use atrito_model, only: model_t, nodal_values_t, SURFACE_ELEMENTS
    use atrito_name_list, only: names_of
@@ -16,8 +19,9 @@ module atrito_observed_places
    use atrito_strings, only: string_t, append_string, same_name, to_text
    implicit none (type, external)
    private
-   public :: find_place, has_support, has_element
+   public :: find_place, find_point, has_support, has_element
 
+   integer, parameter :: DIGITS_TOLD = 6              !< of coordinates in messages
    character(len=*), parameter :: A_PLACE = 'a node number, a node set, an element set or a surface of elements'
 
 contains
@@ -55,13 +59,104 @@ contains
       end if
    end subroutine find_place
 
+   !> The nodes of the element that holds a point, and its shape functions there.
+   subroutine find_point(model, x, body, nodes, weights, fault)
+      type(model_t), intent(in) :: model
+      real(wp), intent(in) :: x(2)                   !< [L]
+      character(len=*), intent(in) :: body           !< an element set or an instance that it is in; '': any
+      integer(ip), allocatable, intent(out) :: nodes(:) !< places
+      real(wp), allocatable, intent(out) :: weights(:)  !< their sum is 1
+      type(message_t), intent(inout) :: fault        !< text not allocated: nothing is wrong
+      logical :: wanted(model%mesh%n_elements)
+      type(place_t), allocatable :: places(:)
+      character(len=:), allocatable :: text
+      integer(ip) :: i, near
+      real(wp) :: distance
+
+      call choose_elements(model, body, wanted, fault)
+      if (allocated(fault%text)) return
+      call find_places(model%mesh, wanted, reshape(x, [2, 1]), places)
+      text = '('//to_text(x(1), DIGITS_TOLD)//', '//to_text(x(2), DIGITS_TOLD)//')'
+      if (size(places) == 0) then
+         call find_nearest(model%mesh, wanted, x, near, distance)
+         fault%text = text//' is outside of all bodies'
+         if (len(body) > 0) fault%text = text//' is outside of '//body
+         if (near > 0) fault%text = fault%text//', '//to_text(distance, 3)//' from '//body_name(model, near)
+         fault%expected = 'a place x, y in a body [L]'
+      else if (size(places) > 1) then
+         fault%text = text//' is in '//body_name(model, places(1)%element)
+         do i = 2, size(places, kind=ip)
+            fault%text = fault%text//' and in '//body_name(model, places(i)%element)
+         end do
+         fault%expected = 'x, y and the element set or instance that is meant'
+      else
+         associate (e => places(1)%element, n => model%mesh%shape(places(1)%element))
+            nodes = model%mesh%nodes(:n, e)
+            weights = places(1)%value(:n)
+         end associate
+      end if
+   end subroutine find_point
+
+   !> The elements of an element set or an instance.
+   subroutine choose_elements(model, name, wanted, fault)
+      type(model_t), intent(in) :: model
+      character(len=*), intent(in) :: name           !< '': all
+      logical, intent(out) :: wanted(:)
+      type(message_t), intent(inout) :: fault
+      integer(ip) :: set, first, next
+
+      wanted = len(name) == 0
+      if (len(name) == 0) return
+      set = find_set(model%element_sets, name)
+      if (set > 0) then
+         wanted(members_of(model%element_sets%sets(set))) = .true.
+         return
+      end if
+      call find_instance(model, name, first, next)
+      if (first > 0) then
+         wanted = model%mesh%element_id(:model%mesh%n_elements) >= first .and. model%mesh%element_id(:model%mesh%n_elements) < next
+         return
+      end if
+      fault%text = 'the deck has no element set or instance '//name
+      fault%expected = 'the name of one that holds the place'
+      fault%known = names_of(model%element_sets%names)
+   end subroutine choose_elements
+
+   function body_name(model, element) result(name)
+      type(model_t), intent(in) :: model
+      integer(ip), intent(in) :: element
+      character(len=:), allocatable :: name
+      type(bodies_t) :: bodies
+
+      call find_bodies(model%mesh, bodies)
+      call name_bodies(model, bodies)
+      name = bodies%list(bodies%of_element(element))%name
+   end function body_name
+
+   !> The numbers of an instance: from first on, before next. first is 0 where there is no such instance.
+   pure subroutine find_instance(model, name, first, next)
+      type(model_t), intent(in) :: model
+      character(len=*), intent(in) :: name
+      integer(ip), intent(out) :: first, next
+      integer(ip) :: i
+
+      first = 0
+      next = huge(1_ip)
+      if (.not. allocated(model%instances)) return
+      do i = 1, size(model%instances, kind=ip)
+         if (same_name(model%instances(i)%name, name)) first = model%instances(i)%first_number
+      end do
+      if (first > 0 .and. any(model%instances%first_number > first)) &
+         next = minval(model%instances%first_number, model%instances%first_number > first)
+   end subroutine find_instance
+
    !> `12`, or `LEFT.12` of an instance. nodes is not allocated where it is no number.
    subroutine find_numbered(model, text, nodes, fault)
       type(model_t), intent(in) :: model
       character(len=*), intent(in) :: text
       integer(ip), allocatable, intent(out) :: nodes(:)
       type(message_t), intent(inout) :: fault
-      integer(ip) :: id, i, first, next
+      integer(ip) :: id, first, next
       integer :: dot, outcome
 
       dot = index(text, '.', back=.true.)
@@ -70,14 +165,8 @@ contains
       first = 1
       next = huge(1_ip)
       if (dot > 0) then
-         if (.not. allocated(model%instances)) return
-         do i = 1, size(model%instances, kind=ip)
-            if (same_name(model%instances(i)%name, text(:dot - 1))) exit
-         end do
-         if (i > size(model%instances)) return
-         first = model%instances(i)%first_number
-         if (any(model%instances%first_number > first)) next = minval(model%instances%first_number, &
-                                                                      model%instances%first_number > first)
+         call find_instance(model, text(:dot - 1), first, next)
+         if (first == 0) return
       end if
       if (outcome == NUMBER_OK .and. id < next - first + 1) then
          nodes = pack([find_node(model%mesh, first - 1 + id)], [find_node(model%mesh, first - 1 + id) > 0])

@@ -56,9 +56,9 @@ module atrito_option_table
                                          expected='a folder; it is made where it is missing'), &
                       option_t('--set', 'NAME=VALUE', [Y, Y, N, N, Y, Y, Y], 'value of a *PARAMETER of the deck; may be repeated', &
                                          expected='NAME=VALUE, VALUE an expression of numbers'), &
-                                option_t('--observe', 'NAME=EXPR', [Y, Y, N, N, Y, Y, N], &
-                                         'a number of your own, such as tip=u2(12), in the tables; may be repeated', &
-                                         expected='NAME=EXPRESSION, such as tip=u2(12) or peak=max(mises, BEAM)'), &
+                                option_t('--observe', 'NAME=EXPR', [Y, Y, N, N, Y, Y, Y], &
+                                         'a number of your own, as tip=u2(1.0, 0.05), in the tables; may be repeated', &
+                                         expected='NAME=EXPRESSION, such as tip=u2(1.0, 0.05) or peak=max(mises, BEAM)'), &
                    option_t('--refine', 'K', [Y, Y, N, N, Y, Y, Y], 'each element into 4, K times; all else follows', default='0', &
                                          expected='a whole number, 0 to 12: each element into 4, so many times'), &
                                 option_t('--solver', 'NAME', [Y, Y, N, N, Y, Y, Y], 'solver of the bodies', default='auto', &

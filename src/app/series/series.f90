@@ -10,6 +10,9 @@ module atrito_series
    use atrito_given_options, only: options_of_series
    use atrito_kinds, only: ip, lp, wp
    use atrito_messages, only: add_warning, clear_messages, count_messages, SEVERITY_ERROR
+   use atrito_model, only: observed_line_t
+   use atrito_observations, only: observation_names
+   use atrito_observed_lines, only: list_observed
    use atrito_page, only: page_t, print_page, add_above_rule
    use atrito_patched_text, only: named_text_t, digest_of_texts
    use atrito_parameter_text, only: list_parameters
@@ -25,7 +28,7 @@ module atrito_series
    use atrito_system, only: processor_seconds
    implicit none (type, external)
    private
-   public :: claim_output, find_origin, begin_pictures, print_closing, seconds_since
+   public :: claim_output, find_origin, find_observed, begin_pictures, print_closing, seconds_since
 
    !> Whose the pictures of a command are.
    integer, parameter :: WHOSE(TASK_SWEEP:TASK_LIMIT) = [PLOTS_OF_SWEEP, PLOTS_OF_STUDY, PLOTS_OF_LIMIT]
@@ -93,6 +96,22 @@ contains
       call take_deck_as_run(deck, files)
       origin%digest = digest_of_texts(files)
    end subroutine find_origin
+
+   !> The names of what is observed in each run, those of the deck first.
+   subroutine find_observed(command, names)
+      type(command_t), intent(in) :: command
+      type(string_t), allocatable, intent(out) :: names(:)
+      type(observed_line_t), allocatable :: lines(:)
+      type(deck_t) :: deck
+      type(status_t) :: status
+
+      call clear_messages()
+      call read_deck(command%names(1)%s, command%settings, deck, status)
+      call clear_messages()                         ! its runs tell what is wrong
+      allocate (lines(0))
+      if (is_ok(status)) call list_observed(deck, lines)
+      names = observation_names(lines, command%observe)
+   end subroutine find_observed
 
    !> The command's pictures and report of an earlier time go, made anew or not, for its tables are new.
    subroutine begin_pictures(command)

@@ -16,14 +16,15 @@ module atrito_stability_limit
    use atrito_mesh, only: find_node
    use atrito_messages, only: clear_messages
    use atrito_model, only: model_t
+   use atrito_observations, only: observations_t
    use atrito_page, only: page_t
    use atrito_report, only: report_t
    use atrito_reporter, only: reporter_t, report_phase
    use atrito_results, only: history_t, results_t
    use atrito_series_reports, only: begin_series, report_of_limit
-   use atrito_series, only: claim_output, find_origin, begin_pictures, print_closing, seconds_since
+   use atrito_series, only: claim_output, find_origin, find_observed, begin_pictures, print_closing, seconds_since
    use atrito_stability_plot, only: write_stability_plots
-   use atrito_run, only: take_threads, load_model, solve_options, agree_on_outcome
+   use atrito_run, only: take_threads, load_model, prepare_observations, solve_options, agree_on_outcome
    use atrito_sweep_plan, only: read_range
    use atrito_stability_result, only: stability_t, stability_value_t, CODE_NOT_RUN
    use atrito_stability_search, only: search_t, begin_search, next_step, record_balance, record_solution, standing_value, &
@@ -78,6 +79,7 @@ contains
 
       call system_clock(began)
       call find_origin(command, origin)
+      call find_observed(command, limit%observed)
       limit%watched = 'largest displacement'
       if (command%watched(1) > 0) limit%watched = 'u'//to_text(command%watched(2))//' of node '//to_text(command%watched(1))
       allocate (limit%values(0))
@@ -128,6 +130,22 @@ contains
       end do
    end subroutine ask_all
 
+   !> Puts a value at its place among the others, or over what was known of it.
+   pure subroutine put_value(one, values)
+      type(stability_value_t), intent(in) :: one
+      type(stability_value_t), allocatable, intent(inout) :: values(:)
+      type(stability_value_t), allocatable :: more(:)
+      integer :: n, rest
+
+      n = count(values%value < one%value)
+      rest = count(values%value > one%value)
+      allocate (more(n + 1 + rest))
+      more(:n) = values(:n)
+      more(n + 1) = one
+      more(n + 2:) = values(size(values) - rest + 1:)
+      call move_alloc(more, values)
+   end subroutine put_value
+
    !> Whether the loads can be balanced at a value. The first such question tells what the deck has to say.
    subroutine ask_balance(command, limit, search, one, code)
       type(command_t), intent(in) :: command
@@ -165,6 +183,7 @@ contains
       type(stability_value_t), intent(inout) :: one
       integer, intent(out) :: code
       type(model_t) :: model
+      type(observations_t) :: observations
       type(status_t) :: status
       type(history_t) :: history
       type(frame_spool_t) :: frames
@@ -174,10 +193,12 @@ contains
 
       one%displacement = ieee_value(1.0_wp, ieee_quiet_nan)
       call load_value(command, limit%parameter, one%value, .true., model, code, n_printed)
+      if (code == STATUS_OK) call prepare_observations(command, model, observations, code)
       if (code /= STATUS_OK) return
       reporter%quiet = .true.
       call begin_frames(output_folder(command), frames)
-      call solve_history(model, solve_options(command), reporter, history, status, store, frames=frames)
+      call solve_history(model, solve_options(command), reporter, history, status, store, observer=observations, &
+                         frames=frames)
       call end_frames(frames)
       n = size(history%frames)
       if (n > 0) call agree_on_outcome(status, history%frames(n), history%ending%is_early)
@@ -190,6 +211,9 @@ contains
          status = status_t()
          if (n > 0) call watch(model, history%frames(n), command%watched, one%displacement, status)
          if (n > 0) call count_work(history, one)
+         if (n > 0) then
+            if (allocated(history%frames(n)%observed)) one%observed = history%frames(n)%observed%value
+         end if
       end if
       code = status%code
       if (.not. is_ok(status)) call print_failure(command, limit%parameter, one%value, status)

@@ -3,7 +3,7 @@ module atrito_study_plan
    use atrito_command_line, only: command_t
    use atrito_kinds, only: ip
    use atrito_numbers, only: read_real, NUMBER_OK
-   use atrito_observations, only: observation_names
+   use atrito_series, only: find_observed
    use atrito_status, only: status_t, set_status, is_ok, STATUS_USAGE
    use atrito_strings, only: string_t, append_string, join, nearest_names
    use atrito_study_errors, only: study_t
@@ -44,16 +44,17 @@ contains
       type(command_t), intent(in) :: command
       type(study_t), intent(inout) :: study
       type(status_t), intent(out) :: status
-      type(string_t), allocatable :: list(:)
+      type(string_t), allocatable :: list(:), observed(:)
       integer :: i, equals, outcome
 
-      call list_references(command, list)
+      call find_observed(command, observed)
+      call list_references(command, observed, list)
       allocate (study%quantities(size(list)))
       do i = 1, size(list)
          associate (quantity => study%quantities(i))
             equals = index(list(i)%s, '=')
             quantity%name = quantity_of(list(i)%s)
-            call check_name(quantity%name, observation_names(command%observe), status)
+            call check_name(quantity%name, observed, status)
             if (.not. is_ok(status)) return
             if (equals == 0) cycle
             quantity%is_given = .true.
@@ -67,14 +68,13 @@ contains
    end subroutine choose_quantities
 
    !> The references, then what is observed and not among them; without any reference the energy and the resultants last.
-   subroutine list_references(command, list)
+   subroutine list_references(command, observed, list)
       type(command_t), intent(in) :: command
+      type(string_t), intent(in) :: observed(:)     !< names of *OBSERVE and --observe
       type(string_t), allocatable, intent(out) :: list(:)
-      type(string_t), allocatable :: observed(:)
       integer :: i, k
 
       list = command%references
-      observed = observation_names(command%observe)
       do i = 1, size(observed)
          do k = 1, size(command%references)
             if (quantity_of(command%references(k)%s) == observed(i)%s) exit
@@ -97,7 +97,7 @@ contains
 
    subroutine check_name(name, observed, status)
       character(len=*), intent(in) :: name
-      type(string_t), intent(in) :: observed(:)     !< names of --observe
+      type(string_t), intent(in) :: observed(:)     !< names of *OBSERVE and --observe
       type(status_t), intent(inout) :: status
       type(string_t), allocatable :: names(:), near(:)
       character(len=:), allocatable :: text

@@ -12,7 +12,6 @@ module atrito_sweep
    use atrito_kinds, only: ip, lp, wp
    use atrito_messages, only: clear_messages
    use atrito_overlay_plots, only: write_overlay_plots
-   use atrito_observations, only: observation_names
    use atrito_mpi, only: rank_count
    use atrito_page, only: page_t, add_above_rule, number, plural
    use atrito_buffer, only: buffer_t, put, take
@@ -24,7 +23,7 @@ module atrito_sweep
    use atrito_run, only: run_deck
    use atrito_run_request, only: make_tasks, is_sound, print_lost
    use atrito_series_reports, only: begin_series, report_of_sweep
-   use atrito_series, only: claim_output, find_origin, begin_pictures, print_closing, seconds_since
+   use atrito_series, only: claim_output, find_origin, find_observed, begin_pictures, print_closing, seconds_since
    use atrito_status, only: status_t, set_status, is_ok, STATUS_USAGE, STATUS_NOT_CONVERGED, STATUS_INTERNAL
    use atrito_strings, only: string_t, append_string, to_text
    use atrito_study_errors, only: run_facts_t
@@ -265,7 +264,7 @@ contains
       type(page_t) :: page
       type(report_t) :: report
       type(origin_t) :: origin
-      type(string_t), allocatable :: pictures(:)
+      type(string_t), allocatable :: pictures(:), observed(:)
 
       if (.not. any(runs%is_written)) then
          call remove_journal(sweep%journal)
@@ -274,13 +273,14 @@ contains
       associate (command => sweep%command, plan => sweep%plan)
          origin = sweep%origin
          origin%not_converged = any(runs%code == STATUS_NOT_CONVERGED .or. (runs%is_written .and. .not. runs%is_whole))
-         call write_sweep(output_folder(command), origin, plan%names, observation_names(command%observe), runs, &
-                          int(command%digits), status, command%is_csv)
+         call find_observed(command, observed)
+         call write_sweep(output_folder(command), origin, plan%names, observed, runs, int(command%digits), status, &
+                          command%is_csv)
          if (.not. is_ok(status)) return
          call begin_pictures(command)
          allocate (pictures(0))
          if (command%plot) call plot_sweep(command, plan, runs, origin%deck, pictures)
-         call compose_sweep(command%names(1)%s, plan%names, observation_names(command%observe), runs, &
+         call compose_sweep(command%names(1)%s, plan%names, observed, runs, &
                             output_folder(command), seconds, page, pictures)
          if (command%report) then
             call begin_series('sweep', command%names(1)%s, output_folder(command), ['sweep', 'runs '], pictures, report)

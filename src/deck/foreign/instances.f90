@@ -310,7 +310,7 @@ contains
       integer(ip) :: i, k
       integer :: o
 
-      if (any(card%name == [character(len=9) :: 'HEADING', 'PARAMETER', 'UNITS'])) return
+      if (any(card%name == [character(len=9) :: 'HEADING', 'PARAMETER', 'UNITS', 'OBSERVE'])) return
       do o = 1, size(card%options)
          if (card%options(o)%has_value) call find_owner(deck, card%options(o)%value, parts)
       end do

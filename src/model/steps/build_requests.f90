@@ -5,6 +5,7 @@ module atrito_build_requests
    use atrito_diagnostics, only: report_error
    use atrito_build_context, only: build_context_t
    use atrito_build_cuts, only: read_cut_card
+   use atrito_build_paths, only: read_path_card
    use atrito_propagation, only: is_of_step
    use atrito_foreign_words, only: variable_of_component
    use atrito_items, only: find_option, has_option, option_integer, option_real, option_text, option_word, refuse_option
@@ -77,6 +78,9 @@ contains
          case ('SECTION PRINT')
             call read_cut_card(context, card, requests)
             call read_frequency(context%deck, card, every%sections)
+         case ('PATH PRINT')
+            call read_path_card(context, card, requests)
+            call read_frequency(context%deck, card, every%paths)
          case ('NODE FILE', 'EL FILE')
             call read_request_card(card, context, requests%fields)
             call read_frequency(context%deck, card, every%fields)
@@ -156,6 +160,9 @@ contains
             case ('SECTION PRINT')
                if (allocated(requests%cuts)) deallocate (requests%cuts)
                every%sections = 0
+            case ('PATH PRINT')
+               if (allocated(requests%paths)) deallocate (requests%paths)
+               every%paths = 0
             end select
          end do
       end associate

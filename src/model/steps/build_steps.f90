@@ -231,6 +231,7 @@ contains
       context%open%number = number
       context%open%amplitude = 0
       context%open%cut_names = name_list_t()
+      context%open%path_names = name_list_t()
       context%open%first_token = huge(1_ip)
       context%open%first_card = context%step_cards(1, number)
       context%open%last_card = context%step_cards(2, number)

@@ -3,6 +3,7 @@ module atrito_model
    use atrito_controls, only: controls_t
    use atrito_bilateral_rows, only: bilateral_rows_t
    use atrito_cross_section, only: cross_section_t
+   use atrito_element_places, only: place_t
    use atrito_kinds, only: ip, wp
    use atrito_orthotropy, only: SPATIAL
    use atrito_plane_state, only: FORMULATION_STANDARD, FORMULATION_BBAR
@@ -18,13 +19,13 @@ module atrito_model
    implicit none (type, external)
    private
    public :: model_t, step_t, material_t, section_t, surface_t, interaction_t, pair_t, nodal_values_t, element_load_t
-   public :: rigid_body_t, instance_t, source_t, cut_t
+   public :: rigid_body_t, instance_t, source_t, cut_t, observed_line_t, path_t
    public :: amplitude_t, increments_t, frequencies_t, spring_t, tie_t, requests_t, requested_t, parameter_value_t
    public :: SURFACE_ELEMENTS, SURFACE_SEGMENTS, FORMULATION_STANDARD, FORMULATION_BBAR, FORMULATION_NAME
    public :: FRICTION_NONE, FRICTION_LOCAL, FRICTION_NONLOCAL, KERNEL_POINTS, KERNEL_LINE
    public :: QUADRATURE_AUTO, QUADRATURE_NODAL, QUADRATURE_MORTAR
    public :: FRICTION_NAME, KERNEL_NAME
-   public :: is_due, rigid_body_name
+   public :: is_due, all_frequencies, rigid_body_name
    public :: LOAD_PRESSURE, LOAD_BODY, LOAD_TRACTION, LOAD_HYDROSTATIC, LOAD_LINEAR, is_on_volume
 
    integer(ip), parameter :: SURFACE_ELEMENTS = 1, SURFACE_SEGMENTS = 2
@@ -165,7 +166,7 @@ module atrito_model
    !> How often what is asked for is printed: every so many increments; 0: at the end of the step, as it always is.
    type :: frequencies_t
       integer(ip) :: nodes = 0, reactions = 0, stress = 0, nodal_stress = 0, contact = 0, bodies = 0, joints = 0
-      integer(ip) :: sections = 0, fields = 0
+      integer(ip) :: sections = 0, paths = 0, fields = 0
    end type frequencies_t
 
    !> Nodes, elements and contact that were asked for.
@@ -179,6 +180,7 @@ module atrito_model
       logical :: bodies = .false., joints = .false., nodal_stress = .false.
       logical, allocatable :: node_s(:)             !< nodes whose stresses were asked for; allocated when they were
       integer(ip), allocatable :: cuts(:)           !< places in model%cuts; not allocated: none
+      integer(ip), allocatable :: paths(:)          !< the same in model%paths
       type(requested_t) :: fields
       type(frequencies_t) :: every
    end type requests_t
@@ -191,11 +193,31 @@ module atrito_model
       type(cross_section_t) :: section              !< of the mesh as it is solved
    end type cut_t
 
+   !> A line or an arc along which values are printed: *PATH PRINT.
+   type :: path_t
+      character(len=:), allocatable :: name
+      logical :: is_arc = .false., has_centre = .false. !< has_centre: a line asks for polar components by it
+      real(wp) :: ends(2, 2) = 0.0_wp               !< of a line [L]
+      real(wp) :: centre(2) = 0.0_wp                !< of the arc, or of polar components [L]
+      real(wp) :: radius = 0.0_wp, angles(2) = 0.0_wp !< of an arc [L], [rad]
+      integer(ip) :: n_points = 41
+      integer(ip) :: elset = 0                      !< place of the element set that it keeps to; 0: all
+      type(place_t), allocatable :: place(:)        !< (rows) the elements of the mesh as it is solved
+      real(wp), allocatable :: s(:), x(:, :), along(:, :) !< (rows) arc length, (2, rows) place [L], direction
+   end type path_t
+
    type :: parameter_value_t
       character(len=:), allocatable :: name
       real(wp) :: value = 0.0_wp
       logical :: overridden = .false.               !< by --set
    end type parameter_value_t
+
+   !> A line of *OBSERVE.
+   type :: observed_line_t
+      character(len=:), allocatable :: text         !< name = expression
+      character(len=:), allocatable :: file         !< as the user wrote it
+      integer(ip) :: line = 0, column = 0           !< of its first character
+   end type observed_line_t
 
    !> An instance of a part.
    type :: instance_t
@@ -233,6 +255,7 @@ module atrito_model
       type(provenance_t) :: provenance              !< for the heads of tables; empty: the heads have none of it
       type(named_text_t), allocatable :: as_run(:)  !< the deck as it is run, for the writer alone; not allocated: it is not kept
       type(parameter_value_t), allocatable :: parameters(:)
+      type(observed_line_t), allocatable :: observed(:)
       type(instance_t), allocatable :: instances(:)
       type(mesh_t) :: mesh
       integer(ip) :: levels = 0                     !< of --refine: each element of the deck is 4**levels of the mesh
@@ -255,6 +278,7 @@ module atrito_model
       type(amplitude_t), allocatable :: amplitudes(:)
       type(source_t), allocatable :: sources(:)     !< of supports and loads of all steps, in the order of the deck
       type(cut_t), allocatable :: cuts(:)           !< of all steps; not allocated: none
+      type(path_t), allocatable :: paths(:)         !< the same
       type(step_t), allocatable :: steps(:)         !< the history, >= 1
       logical :: asks_nlgeom = .false.              !< a step asks for large displacements; small ones are solved
       integer(ip) :: restart_every = 0              !< increments between two restart files; 0: none is written
@@ -283,6 +307,15 @@ contains
          end if
       end associate
    end function rigid_body_name
+
+   !> All of them.
+   pure function all_frequencies(every) result(list)
+      type(frequencies_t), intent(in) :: every
+      integer(ip) :: list(10)
+
+      list = [every%nodes, every%reactions, every%stress, every%nodal_stress, every%contact, every%bodies, every%joints, &
+              every%sections, every%paths, every%fields]
+   end function all_frequencies
 
    !> Whether an increment is printed.
    pure elemental logical function is_due(every, increment, ends_step)

@@ -17,6 +17,7 @@ module atrito_stability_result
       real(wp) :: displacement = 0.0_wp             !< that is watched [L]; nan without a run
       integer(ip) :: iterations = 0, solves = 0     !< outer iterations and linear solves of the run
       integer(ip) :: factorisations = 0             !< of bodies
+      real(wp), allocatable :: observed(:)          !< not allocated: no run was made
    end type stability_value_t
 
    !> The motion that a scene cannot resist.
@@ -37,6 +38,7 @@ module atrito_stability_result
       real(wp) :: balanced = 0.0_wp                 !< nearest to `falls` whose loads can be balanced
       logical :: is_close = .false.                 !< they are as close as the tolerance asks
       type(stability_value_t), allocatable :: values(:) !< in their order
+      type(string_t), allocatable :: observed(:)    !< names of what is
       type(collapse_t) :: collapse                  !< at `falls`
    end type stability_t
 

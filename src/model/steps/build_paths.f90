@@ -1,0 +1,225 @@
+!> *PATH PRINT: the lines and arcs that a step asks for, and the elements that hold their points.
+module atrito_build_paths
+   use atrito_bodies, only: bodies_t, find_bodies
+   use atrito_build_context, only: build_context_t, place_text
+   use atrito_deck, only: card_t, count_lines, data_line_t, token_t, line_item
+   use atrito_diagnostics, only: report_error, report_note
+   use atrito_element_places, only: find_nearest, find_places, place_t
+   use atrito_items, only: get_real, option_integer, option_text, option_word, refuse_option
+   use atrito_kinds, only: ip, wp
+   use atrito_model, only: path_t, requests_t
+   use atrito_name_list, only: add_name, find_name
+   use atrito_references, only: find_set_option
+   use atrito_sets, only: members_of
+   use atrito_strings, only: to_text
+   implicit none (type, external)
+   private
+   public :: read_path_card, place_paths
+
+   character(len=*), parameter :: KEYWORD = 'PATH PRINT'
+   character(len=*), parameter :: WHAT_POINTS = 'points on the path, 2 to 100000'
+   integer(ip), parameter :: MOST_POINTS = 100000
+   real(wp), parameter :: DEGREE = acos(-1.0_wp)/180.0_wp
+
+contains
+
+   !> The paths of a card, a line each.
+   subroutine read_path_card(context, card, requests)
+      type(build_context_t), intent(inout) :: context
+      type(card_t), intent(in) :: card
+      type(requests_t), intent(inout) :: requests
+      character(len=:), allocatable :: name
+      type(token_t) :: place
+      type(path_t) :: path
+      integer(ip) :: i, j
+      logical :: found, ok
+
+      call option_text(context%deck, card, 'NAME', name, found, place)
+      if (.not. (card%ok .and. found)) return
+      call find_set_option(context, card, 'ELSET', 'element set', context%model%element_sets, path%elset, ok)
+      if (.not. ok) return
+      call option_integer(context%deck, card, 'POINTS', WHAT_POINTS, path%n_points, found)
+      if (path%n_points < 2 .or. path%n_points > MOST_POINTS) then
+         call refuse_option(context%deck, card, 'POINTS', WHAT_POINTS)
+         return
+      end if
+      path%is_arc = option_word(context%deck, card, 'TYPE') == 'ARC'
+      do i = 1, card%n_lines
+         associate (line => context%deck%lines(card%first_line + i - 1))
+            if (.not. line%ok) cycle
+            path%name = name
+            if (card%n_lines > 1) path%name = name//'-'//to_text(i)
+            j = find_name(context%open%path_names, path%name)
+            if (j > 0) then
+               call report_error(context%deck, place, 'E-TWICE', 'path '//path%name//' is defined already in this step, in '// &
+                                 place_text(context%deck, context%path_lines(requests%paths(j)), place), &
+                                 expected='another NAME=, or all lines in one card', keyword=KEYWORD)
+               return
+            end if
+            call read_line(context, line, path, ok)
+            if (ok) call add_path(context, path, line_item(context%deck, line, 1_ip), requests)
+         end associate
+      end do
+   end subroutine read_path_card
+
+   !> x1, y1, x2, y2[, xc, yc], or xc, yc, r, a1, a2.
+   subroutine read_line(context, line, path, ok)
+      type(build_context_t), intent(in) :: context
+      type(data_line_t), intent(in) :: line
+      type(path_t), intent(inout) :: path
+      logical, intent(out) :: ok
+      character(len=*), parameter :: OF_LINE(6) = ['x1', 'y1', 'x2', 'y2', 'xc', 'yc'], OF_ARC(5) = ['xc', 'yc', 'r ', 'a1', 'a2']
+      real(wp) :: x(6)
+      logical :: good(6)
+      integer(ip) :: k, n
+
+      x = 0.0_wp
+      good = .true.
+      n = merge(5_ip, min(6_ip, line%n_tokens), path%is_arc)
+      do k = 1, n
+         if (path%is_arc) then
+            call get_real(context%deck, line_item(context%deck, line, k), trim(OF_ARC(k))//trim(merge(', a real [degrees]', &
+                          ', a real [L]      ', k > 3)), x(k), good(k), keyword=KEYWORD)
+         else
+            call get_real(context%deck, line_item(context%deck, line, k), OF_LINE(k)//', a real [L]', x(k), good(k), &
+                          keyword=KEYWORD)
+         end if
+      end do
+      ok = all(good)
+      if (.not. ok) return
+      if (path%is_arc) then
+         path%centre = x(1:2)
+         path%radius = x(3)
+         path%angles = x(4:5)*DEGREE
+         ok = x(3) > 0.0_wp .and. abs(x(5) - x(4)) > 0.0_wp .and. abs(x(5) - x(4)) <= 360.0_wp
+         k = merge(4_ip, 3_ip, x(3) > 0.0_wp)
+         if (.not. ok) call report_error(context%deck, line_item(context%deck, line, k), 'E-VALUE', 'this is no arc', &
+                                         expected='a radius > 0 [L], and two angles that differ by at most 360 [degrees]', &
+                                         keyword=KEYWORD)
+      else
+         path%ends = reshape(x(:4), [2, 2])
+         path%centre = x(5:6)
+         path%has_centre = n > 4
+         ok = any(abs(path%ends(:, 1) - path%ends(:, 2)) > 0.0_wp)
+         if (.not. ok) call report_error(context%deck, line_item(context%deck, line, 3_ip), 'E-VALUE', &
+                                         'both ends of the path are the same', expected='x1, y1, x2, y2: two points [L]', &
+                                         keyword=KEYWORD)
+      end if
+   end subroutine read_line
+
+   !> Appends a path; there is room for one of each line.
+   subroutine add_path(context, path, place, requests)
+      type(build_context_t), intent(inout) :: context
+      type(path_t), intent(in) :: path
+      type(token_t), intent(in) :: place
+      type(requests_t), intent(inout) :: requests
+
+      if (.not. allocated(context%model%paths)) then
+         allocate (context%model%paths(count_lines(context%deck, KEYWORD)), context%path_lines(count_lines(context%deck, KEYWORD)))
+      end if
+      context%n_paths = context%n_paths + 1
+      context%model%paths(context%n_paths) = path
+      context%path_lines(context%n_paths) = place
+      call add_name(context%open%path_names, path%name)
+      if (.not. allocated(requests%paths)) allocate (requests%paths(0))
+      requests%paths = [requests%paths, context%n_paths]
+   end subroutine add_path
+
+   !> Finds the elements that hold the points of the paths. The mesh is complete.
+   subroutine place_paths(context)
+      type(build_context_t), intent(inout) :: context
+      type(bodies_t) :: bodies
+      integer(ip) :: i
+
+      if (.not. allocated(context%model%paths)) return
+      context%model%paths = context%model%paths(:context%n_paths)
+      call find_bodies(context%model%mesh, bodies)
+      do i = 1, size(context%model%paths, kind=ip)
+         call place_path(context, bodies, i)
+      end do
+   end subroutine place_paths
+
+   subroutine place_path(context, bodies, i)
+      type(build_context_t), intent(inout) :: context
+      type(bodies_t), intent(in) :: bodies
+      integer(ip), intent(in) :: i                         !< place in the model's paths
+      real(wp), allocatable :: x(:, :), along(:, :), s(:)
+      type(place_t), allocatable :: places(:)
+      logical, allocatable :: wanted(:)
+      logical :: is_held(context%model%paths(i)%n_points)
+      character(len=:), allocatable :: text
+      integer(ip) :: near, n_out
+      real(wp) :: distance
+
+      associate (model => context%model, path => context%model%paths(i))
+         allocate (wanted(model%mesh%n_elements), source=path%elset == 0)
+         if (path%elset > 0) wanted(members_of(model%element_sets%sets(path%elset))) = .true.
+         call lay_points(path, s, x, along)
+         call find_places(model%mesh, wanted, x, places)
+         call keep_to_body(bodies, places)
+         is_held = .false.
+         is_held(places%point) = .true.
+         n_out = count(.not. is_held, kind=ip)
+         text = 'outside of all bodies'
+         if (path%elset > 0) text = 'outside of '//model%element_sets%sets(path%elset)%name
+         if (size(places) == 0) then
+            call find_nearest(model%mesh, wanted, x(:, 1), near, distance)
+            call report_error(context%deck, context%path_lines(i), 'E-PATH', 'path '//path%name//' is '//text// &
+                              '; its first point is '//to_text(distance, 3)//' from the nearest', &
+                              expected='a line or an arc through a body', keyword=KEYWORD)
+         else if (n_out > 0) then
+            call report_note(context%deck, context%path_lines(i), 'N-PATH', to_text(n_out)//' of the '//to_text(path%n_points)// &
+                             ' points of path '//path%name//' are '//text//': they have no rows', keyword=KEYWORD)
+         end if
+         path%s = s(places%point)
+         path%x = x(:, places%point)
+         path%along = along(:, places%point)
+         call move_alloc(places, path%place)
+      end associate
+   end subroutine place_path
+
+   !> The points of a path, and its direction there.
+   pure subroutine lay_points(path, s, x, along)
+      type(path_t), intent(in) :: path
+      real(wp), allocatable, intent(out) :: s(:)           !< arc length from the first point [L]
+      real(wp), allocatable, intent(out) :: x(:, :)        !< (2, points) [L]
+      real(wp), allocatable, intent(out) :: along(:, :)    !< (2, points) unit vectors
+      real(wp) :: share, angle, step(2)
+      integer(ip) :: k
+
+      allocate (s(path%n_points), x(2, path%n_points), along(2, path%n_points))
+      do k = 1, path%n_points
+         share = real(k - 1, wp)/real(path%n_points - 1, wp)
+         if (path%is_arc) then
+            angle = (1.0_wp - share)*path%angles(1) + share*path%angles(2)
+            s(k) = share*path%radius*abs(path%angles(2) - path%angles(1))
+            x(:, k) = path%centre + path%radius*[cos(angle), sin(angle)]
+            along(:, k) = sign(1.0_wp, path%angles(2) - path%angles(1))*[-sin(angle), cos(angle)]
+         else
+            step = path%ends(:, 2) - path%ends(:, 1)
+            s(k) = share*norm2(step)
+            x(:, k) = (1.0_wp - share)*path%ends(:, 1) + share*path%ends(:, 2)
+            along(:, k) = step/norm2(step)
+         end if
+      end do
+   end subroutine lay_points
+
+   !> Of several bodies at a point that in which the point before lies comes first.
+   pure subroutine keep_to_body(bodies, places)
+      type(bodies_t), intent(in) :: bodies
+      type(place_t), intent(inout) :: places(:)
+      type(place_t) :: first
+      integer(ip) :: k
+
+      do k = 2, size(places, kind=ip) - 1
+         if (places(k)%point /= places(k + 1)%point .or. places(k)%point == places(k - 1)%point) cycle
+         associate (body => bodies%of_element(places(k - 1:k + 1)%element))
+            if (body(1) /= body(3)) cycle
+         end associate
+         first = places(k + 1)
+         places(k + 1) = places(k)
+         places(k) = first
+      end do
+   end subroutine keep_to_body
+
+end module atrito_build_paths
