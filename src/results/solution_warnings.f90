@@ -94,23 +94,36 @@ contains
       end do
    end subroutine warn_of_hourglass
 
-   !> Whether there may be other solutions.
+   !> That there are other solutions, where it is known; else whether there may be some, where no proof excludes them.
    subroutine warn_of_others(model, results)
       type(model_t), intent(in) :: model
       type(results_t), intent(in) :: results
-      character(len=:), allocatable :: measured
+      character(len=:), allocatable :: measured, proved
       real(wp) :: nu
 
+      associate (known => results%uniqueness)
+         if (known%solutions > 1) then
+            call add_warning('W-UNIQUE', 'this is not the only solution: the search found '//to_text(known%solutions - 1)//' more')
+            return
+         else if (known%index < 0) then
+            call add_warning('W-UNIQUE', 'this is not the only solution: its index is -1, so there is another one at least, and'// &
+                             ' mostly two; --unique 40 looks for them')
+            return
+         end if
+         if (known%up_to_nu >= known%nu .and. known%nu > 0.0_wp) return
+         proved = ''
+         if (known%up_to_nu > 0.0_wp) proved = '; proved up to '//to_text(known%up_to_nu, 3)
+      end associate
       nu = maxval([pack(model%interactions%nu, model%interactions%friction /= FRICTION_NONE), 0.0_wp])
       if (results%contraction_estimate < 1.0_wp .and. nu < LARGE_FRICTION) return
       measured = ' (estimated contraction of the outer loop '//to_text(results%contraction_estimate, 3)
       if (results%contraction > 0.0_wp) measured = measured//', measured '//to_text(results%contraction, 3)
       if (results%contraction_estimate >= 1.0_wp) then
          call add_warning('W-UNIQUE', 'friction coefficient '//to_text(nu)//': there may be other solutions than the one found;' &
-                          //' one alone is expected below '//to_text(nu/results%contraction_estimate, 3)//measured//')')
+                          //' one alone is expected below '//to_text(nu/results%contraction_estimate, 3)//proved//measured//')')
       else
          call add_warning('W-UNIQUE', 'friction coefficient '//to_text(nu)//': there may be other solutions than the one found' &
-                          //measured//'; below 1 others are rare)')
+                          //proved//measured//'; below 1 others are rare)')
       end if
    end subroutine warn_of_others
 
