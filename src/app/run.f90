@@ -160,7 +160,7 @@ contains
       character(len=*), intent(in) :: folder
       type(status_t), intent(inout) :: status
       type(history_t) :: other
-      type(string_t), allocatable :: written(:)
+      type(string_t), allocatable :: written(:), pictures(:)
       integer(ip) :: k, n
 
       n = 0
@@ -169,8 +169,13 @@ contains
       do k = 1, n
          other%frames(1) = history%others(k)
          other%iterations = history%others(k)%iterations
-         if (is_ok(status)) call write_results(model, other, int(command%digits), solution_folder(folder, k + 1), written, &
-                                               status, is_csv=command%is_csv)
+         if (.not. is_ok(status)) exit
+         if (command%plot) pictures = plot_names(model, other)
+         call write_results(model, other, int(command%digits), solution_folder(folder, k + 1), written, status, pictures, &
+                            command%is_csv)
+         if (command%plot .and. is_ok(status)) then
+            call write_plots(model, other, solution_folder(folder, k + 1), command%view, pictures)
+         end if
       end do
       k = n + 2
       do while (is_ok(status) .and. is_folder(solution_folder(folder, k)))

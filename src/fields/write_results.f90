@@ -86,7 +86,10 @@ contains
 
       call begin_files(set, folder, status)
       call end_files(set, status, list_files_of_run(model, folder))
-      if (is_ok(status)) call remove_empty_folder(folder)
+      if (.not. is_ok(status)) return
+      call remove_plots(folder, PLOTS_OF_RUN)
+      call remove_report(folder)
+      call remove_empty_folder(folder)
    end subroutine remove_results
 
    !> Writes the deck as it was run, and the meshes of other programs beside it, with the words by which a later run knows them.

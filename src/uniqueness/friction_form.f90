@@ -2,9 +2,10 @@
 !>
 !> In forces q = (q_n, q_t) the line is r = g0 - C q + G a with G' q = h, and at each point, with delta/w on the normal diagonal,
 !>
-!>     A = C + diag(delta/w, 0),     q_n >= 0, r_n <= 0, q_n r_n = 0,     |q_t| <= b = W q_n,     W = diag(w nu) S_rho diag(1/w).
+!>     A = C + diag(delta/w, 0),     q_n >= 0, r_n <= 0, q_n r_n = 0,     |q_t| <= b = nu W q_n.
 !>
-!> W takes normal forces to friction bounds, each row with the coefficient of its own pair. Of two solutions the loads are the same,
+!> nu is the largest coefficient, W = diag(w nu_j/nu) S_rho diag(1/w) takes normal forces to friction bounds, each row with the share
+!> of its own pair. Of two solutions the loads are the same,
 !> and so the difference dq lies in the kernel of G'. Bodies that can move along the contact are out of reach of the certificates;
 !> where G has no tangential rows, k reflections (Householder) turn its columns onto the first k normal directions, and what is left
 !> without these is the kernel:  A <- Y' A Y,  W <- W Y. No basis is stored, and without free bodies nothing is done.
@@ -17,6 +18,7 @@ module atrito_friction_form
    public :: friction_form_t, build_form
 
    type :: friction_form_t
+      real(wp) :: nu = 0.0_wp                     !< the largest coefficient of friction; 0: none has friction
       integer(ip) :: n = 0                        !< normal forces, on the kernel of G'; the tangential ones follow
       real(wp), allocatable :: a(:, :)            !< (m, m) [L/F]
       real(wp), allocatable :: w(:, :)            !< (n, m - n) the transpose of W: a column a tangential force
@@ -37,6 +39,7 @@ contains
 
       why_not = ''
       associate (n => problem%n_normal, m => problem%m)
+         form%nu = maxval([0.0_wp, line%law(line%point(n + 1:))%nu])
          do k = 1, problem%k
             if (maxval([0.0_wp, abs(problem%g(n + 1:, k))]) > NONE_ALONG*maxval(abs(problem%g(:, k)))) then
                why_not = 'a body is held along the contact by friction alone'
@@ -54,7 +57,8 @@ contains
             do k = line%average%first(j), line%average%first(j + 1) - 1
                associate (other => line%average%column(k))
                   if (line%normal(other) == 0) cycle          ! its pressure is known: the same in all solutions
-                  form%w(line%normal(other), i) = line%law(j)%nu*line%weight(j)*line%average%entry(k)/line%weight(other)
+                  form%w(line%normal(other), i) = line%law(j)%nu/form%nu*line%weight(j)*line%average%entry(k) &
+                                                         /line%weight(other)
                end associate
             end do
          end do

@@ -15,12 +15,12 @@ module atrito_uniqueness
    use atrito_friction_form, only: friction_form_t, build_form
    use atrito_friction_law, only: FRICTION_NONE
    use atrito_kinds, only: ip, wp
-   use atrito_one_solution, only: certify_every_load, certify_way, MOST_FRICTION
+   use atrito_one_solution, only: certify_every_load, certify_way
    use atrito_results, only: uniqueness_t
    use atrito_state_index, only: index_of_solution
    implicit none (type, external)
    private
-   public :: certify_line, judge_solution, is_certified, LONGEST
+   public :: certify_line, judge_solution, is_certified
 
    integer(ip), parameter :: LONGEST = 400        !< unknown forces of a line that is certified without being asked to
 
@@ -34,9 +34,9 @@ contains
       type(uniqueness_t), intent(out) :: uniqueness
       type(friction_form_t) :: form
       character(len=:), allocatable :: why_not
-      real(wp) :: factor
+      real(wp) :: nu
 
-      uniqueness%nu = largest_coefficient(problem, line)
+      uniqueness%nu = maxval([0.0_wp, line%law(line%point(problem%n_normal + 1:))%nu])
       if (.not. uniqueness%nu > 0.0_wp) return
       if (problem%m > LONGEST .and. .not. is_asked) then
          uniqueness%why_not = 'the line is long: --unique asks for it'
@@ -44,9 +44,9 @@ contains
       end if
       call build_form(problem, line, form, why_not)
       if (len(why_not) == 0) then
-         call certify_every_load(form, MOST_FRICTION/uniqueness%nu, factor)
-         uniqueness%up_to_nu = rounded_down(factor*uniqueness%nu)
-         if (.not. factor > 0.0_wp) why_not = 'contact points depend on each other'
+         call certify_every_load(form, nu)
+         uniqueness%up_to_nu = rounded_down(nu)
+         if (.not. nu > 0.0_wp) why_not = 'contact points depend on each other'
       end if
       uniqueness%why_not = why_not
    end subroutine certify_line
@@ -63,7 +63,7 @@ contains
       real(wp), intent(out) :: contraction        !< estimate; 0 where it says nothing new
       type(friction_form_t) :: form
       character(len=:), allocatable :: why_not
-      real(wp) :: factor
+      real(wp) :: nu
 
       contraction = 0.0_wp
       if (is_certified(uniqueness)) then
@@ -75,8 +75,8 @@ contains
       uniqueness%index = index_of_solution(problem, line, solution)
       if (.not. in_full .or. has_elastic_stick(line)) return
       call build_form(problem, line, form, why_not)
-      call certify_way(form, way_of(problem, solution), MOST_FRICTION/uniqueness%nu, factor)
-      uniqueness%same_way_up_to_nu = rounded_down(factor*uniqueness%nu)
+      call certify_way(form, way_of(problem, solution), nu)
+      uniqueness%same_way_up_to_nu = rounded_down(nu)
    end subroutine judge_solution
 
    !> Whether there is one solution alone, as far as is proved.
@@ -85,14 +85,6 @@ contains
 
       is_certified = .not. uniqueness%nu > uniqueness%up_to_nu
    end function is_certified
-
-   !> The largest coefficient of friction of the unknown forces; 0 without friction.
-   pure real(wp) function largest_coefficient(problem, line) result(nu)
-      type(bound_qp_t), intent(in) :: problem
-      type(contact_line_t), intent(in) :: line
-
-      nu = maxval([0.0_wp, line%law(line%point(problem%n_normal + 1:))%nu])
-   end function largest_coefficient
 
    !> Whether some law has elastic slip before its full friction.
    pure logical function has_elastic_stick(line)
