@@ -15,6 +15,7 @@ module atrito_increment
    use atrito_final_check, only: check_equilibrium, check_balance, check_law, equilibrium_t
    use atrito_force_sums, only: sum_forces
    use atrito_joint_sums, only: sum_joints
+   use atrito_increment_uniqueness, only: judge_uniqueness
    use atrito_idle_motions, only: settle_idle_motions, stop_slow_motion
    use atrito_kinds, only: ip, wp
    use atrito_ladder, only: RUNGS, is_tried, controls_of_rung, rung_text
@@ -38,7 +39,6 @@ module atrito_increment
    use atrito_strings, only: to_text
    use atrito_thermal_loads, only: elastic_energy
    use atrito_timers, only: start_phase, stop_phase
-   use atrito_uniqueness, only: certify_line, judge_solution
    use atrito_verdict, only: judge_balance
    use atrito_weak_forces, only: contact_sizes_t
    implicit none (type, external)
@@ -178,12 +178,12 @@ contains
       else
          if (.not. allocated(data%flexibility) .and. allocated(data%certificate)) deallocate (data%certificate)
          call solve_condensed(data, controls, store, results%scene, solution, u, status)
-         if (is_ok(status)) call judge_uniqueness(data, solution, results)
-         if (solution%converged .and. .not. data%keeps) call release_condensed(data, store)
          if (solution%factorisations > 0) results%factorisations = solution%factorisations
       end if
       if (allocated(data%assembled)) call data%assembled%check_solves(status)   ! whatever came of a solve that failed
       solution%form = form
+      if (is_ok(status)) call judge_uniqueness(data, solution, results)
+      if (form == CONTACT_DENSE .and. solution%converged .and. .not. data%keeps) call release_condensed(data, store)
       call start_phase('iterate')
       again = may_change
       call judge_outcome(data, results, solution, again, status)
@@ -194,24 +194,6 @@ contains
       call settle_idle_motions(data, u, data%before, solution, again)
       call stop_phase('recover')
    end subroutine solve_form
-
-   !> Whether the solution is the only one. What does not depend on the loads is found once for the matrices of the line.
-   subroutine judge_uniqueness(data, solution, results)
-      type(scene_data_t), intent(inout) :: data
-      type(contact_solution_t), intent(in) :: solution
-      type(results_t), intent(inout) :: results
-
-      if (.not. data%line%has_friction) return
-      call start_phase('unique')
-      if (.not. allocated(data%certificate)) then
-         allocate (data%certificate)
-         call certify_line(data%flexibility, data%line, data%starts > 0, data%certificate)
-      end if
-      results%uniqueness = data%certificate
-      call judge_solution(data%flexibility, data%line, solution, data%is_printed, results%uniqueness, &
-                          results%contraction_estimate)
-      call stop_phase('unique')
-   end subroutine judge_uniqueness
 
    !> The sparse form: all bodies in one matrix, which is assembled where it is not there.
    subroutine solve_assembled(data, controls, results, solution, u, status)

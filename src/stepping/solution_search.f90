@@ -22,8 +22,8 @@ module atrito_solution_search
 
 contains
 
-   !> Searches from data%starts starts. The numbers of both go into the results; solved increments of the dense form alone are
-   !> searched.
+   !> Searches from data%starts starts. The numbers of both go into the results. Where the dense form was not tried there is nothing to
+   !> search with.
    subroutine search_solutions(data, store, first, results, others)
       type(scene_data_t), intent(inout) :: data             !< with C and G
       type(body_cache_t), intent(inout) :: store            !< with the bodies
@@ -39,7 +39,7 @@ contains
       integer(ip) :: i, n
 
       allocate (others(0))
-      if (data%starts == 0 .or. first%form /= CONTACT_DENSE .or. .not. data%line%has_friction) return
+      if (data%starts == 0 .or. .not. allocated(data%flexibility) .or. .not. data%line%has_friction) return
       call start_phase('search')
       call find_others(data%flexibility, data%line, data%step%controls, first, data%starts, found)
       call stop_phase('search')
@@ -52,6 +52,7 @@ contains
             call begin_results(results, other)
             other%uniqueness = results%uniqueness
             call judge_solution(data%flexibility, data%line, found(i), .false., other%uniqueness, unused)
+            found(i)%form = CONTACT_DENSE
             call expand_solution(data, data%step%controls, store, other%scene, found(i), u)
             call finish_form(data, data%step%controls, found(i), u, other, status)
             if (is_solved(other, status)) n = n + 1

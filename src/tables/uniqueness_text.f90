@@ -25,7 +25,7 @@ contains
       else if (known%index < 0) then
          text = 'not the only solution: its index is -1'
       else if (known%up_to_nu >= known%nu) then
-         text = 'exactly one solution, for every load, up to '//up_to//' (certified)'
+         text = 'exactly one solution for every load up to '//up_to//' (certified)'
       else
          text = 'not proved'
          if (known%up_to_nu > 0.0_wp) text = text//' beyond '//up_to
@@ -34,7 +34,7 @@ contains
          else if (len_trim(known%why_not) > 0) then
             text = text//': '//trim(known%why_not)
          else if (known%same_way_up_to_nu >= known%nu) then
-            text = text//'; no other moves the same way everywhere'
+            text = text//'; no other moves alike everywhere'
          end if
       end if
    end function uniqueness_text

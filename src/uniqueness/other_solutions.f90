@@ -58,7 +58,6 @@ contains
          if (.not. is_new) cycle
          n = n + 1
          found(n) = trial
-         found(n)%form = first%form
          found(n)%inner%condition = first%inner%condition
          if (n == MOST_OTHERS) exit
       end do

@@ -31,7 +31,7 @@ says 'three solutions' three/three-solutions.lst 'not the only solution: 2 other
 # below the coefficient that is certified the other folders go, and nothing is warned of; the same for every coefficient
 run 0 "$lessons/three-solutions.inp" three --set nu=0.65
 [ ! -e three/solution-2 ] || complain 'the other solutions of the run before are still there'
-says 'one solution' three.out 'exactly one solution, for every load, up to nu = 0.654 (certified)'
+says 'one solution' three.out 'exactly one solution for every load up to nu = 0.654 (certified)'
 grep -q W-UNIQUE three.err && complain 'a warning though one solution is certified'
 near 'found' "$(summary three solutions_found)" 1 0
 below 'certified' "$(summary three unique_up_to_nu)" 0.66333
