@@ -45,7 +45,8 @@ module atrito_run
    use atrito_threads, only: lent_threads, set_threads
    use atrito_timers, only: start_phase, stop_phase
    use atrito_write_plots, only: write_plots, plot_names
-   use atrito_write_results, only: write_results, list_files_of_run
+   use atrito_uniqueness_text, only: solution_folder
+   use atrito_write_results, only: write_results, remove_results, list_files_of_run
    implicit none (type, external)
    private
    public :: run_deck, take_threads, load_model, read_model, prepare_observations, solve_options, agree_on_outcome
@@ -155,6 +156,38 @@ contains
       end associate
    end function facts_of
 
+   !> Tables and listing of each other solution, in a folder of its own below that of the run; those of an earlier run go.
+   subroutine write_others(command, model, history, folder, status)
+      type(command_t), intent(in) :: command
+      type(model_t), intent(in) :: model
+      type(history_t), intent(in) :: history
+      character(len=*), intent(in) :: folder
+      type(status_t), intent(inout) :: status
+      type(history_t) :: other
+      type(string_t), allocatable :: written(:), pictures(:)
+      integer(ip) :: k, n
+
+      n = 0
+      if (allocated(history%others)) n = size(history%others, kind=ip)
+      allocate (other%rows(0), other%frames(1))
+      do k = 1, n
+         other%frames(1) = history%others(k)
+         other%iterations = history%others(k)%iterations
+         if (.not. is_ok(status)) exit
+         if (command%plot) pictures = plot_names(model, other)
+         call write_results(model, other, int(command%digits), solution_folder(folder, k + 1), written, status, pictures, &
+                            command%is_csv)
+         if (command%plot .and. is_ok(status)) then
+            call write_plots(model, other, solution_folder(folder, k + 1), command%view, pictures)
+         end if
+      end do
+      k = n + 2
+      do while (is_ok(status) .and. is_folder(solution_folder(folder, k)))
+         call remove_results(model, solution_folder(folder, k), status)
+         k = k + 1
+      end do
+   end subroutine write_others
+
    !> The status and the results say the same of a run: solved, or not converged and why. A history that ended early keeps its
    !> status.
    subroutine agree_on_outcome(status, results, ends_early)
@@ -211,8 +244,13 @@ contains
          call write_plots(model, history, folder, command%view, pictures)
       end if
       if (command%report) call make_run_report(command, model, history, written, pictures)
+      call write_others(command, model, history, folder, status)
       call release_folder(claim)
       call print_messages(command%quiet, n_printed + 1, command%json)
+      if (.not. is_ok(status)) then
+         call print_status(status, model%deck_path, command%json)
+         code = status%code
+      end if
       if (command%quiet) return
       call compose_summary(model, history, folder, written, page, pictures)
       call print_page(page, output_unit)
@@ -346,6 +384,7 @@ contains
       options%solver_kind = KINDS(place_of_word('--solver', command%solver))
       options%contact_form = FORMS(place_of_word('--contact', command%contact))
       options%element_errors = command%plot
+      options%starts = command%starts
       ! the runs of sweeps, studies and limits stay where they are
       if (command%task == TASK_RUN .and. command%share /= 'none') then
          call distribute_over_ranks(command%share == 'all', options%distribution)

@@ -27,7 +27,7 @@ module atrito_newton
    use atrito_solve_history, only: record_solve, begin_outer, end_outer
    implicit none (type, external)
    private
-   public :: iterate_newton
+   public :: iterate_newton, jacobian_of_state
 
 contains
 
@@ -48,7 +48,7 @@ contains
       type(contact_solution_t), intent(inout) :: solution !< with a state to start from
       real(wp), allocatable :: jacobian(:, :), rhs(:), scale(:)
       integer(ip), allocatable :: active(:)
-      integer(ip) :: iteration, info, changes, i
+      integer(ip) :: iteration, info, changes
       real(wp) :: change, last_change, largest_force
 
       call judge_condition(solution)
@@ -59,10 +59,7 @@ contains
          ! the bound and the compliances of the present forces: no part of the iteration before is kept
          solution%tau = bound_of_state(line, solution)
          call update_compliances(problem, line, solution)
-         ! open points have no row; slipping ones have
-         associate (state => solution%state%state, slips => [(i > problem%n_normal, i=1, problem%m)])
-            active = pack([(i, i=1, problem%m)], state == FREE .or. (slips .and. (state == AT_LOWER .or. state == AT_UPPER)))
-         end associate
+         active = active_unknowns(problem, solution)
          call build_system(problem, line, solution, active, jacobian, rhs)
          call solve_lu(jacobian, rhs, info)
          if (info /= 0) then
@@ -95,6 +92,30 @@ contains
       solution%p = pressure_of(line, solution%state%q)
       solution%t = shear_force_of(line, solution%state%q, solution%tau)
    end subroutine iterate_newton
+
+   !> The unknowns that have a row: open points have none, slipping ones have.
+   pure function active_unknowns(problem, solution) result(active)
+      type(bound_qp_t), intent(in) :: problem
+      type(contact_solution_t), intent(in) :: solution
+      integer(ip), allocatable :: active(:)
+      integer(ip) :: i
+
+      associate (state => solution%state%state, slips => [(i > problem%n_normal, i=1, problem%m)])
+         active = pack([(i, i=1, problem%m)], state == FREE .or. (slips .and. (state == AT_LOWER .or. state == AT_UPPER)))
+      end associate
+   end function active_unknowns
+
+   !> The matrix of a step from a state, scaled: where no state changes, what the equations are there. Without friction its
+   !> determinant is positive.
+   pure subroutine jacobian_of_state(problem, line, solution, jacobian)
+      type(bound_qp_t), intent(in) :: problem !< the QP: C, G, g0, h
+      type(contact_line_t), intent(in) :: line !< points, laws, average S_rho
+      type(contact_solution_t), intent(in) :: solution !< with states, forces and tau
+      real(wp), allocatable, intent(out) :: jacobian(:, :)
+      real(wp), allocatable :: rhs(:)
+
+      call build_system(problem, line, solution, active_unknowns(problem, solution), jacobian, rhs)
+   end subroutine jacobian_of_state
 
    !> d tau_j / d q of the active unknowns: nu W_jk / w_k of the pressures.
    !>

@@ -26,7 +26,7 @@
 !> g0, h), frozen_bound (the QP with tau frozen), active_set and free_set (how it is solved), picard_loop and accelerator (the
 !> loop), displacements (back to the bodies). goldfarb_idnani, proximal and least_forces are for where full steps do not end or
 !> forces are not unique; coarse_line and dual_preconditioner make long lines fast; newton and outer_loop are other ways into the
-!> loop; uniqueness tells how far a scene is from having a second solution.
+!> loop.
 !>
 !> Where rows of B depend on each other forces are not unique: the proximal method finds some, and the least of them are given
 !> (atrito_proximal, atrito_least_forces). Where elements that are almost equal share one stiffness, the solution is refined with
@@ -55,14 +55,14 @@ module atrito_solve_condensed
    use atrito_status, only: status_t, set_status, is_ok, STATUS_SINGULAR
    use atrito_strings, only: to_text
    use atrito_timers, only: start_phase, stop_phase
-   use atrito_uniqueness, only: estimate_contraction
    implicit none (type, external)
    private
-   public :: solve_condensed, release_condensed
+   public :: solve_condensed, expand_solution, release_condensed
 
 contains
 
-   !> Solves one increment. Bodies, C and G that an increment before left in `store` and `problem` serve again.
+   !> Solves one increment. Bodies, C and G that an increment before left in `store` and `problem` serve again; the caller gives
+   !> them back (release_condensed).
    !> status: STATUS_SINGULAR of provide_bodies, with FREE_MOTION, or with rows that depend on each other. solution%converged tells
    !> whether the loop came to its end.
    !>
@@ -96,25 +96,33 @@ contains
       if (has_position(problem, qp%h)) qp%g0 = qp%g0 + matmul(qp%g, problem%last%state%a)
       qp%is_coarse = controls%is_coarse
       call solve_line(problem, controls, qp, b, solution, status)
-      solution%contraction_estimate = 0.0_wp
-      if (is_ok(status) .and. controls%asks_contraction) then
-         solution%contraction_estimate = estimate_contraction(qp, problem%line, solution%bounds%d, solution%state%state)
-      end if
       call stop_phase('iterate')
       if (.not. is_ok(status)) call explain_failure(problem, qp, solution, status)
-      if (allocated(solution%p)) call expand_bodies(problem, store, solution, u)
-      if (is_ok(status) .and. solution%converged .and. scene%near_elements) then
+      call move_alloc(qp, problem%flexibility)
+      if (allocated(solution%p)) call expand_solution(problem, controls, store, scene, solution, u)
+      solution%factorisations = factorisations
+   end subroutine solve_condensed
+
+   !> From a solution of the line to the bodies: displacements without rigid motions, refined where elements are near, and amplitudes
+   !> that count from no load.
+   subroutine expand_solution(problem, controls, store, scene, solution, u)
+      class(problem_t), intent(inout) :: problem !< the increment, with C and G
+      type(controls_t), intent(in) :: controls !< method, tolerance, MAXIT
+      type(body_cache_t), intent(inout) :: store !< the factored bodies
+      type(scene_t), intent(in) :: scene
+      type(contact_solution_t), intent(inout) :: solution !< with forces
+      real(wp), allocatable, intent(out) :: u(:, :)         !< displacements without rigid motions, (2, n_nodes) [L]
+      type(constraint_rows_t) :: b
+
+      call expand_bodies(problem, store, solution, u)
+      if (solution%converged .and. scene%near_elements) then
          call start_phase('refine')
-         call refine_solution(problem, controls, store%bodies, b, qp, solution, u)
+         call build_constraint_rows(problem%fem, problem%rows, problem%line, .false., b)
+         call refine_solution(problem, controls, store%bodies, b, problem%flexibility, solution, u)
          call stop_phase('refine')
       end if
-      if (allocated(solution%state%a)) then
-         if (has_position(problem, solution%state%a)) solution%state%a = solution%state%a + problem%last%state%a
-      end if
-      solution%factorisations = factorisations
-      call move_alloc(qp, problem%flexibility)
-      if (solution%converged .and. .not. problem%keeps) call release_condensed(problem, store)
-   end subroutine solve_condensed
+      if (has_position(problem, solution%state%a)) solution%state%a = solution%state%a + problem%last%state%a
+   end subroutine expand_solution
 
    !> Gives back the memory of C and G, and of the bodies unless they are kept for a next run: the stresses want it.
    subroutine release_condensed(problem, store)

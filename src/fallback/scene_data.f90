@@ -17,7 +17,7 @@ module atrito_scene_data
    use atrito_model, only: model_t, nodal_values_t, step_t
    use atrito_nodal_loads, only: nodal_loads
    use atrito_problem, only: problem_t, free_load
-   use atrito_results, only: results_t, scene_t
+   use atrito_results, only: results_t, scene_t, uniqueness_t
    use atrito_rigid_bodies, only: add_rigid_loads, has_moving_surfaces, set_rigid_motions
    use atrito_scene_builder, only: build_scene, build_bodies, list_held
    use atrito_scene_system, only: scene_system_t, set_scene_gaps, set_scene_load
@@ -59,12 +59,14 @@ module atrito_scene_data
       class(scene_system_t), allocatable :: assembled       !< the sparse form, in one matrix or in parts
       logical :: is_assembled = .false.
       logical :: wants_element_errors = .false.             !< of what is printed
+      integer(ip) :: starts = 0                             !< of a search for other solutions
       logical :: is_printed = .true.                        !< what is solved for is printed: it is worth stresses and estimates
       ! Of a history:
       logical :: may_cut = .false.                          !< without a solution a shorter increment is tried
       logical :: asks_for_bases = .false.                   !< the step begins
       real(wp), allocatable :: released(:, :)               !< (2, n_nodes) of supports that the step does not have; they fade [F]
       type(had_t) :: had                                    !< the largest so far
+      type(uniqueness_t), allocatable :: certificate        !< of the flexibility that is there
       real(wp), pointer :: before(:, :) => null()           !< (2, n_nodes) displacements of the increment before [L]
    end type scene_data_t
 
@@ -73,6 +75,7 @@ module atrito_scene_data
       integer :: solver_kind = 0                           !< STORAGE_* or 0
       integer :: contact_form = CONTACT_AUTO
       logical :: element_errors = .false.                   !< the estimated error is kept element by element
+      integer(ip) :: starts = 0                             !< of a search for other solutions; 0: as the deck asks
       integer(lp) :: memory = huge(1_lp)                    !< bytes, of each process; what the machine has counts where it is less
       class(distribution_t), allocatable :: distribution    !< of a scene that it pays off for; not allocated: none
    end type solve_options_t
@@ -150,6 +153,7 @@ contains
       if (allocated(asked%distribution)) allocate (data%distribution, source=asked%distribution)
       call choose_form(asked, data)
       data%solver_kind = asked%solver_kind
+      data%starts = merge(asked%starts, data%step%controls%starts, asked%starts > 0)
       data%wants_element_errors = asked%element_errors
       ! all bodies in one matrix: none is numbered for a profile of its own
       if (data%contact_form == CONTACT_SPARSE) data%solver_kind = SOLVER_SPARSE

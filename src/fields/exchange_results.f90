@@ -3,7 +3,7 @@ module atrito_exchange_results
    use atrito_archive, only: archive_t, exchange, exchange_vector, exchange_numbers, exchange_word, exchange_length
    use atrito_kinds, only: ip
    use atrito_results, only: results_t, contact_result_t, unsettled_t, balance_t, body_motion_t, rigid_result_t, joint_t, &
-                             cut_force_t, extreme_t, iteration_t, observed_t, body_result_t, pair_scene_t, scene_t
+                             cut_force_t, extreme_t, iteration_t, observed_t, body_result_t, pair_scene_t, scene_t, uniqueness_t
    use atrito_strings, only: string_t
    implicit none (type, external)
    private
@@ -45,6 +45,7 @@ contains
       call exchange_unsettled(archive, results%unsettled)
       call exchange(archive, 'contraction', results%contraction)
       call exchange(archive, 'contraction_estimate', results%contraction_estimate)
+      call exchange_uniqueness(archive, results%uniqueness)
       call exchange(archive, 'equilibrium_residual', results%equilibrium_residual)
       call exchange(archive, 'strain_energy', results%strain_energy)
       call exchange(archive, 'external_work', results%external_work)
@@ -59,6 +60,19 @@ contains
       call exchange_observed(archive, results%observed)
       call exchange_cut(archive, results%cuts)
    end subroutine exchange_results
+
+   subroutine exchange_uniqueness(archive, uniqueness)
+      type(archive_t), intent(inout) :: archive
+      type(uniqueness_t), intent(inout) :: uniqueness
+
+      call exchange(archive, 'nu', uniqueness%nu)
+      call exchange(archive, 'up_to_nu', uniqueness%up_to_nu)
+      call exchange(archive, 'same_way_up_to_nu', uniqueness%same_way_up_to_nu)
+      call exchange(archive, 'index', uniqueness%index)
+      call exchange(archive, 'starts', uniqueness%starts)
+      call exchange(archive, 'solutions', uniqueness%solutions)
+      call exchange_word(archive, 'why_not', uniqueness%why_not)
+   end subroutine exchange_uniqueness
 
    subroutine exchange_contact(archive, list)
       type(archive_t), intent(inout) :: archive

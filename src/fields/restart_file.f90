@@ -306,6 +306,8 @@ contains
       call exchange_numbers(archive, 'slip', list%slip)
       call exchange_vector(archive, 'dissipation', list%dissipation)
       call exchange_vector(archive, 'elastic_energy', list%elastic_energy)
+      call exchange_vector(archive, 'unique_up_to_nu', list%unique_up_to_nu)
+      call exchange_numbers(archive, 'index', list%index)
       call exchange_vector(archive, 'mean_slip', list%mean_slip)
    end subroutine exchange_rows
 

@@ -5,7 +5,7 @@ module atrito_write_results
    use atrito_patched_text, only: patched_text_t, write_patched
    use atrito_strings, only: string_t, append_string
    use atrito_status, only: status_t, is_ok, set_status, STATUS_FILE
-   use atrito_files, only: file_set_t, begin_files, end_files, file_exists, NEW_LINE_CHARACTER
+   use atrito_files, only: file_set_t, begin_files, end_files, file_exists, remove_empty_folder, NEW_LINE_CHARACTER
    use atrito_kinds, only: ip
    use atrito_timers, only: start_phase, stop_phase
    use atrito_model, only: model_t
@@ -18,7 +18,7 @@ module atrito_write_results
    use atrito_report_file, only: REPORT_NAME, remove_report
    implicit none (type, external)
    private
-   public :: write_results, list_files_of_run
+   public :: write_results, remove_results, list_files_of_run
 
 contains
 
@@ -74,6 +74,23 @@ contains
       call remove_plots(folder, PLOTS_OF_RUN)
       call remove_report(folder)
    end subroutine write_results
+
+   !> Removes what a run of this model has written into a folder, and the folder where nothing else is in it.
+   !>
+   !> status: STATUS_FILE, and then it is as it was.
+   subroutine remove_results(model, folder, status)
+      type(model_t), intent(in) :: model
+      character(len=*), intent(in) :: folder
+      type(status_t), intent(out) :: status
+      type(file_set_t) :: set
+
+      call begin_files(set, folder, status)
+      call end_files(set, status, list_files_of_run(model, folder))
+      if (.not. is_ok(status)) return
+      call remove_plots(folder, PLOTS_OF_RUN)
+      call remove_report(folder)
+      call remove_empty_folder(folder)
+   end subroutine remove_results
 
    !> Writes the deck as it was run, and the meshes of other programs beside it, with the words by which a later run knows them.
    subroutine write_deck_as_run(model, set, status)

@@ -18,10 +18,11 @@ module atrito_dense
    use atrito_lapack, only: dgemm, dgemv, dgesv, dgesvd, dgelsd, dpocon, dpotrs, dsyev
    implicit none (type, external)
    private
-   public :: solve_cholesky, estimate_condition, solve_lu, eigen_symmetric
+   public :: solve_cholesky, estimate_condition, solve_lu, sign_of_determinant, eigen_symmetric
    public :: orthonormalise, add_product, multiply_vector, null_space, least_squares
 
    integer(ip), parameter :: NOT_FINITE = -99             !< an info that is none of LAPACK's
+   real(wp), parameter :: ROUNDED_PIVOT = 1.0e-12_wp      !< over the largest: its sign may be rounding
 
    !> b <- A^-1 b with the lower triangle of A = L L' (dpotrf); b of rank 1 or 2.
    interface solve_cholesky
@@ -103,6 +104,30 @@ contains
       call dgesv(order(a), 1_ip, a, leading(a), pivots, b, leading(a), info)
       call restore_halting(halting)
    end subroutine solve_lu_one
+
+   !> The sign of det A: of the pivots of P A = L U and of the exchanges of rows; 0 where a pivot is as small beside the largest as
+   !> rounding of the others makes it. 1 at order 0.
+   integer(ip) function sign_of_determinant(a) result(sign_of)
+      real(wp), intent(inout), contiguous :: a(:, :)     !< (n, n), rows and columns of like size; destroyed
+      type(halting_t) :: halting
+      real(wp) :: no_load(size(a, 2)), least
+      integer(ip) :: pivots(size(a, 2)), info, i
+
+      sign_of = 1
+      if (size(a) == 0) return
+      no_load = 0.0_wp
+      call suspend_halting(halting)
+      call dgesv(order(a), 1_ip, a, leading(a), pivots, no_load, leading(a), info)
+      call restore_halting(halting)
+      least = ROUNDED_PIVOT*maxval([(abs(a(i, i)), i=1, size(a, 2))])
+      do i = 1, size(a, 2, kind=ip)
+         if (.not. abs(a(i, i)) > least) then
+            sign_of = 0
+            return
+         end if
+         if (a(i, i) < 0.0_wp .neqv. pivots(i) /= i) sign_of = -sign_of
+      end do
+   end function sign_of_determinant
 
    !> All eigenvalues, ascending, and orthonormal eigenvectors of a symmetric matrix: A = V diag(values) V' (dsyev). Reflections
    !> bring A to three diagonals, rotations (QR) these to one. Each value is found to within rounding of the largest one, so small

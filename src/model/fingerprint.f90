@@ -291,7 +291,7 @@ contains
          call add_to(digest, way%most)
       end associate
       associate (controls => step%controls)
-         call add_to(digest, [controls%method, controls%max_iterations])
+         call add_to(digest, [controls%method, controls%max_iterations, controls%starts])
          call add_to(digest, [controls%tolerance, controls%relaxation, controls%most_entries])
          call add_to(digest, controls%is_coarse)
       end associate

@@ -45,7 +45,6 @@ module atrito_contact_solution
       character(len=:), allocatable :: verdict        !< why not
       integer(ip) :: factorisations = 0               !< of the sparse form
       real(wp) :: residual = 0.0_wp                   !< |nu S_rho(p) - tau| / |tau|
-      real(wp) :: contraction_estimate = 0.0_wp       !< of the Picard map from its matrix (atrito_uniqueness)
       real(wp) :: contraction = 0.0_wp                !< largest measured rate of the Picard map; 0: not measured
    end type contact_solution_t
 

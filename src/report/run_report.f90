@@ -15,6 +15,7 @@ module atrito_run_report
    use atrito_system, only: peak_memory
    use atrito_table, only: ZERO_SHARE, abs_is_below
    use atrito_timers, only: phase_time_t, get_phases
+   use atrito_uniqueness_text, only: uniqueness_text
    implicit none (type, external)
    private
    public :: report_of_run
@@ -58,6 +59,7 @@ contains
       type(results_t), intent(in) :: last
       character(len=*), intent(in) :: ending        !< of a history that ended early; '' of others
       type(report_t), intent(inout) :: report
+      character(len=:), allocatable :: unique
 
       allocate (report%details(0))
       report%is_good = last%converged .and. last%law_holds .and. len(ending) == 0
@@ -66,6 +68,8 @@ contains
          call append_string(report%details, 'Equilibrium to '//number(last%equilibrium_residual, 2) &
                             //' of the largest force; the contact law holds at every point.')
          call append_string(report%details, 'The estimated error is '//number(last%error_estimate, 3)//' % of the energy norm.')
+         unique = uniqueness_text(last%uniqueness)
+         if (len(unique) > 0) call append_string(report%details, 'Uniqueness: '//unique//'.')
       else if (len(ending) > 0) then
          report%verdict = 'NOT CONVERGED'
          call append_string(report%details, ending)

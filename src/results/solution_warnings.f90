@@ -94,36 +94,39 @@ contains
       end do
    end subroutine warn_of_hourglass
 
-   !> Whether there may be other solutions: by the estimate; without one, or against it, where friction is very large.
+   !> That there are other solutions, where it is known; else whether there may be some, where no proof excludes them.
    subroutine warn_of_others(model, results)
       type(model_t), intent(in) :: model
       type(results_t), intent(in) :: results
-      character(len=:), allocatable :: text, measured
+      character(len=:), allocatable :: measured, proved
       real(wp) :: nu
 
+      associate (known => results%uniqueness)
+         if (known%solutions > 1) then
+            call add_warning('W-UNIQUE', 'this is not the only solution: the search found '//to_text(known%solutions - 1)//' more')
+            return
+         else if (known%index < 0) then
+            call add_warning('W-UNIQUE', 'this is not the only solution: its index is -1, so there is another one at least, and'// &
+                             ' mostly two; --unique 40 looks for them')
+            return
+         end if
+         if (known%up_to_nu >= known%nu .and. known%nu > 0.0_wp) return
+         proved = ''
+         if (known%up_to_nu > 0.0_wp) proved = '; proved up to '//to_text(known%up_to_nu, 3)
+      end associate
       associate (laws => model%interactions(model%pairs%interaction))
          nu = maxval([pack(laws%nu, laws%friction /= FRICTION_NONE), 0.0_wp])
       end associate
       if (results%contraction_estimate < 1.0_wp .and. nu < LARGE_FRICTION) return
-      text = 'friction coefficient '//to_text(nu)//': '
-      measured = ''
-      if (results%contraction > 0.0_wp) measured = ', measured '//to_text(results%contraction, 3)
+      measured = ' (estimated contraction of the outer loop '//to_text(results%contraction_estimate, 3)
+      if (results%contraction > 0.0_wp) measured = measured//', measured '//to_text(results%contraction, 3)
       if (results%contraction_estimate >= 1.0_wp) then
-         text = text//'there may be other solutions than the one found (estimated contraction of the outer loop '// &
-                to_text(results%contraction_estimate, 3)//measured//'); with a coefficient below '// &
-                to_text(nu/results%contraction_estimate, 3)//' one alone is expected'
-         if (results%contraction > 0.0_wp .and. results%contraction < 1.0_wp) text = text// &
-                                                       '. What is measured is the way to this solution, and tells nothing of others'
+         call add_warning('W-UNIQUE', 'friction coefficient '//to_text(nu)//': there may be other solutions than the one found;' &
+                          //' one alone is expected below '//to_text(nu/results%contraction_estimate, 3)//proved//measured//')')
       else
-         text = text//'from '//to_text(LARGE_FRICTION)//' on scenes with several solutions are known; '
-         if (results%contraction_estimate > 0.0_wp) then
-            text = text//'of this one the estimate expects no other (contraction of the outer loop '// &
-                   to_text(results%contraction_estimate, 3)//measured//'; several from 1 on)'
-         else
-            text = text//'there is no estimate for this one in the sparse form of the contact system'
-         end if
+         call add_warning('W-UNIQUE', 'friction coefficient '//to_text(nu)//': there may be other solutions than the one found' &
+                          //proved//measured//'; below 1 others are rare)')
       end if
-      call add_warning('W-UNIQUE', text)
    end subroutine warn_of_others
 
    !> Names the points whose own force is not unique.

@@ -299,6 +299,8 @@ contains
       integer(ip) :: i
 
       call require(wrong, min(frame%outer_iterations, frame%linear_solves, frame%factorisations) >= 0, 'iterations')
+      call require(wrong, is_finite([frame%uniqueness%nu, frame%uniqueness%up_to_nu, frame%uniqueness%same_way_up_to_nu]) &
+                   .and. min(frame%uniqueness%starts, frame%uniqueness%solutions) >= 0, 'uniqueness')
       call require(wrong, is_finite([frame%error_estimate, frame%contraction, frame%contraction_estimate, &
                                      frame%equilibrium_residual, frame%strain_energy, frame%external_work]), 'numbers')
       associate (b => frame%balance)
@@ -440,7 +442,8 @@ contains
             if (allocated(wrong)) return
             call require(wrong, row%open + row%stick + row%slip == data%points(row%pair)%n, 'states of rows')
             call require(wrong,.not. is_any_infinite([row%normal, row%shear, row%moment, row%length, row%centre, &
-                                                      row%max_pressure, row%dissipation, row%elastic_energy, row%mean_slip]), &
+                                                      row%max_pressure, row%dissipation, row%elastic_energy, row%unique_up_to_nu, &
+                                                      row%mean_slip]), &
                          'rows')
             call require(wrong, is_finite([row%time]), 'time of rows')
             if (allocated(wrong)) return

@@ -28,6 +28,7 @@ module atrito_history
    use atrito_scene_forecast, only: forecast_memory
    use atrito_slip_memory, only: begin_memory, put_rest, remember_slips
    use atrito_solution_warnings, only: warn, idle_text
+   use atrito_solution_search, only: search_solutions
    use atrito_solve, only: begin_scene, note_method, solve_options_t, solve_static
    use atrito_status, only: is_ok, reword_status, set_status, status_t, STATUS_NOT_CONVERGED, STATUS_SINGULAR
    use atrito_step_change, only: begin_from, changes_form
@@ -112,7 +113,7 @@ contains
       integer(ip) :: i
 
       allocate (history%frames(1))
-      call solve_static(model, options, reporter, history%frames(1), status, store)
+      call solve_static(model, options, reporter, history%frames(1), status, store, history%others)
       if (.not. is_ok(status)) then
          deallocate (history%frames)
          allocate (history%frames(0))
@@ -151,6 +152,7 @@ contains
          if (all(held .eqv. run%data%held) .and. .not. changes_form(model, k) &
              .and. hold_the_same(model, run%data%rigid_prescribed, model%steps(k)%rigid_prescribed)) then
             run%data%step => model%steps(k)
+            if (run%options%starts == 0) run%data%starts = model%steps(k)%controls%starts
             if (allocated(run%data%released)) deallocate (run%data%released)
             if (allocated(run%data%bases)) deallocate (run%data%bases)
             run%data%asks_for_bases = .true.
@@ -235,6 +237,7 @@ contains
       type(results_t), intent(out) :: results
       type(contact_solution_t), intent(out) :: solution
       type(status_t), intent(out) :: status
+      type(results_t), allocatable :: others(:)      ! which are counted alone
 
       results%scene = run%scene
       results%step = k
@@ -249,6 +252,9 @@ contains
       call set_time(run%data, moment_t(to, results%time))
       call check_known_points(run%data, status)
       if (is_ok(status)) call solve_increment(run%data, run%options%contact_form, store, results, solution, status)
+      if (is_solved(results, status) .and. run%data%is_printed) then
+         call search_solutions(run%data, store, solution, results, others)
+      end if
    end subroutine try_increment
 
    !> Whether anything is printed of an increment.
@@ -346,6 +352,11 @@ contains
          call take_larger(history%frames(i)%large_rotation, run%last%large_rotation)
          call take_larger(history%frames(i)%large_slip, run%last%large_slip)
          run%last%contraction = max(run%last%contraction, history%frames(i)%contraction)
+         associate (known => history%frames(i)%uniqueness)
+            run%last%uniqueness%solutions = max(run%last%uniqueness%solutions, known%solutions)
+            run%last%uniqueness%index = min(run%last%uniqueness%index, known%index)
+            run%last%uniqueness%up_to_nu = min(run%last%uniqueness%up_to_nu, known%up_to_nu)
+         end associate
          run%last%contraction_estimate = max(run%last%contraction_estimate, history%frames(i)%contraction_estimate)
       end do
       idle = ''

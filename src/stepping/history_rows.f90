@@ -23,6 +23,8 @@ contains
       row%pair = pair
       row%dissipation = dissipation
       row%elastic_energy = results%strain_energy
+      row%unique_up_to_nu = results%uniqueness%up_to_nu
+      row%index = results%uniqueness%index
       associate (c => results%contact(pair))
          row%open = count(c%status == POINT_OPEN, kind=ip)
          row%stick = count(c%status == POINT_STICK, kind=ip)

@@ -15,6 +15,7 @@ module atrito_increment
    use atrito_final_check, only: check_equilibrium, check_balance, check_law, equilibrium_t
    use atrito_force_sums, only: sum_forces
    use atrito_joint_sums, only: sum_joints
+   use atrito_increment_uniqueness, only: judge_uniqueness
    use atrito_idle_motions, only: settle_idle_motions, stop_slow_motion
    use atrito_kinds, only: ip, wp
    use atrito_ladder, only: RUNGS, is_tried, controls_of_rung, rung_text
@@ -42,7 +43,7 @@ module atrito_increment
    use atrito_weak_forces, only: contact_sizes_t
    implicit none (type, external)
    private
-   public :: solve_increment, complete_results, is_solved
+   public :: solve_increment, begin_results, finish_form, complete_results, is_solved
 
    !> Entries of C to go through where either form may be taken: with 400 unknown forces 900 linear solves, with 100 15,000.
    real(wp), parameter :: MOST_ENTRIES = 1.5e8_wp
@@ -113,8 +114,6 @@ contains
       type(contact_solution_t), intent(out) :: solution
       type(status_t), intent(out) :: status
       real(wp), allocatable :: u(:, :)                      ! without rigid motions, (2, n_nodes) [L]
-      character(len=:), allocatable :: verdict
-      integer(ip) :: b
       logical :: again
       integer :: change
 
@@ -124,6 +123,21 @@ contains
          if (.not. again) exit                              ! the loads have lost what only the digits of the deck make of them
       end do
       if (.not. is_ok(status)) return
+      call finish_form(data, controls, solution, u, results, status)
+   end subroutine solve_one_form
+
+   !> From a solution of the contact system to results, and the final check. status: as solve_one_form.
+   subroutine finish_form(data, controls, solution, u, results, status)
+      type(scene_data_t), intent(inout) :: data
+      type(controls_t), intent(in) :: controls
+      type(contact_solution_t), intent(inout) :: solution
+      real(wp), allocatable, intent(inout) :: u(:, :)       !< without rigid motions, (2, n_nodes) [L]; moved to the results
+      type(results_t), intent(inout) :: results             !< with the scene
+      type(status_t), intent(out) :: status
+      character(len=:), allocatable :: verdict
+      integer(ip) :: b
+      logical :: again
+
       call start_phase('recover')
       if (data%is_printed) call begin_early(data, solution, u)
       if (allocated(data%had%motion)) call clear_what_is_left(data, solution, u)
@@ -142,7 +156,7 @@ contains
       end if
       call stop_phase('check')
       call take_rigid_results(data, solution, results)
-   end subroutine solve_one_form
+   end subroutine finish_form
 
    !> The solution of one form, with the least of the idle motions.
    subroutine solve_form(data, form, controls, store, results, solution, u, again, status)
@@ -155,7 +169,6 @@ contains
       real(wp), allocatable, intent(out) :: u(:, :)         !< without rigid motions, (2, n_nodes) [L]
       logical, intent(inout) :: again                       !< in: whether loads may change; out: they have
       type(status_t), intent(out) :: status
-      type(controls_t) :: own
       logical :: may_change
 
       may_change = again
@@ -163,14 +176,14 @@ contains
       if (form == CONTACT_SPARSE) then
          call solve_assembled(data, controls, results, solution, u, status)
       else
-         own = controls
-         own%asks_contraction = data%is_printed
-         call solve_condensed(data, own, store, results%scene, solution, u, status)
-         results%contraction_estimate = solution%contraction_estimate
+         if (.not. allocated(data%flexibility) .and. allocated(data%certificate)) deallocate (data%certificate)
+         call solve_condensed(data, controls, store, results%scene, solution, u, status)
          if (solution%factorisations > 0) results%factorisations = solution%factorisations
       end if
       if (allocated(data%assembled)) call data%assembled%check_solves(status)   ! whatever came of a solve that failed
       solution%form = form
+      if (is_ok(status)) call judge_uniqueness(data, solution, results)
+      if (form == CONTACT_DENSE .and. solution%converged .and. .not. data%keeps) call release_condensed(data, store)
       call start_phase('iterate')
       again = may_change
       call judge_outcome(data, results, solution, again, status)

@@ -16,6 +16,8 @@ module atrito_solve
    use atrito_scene_survey, only: describe_scene, describe_order, count_fronts, check_scene
    use atrito_solution_warnings, only: warn, idle_text
    use atrito_solver_choice, only: SOLVER_SKYLINE, SOLVER_BANDED, SOLVER_SPARSE
+   use atrito_solution_search, only: search_solutions
+   use atrito_solve_condensed, only: release_condensed
    use atrito_status, only: status_t, is_ok
    use atrito_timers, only: start_phase, stop_phase
    use atrito_unsettled_points, only: report_unsettled
@@ -85,23 +87,29 @@ contains
 
    !> Solves. status: STATUS_SINGULAR (free motion, singular body, dependent points), STATUS_DECK (contradiction of prescribed
    !> displacements and hard contact; too little memory, which is told by a message). results%converged and law_holds tell the rest.
-   subroutine solve_static(model, options, reporter, results, status, store)
+   subroutine solve_static(model, options, reporter, results, status, store, others)
       type(model_t), intent(in), target :: model
       type(solve_options_t), intent(in) :: options
       type(reporter_t), intent(in) :: reporter
       type(results_t), intent(out) :: results
       type(status_t), intent(out) :: status
       type(body_cache_t), intent(inout) :: store           !< bodies of an earlier run, or none; on return those of this one
+      type(results_t), allocatable, intent(out), optional :: others(:) !< other solutions that a search has found
       type(scene_data_t) :: data
       type(contact_solution_t) :: solution
       type(force_sense_t) :: sense
+      type(results_t), allocatable :: found(:)
 
       call begin_scene(model, options, store, .false., data, results%scene, status)
       if (is_ok(status)) then
          data%reporter = reporter
          call report_place(reporter, 'solve', is_phase=.true.)
          call note_method(data, model%steps(1:1))
+         data%keeps = data%starts > 0
          call solve_increment(data, options%contact_form, store, results, solution, status)
+         if (is_solved(results, status)) call search_solutions(data, store, solution, results, found)
+         if (present(others)) call move_alloc(found, others)
+         if (data%keeps) call release_condensed(data, store)
       end if
       call drop_assembled(data)
       if (.not. is_ok(status)) return

@@ -186,6 +186,9 @@ contains
       call add_integers(table, 'slip', (rows%slip))
       call add_reals(table, 'dissipation', 'F*L', (clean%dissipation), 0.0_wp)
       call add_reals(table, 'elastic_energy', 'F*L', (clean%elastic_energy), 0.0_wp)
+      if (.not. any(rows%unique_up_to_nu > 0.0_wp)) return
+      call add_reals(table, 'unique_up_to_nu', '-', (rows%unique_up_to_nu), 0.0_wp)
+      call add_integers(table, 'index', (rows%index))
    end subroutine build_rows
 
    !> By the largest resultant and pressure of each pair in the history, and that resultant times the length for the moment.

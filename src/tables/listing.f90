@@ -27,6 +27,7 @@ module atrito_listing
                              closed_word
    use atrito_table, only: ZERO_SHARE
    use atrito_utf8, only: visible
+   use atrito_uniqueness_text, only: uniqueness_text
    implicit none (type, external)
    private
    public :: write_listing, compose_listing, list_used_libraries, date_text
@@ -238,10 +239,13 @@ contains
    subroutine add_iterations(page, results)
       type(page_t), intent(inout) :: page
       type(results_t), intent(in) :: results
+      character(len=:), allocatable :: unique
       integer :: i
 
       call add_entry(page, 'outer iterations', to_text(int(results%outer_iterations, ip)))
       if (results%contraction > 0.0_wp) call add_entry(page, 'contraction, measured', number(results%contraction, 3))
+      unique = uniqueness_text(results%uniqueness)
+      if (len(unique) > 0) call add_entry(page, 'uniqueness', unique)
       if (results%contraction_estimate > LEAST_CONTRACTION) then
          call add_entry(page, 'contraction, estimated', number(results%contraction_estimate, 3) &
                         //'; from 1 on there may be several solutions')

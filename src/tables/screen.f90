@@ -20,6 +20,7 @@ module atrito_screen
    use atrito_report_file, only: REPORT_NAME
    use atrito_summary, only: pair_summary_t, summarise_pair, states_text, closed_word, body_count, pair_count, pair_name
    use atrito_table, only: TAB_ENDING, CSV_ENDING
+   use atrito_uniqueness_text, only: uniqueness_text
    implicit none (type, external)
    private
    public :: compose_summary, compose_check
@@ -130,7 +131,7 @@ contains
       type(page_t), intent(inout) :: page
       type(model_t), intent(in) :: model
       type(results_t), intent(in) :: results
-      character(len=:), allocatable :: large
+      character(len=:), allocatable :: large, unique
       associate (scene => results%scene)
          ! millions would not fit beside the counts of elements and nodes, which are as many then
          call add_item(page, 'solved', plural(body_count(scene), 'body', 'bodies')//', '// &
@@ -145,6 +146,8 @@ contains
          if (.not. (has_forces(results) .or. results%equilibrium_residual > 0.0_wp)) large = 'no forces act'
          call add_item(page, 'checked', large//'; the contact law holds')
          call add_item(page, 'estimated', 'error of '//number(results%error_estimate, 3)//' % of the energy norm')
+         unique = uniqueness_text(results%uniqueness)
+         if (len(unique) > 0) call add_item(page, 'unique', unique)
          large = large_text(results)
          if (len(large) > 0) call add_item(page, 'but', large//': not small (W-LARGE)')
       else

@@ -4,7 +4,7 @@ module atrito_summary
    use atrito_kinds, only: ip, wp
    use atrito_strings, only: string_t, append_string, to_text
    use atrito_model, only: model_t
-   use atrito_results, only: results_t, history_t, scene_t, contact_result_t, view_frame, &
+   use atrito_results, only: results_t, history_t, scene_t, contact_result_t, uniqueness_t, view_frame, &
                              POINT_OPEN, POINT_STICK, POINT_SLIP
    use atrito_threads, only: is_shared
    implicit none (type, external)
@@ -158,6 +158,7 @@ contains
               quantity_t('strain_energy', 'F L', results%strain_energy, 0.0_wp), &
               quantity_t('external_work', 'F L', results%external_work, 0.0_wp), &
               quantity_t('error_estimate_percent', '-', results%error_estimate, 0.0_wp), &
+              unique_quantities(results%uniqueness), &
               large_quantities(results)]
       if (.not. allocated(results%observed)) return
       ! what --observe asks for: nothing is rounding, for of an expression no scale is known
@@ -175,13 +176,25 @@ contains
       list = pack(list, list%value > 0.0_wp)
    end function large_quantities
 
+   !> What is known of other solutions: with friction what is certified, and the index; of a search what it found.
+   pure function unique_quantities(known) result(list)
+      type(uniqueness_t), intent(in) :: known
+      type(quantity_t), allocatable :: list(:)
+
+      list = [quantity_t('unique_up_to_nu', '-', known%up_to_nu, 0.0_wp), counted('index', known%index), &
+              counted('solutions_found', known%solutions)]
+      list = pack(list, known%nu > 0.0_wp .and. [len_trim(known%why_not) == 0, known%index /= 0, known%starts > 0])
+   end function unique_quantities
+
    !> Every quantity that summary.tab can have.
    pure function quantity_names() result(names)
       type(string_t), allocatable :: names(:)
       type(quantity_t), allocatable :: list(:)
+      type(results_t) :: full
       integer :: i
 
-      list = [pair_quantities(pair_summary_t(), scales_t()), step_quantities(results_t())]
+      full%uniqueness = uniqueness_t(nu=1.0_wp, index=1_ip, starts=1_ip)
+      list = [pair_quantities(pair_summary_t(), scales_t()), step_quantities(full)]
       allocate (names(0))
       do i = 1, size(list)
          call append_string(names, trim(list(i)%name))

@@ -19,13 +19,14 @@ observed_t         fields/exchange_results.f90 exchange_observed list
 observed_list_t    fields/restart_file.f90 exchange_observed_list list
 cut_force_t        fields/exchange_results.f90 exchange_cut cut
 iteration_t        fields/exchange_results.f90 exchange_iterations list
+uniqueness_t       fields/exchange_results.f90 exchange_uniqueness uniqueness
 extreme_t          fields/exchange_results.f90 exchange_extreme extreme
 balance_t          fields/exchange_results.f90 exchange_balance balance
 scene_t            fields/exchange_results.f90 exchange_scene scene
 body_result_t      fields/exchange_results.f90 exchange_bodies body
 pair_scene_t       fields/exchange_results.f90 exchange_pairs pair
 string_t           fields/exchange_results.f90 exchange_left_out list
-history_t          fields/restart_file.f90 exchange_findings history ending,factorisations,store,n_stored
+history_t          fields/restart_file.f90 exchange_findings history others,ending,factorisations,store,n_stored
 history_row_t      fields/restart_file.f90 exchange_rows list
 restart_state_t    fields/restart_file.f90 exchange_state,exchange_findings state
 warm_start_t       fields/restart_file.f90 exchange_start start
@@ -34,7 +35,7 @@ box_bounds_t       fields/restart_file.f90 exchange_start bounds
 multiplier_t       fields/restart_file.f90 exchange_multipliers multipliers factorisations,solves,generation,part,before
 warm_start_t       stepping/warm_start.f90 put_start start
 warm_start_t       stepping/warm_start.f90 take_start start
-contact_solution_t stepping/warm_start.f90 put_start solution factor,inner,converged,verdict,factorisations,body_motion,body_force,has_settled,contraction_estimate
+contact_solution_t stepping/warm_start.f90 put_start solution factor,inner,converged,verdict,factorisations,body_motion,body_force,has_settled
 slip_memory_t      fields/restart_file.f90 exchange_state memory is_incremental
 run_t              stepping/history_run.f90 record run options,reporter,scene,has_last,observer,sense,idle,n_idle
 run_t              stepping/history_run.f90 resume run reporter,observer,idle,n_idle
@@ -54,7 +55,7 @@ nodal_values_t     model/fingerprint.f90 add_nodal_values values source
 element_load_t     model/fingerprint.f90 add_element_loads loads line,source
 amplitude_t        model/fingerprint.f90 add_amplitudes amplitude name
 increments_t       model/fingerprint.f90 add_way way
-controls_t         model/fingerprint.f90 add_way controls is_rung,asks_contraction
+controls_t         model/fingerprint.f90 add_way controls is_rung
 requests_t         model/fingerprint.f90 add_requests requests
 frequencies_t      model/types/model.f90 all_frequencies every
 path_t             model/fingerprint.f90 add_paths path place,s,x,along

@@ -8,8 +8,9 @@ module atrito_command_line
    use atrito_files, only: confine_files, file_exists, target_path, true_path
    use atrito_messages, only: message_t, SEVERITY_ERROR
    use atrito_number_text, only: LEAST_DIGITS, MOST_DIGITS, DEFAULT_DIGITS
-   use atrito_option_table, only: OPTIONS, MOST_THREADS, MOST_LEVELS, find_option, has_value, option_words, place_of_word, &
-                                  value_text, trimmed_strings, TASKS, TASK_USAGE, TASK_RUN, TASK_CHECK, TASK_COMPARE, TASK_HELP, &
+   use atrito_option_table, only: OPTIONS, MOST_THREADS, MOST_LEVELS, MOST_STARTS, find_option, has_value, option_words, &
+                                  place_of_word, value_text, trimmed_strings, &
+                                  TASKS, TASK_USAGE, TASK_RUN, TASK_CHECK, TASK_COMPARE, TASK_HELP, &
                                   TASK_SWEEP, TASK_STUDY, TASK_LIMIT, TASK_OPTIONS, TASK_VERSION, task_named, command_names, &
                                   task_form, task_text
    use atrito_plot_view, only: plot_view_t, read_box
@@ -41,6 +42,7 @@ module atrito_command_line
       integer(ip) :: threads = 1
       integer(ip) :: n_on_host = 1                  !< ranks of the first one's host, itself among them: no option
       integer(ip) :: refine = 0                     !< levels: each element into 4**refine
+      integer(ip) :: starts = 0                     !< of a search for other solutions; 0: as the deck asks
       integer(ip) :: shape = 0                      !< nodes of all elements, set by a study; 0: as in the deck
       integer(ip) :: state = 0                      !< and their state
       character(len=5) :: element = ''              !< their name, set by a study
@@ -344,6 +346,8 @@ contains
       select case (name)
       case ('--refine')
          call take_integer(value, 0, MOST_LEVELS, command%refine, ok)
+      case ('--unique')
+         call take_integer(value, 1, MOST_STARTS, command%starts, ok)
       case ('--levels')
          call take_integer(value, 1, MOST_LEVELS, command%levels, ok)
       case ('--threads')

@@ -6,7 +6,7 @@ module atrito_option_table
    private
    public :: TASK_USAGE, TASK_RUN, TASK_CHECK, TASK_COMPARE, TASK_HELP, TASK_SWEEP, TASK_STUDY, TASK_LIMIT, TASK_OPTIONS, &
              TASK_VERSION, TASKS, task_named, command_names, task_form, called, task_text
-   public :: OPTIONS, MOST_THREADS, MOST_LEVELS, VALUE_FOLDER, VALUE_FILE, trimmed_strings
+   public :: OPTIONS, MOST_THREADS, MOST_LEVELS, MOST_STARTS, VALUE_FOLDER, VALUE_FILE, trimmed_strings
    public :: find_option, has_value, option_words, place_of_word, value_text, option_text, phrase_text
    public :: option_group_t, group_options
 
@@ -34,6 +34,7 @@ module atrito_option_table
                                      'where a scene ceases to stand: --vary NAME=a:b')]
 
    integer, parameter :: MOST_THREADS = 1024
+   integer, parameter :: MOST_STARTS = 100000       !< of --unique
    integer, parameter :: MOST_LEVELS = 12           !< of --refine: 16 million elements of one
    character(len=*), parameter :: VALUE_FOLDER = 'DIR', VALUE_FILE = 'FILE'    !< names of values that are paths
 
@@ -73,6 +74,8 @@ module atrito_option_table
                                          expected='a whole number, 6 to 17'), &
                 option_t('--format', 'NAME', [Y, N, N, N, Y, Y, Y], 'tables as text, or as comma-separated values', default='tab', &
                                          words='tab csv'), &
+      option_t('--unique', 'N', [Y, N, N, N, Y, Y, N], 'looks for other solutions, from N starts: 40, say', &
+                                         expected='a whole number, 1 to 100000: starts of the search'), &
       option_t('--plot', '', [Y, Y, N, N, Y, Y, Y], 'pictures by gnuplot, in DIR/plots; of check: the scene before it is solved'), &
                                 option_t('--plot-scale', 'S', [Y, N, N, N, N, N, Y], 'displacements are drawn S times as large', &
                    default='chosen by their size', expected='a number, 0 or more, by which displacements are drawn; with --plot'), &

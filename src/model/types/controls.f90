@@ -10,16 +10,16 @@ module atrito_controls
    !> From the solution with much more friction to that with the deck's: no deck asks for it.
    integer(ip), parameter :: METHOD_EASED = 4
 
-   !> Of the outer iteration. A deck gives the first four.
+   !> Of the outer iteration. A deck gives the first five.
    type :: controls_t
       integer(ip) :: method = METHOD_ANDERSON
       real(wp) :: tolerance = 1.0e-10_wp            !< of the outer loop
       integer(ip) :: max_iterations = 100           !< outer iterations
       real(wp) :: relaxation = 1.0_wp               !< of PICARD and of the mixing of ANDERSON, 0 < r <= 1
+      integer(ip) :: starts = 0                     !< of a search for other solutions; 0: none is looked for
       logical :: is_coarse = .false.                !< bound_qp_t%is_coarse: states that round-off turns to and fro
       real(wp) :: most_entries = huge(1.0_wp)       !< of C to go through, over all linear solves, before it is given up
       logical :: is_rung = .false.                  !< tried before without a solution: the increment before is no start
-      logical :: asks_contraction = .true.          !< the estimate of the contraction of the loop is printed
    end type controls_t
 
 end module atrito_controls

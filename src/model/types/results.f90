@@ -7,7 +7,7 @@ module atrito_results
    private
    public :: results_t, contact_result_t, iteration_t, body_result_t, scene_t, pair_scene_t, balance_t, unsettled_t
    public :: body_motion_t, rigid_result_t, joint_t, cut_force_t, extreme_t, history_t, history_row_t, ending_t, last_frame
-   public :: observed_t, observed_list_t, frame_store_t, put_aside, view_frame, has_forces
+   public :: observed_t, observed_list_t, uniqueness_t, frame_store_t, put_aside, view_frame, has_forces
    public :: POINT_OPEN, POINT_STICK, POINT_SLIP
 
    integer(ip), parameter :: POINT_OPEN = 0, POINT_STICK = 1, POINT_SLIP = 2   !< column status of contact.tab
@@ -161,6 +161,16 @@ module atrito_results
       real(wp) :: value = 0.0_wp                    !< nan: it is not defined
    end type observed_t
 
+   !> Whether the solution is the only one (atrito_uniqueness).
+   type :: uniqueness_t
+      real(wp) :: nu = 0.0_wp                       !< the largest coefficient of friction; 0: without friction there is one
+      real(wp) :: up_to_nu = 0.0_wp                 !< one solution for every load, all coefficients scaled, this the largest
+      real(wp) :: same_way_up_to_nu = 0.0_wp        !< no other one that moves the same way at every point; 0: not asked, or no proof
+      integer(ip) :: index = 0                      !< 1 or -1; 0: not known
+      integer(ip) :: starts = 0, solutions = 0      !< of the search: tried, and found with the one that is printed; 0: none
+      character(len=64) :: why_not = ''             !< why there is no certificate
+   end type uniqueness_t
+
    !> The numbers of an increment.
    type :: frame_numbers_t
       integer(ip) :: step = 1, increment = 1
@@ -172,6 +182,7 @@ module atrito_results
       integer(ip) :: outer_iterations = 0, linear_solves = 0, factorisations = 0
       real(wp) :: contraction = 0.0_wp              !< measured rate of the outer loop; 0 unknown
       real(wp) :: contraction_estimate = 0.0_wp     !< of the Picard map from its matrix; from 1 on there may be several solutions
+      type(uniqueness_t) :: uniqueness
       real(wp) :: equilibrium_residual = 0.0_wp
       real(wp) :: strain_energy = 0.0_wp, external_work = 0.0_wp   !< [F L]
       type(extreme_t) :: large_strain, large_rotation, large_slip  !< where they pass what a linear theory knows; 0: they do not
@@ -216,6 +227,8 @@ module atrito_results
       integer(ip) :: open = 0, stick = 0, slip = 0
       real(wp) :: dissipation = 0.0_wp              !< by friction, from the beginning of the history [F L]
       real(wp) :: elastic_energy = 0.0_wp           !< of all bodies [F L]
+      real(wp) :: unique_up_to_nu = 0.0_wp          !< of the increment, all pairs (uniqueness_t)
+      integer(ip) :: index = 0                      !< of the increment, all pairs (uniqueness_t)
       real(wp) :: mean_slip = 0.0_wp                !< of u_T over the area of all points, open ones too [L]; drawn alone
    end type history_row_t
 
@@ -265,6 +278,7 @@ module atrito_results
    !> What was found of a history: the increments that are printed, and a row of every increment and pair.
    type :: history_t
       type(results_t), allocatable :: frames(:)     !< in the order of time; of a run that ended well the last is its end
+      type(results_t), allocatable :: others(:)     !< other solutions of a run of one increment; not allocated: none was found
       class(frame_store_t), pointer :: store => null() !< not associated: all frames are whole
       integer(ip) :: n_stored = 0                   !< the first frames: here are their numbers, view_frame shows their fields
       type(history_row_t), allocatable :: rows(:)

@@ -10,7 +10,7 @@
 !> |K_nt|/K_tt. Sets: all points, and those that are closed in the solution, all slipping the same way; and the solution itself,
 !> where those that slip go on the way they do and those that stick hold: their forces follow, too. Other sets and directions may
 !> be worse, hence an estimate. The average S_rho is left out.
-module atrito_uniqueness
+module atrito_contraction
    use atrito_bound_qp, only: bound_qp_t, FREE, AT_LOWER
    use atrito_contact_line, only: contact_line_t
    use atrito_dense, only: eigen_symmetric, multiply_vector
@@ -239,4 +239,4 @@ contains
       z = map%left*x(map%place)
    end function image_of
 
-end module atrito_uniqueness
+end module atrito_contraction

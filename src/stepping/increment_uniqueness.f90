@@ -1,0 +1,38 @@
+!> What is known of other solutions of an increment, from the matrices of its contact line.
+module atrito_increment_uniqueness
+   use atrito_contact_solution, only: contact_solution_t
+   use atrito_results, only: results_t
+   use atrito_scene_data, only: scene_data_t
+   use atrito_timers, only: start_phase, stop_phase
+   use atrito_uniqueness, only: certify_line, judge_solution
+   implicit none (type, external)
+   private
+   public :: judge_uniqueness
+
+contains
+
+   !> Judges a solution, converged or not. What does not depend on the loads is found once for the matrices of the line. A solution
+   !> of the sparse form is judged where the dense one has been tried and has left its matrices.
+   subroutine judge_uniqueness(data, solution, results)
+      type(scene_data_t), intent(inout) :: data
+      type(contact_solution_t), intent(in) :: solution
+      type(results_t), intent(inout) :: results
+
+      if (.not. data%line%has_friction) return
+      call start_phase('unique')
+      if (.not. allocated(data%flexibility)) then
+         results%uniqueness%nu = maxval(data%line%law%nu)
+         results%uniqueness%why_not = 'the sparse form has no matrix of the line'
+      else
+         if (.not. allocated(data%certificate)) then
+            allocate (data%certificate)
+            call certify_line(data%flexibility, data%line, data%starts > 0, data%certificate)
+         end if
+         results%uniqueness = data%certificate
+         call judge_solution(data%flexibility, data%line, solution, data%is_printed, results%uniqueness, &
+                             results%contraction_estimate)
+      end if
+      call stop_phase('unique')
+   end subroutine judge_uniqueness
+
+end module atrito_increment_uniqueness

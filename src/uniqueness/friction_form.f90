@@ -1,0 +1,110 @@
+!> The contact line as the certificates of uniqueness see it: A, the bounds of friction, and the forces that bodies can take.
+!>
+!> In forces q = (q_n, q_t) the line is r = g0 - C q + G a with G' q = h, and at each point, with delta/w on the normal diagonal,
+!>
+!>     A = C + diag(delta/w, 0),     q_n >= 0, r_n <= 0, q_n r_n = 0,     |q_t| <= b = nu W q_n.
+!>
+!> nu is the largest coefficient, W = diag(w nu_j/nu) S_rho diag(1/w) takes normal forces to friction bounds, each row with the share
+!> of its own pair. Of two solutions the loads are the same,
+!> and so the difference dq lies in the kernel of G'. Bodies that can move along the contact are out of reach of the certificates;
+!> where G has no tangential rows, k reflections (Householder) turn its columns onto the first k normal directions, and what is left
+!> without these is the kernel:  A <- Y' A Y,  W <- W Y. No basis is stored, and without free bodies nothing is done.
+module atrito_friction_form
+   use atrito_bound_qp, only: bound_qp_t
+   use atrito_contact_line, only: contact_line_t
+   use atrito_kinds, only: ip, wp
+   implicit none (type, external)
+   private
+   public :: friction_form_t, build_form
+
+   type :: friction_form_t
+      real(wp) :: nu = 0.0_wp                     !< the largest coefficient of friction; 0: none has friction
+      integer(ip) :: n = 0                        !< normal forces, on the kernel of G'; the tangential ones follow
+      real(wp), allocatable :: a(:, :)            !< (m, m) [L/F]
+      real(wp), allocatable :: w(:, :)            !< (n, m - n) the transpose of W: a column a tangential force
+   end type friction_form_t
+
+   real(wp), parameter :: NONE_ALONG = 1.0e-12_wp  !< of the largest entry of a motion: it does not move the points along the contact
+
+contains
+
+   !> Builds A and W on the forces that leave all bodies in balance. why_not: '', or why there is no such form.
+   pure subroutine build_form(problem, line, form, why_not)
+      type(bound_qp_t), intent(in) :: problem     !< C and G
+      type(contact_line_t), intent(in) :: line    !< points, laws, average S_rho
+      type(friction_form_t), intent(out) :: form
+      character(len=:), allocatable, intent(out) :: why_not
+      real(wp) :: g(problem%n_normal, problem%k)
+      integer(ip) :: i, j, k
+
+      why_not = ''
+      associate (n => problem%n_normal, m => problem%m)
+         form%nu = maxval([0.0_wp, line%law(line%point(n + 1:))%nu])
+         do k = 1, problem%k
+            if (maxval([0.0_wp, abs(problem%g(n + 1:, k))]) > NONE_ALONG*maxval(abs(problem%g(:, k)))) then
+               why_not = 'a body is held along the contact by friction alone'
+               return
+            end if
+         end do
+         form%n = n
+         form%a = problem%c
+         allocate (form%w(n, m - n), source=0.0_wp)
+         do i = 1, n
+            form%a(i, i) = form%a(i, i) + line%delta(line%point(i))/line%weight(line%point(i))
+         end do
+         do i = 1, m - n
+            j = line%point(n + i)
+            do k = line%average%first(j), line%average%first(j + 1) - 1
+               associate (other => line%average%column(k))
+                  if (line%normal(other) == 0) cycle          ! its pressure is known: the same in all solutions
+                  form%w(line%normal(other), i) = line%law(j)%nu/form%nu*line%weight(j)*line%average%entry(k) &
+                                                         /line%weight(other)
+               end associate
+            end do
+         end do
+         g = problem%g(:n, :)
+      end associate
+      call take_kernel(g, form)
+   end subroutine build_form
+
+   !> Leaves the motions' directions out of A and W.
+   !>
+   !> The reflection 1 - 2 v v' that takes a column g of G, from row i on, to a multiple of the unit vector i has v along g + |g| e_i.
+   !> With x = A v and y = 2 (x - (v'x) v) it makes of A the matrix A - v y' - y v'.
+   pure subroutine take_kernel(g, form)
+      real(wp), intent(inout) :: g(:, :)          !< (n, k) normal rows of G; reflected
+      type(friction_form_t), intent(inout) :: form
+      real(wp) :: v(size(g, 1)), y(size(form%a, 1)), size_before
+      integer(ip) :: first, j, k, n
+
+      n = form%n
+      first = 1
+      do k = 1, size(g, 2, kind=ip)
+         size_before = norm2(g(:, k))
+         v = 0.0_wp
+         v(first:) = g(first:, k)
+         if (.not. norm2(v) > NONE_ALONG*size_before) cycle   ! what others hold already, or nothing at all
+         v(first) = v(first) + sign(norm2(v), v(first))
+         v = v/norm2(v)
+         do j = k, size(g, 2, kind=ip)
+            g(:, j) = g(:, j) - 2*v*dot_product(v, g(:, j))
+         end do
+         do j = 1, size(form%w, 2, kind=ip)
+            form%w(:, j) = form%w(:, j) - 2*v*dot_product(v, form%w(:, j))
+         end do
+         y = matmul(form%a(:, :n), v)
+         y(:n) = y(:n) - dot_product(v, y(:n))*v
+         y = 2*y
+         do j = 1, size(y, kind=ip)
+            form%a(:n, j) = form%a(:n, j) - v*y(j)
+            if (j <= n) form%a(:, j) = form%a(:, j) - y*v(j)
+         end do
+         first = first + 1
+      end do
+      if (first == 1) return
+      form%n = n - (first - 1)
+      form%a = form%a(first:, first:)
+      form%w = form%w(first:, :)
+   end subroutine take_kernel
+
+end module atrito_friction_form

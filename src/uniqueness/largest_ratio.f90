@@ -1,0 +1,65 @@
+!> The largest ratio z'Rz/z'Hz of two quadratic forms, H positive definite: the largest eigenvalue of R z = lambda H z.
+!>
+!> The method of Lanczos with the product of H. Each step takes r = R z_j, takes off what the steps before have of it, and solves
+!> H z_{j+1} = r:
+!>
+!>     r <- R z_j,     r <- r - sum_i (z_i' r) H z_i,     z_{j+1} = H^-1 r/|r|,     |r|^2 = r' H^-1 r.
+!>
+!> H z_{j+1} is that r/|r|, so H itself is never multiplied by, and its Cholesky factor is all that is wanted of it. On the vectors
+!> of the steps R is a small matrix T with z_i'R z_j as entries; its largest eigenvalue is a lower bound of the one of all vectors,
+!> and after a few steps near it. (All vectors are kept orthogonal: there are few.) A step costs 4 m^2 multiplications.
+!>
+!> What is found is a lower bound and no more. Whoever wants a proof factors H - R/lambda.
+module atrito_largest_ratio
+   use atrito_dense, only: eigen_symmetric
+   use atrito_dense_blocks, only: multiply_symmetric, solve_with_triangle
+   use atrito_kinds, only: ip, wp
+   implicit none (type, external)
+   private
+   public :: find_largest_ratio
+
+   integer(ip), parameter :: STEPS = 8
+   real(wp), parameter :: NOTHING_NEW = 1.0e-12_wp  !< part of R z that is rounding: the steps have all there is
+
+contains
+
+   !> Goes STEPS steps from H^-1 R z; on return z is the vector of the largest ratio that was met, with z'Hz = 1.
+   subroutine find_largest_ratio(r, factor, z, ratio)
+      real(wp), intent(in), contiguous :: r(:, :)       !< (m, m) R, lower triangle
+      real(wp), intent(in), contiguous :: factor(:, :)  !< (m, m) Cholesky factor of H, lower triangle
+      real(wp), intent(inout), contiguous :: z(:)       !< (m)
+      real(wp), intent(out) :: ratio                    !< <= the largest there is
+      real(wp) :: v(size(z), STEPS), hv(size(z), STEPS), t(STEPS, STEPS), values(STEPS)
+      real(wp) :: image(size(z)), next(size(z)), length, before
+      integer(ip) :: i, j, n, info
+
+      t = 0.0_wp
+      n = 0
+      call multiply_symmetric(r, z, image)
+      before = 0.0_wp
+      do j = 1, min(STEPS, size(z, kind=ip))
+         next = image
+         call solve_with_triangle(factor, next)
+         length = sqrt(max(dot_product(image, next), 0.0_wp))
+         if (.not. length > NOTHING_NEW*before) exit
+         n = j
+         v(:, j) = next/length
+         hv(:, j) = image/length
+         call multiply_symmetric(r, v(:, j), image)
+         before = norm2(image)*norm2(v(:, j))
+         do i = 1, j
+            t(j, i) = dot_product(v(:, i), image)
+         end do
+         do i = 1, j
+            image = image - dot_product(v(:, i), image)*hv(:, i)
+         end do
+      end do
+      ratio = 0.0_wp
+      if (n == 0) return
+      call eigen_symmetric(t(:n, :n), values(:n), info)
+      if (info /= 0) return
+      ratio = values(n)
+      z = matmul(v(:, :n), t(:n, n))
+   end subroutine find_largest_ratio
+
+end module atrito_largest_ratio

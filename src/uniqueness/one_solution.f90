@@ -1,0 +1,60 @@
+!> Proofs that a contact line with friction has one solution, up to a coefficient of friction.
+!>
+!> Take two solutions for the same loads, and write d for the difference. Whatever eps, the gaps and the loads are, at every point
+!>
+!>     dq_n dr_n >= 0,        (dq_t - m db) du >= 0  for some m in [-1, 1],                   b = nu W q_n, u the slip,
+!>
+!> for t = clip(u/c, -b, b) grows with u, and changes by no more than b does; the product of a pressure and a gap vanishes at both.
+!> With dr = -A dq on the forces that balance (atrito_friction_form) this gives, for any alpha > 0,
+!>
+!>     -dq' diag(alpha 1, 1) A dq = alpha dq_n'dr_n + dq_t'du >= -sum_j |db_j| |du_j|,
+!>
+!> and 2 |db_j| |du_j| <= nu (gamma (W dq_n)_j^2 + du_j^2/gamma), du = -A_t dq. So dq = 0 where, for some alpha and gamma > 0,
+!>
+!>     sym(diag(alpha 1, 1) A) - nu/2 (gamma W'W (+) 0 + A_t'A_t/gamma) > 0.                      certify_every_load
+!>
+!> The largest nu is looked for; up to it there is one solution for all loads, gaps and directions of slip. It falls as 1/sqrt(n) with the number n of points where
+!> friction is local, and does not fall where the average S_rho keeps its rho (Oden and Pires).
+!>
+!> With exact stick, two solutions of which no point moves against directions S (1 or -1) that are given, the open points too, have
+!> m = S_j in all points, and dq = 0 where sym(diag(alpha 1, 1) A [1 0; nu S W 1]) > 0: at most one solution moves that way everywhere
+!> (certify_way). That reaches further, since no point is taken to slip against its neighbours.
+!>
+!> What is certified is the discrete problem, of this mesh; beyond the coefficient there may be one solution all the same.
+module atrito_one_solution
+   use atrito_certificate_search, only: forms_t, every_load_forms, given_way_forms, certified_factor
+   use atrito_friction_form, only: friction_form_t
+   use atrito_kinds, only: ip, wp
+   implicit none (type, external)
+   private
+   public :: certify_every_load, certify_way
+
+   real(wp), parameter :: MOST = 1.0e3_wp         !< what is certified up to here is not looked for beyond
+
+contains
+
+   !> The largest nu found up to which there is one solution, whatever the loads; 0 where there is none, the points depending on each
+   !> other.
+   subroutine certify_every_load(form, nu)
+      type(friction_form_t), intent(in) :: form
+      real(wp), intent(out) :: nu
+      type(forms_t) :: forms
+      real(wp) :: x, y
+
+      call every_load_forms(form, forms)
+      call certified_factor(forms, MOST, nu, x, y)
+   end subroutine certify_every_load
+
+   !> The same for solutions that move along given directions, or not at all, at every point. Exact stick is presumed.
+   subroutine certify_way(form, direction, nu)
+      type(friction_form_t), intent(in) :: form
+      real(wp), intent(in) :: direction(:)        !< (tangential unknowns) 1 or -1
+      real(wp), intent(out) :: nu
+      type(forms_t) :: forms
+      real(wp) :: x, y
+
+      call given_way_forms(form, direction, forms)
+      call certified_factor(forms, MOST, nu, x, y)
+   end subroutine certify_way
+
+end module atrito_one_solution

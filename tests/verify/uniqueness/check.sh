@@ -1,0 +1,112 @@
+. "$(dirname "$0")/../lib.sh"
+lessons=$input/lessons
+# forces FOLDER: normal and tangential force of the first point, and its displacements u1, u2
+forces() {
+   awk '/^# columns:/ { for (i = 3; i <= NF; i++) c[$i] = i - 2; next } !/^#/ {
+      printf "%.15g %.15g\n", $c["pressure"]*$c["weight"], $c["shear"]*$c["weight"]; exit }' "$1/contact.tab"
+}
+
+# one triangle: off the floor, stuck, slipping
+run 0 "$lessons/three-solutions.inp" three --digits 17
+near 'solutions' "$(summary three solutions_found)" 3 0
+near 'their indices' "$(value "$(summary three index) + $(summary three/solution-2 index) + $(summary three/solution-3 index)")" 1 0
+near 'off the floor, u1' "$(column three/nodes.tab u1 | head -1)" -9.2943967e-5 1e-12
+near 'off the floor, u2' "$(column three/nodes.tab u2 | head -1)" 9.4528315e-6 1e-13
+slipping=three/solution-3
+stuck=three/solution-2
+near 'slipping has index -1' "$(summary $slipping index)" -1 0
+# shellcheck disable=SC2046 # two words
+set -- $(forces $stuck)
+near 'stuck, normal' "$1" 1 1e-12
+near 'stuck, tangential' "$2" 0.9 1e-12
+# shellcheck disable=SC2046
+set -- $(forces $slipping)
+near 'slipping, normal' "$1" 0.7029703 1e-7
+near 'slipping, tangential' "$2" 0.7029703 1e-7
+near 'slipping, u1' "$(column $slipping/nodes.tab u1 | head -1)" -1.7227723e-5 1e-12
+says 'three solutions' three.out 'not the only solution: 2 others found from 40 starts'
+says 'three solutions' three.err '[W-UNIQUE] this is not the only solution: the search found 2 more'
+says 'three solutions' three/three-solutions.lst 'not the only solution: 2 others'
+
+# below the coefficient that is certified the other folders go, and nothing is warned of; the same for every coefficient
+run 0 "$lessons/three-solutions.inp" three --set nu=0.65
+[ ! -e three/solution-2 ] || complain 'the other solutions of the run before are still there'
+says 'one solution' three.out 'exactly one solution for every load up to nu = 0.654 (certified)'
+grep -q W-UNIQUE three.err && complain 'a warning though one solution is certified'
+near 'found' "$(summary three solutions_found)" 1 0
+below 'certified' "$(summary three unique_up_to_nu)" 0.66333
+run 0 "$lessons/three-solutions.inp" sparse --set nu=0.65 --contact sparse --quiet
+grep -Eq 'unique_up_to_nu|solutions_found|index' sparse/summary.tab && complain 'the sparse form certifies'
+
+# a leaning block: off the floor, jammed, and one between them
+run 0 "$lessons/leaning-block.inp" lean --digits 17 --quiet
+near 'leaning: solutions' "$(summary lean solutions_found)" 3 0
+near 'leaning: indices' "$(value "$(summary lean index) + $(summary lean/solution-2 index) + $(summary lean/solution-3 index)")" 1 0
+near 'leaning: one of index -1' "$(grep -ho 'index *-1' lean/solution-*/summary.tab | wc -l)" 1 0
+# each increment of a history says what is known of it
+sed 's/^\*STATIC/*STATIC\n0.5, 1/; s/^\*CONTACT PRINT/&, FREQUENCY=1/' "$lessons/leaning-block.inp" >steps.inp
+run 0 steps.inp steps --quiet
+[ "$(column steps/history.tab unique_up_to_nu | sort -u | wc -l)" = 1 ] || complain 'a history without certificates, or with several'
+[ "$(column steps/history.tab index | tr '\n' ' ')" = '1 1 ' ] || complain 'a history without indices'
+near 'found in the first increment' "$(awk '$3 == "solutions_found" && $5 == 1 { print $4 }' steps/summary.tab)" 3 0
+[ ! -e steps/solution-2 ] || complain 'other solutions of a history are written'
+
+# certified NAME DECK LEAST MOST: what is certified of a deck lies between them
+certified() {
+   run 0 "$2" "$1" --quiet
+   below "$1: certified" "$(summary "$1" unique_up_to_nu)" "$4"
+   below "$1: not far below" "$3" "$(summary "$1" unique_up_to_nu)"
+}
+# blocks NAME UPPER LOWER E_UPPER E_LOWER REST: an upper block over a lower one, both cut at the axis of symmetry
+blocks() {
+   cat >"$1.inp" <<END
+*HEADING
+$1
+*BLOCK, TYPE=CPE4, ELSET=UPPER, $2
+*BLOCK, TYPE=CPE4, ELSET=LOWER, $3
+*MATERIAL, NAME=HARD
+*ELASTIC
+$4, 0.3
+*MATERIAL, NAME=SOFT
+*ELASTIC
+$5, 0.3
+*SOLID SECTION, ELSET=UPPER, MATERIAL=HARD
+1
+*SOLID SECTION, ELSET=LOWER, MATERIAL=SOFT
+1
+*SURFACE INTERACTION, NAME=JOINT
+*FRICTION
+0.4
+*CONTACT PAIR, INTERACTION=JOINT
+UPPER-BOTTOM, LOWER-TOP
+*BOUNDARY
+$6
+*STEP
+*STATIC
+*DSLOAD
+UPPER-TOP, P, 1
+*CONTACT PRINT
+*END STEP
+END
+}
+nl='
+'
+blocks punch "NX=4, NY=4${nl}0, 0${nl}1, 0${nl}1, 1${nl}0, 1" "NX=12, NY=8${nl}0, -2${nl}3, -2${nl}3, 0${nl}0, 0" 1000 200 \
+   "UPPER-LEFT, 1${nl}LOWER-LEFT, 1${nl}LOWER-BOTTOM, 1, 2"
+certified punch punch.inp 5.58 5.9
+blocks hertz "NX=8, NY=4${nl}0, 0${nl}2, 0${nl}2, 1${nl}0, 1" "NX=8, NY=8${nl}0, -2${nl}2, -2${nl}2, 0${nl}0, 0" 1000 250 \
+   "UPPER-LEFT, 1${nl}LOWER-LEFT, 1${nl}LOWER-BOTTOM, 1, 2"
+certified hertz hertz.inp 1.80 1.91
+blocks beams "NX=16, NY=2${nl}0, 0${nl}4, 0${nl}4, 0.5${nl}0, 0.5" "NX=16, NY=2${nl}0, -0.5${nl}4, -0.5${nl}4, 0${nl}0, 0" 1000 1000 \
+   "UPPER-LEFT, 1, 2${nl}LOWER-LEFT, 1, 2"
+certified beams beams.inp 999 1001
+sed 's/^rho = .*/rho = 0.1/' "$input/ex1-plate-on-support.inp" >nonlocal.inp
+run 0 nonlocal.inp nonlocal --refine 1 --quiet
+below 'nonlocal: certified' "$(summary nonlocal unique_up_to_nu)" 1.073
+below 'nonlocal: not far below' 1.03 "$(summary nonlocal unique_up_to_nu)"
+
+# friction alone holds it
+run 0 "$lessons/block-on-floor.inp" pushed
+says 'held by friction' pushed.out 'not proved: a body is held along the contact by friction alone'
+grep -q unique_up_to_nu pushed/summary.tab && complain 'a body held by friction alone is certified'
+finish
