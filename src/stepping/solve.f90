@@ -65,6 +65,7 @@ contains
          if (is_ok(status)) call check_scene(model, options%memory, scene, status)
       end if
       if (is_ok(status)) call check_known_points(data, status)
+      if (is_ok(status) .and. associated(data%viewer)) call data%viewer%check(data, status)
    end subroutine begin_scene
 
    !> The memory of all processes is asked for before their parts are made, for METIS, which cuts the scene, ends the program when
@@ -99,6 +100,7 @@ contains
       call begin_scene(model, options, store, .false., data, results%scene, status)
       if (is_ok(status)) then
          data%reporter = reporter
+         data%keeps = associated(data%viewer)               ! C and G of the bodies, which it looks at
          call note_method(data, model%steps(1:1))
          call solve_increment(data, options%contact_form, store, results, solution, status)
       end if

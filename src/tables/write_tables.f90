@@ -12,17 +12,21 @@ module atrito_write_tables
    use atrito_history_tables, only: build_summary, note_quantities, dimension_remarks, build_history, build_iterations
    use atrito_increments, only: has_history, ending_text
    use atrito_summary, only: scales_t, measure_history
-   use atrito_table, only: table_t, origin_t, begin_table, add_reals, add_words, one_word, TAB_ENDING, CSV_ENDING
+   use atrito_table, only: table_t, origin_t, begin_table, add_reals, add_words, one_word, TAB_ENDING, CSV_ENDING, HEAD_ENDING
    use atrito_table_text, only: write_table, growing_table_t, measure_rows, open_table, put_table, close_table
    implicit none (type, external)
    private
-   public :: write_tables, write_timing, list_table_files, origin_of, TABLE_NAMES
+   public :: write_tables, write_timing, list_table_files, origin_of, TABLE_NAMES, SHOWN_TABLES
 
    !> Every table that atrito can write.
    character(len=12), parameter :: TABLE_NAMES(18) = [character(len=12) :: 'contact', 'summary', 'extremes', 'resultants', &
                                                               'history', 'nodes', 'reactions', 'stress', 'nodal_stress', 'bodies', &
                                                                     'rigid', 'joints', 'sections', 'ties', 'equations', 'springs', &
                                                                                                              'iterations', 'timing']
+
+   !> Those of --show.
+   character(len=12), parameter :: SHOWN_TABLES(7) = [character(len=12) :: 'show-element', 'show-matrix', 'show-line', &
+                                                                           'show-motions', 'show-states', 'show-law', 'show-picard']
 
    !> What all tables of a run have in common.
    type :: common_t
@@ -52,12 +56,14 @@ contains
    !> File names of every table that atrito can write: what a new run replaces or removes.
    pure function list_table_files() result(names)
       type(string_t), allocatable :: names(:)
+      character(len=12), parameter :: ALL_TABLES(*) = [TABLE_NAMES, SHOWN_TABLES]
       integer :: i
 
-      allocate (names(2*size(TABLE_NAMES)))
-      do i = 1, size(TABLE_NAMES)
-         names(2*i - 1)%s = trim(TABLE_NAMES(i))//TAB_ENDING
-         names(2*i)%s = trim(TABLE_NAMES(i))//CSV_ENDING
+      allocate (names(3*size(ALL_TABLES)))
+      do i = 1, size(ALL_TABLES)
+         names(3*i - 2)%s = trim(ALL_TABLES(i))//TAB_ENDING
+         names(3*i - 1)%s = trim(ALL_TABLES(i))//CSV_ENDING
+         names(3*i)%s = trim(ALL_TABLES(i))//HEAD_ENDING
       end do
    end function list_table_files
 

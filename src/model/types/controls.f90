@@ -20,6 +20,7 @@ module atrito_controls
       real(wp) :: most_entries = huge(1.0_wp)       !< of C to go through, over all linear solves, before it is given up
       logical :: is_rung = .false.                  !< tried before without a solution: the increment before is no start
       logical :: asks_contraction = .true.          !< the estimate of the contraction of the loop is printed
+      logical :: logs_solves = .false.              !< the states and forces of every linear solve are kept
    end type controls_t
 
 end module atrito_controls
