@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from .handin import HandIn, number_of, shown, text_of
 from .program import Run
 from .references import Folder, Reference
-from .sheet import Explanation, Quantity, Sheet, mistaken_values
+from .sheet import Explanation, Mistake, Quantity, Sheet, mistaken_values
 from .tables import Table, TableError, differences, parameters_of, read_table, value_of
 
 CLOSE = 3e-3  # what is copied with three digits and more
@@ -161,6 +161,8 @@ def _judge_table(case: Case, name: str) -> TableState:
         how = "comes from another deck than the one handed in" if other else "was changed by hand, or is made up"
         return TableState(table, "other deck" if other else "edited",
                           f"The table {name} {how}: when the deck is run again, {count} of {total} numbers differ. {first}.")
+    if case.values_kind == "neighbour":
+        return TableState(table, "neighbour", case.values_reason)
     return TableState(table, "right", f"The deck gives the table {name}.")
 
 
@@ -199,7 +201,7 @@ def _judge_quantity(case: Case, quantity: Quantity, given: float | Verdict) -> V
     if quantity.given == "table":
         assert quantity.cell
         state = case.states[quantity.cell.table]
-        if state.kind != "right":
+        if state.kind not in ("right", "neighbour"):
             part = case.sheet.credit.get(state.kind, 0.0)
             kind, credit, reason = state.kind, min(credit, part), state.reason if credit >= 1 or part == 0 else f"{reason} {state.reason}"
     if credit < 1 and quantity.hint:
@@ -225,10 +227,9 @@ def _classify(case: Case, quantity: Quantity, value: float, right: float) -> tup
     for step, increment, other in case.reference.others(quantity):
         if _near(value, other, CLOSE) and not _near(other, right, CLOSE):
             return _credited(case, "step", f"This is the value at the end of step {step}, increment {increment}; asked for is {_instant(quantity)}.")
-    for test in (_judge_mistakes, _judge_factor):
-        verdict = test(case, quantity, value, right)
-        if verdict:
-            return verdict
+    verdict = _judge_mistakes(case, quantity, value, right, from_own) or _judge_factor(case, quantity, value, right)
+    if verdict:
+        return verdict
     if from_own:
         return "deck", 0.0, "This is what your deck gives, but the deck is not what was asked for."
     if own is not None and abs(own - right) <= quantity.tolerance*size:
@@ -250,27 +251,36 @@ def _instant(quantity: Quantity) -> str:
 
 
 def _judge_mesh(case: Case, quantity: Quantity, value: float, right: float, size: float) -> tuple[str, float, str] | None:
-    """Whether the mesh explains the difference: what one more refinement changes, by the square of the ratio of the estimated errors."""
+    """Whether the mesh explains the difference.
+
+    It may be twice what one more refinement changes, by the square of the ratio of the estimated errors, or the square of the
+    student's estimated error, which is what the energy is off by; never more than `coarse`.
+    """
     assert case.own
     finer = case.reference.finer(quantity)
     mine, theirs = case.own.estimate(), case.reference.tables().estimate()
     ratio = max(1.0, mine/theirs) if mine > 0 and theirs > 0 else 1.0
-    allowed = quantity.tolerance*size + 2*abs(right - (right if finer is None else finer))*ratio**2
+    refined = 2*abs(right - (right if finer is None else finer))*ratio**2
+    allowed = quantity.tolerance*size + max(refined, (mine/100)**2*size)
     estimates = f"estimated error {mine:.2g} % beside {theirs:.2g} % of the reference"
     if abs(value - right) <= min(allowed, quantity.coarse*size):
         return "mesh", case.sheet.credit["mesh"], f"Right within your mesh ({estimates})."
-    if ratio > 1.2 and abs(value - right) <= max(allowed, quantity.coarse*size):
+    if ratio > 1.2 and abs(value - right) <= max(allowed, quantity.coarse*size, 0.02*mine*size):
         return "coarse", case.sheet.credit["coarse"], f"The mesh is too coarse for this value ({estimates})."
     return None
 
 
-def _judge_mistakes(case: Case, quantity: Quantity, value: float, right: float) -> tuple[str, float, str] | None:
-    """Whether one of the sheet's mistakes gives this value."""
+def _judge_mistakes(case: Case, quantity: Quantity, value: float, right: float, from_own: bool) -> tuple[str, float, str] | None:
+    """Which of the sheet's mistakes comes nearest to this value. What a deck with the right values gives is no mistake of the values."""
+    near: list[tuple[float, Mistake]] = []
     for place, mistake in enumerate(case.sheet.mistakes):
-        wrong = case.reference.mistaken(mistake, place, quantity)
+        wrong = None if mistake.values and from_own else case.reference.mistaken(mistake, place, quantity)
         if wrong is not None and _near(value, wrong, CLOSE) and not _near(wrong, right, CLOSE):
-            return _credited(case, f"mistake:{mistake.name}", mistake.text)
-    return None
+            near.append((abs(value - wrong), mistake))
+    if not near:
+        return None
+    mistake = min(near, key=lambda item: item[0])[1]
+    return _credited(case, f"mistake:{mistake.name}", mistake.text)
 
 
 def _judge_factor(case: Case, quantity: Quantity, value: float, right: float) -> tuple[str, float, str] | None:

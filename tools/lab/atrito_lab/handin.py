@@ -14,7 +14,7 @@ from typing import Any
 from .sheet import Sheet
 
 DEPTH, FILES = 5, 400
-SIZES = {".inp": 2_000_000, ".msh": 20_000_000, ".tab": 20_000_000, ".csv": 20_000_000, ".toml": 200_000, ".txt": 200_000}
+SIZES = {".inp": 2_000_000, ".msh": 20_000_000, ".tab": 5_000_000, ".csv": 5_000_000, ".toml": 200_000, ".txt": 200_000}
 ANSWERS = re.compile(r"answers[^/]*\.(toml|txt)", re.I)
 NUMBER = re.compile(r"([+-]?(?:\d+(?:[.,]\d*)?|[.,]\d+)(?:[eEdD][+-]?\d{1,3})?)\s*(.*)", re.S)
 
@@ -81,8 +81,7 @@ def _copy_tree(source: Path, copy: Path, hand_in: HandIn) -> list[Path]:
                 hand_in.notes.append(f"There are more than {FILES} files; the others were not read.")
                 return found
             path = folder/name
-            mode = os.lstat(source/path).st_mode
-            if stat.S_ISDIR(mode):
+            if os.path.isdir(source/path) and not os.path.islink(source/path):
                 if len(path.parts) < DEPTH:
                     waiting.append(path)
             elif _counts(name) and _copy_file(source/path, copy/path, hand_in):

@@ -51,8 +51,8 @@ def mark(sheet: Sheet, folder: Path, out: Path, students: list[Student] | None, 
             place.mkdir(parents=True, exist_ok=True)
             outputs.write_results(case, place/"results.json")
             pages.write_feedback(case, place/"feedback.html")
-    strange = sorted(shown(name) for name in set(os.listdir(folder)) - {source.name for _, source in found if source})
-    pages.write_lecturer(sheet, cases, strange, out/"lecturer.html")
+        strange = sorted(shown(name) for name in set(os.listdir(folder)) - {source.name for _, source in found if source} - {"class.csv"})
+        pages.write_lecturer(sheet, cases, strange, out/"lecturer.html")
     print(f"{len(cases)} hand-ins of {sheet.name} marked in {seconds_since(start)}: {out/'marks.csv'}, {out/'lecturer.html'}")
     return cases
 

@@ -25,7 +25,7 @@ th { font-weight: 600; color: var(--soft); font-size: .85rem } td.n, th.n { text
 svg { width: 100%; height: auto; max-height: 24rem } svg text { fill: var(--soft); font: 13px system-ui, sans-serif }
 .axis { stroke: var(--soft); fill: none } .grid { stroke: var(--line) } .own { stroke: var(--own); fill: none; stroke-width: 2 } .ref { stroke: var(--ref); fill: none; stroke-width: 2; stroke-dasharray: 6 4 }
 circle.own { fill: var(--own); stroke: none } rect.bar { fill: var(--own) }
-@media (max-width: 40rem) { thead { display: none } tr { display: block; border-bottom: 1px solid var(--line); padding: .5rem 0 } td, td.n { display: block; border: 0; padding: 0; text-align: left } td[data-l]::before { content: attr(data-l) ": "; color: var(--soft); font-size: .85rem } }
+@media (max-width: 40rem) { thead { display: none } tr { display: block; border-bottom: 1px solid var(--line); padding: .5rem 0 } td, td.n { display: block; border: 0; padding: 0; text-align: left } td:empty { display: none } td[data-l]::before { content: attr(data-l) ": "; color: var(--soft); font-size: .85rem } }
 @media print { body { max-width: none; padding: 0; font-size: 10pt } :root { color-scheme: light } tr, svg { break-inside: avoid } h2 { break-after: avoid } }
 """
 
@@ -190,8 +190,8 @@ def failures(cases: list[Case]) -> list[str]:
         all_ = [case.verdicts[place] for case in cases]
         kinds = Counter(verdict.kind for verdict in all_ if verdict.points < verdict.of)
         lost = sum(verdict.of - verdict.points for verdict in all_)
-        if kinds:
-            rows.append((lost, [say(first.text), str(sum(kinds.values())), f"{100*lost/(first.of*len(all_) or 1):.0f} %",
+        if kinds:  # so the item has points
+            rows.append((lost/first.of, [say(first.text), str(sum(kinds.values())), f"{100*lost/(first.of*len(all_)):.0f} %",
                                 say(", ".join(f"{kind} {count}" for kind, count in kinds.most_common()))]))
     rows.sort(key=lambda row: -row[0])
     return table_of(["Item", "Not full", "Points lost", "Reasons"], [row for _, row in rows], {1, 2}) if rows else ["<p>Nothing.</p>"]
@@ -209,7 +209,7 @@ def summary(case: Case) -> str:
 
 
 def hand_ins_alike(cases: list[Case]) -> list[str]:
-    """Pairs with the same tables, or whose explanations share most of their words in order."""
+    """Who has the same tables, or explains in the same words."""
     lines = []
     tables: dict[str, list[str]] = {}
     for case in cases:
@@ -220,14 +220,22 @@ def hand_ins_alike(cases: list[Case]) -> list[str]:
     for key, numbers in tables.items():
         if len(numbers) > 1 and any(case.states[key.split()[0]].table for case in cases if case.hand_in.number in numbers):
             lines.append(f"{', '.join(numbers)}: the same table {key.split()[0]}")
-    pieces = [(case, explanation, _pieces(text_of(case.hand_in.answers.get(explanation.name.lower()))))
-              for case in cases for explanation in case.sheet.explanations]
-    for place, (case, explanation, mine) in enumerate(pieces):
-        for other, its, theirs in pieces[place + 1:]:
-            if its is explanation and other is not case and min(len(mine), len(theirs)) >= 8:
-                common = len(mine & theirs)/min(len(mine), len(theirs))
-                if common >= 0.6:
-                    lines.append(f"{case.hand_in.number}, {other.hand_in.number}: {100*common:.0f} % of {explanation.name} in the same words")
+    return lines + texts_alike(cases)
+
+
+def texts_alike(cases: list[Case]) -> list[str]:
+    """Students whose explanations share most of their words in order, together with those who share them with one of these."""
+    lines = []
+    for explanation in cases[0].sheet.explanations if cases else []:
+        groups: list[set[str]] = []
+        pieces = [(case.hand_in.number, _pieces(text_of(case.hand_in.answers.get(explanation.name.lower())))) for case in cases]
+        for place, (number_, mine) in enumerate(pieces):
+            for other, theirs in pieces[place + 1:]:
+                least = min(len(mine), len(theirs))
+                if least >= 8 and len(mine & theirs) >= 0.6*least:
+                    joined = {number_, other}.union(*(group for group in groups if group & {number_, other}))
+                    groups = [group for group in groups if not group & joined] + [joined]
+        lines += [f"{', '.join(sorted(group))}: {explanation.name}, mostly in the same words" for group in groups]
     return lines
 
 

@@ -6,6 +6,7 @@ import math
 import threading
 from pathlib import Path
 
+from .handin import SIZES
 from .program import Keeper, LabError, Run, observe_words
 from .sheet import Mistake, Quantity, Sheet, mistaken_deck
 from .tables import Cell, Table, TableError, instants, read_table, value_of
@@ -29,6 +30,8 @@ class Folder:
             path = self.folder/f"{name}.tab"
             if not path.is_file():
                 raise TableError("the run does not write this table")
+            if path.stat().st_size > SIZES[".tab"]:
+                raise TableError("the run makes it larger than is read")
             self._tables[name] = read_table(path)
         return self._tables[name]
 
