@@ -19,7 +19,6 @@ from .people import Student, read_class
 from .program import Keeper, LabError, Limits, observe_words, run_atrito, seconds_since
 from .references import Folder, Reference
 from .sheet import Sheet
-from .tables import TableError, read_table
 
 
 @dataclass
@@ -85,7 +84,7 @@ def hand_ins_of(folder: Path, students: list[Student] | None) -> list[tuple[Stud
         raise LabError(f"{folder} has no hand-ins: a folder a student, named by the number")
     found: list[tuple[Student, Path | None]] = []
     for student in students:
-        fits = [name for name in names if name == student.number] or [
+        fits = [name for name in names if student.number in (name, name.rpartition(".")[0])] or [
             name for name in names if student.number in re.split(r"[ _()]+", name) or student.name and name.split("_")[0] == student.name]
         found.append((student, folder/fits[0] if fits else None))
     return found
@@ -118,13 +117,8 @@ def run_again(marking: Marking, case: Case, copy: Path) -> None:
     deck = case.hand_in.deck
     if deck is None:
         return
-    options: list[str] = []
-    try:
-        for name in ("summary", *marking.sheet.tables):
-            if not options and name in case.hand_in.tables:
-                options = options_of(read_table(case.hand_in.tables[name]).heads.get("options", ""))
-    except TableError:
-        pass
+    table = next((case.hand_in.tables[name] for name in ("summary", *marking.sheet.tables) if name in case.hand_in.tables), None)
+    options = options_of(table) if table else []
     words = ["--confine", str(copy), "--quiet", "--messages", "json", "--digits", "12", *options]
     for observed in (observe_words(marking.sheet.observations()), []):  # a deck may lack what is observed
         out = marking.work/f"{copy.name}-out"
