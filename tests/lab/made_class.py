@@ -143,11 +143,9 @@ def very_coarse(made: Made) -> Expected:
 
 def _own_run(made: Made, kinds: set[str], credit: float | None) -> Expected:
     """Answers are what the deck gives; `kinds` is expected of what is not within the tolerance."""
-    folder = made.reference._folder("own", made.deck, made.sheet.refine)
-    assert folder
     expected: Expected = {}
     for quantity in made.sheet.quantities:
-        value, mine = folder.value(quantity), made.reference.value(quantity)
+        value, mine = made.reference.value_by(made.deck, quantity, made.sheet.refine), made.reference.value(quantity)
         if value is not None:
             made.values[quantity.name] = value
             if abs(value - mine) > quantity.tolerance*max(abs(mine), quantity.scale):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from typing import Callable
 
 from .handin import HandIn, number_of, shown, text_of
 from .program import Run
@@ -49,6 +50,7 @@ class Case:
     class_references: dict[str, Reference]
     run: Run | None = None
     own: Folder | None = None
+    run_own: Callable[[str], Folder | None] = lambda run: None
     states: dict[str, TableState] = field(default_factory=dict)
     deck_kind: str = ""
     deck_reason: str = ""
@@ -215,7 +217,8 @@ def _classify(case: Case, quantity: Quantity, value: float, right: float) -> tup
     size = max(abs(right), quantity.scale)
     if abs(value - right) <= quantity.tolerance*size:
         return "right", 1.0, "Right."
-    own = case.own.value(quantity) if case.own else None
+    folder = (case.run_own(quantity.run) if quantity.run else case.own) if case.own else None
+    own = folder.value(quantity) if folder else None
     from_own = own is not None and abs(value - own) <= max(CLOSE*abs(own), 0.2*quantity.tolerance*size)
     if from_own and case.values_kind:
         return _credited(case, case.values_kind, case.values_reason)
