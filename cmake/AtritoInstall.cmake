@@ -48,7 +48,7 @@ endfunction()
 
 find_program(DPKG_QUERY dpkg-query)
 mark_as_advanced(DPKG_QUERY)
-set(recommended "gnuplot-nox | gnuplot" "python3 (>= 3.11)")
+set(recommended "gnuplot-nox | gnuplot" python3)
 foreach(file "${ATRITO_CLP_FILE}" "${ATRITO_METIS_FILE}")
    atrito_package_of("${file}" package)
    if(package)

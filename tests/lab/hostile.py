@@ -175,7 +175,7 @@ def options(head: str) -> Callable[[Made], None]:
     def make(made: Made) -> None:
         made.write()
         for name in made.sheet.tables:
-            made.table(name).write_text(f"# options: {head}\n" + made.table(name).read_text())
+            made.table(name).write_text(f"# options: {head}\n# parameters: {head.replace('=', ' = ')} (--set)\n" + made.table(name).read_text())
     return make
 
 

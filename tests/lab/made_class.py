@@ -74,6 +74,22 @@ def six_digits(made: Made) -> Expected:
     return {}
 
 
+def several_runs(made: Made) -> Expected:
+    """Runs with other friction, or what the last parameter is, beside the one that counts, in folders that come before it."""
+    made.write()
+    parameter = made.sheet.parameters[-1]
+    run_atrito(made.keeper.program, [made.sheet.deck_name, "-o", "a-try", "--quiet", "--set", f"{parameter.name}={parameter.choices[-1]}*1.5"], made.folder, Limits(),
+               made.folder/"a-try")
+    return {}
+
+
+def by_set(made: Made) -> Expected:
+    """The deck has the values of nobody, the command line those of the student."""
+    own, made.deck = made.reference.drawn, made.sheet.complete_deck({})
+    made.write([word for name, value in own.items() for word in ("--set", f"{name}={value}")])
+    return {}
+
+
 def same_words(made: Made) -> Expected:
     made.texts = {name: said_by(made.other.number, name) for name in made.texts}
     made.write()
@@ -127,11 +143,9 @@ def very_coarse(made: Made) -> Expected:
 
 def _own_run(made: Made, kinds: set[str], credit: float | None) -> Expected:
     """Answers are what the deck gives; `kinds` is expected of what is not within the tolerance."""
-    folder = made.reference._folder("own", made.deck, made.sheet.refine)
-    assert folder
     expected: Expected = {}
     for quantity in made.sheet.quantities:
-        value, mine = folder.value(quantity), made.reference.value(quantity)
+        value, mine = made.reference.value_by(made.deck, quantity, made.sheet.refine), made.reference.value(quantity)
         if value is not None:
             made.values[quantity.name] = value
             if abs(value - mine) > quantity.tolerance*max(abs(mine), quantity.scale):
@@ -362,7 +376,7 @@ def late_step(made: Made) -> Expected:
     return expected
 
 
-KINDS = [right, six_digits, same_words, twelve_digits_in_odd_places, comma_and_unit, damaged_answers, csv_tables, refined, coarse, very_coarse, sign, twice,
+KINDS = [right, six_digits, same_words, several_runs, by_set, twelve_digits_in_odd_places, comma_and_unit, damaged_answers, csv_tables, refined, coarse, very_coarse, sign, twice,
          thousand, exchanged, mistake_in_deck, mistake_in_formula, neighbour_in_all, neighbours_answers, edited, edited_once,
          tables_of_another_deck, not_converged, cut_tables, late_step, no_deck, deck_with_gaps, nothing, no_explanation, binary_tables,
          empty_tables, no_tables, no_answers, words_for_numbers, short_explanation, tenth, wrong, right, coarse, edited, sign]

@@ -44,7 +44,8 @@ def lab(words: list[str]) -> subprocess.CompletedProcess[str]:
 
 def make_class(sheet: Sheet, count: int, folder: Path) -> dict[str, tuple[str, Expected]]:
     """Make the hand-ins, and a list of the class; what is expected of each number."""
-    keeper = Keeper(find_program(), folder/"made", Limits())
+    # a small class, of continuous integration, takes the reference runs from the making of it
+    keeper = Keeper(find_program(), folder/("made" if count >= 60 else "marks/references"), Limits())
     numbers = [f"{2026001 + place}" for place in range(count)]
     (folder/"hand-ins").mkdir()
     (folder/"class.csv").write_text("number;name;email\n" + "".join(f"{number};Student {number};{number}@example.org\n" for number in numbers))
@@ -72,6 +73,10 @@ def try_class(sheet: Sheet, count: int, folder: Path) -> None:
     for number, (kind, wanted) in expected.items():
         results = json.loads((folder/"marks"/"students"/number/"results.json").read_text())
         judge(sheet, f"{sheet.name} {number} ({kind})", results, wanted)
+        numbers = list(expected)
+        neighbour = numbers[(numbers.index(number) + 7) % count] if any("neighbour" in kinds for kinds, _ in wanted.values()) else ""
+        if results["extra_data"]["whose"] != neighbour and kind != "tables_of_another_deck":
+            fail(f"{sheet.name} {number} ({kind}): values of {results['extra_data']['whose']!r}, not {neighbour!r}")
         if abs(float(rows[number][f"{sheet.name} (of {sheet.points:g})"]) - results["score"]) > 1e-4:
             fail(f"{number}: marks.csv has other points than results.json")
     look_for_alike(sheet, expected, (folder/"marks"/"lecturer.html").read_text())
@@ -81,7 +86,7 @@ def try_class(sheet: Sheet, count: int, folder: Path) -> None:
 def correct(sheet: Sheet, expected: dict[str, tuple[str, Expected]], marks: Path) -> None:
     """The lecturer changes the points of the first student's first explanation."""
     if sheet.explanations:
-        marks.mkdir()
+        marks.mkdir(exist_ok=True)
         number, item = next(iter(expected)), sheet.explanations[0]
         (marks/"corrections.csv").write_text(f"number,item,points,reason\n{number},{item.name},{item.points/4},Why?\n")
         expected[number] = (expected[number][0], expected[number][1] | {item.name: ({"corrected"}, 0.25)})
@@ -96,8 +101,24 @@ def look_for_alike(sheet: Sheet, expected: dict[str, tuple[str, Expected]], page
         fail(f"{sheet.name}: explanations in the same words are said to be those of {told}, not {wanted}")
 
 
+TOP_KEYS = {"score", "execution_time", "output", "output_format", "test_output_format", "test_name_format", "visibility", "stdout_visibility", "extra_data",
+            "tests", "leaderboard"}
+TEST_KEYS = {"score", "max_score", "status", "name", "name_format", "number", "output", "output_format", "tags", "visibility", "extra_data"}
+
+
+def look_at_form(who: str, results: dict) -> None:
+    """Whether results.json has the form that Gradescope documents."""
+    formats = ("text", "html", "simple_format", "md", "ansi")
+    right_top = set(results) <= TOP_KEYS and isinstance(results["score"], (int, float)) and results["visibility"] in ("hidden", "after_due_date", "after_published", "visible")
+    right_tests = all(set(test) <= TEST_KEYS and isinstance(test["score"], (int, float)) and 0 <= test["score"] <= test["max_score"]
+                      and test["status"] in ("passed", "failed") and test["output_format"] in formats and isinstance(test["number"], str) for test in results["tests"])
+    if not right_top or not right_tests or results["output_format"] not in formats or results["score"] != round(sum(test["score"] for test in results["tests"]), 6):
+        fail(f"{who}: results.json has not the form of Gradescope")
+
+
 def judge(sheet: Sheet, who: str, results: dict, wanted: Expected) -> None:
     """Kinds and points of one hand-in."""
+    look_at_form(who, results)
     for (name, kind), test in zip(results["extra_data"]["kinds"].items(), results["tests"], strict=True):
         kinds, credit = wanted.get(name, ({"right", "mesh", "lecturer"}, 1.0))
         if kind not in kinds:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import shutil
 import tempfile
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 from .diagnose import Case
@@ -18,22 +19,20 @@ NUMBERS = ("1001", "1002", "1003")
 
 def check_sheet(sheet: Sheet, program: str, limits: Limits, jobs: int) -> list[str]:
     """Complaints about a sheet; none if it is right."""
-    complaints: list[str] = []
     with tempfile.TemporaryDirectory(prefix="atrito-lab-") as work:
-        place = Path(work)
-        marking = Marking(sheet, program, limits, jobs, Keeper(program, place/"references", limits), place/"work")
-        marking.work.mkdir()
-        found: list[tuple[Student, Path | None]] = []
-        tried: list[tuple[str, Mistake | None]] = [(number, None) for number in NUMBERS]
-        tried += [(f"{NUMBERS[0]}-m{place}", mistake) for place, mistake in enumerate(sheet.mistakes)]
-        for number, mistake in tried:
-            folder = place/number
-            found.append((Student(number), folder))
-            complaints += make_hand_in(marking, number, mistake, folder)
-        cases = mark_all(marking, found)
-        for (number, mistake), case in zip(tried, cases):
-            complaints += judge_model(case) if mistake is None else judge_mistake(case, mistake)
-    return complaints
+        keeper = Keeper(program, Path(work)/"references", limits)
+
+        def attempt(item: tuple[str, Mistake | None]) -> list[str]:
+            place = Path(tempfile.mkdtemp(dir=work))
+            marking = Marking(sheet, program, limits, 1, keeper, place)
+            number, mistake = item
+            complaints = make_hand_in(marking, number, mistake, place/"hand-in")
+            case = mark_all(marking, [(Student(number), place/"hand-in")])[0]
+            return complaints + (judge_mistake(case, mistake) if mistake else judge_model(case))
+
+        with ThreadPoolExecutor(jobs) as pool:
+            tried = [*((number, None) for number in NUMBERS), *((NUMBERS[0], mistake) for mistake in sheet.mistakes)]
+            return [complaint for complaints in pool.map(attempt, tried) for complaint in complaints]
 
 
 def make_hand_in(marking: Marking, number: str, mistake: Mistake | None, folder: Path) -> list[str]:

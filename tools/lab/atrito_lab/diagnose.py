@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from typing import Callable
 
 from .handin import HandIn, number_of, shown, text_of
 from .program import Run
@@ -49,6 +50,7 @@ class Case:
     class_references: dict[str, Reference]
     run: Run | None = None
     own: Folder | None = None
+    run_own: Callable[[str], Folder | None] = lambda run: None
     states: dict[str, TableState] = field(default_factory=dict)
     deck_kind: str = ""
     deck_reason: str = ""
@@ -72,7 +74,7 @@ def diagnose(case: Case) -> None:
         case.states[name] = _judge_table(case, name)
     given = {quantity.name: _given(case, quantity) for quantity in case.sheet.quantities}
     wrong = {name: item for name, item in given.items() if isinstance(item, float)}
-    case.neighbour = _neighbour_of(case, wrong)
+    case.neighbour = case.neighbour or _neighbour_of(case, wrong)
     share = case.sheet.table_points/max(1, len(case.sheet.tables))
     for name in case.sheet.tables if share else []:
         state = case.states[name]
@@ -122,7 +124,8 @@ def _judge_values(case: Case) -> None:
     case.values_kind, case.values_reason = "own", f"The deck has other values than your sheet: {words}."
     for other, reference in case.class_references.items():
         if other != case.hand_in.number and all(_near(has.get(name.lower(), 0), float(value), 1e-9) for name, value in reference.drawn.items()):
-            case.values_kind, case.values_reason = "neighbour", f"The deck has the values of {other}: {words}."
+            case.neighbour = other
+            case.values_kind, case.values_reason = "neighbour", f"The deck has the values of somebody else: {words}."
             return
     for mistake in case.sheet.mistakes:
         changed = drawn | mistaken_values(mistake, drawn)
@@ -214,12 +217,13 @@ def _classify(case: Case, quantity: Quantity, value: float, right: float) -> tup
     size = max(abs(right), quantity.scale)
     if abs(value - right) <= quantity.tolerance*size:
         return "right", 1.0, "Right."
-    own = case.own.value(quantity) if case.own else None
+    folder = (case.run_own(quantity.run) if quantity.run else case.own) if case.own else None
+    own = folder.value(quantity) if folder else None
     from_own = own is not None and abs(value - own) <= max(CLOSE*abs(own), 0.2*quantity.tolerance*size)
     if from_own and case.values_kind:
         return _credited(case, case.values_kind, case.values_reason)
     if case.neighbour and _is_of(case.class_references[case.neighbour], quantity, value):
-        return _credited(case, "neighbour", f"This is the value of {case.neighbour}, not yours.")
+        return _credited(case, "neighbour", "This is the value of somebody else, not yours.")
     if from_own:
         verdict = _judge_mesh(case, quantity, value, right, size)
         if verdict:

@@ -51,7 +51,7 @@ def take_in(source: Path, copy: Path, sheet: Sheet, hand_in: HandIn) -> None:
     copy.mkdir(parents=True)
     try:
         if not stat.S_ISDIR(os.lstat(source).st_mode):
-            hand_in.notes.append("The hand-in is no folder, or a link to one; it was not read.")
+            hand_in.notes.append("The hand-in is no folder (an archive has to be unpacked), or a link to one; it was not read.")
             return
     except OSError:
         return
@@ -132,15 +132,13 @@ def _choose_deck(found: list[Path], copy: Path, sheet: Sheet, hand_in: HandIn) -
 
 
 def _choose_tables(found: list[Path], copy: Path, hand_in: HandIn) -> None:
-    """The tables by their names; of several the one that is nearest to the top."""
-    for path in found:
-        name = path.stem.lower()
-        if path.suffix.lower() not in (".tab", ".csv"):
-            continue
-        if name not in hand_in.tables:
-            hand_in.tables[name] = copy/path
-        elif path.suffix.lower() == ".tab":
-            hand_in.notes.append(f"There are several tables {shown(name)}; {shown(str(hand_in.tables[name].relative_to(copy)))} was taken.")
+    """The tables by their names; of several the one whose run had the fewest options, then the one nearest to the top."""
+    tables = [path for path in found if path.suffix.lower() in (".tab", ".csv")]
+    for path in sorted(tables, key=lambda path: len(options_of(copy/path))):
+        hand_in.tables.setdefault(path.stem.lower(), copy/path)
+    for name, chosen in hand_in.tables.items():
+        if sum(path.stem.lower() == name for path in tables) > 1:
+            hand_in.notes.append(f"There are several tables {shown(name)}; {shown(str(chosen.relative_to(copy)))} was taken.")
 
 
 def read_answers(path: Path, notes: list[str]) -> dict[str, Any]:
@@ -195,13 +193,15 @@ def text_of(given: Any) -> str:
     return "".join(letter if letter.isprintable() or letter == "\n" else " " for letter in text).strip()
 
 
-def options_of(head: str) -> list[str]:
-    """Options of a run that change its results, from the head of a table handed in: those that are known, one by one."""
+def options_of(path: Path) -> list[str]:
+    """Options of a run that change its results, as the head of its table tells them: those that are known, one by one."""
+    with path.open("rb") as file:
+        head = file.read(20_000).decode("utf-8", "replace")
+    given = "".join(re.findall(r"(?m)^# options:(.*)$", head)[:1])
+    values = "".join(re.findall(r"(?m)^# parameters:(.*)$", head)[:1])
     words: list[str] = []
-    for count in re.findall(r"(?:^| )--refine[ =](\d)(?= |$)", head)[-1:]:
-        words += ["--refine", count]
-    for name, value in re.findall(r"(?:^| )--set[ =](\w{1,40})=([-+.\deE]{1,30})(?= |$)", head)[:20]:
+    for name, value in re.findall(r"[ ,](\w{1,40}) = ([-+.\deE]{1,30}) \(--set\)", values)[:50]:
         words += ["--set", f"{name}={value}"]
-    for name, value in re.findall(r"(?:^| )--(solver|contact)[ =]([a-z]{1,10})(?= |$)", head)[-2:]:
+    for name, value in re.findall(r" --(refine|solver|contact)[ =](\d|[a-z]{1,10})(?= |$)", given)[:6]:
         words += [f"--{name}", value]
     return words

@@ -5,7 +5,6 @@ from __future__ import annotations
 import csv
 import os
 import re
-import shutil
 import tempfile
 import time
 from concurrent.futures import ThreadPoolExecutor
@@ -16,10 +15,9 @@ from . import outputs, pages
 from .diagnose import Case, diagnose
 from .handin import HandIn, file_name, options_of, shown, take_in
 from .people import Student, read_class
-from .program import Keeper, LabError, Limits, observe_words, run_atrito, seconds_since
+from .program import Keeper, LabError, Limits, Run, observe_words, run_atrito, seconds_since
 from .references import Folder, Reference
 from .sheet import Sheet
-from .tables import TableError, read_table
 
 
 @dataclass
@@ -85,7 +83,7 @@ def hand_ins_of(folder: Path, students: list[Student] | None) -> list[tuple[Stud
         raise LabError(f"{folder} has no hand-ins: a folder a student, named by the number")
     found: list[tuple[Student, Path | None]] = []
     for student in students:
-        fits = [name for name in names if name == student.number] or [
+        fits = [name for name in names if student.number in (name, name.rpartition(".")[0])] or [
             name for name in names if student.number in re.split(r"[ _()]+", name) or student.name and name.split("_")[0] == student.name]
         found.append((student, folder/fits[0] if fits else None))
     return found
@@ -102,7 +100,9 @@ def mark_all(marking: Marking, found: list[tuple[Student, Path | None]]) -> list
         if source:
             copy = marking.work/str(place)
             take_in(source, copy, marking.sheet, case.hand_in)
-            run_again(marking, case, copy)
+            case.run = run_again(marking, case, copy, "")
+            case.own = own_tables(case.run)
+            case.run_own = lambda run: own_tables(run_again(marking, case, copy, run))
         return case
 
     def judge(case: Case) -> Case:
@@ -113,26 +113,21 @@ def mark_all(marking: Marking, found: list[tuple[Student, Path | None]]) -> list
         return list(pool.map(judge, list(pool.map(prepare, enumerate(found)))))
 
 
-def run_again(marking: Marking, case: Case, copy: Path) -> None:
+def run_again(marking: Marking, case: Case, copy: Path, run: str) -> Run | None:
     """Run the deck of a hand-in, with the options that the head of its summary names; nothing outside the copy is read."""
-    deck = case.hand_in.deck
-    if deck is None:
-        return
-    options: list[str] = []
-    try:
-        for name in ("summary", *marking.sheet.tables):
-            if not options and name in case.hand_in.tables:
-                options = options_of(read_table(case.hand_in.tables[name]).heads.get("options", ""))
-    except TableError:
-        pass
-    words = ["--confine", str(copy), "--quiet", "--messages", "json", "--digits", "12", *options]
-    for observed in (observe_words(marking.sheet.observations()), []):  # a deck may lack what is observed
-        out = marking.work/f"{copy.name}-out"
-        case.run = run_atrito(marking.program, [os.path.join(".", deck.relative_to(copy)), "-o", str(out), *words, *observed], copy,
-                              marking.limits, out)
-        if case.run.code != 1:
+    deck, of = case.hand_in.deck, marking.sheet.runs[run]
+    if deck is None or of.command != "run":
+        return None
+    table = next((case.hand_in.tables[name] for name in ("summary", *marking.sheet.tables) if name in case.hand_in.tables), None)
+    words = ["--confine", str(copy), "--quiet", "--messages", "json", "--digits", "12", *(options_of(table) if table else []), *of.options]
+    out = marking.work/f"{copy.name}-out-{len(run) and list(marking.sheet.runs).index(run)}"
+    for observed in (observe_words(marking.sheet.observations(run)), []):  # a deck may lack what is observed
+        made = run_atrito(marking.program, [os.path.join(".", deck.relative_to(copy)), "-o", str(out), *words, *observed], copy, marking.limits, out)
+        if made.code != 1:
             break
-    if case.run and case.run.code == 0 and not case.run.timed_out:
-        case.own = Folder(out)
-    else:
-        shutil.rmtree(out, ignore_errors=True)
+    return made
+
+
+def own_tables(run: Run | None) -> Folder | None:
+    """The tables of a run that went well."""
+    return Folder(run.folder) if run and run.code == 0 and not run.timed_out else None

@@ -37,5 +37,5 @@ def write_results(case: Case, path: Path) -> None:
              for place, verdict in enumerate(case.verdicts, 1)]
     results = {"score": case.points, "output": " ".join([case.deck_reason, case.values_reason, *case.hand_in.notes]).strip(), "output_format": "text",
                "test_output_format": "text", "test_name_format": "text", "visibility": "visible", "tests": tests,
-               "extra_data": {"sheet": case.sheet.name, "values": case.reference.drawn, "kinds": {verdict.name: verdict.kind for verdict in case.verdicts}}}
+               "extra_data": {"sheet": case.sheet.name, "values": case.reference.drawn, "whose": case.neighbour, "kinds": {verdict.name: verdict.kind for verdict in case.verdicts}}}
     path.write_text(json.dumps(results, indent=1) + "\n", encoding="utf-8")

@@ -114,12 +114,10 @@ def picture_of(case: Case) -> list[str]:
 
 
 def draw(reference: list[tuple[float, float]], own: list[tuple[float, float]], picture: dict[str, str]) -> list[str]:
-    """Two curves as a drawing (SVG), where they are not zero and a little beyond."""
+    """Two curves as a drawing (SVG), where that of the reference is not zero."""
     top = max(abs(y) for _, y in reference) or 1.0
-    counted = [x for x, y in reference if abs(y) > 1e-3*top] or [x for x, _ in reference]
-    left, right = min(counted), max(counted)
-    margin = 0.15*(right - left) or 1.0
-    left, right = max(left - margin, reference[0][0]), min(right + margin, reference[-1][0])
+    counted = [place for place, (_, y) in enumerate(reference) if abs(y) > 1e-3*top] or [0, len(reference) - 1]
+    left, right = reference[max(0, counted[0] - 1)][0], reference[min(counted[-1] + 1, len(reference) - 1)][0]
     shown_own = [(x, y) for x, y in own if left <= x <= right and abs(y) < 5*top]
     heights = [0.0, *[y for x, y in [*reference, *shown_own] if left <= x <= right]]
     low, high = min(heights), max(heights)
@@ -205,6 +203,7 @@ def summary(case: Case) -> str:
             kinds.setdefault(verdict.kind, []).append(verdict.name)
     parts = [f"{kind}: {', '.join(names)}" for kind, names in kinds.items()]
     extra = [case.deck_reason] if case.deck_kind not in ("right", "missing") else []
+    extra += [f"values of {case.neighbour}"] if case.neighbour else []
     return shown("; ".join([*extra, *parts]), 300)
 
 

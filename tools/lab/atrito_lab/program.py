@@ -114,8 +114,9 @@ class Keeper:
         self.version = program + str(os.stat(program).st_mtime_ns) + str(os.stat(program).st_size)
         folder.mkdir(parents=True, exist_ok=True)
 
-    def run(self, deck: str, words: list[str], name: str) -> Run:
+    def run(self, command: str, deck: str, words: list[str], name: str) -> Run:
         """Run a deck (its text), or take the run that was kept."""
+        words = ([] if command == "run" else [command]) + [name, *words]
         key = hashlib.sha256("\0".join([self.version, deck, *words]).encode()).hexdigest()[:24]
         kept = self.folder/key
         if not (kept/"code").exists():
@@ -124,10 +125,11 @@ class Keeper:
         return Run(int(code), kept, error)
 
     def _make(self, deck: str, words: list[str], name: str, kept: Path) -> None:
+        """Make a run and put its folder where it is kept."""
         with tempfile.TemporaryDirectory(dir=self.folder, prefix="run-") as work:
             folder = Path(work)
             (folder/name).write_text(deck)
-            run = run_atrito(self.program, [name, "-o", "out", "--quiet", "--messages", "json", *words], folder, self.limits, folder/"out")
+            run = run_atrito(self.program, [*words, "-o", "out", "--quiet", "--messages", "json"], folder, self.limits, folder/"out")
             out = folder/"out"
             out.mkdir(exist_ok=True)
             (out/"code").write_text(f"{run.code}\n{run.error}")

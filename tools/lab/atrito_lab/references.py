@@ -53,72 +53,68 @@ class Folder:
 
 
 class Reference:
-    """The runs of one student's values. Runs beyond the first are made when they are asked for."""
+    """The runs of one student's values, each made when it is asked for."""
 
     def __init__(self, sheet: Sheet, keeper: Keeper, number: str) -> None:
         self.sheet, self.keeper, self.number = sheet, keeper, number
         self.drawn = sheet.draw(number)
-        self._folders: dict[str, Folder | None] = {}
+        self._folders: dict[tuple[str, str, int], Folder | Run] = {}
         self._lock = threading.Lock()
 
-    def _run(self, deck: str, refine: int) -> Run:
-        words = [*self.sheet.options, "--digits", "12", *(["--refine", str(refine)] if refine else []), *observe_words(self.sheet.observations())]
-        return self.keeper.run(deck, words, self.sheet.deck_name)
-
-    def _folder(self, name: str, deck: str, refine: int) -> Folder | None:
-        """Tables of a run, None if it failed."""
+    def folder(self, deck: str, run: str, refine: int) -> Folder | Run:
+        """Tables of a run of a deck, or the run where it ended with another code than it should."""
         with self._lock:
-            if name not in self._folders:
-                run = self._run(deck, refine)
-                self._folders[name] = Folder(run.folder) if run.code == 0 else None
-            return self._folders[name]
+            if (deck, run, refine) not in self._folders:
+                of = self.sheet.runs[run]
+                words = [*of.options, "--digits", "12", *(["--refine", str(refine)] if refine else []), *observe_words(self.sheet.observations(run))]
+                made = self.keeper.run(of.command, deck, words, self.sheet.deck_name)
+                self._folders[deck, run, refine] = Folder(made.folder) if made.code == of.code else made
+            return self._folders[deck, run, refine]
 
-    def tables(self) -> Folder:
+    def tables(self, run: str = "") -> Folder:
         """The reference itself: the complete deck with the student's values."""
-        deck = self.sheet.complete_deck(self.drawn)
-        folder = self._folder("reference", deck, self.sheet.refine)
-        if folder is None:
-            run = self._run(deck, self.sheet.refine)
-            raise LabError(f"the deck of the sheet with the values of {self.number} ({self.values_in_words()}) ends with {run.code}: {run.error}")
+        folder = self.folder(self.sheet.complete_deck(self.drawn), run, self.sheet.refine)
+        if isinstance(folder, Run):
+            values = ", ".join(f"{name} = {value}" for name, value in self.drawn.items())
+            raise LabError(f"the deck of the sheet with the values of {self.number} ({values}) ends with {folder.code}: {folder.error}")
         return folder
-
-    def values_in_words(self) -> str:
-        """The student's values."""
-        return ", ".join(f"{name} = {value}" for name, value in self.drawn.items())
 
     def value(self, quantity: Quantity) -> float:
         """The right value of a quantity."""
-        found = self.tables().value(quantity)
+        found = self.tables(quantity.run).value(quantity)
         if found is None:
             raise LabError(f"the deck of the sheet gives no value of {quantity.name}")
         return found
 
+    def value_by(self, deck: str, quantity: Quantity, refine: int) -> float | None:
+        """What another deck, or another mesh, makes of a quantity; None where it gives no value."""
+        folder = self.folder(deck, quantity.run, refine)
+        return None if isinstance(folder, Run) else folder.value(quantity)
+
     def finer(self, quantity: Quantity) -> float | None:
         """Its value on a mesh of four times the elements."""
-        folder = self._folder("finer", self.sheet.complete_deck(self.drawn), self.sheet.refine + 1)
-        return folder.value(quantity) if folder else None
+        return self.value_by(self.sheet.complete_deck(self.drawn), quantity, self.sheet.refine + 1)
 
     def others(self, quantity: Quantity) -> list[tuple[int, int, float]]:
         """Its values at other steps and increments: step, increment, value."""
+        folder = self.tables(quantity.run)
         try:
-            table = self.tables().table(quantity_cell(quantity).table)
+            there = instants(folder.table(quantity_cell(quantity).table))
         except TableError:
             return []
-        wanted = quantity.step or max((step for step, _ in instants(table)), default=0)
-        last = max((increment for step, increment in instants(table) if step == wanted), default=0)
-        values = [(step, increment, self.tables().value(quantity, step, increment)) for step, increment in instants(table)
-                  if (step, increment) != (wanted, last)]
+        wanted = quantity.step or max((step for step, _ in there), default=0)
+        last = max((increment for step, increment in there if step == wanted), default=0)
+        values = [(step, increment, folder.value(quantity, step, increment)) for step, increment in there if (step, increment) != (wanted, last)]
         return [(step, increment, value) for step, increment, value in values if value is not None]
 
     def mistaken(self, mistake: Mistake, place: int, quantity: Quantity) -> float | None:
         """What a mistake makes of a quantity; None where it does not touch it."""
-        if mistake.observe:
-            if mistake.quantity != quantity.name:
-                return None
-            cell = Cell("summary", "value", (("quantity", f"lab_wrong_{place}"), ("pair", "0")))
-            try:
-                return value_of(self.tables().table("summary"), cell, quantity.step)
-            except TableError:
-                return None
-        folder = self._folder(f"mistake {place}", mistaken_deck(self.sheet, mistake, self.drawn), self.sheet.refine)
-        return folder.value(quantity) if folder else None
+        if not mistake.observe:
+            return self.value_by(mistaken_deck(self.sheet, mistake, self.drawn), quantity, self.sheet.refine)
+        if mistake.quantity != quantity.name:
+            return None
+        cell = Cell("summary", "value", (("quantity", f"lab_wrong_{place}"), ("pair", "0")))
+        try:
+            return value_of(self.tables(quantity.run).table("summary"), cell, quantity.step)
+        except TableError:
+            return None

@@ -46,6 +46,7 @@ class Quantity:
     cell: Cell | None
     step: int | None
     hint: str
+    run: str
 
 
 @dataclass(frozen=True)
@@ -73,6 +74,15 @@ class Mistake:
     replace: tuple[str, str] | None
 
 
+@dataclass(frozen=True)
+class RunOf:
+    """A run of the deck: atrito itself, or one of its commands; what it is to end with."""
+
+    command: str = "run"
+    options: tuple[str, ...] = ()
+    code: int = 0
+
+
 @dataclass
 class Sheet:
     """All that a sheet says."""
@@ -84,7 +94,7 @@ class Sheet:
     deck_name: str
     deck: str
     refine: int
-    options: list[str]
+    runs: dict[str, RunOf]  # "" is the one whose tables are handed in
     parameters: list[Parameter]
     tables: list[str]
     table_points: float
@@ -126,10 +136,13 @@ class Sheet:
                 lines.append(line)
         return "\n".join(lines) + "\n"
 
-    def observations(self) -> dict[str, str]:
-        """What the reference observes: the quantities that are expressions, and the expressions of mistakes."""
-        wanted = {f"lab_{item.name}": item.observe for item in self.quantities if item.observe}
-        wanted.update({f"lab_wrong_{place}": item.observe for place, item in enumerate(self.mistakes) if item.observe})
+    def observations(self, run: str) -> dict[str, str]:
+        """What is observed in a run: its quantities that are expressions, and the expressions of mistakes in them."""
+        if self.runs[run].command != "run":
+            return {}
+        mine = {item.name for item in self.quantities if item.run == run}
+        wanted = {f"lab_{item.name}": item.observe for item in self.quantities if item.observe and item.name in mine}
+        wanted.update({f"lab_wrong_{place}": item.observe for place, item in enumerate(self.mistakes) if item.observe and item.quantity in mine})
         return wanted
 
 
@@ -221,7 +234,7 @@ def _sheet_of(folder: Path, taker: _Taker) -> Sheet:
     parameters = taker.take("parameters", dict, {})
     sheet = Sheet(
         folder=folder, name=folder.name, title=taker.take("title", str), seed=str(taker.take("seed", (str, int))), deck_name=deck_name,
-        deck=find_deck(folder, deck_name), refine=reference.take("refine", int, 0), options=reference.take("options", list, []),
+        deck=find_deck(folder, deck_name), refine=reference.take("refine", int, 0), runs=_runs_of(reference, taker),
         parameters=[_parameter_of(name, _Taker(item, f"parameter {name}")) for name, item in parameters.items()],
         tables=tables.take("hand_in", list, []), table_points=tables.take("points", float, 0.0),
         quantities=[_quantity_of(item) for item in taker.tables("quantity")],
@@ -232,6 +245,19 @@ def _sheet_of(folder: Path, taker: _Taker) -> Sheet:
         rest.end()
     _check_sheet(sheet)
     return sheet
+
+
+def _runs_of(reference: _Taker, taker: _Taker) -> dict[str, RunOf]:
+    runs = {"": RunOf(options=tuple(reference.take("options", list, [])))}
+    for item in taker.tables("run"):
+        run = RunOf(item.take("command", str, "run"), tuple(item.take("options", list, [])), item.take("exit", int, 0))
+        runs[item.take("name", str)] = run
+        item.end()
+        if run.command not in ("run", "limit", "study", "sweep"):
+            raise LabError(f"{item.where}: command is run, limit, study or sweep")
+    if not all(isinstance(word, str) for run in runs.values() for word in run.options):
+        raise LabError("options are words")
+    return runs
 
 
 def _parameter_of(name: str, taker: _Taker) -> Parameter:
@@ -260,7 +286,7 @@ def _quantity_of(taker: _Taker) -> Quantity:
         name=taker.take("name", str), text=taker.take("text", str), unit=taker.take("unit", str, ""), points=taker.take("points", float),
         tolerance=tolerance, coarse=taker.take("coarse", float, 5*tolerance), scale=taker.take("scale", float, 0.0),
         given=taker.take("given", str, "answer"), observe=observe, cell=cell, step=taker.take("step", int, 0) or None,
-        hint=taker.take("hint", str, ""))
+        hint=taker.take("hint", str, ""), run=taker.take("run", str, ""))
     taker.end()
     if bool(observe) == bool(cell):
         raise LabError(f"{taker.where} needs either observe, or table and column")
@@ -321,6 +347,8 @@ def _check_sheet(sheet: Sheet) -> None:
         if mistake.kind not in ("mistake", "exchanged"):
             raise LabError(f"mistake {mistake.name}: kind is mistake or exchanged")
     for item in sheet.quantities:
+        if item.run not in sheet.runs or item.run and item.given == "table" or item.observe and sheet.runs[item.run].command != "run":
+            raise LabError(f"{item.name}: there is no such run, or one whose tables are not handed in (given), or that does not observe")
         if item.given == "table" and item.cell and item.cell.table not in sheet.tables:
             raise LabError(f"{item.name} is read from {item.cell.table}, which hand_in of [tables] does not name")
     depth = 0
