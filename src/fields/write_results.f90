@@ -127,7 +127,7 @@ contains
       type(string_t), allocatable :: fields(:)
       integer(ip) :: i
 
-      names = list_table_files()
+      names = list_table_files(folder)
       fields = list_field_files(model)
       do i = 1, size(fields, kind=ip)
          call append_string(names, fields(i)%s)

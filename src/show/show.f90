@@ -139,7 +139,7 @@ contains
             case ('states')
                call view_states(self%states, self%page, table)
             case ('picard')
-               call view_picard(data%line, results, solution, self%page, table)
+               call view_picard(data%line, data%points, results, solution, self%page, table)
             case ('law')
                if (.not. allocated(results%contact)) cycle
                call view_law(data%line, results, self%page, table)

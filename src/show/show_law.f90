@@ -10,12 +10,15 @@ module atrito_show_law
    use atrito_page, only: page_t, add_heading, add_line
    use atrito_results, only: results_t
    use atrito_strings, only: append_string, to_text
-   use atrito_table, only: table_t, add_integers, add_reals, begin_table
+   use atrito_table, only: table_t, add_integers, add_real_columns, begin_table
    implicit none (type, external)
    private
    public :: view_law
 
    integer, parameter :: HALF = 32, HIGH = 6        !< of the drawing, in characters from its middle
+   character(len=8), parameter :: COLUMNS(9) = [character(len=8) :: 's', 'overlap', 'delta', 'pressure', 'slip', 'limit', 'bound', &
+                                                'friction', 'u']
+   character(len=5), parameter :: DIMENSIONS(9) = [character(len=5) :: 'L', 'L', 'L^3/F', 'F/L^2', 'L', 'L', 'F/L^2', 'F/L^2', '-']
    real(wp), parameter :: SHOWN = 2.0_wp            !< u of its ends: points beyond stand there
 
 contains
@@ -57,15 +60,7 @@ contains
                          'the largest slip); friction: upon the master along T, slip: less that at which it is none')
       call add_integers(table, 'pair', numbers(1, :))
       call add_integers(table, 'point', numbers(2, :))
-      call add_reals(table, 's', 'L', values(1, :), 0.0_wp)
-      call add_reals(table, 'overlap', 'L', values(2, :), 0.0_wp)
-      call add_reals(table, 'delta', 'L^3/F', values(3, :), 0.0_wp)
-      call add_reals(table, 'pressure', 'F/L^2', values(4, :), 0.0_wp)
-      call add_reals(table, 'slip', 'L', values(5, :), 0.0_wp)
-      call add_reals(table, 'limit', 'L', values(6, :), 0.0_wp)
-      call add_reals(table, 'bound', 'F/L^2', values(7, :), 0.0_wp)
-      call add_reals(table, 'friction', 'F/L^2', values(8, :), 0.0_wp)
-      call add_reals(table, 'u', '-', values(9, :), 0.0_wp)
+      call add_real_columns(table, COLUMNS, DIMENSIONS, transpose(values))
       call add_heading(page, 'law of friction: t/tau over u = slip/(slip at which it is full), and the points')
       if (all(values(7, :) <= 0.0_wp)) then
          call add_line(page, 'no point has friction')

@@ -13,9 +13,9 @@ module atrito_show_line
    use atrito_table, only: table_t, add_integers, add_reals, add_words, begin_table
    implicit none (type, external)
    private
-   public :: view_line, unknown_names
+   public :: view_line
 
-   integer(ip), parameter :: MOST_NUMBERS = 16      !< unknowns of which C is printed; of more there are digits
+   integer(ip), parameter :: MOST_NUMBERS = 16      !< unknowns of which C and G are printed; of more there are digits of C
    integer(ip), parameter :: MOST_DIGITS = 75       !< of a line
 
 contains
@@ -28,19 +28,25 @@ contains
       type(page_t), intent(inout) :: page
       type(table_t), intent(out) :: table, motions
       real(wp) :: vectors(qp%m, qp%m), values(qp%m)
+      character(len=4) :: names(qp%m)
+      type(string_t) :: words(qp%m)
       integer(ip) :: i, info
 
+      names = unknown_names(qp, line)
+      do i = 1, qp%m
+         words(i)%s = trim(names(i))
+      end do
       call add_heading(page, 'contact line: '//to_text(qp%m)//' unknown forces, '//to_text(qp%n_normal)//' of them normal, ' &
                        //plural(qp%k, 'rigid motion', 'rigid motions'))
       call add_line(page, 'r = g0 - (C + D) q + G a,  G'' q = h;  n3, t3: normal, tangential of point 3')
       if (qp%m == 0) return
       if (qp%m <= MOST_NUMBERS) then
-         call add_matrix(page, 'C [L/F]', qp%c, short_names(qp, line))
+         call add_matrix(page, 'C [L/F]', qp%c, names)
       else
          call add_digits(qp%c, page)
       end if
       if (qp%k > 0) then
-         call add_matrix(page, 'G', qp%g, short_names(qp, line))
+         if (qp%m <= MOST_NUMBERS) call add_matrix(page, 'G', qp%g, names)
          call add_matrix(page, 'h [F]', reshape(qp%h, [1_ip, qp%k]))
       end if
       vectors = qp%c
@@ -49,7 +55,7 @@ contains
                     to_text(values(qp%m)/max(values(1), tiny(1.0_wp)), 3))
       call begin_table(table, 'show-line', 'a row an unknown force of the contact line', qp%m)
       call append_string(table%remarks, 'r = g0 - (C + D) q + G a; c_j: column j of C, g_j: column j of G')
-      call add_words(table, 'unknown', '-', unknown_names(qp, line), on_the_left=.true.)
+      call add_words(table, 'unknown', '-', words, on_the_left=.true.)
       call add_reals(table, 'weight', 'L^2', qp%weight, 0.0_wp)
       call add_reals(table, 'g0', 'L', qp%g0, 0.0_wp)
       if (allocated(solution%p)) then
@@ -73,26 +79,13 @@ contains
    pure function unknown_names(qp, line) result(names)
       type(bound_qp_t), intent(in) :: qp
       type(contact_line_t), intent(in) :: line
-      type(string_t) :: names(qp%m)
+      character(len=4) :: names(qp%m)               ! 200 points at most
       integer(ip) :: i
 
       do i = 1, qp%m
-         names(i)%s = merge('n', 't', i <= qp%n_normal)//to_text(line%point(i))
+         names(i) = merge('n', 't', i <= qp%n_normal)//to_text(line%point(i))
       end do
    end function unknown_names
-
-   pure function short_names(qp, line) result(names)
-      type(bound_qp_t), intent(in) :: qp
-      type(contact_line_t), intent(in) :: line
-      character(len=4) :: names(qp%m)
-      type(string_t) :: whole(qp%m)
-      integer(ip) :: i
-
-      whole = unknown_names(qp, line)
-      do i = 1, qp%m
-         names(i) = whole(i)%s
-      end do
-   end function short_names
 
    !> C as digits: by how many powers of ten an entry is below the largest, 9 for all that are smaller.
    pure subroutine add_digits(c, page)

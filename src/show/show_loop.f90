@@ -5,15 +5,18 @@ module atrito_show_loop
    use atrito_contact_solution, only: contact_solution_t
    use atrito_kinds, only: ip, wp, HUGE_REAL
    use atrito_page, only: page_t, add_heading, add_line, left, right
-   use atrito_results, only: contact_result_t, results_t
+   use atrito_points, only: contact_points_t
+   use atrito_results, only: results_t
    use atrito_solve_history, only: state_letters
    use atrito_strings, only: append_string, string_t, to_text
-   use atrito_table, only: table_t, add_integers, add_reals, add_words, begin_table, one_word
+   use atrito_table, only: table_t, add_integers, add_real_columns, add_reals, add_words, begin_table
    implicit none (type, external)
    private
    public :: states_t, add_states, view_states, view_picard
 
    character(len=*), parameter :: LETTERS = 'o open, c closed without friction, = sticking, + slipping along T, - against it'
+   character(len=8), parameter :: COLUMNS(5) = [character(len=8) :: 's', 'x', 'y', 'pressure', 'bound']
+   character(len=5), parameter :: DIMENSIONS(5) = [character(len=5) :: 'L', 'L', 'L', 'F/L^2', 'F/L^2']
    integer, parameter :: ROOM = 55                   !< characters of states on a line of the screen
    integer(ip), parameter :: MOST_ROWS = 2000        !< of a history
 
@@ -92,20 +95,21 @@ contains
    end subroutine view_states
 
    !> Page and table of the outer iterations of an increment: the last solve of each.
-   pure subroutine view_picard(line, results, solution, page, table)
+   pure subroutine view_picard(line, points, results, solution, page, table)
       type(contact_line_t), intent(in) :: line
+      type(contact_points_t), intent(in) :: points(:) !< of each pair
       type(results_t), intent(in) :: results
       type(contact_solution_t), intent(in) :: solution
       type(page_t), intent(inout) :: page
       type(table_t), intent(out) :: table
-      integer(ip), allocatable :: last(:), numbers(:, :)
+      integer(ip), allocatable :: numbers(:, :)
       real(wp), allocatable :: values(:, :)         ! (5, rows): s, x, y, pressure, bound
       real(wp) :: p(line%n), tau(line%n), residual, before
-      integer(ip) :: i, j, k
+      integer(ip) :: i, j, k, pair
 
       call add_heading(page, 'outer iterations, in each the bound of the friction is frozen')
       call add_line(page, 'outer  solves   largest pressure   largest bound   residual   over before')
-      allocate (numbers(3, 0), values(5, 0), last(0))
+      allocate (numbers(3, 0), values(5, 0))
       before = 0.0_wp
       associate (records => solution%history%records)
          do i = 1, logged(solution)
@@ -117,18 +121,15 @@ contains
             if (records(i)%outer == 0) residual = 0.0_wp
             call add_line(page, right(to_text(records(i)%outer), 5)//right(to_text(records(i)%inner), 8)// &
                           right(to_text(maxval([p, 0.0_wp]), 6), 19)//right(to_text(maxval([tau, 0.0_wp]), 6), 16)// &
-                          right(text_of(residual), 12)//right(ratio(residual, before), 12))
+                          right(ratio(residual, 1.0_wp), 12)//right(ratio(residual, before), 12))
             before = residual
-            k = 0
-            do j = 1, line%n - line%n_bilateral
-               associate (pair => line%pair(j))
-                  k = k + 1
-                  if (j > 1) then
-                     if (line%pair(j - 1) /= pair) k = 1
-                  end if
+            j = 0
+            do pair = 1, size(points, kind=ip)
+               do k = 1, points(pair)%n
+                  j = j + 1
                   numbers = reshape([numbers, records(i)%outer, pair, k], [3, size(values, 2) + 1])
-                  values = reshape([values, place_of(results, pair, k), p(j), tau(j)], [5, size(numbers, 2)])
-               end associate
+                  values = reshape([values, points(pair)%s(k), points(pair)%x(:, k), p(j), tau(j)], [5, size(numbers, 2)])
+               end do
             end do
          end do
       end associate
@@ -138,11 +139,7 @@ contains
       call add_integers(table, 'outer', numbers(1, :))
       call add_integers(table, 'pair', numbers(2, :))
       call add_integers(table, 'point', numbers(3, :))
-      call add_reals(table, 's', 'L', values(1, :), 0.0_wp)
-      call add_reals(table, 'x', 'L', values(2, :), 0.0_wp)
-      call add_reals(table, 'y', 'L', values(3, :), 0.0_wp)
-      call add_reals(table, 'pressure', 'F/L^2', values(4, :), 0.0_wp)
-      call add_reals(table, 'bound', 'F/L^2', values(5, :), 0.0_wp)
+      call add_real_columns(table, COLUMNS, DIMENSIONS, transpose(values))
    end subroutine view_picard
 
    !> Pressures and bounds of solve i; 0 where there are no unknowns, and for the bound of a point that cannot slip.
@@ -164,31 +161,13 @@ contains
       end associate
    end subroutine fetch_stresses
 
-   !> s, x and y of a point; 0 where no increment was found.
-   pure function place_of(results, pair, k) result(place)
-      type(results_t), intent(in) :: results
-      integer(ip), intent(in) :: pair, k
-      real(wp) :: place(3)
-
-      place = 0.0_wp
-      if (.not. allocated(results%contact)) return
-      place = [results%contact(pair)%s(k), results%contact(pair)%x(:, k)]
-   end function place_of
-
-   pure function text_of(x) result(text)
-      real(wp), intent(in) :: x
+   !> A residual over another one, or 1; '' where one of them is none.
+   pure function ratio(x, over) result(text)
+      real(wp), intent(in) :: x, over
       character(len=:), allocatable :: text
 
       text = ''
-      if (x > 0.0_wp) text = to_text(x, 3)
-   end function text_of
-
-   pure function ratio(x, before) result(text)
-      real(wp), intent(in) :: x, before
-      character(len=:), allocatable :: text
-
-      text = ''
-      if (min(x, before) > 0.0_wp) text = to_text(x/before, 3)
+      if (min(x, over) > 0.0_wp) text = to_text(x/over, 3)
    end function ratio
 
 end module atrito_show_loop

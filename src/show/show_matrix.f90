@@ -13,6 +13,8 @@ module atrito_show_matrix
    public :: view_matrix
 
    integer(ip), parameter :: MOST_ACROSS = 36             !< characters of a drawing, of which two stand side by side
+   character(len=12), parameter :: COLUMNS(8) = [character(len=12) :: 'body', 'equation', 'node_before', 'dof_before', &
+                                                 'first_before', 'node', 'dof', 'first']
    integer, parameter :: LABEL = 20, VALUE = 22      !< widths of the columns of numbers
 
    !> A body before its equations were numbered for the solver.
@@ -56,14 +58,9 @@ contains
                        size(rows, 2, kind=ip))
       call append_string(table%remarks, 'first: row of the first entry of the column of the equation; its height is '// &
                          'equation - first + 1')
-      call add_integers(table, 'body', rows(1, :))
-      call add_integers(table, 'equation', rows(2, :))
-      call add_integers(table, 'node_before', rows(3, :))
-      call add_integers(table, 'dof_before', rows(4, :))
-      call add_integers(table, 'first_before', rows(5, :))
-      call add_integers(table, 'node', rows(6, :))
-      call add_integers(table, 'dof', rows(7, :))
-      call add_integers(table, 'first', rows(8, :))
+      do j = 1, size(COLUMNS, kind=ip)
+         call add_integers(table, trim(COLUMNS(j)), rows(j, :))
+      end do
    end subroutine view_matrix
 
    !> Numbers the equations of a body as its nodes stand in the mesh.

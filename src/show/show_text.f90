@@ -5,7 +5,7 @@ module atrito_show_text
    use atrito_strings, only: to_text
    implicit none (type, external)
    private
-   public :: add_matrix, power_of_ten
+   public :: add_matrix
 
    integer(ip), parameter :: COLUMNS = 8             !< of a block: a terminal of 80 columns does not wrap
 
@@ -20,7 +20,8 @@ contains
       character(len=4 + 9*COLUMNS) :: line
       integer(ip) :: i, j, k, power
 
-      power = power_of_ten(a)
+      power = 0
+      if (maxval(abs(a)) > 0.0_wp) power = floor(log10(maxval(abs(a))), ip)
       call add_line(page, title//', in 1e'//to_text(power))
       do j = 1, size(a, 2, kind=ip), COLUMNS
          associate (last => min(j + COLUMNS - 1, size(a, 2, kind=ip)))
@@ -38,15 +39,5 @@ contains
          end associate
       end do
    end subroutine add_matrix
-
-   !> So that the largest value has one digit before its point; 0 of nothing.
-   pure integer(ip) function power_of_ten(a) result(power)
-      real(wp), intent(in) :: a(:, :)
-      real(wp) :: largest
-
-      largest = maxval([abs(a), 0.0_wp])
-      power = 0
-      if (largest > 0.0_wp) power = floor(log10(largest), ip)
-   end function power_of_ten
 
 end module atrito_show_text

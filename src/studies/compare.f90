@@ -10,7 +10,7 @@ module atrito_compare
    use atrito_strings, only: string_t, append_string, to_text, join
    use atrito_status, only: status_t, set_status, is_ok, STATUS_FILE, STATUS_OK, STATUS_USAGE
    use atrito_compare_heads, only: heads_t, tell_heads
-   use atrito_compare_rules, only: rule_t, rules_t, rule_of, takes_table, mark_used, unused_rule, COMPARED_TABLES
+   use atrito_compare_rules, only: rule_t, rules_t, rule_of, takes_table, ANY_NAME, COMPARED_TABLES
    use atrito_column_scales, only: kind_of, columns_of_scale, row_scales, summary_scales, moment_scale, is_of_pair, is_number
    use atrito_files, only: file_exists, is_folder
    use atrito_page, only: page_t, begin_page, add_line, plural
@@ -150,9 +150,9 @@ contains
          call report(comparison, a%name//': NOT CONVERGED in the '//trim(merge('first ', 'second', a%not_converged))//' only')
       end if
       call match_columns(a, b, comparison, column_in_b)
+      call tell_unused(a, comparison)
       if (kind_of(a) == kind_of(b) .and. has_quantities(a)) then
          call compare_summaries(a, b, comparison)
-         call tell_unused(a, comparison)
          return
       end if
       if (a%n_rows /= b%n_rows) then
@@ -160,20 +160,28 @@ contains
          return
       end if
       do column = 1, a%n_columns
-         call mark_used(stem(a), a%columns(column)%s, comparison%rules)
          if (column_in_b(column) > 0) call compare_columns(a, b, column, column_in_b(column), comparison)
       end do
-      call tell_unused(a, comparison)
    end subroutine compare_tables
 
    !> A rule for a column that the table has not would be of no use, unseen.
    subroutine tell_unused(a, comparison)
       type(table_file_t), intent(in) :: a
       type(comparison_t), intent(inout) :: comparison
-      character(len=:), allocatable :: name
+      integer(ip) :: i, k, quantity
 
-      name = unused_rule(comparison%rules, stem(a))
-      if (len(name) > 0) call report(comparison, a%name//': there is no '//name//', of which --tolerances or --ignore tells')
+      if (.not. allocated(comparison%rules%list)) return
+      quantity = merge(find_column(a, 'quantity'), 0_ip, has_quantities(a))
+      do i = 1, size(comparison%rules%list, kind=ip)
+         associate (rule => comparison%rules%list(i))
+            if (rule%table /= stem(a) .or. rule%column == ANY_NAME) cycle
+            if (quantity == 0 .and. find_column(a, rule%column) > 0) cycle
+            if (quantity > 0) then
+               if (any([(item_text(a, quantity, k) == rule%column, k=1, a%n_rows)])) cycle
+            end if
+            call report(comparison, a%name//': there is no '//rule%column//', of which --tolerances or --ignore tells')
+         end associate
+      end do
    end subroutine tell_unused
 
    !> The name of a table: that of its file without the ending.
@@ -254,7 +262,6 @@ contains
       name = a%columns(at_a(1))%s
       if (has_quantities(a)) name = item_text(a, find_column(a, 'quantity'), at_a(2))
       rule = rule_of(comparison%rules, stem(a), name)
-      if (has_quantities(a)) call mark_used(stem(a), name, comparison%rules)
       if (rule%is_left_out) return
       comparison%n_values = comparison%n_values + 1
       kind_a = a%kind(at_a(1), at_a(2))

@@ -28,7 +28,8 @@ contains
       associate (other_deck => text_of(a, DECK) /= text_of(b, DECK), &
                  other_values => text_of(a, PARAMETERS) /= text_of(b, PARAMETERS))
          if (other_deck) call tell('another deck: '//both(text_of(a, DECK), text_of(b, DECK)))
-         if (other_values) call tell_parameters(text_of(a, PARAMETERS), text_of(b, PARAMETERS))
+         if (other_values) call tell('other parameters: '//both(others(text_of(a, PARAMETERS), text_of(b, PARAMETERS)), &
+                                                                others(text_of(b, PARAMETERS), text_of(a, PARAMETERS))))
          if (text_of(a, OPTIONS) /= text_of(b, OPTIONS)) then
             call tell('other options: '//both(text_of(a, OPTIONS), text_of(b, OPTIONS)))
          end if
@@ -37,20 +38,6 @@ contains
       end associate
 
    contains
-
-      !> Only those that differ.
-      subroutine tell_parameters(one, two)
-         character(len=*), intent(in) :: one, two
-         character(len=:), allocatable :: first, second
-         integer :: i
-
-         first = ''
-         second = ''
-         call list_others(one, two, first)
-         call list_others(two, one, second)
-         i = len(first) + len(second)
-         if (i > 0) call tell('other parameters: '//both(first, second))
-      end subroutine tell_parameters
 
       subroutine tell(text)
          character(len=*), intent(in) :: text
@@ -66,11 +53,12 @@ contains
    end subroutine tell_heads
 
    !> The items `name = value` of one list that do not stand in the other.
-   pure subroutine list_others(list, other, text)
+   pure function others(list, other) result(text)
       character(len=*), intent(in) :: list, other
-      character(len=:), allocatable, intent(inout) :: text
+      character(len=:), allocatable :: text
       integer :: first, last
 
+      text = ''
       first = 1
       do while (first <= len(list))
          last = first + index(list(first:)//', ', ', ') - 2
@@ -80,7 +68,7 @@ contains
          end if
          first = last + 3
       end do
-   end subroutine list_others
+   end function others
 
    pure function text_of(table, i) result(text)
       type(table_file_t), intent(in) :: table

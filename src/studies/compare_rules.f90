@@ -11,13 +11,12 @@ module atrito_compare_rules
    use atrito_write_tables, only: TABLE_NAMES, SHOWN_TABLES
    implicit none (type, external)
    private
-   public :: rule_t, rules_t, read_rules, leave_out, take_tables, rule_of, takes_table, mark_used, unused_rule, COMPARED_TABLES
+   public :: rule_t, rules_t, read_rules, leave_out, take_tables, rule_of, takes_table, ANY_NAME, COMPARED_TABLES
 
    type :: rule_t
       character(len=:), allocatable :: table, column !< * any
       real(wp) :: rtol = 0.0_wp, atol = 0.0_wp
       logical :: is_left_out = .false.
-      logical :: is_used = .false.
    end type rule_t
 
    type :: rules_t
@@ -174,34 +173,6 @@ contains
 
       fits = (rule%table == ANY_NAME .or. rule%table == table) .and. (rule%column == ANY_NAME .or. rule%column == column)
    end function fits
-
-   !> Notes that there is such a column.
-   pure subroutine mark_used(table, column, rules)
-      character(len=*), intent(in) :: table, column
-      type(rules_t), intent(inout) :: rules
-      integer :: i
-
-      if (.not. allocated(rules%list)) return
-      do i = 1, size(rules%list)
-         if (fits(rules%list(i), table, column)) rules%list(i)%is_used = .true.
-      end do
-   end subroutine mark_used
-
-   !> A rule that names a column which the table, one that was compared, has not; '' where there is none.
-   pure function unused_rule(rules, table) result(text)
-      type(rules_t), intent(in) :: rules
-      character(len=*), intent(in) :: table
-      character(len=:), allocatable :: text
-      integer :: i
-
-      text = ''
-      if (.not. allocated(rules%list)) return
-      do i = 1, size(rules%list)
-         if (rules%list(i)%table == table .and. .not. rules%list(i)%is_used .and. rules%list(i)%column /= ANY_NAME) then
-            text = rules%list(i)%column
-         end if
-      end do
-   end function unused_rule
 
    !> Whether a table is compared at all.
    pure logical function takes_table(rules, table)

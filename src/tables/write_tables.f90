@@ -4,6 +4,7 @@ module atrito_write_tables
    use atrito_strings, only: string_t, append_string, to_text
    use atrito_status, only: status_t, is_ok
    use atrito_files, only: file_set_t
+   use atrito_own_files, only: names_with
    use atrito_system, only: peak_memory
    use atrito_timers, only: phase_time_t, get_phases
    use atrito_model, only: model_t
@@ -53,18 +54,36 @@ module atrito_write_tables
 
 contains
 
-   !> File names of every table that atrito can write: what a new run replaces or removes.
-   pure function list_table_files() result(names)
+   !> File names of every table that atrito can write: what a new run replaces or removes. Those of --show, and heads of
+   !> comma-separated values, as far as they are there: few runs leave any.
+   function list_table_files(folder) result(names)
+      character(len=*), intent(in) :: folder
       type(string_t), allocatable :: names(:)
       character(len=12), parameter :: ALL_TABLES(*) = [TABLE_NAMES, SHOWN_TABLES]
       integer :: i
 
-      allocate (names(3*size(ALL_TABLES)))
-      do i = 1, size(ALL_TABLES)
-         names(3*i - 2)%s = trim(ALL_TABLES(i))//TAB_ENDING
-         names(3*i - 1)%s = trim(ALL_TABLES(i))//CSV_ENDING
-         names(3*i)%s = trim(ALL_TABLES(i))//HEAD_ENDING
+      allocate (names(2*size(TABLE_NAMES)))
+      do i = 1, size(TABLE_NAMES)
+         names(2*i - 1)%s = trim(TABLE_NAMES(i))//TAB_ENDING
+         names(2*i)%s = trim(TABLE_NAMES(i))//CSV_ENDING
       end do
+      call append_found(HEAD_ENDING, ALL_TABLES)
+      call append_found(TAB_ENDING, SHOWN_TABLES)
+      call append_found(CSV_ENDING, SHOWN_TABLES)
+
+   contains
+
+      subroutine append_found(ending, tables)
+         character(len=*), intent(in) :: ending, tables(:)
+         type(string_t), allocatable :: found(:)
+         integer :: k
+
+         found = names_with(folder, ending)
+         do k = 1, size(found)
+            if (any(tables == found(k)%s(:len(found(k)%s) - len(ending)))) call append_string(names, found(k)%s)
+         end do
+      end subroutine append_found
+
    end function list_table_files
 
    pure function origin_of_results(model, results) result(origin)
