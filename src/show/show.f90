@@ -82,11 +82,12 @@ contains
             if (element_of(view) > 0) then
                call check_element(data, element_of(view), reason)
             else if (view == 'matrix') then
-               if (maxval(data%fem%bodies%list%n) > MOST_EQUATIONS) &
+               if (.not. all(data%fem%bodies%list%by_profile)) then
+                  reason = 'no body is numbered for a profile; with --solver skyline one is'
+               else if (maxval(data%fem%bodies%list%n) > MOST_EQUATIONS) then
                   reason = 'a body has '//to_text(maxval(data%fem%bodies%list%n))//' equations; '//to_text(MOST_EQUATIONS)// &
                            ' at most can be seen'
-               if (.not. all(data%fem%bodies%list%by_profile)) reason = 'no body is numbered for '// &
-                                                                        'a profile; with --solver skyline one is'
+               end if
             else if (data%line%n == 0) then
                reason = 'the scene has no contact'
             else if (data%line%n > MOST_POINTS) then

@@ -17,7 +17,7 @@ module atrito_show_law
 
    integer, parameter :: HALF = 32, HIGH = 6        !< of the drawing, in characters from its middle
    character(len=8), parameter :: COLUMNS(9) = [character(len=8) :: 's', 'overlap', 'delta', 'pressure', 'slip', 'limit', 'bound', &
-                                                'friction', 'u']
+                                                                                                                 'friction', 'u']
    character(len=5), parameter :: DIMENSIONS(9) = [character(len=5) :: 'L', 'L', 'L^3/F', 'F/L^2', 'L', 'L', 'F/L^2', 'F/L^2', '-']
    real(wp), parameter :: SHOWN = 2.0_wp            !< u of its ends: points beyond stand there
 

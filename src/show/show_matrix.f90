@@ -14,7 +14,7 @@ module atrito_show_matrix
 
    integer(ip), parameter :: MOST_ACROSS = 36             !< characters of a drawing, of which two stand side by side
    character(len=12), parameter :: COLUMNS(8) = [character(len=12) :: 'body', 'equation', 'node_before', 'dof_before', &
-                                                 'first_before', 'node', 'dof', 'first']
+                                                                                             'first_before', 'node', 'dof', 'first']
    integer, parameter :: LABEL = 20, VALUE = 22      !< widths of the columns of numbers
 
    !> A body before its equations were numbered for the solver.

@@ -34,8 +34,8 @@ module atrito_plot_files
    integer, parameter :: PLOTS_OF_RUN = 1, PLOTS_OF_SWEEP = 2, PLOTS_OF_STUDY = 3, PLOTS_OF_LIMIT = 4, PLOTS_OF_CHECK = 5
    character(len=20), parameter :: PICTURES(24) = [character(len=20) :: &
                   OVERLAY_SUMMARY, STUDY_PLOT, LIMIT_PLOT, MECHANISM_PLOT, SCENE_PLOT, SET_PLOT, GAP_PLOT, SCENE_PLOT//SYMBOLS_OF, &
-                   MESH_PLOT, MESH_PLOT//SYMBOLS_OF, JOINT_PLOT, HISTORY_PLOT, LOOP_PLOT, MOTION_PLOT, TRACTION_PLOT, &
-                   CONTOUR_PLOTS, SHOWN_PLOTS]
+                                MESH_PLOT, MESH_PLOT//SYMBOLS_OF, JOINT_PLOT, HISTORY_PLOT, LOOP_PLOT, MOTION_PLOT, TRACTION_PLOT, &
+                                                   CONTOUR_PLOTS, SHOWN_PLOTS]
    integer, parameter :: OWNER(size(PICTURES)) = [PLOTS_OF_SWEEP, PLOTS_OF_STUDY, spread(PLOTS_OF_LIMIT, 1, 2), &
                                                   spread(PLOTS_OF_CHECK, 1, 4), spread(PLOTS_OF_RUN, 1, size(PICTURES) - 8)]
    character(len=*), parameter :: CONTACT_PLOT = 'contact-', OVERLAY_PLOT = 'overlay-'   !< and the number of the pair

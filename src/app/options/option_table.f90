@@ -108,7 +108,7 @@ module atrito_option_table
                                          expected='a number, 0 to 1'), &
                                 option_t('--atol', 'A', [N, N, Y, N, N, N, N], 'differences allowed, absolute', default='0', &
                                          expected='a number, not negative'), &
-                                   option_t('--tolerances', VALUE_FILE, [N, N, Y, N, N, N, N], 'tolerances by table and column', &
+                                option_t('--tolerances', VALUE_FILE, [N, N, Y, N, N, N, N], 'tolerances by table and column', &
                                          expected='a file with a line a rule, TABLE COLUMN RTOL [ATOL], * for any'), &
                                 option_t('--tables', 'LIST', [N, N, Y, N, N, N, N], 'the tables that are compared', default='all', &
                                          expected='names of tables, commas between them'), &

@@ -41,7 +41,7 @@ module atrito_own_files
                                                         'iterations:step,outer,inner,', 'timing:phase,wall,cpu', 'runs:run,', &
                                                         'show-element:matrix,point,row,', 'show-matrix:body,equation,', &
                                                         'show-line:unknown,weight,', 'show-motions:motion,h', &
-                                                   'show-states:step,increment,outer,', 'show-law:pair,point,s,overlap,', &
+                                                        'show-states:step,increment,outer,', 'show-law:pair,point,s,overlap,', &
                                                         'show-picard:outer,pair,point,', &
                                            'study:level,element,h,dofs,', 'limit:value,code,', 'mechanism:body,name,x,y,', 'sweep:']
 
