@@ -28,6 +28,10 @@ install(DIRECTORY input DESTINATION ${CMAKE_INSTALL_DATADIR}/atrito)
 install(FILES README.md LICENSE CHANGELOG.md CITATION.cff CONTRIBUTING.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} PATTERN "make-*" EXCLUDE)
 
+# The laboratory, which runs by Python's standard library (docs/labs/README.md).
+install(PROGRAMS tools/lab/atrito-lab DESTINATION ${CMAKE_INSTALL_BINDIR})
+install(DIRECTORY tools/lab/ DESTINATION ${CMAKE_INSTALL_DATADIR}/atrito/lab FILES_MATCHING PATTERN "*.py")
+
 # ---- the package ----
 
 # The packages whose libraries the program loads when it needs them: atrito_package_of(<file or soname> <variable>)
@@ -44,7 +48,7 @@ endfunction()
 
 find_program(DPKG_QUERY dpkg-query)
 mark_as_advanced(DPKG_QUERY)
-set(recommended "gnuplot-nox | gnuplot")
+set(recommended "gnuplot-nox | gnuplot" python3)
 foreach(file "${ATRITO_CLP_FILE}" "${ATRITO_METIS_FILE}")
    atrito_package_of("${file}" package)
    if(package)

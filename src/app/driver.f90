@@ -10,6 +10,7 @@ module atrito_driver
                                   TASK_USAGE, TASK_RUN, TASK_CHECK, TASK_COMPARE, TASK_HELP, TASK_SWEEP, TASK_STUDY, TASK_LIMIT, &
                                   TASK_OPTIONS, TASK_VERSION
    use atrito_compare, only: comparison_t, begin_comparison, compare_paths
+   use atrito_compare_rules, only: leave_out, read_rules, take_tables
    use atrito_console, only: print_line, print_lines, print_message, print_messages, print_status
    use atrito_files, only: check_all_own
    use atrito_help_pages, only: compose_man_page, compose_options, compose_topic, compose_usage
@@ -194,13 +195,30 @@ contains
       type(status_t) :: status
 
       call begin_comparison(comparison, command%rtol, command%atol)
-      call compare_paths(command%names(1)%s, command%names(2)%s, comparison, status)
+      if (allocated(command%tolerances)) call read_rules(command%tolerances, comparison%rules, status)
+      if (allocated(command%tables) .and. is_ok(status)) call take_tables(command%tables, comparison%rules, status)
+      if (allocated(command%ignore) .and. is_ok(status)) call leave_out(command%ignore, comparison%rules, status)
+      if (is_ok(status)) call compare_paths(command%names(1)%s, command%names(2)%s, comparison, status)
+      if (command%json) call print_differences(comparison)
       if (.not. command%quiet) call print_page(comparison%page, output_unit)
       ! tables that differ are printed on standard output; anything else is an error
       if (.not. is_ok(status) .and. comparison%n_differences == 0) call print_status(status, PROGRAM_NAME, command%json)
       if (status%code == STATUS_FILE .and. comparison%n_differences > 0) call print_status(status, PROGRAM_NAME, command%json)
       code = status%code
    end subroutine compare_tables
+
+   !> Each difference as a message of JSON.
+   subroutine print_differences(comparison)
+      type(comparison_t), intent(in) :: comparison
+      type(message_t) :: message
+      integer :: i
+
+      do i = 1, size(comparison%differences)
+         message = wrong(comparison%differences(i)%s)
+         message%id = 'E-DIFFERENT'
+         call print_message(message, .true.)
+      end do
+   end subroutine print_differences
 
    !> `atrito help`: a keyword, or one of the pages that are made of the tables.
    subroutine print_help(command, code)

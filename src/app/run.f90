@@ -36,6 +36,8 @@ module atrito_run
    use atrito_restart_recorder, only: restart_recorder_t, begin_recorder
    use atrito_results, only: history_t, results_t, last_frame
    use atrito_screen, only: compose_summary
+   use atrito_show, only: begin_show, show_t
+   use atrito_show_plots, only: draw_shown
    use atrito_solve, only: solve_options_t, CONTACT_AUTO, CONTACT_DENSE, CONTACT_SPARSE, SOLVER_AUTO, SOLVER_SKYLINE, &
                            SOLVER_BANDED, SOLVER_SPARSE
    use atrito_status, only: status_t, set_status, reword_status, is_ok, STATUS_OK, STATUS_USAGE, STATUS_DECK, STATUS_NOT_CONVERGED
@@ -64,6 +66,7 @@ contains
       type(observations_t) :: observations
       type(restart_recorder_t) :: recorder
       type(frame_spool_t), target :: frames
+      type(show_t), target :: show
       type(status_t) :: status
       integer(ip) :: n_printed
 
@@ -92,16 +95,23 @@ contains
 
       subroutine solve_and_write()
          type(history_t) :: history
+         type(solve_options_t) :: options
 
-         call solve_history(model, solve_options(command), reporter, history, status, store, recorder, observations, frames)
+         options = solve_options(command)
+         if (allocated(command%show)) then
+            call begin_show(command%show, show)
+            if (size(command%show) > 0) options%viewer => show
+         end if
+         call solve_history(model, options, reporter, history, status, store, recorder, observations, frames)
          if (last_frame(history) == 0) call note_older_results(output_folder(command), model%deck_path, model%provenance)
          call print_messages(command%quiet, n_printed + 1, command%json)
          associate (n => last_frame(history))
             if (n > 0) call agree_on_outcome(status, history%frames(n), history%ending%is_early)
             code = status%code
+            if (n == 0 .and. .not. command%quiet) call print_page(show%page, output_unit)
             if (n > 0) then
                call take_threads(command)           ! the other ranks have nothing more to do
-               call write_run(command, reporter, model, history, code)
+               call write_run(command, reporter, model, history, show, code)
             end if
             if (.not. is_ok(status)) call print_status(status, model%deck_path, command%json)
             if (n == 0) return
@@ -211,16 +221,17 @@ contains
       call set_status(status, STATUS_NOT_CONVERGED, text//'; the last iterate is written')
    end subroutine agree_on_outcome
 
-   subroutine write_run(command, reporter, model, history, code)
+   subroutine write_run(command, reporter, model, history, show, code)
       type(command_t), intent(in) :: command
       type(reporter_t), intent(in) :: reporter
       type(model_t), intent(in) :: model
       type(history_t), intent(in) :: history
+      type(show_t), intent(in) :: show              !< what --show has seen
       integer, intent(inout) :: code
       type(status_t) :: status
       type(folder_claim_t) :: claim
       type(page_t) :: page
-      type(string_t), allocatable :: written(:), pictures(:)
+      type(string_t), allocatable :: written(:), pictures(:), drawn(:)
       character(len=:), allocatable :: folder
       integer(ip) :: n_printed
 
@@ -232,7 +243,7 @@ contains
       call claim_folder(folder, claim, status, silent=command%json)
       if (is_ok(status)) call check_files(command, model, status)    ! an hour may have passed
       if (is_ok(status)) call write_results(model, history, int(command%digits), folder, written, status, pictures, &
-                                            command%is_csv)
+                                            command%is_csv, show%tables)
       if (.not. is_ok(status)) then
          call release_folder(claim)
          call print_status(status, model%deck_path, command%json)
@@ -242,6 +253,10 @@ contains
       if (command%plot) then
          call report_phase(reporter, 'plot  '//plot_folder(folder))
          call write_plots(model, history, folder, command%view, pictures)
+         if (allocated(show%tables)) then
+            call draw_shown(folder, show%tables, drawn)
+            pictures = [pictures, drawn]
+         end if
       end if
       if (command%report) call make_run_report(command, model, history, written, pictures)
       call write_others(command, model, history, folder, status)
@@ -254,6 +269,7 @@ contains
       if (command%quiet) return
       call compose_summary(model, history, folder, written, page, pictures)
       call print_page(page, output_unit)
+      call print_page(show%page, output_unit)
    end subroutine write_run
 
    !> Reads a deck and builds its model. All messages are printed; errors of the deck give STATUS_DECK.

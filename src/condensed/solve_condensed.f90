@@ -95,6 +95,7 @@ contains
       call set_right_hand_sides(problem%fem, store%bodies, b, problem%rows, problem%line, problem%value, problem%f, qp)
       if (has_position(problem, qp%h)) qp%g0 = qp%g0 + matmul(qp%g, problem%last%state%a)
       qp%is_coarse = controls%is_coarse
+      qp%is_logged = controls%logs_solves
       call solve_line(problem, controls, qp, b, solution, status)
       call stop_phase('iterate')
       if (.not. is_ok(status)) call explain_failure(problem, qp, solution, status)

@@ -10,6 +10,7 @@ module atrito_scene_data
    use atrito_contact_problem, only: average_entries, build_line, set_known_points
    use atrito_contact_rows, only: contact_rows_t, allow_overlap, build_rows
    use atrito_contact_scales, only: had_t
+   use atrito_contact_solution, only: contact_solution_t
    use atrito_controls, only: METHOD_ANDERSON
    use atrito_held_points, only: straighten_held_points
    use atrito_kinds, only: ip, lp, wp
@@ -31,8 +32,8 @@ module atrito_scene_data
    use atrito_turning_rows, only: balance_rows
    implicit none (type, external)
    private
-   public :: scene_data_t, solve_options_t, distribution_t, prepare, set_time, assemble, drop_assembled, free_load, reload, &
-             check_known_points, forces_at_end
+   public :: scene_data_t, solve_options_t, distribution_t, viewer_t, prepare, set_time, assemble, drop_assembled, free_load, &
+             reload, check_known_points, forces_at_end
 
    !> How a scene in the sparse form is distributed over several processes. What extends this type assembles the matrix in parts,
    !> one a process, and has each process recover the stresses of its elements; all else is done in this process, which is all there
@@ -46,6 +47,13 @@ module atrito_scene_data
       procedure(begin_recovery), deferred :: begin_fields
       procedure(end_recovery), deferred :: end_fields
    end type distribution_t
+
+   !> Who looks at how small scenes are solved (--show): an increment keeps what it has made until it was viewed.
+   type, abstract :: viewer_t
+   contains
+      procedure(check_scene), deferred :: check
+      procedure(view_increment), deferred :: view
+   end type viewer_t
 
    !> The problem of an increment, and what it was made from.
    type, extends(problem_t) :: scene_data_t
@@ -68,6 +76,7 @@ module atrito_scene_data
       type(had_t) :: had                                    !< the largest so far
       type(uniqueness_t), allocatable :: certificate        !< of the flexibility that is there
       real(wp), pointer :: before(:, :) => null()           !< (2, n_nodes) displacements of the increment before [L]
+      class(viewer_t), pointer :: viewer => null()          !< not associated: nobody looks
    end type scene_data_t
 
    !> What the user asks for.
@@ -78,6 +87,7 @@ module atrito_scene_data
       integer(ip) :: starts = 0                             !< of a search for other solutions; 0: as the deck asks
       integer(lp) :: memory = huge(1_lp)                    !< bytes, of each process; what the machine has counts where it is less
       class(distribution_t), allocatable :: distribution    !< of a scene that it pays off for; not allocated: none
+      class(viewer_t), pointer :: viewer => null()          !< not associated: nobody looks
    end type solve_options_t
 
    abstract interface
@@ -129,6 +139,23 @@ module atrito_scene_data
          real(wp), intent(out) :: strain_bound              !< no strain is larger than this
       end subroutine end_recovery
 
+      !> Before anything is solved. status: STATUS_USAGE where what is to be seen cannot be.
+      subroutine check_scene(self, data, status)
+         import :: viewer_t, scene_data_t, status_t
+         class(viewer_t), intent(inout) :: self
+         class(scene_data_t), intent(in) :: data
+         type(status_t), intent(inout) :: status
+      end subroutine check_scene
+
+      !> An increment was solved, or tried; of one without a solution there may be nothing but the scene.
+      subroutine view_increment(self, data, results, solution)
+         import :: viewer_t, scene_data_t, results_t, contact_solution_t
+         class(viewer_t), intent(inout) :: self
+         class(scene_data_t), intent(in) :: data
+         type(results_t), intent(in) :: results
+         type(contact_solution_t), intent(in) :: solution
+      end subroutine view_increment
+
    end interface
 
 contains
@@ -155,6 +182,7 @@ contains
       data%solver_kind = asked%solver_kind
       data%starts = merge(asked%starts, data%step%controls%starts, asked%starts > 0)
       data%wants_element_errors = asked%element_errors
+      data%viewer => asked%viewer
       ! all bodies in one matrix: none is numbered for a profile of its own
       if (data%contact_form == CONTACT_SPARSE) data%solver_kind = SOLVER_SPARSE
       call take_numbering(store, data%held, data%points, data%solver_kind, data%fem, known, model%bilateral)

@@ -11,7 +11,9 @@ module atrito_write_results
    use atrito_model, only: model_t
    use atrito_version, only: PROGRAM_VERSION
    use atrito_results, only: history_t
-   use atrito_write_tables, only: write_tables, write_timing, list_table_files
+   use atrito_table, only: table_t
+   use atrito_table_text, only: write_table
+   use atrito_write_tables, only: write_tables, write_timing, list_table_files, origin_of
    use atrito_write_fields, only: write_fields, list_field_files
    use atrito_listing, only: write_listing
    use atrito_plot_files, only: remove_plots, PLOTS_OF_RUN
@@ -37,7 +39,7 @@ contains
    !> does not write, its pictures and its report too.
    !>
    !> status: STATUS_FILE, and then what the folder held before is untouched.
-   subroutine write_results(model, history, digits, folder, written, status, pictures, is_csv)
+   subroutine write_results(model, history, digits, folder, written, status, pictures, is_csv, shown)
       type(model_t), intent(in) :: model
       type(history_t), intent(in) :: history            !< with frames
       integer, intent(in) :: digits                     !< significant digits of the tables, 6..17
@@ -46,9 +48,12 @@ contains
       type(status_t), intent(out) :: status
       type(string_t), intent(in), optional :: pictures(:)    !< that will be drawn after this, for the listing
       logical, intent(in), optional :: is_csv                !< tables as comma-separated values; left out: .false.
+      type(table_t), intent(in), optional :: shown(:)        !< further tables, of --show
       type(file_set_t) :: set
       type(string_t), allocatable :: stale(:)
+      type(table_t) :: table
       logical :: as_csv
+      integer :: i
 
       as_csv = .false.
       if (present(is_csv)) as_csv = is_csv
@@ -57,6 +62,12 @@ contains
       if (.not. is_ok(status)) return
       call start_phase('write')
       call write_tables(model, history, digits, set, status, as_csv)
+      if (present(shown)) then
+         do i = 1, size(shown)
+            table = shown(i)
+            if (is_ok(status)) call write_table(set, table, origin_of(model, history), digits, status, as_csv)
+         end do
+      end if
       if (is_ok(status)) call write_fields(model, history, set, status)
       if (is_ok(status)) call write_deck_as_run(model, set, status)
       call stop_phase('write')
@@ -133,7 +144,7 @@ contains
       type(string_t), allocatable :: fields(:)
       integer(ip) :: i
 
-      names = list_table_files()
+      names = list_table_files(folder)
       fields = list_field_files(model)
       do i = 1, size(fields, kind=ip)
          call append_string(names, fields(i)%s)

@@ -11,7 +11,7 @@ module atrito_solve_history
    use atrito_bound_qp, only: bound_qp_t, box_bounds_t, box_state_t, FREE, FROZEN
    implicit none (type, external)
    private
-   public :: solve_history_t, record_solve, restart_history, begin_outer, end_outer, state_letters, OUTER_KEPT
+   public :: solve_history_t, solve_log_t, record_solve, restart_history, begin_outer, end_outer, state_letters, OUTER_KEPT
 
    integer(ip), parameter :: OUTER_KEPT = 8          !< outer iterations whose states are kept
    !> State of a point: open, closed without a tangential unknown, sticking, slipping along T and against it.
@@ -19,6 +19,13 @@ module atrito_solve_history
    character(len=1), parameter :: LETTERS(5) = ['o', 'c', '=', '+', '-']
    !> State of a closed point by that of its tangential unknown.
    integer(ip), parameter :: BY_TANGENTIAL(FREE:FROZEN) = [IS_STUCK, SLIPS_AGAINST, SLIPS_ALONG, IS_CLOSED]
+
+   !> The first MOST_LOGGED linear solves in full, where they are asked for (bound_qp_t%is_logged).
+   type :: solve_log_t
+      integer(ip), allocatable :: states(:, :)       !< (n_normal, MOST_LOGGED) of points, as state_letters has them; 0: no point
+      real(wp), allocatable :: q(:, :), upper(:, :)  !< (m, MOST_LOGGED) forces and their upper bounds [F]
+   end type solve_log_t
+   integer(ip), parameter :: MOST_LOGGED = 500
 
    type :: solve_history_t
       integer(ip) :: n = 0
@@ -29,6 +36,7 @@ module atrito_solve_history
       integer(ip), allocatable :: tangential_of(:)   !< (n_normal) tangential unknown of the same point; 0: none; < 0: no contact
       integer(ip), allocatable :: states(:, :)       !< (n_normal, OUTER_KEPT) at the end of the last outer iterations, oldest first
       integer(ip) :: kept = 0                        !< of them there are
+      type(solve_log_t) :: log                       !< its arrays are not allocated where nobody asked for it
    end type solve_history_t
 
 contains
@@ -93,7 +101,27 @@ contains
       if (history%n == size(history%records)) history%records = [history%records, history%records]   ! doubled
       history%n = history%n + 1
       history%records(history%n) = record
+      if (problem%is_logged .and. history%n <= MOST_LOGGED) call log_solve(bounds, state, history)
    end subroutine record_solve
+
+   !> Keeps the last solve.
+   pure subroutine log_solve(bounds, state, history)
+      type(box_bounds_t), intent(in) :: bounds
+      type(box_state_t), intent(in) :: state        !< after the solve
+      type(solve_history_t), intent(inout) :: history
+      integer(ip) :: m
+
+      m = size(state%q, kind=ip)
+      associate (log => history%log, n => history%n)
+         if (.not. allocated(log%q)) then
+            allocate (log%states(size(history%states, 1), MOST_LOGGED), source=0_ip)
+            allocate (log%q(m, MOST_LOGGED), log%upper(m, MOST_LOGGED), source=0.0_wp)
+         end if
+         log%states(:, n) = history%states(:, max(history%kept, 1_ip))
+         log%q(:, n) = state%q
+         log%upper(:, n) = bounds%upper
+      end associate
+   end subroutine log_solve
 
    !> |now - before|/|now| in the largest norm; 0 where there is nothing now.
    pure real(wp) function relative_change(now, before) result(change)

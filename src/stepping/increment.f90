@@ -64,11 +64,13 @@ contains
 
       controls = data%step%controls
       if (asked_form == CONTACT_AUTO) controls%most_entries = MOST_ENTRIES
+      controls%logs_solves = associated(data%viewer)
       call solve_one_form(data, data%contact_form, controls, store, results, solution, status)
       if (results%scene%near_elements .and. .not. is_solved(results, status)) then
          call solve_without_near(data, controls, store, results, solution, status)
       end if
       if (is_ok(status) .and. .not. is_solved(results, status)) call climb(data, asked_form, controls, store, results, solution)
+      if (associated(data%viewer)) call data%viewer%view(data, results, solution)
       if (.not. data%keeps) call release_condensed(data, store)
       if (.not. is_solved(results, status)) call explain_range(data, results, status)
    end subroutine solve_increment

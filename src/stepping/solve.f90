@@ -67,6 +67,7 @@ contains
          if (is_ok(status)) call check_scene(model, options%memory, scene, status)
       end if
       if (is_ok(status)) call check_known_points(data, status)
+      if (is_ok(status) .and. associated(data%viewer)) call data%viewer%check(data, status)
    end subroutine begin_scene
 
    !> The memory of all processes is asked for before their parts are made, for METIS, which cuts the scene, ends the program when
@@ -104,6 +105,7 @@ contains
       if (is_ok(status)) then
          data%reporter = reporter
          call report_place(reporter, 'solve', is_phase=.true.)
+         data%keeps = associated(data%viewer)               ! C and G of the bodies, which it looks at
          call note_method(data, model%steps(1:1))
          data%keeps = data%starts > 0
          call solve_increment(data, options%contact_form, store, results, solution, status)

@@ -2,32 +2,36 @@
 !>
 !> A number differs if |a-b| > rtol S + atol, S the largest |value| of its column over all increments; of its quantity and pair in
 !> summary.tab; of its contact pair and step for pressure, shear and slip; of its pair in history.tab; of a family of columns in
-!> bodies.tab, joints.tab, sections.tab and history.tab. Integers and words must be equal; nan equals nan. timing and iterations
-!> are left out; the equilibrium residual must be small in both.
+!> bodies.tab, joints.tab, sections.tab and history.tab. A column may have rules of its own
+!> (atrito_compare_rules). Integers and words must be equal; nan equals nan. timing and iterations are left out; the equilibrium
+!> residual must be small in both.
 module atrito_compare
    use atrito_kinds, only: ip, wp
    use atrito_strings, only: string_t, append_string, to_text, join
    use atrito_status, only: status_t, set_status, is_ok, STATUS_FILE, STATUS_OK, STATUS_USAGE
+   use atrito_compare_heads, only: heads_t, tell_heads
+   use atrito_compare_rules, only: rule_t, rules_t, rule_of, takes_table, ANY_NAME, COMPARED_TABLES
    use atrito_column_scales, only: kind_of, columns_of_scale, row_scales, summary_scales, moment_scale, is_of_pair, is_number
    use atrito_files, only: file_exists, is_folder
    use atrito_page, only: page_t, begin_page, add_line, plural
    use atrito_read_table, only: table_file_t, read_table, table_path, find_column, item_text, ITEM_WORD, ITEM_INTEGER, ITEM_NAN
-   use atrito_write_tables, only: TABLE_NAMES
    implicit none (type, external)
    private
    public :: comparison_t, begin_comparison, compare_paths, compare_tables, DEFAULT_RTOL, DEFAULT_ATOL
 
    real(wp), parameter :: DEFAULT_RTOL = 1.0e-6_wp, DEFAULT_ATOL = 0.0_wp
    real(wp), parameter :: LARGEST_RESIDUAL = 1.0e-8_wp  !< of the equilibrium; its digits are rounding
-   integer, parameter :: MOST_LINES = 20                !< differences printed; the rest is counted
+   integer, parameter :: MOST_LINES = 20, MOST_KEPT = 1000 !< differences printed, kept; the rest is counted
    !> Tables of times and iterations: their numbers depend on the machine and on the method, not on the solution.
    character(len=*), parameter :: LEFT_OUT(2) = [character(len=10) :: 'timing', 'iterations']
 
    !> A comparison while it goes on.
    type :: comparison_t
-      real(wp) :: rtol = DEFAULT_RTOL, atol = DEFAULT_ATOL
+      type(rules_t) :: rules = rules_t(DEFAULT_RTOL, DEFAULT_ATOL)
       integer(ip) :: n_tables = 0, n_values = 0, n_differences = 0
       type(string_t), allocatable :: left_out(:)    !< names of tables
+      type(string_t), allocatable :: differences(:) !< all that are kept, in words
+      type(heads_t) :: heads
       type(page_t) :: page                          !< what is to be printed
    end type comparison_t
 
@@ -39,9 +43,9 @@ contains
       real(wp), intent(in) :: rtol                  !< 0..1
       real(wp), intent(in) :: atol                  !< >= 0, in the dimension of each column
 
-      comparison%rtol = rtol
-      comparison%atol = atol
-      allocate (comparison%left_out(0))
+      comparison%rules%rtol = rtol
+      comparison%rules%atol = atol
+      allocate (comparison%left_out(0), comparison%differences(0))
       call begin_page(comparison%page, 100)
    end subroutine begin_comparison
 
@@ -97,13 +101,13 @@ contains
       logical :: there(2)
       integer :: i
 
-      do i = 1, size(TABLE_NAMES)
-         file_a = table_path(a, trim(TABLE_NAMES(i)))
-         file_b = table_path(b, trim(TABLE_NAMES(i)))
+      do i = 1, size(COMPARED_TABLES)
+         file_a = table_path(a, trim(COMPARED_TABLES(i)))
+         file_b = table_path(b, trim(COMPARED_TABLES(i)))
          there = are_there(file_a, file_b)
          if (.not. any(there)) cycle
-         if (any(LEFT_OUT == TABLE_NAMES(i))) then
-            call append_string(comparison%left_out, trim(TABLE_NAMES(i)))
+         if (any(LEFT_OUT == COMPARED_TABLES(i)) .or. .not. takes_table(comparison%rules, trim(COMPARED_TABLES(i)))) then
+            call append_string(comparison%left_out, trim(COMPARED_TABLES(i)))
          else if (.not. all(there)) then
             call report_missing(comparison, file_a, file_b, there)
          else
@@ -125,6 +129,7 @@ contains
       call read_table(a, table_a, status)
       if (is_ok(status)) call read_table(b, table_b, status)
       if (.not. is_ok(status)) return
+      call tell_heads(table_a, table_b, comparison%heads, comparison%page)
       if (any(LEFT_OUT == kind_of(table_a)) .and. kind_of(table_a) == kind_of(table_b)) then
          call append_string(comparison%left_out, kind_of(table_a))
       else
@@ -141,10 +146,11 @@ contains
 
       comparison%n_tables = comparison%n_tables + 1
       before = comparison%n_differences
-      if ((a%not_converged .neqv. b%not_converged) .and. .not. (a%is_csv .or. b%is_csv)) then
+      if ((a%not_converged .neqv. b%not_converged) .and. a%has_head .and. b%has_head) then
          call report(comparison, a%name//': NOT CONVERGED in the '//trim(merge('first ', 'second', a%not_converged))//' only')
       end if
       call match_columns(a, b, comparison, column_in_b)
+      call tell_unused(a, comparison)
       if (kind_of(a) == kind_of(b) .and. has_quantities(a)) then
          call compare_summaries(a, b, comparison)
          return
@@ -157,6 +163,34 @@ contains
          if (column_in_b(column) > 0) call compare_columns(a, b, column, column_in_b(column), comparison)
       end do
    end subroutine compare_tables
+
+   !> A rule for a column that the table has not would be of no use, unseen.
+   subroutine tell_unused(a, comparison)
+      type(table_file_t), intent(in) :: a
+      type(comparison_t), intent(inout) :: comparison
+      integer(ip) :: i, k, quantity
+
+      if (.not. allocated(comparison%rules%list)) return
+      quantity = merge(find_column(a, 'quantity'), 0_ip, has_quantities(a))
+      do i = 1, size(comparison%rules%list, kind=ip)
+         associate (rule => comparison%rules%list(i))
+            if (rule%table /= stem(a) .or. rule%column == ANY_NAME) cycle
+            if (quantity == 0 .and. find_column(a, rule%column) > 0) cycle
+            if (quantity > 0) then
+               if (any([(item_text(a, quantity, k) == rule%column, k=1, a%n_rows)])) cycle
+            end if
+            call report(comparison, a%name//': there is no '//rule%column//', of which --tolerances or --ignore tells')
+         end associate
+      end do
+   end subroutine tell_unused
+
+   !> The name of a table: that of its file without the ending.
+   pure function stem(table) result(name)
+      type(table_file_t), intent(in) :: table
+      character(len=:), allocatable :: name
+
+      name = table%name(:index(table%name//'.', '.') - 1)
+   end function stem
 
    !> Place in b of each column of a; 0 and a difference where there is none. The order counts too: scripts use it.
    subroutine match_columns(a, b, comparison, column_in_b)
@@ -223,7 +257,12 @@ contains
       integer :: kind_a, kind_b
       real(wp) :: half_difference, half_allowed
       character(len=:), allocatable :: text, name
+      type(rule_t) :: rule
 
+      name = a%columns(at_a(1))%s
+      if (has_quantities(a)) name = item_text(a, find_column(a, 'quantity'), at_a(2))
+      rule = rule_of(comparison%rules, stem(a), name)
+      if (rule%is_left_out) return
       comparison%n_values = comparison%n_values + 1
       kind_a = a%kind(at_a(1), at_a(2))
       kind_b = b%kind(at_b(1), at_b(2))
@@ -233,7 +272,7 @@ contains
          ! halves, since the difference of two huge numbers overflows
          half_difference = abs(0.5_wp*a%value(at_a(1), at_a(2)) - 0.5_wp*b%value(at_b(1), at_b(2)))
          half_allowed = 0.0_wp
-         if (.not. exact) half_allowed = comparison%rtol*(0.5_wp*scale) + 0.5_wp*comparison%atol
+         if (.not. exact) half_allowed = rule%rtol*(0.5_wp*scale) + 0.5_wp*rule%atol
          if (half_difference <= half_allowed) return
          if (half_difference < 0.25_wp*huge(half_difference)) text = text//', differ by '//to_text(2.0_wp*half_difference, 3)
          if (exact) then
@@ -244,8 +283,6 @@ contains
       else if (kind_a == ITEM_WORD .and. kind_b == ITEM_WORD) then
          if (item_text(a, at_a(1), at_a(2)) == item_text(b, at_b(1), at_b(2))) return
       end if
-      name = a%columns(at_a(1))%s
-      if (has_quantities(a)) name = item_text(a, find_column(a, 'quantity'), at_a(2))
       call report(comparison, a%name//', '//row_name(a, at_a(2))//', '//name//': '//text)
    end subroutine compare_items
 
@@ -309,12 +346,15 @@ contains
       integer(ip), intent(in) :: row_a, row_b
       real(wp), intent(in) :: scale
       type(comparison_t), intent(inout) :: comparison
+      type(rule_t) :: rule
       integer(ip) :: i, j
       logical :: exact
 
       i = find_column(a, 'value')
       j = find_column(b, 'value')
       if (item_text(a, find_column(a, 'quantity'), row_a) == 'equilibrium_residual') then
+         rule = rule_of(comparison%rules, stem(a), 'equilibrium_residual')
+         if (rule%is_left_out) return
          comparison%n_values = comparison%n_values + 1
          if (is_small(a, i, row_a) .and. is_small(b, j, row_b)) return
          call report(comparison, a%name//', equilibrium_residual: '//item_text(a, i, row_a)//' / '//item_text(b, j, row_b)// &
@@ -372,6 +412,7 @@ contains
 
       comparison%n_differences = comparison%n_differences + 1
       if (comparison%n_differences <= MOST_LINES) call add_line(comparison%page, text)
+      if (comparison%n_differences <= MOST_KEPT) call append_string(comparison%differences, text)
    end subroutine report
 
    !> The last lines and the outcome.

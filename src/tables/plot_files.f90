@@ -16,7 +16,7 @@ module atrito_plot_files
    public :: list_plots, check_scripts, open_data
    public :: picture_endings, LOG_NAME, MESH_PLOT, OVERLAY_PLOT, OVERLAY_SUMMARY, CONTACT_PLOT, STUDY_PLOT, LIMIT_PLOT, &
              MECHANISM_PLOT, JOINT_PLOT, HISTORY_PLOT, LOOP_PLOT, MOTION_PLOT, TRACTION_PLOT, CONTOUR_PLOTS, SYMBOLS_OF, &
-             SCENE_PLOT, SET_PLOT, GAP_PLOT, PATH_PLOT
+             SCENE_PLOT, SET_PLOT, GAP_PLOT, PATH_PLOT, SHOWN_PLOTS
 
    character(len=*), parameter :: MESH_PLOT = 'mesh', OVERLAY_SUMMARY = 'overlay-summary', STUDY_PLOT = 'study', &
                                   LIMIT_PLOT = 'limit', MECHANISM_PLOT = 'mechanism', JOINT_PLOT = 'joints', &
@@ -28,11 +28,14 @@ module atrito_plot_files
    character(len=*), parameter :: SYMBOLS_OF = '-symbols'  !< behind the name of a picture: the data of its symbols
    !> What `check --plot` draws.
    character(len=*), parameter :: SCENE_PLOT = 'scene', SET_PLOT = 'sets', GAP_PLOT = 'pairs'
+   !> What a run draws of --show.
+   character(len=11), parameter :: SHOWN_PLOTS(3) = ['show-matrix', 'show-picard', 'show-law   ']
    !> Whose a picture is: what another command drew into the same folder stays.
    integer, parameter :: PLOTS_OF_RUN = 1, PLOTS_OF_SWEEP = 2, PLOTS_OF_STUDY = 3, PLOTS_OF_LIMIT = 4, PLOTS_OF_CHECK = 5
-   character(len=20), parameter :: PICTURES(21) = [character(len=20) :: &
+   character(len=20), parameter :: PICTURES(24) = [character(len=20) :: &
                   OVERLAY_SUMMARY, STUDY_PLOT, LIMIT_PLOT, MECHANISM_PLOT, SCENE_PLOT, SET_PLOT, GAP_PLOT, SCENE_PLOT//SYMBOLS_OF, &
-                   MESH_PLOT, MESH_PLOT//SYMBOLS_OF, JOINT_PLOT, HISTORY_PLOT, LOOP_PLOT, MOTION_PLOT, TRACTION_PLOT, CONTOUR_PLOTS]
+                                MESH_PLOT, MESH_PLOT//SYMBOLS_OF, JOINT_PLOT, HISTORY_PLOT, LOOP_PLOT, MOTION_PLOT, TRACTION_PLOT, &
+                                                   CONTOUR_PLOTS, SHOWN_PLOTS]
    integer, parameter :: OWNER(size(PICTURES)) = [PLOTS_OF_SWEEP, PLOTS_OF_STUDY, spread(PLOTS_OF_LIMIT, 1, 2), &
                                                   spread(PLOTS_OF_CHECK, 1, 4), spread(PLOTS_OF_RUN, 1, size(PICTURES) - 8)]
    character(len=*), parameter :: CONTACT_PLOT = 'contact-', OVERLAY_PLOT = 'overlay-'   !< and the number of the pair

@@ -8,18 +8,23 @@ module atrito_read_table
    use atrito_csv_text, only: is_formula, NO_FORMULA
    use atrito_files, only: read_file, file_exists
    use atrito_utf8, only: has_controls
-   use atrito_table, only: MARK_COLUMNS, MARK_NOT_CONVERGED, TAB_ENDING, CSV_ENDING
+   use atrito_table, only: MARK_COLUMNS, MARK_NOT_CONVERGED, TAB_ENDING, CSV_ENDING, HEAD_ENDING
    implicit none (type, external)
    private
    public :: table_file_t, read_table, parse_table, table_path, find_column, item_text
-   public :: ITEM_WORD, ITEM_INTEGER, ITEM_REAL, ITEM_NAN
+   public :: ITEM_WORD, ITEM_INTEGER, ITEM_REAL, ITEM_NAN, HEAD_NAMES
 
    integer, parameter :: ITEM_WORD = 0, ITEM_INTEGER = 1, ITEM_REAL = 2, ITEM_NAN = 3
+
+   !> What the head says of where a table comes from.
+   character(len=10), parameter :: HEAD_NAMES(4) = ['deck      ', 'parameters', 'options   ', 'digest    ']
 
    !> A table as it stands in its file.
    type :: table_file_t
       character(len=:), allocatable :: name            !< file name without folder
-      logical :: is_csv = .false.                      !< it has no head: whether the run converged it does not tell
+      logical :: is_csv = .false.                      !< its head is a file beside it
+      logical :: has_head = .false.                    !< else it does not tell whether the run converged, and of what
+      type(string_t) :: head(size(HEAD_NAMES))         !< what it says; %s not allocated: nothing
       logical :: not_converged = .false.
       type(string_t), allocatable :: columns(:)        !< their names
       integer(ip) :: n_columns = 0, n_rows = 0
@@ -57,6 +62,12 @@ contains
       if (.not. is_ok(status)) return
       call parse_table(text, path(index(path, '/', back=.true.) + 1:), table, status)
       if (.not. is_ok(status)) call set_status(status, STATUS_FILE, path//': '//status%text)
+      if (.not. (is_ok(status) .and. table%is_csv)) return
+      associate (beside => path(:len(path) - len(CSV_ENDING))//HEAD_ENDING)
+         if (.not. file_exists(beside)) return
+         call read_file(beside, text, status)
+         if (is_ok(status)) call read_head(text, table)
+      end associate
    end subroutine read_table
 
    !> Takes the text of a table apart. status: STATUS_FILE and a reason without the file's name.
@@ -230,16 +241,39 @@ contains
 
       n_rows = 0
       first = 1
+      call read_head(table%text, table)
       do while (first <= len(table%text))
          last = end_of_line(table%text, first)
          associate (line => table%text(first:last))
             if (is_row(line, .false.)) n_rows = n_rows + 1
-            if (index(line, MARK_NOT_CONVERGED) == 1) table%not_converged = .true.
             if (index(line, MARK_COLUMNS) == 1) call read_names(line(len(MARK_COLUMNS) + 1:), table%columns)
          end associate
          first = last + 2
       end do
    end subroutine read_comments
+
+   !> The mark of a run that did not converge, and what the head says of it: the first comment lines of a text.
+   pure subroutine read_head(text, table)
+      character(len=*), intent(in) :: text
+      type(table_file_t), intent(inout) :: table
+      integer :: first, last, i
+
+      table%has_head = .true.
+      first = 1
+      do while (first <= len(text))
+         last = end_of_line(text, first)
+         if (text(first:first) /= '#') exit
+         associate (line => text(first:last))
+            if (index(line, MARK_NOT_CONVERGED) == 1) table%not_converged = .true.
+            do i = 1, size(HEAD_NAMES)
+               associate (mark => '# '//trim(HEAD_NAMES(i))//': ')
+                  if (index(line, mark) == 1) table%head(i)%s = trim(line(len(mark) + 1:))
+               end associate
+            end do
+         end associate
+         first = last + 2
+      end do
+   end subroutine read_head
 
    subroutine read_names(line, names)
       character(len=*), intent(in) :: line

@@ -7,10 +7,11 @@ module atrito_table
    implicit none (type, external)
    private
    public :: table_t, column_t, origin_t, begin_table, begin_step_table, add_reals, add_field, add_integers, add_integer_field, &
-             add_words, add_real_columns, clear_small, abs_is_below, one_word, TAB_ENDING, CSV_ENDING
+             add_words, add_real_columns, clear_small, abs_is_below, one_word, TAB_ENDING, CSV_ENDING, HEAD_ENDING
    public :: MARK_NOT_CONVERGED, MARK_COLUMNS, MARK_DIMENSIONS, ZERO_SHARE, KIND_REAL, KIND_INTEGER, KIND_WORD
 
    character(len=*), parameter :: TAB_ENDING = '.tab', CSV_ENDING = '.csv'   !< of the two forms of a table file
+   character(len=*), parameter :: HEAD_ENDING = '.head'     !< of the head of comma-separated values, a file beside them
    character(len=*), parameter :: MARK_NOT_CONVERGED = '# NOT CONVERGED'
    character(len=*), parameter :: MARK_COLUMNS = '# columns:'
    character(len=*), parameter :: MARK_DIMENSIONS = '# dimensions:'

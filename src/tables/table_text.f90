@@ -10,7 +10,7 @@ module atrito_table_text
    use atrito_threads, only: n_threads, is_shared
    use atrito_number_text, only: put_reals, put_integers, real_width, integer_width
    use atrito_table, only: table_t, column_t, origin_t, MARK_NOT_CONVERGED, MARK_COLUMNS, MARK_DIMENSIONS, TAB_ENDING, &
-                           CSV_ENDING, KIND_REAL, KIND_INTEGER, KIND_WORD
+                           CSV_ENDING, HEAD_ENDING, KIND_REAL, KIND_INTEGER, KIND_WORD
    use atrito_utf8, only: visible
    implicit none (type, external)
    private
@@ -27,6 +27,7 @@ module atrito_table_text
       private
       type(table_t) :: head                        !< without rows
       type(text_file_t) :: file
+      type(text_file_t) :: head_file               !< of comma-separated values
       logical :: is_csv = .false., has_top = .false.
    end type growing_table_t
 
@@ -92,6 +93,7 @@ contains
       logical, intent(in), optional :: is_csv       !< left out: .false.
 
       if (present(is_csv)) file%is_csv = is_csv
+      if (file%is_csv) call open_text(set, name//HEAD_ENDING, file%head_file)
       call open_text(set, name//merge(CSV_ENDING, TAB_ENDING, file%is_csv), file%file)
    end subroutine open_table
 
@@ -108,7 +110,12 @@ contains
          if (.not. allocated(file%head%columns)) call measure_rows(file, piece, digits)
          if (present(remarks)) file%head%remarks = remarks
          call place_columns(file%head)
-         call write_top(file%file, file%head, origin, file%is_csv)
+         if (file%is_csv) then
+            call write_top(file%head_file, file%head, origin)
+            call put_csv_names(file%file, file%head)
+         else
+            call write_top(file%file, file%head, origin)
+         end if
          file%has_top = .true.
       end if
       do i = 1, size(piece%columns)
@@ -123,7 +130,11 @@ contains
       type(growing_table_t), intent(inout) :: file
       type(status_t), intent(out) :: status
 
+      type(status_t) :: of_head
+
+      if (file%is_csv) call close_text(file%head_file, of_head)
       call close_text(file%file, status)
+      if (is_ok(status)) status = of_head
    end subroutine close_table
 
    !> Writes tables into a folder, all or none; those of the other form that stand there go. status: STATUS_FILE.
@@ -144,6 +155,7 @@ contains
          if (is_ok(status)) call write_table(set, tables(i), origin, digits, status, is_csv)
          call append_string(stale, tables(i)%name//TAB_ENDING)
          call append_string(stale, tables(i)%name//CSV_ENDING)
+         call append_string(stale, tables(i)%name//HEAD_ENDING)
       end do
       call end_files(set, status, stale)
    end subroutine write_table_set
@@ -200,17 +212,12 @@ contains
       !$omp end parallel do
    end function width_of_integers
 
-   subroutine write_top(file, table, origin, csv)
+   subroutine write_top(file, table, origin)
       type(text_file_t), intent(inout) :: file
       type(table_t), intent(in) :: table
       type(origin_t), intent(in) :: origin
-      logical, intent(in) :: csv
       integer :: i
 
-      if (csv) then
-         call put_csv_names(file, table)
-         return
-      end if
       if (allocated(origin%ending)) then
          call put_line(file, visible(MARK_NOT_CONVERGED//': '//origin%ending))
       else if (origin%not_converged) then

@@ -4,6 +4,7 @@ module atrito_write_tables
    use atrito_strings, only: string_t, append_string, to_text
    use atrito_status, only: status_t, is_ok
    use atrito_files, only: file_set_t
+   use atrito_own_files, only: names_with
    use atrito_system, only: peak_memory
    use atrito_timers, only: phase_time_t, get_phases
    use atrito_model, only: model_t
@@ -12,17 +13,21 @@ module atrito_write_tables
    use atrito_history_tables, only: build_summary, note_quantities, dimension_remarks, build_history, build_iterations
    use atrito_increments, only: has_history, ending_text
    use atrito_summary, only: scales_t, measure_history
-   use atrito_table, only: table_t, origin_t, begin_table, add_reals, add_words, one_word, TAB_ENDING, CSV_ENDING
+   use atrito_table, only: table_t, origin_t, begin_table, add_reals, add_words, one_word, TAB_ENDING, CSV_ENDING, HEAD_ENDING
    use atrito_table_text, only: write_table, growing_table_t, measure_rows, open_table, put_table, close_table
    implicit none (type, external)
    private
-   public :: write_tables, write_timing, list_table_files, origin_of, TABLE_NAMES
+   public :: write_tables, write_timing, list_table_files, origin_of, TABLE_NAMES, SHOWN_TABLES
 
    !> Every table that atrito can write.
    character(len=12), parameter :: TABLE_NAMES(19) = [character(len=12) :: 'contact', 'summary', 'extremes', 'resultants', &
                                                       'history', 'nodes', 'reactions', 'stress', 'nodal_stress', 'bodies', &
                                                       'rigid', 'joints', 'sections', 'path', 'ties', 'equations', 'springs', &
                                                       'iterations', 'timing']
+
+   !> Those of --show.
+   character(len=12), parameter :: SHOWN_TABLES(7) = [character(len=12) :: 'show-element', 'show-matrix', 'show-line', &
+                                                                           'show-motions', 'show-states', 'show-law', 'show-picard']
 
    !> What all tables of a run have in common.
    type :: common_t
@@ -49,9 +54,12 @@ module atrito_write_tables
 
 contains
 
-   !> File names of every table that atrito can write: what a new run replaces or removes.
-   pure function list_table_files() result(names)
+   !> File names of every table that atrito can write: what a new run replaces or removes. Those of --show, and heads of
+   !> comma-separated values, as far as they are there: few runs leave any.
+   function list_table_files(folder) result(names)
+      character(len=*), intent(in) :: folder
       type(string_t), allocatable :: names(:)
+      character(len=12), parameter :: ALL_TABLES(*) = [TABLE_NAMES, SHOWN_TABLES]
       integer :: i
 
       allocate (names(2*size(TABLE_NAMES)))
@@ -59,6 +67,23 @@ contains
          names(2*i - 1)%s = trim(TABLE_NAMES(i))//TAB_ENDING
          names(2*i)%s = trim(TABLE_NAMES(i))//CSV_ENDING
       end do
+      call append_found(HEAD_ENDING, ALL_TABLES)
+      call append_found(TAB_ENDING, SHOWN_TABLES)
+      call append_found(CSV_ENDING, SHOWN_TABLES)
+
+   contains
+
+      subroutine append_found(ending, tables)
+         character(len=*), intent(in) :: ending, tables(:)
+         type(string_t), allocatable :: found(:)
+         integer :: k
+
+         found = names_with(folder, ending)
+         do k = 1, size(found)
+            if (any(tables == found(k)%s(:len(found(k)%s) - len(ending)))) call append_string(names, found(k)%s)
+         end do
+      end subroutine append_found
+
    end function list_table_files
 
    pure function origin_of_results(model, results) result(origin)

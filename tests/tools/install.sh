@@ -5,12 +5,13 @@
 DESTDIR=$work/root cmake --install "$1" --prefix /usr >"$work/said" 2>&1 || fail "cmake --install: $(tail -n 3 "$work/said")"
 usr=$work/root/usr
 for file in bin/atrito share/atrito/input/lessons/arch.inp share/man/man1/atrito.1 share/bash-completion/completions/atrito \
-   share/doc/atrito/LICENSE share/doc/atrito/CHANGELOG.md share/doc/atrito/docs/user/keywords.md; do
+   share/doc/atrito/LICENSE share/doc/atrito/CHANGELOG.md share/doc/atrito/docs/user/keywords.md bin/atrito-lab share/atrito/lab/atrito_lab/cli.py; do
    [ -s "$usr/$file" ] || fail "there is no $file"
 done
-strange=$(find "$work/root" -type f ! -path '*/bin/atrito' ! -path '*/bin/atrito-mpi' ! -path '*/share/*')
+strange=$(find "$work/root" -type f ! -path '*/bin/atrito' ! -path '*/bin/atrito-mpi' ! -path '*/bin/atrito-lab' ! -path '*/share/*')
 [ -z "$strange" ] || fail "what is $strange"
 "$usr/bin/atrito" "$usr/share/atrito/input/ex1-plate-on-support.inp" -o "$work/out" --quiet || fail 'the program does not run'
+! command -v python3 >/dev/null 2>&1 || "$usr/bin/atrito-lab" check 03-hertz >"$work/said" 2>&1 || fail "atrito-lab: $(cat "$work/said")"
 
 # Links between the installed pages; those into the sources of the program lead nowhere here.
 for page in $(find "$usr/share/doc/atrito" -name '*.md'); do

@@ -14,6 +14,7 @@ module atrito_command_line
                                   TASK_SWEEP, TASK_STUDY, TASK_LIMIT, TASK_OPTIONS, TASK_VERSION, task_named, command_names, &
                                   task_form, task_text
    use atrito_plot_view, only: plot_view_t, read_box
+   use atrito_show, only: is_view
    use atrito_compare, only: DEFAULT_RTOL, DEFAULT_ATOL
    implicit none (type, external)
    private
@@ -36,6 +37,7 @@ module atrito_command_line
       character(len=6) :: contact = 'auto'          !< one of the words of --contact
       character(len=4) :: share = 'auto'            !< one of the words of --share
       type(string_t), allocatable :: observe(:)     !< NAME=EXPRESSION of --observe, in their order
+      type(string_t), allocatable :: show(:)        !< views of --show, in their order
       type(string_t), allocatable :: vary(:)        !< NAME=v1,v2,... of --vary, in their order; of a limit NAME=a:b
       real(wp) :: limit_tolerance = 1.0e-6_wp       !< of a limit
       integer(ip) :: watched(2) = 0                 !< of a limit: node and dof; 0: the largest displacement
@@ -60,6 +62,7 @@ module atrito_command_line
       logical :: on_one_rank = .false.              !< a run of a sweep or a study, which are shared out over ranks as wholes
       logical :: json = .false.                     !< messages as JSON
       real(wp) :: rtol = DEFAULT_RTOL, atol = DEFAULT_ATOL
+      character(len=:), allocatable :: tolerances, tables, ignore !< of compare; not allocated: not given
    end type command_t
 
    !> An option as it was given.
@@ -93,7 +96,7 @@ contains
       type(string_t), allocatable :: names(:)
       integer :: i
 
-      allocate (command%settings(0), command%observe(0), command%vary(0), command%names(0), command%elements(0))
+      allocate (command%settings(0), command%observe(0), command%show(0), command%vary(0), command%names(0), command%elements(0))
       allocate (command%references(0))
       call sort_arguments(arguments, names, given, error)
       ok = .not. allocated(error%text)
@@ -275,6 +278,15 @@ contains
       case ('--restart')
          command%restart = given%value
          ok = len_trim(given%value) > 0
+      case ('--tolerances')
+         command%tolerances = given%value
+         ok = len_trim(given%value) > 0
+      case ('--tables')
+         command%tables = given%value
+         ok = len_trim(given%value) > 0
+      case ('--ignore')
+         command%ignore = given%value
+         ok = len_trim(given%value) > 0
       case ('--confine')
          command%confine = without_slash(given%value)
          ok = len(command%confine) > 0
@@ -284,6 +296,9 @@ contains
       case ('--observe')
          call append_string(command%observe, given%value)
          ok = index(given%value, '=') > 1
+      case ('--show')
+         call append_string(command%show, given%value)
+         ok = is_view(given%value)
       case ('--vary')
          call append_string(command%vary, given%value)
          ok = index(given%value, '=') > 1

@@ -82,6 +82,9 @@ module atrito_option_table
                        option_t('--plot-box', 'X1,Y1,X2,Y2', [Y, Y, N, N, N, N, Y], 'what pictures of bodies show', default='all', &
                                          expected='x1,y1,x2,y2, two corners of what pictures show; with --plot'), &
                       option_t('--plot-labels', '', [Y, Y, N, N, N, N, N], 'numbers and names in the pictures of mesh or scene'), &
+                                option_t('--show', 'VIEW', [Y, N, N, N, N, N, N], &
+                                         'a look inside a small scene, on the screen and in tables; may be repeated', &
+                                         expected='element=N, matrix, line, states, law or picard'), &
                      option_t('--report', '', [Y, N, N, N, Y, Y, Y], 'all in one page, DIR/report.html; draws the pictures, too'), &
                option_t('--restart', VALUE_FILE, [Y, N, N, N, N, N, N], 'go on behind the increment in a file of *RESTART, WRITE', &
                                          expected='a restart file of this deck, NAME.restart.h5'), &
@@ -112,6 +115,12 @@ module atrito_option_table
                                          expected='a number, 0 to 1'), &
                                 option_t('--atol', 'A', [N, N, Y, N, N, N, N], 'differences allowed, absolute', default='0', &
                                          expected='a number, not negative'), &
+                                option_t('--tolerances', VALUE_FILE, [N, N, Y, N, N, N, N], 'tolerances by table and column', &
+                                         expected='a file with a line a rule, TABLE COLUMN RTOL [ATOL], * for any'), &
+                                option_t('--tables', 'LIST', [N, N, Y, N, N, N, N], 'the tables that are compared', default='all', &
+                                         expected='names of tables, commas between them'), &
+                                option_t('--ignore', 'LIST', [N, N, Y, N, N, N, N], 'tables, or columns of them, that are not', &
+                                         expected='TABLE or TABLE.COLUMN, commas between them'), &
          option_t('--messages', 'NAME', [Y, Y, Y, Y, Y, Y, Y], 'messages on standard error as text, or one object of JSON a line', &
                                          default='text', words='text json'), &
                                 option_t('--help', '', [Y, Y, Y, Y, Y, Y, Y], 'commands, options and exit codes', short='-h'), &

@@ -39,6 +39,10 @@ module atrito_own_files
                                                     'rigid:step,body,node,', 'joints:step,pair,body_1,', 'sections:step,cut,x,y,', &
                                                  'ties:step,tie,', 'equations:step,equation,node,', 'springs:step,spring,node_1,', &
                                                         'iterations:step,outer,inner,', 'timing:phase,wall,cpu', 'runs:run,', &
+                                                        'show-element:matrix,point,row,', 'show-matrix:body,equation,', &
+                                                        'show-line:unknown,weight,', 'show-motions:motion,h', &
+                                                        'show-states:step,increment,outer,', 'show-law:pair,point,s,overlap,', &
+                                                        'show-picard:outer,pair,point,', &
                                            'study:level,element,h,dofs,', 'limit:value,code,', 'mechanism:body,name,x,y,', 'sweep:']
 
 contains
@@ -169,7 +173,7 @@ contains
       character(len=*), intent(in) :: ending
 
       select case (ending)
-      case ('.tab', '.csv', '.gp', '.dat', '.log', '.journal', '.lst', '.inp', '.xdmf', '.html')
+      case ('.tab', '.csv', '.head', '.gp', '.dat', '.log', '.journal', '.lst', '.inp', '.xdmf', '.html')
          family = IS_TEXT
       case ('.h5', '.msh')
          family = IS_BINARY
@@ -263,7 +267,7 @@ contains
       character(len=*), parameter :: LINE_FEED = achar(10)
 
       select case (ending)
-      case ('.tab')
+      case ('.tab', '.head')
          says_so = begins_with(text, '# program: '//PROGRAM)
          if (begins_with(text, '# NOT CONVERGED')) says_so = index(text, LINE_FEED//'# program: '//PROGRAM) > 0
       case ('.csv')

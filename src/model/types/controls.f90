@@ -20,6 +20,7 @@ module atrito_controls
       logical :: is_coarse = .false.                !< bound_qp_t%is_coarse: states that round-off turns to and fro
       real(wp) :: most_entries = huge(1.0_wp)       !< of C to go through, over all linear solves, before it is given up
       logical :: is_rung = .false.                  !< tried before without a solution: the increment before is no start
+      logical :: logs_solves = .false.              !< the states and forces of every linear solve are kept
    end type controls_t
 
 end module atrito_controls

@@ -18,6 +18,33 @@ sed 's/,1\r$/,2\r/' csv/contact.csv >changed.csv
 "$atrito" compare tab/contact.tab changed.csv >compare.out && complain 'changed values are the same'
 says 'compare' compare.out 'increment: 1 / 2'
 
+# heads beside comma-separated values; what the heads say is told first, and rules by table and column
+sed -n '/^#/p' tab/contact.tab >head.expected
+cmp head.expected csv/contact.head || complain 'contact.head'
+one=$input/ex1-plate-on-support.inp
+run 0 "$one" first --quiet
+run 0 "$one" second --quiet --set nu=0.31 --digits 12 --format csv
+"$atrito" compare first second >compare.out && complain 'another friction is the same'
+[ "$(head -1 compare.out)" = 'other parameters: nu = 0.3 / nu = 0.31 (--set)' ] || complain 'the heads are not told first'
+says 'options' compare.out 'other options: none / --digits 12'
+compared() { wanted=$1; shift; "$atrito" compare first second "$@" >compare.out 2>compare.err; [ $? -eq "$wanted" ] || { complain "$*"; cat compare.out; }; }
+printf '# coarse\ncontact * 1e-9\n* * 0.2\ncontact status 0  # equal\n' >rules
+compared 0 --tables contact --tolerances rules
+printf 'contact pressure 1e-9\n' >>rules
+compared 1 --tables contact --tolerances rules
+[ "$(grep -c 'pressure: ' compare.out)" -eq "$(grep -c '^contact' compare.out)" ] || complain 'other columns than that of the rule'
+compared 0 --tables contact --tolerances rules --ignore contact.pressure
+printf 'contact presure 1e-9\n' >>rules
+compared 1 --tables contact --tolerances rules --ignore contact.pressure
+says 'a column that is not there' compare.out 'there is no presure'
+compared 1 --ignore contct
+says 'a table that is not there' compare.err 'nearest: contact'
+printf 'contact pressure\n' >rules
+compared 5 --tolerances rules
+says 'no rule' compare.err 'rules, line 1 is no rule'
+compared 1 --tables summary --messages json
+says 'json' compare.err '"id":"E-DIFFERENT"'
+
 # other programs
 if command -v python3 >/dev/null; then
    python3 "$here/read.py" tab csv 2>python.err >python.out || { complain 'python'; cat python.err; }

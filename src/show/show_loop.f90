@@ -1,0 +1,173 @@
+!> --show states and --show picard: what the solver of the contact line went through. A linear solve has states of the points; an
+!> outer iteration ends with pressures, found with the friction bound that it froze.
+module atrito_show_loop
+   use atrito_contact_line, only: contact_line_t
+   use atrito_contact_solution, only: contact_solution_t
+   use atrito_kinds, only: ip, wp, HUGE_REAL
+   use atrito_page, only: page_t, add_heading, add_line, left, right
+   use atrito_points, only: contact_points_t
+   use atrito_results, only: results_t
+   use atrito_solve_history, only: state_letters
+   use atrito_strings, only: append_string, string_t, to_text
+   use atrito_table, only: table_t, add_integers, add_real_columns, add_reals, add_words, begin_table
+   implicit none (type, external)
+   private
+   public :: states_t, add_states, view_states, view_picard
+
+   character(len=*), parameter :: LETTERS = 'o open, c closed without friction, = sticking, + slipping along T, - against it'
+   character(len=8), parameter :: COLUMNS(5) = [character(len=8) :: 's', 'x', 'y', 'pressure', 'bound']
+   character(len=5), parameter :: DIMENSIONS(5) = [character(len=5) :: 'L', 'L', 'L', 'F/L^2', 'F/L^2']
+   integer, parameter :: ROOM = 55                   !< characters of states on a line of the screen
+   integer(ip), parameter :: MOST_ROWS = 2000        !< of a history
+
+   !> A row a linear solve, of all increments.
+   type :: states_t
+      integer(ip), allocatable :: numbers(:, :)      !< (4, n): step, increment, outer and inner iteration
+      real(wp), allocatable :: residual(:)           !< of the friction bound
+      type(string_t), allocatable :: letters(:)      !< of the points
+   end type states_t
+
+contains
+
+   !> Adds the solves of an increment.
+   pure subroutine add_states(results, solution, states)
+      type(results_t), intent(in) :: results
+      type(contact_solution_t), intent(in) :: solution
+      type(states_t), intent(inout) :: states
+      integer(ip), allocatable :: of_points(:)
+      integer(ip) :: i
+
+      if (.not. allocated(states%letters)) allocate (states%numbers(4, 0), states%residual(0), states%letters(0))
+      do i = 1, logged(solution)
+         if (size(states%letters) >= MOST_ROWS) exit
+         of_points = solution%history%log%states(:, i)
+         of_points = pack(of_points, of_points > 0)
+         if (size(of_points) == 0) exit
+         associate (record => solution%history%records(i))
+            states%numbers = reshape([states%numbers, results%step, results%increment, record%outer, record%inner], &
+                                     [4, size(states%letters) + 1])
+            states%residual = [states%residual, record%residual]
+            call append_string(states%letters, state_letters(of_points))
+         end associate
+      end do
+   end subroutine add_states
+
+   !> How many linear solves were logged.
+   pure integer(ip) function logged(solution) result(n)
+      type(contact_solution_t), intent(in) :: solution
+
+      n = 0
+      if (allocated(solution%history%log%q)) n = min(solution%history%n, size(solution%history%log%q, 2, kind=ip))
+   end function logged
+
+   !> Page and table of the states.
+   pure subroutine view_states(states, page, table)
+      type(states_t), intent(in) :: states
+      type(page_t), intent(inout) :: page
+      type(table_t), intent(out) :: table
+      integer(ip) :: i, n
+      character(len=:), allocatable :: place
+
+      n = size(states%letters, kind=ip)
+      call add_heading(page, 'states of the points, a line a linear solve, the points pair by pair along s')
+      call add_line(page, LETTERS)
+      call add_line(page, 'step.increment outer.solve; outer 0: without friction, to begin with')
+      do i = 1, n
+         place = ''
+         if (states%numbers(4, i) == 1) place = to_text(states%numbers(1, i))//'.'//to_text(states%numbers(2, i))
+         place = right(place, 7)//right(to_text(states%numbers(3, i)), 5)//'.'//left(to_text(states%numbers(4, i)), 3)//'  '
+         associate (letters => states%letters(i)%s)
+            if (len(letters) > ROOM) then
+               call add_line(page, place//letters(:ROOM - 2)//'..')
+            else
+               call add_line(page, place//letters)
+            end if
+         end associate
+      end do
+      call begin_table(table, 'show-states', 'a row a linear solve', n)
+      call append_string(table%remarks, LETTERS//'; a letter a point, pair by pair along s')
+      call add_integers(table, 'step', states%numbers(1, :))
+      call add_integers(table, 'increment', states%numbers(2, :))
+      call add_integers(table, 'outer', states%numbers(3, :))
+      call add_integers(table, 'solve', states%numbers(4, :))
+      call add_reals(table, 'residual', '-', states%residual, 0.0_wp)
+      call add_words(table, 'states', '-', states%letters, on_the_left=.true.)
+   end subroutine view_states
+
+   !> Page and table of the outer iterations of an increment: the last solve of each.
+   pure subroutine view_picard(line, points, results, solution, page, table)
+      type(contact_line_t), intent(in) :: line
+      type(contact_points_t), intent(in) :: points(:) !< of each pair
+      type(results_t), intent(in) :: results
+      type(contact_solution_t), intent(in) :: solution
+      type(page_t), intent(inout) :: page
+      type(table_t), intent(out) :: table
+      integer(ip), allocatable :: numbers(:, :)
+      real(wp), allocatable :: values(:, :)         ! (5, rows): s, x, y, pressure, bound
+      real(wp) :: p(line%n), tau(line%n), residual, before
+      integer(ip) :: i, j, k, pair
+
+      call add_heading(page, 'outer iterations, in each the bound of the friction is frozen')
+      call add_line(page, 'outer  solves   largest pressure   largest bound   residual   over before')
+      allocate (numbers(3, 0), values(5, 0))
+      before = 0.0_wp
+      associate (records => solution%history%records)
+         do i = 1, logged(solution)
+            if (i < solution%history%n) then
+               if (records(i + 1)%outer == records(i)%outer) cycle
+            end if
+            call fetch_stresses(line, solution, i, p, tau)
+            residual = records(i)%residual
+            if (records(i)%outer == 0) residual = 0.0_wp
+            call add_line(page, right(to_text(records(i)%outer), 5)//right(to_text(records(i)%inner), 8)// &
+                          right(to_text(maxval([p, 0.0_wp]), 6), 19)//right(to_text(maxval([tau, 0.0_wp]), 6), 16)// &
+                          right(ratio(residual, 1.0_wp), 12)//right(ratio(residual, before), 12))
+            before = residual
+            j = 0
+            do pair = 1, size(points, kind=ip)
+               do k = 1, points(pair)%n
+                  j = j + 1
+                  numbers = reshape([numbers, records(i)%outer, pair, k], [3, size(values, 2) + 1])
+                  values = reshape([values, points(pair)%s(k), points(pair)%x(:, k), p(j), tau(j)], [5, size(numbers, 2)])
+               end do
+            end do
+         end do
+      end associate
+      call begin_table(table, 'show-picard', 'a row a point at the end of an outer iteration', size(values, 2, kind=ip))
+      call append_string(table%remarks, 'of step '//to_text(results%step)//', increment '//to_text(results%increment)// &
+                         '; the pressure was found with the bound |t| <= bound; outer 0: without friction')
+      call add_integers(table, 'outer', numbers(1, :))
+      call add_integers(table, 'pair', numbers(2, :))
+      call add_integers(table, 'point', numbers(3, :))
+      call add_real_columns(table, COLUMNS, DIMENSIONS, transpose(values))
+   end subroutine view_picard
+
+   !> Pressures and bounds of solve i; 0 where there are no unknowns, and for the bound of a point that cannot slip.
+   pure subroutine fetch_stresses(line, solution, i, p, tau)
+      type(contact_line_t), intent(in) :: line
+      type(contact_solution_t), intent(in) :: solution
+      integer(ip), intent(in) :: i
+      real(wp), intent(out) :: p(:), tau(:)         !< (points) [F/L^2]
+      integer(ip) :: j
+
+      p = 0.0_wp
+      tau = 0.0_wp
+      associate (log => solution%history%log)
+         do j = 1, line%n
+            if (line%normal(j) > 0) p(j) = log%q(line%normal(j), i)/line%weight(j)
+            if (line%tangential(j) == 0) cycle
+            if (log%upper(line%tangential(j), i) < HUGE_REAL) tau(j) = log%upper(line%tangential(j), i)/line%weight(j)
+         end do
+      end associate
+   end subroutine fetch_stresses
+
+   !> A residual over another one, or 1; '' where one of them is none.
+   pure function ratio(x, over) result(text)
+      real(wp), intent(in) :: x, over
+      character(len=:), allocatable :: text
+
+      text = ''
+      if (min(x, over) > 0.0_wp) text = to_text(x/over, 3)
+   end function ratio
+
+end module atrito_show_loop

@@ -1,0 +1,107 @@
+!> Pictures of the views: the skylines, the outer iterations and the laws, drawn from the tables of --show.
+module atrito_show_plots
+   use atrito_gnuplot, only: draw_written
+   use atrito_kinds, only: ip
+   use atrito_plot_files, only: plot_folder, SHOWN_PLOTS
+   use atrito_plot_scripts, only: plots_t, begin_plots, end_plots, put, begin_script, put_table, put_terminal
+   use atrito_plot_text, only: LF
+   use atrito_status, only: status_t
+   use atrito_strings, only: string_t, append_string, to_text
+   use atrito_table, only: table_t
+   implicit none (type, external)
+   private
+   public :: draw_shown
+
+   integer(ip), parameter :: MOST_BODIES = 3, MOST_CURVES = 10
+   character(len=*), parameter :: LOOKS = 'set border 3 lt 1 lw 1 lc rgb "#404040"; set tics nomirror out scale 0.6'//LF// &
+                                  'set grid lt 1 lw 1 lc rgb "#E0E0E0"; set key outside right top noautotitle'
+
+contains
+
+   !> Draws what there is of the views into DIR/plots. A failure is a warning, W-PLOT.
+   subroutine draw_shown(folder, tables, drawn)
+      character(len=*), intent(in) :: folder        !< of the tables
+      type(table_t), intent(in) :: tables(:)
+      type(string_t), allocatable, intent(out) :: drawn(:)
+      type(plots_t) :: plots
+      type(status_t) :: status
+      type(string_t), allocatable :: names(:)
+      integer :: i
+
+      allocate (names(0))
+      call begin_plots(plots, plot_folder(folder))
+      do i = 1, size(tables)
+         if (.not. any(SHOWN_PLOTS == tables(i)%name) .or. tables(i)%n_rows == 0) cycle
+         call append_string(names, tables(i)%name)
+         select case (tables(i)%name)
+         case ('show-matrix')
+            call write_matrix_plot(plots, min(maxval(tables(i)%columns(1)%integers), MOST_BODIES))
+         case ('show-picard')
+            call write_picard_plot(plots, min(maxval(tables(i)%columns(1)%integers), MOST_CURVES))
+         case ('show-law')
+            call write_law_plot(plots)
+         end select
+      end do
+      call end_plots(plots, status)
+      call draw_written(folder, names, status, drawn)
+   end subroutine draw_shown
+
+   !> A row of panels a body, the columns of its matrix from their first rows down to the diagonal.
+   subroutine write_matrix_plot(plots, n)
+      type(plots_t), intent(inout) :: plots
+      integer(ip), intent(in) :: n                  !< bodies
+
+      call begin_script(plots, 'show-matrix', 'the skylines of the bodies', &
+                        'Columns of show-matrix.tab: 1 body, 2 equation, 5 first row as the nodes come, 8 first row renumbered')
+      call put_table(plots, 'show-matrix')
+      call put(plots, LOOKS//LF//'set size ratio -1; set xlabel "equation"; set tmargin 3')
+      call put_terminal(plots, '1000,'//to_text(480*n))
+      call put(plots, 'set multiplot layout '//to_text(n)//',2 columnsfirst downwards')
+      call put(plots, 'do for [c in "5 8"] {'//LF//'do for [b=1:'//to_text(n)//'] {'//LF// &
+               'set xrange [*:*]; set yrange [*:*]; stats table using ($1==b ? $2 : 1/0) nooutput'//LF// &
+               'set xrange [0:STATS_max+1]; set yrange [STATS_max+1:0]'//LF// &
+               'set title sprintf("body %d, %s", b, (c eq "5" ? "as the nodes come" : "renumbered, contact last"))'//LF// &
+               'plot table using ($1==b ? $2 : 1/0):(column(int(c))-0.5):(0):($2-column(int(c))+1) with vectors nohead '// &
+               'lw 320.0/STATS_max lc rgb "#0072B2", x with lines lw 1 lc rgb "#D55E00"'//LF//'}'//LF//'}'//LF//'unset multiplot')
+   end subroutine write_matrix_plot
+
+   !> Pressures and bounds of the first pair, from light to dark.
+   subroutine write_picard_plot(plots, last)
+      type(plots_t), intent(inout) :: plots
+      integer(ip), intent(in) :: last               !< outer iteration
+
+      call begin_script(plots, 'show-picard', 'pressure and friction bound of the outer iterations, first pair', &
+                        'Columns of show-picard.tab: 1 outer iteration, 2 pair, 4 s [L], 7 pressure, 8 bound [F/L^2]')
+      call put_table(plots, 'show-picard')
+      call put(plots, LOOKS//LF//'last = '//to_text(last)//LF//'set palette defined (0 "#C6DBEF", 0.5 "#4292C6", 1 "#08306B")')
+      call put(plots, 'unset colorbox; set cbrange [0:last+1]; set xlabel "s [L]"')
+      call put_terminal(plots, '1000,760')
+      call put(plots, 'set multiplot layout 2,1'//LF//'do for [c in "7 8"] {'//LF// &
+               'set ylabel (c eq "7" ? "pressure [F/L^2]" : "friction bound [F/L^2]")'//LF// &
+               'plot for [k=0:last] table using ($1==k && $2==1 ? $4 : 1/0):(column(int(c))):(k) with linespoints palette lw 2 '// &
+               'pt 7 ps 0.5*dot title sprintf("outer %d", k)'//LF//'}'//LF//'unset multiplot')
+   end subroutine write_picard_plot
+
+   !> Both laws, with the points.
+   subroutine write_law_plot(plots)
+      type(plots_t), intent(inout) :: plots
+
+      call begin_script(plots, 'show-law', 'the laws of friction and of pressure, and the points on them', &
+                        'Columns of show-law.tab: 4 overlap [L], 5 delta [L^3/F], 6 pressure [F/L^2], 9 bound, 10 friction '// &
+                        '[F/L^2], 11 u')
+      call put_table(plots, 'show-law')
+      call put(plots, LOOKS//LF//'set samples 1001; stats table using 5 nooutput; delta = STATS_max'//LF// &
+               'stats table using 4 nooutput; deep = STATS_max > 0 ? 1.1*STATS_max : 1')
+      call put_terminal(plots, '1000,760')
+      call put(plots, 'set multiplot layout 2,1'//LF//'set xlabel "u = slip over the slip at which friction is full"; '// &
+               'set ylabel "t over its bound"; set yrange [-1.2:1.2]; set xrange [-3:3]'//LF// &
+               'plot (abs(x) < 1 ? x : sgn(x)) with lines lw 2 lc rgb "#0072B2" title "law", table using '// &
+               '($9 > 0 ? ($11 > 3 ? 3 : $11 < -3 ? -3 : $11) : 1/0):($10/$9) with points pt 7 ps dot lc rgb "#D55E00" '// &
+               'title "points"'//LF//'set xlabel "overlap [L]"; set ylabel "pressure [F/L^2]"; set yrange [0:*]; '// &
+               'set xrange [-0.2*deep:deep]'//LF// &
+               'plot (x < 0 ? 0 : delta > 0 ? x/delta : 1/0) with lines lw 2 lc rgb "#0072B2" title "law", table using '// &
+               '($4 < -0.2*deep ? -0.2*deep : $4):6 with points pt 7 ps dot lc rgb "#D55E00" title "points"'//LF// &
+               'unset multiplot')
+   end subroutine write_law_plot
+
+end module atrito_show_plots

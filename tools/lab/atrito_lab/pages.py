@@ -1,0 +1,244 @@
+"""Pages in HTML: one for each student, one for the lecturer. Each is one file, without scripts, and all text in it is escaped."""
+
+from __future__ import annotations
+
+import html
+import math
+from collections import Counter
+from pathlib import Path
+
+from .diagnose import Case, Verdict
+from .handin import file_name, shown, text_of
+from .sheet import Sheet
+from .tables import Cell, Table, TableError, number, read_table, rows_of
+
+STYLE = """
+:root { color-scheme: light dark; --ink: #1c2430; --soft: #5b6675; --line: #d5dae1; --back: #fff; --good: #1a7f4b; --part: #a86400; --bad: #b3261e; --own: #1f6fb2; --ref: #d9730d }
+@media (prefers-color-scheme: dark) { :root { --ink: #e6e9ee; --soft: #9aa5b4; --line: #3a4250; --back: #14181f; --good: #5ac98d; --part: #e0a84a; --bad: #f28b82; --own: #6fb3ea; --ref: #f0a35e } }
+body { font: 16px/1.5 system-ui, sans-serif; color: var(--ink); background: var(--back); max-width: 60rem; margin: 0 auto; padding: 1rem; overflow-wrap: anywhere }
+h1 { font-size: 1.4rem; margin: .2rem 0 } h2 { font-size: 1.1rem; margin: 1.8rem 0 .5rem }
+.soft { color: var(--soft) } .total { font-size: 1.2rem; font-weight: 600 }
+table { border-collapse: collapse; width: 100% } th, td { text-align: left; vertical-align: top; padding: .4rem .6rem .4rem 0; border-bottom: 1px solid var(--line) }
+th { font-weight: 600; color: var(--soft); font-size: .85rem } td.n, th.n { text-align: right; white-space: nowrap; font-variant-numeric: tabular-nums }
+.good { color: var(--good) } .part { color: var(--part) } .bad { color: var(--bad) }
+.text { white-space: pre-wrap; border-left: 3px solid var(--line); padding-left: .7rem; margin: .3rem 0 1rem }
+svg { width: 100%; height: auto; max-height: 24rem } svg text { fill: var(--soft); font: 13px system-ui, sans-serif }
+.axis { stroke: var(--soft); fill: none } .grid { stroke: var(--line) } .own { stroke: var(--own); fill: none; stroke-width: 2 } .ref { stroke: var(--ref); fill: none; stroke-width: 2; stroke-dasharray: 6 4 }
+circle.own { fill: var(--own); stroke: none } rect.bar { fill: var(--own) }
+@media (max-width: 40rem) { thead { display: none } tr { display: block; border-bottom: 1px solid var(--line); padding: .5rem 0 } td, td.n { display: block; border: 0; padding: 0; text-align: left } td:empty { display: none } td[data-l]::before { content: attr(data-l) ": "; color: var(--soft); font-size: .85rem } }
+@media print { body { max-width: none; padding: 0; font-size: 10pt } :root { color-scheme: light } tr, svg { break-inside: avoid } h2 { break-after: avoid } }
+"""
+
+
+def say(text: object) -> str:
+    """A text for HTML: escaped, without control characters."""
+    return html.escape("".join(letter if letter.isprintable() or letter == "\n" else "\ufffd" for letter in str(text)))
+
+
+def page(title: str, body: list[str]) -> str:
+    """A page; its policy lets nothing be fetched or run."""
+    return "\n".join([
+        "<!doctype html>", '<html lang="en">', "<head>", '<meta charset="utf-8">',
+        '<meta http-equiv="Content-Security-Policy" content="default-src \'none\'; style-src \'unsafe-inline\'">',
+        '<meta name="viewport" content="width=device-width, initial-scale=1">', f"<title>{say(title)}</title>", f"<style>{STYLE}</style>",
+        "</head>", "<body>", *body, "</body>", "</html>", ""])
+
+
+def table_of(heads: list[str], rows: list[list[str]], right: set[int] = frozenset()) -> list[str]:  # type: ignore[assignment]
+    """A table; `right` are the columns of numbers. The words of the cells are HTML already."""
+    lines = ["<table>", "<thead><tr>" + "".join(f'<th{" class=n" if place in right else ""}>{say(head)}</th>' for place, head in enumerate(heads))
+             + "</tr></thead>", "<tbody>"]
+    for row in rows:
+        lines.append("<tr>" + "".join(f'<td data-l="{say(heads[place])}"{" class=n" if place in right else ""}>{word}</td>'
+                                      for place, word in enumerate(row)) + "</tr>")
+    return [*lines, "</tbody>", "</table>"]
+
+
+def mood(verdict: Verdict) -> str:
+    """Class of a verdict by its points."""
+    return "good" if verdict.points >= verdict.of else "part" if verdict.points > 0 else "bad"
+
+
+def value_in_words(value: float | None, unit: str) -> str:
+    """A number with its unit, for HTML."""
+    return "" if value is None else say(f"{value:.5g} {unit}".strip())
+
+
+def write_feedback(case: Case, path: Path) -> None:
+    """The page of a student."""
+    sheet, hand_in = case.sheet, case.hand_in
+    body = [f"<h1>{say(sheet.title)}</h1>", f"<p class=soft>{say(hand_in.name)} {say(hand_in.number)}</p>",
+            f"<p class=total>{case.points:g} of {sheet.points:g} points</p>"]
+    notes = [text for text in (case.deck_reason if case.deck_kind != "right" else "", case.values_reason, *hand_in.notes) if text]
+    if notes:
+        body += ["<ul>", *[f"<li>{say(note)}</li>" for note in notes], "</ul>"]
+    rows = [[say(verdict.text), value_in_words(verdict.value, verdict.unit), value_in_words(verdict.right, verdict.unit),
+             f'<span class={mood(verdict)}>{verdict.points:g}</span> / {verdict.of:g}', say(verdict.reason)] for verdict in case.verdicts]
+    body += ["<h2>Points</h2>", *table_of(["Asked", "Yours", "Right", "Points", "Why"], rows, {1, 2, 3})]
+    body += picture_of(case)
+    body += ["<h2>Your values</h2>", *table_of(["", "Value", ""], [
+        [say(parameter.name), say(f"{case.reference.drawn[parameter.name]} {parameter.unit}"), say(parameter.text)] for parameter in sheet.parameters], {1})]
+    for explanation in sheet.explanations:
+        text = text_of(hand_in.answers.get(explanation.name.lower()))
+        if text:
+            body += [f"<h2>{say(explanation.text)}</h2>", f"<div class=text>{say(text)}</div>"]
+    path.write_text(page(f"{sheet.name}: {hand_in.number}", body), encoding="utf-8")
+
+
+# ---- pictures ----
+
+def curve_of(table: Table, picture: dict[str, str]) -> list[tuple[float, float]]:
+    """Points of a picture, from the rows of a table at its step."""
+    rows = rows_of(table, Cell(picture["table"], picture["y"]), int(picture["step"]) or None)
+    across, up = table.column(picture["x"]), table.column(picture["y"])
+    points = [(number(row[across]), number(row[up])) for row in rows]
+    return sorted(point for point in points if all(map(math.isfinite, point)))[:5000]
+
+
+def picture_of(case: Case) -> list[str]:
+    """The student's curve over that of the reference, where the sheet has a picture."""
+    picture = case.sheet.picture
+    if not picture:
+        return []
+    reference = curve_of(case.reference.tables().table(picture["table"]), picture)
+    own: list[tuple[float, float]] = []
+    trouble = ""
+    try:
+        given = case.hand_in.tables.get(picture["table"])
+        own = curve_of(read_table(given), picture) if given else []
+    except TableError as error:
+        trouble = f" Yours cannot be drawn: {error}."
+    return [f"<h2>{say(picture['text'])}</h2>", *draw(reference, own, picture),
+            f"<p class=soft>Line with points: your table {say(picture['table'])}{'' if own else ' (there is none to draw)'}. Dashed: the reference, "
+            f"{say(picture['y'])} over {say(picture['x'])} with your values.{say(trouble)}</p>"]
+
+
+def draw(reference: list[tuple[float, float]], own: list[tuple[float, float]], picture: dict[str, str]) -> list[str]:
+    """Two curves as a drawing (SVG), where that of the reference is not zero."""
+    top = max(abs(y) for _, y in reference) or 1.0
+    counted = [place for place, (_, y) in enumerate(reference) if abs(y) > 1e-3*top] or [0, len(reference) - 1]
+    left, right = reference[max(0, counted[0] - 1)][0], reference[min(counted[-1] + 1, len(reference) - 1)][0]
+    shown_own = [(x, y) for x, y in own if left <= x <= right and abs(y) < 5*top]
+    heights = [0.0, *[y for x, y in [*reference, *shown_own] if left <= x <= right]]
+    low, high = min(heights), max(heights)
+    span, wide = (high - low) or 1.0, (right - left) or 1.0
+
+    def place(point: tuple[float, float]) -> str:
+        return f"{70 + 610*(point[0] - left)/wide:.1f},{280 - 255*(point[1] - low)/span:.1f}"
+
+    lines = ['<svg viewBox="0 0 700 320" role="img">']
+    for part in range(5):
+        y = low + part*span/4
+        lines.append(f'<line class=grid x1="70" x2="680" y1="{280 - 255*part/4:.1f}" y2="{280 - 255*part/4:.1f}"/>'
+                     f'<text x="64" y="{284 - 255*part/4:.1f}" text-anchor="end">{y:.3g}</text>')
+        lines.append(f'<text x="{70 + 610*part/4:.1f}" y="298" text-anchor="middle">{left + part*wide/4:.3g}</text>')
+    lines.append(f'<text x="375" y="316" text-anchor="middle">{say(picture["x"])}</text><text x="70" y="15">{say(picture["y"])}</text>')
+    lines.append('<polyline class=axis points="70,25 70,280 680,280"/>')
+    for kind, curve in (("own", shown_own), ("ref", [point for point in reference if left <= point[0] <= right])):
+        if curve:
+            lines.append(f'<polyline class={kind} points="{" ".join(place(point) for point in curve)}"/>')
+    for point in shown_own if len(shown_own) <= 200 else []:
+        across, _, up = place(point).partition(",")
+        lines.append(f'<circle class=own cx="{across}" cy="{up}" r="3"/>')
+    return [*lines, "</svg>"]
+
+
+# ---- the lecturer's page ----
+
+def write_lecturer(sheet: Sheet, cases: list[Case], strange: list[str], path: Path) -> None:
+    """The page of the lecturer."""
+    points = [case.points for case in cases]
+    body = [f"<h1>{say(sheet.title)}</h1>", f"<p class=total>{len(cases)} hand-ins, {sum(points)/len(points):.1f} of {sheet.points:g} points in the mean</p>",
+            "<h2>Points of the class</h2>", *histogram(points, sheet.points)]
+    body += ["<h2>What failed most</h2>", *failures(cases)]
+    alike = hand_ins_alike(cases)
+    body += ["<h2>Hand-ins that are alike</h2>", "<ul>" if alike else "<p>None.</p>", *[f"<li>{say(line)}</li>" for line in alike], "</ul>" if alike else ""]
+    if strange:
+        body += ["<h2>Of nobody in the class</h2>", f"<p>{say(', '.join(strange[:50]))}</p>"]
+    rows = [[f'<a href="students/{say(file_name(case.hand_in.number))}/feedback.html">{say(case.hand_in.number)}</a>', say(case.hand_in.name),
+             f"{case.points:g}", say(summary(case))] for case in cases]
+    body += ["<h2>The class</h2>", *table_of(["Number", "Name", "Points", "What was not right"], rows, {2})]
+    for explanation in sheet.explanations:
+        body += [f"<h2>To read: {say(explanation.text)}</h2>", f"<p class=soft>A good answer: {say(explanation.good)}</p>"]
+        for case in cases:
+            text = text_of(case.hand_in.answers.get(explanation.name.lower()))
+            if text:
+                body += [f"<p class=soft>{say(case.hand_in.number)} {say(case.hand_in.name)}</p>", f"<div class=text>{say(text)}</div>"]
+    path.write_text(page(f"{sheet.name}: the class", body), encoding="utf-8")
+
+
+def histogram(points: list[float], most: float) -> list[str]:
+    """Ten bars."""
+    counts = Counter(min(9, int(10*value/most)) if most else 0 for value in points)
+    tallest = max(counts.values())
+    lines = ['<svg viewBox="0 0 700 220" role="img">']
+    for place in range(10):
+        count = counts.get(place, 0)
+        height = 160*count/tallest
+        lines.append(f'<rect class=bar x="{20 + 66*place}" y="{180 - height:.1f}" width="60" height="{height:.1f}"/>'
+                     f'<text x="{50 + 66*place}" y="{174 - height:.1f}" text-anchor="middle">{count or ""}</text>'
+                     f'<text x="{50 + 66*place}" y="200" text-anchor="middle">{most*place/10:.3g}-{most*(place + 1)/10:.3g}</text>')
+    return [*lines, "</svg>"]
+
+
+def failures(cases: list[Case]) -> list[str]:
+    """The items by the points lost, and why."""
+    rows = []
+    for place, first in enumerate(cases[0].verdicts):
+        all_ = [case.verdicts[place] for case in cases]
+        kinds = Counter(verdict.kind for verdict in all_ if verdict.points < verdict.of)
+        lost = sum(verdict.of - verdict.points for verdict in all_)
+        if kinds:  # so the item has points
+            rows.append((lost/first.of, [say(first.text), str(sum(kinds.values())), f"{100*lost/(first.of*len(all_)):.0f} %",
+                                say(", ".join(f"{kind} {count}" for kind, count in kinds.most_common()))]))
+    rows.sort(key=lambda row: -row[0])
+    return table_of(["Item", "Not full", "Points lost", "Reasons"], [row for _, row in rows], {1, 2}) if rows else ["<p>Nothing.</p>"]
+
+
+def summary(case: Case) -> str:
+    """What was not right, in a line."""
+    kinds: dict[str, list[str]] = {}
+    for verdict in case.verdicts:
+        if verdict.points < verdict.of:
+            kinds.setdefault(verdict.kind, []).append(verdict.name)
+    parts = [f"{kind}: {', '.join(names)}" for kind, names in kinds.items()]
+    extra = [case.deck_reason] if case.deck_kind not in ("right", "missing") else []
+    extra += [f"values of {case.neighbour}"] if case.neighbour else []
+    return shown("; ".join([*extra, *parts]), 300)
+
+
+def hand_ins_alike(cases: list[Case]) -> list[str]:
+    """Who has the same tables, or explains in the same words."""
+    lines = []
+    tables: dict[str, list[str]] = {}
+    for case in cases:
+        for name in case.sheet.tables:
+            if name in case.hand_in.tables:
+                body = [line for line in case.hand_in.tables[name].read_bytes().splitlines() if not line.startswith(b"#")]
+                tables.setdefault(f"{name} {hash(tuple(body))}", []).append(case.hand_in.number)
+    for key, numbers in tables.items():
+        if len(numbers) > 1 and any(case.states[key.split()[0]].table for case in cases if case.hand_in.number in numbers):
+            lines.append(f"{', '.join(numbers)}: the same table {key.split()[0]}")
+    return lines + texts_alike(cases)
+
+
+def texts_alike(cases: list[Case]) -> list[str]:
+    """Students whose explanations share most of their words in order, together with those who share them with one of these."""
+    lines = []
+    for explanation in cases[0].sheet.explanations if cases else []:
+        groups: list[set[str]] = []
+        pieces = [(case.hand_in.number, _pieces(text_of(case.hand_in.answers.get(explanation.name.lower())))) for case in cases]
+        for place, (number_, mine) in enumerate(pieces):
+            for other, theirs in pieces[place + 1:]:
+                least = min(len(mine), len(theirs))
+                if least >= 8 and len(mine & theirs) >= 0.6*least:
+                    joined = {number_, other}.union(*(group for group in groups if group & {number_, other}))
+                    groups = [group for group in groups if not group & joined] + [joined]
+        lines += [f"{', '.join(sorted(group))}: {explanation.name}, mostly in the same words" for group in groups]
+    return lines
+
+
+def _pieces(text: str) -> set[str]:
+    """All runs of four words of a text."""
+    words = "".join(letter.lower() if letter.isalnum() else " " for letter in text).split()
+    return {" ".join(words[place:place + 4]) for place in range(len(words) - 3)}
