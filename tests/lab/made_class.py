@@ -279,6 +279,16 @@ def edited_once(made: Made) -> Expected:
     return {name: ({"edited"}, 0.0) for name in made.of_tables([made.sheet.tables[-1]])}
 
 
+def added_rows(made: Made) -> Expected:
+    """A later step, with larger numbers, behind the rows of the run."""
+    made.write()
+    for name in made.sheet.tables:
+        lines = made.table(name).read_text().splitlines()
+        rows = [re.sub(r"^( *)\d+", r"\g<1>7", _larger(line)) for line in lines if not line.startswith("#")]
+        made.table(name).write_text("\n".join([*lines, *rows]) + "\n")
+    return {name: ({"edited"}, 0.0) for name in made.of_tables()}
+
+
 def tables_of_another_deck(made: Made) -> Expected:
     """Tables of the neighbour's deck beside one's own."""
     own = made.deck
@@ -377,6 +387,6 @@ def late_step(made: Made) -> Expected:
 
 
 KINDS = [right, six_digits, same_words, several_runs, by_set, twelve_digits_in_odd_places, comma_and_unit, damaged_answers, csv_tables, refined, coarse, very_coarse, sign, twice,
-         thousand, exchanged, mistake_in_deck, mistake_in_formula, neighbour_in_all, neighbours_answers, edited, edited_once,
+         thousand, exchanged, mistake_in_deck, mistake_in_formula, neighbour_in_all, neighbours_answers, edited, edited_once, added_rows,
          tables_of_another_deck, not_converged, cut_tables, late_step, no_deck, deck_with_gaps, nothing, no_explanation, binary_tables,
          empty_tables, no_tables, no_answers, words_for_numbers, short_explanation, tenth, wrong, right, coarse, edited, sign]

@@ -44,7 +44,7 @@ def page(title: str, body: list[str]) -> str:
         "</head>", "<body>", *body, "</body>", "</html>", ""])
 
 
-def table_of(heads: list[str], rows: list[list[str]], right: set[int] = frozenset()) -> list[str]:  # type: ignore[assignment]
+def table_of(heads: list[str], rows: list[list[str]], right: set[int]) -> list[str]:
     """A table; `right` are the columns of numbers. The words of the cells are HTML already."""
     lines = ["<table>", "<thead><tr>" + "".join(f'<th{" class=n" if place in right else ""}>{say(head)}</th>' for place, head in enumerate(heads))
              + "</tr></thead>", "<tbody>"]

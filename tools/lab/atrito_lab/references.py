@@ -59,6 +59,7 @@ class Reference:
         self.sheet, self.keeper, self.number = sheet, keeper, number
         self.drawn = sheet.draw(number)
         self._folders: dict[tuple[str, str, int], Folder | Run] = {}
+        self._values: dict[str, float] = {}
         self._lock = threading.Lock()
 
     def folder(self, deck: str, run: str, refine: int) -> Folder | Run:
@@ -81,10 +82,12 @@ class Reference:
 
     def value(self, quantity: Quantity) -> float:
         """The right value of a quantity."""
-        found = self.tables(quantity.run).value(quantity)
-        if found is None:
-            raise LabError(f"the deck of the sheet gives no value of {quantity.name}")
-        return found
+        if quantity.name not in self._values:
+            found = self.tables(quantity.run).value(quantity)
+            if found is None:
+                raise LabError(f"the deck of the sheet gives no value of {quantity.name}")
+            self._values[quantity.name] = found
+        return self._values[quantity.name]
 
     def value_by(self, deck: str, quantity: Quantity, refine: int) -> float | None:
         """What another deck, or another mesh, makes of a quantity; None where it gives no value."""

@@ -107,7 +107,7 @@ class Sheet:
     @property
     def points(self) -> float:
         """What a faultless hand-in has."""
-        return self.table_points + sum(item.points for item in [*self.quantities, *self.explanations])
+        return self.table_points + sum(item.points for item in self.quantities) + sum(item.points for item in self.explanations)
 
     def draw(self, number: str) -> dict[str, str]:
         """The values of a student: the same whenever they are drawn, since the number alone decides."""
@@ -331,7 +331,7 @@ def _picture_of(table: dict[str, Any]) -> dict[str, str]:
 
 def _check_sheet(sheet: Sheet) -> None:
     """What one item alone does not show: names given twice or not at all, texts that the deck does not have."""
-    names = [item.name for item in [*sheet.quantities, *sheet.explanations]]
+    names = [item.name for item in sheet.quantities] + [item.name for item in sheet.explanations]
     for name in names:
         if not NAME.fullmatch(name):
             raise LabError(f"{name!r} is no name: letters, digits and underscores, at most 25, a letter first")
