@@ -165,6 +165,8 @@ def try_hostile(sheet: Sheet, folder: Path) -> None:
             look_at(path)
     for number, kind in zip(numbers, [*hostile.KINDS, right, right]):
         results = json.loads((folder/"marks"/"students"/number/"results.json").read_text())
+        if "not marked" in results["extra_data"]["kinds"].values():
+            fail(f"hostile: {number} ({kind.__name__}) was not marked: {results['tests'][0]['output']}")
         is_full = results["score"] == sheet.points
         if is_full != (kind in (right, *hostile.HARMLESS)):
             fail(f"hostile: {number} ({kind.__name__}) has {results['score']} points")

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from . import outputs, pages
-from .diagnose import Case, diagnose
+from .diagnose import Case, diagnose, give_up
 from .handin import HandIn, file_name, options_of, shown, take_in
 from .people import Student, read_class
 from .program import Keeper, LabError, Limits, Run, observe_words, run_atrito, seconds_since
@@ -92,25 +92,35 @@ def hand_ins_of(folder: Path, students: list[Student] | None) -> list[tuple[Stud
 def mark_all(marking: Marking, found: list[tuple[Student, Path | None]]) -> list[Case]:
     """References and the students' own runs first, side by side; then the verdicts, which compare the whole class."""
     references = {student.number: Reference(marking.sheet, marking.keeper, student.number) for student, _ in found}
+    cases = [Case(marking.sheet, HandIn(student.number, student.name, student.email), references[student.number], references)
+             for student, _ in found]
 
-    def prepare(item: tuple[int, tuple[Student, Path | None]]) -> Case:
-        place, (student, source) = item
-        references[student.number].tables()
-        case = Case(marking.sheet, HandIn(student.number, student.name, student.email), references[student.number], references)
+    def prepare(item: tuple[int, Case]) -> None:
+        place, case = item
+        case.reference.tables()
+        source = found[place][1]
         if source:
             copy = marking.work/str(place)
-            take_in(source, copy, marking.sheet, case.hand_in)
+            try:
+                take_in(source, copy, marking.sheet, case.hand_in)
+            except OSError as trouble:
+                case.hand_in.notes.append(f"The hand-in could not be read ({trouble.strerror}).")
             case.run = run_again(marking, case, copy, "")
             case.own = own_tables(case.run)
             case.run_own = lambda run: own_tables(run_again(marking, case, copy, run))
-        return case
 
-    def judge(case: Case) -> Case:
-        diagnose(case)
-        return case
+    def judge(case: Case) -> None:
+        try:
+            diagnose(case)
+        except LabError:
+            raise
+        except Exception as trouble:  # one hand-in that nobody foresaw does not keep the others from being marked
+            give_up(case, f"This hand-in could not be marked ({type(trouble).__name__}: {trouble}).")
 
     with ThreadPoolExecutor(marking.jobs) as pool:
-        return list(pool.map(judge, list(pool.map(prepare, enumerate(found)))))
+        list(pool.map(prepare, enumerate(cases)))
+        list(pool.map(judge, cases))
+    return cases
 
 
 def run_again(marking: Marking, case: Case, copy: Path, run: str) -> Run | None:

@@ -146,6 +146,15 @@ class Sheet:
         return wanted
 
 
+def is_number(word: str) -> bool:
+    """Whether a word is a number."""
+    try:
+        float(word)
+    except ValueError:
+        return False
+    return True
+
+
 def with_values(deck: str, values: dict[str, str]) -> str:
     """A deck with other values of its parameters, each defined once as `name = value`."""
     for name, value in values.items():
@@ -270,8 +279,8 @@ def _parameter_of(name: str, taker: _Taker) -> Parameter:
         choices = tuple(str(first + place*step) for place in range(int((last - first)/step) + 1))
     parameter = Parameter(name, taker.take("text", str), taker.take("unit", str, ""), choices)
     taker.end()
-    if not choices:
-        raise LabError(f"parameter {name} has no choices")
+    if not choices or not all(is_number(choice) for choice in choices):
+        raise LabError(f"the choices of parameter {name} have to be numbers")
     return parameter
 
 
