@@ -40,8 +40,10 @@ def parser() -> argparse.ArgumentParser:
     limits.add_argument("--megabytes", type=int, default=2000, help="of memory that one run may take; default 2000")
     marking = commands.add_parser("mark", parents=[common, limits], help="points and reasons")
     marking.add_argument("folder", metavar="DIR", type=Path, help="a folder a hand-in, named by the student's number")
-    marking.add_argument("-o", dest="out", type=Path, required=True, metavar="MARKS", help="folder of marks.csv, lecturer.html, students/")
-    marking.add_argument("--class", dest="people", type=Path, metavar="CLASS.csv", help="the class; default: class.csv in DIR, else the folders of DIR")
+    marking.add_argument("-o", dest="out", type=Path, required=True, metavar="MARKS",
+                         help="folder of marks.csv, lecturer.html, students/")
+    marking.add_argument("--class", dest="people", type=Path, metavar="CLASS.csv",
+                         help="the class; default: class.csv in DIR, else the folders of DIR")
     commands.add_parser("check", parents=[common, limits], help="try a sheet")
     return top
 
@@ -62,7 +64,8 @@ def main(words: list[str] | None = None) -> int:
         for complaint in complaints:
             print(f"{sheet.name}: {complaint}")
         if not complaints:
-            print(f"{sheet.name}: {sheet.points:g} points; the model answer has all of them, {len(sheet.mistakes)} mistakes are recognised")
+            print(f"{sheet.name}: {sheet.points:g} points; the model answer has all of them, "
+                  f"{len(sheet.mistakes)} mistakes are recognised")
         return 1 if complaints else 0
     except (LabError, OSError) as trouble:
         print(f"atrito-lab: {trouble}", file=sys.stderr)

@@ -34,7 +34,8 @@ def hand_out(sheet: Sheet, students: list[Student], out: Path, program: str, job
     with (out/"class.csv").open("w", newline="", encoding="utf-8") as file:
         writer = csv.writer(file)
         writer.writerow(["number", "name", "email", *[parameter.name for parameter in sheet.parameters]])
-        writer.writerows([student.number, student.name, student.email, *sheet.draw(student.number).values()] for student in students)
+        for student in students:
+            writer.writerow([student.number, student.name, student.email, *sheet.draw(student.number).values()])
     print(f"{len(students)} folders in {out}; class.csv there has the list and everybody's values")
 
 
@@ -50,17 +51,20 @@ def check_deck(sheet: Sheet, number: str, program: str, work: Path) -> None:
 
 def empty_answers(sheet: Sheet, student: Student) -> str:
     """answers.toml, with a line a question."""
-    lines = [f"# Answers to sheet {sheet.name} ({sheet.title})", "# Write numbers behind =, such as 12.5 or 1.2e-3, in the unit that is named, and texts between the",
-             "# three quotes. A line that begins with # is not read.", "", f'student = "{student.number}"', "", "# your values, as they stand in the deck:"]
+    lines = [f"# Answers to sheet {sheet.name} ({sheet.title})",
+             "# Write numbers behind =, such as 12.5 or 1.2e-3, in the unit that is named, and texts between",
+             "# the three quotes. A line that begins with # is not read.", "",
+             f'student = "{student.number}"', "", "# your values, as they stand in the deck:"]
     lines += [f"#    {name} = {value}" for name, value in sheet.draw(student.number).items()]
     lines += ["", "[answers]"]
     for quantity in sheet.quantities:
         if quantity.given == "answer":
-            lines += [f"# {quantity.text}{f' [{quantity.unit}]' if quantity.unit else ''}: {quantity.points:g} points", f'{quantity.name} = ""']
+            unit = f" [{quantity.unit}]" if quantity.unit else ""
+            lines += [f"# {quantity.text}{unit}: {quantity.points:g} points", f'{quantity.name} = ""']
     if sheet.explanations:
         lines += ["", "[explanations]"]
-    for explanation in sheet.explanations:
-        lines += [f"# {explanation.text} ({explanation.words} words at least, {explanation.points:g} points)", f'{explanation.name} = """', '"""']
-    tables = [f"{name}.tab" for name in sheet.tables]
-    lines += ["", f"# Hand in this file, your deck {sheet.deck_name}" + (f", and of its output folder {', '.join(tables)}." if tables else ".")]
+    for item in sheet.explanations:
+        lines += [f"# {item.text} ({item.words} words at least, {item.points:g} points)", f'{item.name} = """', '"""']
+    tables = ", ".join(f"{name}.tab" for name in sheet.tables)
+    lines += ["", f"# Hand in this file, your deck {sheet.deck_name}" + (f", and of its output folder {tables}." if tables else ".")]
     return "\n".join(lines) + "\n"

@@ -32,7 +32,7 @@ class Marking:
     work: Path
 
 
-def mark(sheet: Sheet, folder: Path, out: Path, students: list[Student] | None, program: str, limits: Limits, jobs: int) -> list[Case]:
+def mark(sheet: Sheet, folder: Path, out: Path, students: list[Student] | None, program: str, limits: Limits, jobs: int) -> None:
     """Mark all hand-ins of a folder; marks, pages and results go into `out`."""
     start = time.monotonic()
     if not folder.is_dir():
@@ -49,10 +49,10 @@ def mark(sheet: Sheet, folder: Path, out: Path, students: list[Student] | None, 
             place.mkdir(parents=True, exist_ok=True)
             outputs.write_results(case, place/"results.json")
             pages.write_feedback(case, place/"feedback.html")
-        strange = sorted(shown(name) for name in set(os.listdir(folder)) - {source.name for _, source in found if source} - {"class.csv"})
+        known = {"class.csv", *(source.name for _, source in found if source)}
+        strange = sorted(shown(name) for name in os.listdir(folder) if name not in known)
         pages.write_lecturer(sheet, cases, strange, out/"lecturer.html")
     print(f"{len(cases)} hand-ins of {sheet.name} marked in {seconds_since(start)}: {out/'marks.csv'}, {out/'lecturer.html'}")
-    return cases
 
 
 def correct(cases: list[Case], path: Path) -> None:
@@ -83,8 +83,9 @@ def hand_ins_of(folder: Path, students: list[Student] | None) -> list[tuple[Stud
         raise LabError(f"{folder} has no hand-ins: a folder a student, named by the number")
     found: list[tuple[Student, Path | None]] = []
     for student in students:
-        fits = [name for name in names if student.number in (name, name.rpartition(".")[0])] or [
-            name for name in names if student.number in re.split(r"[ _()]+", name) or student.name and name.split("_")[0] == student.name]
+        fits = [name for name in names if student.number in (name, name.rpartition(".")[0])]
+        fits += [name for name in names if student.number in re.split(r"[ _()]+", name)]
+        fits += [name for name in names if student.name and name.split("_")[0] == student.name]
         found.append((student, folder/fits[0] if fits else None))
     return found
 
@@ -129,10 +130,11 @@ def run_again(marking: Marking, case: Case, copy: Path, run: str) -> Run | None:
     if deck is None or of.command != "run":
         return None
     table = next((case.hand_in.tables[name] for name in ("summary", *marking.sheet.tables) if name in case.hand_in.tables), None)
-    words = ["--confine", str(copy), "--quiet", "--messages", "json", "--digits", "12", *(options_of(table) if table else []), *of.options]
+    words = [os.path.join(".", deck.relative_to(copy)), "--confine", str(copy), "--quiet", "--messages", "json", "--digits", "12"]
+    words += [*(options_of(table) if table else []), *of.options]
     out = marking.work/f"{copy.name}-out-{len(run) and list(marking.sheet.runs).index(run)}"
     for observed in (observe_words(marking.sheet.observations(run)), []):  # a deck may lack what is observed
-        made = run_atrito(marking.program, [os.path.join(".", deck.relative_to(copy)), "-o", str(out), *words, *observed], copy, marking.limits, out)
+        made = run_atrito(marking.program, [*words, "-o", str(out), *observed], copy, marking.limits, out)
         if made.code != 1:
             break
     return made

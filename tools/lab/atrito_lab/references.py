@@ -67,7 +67,8 @@ class Reference:
         with self._lock:
             if (deck, run, refine) not in self._folders:
                 of = self.sheet.runs[run]
-                words = [*of.options, "--digits", "12", *(["--refine", str(refine)] if refine else []), *observe_words(self.sheet.observations(run))]
+                words = [*of.options, "--digits", "12", *(["--refine", str(refine)] if refine else [])]
+                words += observe_words(self.sheet.observations(run))
                 made = self.keeper.run(of.command, deck, words, self.sheet.deck_name)
                 self._folders[deck, run, refine] = Folder(made.folder) if made.code == of.code else made
             return self._folders[deck, run, refine]
@@ -107,7 +108,7 @@ class Reference:
             return []
         wanted = quantity.step or max((step for step, _ in there), default=0)
         last = max((increment for step, increment in there if step == wanted), default=0)
-        values = [(step, increment, folder.value(quantity, step, increment)) for step, increment in there if (step, increment) != (wanted, last)]
+        values = [(*instant, folder.value(quantity, *instant)) for instant in there if instant != (wanted, last)]
         return [(step, increment, value) for step, increment, value in values if value is not None]
 
     def mistaken(self, mistake: Mistake, place: int, quantity: Quantity) -> float | None:

@@ -220,4 +220,5 @@ def _largest(made: Table, columns: list[str]) -> dict[str, float]:
         return sizes
     dimension = dict(zip(made.columns, made.dimensions))
     column = {name: max((abs(value) for value in made.numbers(name) if math.isfinite(value)), default=0.0) for name in columns}
-    return {name: max(column[name], 1e-6*max(column[other] for other in columns if dimension[other] == dimension[name])) for name in columns}
+    return {name: max(column[name], *(1e-6*column[other] for other in columns if dimension[other] == dimension[name]))
+            for name in columns}
