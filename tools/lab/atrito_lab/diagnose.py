@@ -242,8 +242,8 @@ def _classify(case: Case, quantity: Quantity, value: float, right: float) -> tup
         return _credited(case, case.values_kind, case.values_reason)
     if case.neighbour and _is_of(case.class_references[case.neighbour], quantity, value):
         return _credited(case, "neighbour", "This is the value of somebody else, not yours.")
-    if from_own:
-        verdict = _judge_mesh(case, quantity, value, right, size)
+    if from_own and folder:
+        verdict = _judge_mesh(case, quantity, value, right, folder.estimate())
         if verdict:
             return verdict
     for step, increment, other in case.reference.others(quantity):
@@ -269,15 +269,13 @@ def _credited(case: Case, kind: str, reason: str) -> tuple[str, float, str]:
     return kind, case.sheet.credit.get(kind, 0.0), reason
 
 
-def _judge_mesh(case: Case, quantity: Quantity, value: float, right: float, size: float) -> tuple[str, float, str] | None:
+def _judge_mesh(case: Case, quantity: Quantity, value: float, right: float, mine: float) -> tuple[str, float, str] | None:
     """Whether the mesh explains the difference.
 
     It may be twice what one more refinement changes, by the square of the ratio of the estimated errors, or the square of the
     student's estimated error, which is what the energy is off by; never more than `coarse`.
     """
-    assert case.own
-    finer = case.reference.finer(quantity)
-    mine, theirs = case.own.estimate(), case.reference.tables().estimate()
+    finer, theirs, size = case.reference.finer(quantity), case.reference.tables(quantity.run).estimate(), max(abs(right), quantity.scale)
     ratio = max(1.0, mine/theirs) if mine > 0 and theirs > 0 else 1.0
     refined = 2*abs(right - (right if finer is None else finer))*ratio**2
     allowed = quantity.tolerance*size + max(refined, (mine/100)**2*size)

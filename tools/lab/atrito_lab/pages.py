@@ -97,34 +97,41 @@ def picture_of(case: Case) -> list[str]:
             f"Dashed: the reference, {say(picture['y'])} over {say(picture['x'])} with your values.{say(trouble)}</p>"]
 
 
+def ticks(low: float, high: float) -> list[float]:
+    """Round numbers from below `low` to above `high`, 1, 2 or 5 times a power of ten apart."""
+    size = 10.0**math.floor(math.log10((high - low)/4))
+    step = next(size*factor for factor in (1, 2, 5, 10) if (high - low)/(size*factor) <= 5)
+    first, last = math.floor(low/step + 1e-9), math.ceil(high/step - 1e-9)
+    return [place*step for place in range(first, last + 1)]
+
+
 def draw(reference: list[tuple[float, float]], own: list[tuple[float, float]], picture: dict[str, str]) -> list[str]:
     """Two curves as a drawing (SVG), where that of the reference is not zero."""
-    top = max(abs(y) for _, y in reference) or 1.0
+    top = max((abs(y) for _, y in reference), default=0.0) or 1.0
     counted = [place for place, (_, y) in enumerate(reference) if abs(y) > 1e-3*top] or [0, len(reference) - 1]
     left, right = reference[max(0, counted[0] - 1)][0], reference[min(counted[-1] + 1, len(reference) - 1)][0]
-    shown_own = [(x, y) for x, y in own if left <= x <= right and abs(y) < 5*top]
-    heights = [0.0, *[y for x, y in [*reference, *shown_own] if left <= x <= right]]
-    low, high = min(heights), max(heights)
-    span, wide = (high - low) or 1.0, (right - left) or 1.0
+    right = right if right > left else left + 1.0
+    heights = [0.0, *(y for x, y in [*reference, *own] if left <= x <= right and abs(y) < 3*top)]
+    up = ticks(min(heights), max(*heights, min(heights) + 1e-9*top))
+    low, span = up[0], up[-1] - up[0]
 
-    def place(point: tuple[float, float]) -> str:
-        return f"{70 + 610*(point[0] - left)/wide:.1f},{280 - 255*(point[1] - low)/span:.1f}"
+    def place(x: float, y: float) -> tuple[float, float]:
+        return 70 + 610*(x - left)/(right - left), 280 - 255*(y - low)/span
 
-    lines = ['<svg viewBox="0 0 700 320" role="img">']
-    for part in range(5):
-        y = low + part*span/4
-        lines.append(f'<line class=grid x1="70" x2="680" y1="{280 - 255*part/4:.1f}" y2="{280 - 255*part/4:.1f}"/>'
-                     f'<text x="64" y="{284 - 255*part/4:.1f}" text-anchor="end">{y:.3g}</text>')
-        lines.append(f'<text x="{70 + 610*part/4:.1f}" y="298" text-anchor="middle">{left + part*wide/4:.3g}</text>')
-    lines.append(f'<text x="375" y="316" text-anchor="middle">{say(picture["x"])}</text><text x="70" y="15">{say(picture["y"])}</text>')
-    lines.append('<polyline class=axis points="70,25 70,280 680,280"/>')
-    for kind, curve in (("own", shown_own), ("ref", [point for point in reference if left <= point[0] <= right])):
-        if curve:
-            lines.append(f'<polyline class={kind} points="{" ".join(place(point) for point in curve)}"/>')
-    for point in shown_own if len(shown_own) <= 200 else []:
-        across, _, up = place(point).partition(",")
-        lines.append(f'<circle class=own cx="{across}" cy="{up}" r="3"/>')
-    return [*lines, "</svg>"]
+    lines = ['<svg viewBox="0 0 700 325" role="img">', '<clipPath id="inside"><rect x="66" y="20" width="620" height="264"/></clipPath>']
+    for y in up:
+        height = place(left, y)[1]
+        lines.append(f'<line class=grid x1="70" x2="680" y1="{height:.1f}" y2="{height:.1f}"/>'
+                     f'<text x="64" y="{height + 4:.1f}" text-anchor="end">{y:.4g}</text>')
+    lines += [f'<text x="{place(x, 0)[0]:.1f}" y="300" text-anchor="middle">{x:.4g}</text>' for x in ticks(left, right) if left <= x <= right]
+    lines += [f'<text x="375" y="320" text-anchor="middle">{say(picture["x"])}</text>', f'<text x="70" y="14">{say(picture["y"])}</text>',
+              '<polyline class=axis points="70,25 70,280 680,280"/>', '<g clip-path="url(#inside)">']
+    for kind, curve in (("own", own), ("ref", reference)):
+        points = [place(x, y) for x, y in curve if abs(y) < 1e3*top]
+        lines.append(f'<polyline class={kind} points="{" ".join(f"{x:.1f},{y:.1f}" for x, y in points)}"/>')
+        if kind == "own" and len(points) <= 500:
+            lines += [f'<circle class=own cx="{x:.1f}" cy="{y:.1f}" r="3"/>' for x, y in points if 66 <= x <= 686]
+    return [*lines, "</g>", "</svg>"]
 
 
 # ---- the lecturer's page ----
