@@ -98,7 +98,7 @@ def mark_all(marking: Marking, found: list[tuple[Student, Path | None]]) -> list
 
     def prepare(item: tuple[int, Case]) -> None:
         place, case = item
-        case.reference.tables()
+        case.reference.try_all()
         source = found[place][1]
         if source:
             copy = marking.work/str(place)

@@ -81,6 +81,12 @@ class Reference:
             raise LabError(f"the deck of the sheet with the values of {self.number} ({values}) ends with {folder.code}: {folder.error}")
         return folder
 
+    def try_all(self) -> None:
+        """Whether all values are there."""
+        self.tables()
+        for quantity in self.sheet.quantities:
+            self.value(quantity)
+
     def value(self, quantity: Quantity) -> float:
         """The right value of a quantity."""
         if quantity.name not in self._values:
