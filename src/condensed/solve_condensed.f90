@@ -101,8 +101,8 @@ contains
          solution%contraction_estimate = estimate_contraction(qp, problem%line, solution%bounds%d, solution%state%state)
       end if
       call stop_phase('iterate')
-      if (.not. is_ok(status)) call explain_failure(problem, qp, solution, status)
-      if (allocated(solution%p)) call expand_bodies(problem, store, solution, u)
+      if (.not. is_ok(status)) call explain_failure()
+      if (allocated(solution%p)) call expand_bodies(u)
       if (is_ok(status) .and. solution%converged .and. scene%near_elements) then
          call start_phase('refine')
          call refine_solution(problem, controls, store%bodies, b, qp, solution, u)
@@ -114,6 +114,35 @@ contains
       solution%factorisations = factorisations
       call move_alloc(qp, problem%flexibility)
       if (solution%converged .and. .not. problem%keeps) call release_condensed(problem, store)
+
+   contains
+
+      !> Puts a failure of the contact line into words.
+      subroutine explain_failure()
+         integer(ip) :: node
+
+         if (status%text /= DEPENDENT_POINTS) return
+         node = problem%rows%node(problem%rows%first(problem%line%point(solution%inner%dependent)))
+         call set_status(status, STATUS_SINGULAR, 'the contact point at node '//to_text(problem%fem%mesh%node_id(node)) &
+                         //trim(merge(' (normal)    ', ' (tangential)', solution%inner%dependent <= qp%n_normal)) &
+                         //' repeats what other points ask: two pairs share it, or the slave is finer than its own dofs')
+      end subroutine explain_failure
+
+      !> The displacements of all bodies without their rigid motions.
+      subroutine expand_bodies(u)
+         real(wp), allocatable, intent(out) :: u(:, :)
+         real(wp), allocatable :: contact(:, :)
+         integer(ip) :: b
+
+         call start_phase('recover')
+         contact = contact_forces(problem%fem, problem%rows, problem%line, solution)
+         u = problem%value
+         do b = 1, problem%fem%bodies%n
+            call elastic_displacements(problem%fem, b, store%bodies(b), contact, u)
+         end do
+         call stop_phase('recover')
+      end subroutine expand_bodies
+
    end subroutine solve_condensed
 
    !> Gives back the memory of C and G, and of the bodies unless they are kept for a next run: the stresses want it.
@@ -224,38 +253,5 @@ contains
          nowhere = nowhere .or. i > qp%n_normal .or. .not. line%delta(line%point(i)) > 0.0_wp
       end do
    end function gives_way_nowhere
-
-   !> Puts a failure of the contact line into words.
-   subroutine explain_failure(problem, qp, solution, status)
-      class(problem_t), intent(in) :: problem
-      type(bound_qp_t), intent(in) :: qp
-      type(contact_solution_t), intent(in) :: solution
-      type(status_t), intent(inout) :: status
-      integer(ip) :: node
-
-      if (status%text /= DEPENDENT_POINTS) return
-      node = problem%rows%node(problem%rows%first(problem%line%point(solution%inner%dependent)))
-      call set_status(status, STATUS_SINGULAR, 'the contact point at node '//to_text(problem%fem%mesh%node_id(node)) &
-                      //trim(merge(' (normal)    ', ' (tangential)', solution%inner%dependent <= qp%n_normal)) &
-                      //' repeats what other points ask: two pairs share it, or the slave is finer than its own dofs')
-   end subroutine explain_failure
-
-   !> The displacements of all bodies without their rigid motions.
-   subroutine expand_bodies(problem, store, solution, u)
-      class(problem_t), intent(in) :: problem
-      type(body_cache_t), intent(in) :: store
-      type(contact_solution_t), intent(in) :: solution
-      real(wp), allocatable, intent(out) :: u(:, :)
-      real(wp), allocatable :: contact(:, :)
-      integer(ip) :: b
-
-      call start_phase('recover')
-      contact = contact_forces(problem%fem, problem%rows, problem%line, solution)
-      u = problem%value
-      do b = 1, problem%fem%bodies%n
-         call elastic_displacements(problem%fem, b, store%bodies(b), contact, u)
-      end do
-      call stop_phase('recover')
-   end subroutine expand_bodies
 
 end module atrito_solve_condensed

@@ -58,7 +58,7 @@ contains
       call start_phase('write')
       call write_tables(model, history, digits, set, status, as_csv)
       if (is_ok(status)) call write_fields(model, history, set, status)
-      if (is_ok(status)) call write_deck_as_run(model, set, status)
+      if (is_ok(status)) call write_deck_as_run()
       call stop_phase('write')
       ! these two tell the time, that of writing the tables included
       if (is_ok(status)) call write_timing(model, history, digits, set, status, as_csv)
@@ -73,28 +73,28 @@ contains
       written = set%names
       call remove_plots(folder, PLOTS_OF_RUN)
       call remove_report(folder)
+
+   contains
+
+      !> Writes the deck as it was run, and the meshes of other programs beside it, with the words by which a later run knows them.
+      subroutine write_deck_as_run()
+         integer :: i
+
+         if (.not. allocated(model%as_run)) return
+         do i = 1, size(model%as_run)
+            if (.not. is_ok(status)) return
+            associate (file => model%as_run(i))
+               if (i == 1) then
+                  call write_patched(set, file%name, file%text, status, &
+                                     before=DECK_MARK//PROGRAM_VERSION//' ran this'//NEW_LINE_CHARACTER)
+               else
+                  call write_patched(set, file%name, file%text, status, behind=mesh_end(file%text))
+               end if
+            end associate
+         end do
+      end subroutine write_deck_as_run
+
    end subroutine write_results
-
-   !> Writes the deck as it was run, and the meshes of other programs beside it, with the words by which a later run knows them.
-   subroutine write_deck_as_run(model, set, status)
-      type(model_t), intent(in) :: model
-      type(file_set_t), intent(inout) :: set
-      type(status_t), intent(inout) :: status
-      integer :: i
-
-      if (.not. allocated(model%as_run)) return
-      do i = 1, size(model%as_run)
-         if (.not. is_ok(status)) return
-         associate (file => model%as_run(i))
-            if (i == 1) then
-               call write_patched(set, file%name, file%text, status, &
-                                  before=DECK_MARK//PROGRAM_VERSION//' ran this'//NEW_LINE_CHARACTER)
-            else
-               call write_patched(set, file%name, file%text, status, behind=mesh_end(file%text))
-            end if
-         end associate
-      end do
-   end subroutine write_deck_as_run
 
    !> What stands behind the copy of a mesh, on lines of its own.
    pure function mesh_end(text) result(words)

@@ -165,57 +165,52 @@ contains
                call scale_column(columns)
             end do
          else if (kinds%is_cone(j)) then
-            call add_cone(rows, line, j, row_of_motion, scale, columns)
+            call add_cone(columns)
          else if (works(rows, line%normal(j), row_of_motion) .or. first(j + 1) > first(j)) then
             associate (users => user(first(j):first(j + 1) - 1), added => pressed(first(j):first(j + 1) - 1))
-               call add_pressure(rows, line%normal(j), line%weight(j), row_of_motion, scale, kinds%bound(users), &
-                                 added/kinds%bound_scale(users), columns)
+               call add_pressure(line%normal(j), line%weight(j), kinds%bound(users), added/kinds%bound_scale(users), columns)
             end associate
          end if
       end do
-   end subroutine add_contact_columns
 
-   !> The two edges of the cone of a point: a pressure with full friction along T and against it.
-   pure subroutine add_cone(rows, line, j, row_of_motion, scale, columns)
-      type(motion_rows_t), intent(in) :: rows
-      type(contact_line_t), intent(in) :: line
-      integer(ip), intent(in) :: j, row_of_motion(:)
-      real(wp), intent(in) :: scale(:)
-      type(columns_t), intent(inout) :: columns
-      real(wp) :: friction
-      integer(ip) :: e, side
+   contains
 
-      friction = 0.0_wp
-      do e = line%average%first(j), line%average%first(j + 1) - 1
-         if (line%average%column(e) == j) friction = friction + line%law(j)%nu*line%average%entry(e)
-      end do
-      do side = -1, 1, 2
-         call begin_column(columns, [line%normal(j), line%tangential(j)], [1.0_wp, side*friction])
-         call add_row(rows, line%normal(j), 1.0_wp, row_of_motion, scale, columns)
-         call add_row(rows, line%tangential(j), side*friction, row_of_motion, scale, columns)
+      !> A pressure, with what it adds to friction bounds.
+      pure subroutine add_pressure(i, weight, bounds, added, columns)
+         integer(ip), intent(in) :: i               !< its unknown
+         real(wp), intent(in) :: weight             !< [L^2]
+         integer(ip), intent(in) :: bounds(:)       !< rows of the bounds
+         real(wp), intent(in) :: added(:)           !< to each, by a pressure of one [F/L^2]
+         type(columns_t), intent(inout) :: columns
+         integer(ip) :: e
+
+         call begin_column(columns, [i, 0_ip], [1.0_wp, 0.0_wp])
+         call add_row(rows, i, 1.0_wp, row_of_motion, scale, columns)
+         do e = 1, size(bounds, kind=ip)
+            call add_entry(columns, bounds(e), -added(e)/weight)
+         end do
          call scale_column(columns)
-      end do
-   end subroutine add_cone
+      end subroutine add_pressure
 
-   !> A pressure, with what it adds to friction bounds.
-   pure subroutine add_pressure(rows, i, weight, row_of_motion, scale, bounds, added, columns)
-      type(motion_rows_t), intent(in) :: rows
-      integer(ip), intent(in) :: i               !< its unknown
-      real(wp), intent(in) :: weight             !< [L^2]
-      integer(ip), intent(in) :: row_of_motion(:)
-      real(wp), intent(in) :: scale(:)
-      integer(ip), intent(in) :: bounds(:)       !< rows of the bounds
-      real(wp), intent(in) :: added(:)           !< to each, by a pressure of one [F/L^2]
-      type(columns_t), intent(inout) :: columns
-      integer(ip) :: e
+      !> The two edges of the cone of a point: a pressure with full friction along T and against it.
+      pure subroutine add_cone(columns)
+         type(columns_t), intent(inout) :: columns
+         real(wp) :: friction
+         integer(ip) :: e, side
 
-      call begin_column(columns, [i, 0_ip], [1.0_wp, 0.0_wp])
-      call add_row(rows, i, 1.0_wp, row_of_motion, scale, columns)
-      do e = 1, size(bounds, kind=ip)
-         call add_entry(columns, bounds(e), -added(e)/weight)
-      end do
-      call scale_column(columns)
-   end subroutine add_pressure
+         friction = 0.0_wp
+         do e = line%average%first(j), line%average%first(j + 1) - 1
+            if (line%average%column(e) == j) friction = friction + line%law(j)%nu*line%average%entry(e)
+         end do
+         do side = -1, 1, 2
+            call begin_column(columns, [line%normal(j), line%tangential(j)], [1.0_wp, side*friction])
+            call add_row(rows, line%normal(j), 1.0_wp, row_of_motion, scale, columns)
+            call add_row(rows, line%tangential(j), side*friction, row_of_motion, scale, columns)
+            call scale_column(columns)
+         end do
+      end subroutine add_cone
+
+   end subroutine add_contact_columns
 
    !> Whose friction bounds the pressure of a point adds to, and how much.
    pure subroutine list_users(line, kinds, first, user, pressed)

@@ -90,40 +90,48 @@ contains
       scale = 0.0_wp
       where (member) scale = maxval(rows%work_size, mask=member)
       do pass = 1, MOST_PASSES
-         call try_scale(rows, line, member, touched, scale, certificate, solved)
+         call try_scale()
          if (certificate%verdict /= BALANCE_UNDECIDED .or. .not. solved) exit
          call measure_forces(rows, certificate%q, member, body_force, scale)
       end do
       if (certificate%verdict /= BALANCE_IMPOSSIBLE) return
       call measure_forces(rows, certificate%q, member, body_force, scale)
-      call simplify_motion(rows, line, touched, scale, certificate)
+      call simplify_motion()
       certificate%excess = certificate%excess/maxval(abs(certificate%motion))
       certificate%motion = certificate%motion/maxval(abs(certificate%motion))
+
+   contains
+
+      !> One linear programme, and what its two answers are worth.
+      subroutine try_scale()
+         real(wp) :: v(rows%k), q(rows%m), body_force(rows%k)
+         integer :: outcome
+
+         call solve_balance(rows, line, member, touched, scale, .false., q, v, outcome)
+         certificate%solver_missing = outcome == LP_NOT_AVAILABLE
+         solved = outcome == LP_OPTIMAL
+         if (.not. solved) return
+         certificate%q = q
+         if (forces_balance(rows, line, q, member)) then
+            certificate%verdict = BALANCE_POSSIBLE
+            return
+         end if
+         call measure_forces(rows, q, member, body_force)
+         call accept_motion(rows, line, body_force, scale, v, certificate)
+      end subroutine try_scale
+
+      !> A simpler motion of the same bodies, and of those that it needs, where one proves it as well.
+      subroutine simplify_motion()
+         real(wp) :: v(rows%k), q(rows%m), body_force(rows%k)
+         integer :: outcome
+
+         call solve_balance(rows, line, abs(certificate%motion) > 0.0_wp, touched, scale, .true., q, v, outcome)
+         if (outcome /= LP_OPTIMAL) return
+         call measure_forces(rows, certificate%q, scale > 0.0_wp, body_force)
+         call accept_motion(rows, line, body_force, scale, v, certificate)
+      end subroutine simplify_motion
+
    end subroutine judge_group
-
-   !> One linear programme, and what its two answers are worth.
-   subroutine try_scale(rows, line, member, touched, scale, certificate, solved)
-      type(motion_rows_t), intent(in) :: rows
-      type(contact_line_t), intent(in) :: line
-      logical, intent(in) :: member(:), touched(:)
-      real(wp), intent(in) :: scale(:)
-      type(certificate_t), intent(inout) :: certificate
-      logical, intent(out) :: solved
-      real(wp) :: v(rows%k), q(rows%m), body_force(rows%k)
-      integer :: outcome
-
-      call solve_balance(rows, line, member, touched, scale, .false., q, v, outcome)
-      certificate%solver_missing = outcome == LP_NOT_AVAILABLE
-      solved = outcome == LP_OPTIMAL
-      if (.not. solved) return
-      certificate%q = q
-      if (forces_balance(rows, line, q, member)) then
-         certificate%verdict = BALANCE_POSSIBLE
-         return
-      end if
-      call measure_forces(rows, q, member, body_force)
-      call accept_motion(rows, line, body_force, scale, v, certificate)
-   end subroutine try_scale
 
    !> Takes a motion that proves it, without its smallest parts where it does so without them.
    subroutine accept_motion(rows, line, body_force, scale, v, certificate)
@@ -151,22 +159,6 @@ contains
       certificate%motion = clean
       certificate%excess = excess
    end subroutine accept_motion
-
-   !> A simpler motion of the same bodies, and of those that it needs, where one proves it as well.
-   subroutine simplify_motion(rows, line, touched, scale, certificate)
-      type(motion_rows_t), intent(in) :: rows
-      type(contact_line_t), intent(in) :: line
-      logical, intent(in) :: touched(:)
-      real(wp), intent(in) :: scale(:)
-      type(certificate_t), intent(inout) :: certificate
-      real(wp) :: v(rows%k), q(rows%m), body_force(rows%k)
-      integer :: outcome
-
-      call solve_balance(rows, line, abs(certificate%motion) > 0.0_wp, touched, scale, .true., q, v, outcome)
-      if (outcome /= LP_OPTIMAL) return
-      call measure_forces(rows, certificate%q, scale > 0.0_wp, body_force)
-      call accept_motion(rows, line, body_force, scale, v, certificate)
-   end subroutine simplify_motion
 
    !> The linear programme of the balance of some bodies: forces, and the motion of its duals. Measured on walls of 100 to 1,000
    !> blocks: simplex steps are slow for the sum (most for loads far beyond the limit), interior points for the largest.

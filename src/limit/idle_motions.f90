@@ -69,7 +69,7 @@ contains
       call find_idle(rows, holds, group, idle)
       if (may_change) call doubt_loads(data, rows, group, idle, holds, solution, again)
       if (again) return
-      call doubt_small_forces(data, rows, group, idle, holds, solution)
+      call doubt_small_forces()
       if (allocated(solution%inner%undetermined)) deallocate (solution%inner%undetermined)
       if (size(idle, 2) == 0) return
       solution%inner%undetermined = simplest_motion(idle)
@@ -87,6 +87,39 @@ contains
       ! only those that have moved: others are exact to their own rounding, which may be far less
       holds = [(holds(i) .and. has_moved(rows, group, way, i), i=1, rows%m)]
       call close_rows(data, rows, holds, u, solution)
+
+   contains
+
+      !> A force that is less than what the digits of the deck make of the largest one on its body, and without which a motion were
+      !> idle, is none: a roller that stands on one node does not turn until the next one touches because its load is off by the
+      !> last digit. With friction the bound at its neighbours may hang on it, and it stays.
+      subroutine doubt_small_forces()
+         real(wp) :: largest(rows%m)
+         logical :: is_sure(size(holds))
+         real(wp), allocatable :: more(:, :)
+         integer(ip) :: i
+
+         largest = largest_forces(rows, solution%state%q)
+         is_sure = holds
+         do i = 1, rows%m
+            associate (j => data%line%point(i))
+               if (.not. holds(i) .or. rows%first(i + 1) == rows%first(i) .or. data%line%law(j)%kind /= FRICTION_NONE) cycle
+               if (j > data%line%n - data%line%n_bilateral) cycle
+               is_sure(i) = abs(solution%state%q(i)) > dropped_part(data, i)*largest(i)
+            end associate
+         end do
+         if (all(is_sure .eqv. holds)) return
+         call find_idle(rows, is_sure, group, more)
+         if (size(more, 2) <= size(idle, 2)) return
+         call move_alloc(more, idle)
+         do i = 1, rows%m
+            if (.not. holds(i) .or. is_sure(i)) cycle
+            solution%state%q(i) = 0.0_wp
+            solution%p(data%line%point(i)) = 0.0_wp
+         end do
+         holds = is_sure
+      end subroutine doubt_small_forces
+
    end subroutine settle_idle_motions
 
    !> Whether an unknown holds a motion: it takes a force, or would take one of either sign.
@@ -102,42 +135,6 @@ contains
          is_holding = merge(state%q(i), tau(line%point(i)), line%normal(line%point(i)) == i) > 0.0_wp
       end associate
    end function is_holding
-
-   !> A force that is less than what the digits of the deck make of the largest one on its body, and without which a motion were
-   !> idle, is none: a roller that stands on one node does not turn until the next one touches because its load is off by the last
-   !> digit. With friction the bound at its neighbours may hang on it, and it stays.
-   subroutine doubt_small_forces(data, rows, group, idle, holds, solution)
-      type(scene_data_t), intent(in) :: data
-      type(motion_rows_t), intent(in) :: rows
-      integer(ip), intent(in) :: group(:)           !< (k)
-      real(wp), allocatable, intent(inout) :: idle(:, :) !< (k, motions)
-      logical, intent(inout) :: holds(:)            !< (m)
-      type(contact_solution_t), intent(inout) :: solution
-      real(wp) :: largest(rows%m)
-      logical :: is_sure(size(holds))
-      real(wp), allocatable :: more(:, :)
-      integer(ip) :: i
-
-      largest = largest_forces(rows, solution%state%q)
-      is_sure = holds
-      do i = 1, rows%m
-         associate (j => data%line%point(i))
-            if (.not. holds(i) .or. rows%first(i + 1) == rows%first(i) .or. data%line%law(j)%kind /= FRICTION_NONE) cycle
-            if (j > data%line%n - data%line%n_bilateral) cycle
-            is_sure(i) = abs(solution%state%q(i)) > dropped_part(data, i)*largest(i)
-         end associate
-      end do
-      if (all(is_sure .eqv. holds)) return
-      call find_idle(rows, is_sure, group, more)
-      if (size(more, 2) <= size(idle, 2)) return
-      call move_alloc(more, idle)
-      do i = 1, rows%m
-         if (.not. holds(i) .or. is_sure(i)) cycle
-         solution%state%q(i) = 0.0_wp
-         solution%p(data%line%point(i)) = 0.0_wp
-      end do
-      holds = is_sure
-   end subroutine doubt_small_forces
 
    !> Where no solution was found since a motion went on that the loads drive: takes its work out of the loads, where it is no more
    !> than what the digits of the deck make of them.

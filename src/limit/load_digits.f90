@@ -90,7 +90,7 @@ contains
          if (minval(abs(data%rows%normal(:, j))) <= ALONG_AXIS) cycle
          along = 0.0_wp
          do k = data%rows%first(j), data%rows%first(j + 1) - 1
-            along = along + rate_of_entry(data, first, v, j, k)
+            along = along + rate_of_entry()
          end do
          allowed = allowed + abs(q(i)*along)/data%rows%reach(j)
       end do
@@ -103,27 +103,27 @@ contains
       end do
       allowed = min(GRAINS*digits_of_deck(data)*allowed, most)
       is_within_digits = abs(dot_product(v, rows%work)) <= allowed
-   end function is_within_digits
 
-   !> What entry k of point j adds to its slip in a motion of the bodies.
-   real(wp) function rate_of_entry(data, first, v, j, k) result(rate)
-      type(scene_data_t), intent(in) :: data
-      integer(ip), intent(in) :: first(:), j, k
-      real(wp), intent(in) :: v(:)
-      real(wp) :: vector(2), z(2, 3)
-      integer(ip) :: b, mode, dof
+   contains
 
-      rate = 0.0_wp
-      b = data%fem%bodies%of_node(data%rows%node(k))
-      if (b == 0) return
-      vector = vector_of_entry(data%rows, j, k, data%rows%tangent(:, j))
-      z = modes_at_node(data%fem, b, data%rows%node(k))
-      do mode = 1, first(b + 1) - first(b)
-         do dof = 1, 2
-            rate = rate + vector(dof)*z(dof, mode)*v(first(b) + mode - 1)
+      !> What entry k of point j adds to its slip in a motion of the bodies.
+      real(wp) function rate_of_entry() result(rate)
+         real(wp) :: vector(2), z(2, 3)
+         integer(ip) :: b, mode, dof
+
+         rate = 0.0_wp
+         b = data%fem%bodies%of_node(data%rows%node(k))
+         if (b == 0) return
+         vector = vector_of_entry(data%rows, j, k, data%rows%tangent(:, j))
+         z = modes_at_node(data%fem, b, data%rows%node(k))
+         do mode = 1, first(b + 1) - first(b)
+            do dof = 1, 2
+               rate = rate + vector(dof)*z(dof, mode)*v(first(b) + mode - 1)
+            end do
          end do
-      end do
-   end function rate_of_entry
+      end function rate_of_entry
+
+   end function is_within_digits
 
    !> Takes work h on the motions of the bodies out of the loads: of all forces with that work the least, Z (Z'Z)^-1 h.
    subroutine take_out(data, work)

@@ -216,7 +216,42 @@ contains
       loop%distance = measure_distance(system, line, multipliers, solution%state%q, solution%tau, image)
       solution%residual = loop%distance%bound
       call end_outer(solution%history, loop%distance%bound)
-      call judge(tolerance, outer, multipliers, loop, solution)
+      call judge()
+
+   contains
+
+      !> Whether the loop has converged, and what the next step takes.
+      !>
+      !>     steady     steps in which the drive stayed more than STEADY_PULL of itself, and more than round-off (MOVES)
+      !>     moving     of them, those in which the pull is strong, or no state changed: MOST_MOVING of them are FREE_MOTION
+      !>
+      !> The pull falls in both cases in which it is in the way: where a body moves on (so that it gets far enough in a few steps),
+      !> and where motions are nearly found (so that it takes no part in the last digits).
+      subroutine judge()
+         real(wp) :: whole
+
+         ! a pull below NO_LOAD of the forces on its body is none
+         whole = max(loop%distance%forces, loop%distance%bound)
+         if (loop%distance%pull > NO_LOAD) whole = max(whole, loop%distance%pull)
+         solution%converged = multipliers%settled .and. whole <= tolerance
+         call note_residual(loop%progress, outer, whole)
+         if (multipliers%settled .and. outer - loop%progress%best_outer >= STALE .and. whole <= STALE_DISTANCE) then
+            solution%converged = .true.
+         end if
+         ! a weak pull counts where the forces have come to rest
+         loop%steady = merge(loop%steady + 1_ip, 0_ip, loop%distance%drive > STEADY_PULL*loop%drive .and. loop%distance%drive > &
+                             merge(MOVES_SLOWLY, MOVES, loop%distance%forces <= LITTLE_LEFT))
+         ! a weak pull may still change what is in contact
+         loop%moving = merge(loop%moving + 1_ip, 0_ip, loop%steady > 0 .and. loop%distance%drive > &
+                             merge(SMALL_PULL, MOVES, multipliers%changed))
+         loop%drive = loop%distance%drive
+         if (loop%steady > 1) then
+            multipliers%kappa = max(0.01_wp*multipliers%kappa, LEAST_KAPPA)
+         else if (loop%distance%drive < SMALL_PULL .and. multipliers%kappa > USUAL_KAPPA) then
+            multipliers%kappa = 0.01_wp*multipliers%kappa
+         end if
+      end subroutine judge
+
    end subroutine judge_step
 
    !> Forces that are round-off are none, motions that nothing holds are least, and slipping points have the friction of the
@@ -239,7 +274,7 @@ contains
          return
       end if
       ! states that depend on round-off alone are decided before the motions and the friction are
-      call clear_unloaded(system, shape, multipliers, solution%state)
+      call clear_unloaded(solution%state)
       call clear_round_off(shape, forces_that_are_none(system, multipliers, solution%state%q), multipliers, solution%state)
       if (system%k > 0) call settle_undetermined_motions(system, solution%bounds, multipliers, solution%state, &
                                                          solution%inner%undetermined, before%a)
@@ -254,32 +289,32 @@ contains
          where (state%state(n + 1:) /= FREE) state%r(n + 1:) = multipliers%e(n + 1:) - solution%bounds%d(n + 1:)*state%q(n + 1:)
       end associate
       solution%t = shear_force_of(line, solution%state%q, solution%tau)
+
+   contains
+
+      !> Where nothing acts, or nothing any more, what is left of forces and deformation is round-off of the way that the bodies
+      !> went clear of each other, or of the increment before.
+      !>
+      !> Forces below their own noise, or NO_FORCE_AFTER of what the pair bore before, are none; then the strains are none as well,
+      !> and e is what gaps and motions make of it. Closed points without pressure are open.
+      subroutine clear_unloaded(state)
+         type(box_state_t), intent(inout) :: state
+         real(wp) :: none
+
+         none = 0.0_wp
+         if (allocated(multipliers%before)) none = NO_FORCE_AFTER*maxval([multipliers%before, 0.0_wp])
+         if (any(system%load /= 0.0_wp) .or. any(abs(state%q) > max(none, multipliers%noise))) return
+         multipliers%x(:system%n - system%k) = 0.0_wp
+         call multiply_rows(system%rows, multipliers%x, multipliers%e)
+         multipliers%e = multipliers%e + system%g0
+         state%q = 0.0_wp
+         state%r = multipliers%e
+         associate (n => shape%n_normal)
+            where (state%state(:n) == FREE .and. multipliers%pair(:n) <= multipliers%n_contact_pairs) state%state(:n) = AT_LOWER
+         end associate
+      end subroutine clear_unloaded
+
    end subroutine finish
-
-   !> Where nothing acts, or nothing any more, what is left of forces and deformation is round-off of the way that the bodies went
-   !> clear of each other, or of the increment before.
-   !>
-   !> Forces below their own noise, or NO_FORCE_AFTER of what the pair bore before, are none; then the strains are none as well, and
-   !> e is what gaps and motions make of it. Closed points without pressure are open.
-   subroutine clear_unloaded(system, shape, multipliers, state)
-      class(contact_system_t), intent(in) :: system
-      type(bound_qp_t), intent(in) :: shape
-      type(multiplier_t), intent(inout) :: multipliers
-      type(box_state_t), intent(inout) :: state
-      real(wp) :: none
-
-      none = 0.0_wp
-      if (allocated(multipliers%before)) none = NO_FORCE_AFTER*maxval([multipliers%before, 0.0_wp])
-      if (any(system%load /= 0.0_wp) .or. any(abs(state%q) > max(none, multipliers%noise))) return
-      multipliers%x(:system%n - system%k) = 0.0_wp
-      call multiply_rows(system%rows, multipliers%x, multipliers%e)
-      multipliers%e = multipliers%e + system%g0
-      state%q = 0.0_wp
-      state%r = multipliers%e
-      associate (n => shape%n_normal)
-         where (state%state(:n) == FREE .and. multipliers%pair(:n) <= multipliers%n_contact_pairs) state%state(:n) = AT_LOWER
-      end associate
-   end subroutine clear_unloaded
 
    !> Before the first solution is taken: where its forces are not unique, the loop goes on with the least ones.
    !>
@@ -331,42 +366,5 @@ contains
       where (line%tangential > 0) solution%tau = HUGE_REAL
       call set_friction_bounds(line, shape, solution%tau, solution%bounds, solution%state)
    end subroutine begin_solution
-
-   !> Whether the loop has converged, and what the next step takes.
-   !>
-   !>     steady     steps in which the drive stayed more than STEADY_PULL of itself, and more than round-off (MOVES)
-   !>     moving     of them, those in which the pull is strong, or no state changed: MOST_MOVING of them are FREE_MOTION
-   !>
-   !> The pull falls in both cases in which it is in the way: where a body moves on (so that it gets far enough in a few steps), and
-   !> where motions are nearly found (so that it takes no part in the last digits).
-   subroutine judge(tolerance, outer, multipliers, loop, solution)
-      real(wp), intent(in) :: tolerance
-      integer(ip), intent(in) :: outer
-      type(multiplier_t), intent(inout) :: multipliers
-      type(loop_t), intent(inout) :: loop
-      type(contact_solution_t), intent(inout) :: solution
-      real(wp) :: whole
-
-      ! a pull below NO_LOAD of the forces on its body is none
-      whole = max(loop%distance%forces, loop%distance%bound)
-      if (loop%distance%pull > NO_LOAD) whole = max(whole, loop%distance%pull)
-      solution%converged = multipliers%settled .and. whole <= tolerance
-      call note_residual(loop%progress, outer, whole)
-      if (multipliers%settled .and. outer - loop%progress%best_outer >= STALE .and. whole <= STALE_DISTANCE) then
-         solution%converged = .true.
-      end if
-      ! a weak pull counts where the forces have come to rest
-      loop%steady = merge(loop%steady + 1_ip, 0_ip, loop%distance%drive > STEADY_PULL*loop%drive .and. loop%distance%drive > &
-                          merge(MOVES_SLOWLY, MOVES, loop%distance%forces <= LITTLE_LEFT))
-      ! a weak pull may still change what is in contact
-      loop%moving = merge(loop%moving + 1_ip, 0_ip, loop%steady > 0 .and. loop%distance%drive > &
-                          merge(SMALL_PULL, MOVES, multipliers%changed))
-      loop%drive = loop%distance%drive
-      if (loop%steady > 1) then
-         multipliers%kappa = max(0.01_wp*multipliers%kappa, LEAST_KAPPA)
-      else if (loop%distance%drive < SMALL_PULL .and. multipliers%kappa > USUAL_KAPPA) then
-         multipliers%kappa = 0.01_wp*multipliers%kappa
-      end if
-   end subroutine judge
 
 end module atrito_multiplier_loop

@@ -97,48 +97,70 @@ contains
          if (used(i)) rows_of(merge(1, 2, rows_of(1, rows%point(i)) == 0), rows%point(i)) = i
       end do
       waits = rows_of(1, :) > 0
-      call set_aside(rows, rows_of, waits)
-      call group(rows, rows_of, waits, first, member)
-   end subroutine list_components
+      call set_aside()
+      call group(first, member)
 
-   !> Takes out the points that dofs of their own make independent, until there is none (steps 1 and 2 at the head of
-   !> the module). The queue is a ring of as many places as points wait at first; a point goes in again when it has
-   !> become alone with a dof.
-   subroutine set_aside(rows, rows_of, waits)
-      type(constraint_rows_t), intent(in) :: rows
-      integer(ip), intent(in) :: rows_of(:, :)      !< (MOST_OF_POINT, points) of each; 0: none
-      logical, intent(inout) :: waits(:)         !< (points) in: points with rows; out: those that may depend on others
-      type(touches_t) :: touches
-      integer(ip), allocatable :: queue(:), dofs(:)
-      logical :: queued(size(waits))
-      integer(ip) :: j, k, head, tail            !< head and tail: taken out and put in so far
+   contains
 
-      call count_touches(rows, rows_of, waits, touches)
-      queue = pack([(j, j=1, size(waits, kind=ip))], waits) ! a ring: a point is in it once at most
-      queued = waits
-      head = 0
-      tail = size(queue, kind=ip)
-      do while (tail > head)
-         head = head + 1
-         j = queue(mod(head - 1, size(queue, kind=ip)) + 1)
-         queued(j) = .false.
-         if (.not. waits(j)) cycle
-         dofs = dofs_of_point(rows, rows_of(:, j))
-         if (.not. stands_alone(rows, rows_of(:, j), touches)) cycle
-         waits(j) = .false.
-         do k = 1, size(dofs, kind=ip)
-            touches%count(dofs(k)) = touches%count(dofs(k)) - 1
-            touches%sum(dofs(k)) = touches%sum(dofs(k)) - j
-            if (touches%count(dofs(k)) /= 1) cycle
-            associate (last => int(touches%sum(dofs(k)), ip))
-               if (queued(last)) cycle
-               tail = tail + 1
-               queue(mod(tail - 1, size(queue, kind=ip)) + 1) = last
-               queued(last) = .true.
-            end associate
+      !> Takes out the points that dofs of their own make independent, until there is none (steps 1 and 2 at the head of
+      !> the module). The queue is a ring of as many places as points wait at first; a point goes in again when it has
+      !> become alone with a dof.
+      subroutine set_aside()
+         type(touches_t) :: touches
+         integer(ip), allocatable :: queue(:), dofs(:)
+         logical :: queued(size(waits))
+         integer(ip) :: j, k, head, tail            !< head and tail: taken out and put in so far
+
+         call count_touches(rows, rows_of, waits, touches)
+         queue = pack([(j, j=1, size(waits, kind=ip))], waits) ! a ring: a point is in it once at most
+         queued = waits
+         head = 0
+         tail = size(queue, kind=ip)
+         do while (tail > head)
+            head = head + 1
+            j = queue(mod(head - 1, size(queue, kind=ip)) + 1)
+            queued(j) = .false.
+            if (.not. waits(j)) cycle
+            dofs = dofs_of_point(rows, rows_of(:, j))
+            if (.not. stands_alone(rows, rows_of(:, j), touches)) cycle
+            waits(j) = .false.
+            do k = 1, size(dofs, kind=ip)
+               touches%count(dofs(k)) = touches%count(dofs(k)) - 1
+               touches%sum(dofs(k)) = touches%sum(dofs(k)) - j
+               if (touches%count(dofs(k)) /= 1) cycle
+               associate (last => int(touches%sum(dofs(k)), ip))
+                  if (queued(last)) cycle
+                  tail = tail + 1
+                  queue(mod(tail - 1, size(queue, kind=ip)) + 1) = last
+                  queued(last) = .true.
+               end associate
+            end do
          end do
-      end do
-   end subroutine set_aside
+      end subroutine set_aside
+
+      !> Lists the rows of the points that are left by what shares dofs, in the order of the points.
+      subroutine group(first, member)
+         integer(ip), allocatable, intent(out) :: first(:), member(:) !< as in list_components
+         integer(ip), allocatable :: root(:), component(:, :), points(:), of_points(:)
+         integer(ip) :: j, n
+
+         call join_points(rows, rows_of, waits, root)
+         allocate (component(1, size(waits)), source=0_ip)
+         n = 0
+         do j = 1, size(waits, kind=ip)                ! the root of a component is its first point
+            if (.not. waits(j)) cycle
+            if (root(j) == j) n = n + 1
+            component(1, j) = merge(n, component(1, root(j)), root(j) == j)
+         end do
+         call list_holders(n, component, first, points)
+         member = pack(rows_of(:, points), rows_of(:, points) > 0)
+         of_points = first
+         do j = 1, n
+            first(j + 1) = first(j) + count(rows_of(:, points(of_points(j):of_points(j + 1) - 1)) > 0, kind=ip)
+         end do
+      end subroutine group
+
+   end subroutine list_components
 
    !> The points that touch each dof, and the sum of their numbers.
    pure subroutine count_touches(rows, rows_of, waits, touches)
@@ -209,31 +231,6 @@ contains
       end do
       whole = norm2(rows%value(rows%first(i):rows%first(i + 1) - 1))
    end subroutine spread_row
-
-   !> Lists the rows of the points that are left by what shares dofs, in the order of the points.
-   subroutine group(rows, rows_of, waits, first, member)
-      type(constraint_rows_t), intent(in) :: rows
-      integer(ip), intent(in) :: rows_of(:, :)      !< (MOST_OF_POINT, points) of each; 0: none
-      logical, intent(in) :: waits(:)               !< (points) that may depend on others
-      integer(ip), allocatable, intent(out) :: first(:), member(:) !< as in list_components
-      integer(ip), allocatable :: root(:), component(:, :), points(:), of_points(:)
-      integer(ip) :: j, n
-
-      call join_points(rows, rows_of, waits, root)
-      allocate (component(1, size(waits)), source=0_ip)
-      n = 0
-      do j = 1, size(waits, kind=ip)                ! the root of a component is its first point
-         if (.not. waits(j)) cycle
-         if (root(j) == j) n = n + 1
-         component(1, j) = merge(n, component(1, root(j)), root(j) == j)
-      end do
-      call list_holders(n, component, first, points)
-      member = pack(rows_of(:, points), rows_of(:, points) > 0)
-      of_points = first
-      do j = 1, n
-         first(j + 1) = first(j) + count(rows_of(:, points(of_points(j):of_points(j + 1) - 1)) > 0, kind=ip)
-      end do
-   end subroutine group
 
    !> A common root for all points that shared dofs lead to: of each dof the first point that has it is kept, and every
    !> other one that comes is joined with it, the larger root becoming a child of the smaller.

@@ -61,7 +61,7 @@ contains
          if (observer%is_there) run%observer => observer
       end if
       if (has_one_increment(model) .and. .not. is_recorded(run)) then
-         call solve_only_increment(model, options, reporter, history, status, store)
+         call solve_only_increment(status)
          if (associated(run%observer) .and. is_ok(status)) call run%observer%observe(history%frames(1))
          return
       end if
@@ -90,6 +90,32 @@ contains
       if (store%factorisations > 0) store%factorisations = history%factorisations
       call drop_assembled(run%data)
       call release_bodies(store)
+
+   contains
+
+      subroutine solve_only_increment(status)
+         type(status_t), intent(out) :: status
+         integer(ip) :: i
+
+         allocate (history%frames(1))
+         call solve_static(model, options, reporter, history%frames(1), status, store)
+         if (.not. is_ok(status)) then
+            deallocate (history%frames)
+            allocate (history%frames(0))
+            return
+         end if
+         call warn_of_pressures(model, history)
+         associate (frame => history%frames(1))
+            frame%time = model%steps(1)%increments%period
+            frame%step_time = frame%time
+            do i = 1, size(frame%contact, kind=ip)
+               frame%contact(i)%slip_increment = frame%contact(i)%slip
+            end do
+            history%iterations = frame%iterations
+            history%factorisations = frame%factorisations
+         end associate
+      end subroutine solve_only_increment
+
    end subroutine solve_history
 
    !> Whether there is one step that is one increment, which is not cut.
@@ -100,34 +126,6 @@ contains
          has_one_increment = size(model%steps) == 1 .and. control%initial >= control%period .and. control%least >= control%period
       end associate
    end function has_one_increment
-
-   subroutine solve_only_increment(model, options, reporter, history, status, store)
-      type(model_t), intent(in), target :: model
-      type(solve_options_t), intent(in) :: options
-      type(reporter_t), intent(in) :: reporter
-      type(history_t), intent(inout) :: history
-      type(status_t), intent(out) :: status
-      type(body_cache_t), intent(inout) :: store
-      integer(ip) :: i
-
-      allocate (history%frames(1))
-      call solve_static(model, options, reporter, history%frames(1), status, store)
-      if (.not. is_ok(status)) then
-         deallocate (history%frames)
-         allocate (history%frames(0))
-         return
-      end if
-      call warn_of_pressures(model, history)
-      associate (frame => history%frames(1))
-         frame%time = model%steps(1)%increments%period
-         frame%step_time = frame%time
-         do i = 1, size(frame%contact, kind=ip)
-            frame%contact(i)%slip_increment = frame%contact(i)%slip
-         end do
-         history%iterations = frame%iterations
-         history%factorisations = frame%factorisations
-      end associate
-   end subroutine solve_only_increment
 
    !> Makes the scene of a step. With the same dofs held, and methods of the same form, it is the one that is there.
    subroutine begin_step(model, k, store, run, status)
@@ -197,7 +195,7 @@ contains
                return
             end if
             run%data%may_cut = is_longer_than_least(control, min(now%length, to - now%time))
-            call try_increment(k, now%increment, to, store, run, results, solution, status)
+            call try_increment(now%increment, results, solution, status)
             history%factorisations = history%factorisations + results%factorisations
             if (is_solved(results, status)) then
                call tell(run%reporter, results, now%cuts)
@@ -223,30 +221,30 @@ contains
             end if
          end do
       end associate
+
+   contains
+
+      subroutine try_increment(increment, results, solution, status)
+         integer(ip), intent(in) :: increment
+         type(results_t), intent(out) :: results
+         type(contact_solution_t), intent(out) :: solution
+         type(status_t), intent(out) :: status
+
+         results%scene = run%scene
+         results%step = k
+         results%increment = increment
+         results%step_time = to
+         results%time = run%began + to
+         results%ends_step = to >= run%data%step%increments%period
+         run%data%is_printed = is_wanted(run%data%step%requests, increment, results%ends_step)
+         nullify (run%data%before)
+         if (run%has_last) run%data%before => run%last%u
+         call set_time(run%data, moment_t(to, results%time))
+         call check_known_points(run%data, status)
+         if (is_ok(status)) call solve_increment(run%data, run%options%contact_form, store, results, solution, status)
+      end subroutine try_increment
+
    end subroutine go_through_step
-
-   subroutine try_increment(k, increment, to, store, run, results, solution, status)
-      integer(ip), intent(in) :: k, increment
-      real(wp), intent(in) :: to                     !< time of the step
-      type(body_cache_t), intent(inout) :: store
-      type(run_t), intent(inout), target :: run
-      type(results_t), intent(out) :: results
-      type(contact_solution_t), intent(out) :: solution
-      type(status_t), intent(out) :: status
-
-      results%scene = run%scene
-      results%step = k
-      results%increment = increment
-      results%step_time = to
-      results%time = run%began + to
-      results%ends_step = to >= run%data%step%increments%period
-      run%data%is_printed = is_wanted(run%data%step%requests, increment, results%ends_step)
-      nullify (run%data%before)
-      if (run%has_last) run%data%before => run%last%u
-      call set_time(run%data, moment_t(to, results%time))
-      call check_known_points(run%data, status)
-      if (is_ok(status)) call solve_increment(run%data, run%options%contact_form, store, results, solution, status)
-   end subroutine try_increment
 
    !> Whether anything is printed of an increment.
    pure logical function is_wanted(requests, increment, ends_step)

@@ -65,11 +65,64 @@ contains
       if (asked_form == CONTACT_AUTO) controls%most_entries = MOST_ENTRIES
       call solve_one_form(data, data%contact_form, controls, store, results, solution, status)
       if (results%scene%near_elements .and. .not. is_solved(results, status)) then
-         call solve_without_near(data, controls, store, results, solution, status)
+         call solve_without_near(solution, status)
       end if
-      if (is_ok(status) .and. .not. is_solved(results, status)) call climb(data, asked_form, controls, store, results, solution)
+      if (is_ok(status) .and. .not. is_solved(results, status)) call climb()
       if (.not. data%keeps) call release_condensed(data, store)
       if (.not. is_solved(results, status)) call explain_range(data, results, status)
+
+   contains
+
+      !> One rung after the other. What is found counts when it converges and its law holds; else all is as it was.
+      subroutine climb()
+         type(results_t) :: other
+         type(contact_solution_t) :: other_solution
+         type(controls_t) :: its_controls
+         type(status_t) :: status
+         integer(ip) :: m, solves
+         integer :: i
+
+         if (controls%method /= METHOD_ANDERSON) return        ! the user's own choice
+         m = size(data%line%point, kind=ip)
+         solves = merge(solution%history%n, 0_ip, data%contact_form == CONTACT_DENSE)
+         do i = 1, size(RUNGS)
+            if (.not. is_tried(i, data%contact_form, asked_form, m, data%may_cut)) cycle
+            if (RUNGS(i)%form == CONTACT_DENSE .and. is_too_much(controls, m, solves)) cycle
+            its_controls = controls_of_rung(RUNGS(i), controls)
+            call report_progress(data%reporter, 'no solution; the '//contact_form_name(RUNGS(i)%form) &
+                                 //' form of the contact system'//rung_text(RUNGS(i), its_controls))
+            call begin_results(results, other)
+            if (RUNGS(i)%form /= data%contact_form) then
+               other%scene%contact_form = contact_form_name(RUNGS(i)%form)
+               other%scene%contact_reason = 'what was tried before found no solution'
+            end if
+            call solve_one_form(data, RUNGS(i)%form, its_controls, store, other, other_solution, status)
+            if (RUNGS(i)%form == CONTACT_DENSE) solves = solves + other_solution%history%n
+            if (.not. is_solved(other, status)) cycle
+            solution = other_solution
+            results = other
+            return
+         end do
+      end subroutine climb
+
+      !> Solves again with the stiffness of each element: where a body is as slender as the digits of its nodes are few, taking near
+      !> elements as equal says nothing of it, and refinement does not converge.
+      subroutine solve_without_near(solution, status)
+         type(contact_solution_t), intent(out) :: solution
+         type(status_t), intent(out) :: status
+         type(results_t) :: again
+
+         call report_progress(data%reporter, 'not solved; each element with its own last digits')
+         call begin_results(results, again)
+         again%scene%near_elements = .false.
+         results = again
+         data%fem%grain = 0.0_wp
+         call drop_assembled(data)
+         if (allocated(data%flexibility)) deallocate (data%flexibility)
+         if (allocated(data%last)) deallocate (data%last)
+         call solve_one_form(data, data%contact_form, controls, store, results, solution, status)
+      end subroutine solve_without_near
+
    end subroutine solve_increment
 
    !> Whether an increment has a solution: the outer loop converged and the final check holds.
@@ -79,28 +132,6 @@ contains
 
       is_solved = is_ok(status) .and. results%converged .and. results%law_holds
    end function is_solved
-
-   !> Solves again with the stiffness of each element: where a body is as slender as the digits of its nodes are few, taking near
-   !> elements as equal says nothing of it, and refinement does not converge.
-   subroutine solve_without_near(data, controls, store, results, solution, status)
-      type(scene_data_t), intent(inout) :: data
-      type(controls_t), intent(in) :: controls
-      type(body_cache_t), intent(inout) :: store
-      type(results_t), intent(inout) :: results
-      type(contact_solution_t), intent(out) :: solution
-      type(status_t), intent(out) :: status
-      type(results_t) :: again
-
-      call report_progress(data%reporter, 'not solved; each element with its own last digits')
-      call begin_results(results, again)
-      again%scene%near_elements = .false.
-      results = again
-      data%fem%grain = 0.0_wp
-      call drop_assembled(data)
-      if (allocated(data%flexibility)) deallocate (data%flexibility)
-      if (allocated(data%last)) deallocate (data%last)
-      call solve_one_form(data, data%contact_form, controls, store, results, solution, status)
-   end subroutine solve_without_near
 
    !> Solves by one form of the contact system, and checks what it found. Without a solution it is judged whether there can be one:
    !> status is STATUS_SINGULAR where there is none, STATUS_INTERNAL where the memory did not suffice for a solve.
@@ -120,7 +151,7 @@ contains
 
       do change = 1, MOST_CHANGES + 1
          again = change <= MOST_CHANGES
-         call solve_form(data, form, controls, store, results, solution, u, again, status)
+         call solve_form(solution, u, status)
          if (.not. again) exit                              ! the loads have lost what only the digits of the deck make of them
       end do
       if (.not. is_ok(status)) return
@@ -142,45 +173,42 @@ contains
       end if
       call stop_phase('check')
       call take_rigid_results(data, solution, results)
+
+   contains
+
+      !> The solution of one form, with the least of the idle motions.
+      subroutine solve_form(solution, u, status)
+         type(contact_solution_t), intent(out) :: solution
+         real(wp), allocatable, intent(out) :: u(:, :)         !< without rigid motions, (2, n_nodes) [L]
+         type(status_t), intent(out) :: status
+         type(controls_t) :: own
+         logical :: may_change
+
+         may_change = again
+         again = .false.
+         if (form == CONTACT_SPARSE) then
+            call solve_assembled(data, controls, results, solution, u, status)
+         else
+            own = controls
+            own%asks_contraction = data%is_printed
+            call solve_condensed(data, own, store, results%scene, solution, u, status)
+            results%contraction_estimate = solution%contraction_estimate
+            if (solution%factorisations > 0) results%factorisations = solution%factorisations
+         end if
+         if (allocated(data%assembled)) call data%assembled%check_solves(status)   ! whatever came of a solve that failed
+         solution%form = form
+         call start_phase('iterate')
+         again = may_change
+         call judge_outcome(data, results, solution, again, status)
+         call stop_phase('iterate')
+         if (again .or. .not. (is_ok(status) .and. solution%converged)) return
+         call start_phase('recover')
+         again = may_change
+         call settle_idle_motions(data, u, data%before, solution, again)
+         call stop_phase('recover')
+      end subroutine solve_form
+
    end subroutine solve_one_form
-
-   !> The solution of one form, with the least of the idle motions.
-   subroutine solve_form(data, form, controls, store, results, solution, u, again, status)
-      type(scene_data_t), intent(inout) :: data
-      integer, intent(in) :: form                           !< CONTACT_DENSE or CONTACT_SPARSE
-      type(controls_t), intent(in) :: controls
-      type(body_cache_t), intent(inout) :: store
-      type(results_t), intent(inout) :: results
-      type(contact_solution_t), intent(out) :: solution
-      real(wp), allocatable, intent(out) :: u(:, :)         !< without rigid motions, (2, n_nodes) [L]
-      logical, intent(inout) :: again                       !< in: whether loads may change; out: they have
-      type(status_t), intent(out) :: status
-      type(controls_t) :: own
-      logical :: may_change
-
-      may_change = again
-      again = .false.
-      if (form == CONTACT_SPARSE) then
-         call solve_assembled(data, controls, results, solution, u, status)
-      else
-         own = controls
-         own%asks_contraction = data%is_printed
-         call solve_condensed(data, own, store, results%scene, solution, u, status)
-         results%contraction_estimate = solution%contraction_estimate
-         if (solution%factorisations > 0) results%factorisations = solution%factorisations
-      end if
-      if (allocated(data%assembled)) call data%assembled%check_solves(status)   ! whatever came of a solve that failed
-      solution%form = form
-      call start_phase('iterate')
-      again = may_change
-      call judge_outcome(data, results, solution, again, status)
-      call stop_phase('iterate')
-      if (again .or. .not. (is_ok(status) .and. solution%converged)) return
-      call start_phase('recover')
-      again = may_change
-      call settle_idle_motions(data, u, data%before, solution, again)
-      call stop_phase('recover')
-   end subroutine solve_form
 
    !> The sparse form: all bodies in one matrix, which is assembled where it is not there.
    subroutine solve_assembled(data, controls, results, solution, u, status)
@@ -237,44 +265,6 @@ contains
          if (data%line%tangential(j) == i) solution%t(j) = 0.0_wp
       end do
    end subroutine clear_what_is_left
-
-   !> One rung after the other. What is found counts when it converges and its law holds; else all is as it was.
-   subroutine climb(data, asked_form, controls, store, results, solution)
-      type(scene_data_t), intent(inout) :: data
-      integer, intent(in) :: asked_form                     !< CONTACT_*
-      type(controls_t), intent(in) :: controls
-      type(body_cache_t), intent(inout) :: store
-      type(results_t), intent(inout) :: results
-      type(contact_solution_t), intent(inout) :: solution
-      type(results_t) :: other
-      type(contact_solution_t) :: other_solution
-      type(controls_t) :: its_controls
-      type(status_t) :: status
-      integer(ip) :: m, solves
-      integer :: i
-
-      if (controls%method /= METHOD_ANDERSON) return        ! the user's own choice
-      m = size(data%line%point, kind=ip)
-      solves = merge(solution%history%n, 0_ip, data%contact_form == CONTACT_DENSE)
-      do i = 1, size(RUNGS)
-         if (.not. is_tried(i, data%contact_form, asked_form, m, data%may_cut)) cycle
-         if (RUNGS(i)%form == CONTACT_DENSE .and. is_too_much(controls, m, solves)) cycle
-         its_controls = controls_of_rung(RUNGS(i), controls)
-         call report_progress(data%reporter, 'no solution; the '//contact_form_name(RUNGS(i)%form) &
-                              //' form of the contact system'//rung_text(RUNGS(i), its_controls))
-         call begin_results(results, other)
-         if (RUNGS(i)%form /= data%contact_form) then
-            other%scene%contact_form = contact_form_name(RUNGS(i)%form)
-            other%scene%contact_reason = 'what was tried before found no solution'
-         end if
-         call solve_one_form(data, RUNGS(i)%form, its_controls, store, other, other_solution, status)
-         if (RUNGS(i)%form == CONTACT_DENSE) solves = solves + other_solution%history%n
-         if (.not. is_solved(other, status)) cycle
-         solution = other_solution
-         results = other
-         return
-      end do
-   end subroutine climb
 
    !> Scene, and place in the history, of another attempt.
    pure subroutine begin_results(results, other)
@@ -425,27 +415,27 @@ contains
       results%outer_iterations = solution%history%outer
       results%linear_solves = max(solution%history%n, 1_ip)
       results%contraction = solution%contraction
-      call measure_sizes(data, contact, results, solution)
+      call measure_sizes(solution)
+
+   contains
+
+      !> The largest displacement of each body, and the largest force at a node of it.
+      pure subroutine measure_sizes(solution)
+         type(contact_solution_t), intent(inout) :: solution
+         integer(ip) :: b
+
+         solution%body_motion = [(0.0_wp, b=1, data%fem%bodies%n)]
+         solution%body_force = solution%body_motion
+         do b = 1, data%fem%bodies%n
+            associate (nodes => data%fem%bodies%list(b)%nodes)
+               solution%body_motion(b) = maxval(abs(results%u(:, nodes)))
+               solution%body_force(b) = max(maxval(abs(data%f(:, nodes))), maxval(abs(contact(:, nodes))), &
+                                            maxval(abs(results%reaction(:, nodes))))
+            end associate
+         end do
+      end subroutine measure_sizes
+
    end subroutine recover
-
-   !> The largest displacement of each body, and the largest force at a node of it.
-   pure subroutine measure_sizes(data, contact, results, solution)
-      type(scene_data_t), intent(in) :: data
-      real(wp), intent(in) :: contact(:, :)                 !< (2, n_nodes) [F]
-      type(results_t), intent(in) :: results
-      type(contact_solution_t), intent(inout) :: solution
-      integer(ip) :: b
-
-      solution%body_motion = [(0.0_wp, b=1, data%fem%bodies%n)]
-      solution%body_force = solution%body_motion
-      do b = 1, data%fem%bodies%n
-         associate (nodes => data%fem%bodies%list(b)%nodes)
-            solution%body_motion(b) = maxval(abs(results%u(:, nodes)))
-            solution%body_force(b) = max(maxval(abs(data%f(:, nodes))), maxval(abs(contact(:, nodes))), &
-                                         maxval(abs(results%reaction(:, nodes))))
-         end associate
-      end do
-   end subroutine measure_sizes
 
    !> The forces at the contact points and their pairs, and the rigid motions of the bodies.
    pure function sizes_at_points(data, solution) result(sizes)

@@ -64,11 +64,57 @@ contains
       else if (folder(1) .neqv. folder(2)) then
          call set_status(status, STATUS_USAGE, a//' and '//b//': one is a folder, the other a file')
       else if (folder(1)) then
-         call compare_folders(a, b, comparison, status)
+         call compare_folders()
       else
          call compare_there(a, b, comparison, status)
       end if
-      if (is_ok(status)) call conclude(comparison, status)
+      if (is_ok(status)) call conclude()
+
+   contains
+
+      subroutine compare_folders()
+         character(len=:), allocatable :: file_a, file_b
+         logical :: there(2)
+         integer :: i
+
+         do i = 1, size(TABLE_NAMES)
+            file_a = table_path(a, trim(TABLE_NAMES(i)))
+            file_b = table_path(b, trim(TABLE_NAMES(i)))
+            there = are_there(file_a, file_b)
+            if (.not. any(there)) cycle
+            if (any(LEFT_OUT == TABLE_NAMES(i))) then
+               call append_string(comparison%left_out, trim(TABLE_NAMES(i)))
+            else if (.not. all(there)) then
+               call report_missing(comparison, file_a, file_b, there)
+            else
+               call compare_there(file_a, file_b, comparison, status)
+               if (.not. is_ok(status)) return
+            end if
+         end do
+         if (comparison%n_tables == 0 .and. comparison%n_differences == 0) then
+            call set_status(status, STATUS_FILE, a//' and '//b//': there are no tables to compare')
+         end if
+      end subroutine compare_folders
+
+      !> The last lines and the outcome.
+      subroutine conclude()
+         character(len=:), allocatable :: text
+
+         text = plural(comparison%n_tables, 'table', 'tables')//', '//plural(comparison%n_values, 'value', 'values')
+         if (size(comparison%left_out) > 0) text = text//', left out: '//join(comparison%left_out, ' ')
+         if (comparison%n_differences > MOST_LINES) then
+            call add_line(comparison%page, '... and '//to_text(comparison%n_differences - MOST_LINES)//' more')
+         end if
+         if (comparison%n_differences == 0) then
+            call add_line(comparison%page, 'same: '//text)
+            status%code = STATUS_OK
+         else
+            call add_line(comparison%page, 'different: '// &
+                          plural(comparison%n_differences, 'difference', 'differences')//' in '//text)
+            call set_status(status, STATUS_USAGE, 'the tables differ')
+         end if
+      end subroutine conclude
+
    end subroutine compare_paths
 
    !> Which of two files or folders are there.
@@ -88,33 +134,6 @@ contains
       if (.not. there(1)) call report(comparison, a//': missing')
       if (.not. there(2)) call report(comparison, b//': missing')
    end subroutine report_missing
-
-   subroutine compare_folders(a, b, comparison, status)
-      character(len=*), intent(in) :: a, b
-      type(comparison_t), intent(inout) :: comparison
-      type(status_t), intent(inout) :: status
-      character(len=:), allocatable :: file_a, file_b
-      logical :: there(2)
-      integer :: i
-
-      do i = 1, size(TABLE_NAMES)
-         file_a = table_path(a, trim(TABLE_NAMES(i)))
-         file_b = table_path(b, trim(TABLE_NAMES(i)))
-         there = are_there(file_a, file_b)
-         if (.not. any(there)) cycle
-         if (any(LEFT_OUT == TABLE_NAMES(i))) then
-            call append_string(comparison%left_out, trim(TABLE_NAMES(i)))
-         else if (.not. all(there)) then
-            call report_missing(comparison, file_a, file_b, there)
-         else
-            call compare_there(file_a, file_b, comparison, status)
-            if (.not. is_ok(status)) return
-         end if
-      end do
-      if (comparison%n_tables == 0 .and. comparison%n_differences == 0) then
-         call set_status(status, STATUS_FILE, a//' and '//b//': there are no tables to compare')
-      end if
-   end subroutine compare_folders
 
    subroutine compare_there(a, b, comparison, status)
       character(len=*), intent(in) :: a, b
@@ -144,7 +163,7 @@ contains
       if ((a%not_converged .neqv. b%not_converged) .and. .not. (a%is_csv .or. b%is_csv)) then
          call report(comparison, a%name//': NOT CONVERGED in the '//trim(merge('first ', 'second', a%not_converged))//' only')
       end if
-      call match_columns(a, b, comparison, column_in_b)
+      call match_columns(column_in_b)
       if (kind_of(a) == kind_of(b) .and. has_quantities(a)) then
          call compare_summaries(a, b, comparison)
          return
@@ -154,55 +173,54 @@ contains
          return
       end if
       do column = 1, a%n_columns
-         if (column_in_b(column) > 0) call compare_columns(a, b, column, column_in_b(column), comparison)
+         if (column_in_b(column) > 0) call compare_columns(column, column_in_b(column))
       end do
+
+   contains
+
+      !> Place in b of each column of a; 0 and a difference where there is none. The order counts too: scripts use it.
+      subroutine match_columns(column_in_b)
+         integer(ip), allocatable, intent(out) :: column_in_b(:)
+         integer(ip) :: i
+         logical :: all_there
+
+         all_there = a%n_columns == b%n_columns
+         allocate (column_in_b(a%n_columns))
+         do i = 1, a%n_columns
+            column_in_b(i) = find_column(b, a%columns(i)%s)
+            if (column_in_b(i) == 0) call report(comparison, a%name//': column '//a%columns(i)%s//' is missing in the second')
+            all_there = all_there .and. column_in_b(i) > 0
+         end do
+         do i = 1, b%n_columns
+            if (find_column(a, b%columns(i)%s) > 0) cycle
+            call report(comparison, a%name//': column '//b%columns(i)%s//' is missing in the first')
+            all_there = .false.
+         end do
+         if (.not. all_there) return
+         if (any(column_in_b /= [(i, i=1, a%n_columns)])) then
+            call report(comparison, a%name//': the columns stand in another order: '//join(a%columns, ' ')//' / '// &
+                        join(b%columns, ' '))
+         end if
+      end subroutine match_columns
+
+      subroutine compare_columns(i, j)
+         integer(ip), intent(in) :: i, j               !< the column in a and in b
+         integer(ip), allocatable :: of_a(:), of_b(:)
+         real(wp) :: scale(a%n_rows)
+         logical :: exact, by_pair
+         integer(ip) :: row
+
+         of_a = columns_of_scale(a, i)
+         of_b = columns_of_scale(b, j)
+         exact = is_integer_column(a, i, 1_ip, a%n_rows) .or. is_integer_column(b, j, 1_ip, b%n_rows)
+         by_pair = is_of_pair(a, i) .and. is_of_pair(b, j)
+         scale = max(row_scales(a, of_a, by_pair), row_scales(b, of_b, by_pair), moment_scale(a, i), moment_scale(b, j))
+         do row = 1, a%n_rows
+            call compare_items(a, b, [i, row], [j, row], scale(row), exact, comparison)
+         end do
+      end subroutine compare_columns
+
    end subroutine compare_tables
-
-   !> Place in b of each column of a; 0 and a difference where there is none. The order counts too: scripts use it.
-   subroutine match_columns(a, b, comparison, column_in_b)
-      type(table_file_t), intent(in) :: a, b
-      type(comparison_t), intent(inout) :: comparison
-      integer(ip), allocatable, intent(out) :: column_in_b(:)
-      integer(ip) :: i
-      logical :: all_there
-
-      all_there = a%n_columns == b%n_columns
-      allocate (column_in_b(a%n_columns))
-      do i = 1, a%n_columns
-         column_in_b(i) = find_column(b, a%columns(i)%s)
-         if (column_in_b(i) == 0) call report(comparison, a%name//': column '//a%columns(i)%s//' is missing in the second')
-         all_there = all_there .and. column_in_b(i) > 0
-      end do
-      do i = 1, b%n_columns
-         if (find_column(a, b%columns(i)%s) > 0) cycle
-         call report(comparison, a%name//': column '//b%columns(i)%s//' is missing in the first')
-         all_there = .false.
-      end do
-      if (.not. all_there) return
-      if (any(column_in_b /= [(i, i=1, a%n_columns)])) then
-         call report(comparison, a%name//': the columns stand in another order: '//join(a%columns, ' ')//' / '// &
-                     join(b%columns, ' '))
-      end if
-   end subroutine match_columns
-
-   subroutine compare_columns(a, b, i, j, comparison)
-      type(table_file_t), intent(in) :: a, b
-      integer(ip), intent(in) :: i, j               !< the column in a and in b
-      type(comparison_t), intent(inout) :: comparison
-      integer(ip), allocatable :: of_a(:), of_b(:)
-      real(wp) :: scale(a%n_rows)
-      logical :: exact, by_pair
-      integer(ip) :: row
-
-      of_a = columns_of_scale(a, i)
-      of_b = columns_of_scale(b, j)
-      exact = is_integer_column(a, i, 1_ip, a%n_rows) .or. is_integer_column(b, j, 1_ip, b%n_rows)
-      by_pair = is_of_pair(a, i) .and. is_of_pair(b, j)
-      scale = max(row_scales(a, of_a, by_pair), row_scales(b, of_b, by_pair), moment_scale(a, i), moment_scale(b, j))
-      do row = 1, a%n_rows
-         call compare_items(a, b, [i, row], [j, row], scale(row), exact, comparison)
-      end do
-   end subroutine compare_columns
 
    !> All items are integers and not all are 0, which a column of reals may hold as well.
    pure logical function is_integer_column(table, column, first, last)
@@ -373,25 +391,5 @@ contains
       comparison%n_differences = comparison%n_differences + 1
       if (comparison%n_differences <= MOST_LINES) call add_line(comparison%page, text)
    end subroutine report
-
-   !> The last lines and the outcome.
-   subroutine conclude(comparison, status)
-      type(comparison_t), intent(inout) :: comparison
-      type(status_t), intent(inout) :: status
-      character(len=:), allocatable :: text
-
-      text = plural(comparison%n_tables, 'table', 'tables')//', '//plural(comparison%n_values, 'value', 'values')
-      if (size(comparison%left_out) > 0) text = text//', left out: '//join(comparison%left_out, ' ')
-      if (comparison%n_differences > MOST_LINES) then
-         call add_line(comparison%page, '... and '//to_text(comparison%n_differences - MOST_LINES)//' more')
-      end if
-      if (comparison%n_differences == 0) then
-         call add_line(comparison%page, 'same: '//text)
-         status%code = STATUS_OK
-      else
-         call add_line(comparison%page, 'different: '//plural(comparison%n_differences, 'difference', 'differences')//' in '//text)
-         call set_status(status, STATUS_USAGE, 'the tables differ')
-      end if
-   end subroutine conclude
 
 end module atrito_compare

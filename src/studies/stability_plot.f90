@@ -36,69 +36,67 @@ contains
       call begin_plots(plots, plot_folder(folder))
       call begin_data(plots, LIMIT_PLOT, 'blocks: solved and checked, not converged; columns: '//limit%parameter// &
                       ', displacement [L]')
-      call put_values(plots, limit, STATUS_OK)
-      call put_values(plots, limit, STATUS_NOT_CONVERGED)
-      call write_script(plots, title, limit)
+      call put_values(STATUS_OK)
+      call put_values(STATUS_NOT_CONVERGED)
+      call write_script()
       call write_mechanism_plot(plots, model, limit, title, view)
       call end_plots(plots, status)
       names(1)%s = LIMIT_PLOT
       names(2)%s = MECHANISM_PLOT
       call draw_written(folder, names, status, drawn)
+
+   contains
+
+      !> The curve; the part beyond the limit is shaded.
+      subroutine write_script()
+         type(range_t) :: across, up
+         integer :: i
+         character(len=:), allocatable :: line, falls, fallen
+
+         across = range_of([limit%stands, limit%falls])
+         call cover(up, [0.0_wp])
+         do i = 1, size(limit%values)
+            if (limit%values(i)%code /= STATUS_OK) cycle
+            call cover(across, [limit%values(i)%value])
+            call cover(up, [limit%values(i)%displacement])
+         end do
+         falls = 'first '//to_text(limit%falls, MANY_DIGITS)
+         fallen = 'graph 0, graph 0 to '//falls
+         if (limit%falls > limit%stands) fallen = falls//', graph 0 to graph 1'
+         call begin_script(plots, LIMIT_PLOT, 'a displacement up to the limit of '//limit%parameter, &
+                           'Columns of limit.dat: 1 '//limit%parameter//', 2 displacement [L]')
+         call put(plots, 'set border 3 lt 1 lw 1 lc rgb "#404040"; set tics nomirror out scale 0.6 textcolor rgb "black"'//LF// &
+                  'set grid lt 1 lw 1 lc rgb "#E0E0E0"; set format x "%h"; set format y "%h"'//LF// &
+                  'set xrange '//range_text(padded(across))//'; set yrange '//range_text(padded(up))//LF// &
+                  'set style rect fc rgb "#D55E00" fs transparent solid 0.12 noborder'//LF// &
+                  'set object 1 rect from '//fallen//', graph 1 behind'//LF// &
+                  'set arrow 1 from '//falls//', graph 0 rto 0, graph 1 nohead lt 1 lw 1.5 lc rgb "#D55E00"')
+         call put_terminal(plots, '1000,560')
+         call put(plots, 'set title '//quoted(cleaned(title, LONGEST_TITLE))//' noenhanced'//LF// &
+                  'set xlabel '//quoted(limit%parameter)//' noenhanced; set ylabel '//quoted(limit%watched//' [L]')// &
+                  ' noenhanced'//LF//'set key noautotitle outside bottom center horizontal Left reverse samplen 2.5')
+         line = 'plot "limit.dat" index 0 using 1:2 with linespoints lt 1 lw 1.8 pt 7 ps 0.9*dot lc rgb "'//COLOUR(1)// &
+                '" title "stands"'
+         if (any(limit%values%code == STATUS_NOT_CONVERGED)) line = line//', "limit.dat" index 1 using 1:(0) with points lt 1'// &
+                                                                    ' lw 1.5 pt 2 ps 1.1*dot lc rgb "#606060" title "undecided"'
+         call put(plots, line//', NaN with lines lt 1 lw 1.5 lc rgb "#D55E00" title '// &
+                  quoted('falls from '//to_text(limit%falls, 8)//' on')//' noenhanced')
+      end subroutine write_script
+
+      !> The block of the values that ended so.
+      subroutine put_values(code)
+         integer, intent(in) :: code
+         integer :: i
+
+         do i = 1, size(limit%values)
+            associate (one => limit%values(i))
+               if (one%code == code) call put(plots, trimmed_real(one%value, MANY_DIGITS)//' '// &
+                                              trimmed_real(one%displacement, MANY_DIGITS))
+            end associate
+         end do
+         call put(plots, LF)
+      end subroutine put_values
+
    end subroutine write_stability_plots
-
-   !> The block of the values that ended so.
-   subroutine put_values(plots, limit, code)
-      type(plots_t), intent(inout) :: plots
-      type(stability_t), intent(in) :: limit
-      integer, intent(in) :: code
-      integer :: i
-
-      do i = 1, size(limit%values)
-         associate (one => limit%values(i))
-            if (one%code == code) call put(plots, trimmed_real(one%value, MANY_DIGITS)//' '// &
-                                           trimmed_real(one%displacement, MANY_DIGITS))
-         end associate
-      end do
-      call put(plots, LF)
-   end subroutine put_values
-
-   !> The curve; the part beyond the limit is shaded.
-   subroutine write_script(plots, title, limit)
-      type(plots_t), intent(inout) :: plots
-      character(len=*), intent(in) :: title
-      type(stability_t), intent(in) :: limit
-      type(range_t) :: across, up
-      integer :: i
-      character(len=:), allocatable :: line, falls, fallen
-
-      across = range_of([limit%stands, limit%falls])
-      call cover(up, [0.0_wp])
-      do i = 1, size(limit%values)
-         if (limit%values(i)%code /= STATUS_OK) cycle
-         call cover(across, [limit%values(i)%value])
-         call cover(up, [limit%values(i)%displacement])
-      end do
-      falls = 'first '//to_text(limit%falls, MANY_DIGITS)
-      fallen = 'graph 0, graph 0 to '//falls
-      if (limit%falls > limit%stands) fallen = falls//', graph 0 to graph 1'
-      call begin_script(plots, LIMIT_PLOT, 'a displacement up to the limit of '//limit%parameter, &
-                        'Columns of limit.dat: 1 '//limit%parameter//', 2 displacement [L]')
-      call put(plots, 'set border 3 lt 1 lw 1 lc rgb "#404040"; set tics nomirror out scale 0.6 textcolor rgb "black"'//LF// &
-               'set grid lt 1 lw 1 lc rgb "#E0E0E0"; set format x "%h"; set format y "%h"'//LF// &
-               'set xrange '//range_text(padded(across))//'; set yrange '//range_text(padded(up))//LF// &
-               'set style rect fc rgb "#D55E00" fs transparent solid 0.12 noborder'//LF// &
-               'set object 1 rect from '//fallen//', graph 1 behind'//LF// &
-               'set arrow 1 from '//falls//', graph 0 rto 0, graph 1 nohead lt 1 lw 1.5 lc rgb "#D55E00"')
-      call put_terminal(plots, '1000,560')
-      call put(plots, 'set title '//quoted(cleaned(title, LONGEST_TITLE))//' noenhanced'//LF// &
-               'set xlabel '//quoted(limit%parameter)//' noenhanced; set ylabel '//quoted(limit%watched//' [L]')// &
-               ' noenhanced'//LF//'set key noautotitle outside bottom center horizontal Left reverse samplen 2.5')
-      line = 'plot "limit.dat" index 0 using 1:2 with linespoints lt 1 lw 1.8 pt 7 ps 0.9*dot lc rgb "'//COLOUR(1)// &
-             '" title "stands"'
-      if (any(limit%values%code == STATUS_NOT_CONVERGED)) line = line//', "limit.dat" index 1 using 1:(0) with points lt 1'// &
-                                                                 ' lw 1.5 pt 2 ps 1.1*dot lc rgb "#606060" title "undecided"'
-      call put(plots, line//', NaN with lines lt 1 lw 1.5 lc rgb "#D55E00" title '// &
-               quoted('falls from '//to_text(limit%falls, 8)//' on')//' noenhanced')
-   end subroutine write_script
 
 end module atrito_stability_plot

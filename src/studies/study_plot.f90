@@ -31,69 +31,69 @@ contains
       type(string_t) :: names(1)
 
       call begin_plots(plots, plot_folder(folder))
-      call write_data(plots, study)
-      call write_script(plots, title, study)
+      call write_data()
+      call write_script()
       call end_plots(plots, status)
       names(1)%s = STUDY_PLOT
       call draw_written(folder, names, status, drawn)
-   end subroutine write_study_plot
 
-   !> A block an element.
-   subroutine write_data(plots, study)
-      type(plots_t), intent(inout) :: plots
-      type(study_t), intent(in) :: study
-      character(len=:), allocatable :: line
-      integer :: i, j, k
+   contains
 
-      call begin_data(plots, STUDY_PLOT, 'a block an element; columns: dofs, processor seconds, estimated error [%], errors of '// &
-                      'the quantities [%]')
-      do i = 1, size(study%elements)
-         do k = 1, size(study%rows)
-            if (study%rows(k)%element /= study%elements(i)%s) cycle
-            line = to_text(study%rows(k)%n_dofs)
-            do j = SECONDS, ESTIMATE
-               line = line//' '//trimmed_real(column(study, k, j), 6)
-            end do
-            do j = 1, size(study%quantities)
-               line = line//' '//trimmed_real(100*study%quantities(j)%error(k), 6)
-            end do
-            call put(plots, line)
+      !> A panel a quantity that has errors, one of the estimate and one of the time.
+      subroutine write_script()
+         character(len=*), parameter :: TIME = 'processor time [s]'
+         logical :: has_panel(size(study%quantities))
+         integer(ip) :: i, j, panels
+
+         ! a quantity without a reference has no errors to show, one that is held has nothing but rounding
+         has_panel = [((any([(has_points(study, study%elements(i)%s, SECONDS, ESTIMATE + j), i=1, size(study%elements))]) &
+                        .and. .not. study%quantities(j)%is_held), j=1, size(has_panel))]
+         panels = 2 + count(has_panel, kind=ip)
+         call begin_script(plots, STUDY_PLOT, 'error against run time, and run time against size', &
+                           'Columns of study.dat: 1 dofs, 2 processor seconds, 3 estimated error [%], 4 ... errors of the '// &
+                           'quantities [%]')
+         call put(plots, 'set logscale xy; set format x "%g"; set format y "%g"; set grid lt 1 lw 1 lc rgb "#E0E0E0"'//LF// &
+                  'set border 3 lt 1 lw 1 lc rgb "#404040"; set tics nomirror out scale 0.6 textcolor rgb "black"'//LF// &
+                  'set lmargin at screen 0.12; set rmargin at screen 0.76'//LF// &
+                  'set key at screen 0.775, graph 1 left top Left reverse samplen 2.5 noenhanced'//LF// &
+                  'set style line 20 lt 1 dt 2 lw 1.2 lc rgb "#808080"')
+         call put_terminal(plots, '1000,'//to_text(60 + 320*panels))
+         call put(plots, 'set multiplot layout '//to_text(panels)//',1 title '// &
+                  quoted(cleaned(title, LONGEST_TITLE)//'   (slopes are those of the last two levels)')//' noenhanced')
+         do j = 1, size(study%quantities, kind=ip)
+            if (has_panel(j)) call put_panel(plots, study, SECONDS, TIME, ESTIMATE + j, &
+                                             'error of '//study%quantities(j)%name//' [%]')
          end do
-         call put(plots, LF)
-      end do
-   end subroutine write_data
+         call put_panel(plots, study, SECONDS, TIME, ESTIMATE, 'estimated error, energy norm [%]')
+         call put_panel(plots, study, DOFS, 'displacements', SECONDS, TIME)
+         call put(plots, 'unset multiplot')
+      end subroutine write_script
 
-   !> A panel a quantity that has errors, one of the estimate and one of the time.
-   subroutine write_script(plots, title, study)
-      type(plots_t), intent(inout) :: plots
-      character(len=*), intent(in) :: title
-      type(study_t), intent(in) :: study
-      character(len=*), parameter :: TIME = 'processor time [s]'
-      logical :: has_panel(size(study%quantities))
-      integer(ip) :: i, j, panels
+      !> A block an element.
+      subroutine write_data()
+         character(len=:), allocatable :: line
+         integer :: i, j, k
 
-      ! a quantity without a reference has no errors to show, one that is held has nothing but rounding
-      has_panel = [((any([(has_points(study, study%elements(i)%s, SECONDS, ESTIMATE + j), i=1, size(study%elements))]) &
-                     .and. .not. study%quantities(j)%is_held), j=1, size(has_panel))]
-      panels = 2 + count(has_panel, kind=ip)
-      call begin_script(plots, STUDY_PLOT, 'error against run time, and run time against size', &
-                        'Columns of study.dat: 1 dofs, 2 processor seconds, 3 estimated error [%], 4 ... errors of the '// &
-                        'quantities [%]')
-      call put(plots, 'set logscale xy; set format x "%g"; set format y "%g"; set grid lt 1 lw 1 lc rgb "#E0E0E0"'//LF// &
-               'set border 3 lt 1 lw 1 lc rgb "#404040"; set tics nomirror out scale 0.6 textcolor rgb "black"'//LF// &
-               'set lmargin at screen 0.12; set rmargin at screen 0.76'//LF// &
-               'set key at screen 0.775, graph 1 left top Left reverse samplen 2.5 noenhanced'//LF// &
-               'set style line 20 lt 1 dt 2 lw 1.2 lc rgb "#808080"')
-      call put_terminal(plots, '1000,'//to_text(60 + 320*panels))
-      call put(plots, 'set multiplot layout '//to_text(panels)//',1 title '// &
-               quoted(cleaned(title, LONGEST_TITLE)//'   (slopes are those of the last two levels)')//' noenhanced')
-      do j = 1, size(study%quantities, kind=ip)
-         if (has_panel(j)) call put_panel(plots, study, SECONDS, TIME, ESTIMATE + j, 'error of '//study%quantities(j)%name//' [%]')
-      end do
-      call put_panel(plots, study, SECONDS, TIME, ESTIMATE, 'estimated error, energy norm [%]')
-      call put_panel(plots, study, DOFS, 'displacements', SECONDS, TIME)
-      call put(plots, 'unset multiplot')
-   end subroutine write_script
+         call begin_data(plots, STUDY_PLOT, &
+                         'a block an element; columns: dofs, processor seconds, estimated error [%], errors of '// &
+                         'the quantities [%]')
+         do i = 1, size(study%elements)
+            do k = 1, size(study%rows)
+               if (study%rows(k)%element /= study%elements(i)%s) cycle
+               line = to_text(study%rows(k)%n_dofs)
+               do j = SECONDS, ESTIMATE
+                  line = line//' '//trimmed_real(column(study, k, j), 6)
+               end do
+               do j = 1, size(study%quantities)
+                  line = line//' '//trimmed_real(100*study%quantities(j)%error(k), 6)
+               end do
+               call put(plots, line)
+            end do
+            call put(plots, LF)
+         end do
+      end subroutine write_data
+
+   end subroutine write_study_plot
 
    !> One panel: column y against column x. Where no number can be drawn the panel is left empty. The label of the ordinate stands
    !> at the same place in all panels, however long their numbers are.

@@ -53,7 +53,7 @@ contains
             claim%descriptor = c_open_lock(folder//c_null_char)
             if (claim%descriptor < 0) tries = tries + 1
             if (claim%descriptor < 0) cycle
-            call await_lock(claim%descriptor, folder, seconds, tells, status)
+            call await_lock(claim%descriptor)
          end if
          if (.not. is_ok(status)) then
             call release_folder(claim)
@@ -68,23 +68,22 @@ contains
          call c_close_lock(claim%descriptor)
          claim%descriptor = -1
       end do
+
+   contains
+
+      subroutine await_lock(descriptor)
+         integer, intent(in) :: descriptor
+         integer :: ios
+
+         if (c_lock_folder(descriptor, 0.0_wp) == 1) return
+         if (tells) write (error_unit, '(a)', iostat=ios) 'wait  another run writes into '//visible(folder)
+         flush (error_unit, iostat=ios)
+         if (c_lock_folder(descriptor, seconds) == 1) return
+         call set_status(status, STATUS_FILE, folder//': another run has had this folder for '//to_text(seconds/60.0_wp, 3)// &
+                         ' minutes; end it, or take another folder (-o)')
+      end subroutine await_lock
+
    end subroutine claim_folder
-
-   subroutine await_lock(descriptor, folder, seconds, tells, status)
-      integer, intent(in) :: descriptor
-      character(len=*), intent(in) :: folder
-      real(wp), intent(in) :: seconds
-      logical, intent(in) :: tells
-      type(status_t), intent(inout) :: status
-      integer :: ios
-
-      if (c_lock_folder(descriptor, 0.0_wp) == 1) return
-      if (tells) write (error_unit, '(a)', iostat=ios) 'wait  another run writes into '//visible(folder)
-      flush (error_unit, iostat=ios)
-      if (c_lock_folder(descriptor, seconds) == 1) return
-      call set_status(status, STATUS_FILE, folder//': another run has had this folder for '//to_text(seconds/60.0_wp, 3)// &
-                      ' minutes; end it, or take another folder (-o)')
-   end subroutine await_lock
 
    !> Ends a claim. Folders that were made for it and are empty are removed.
    subroutine release_folder(claim)
