@@ -197,19 +197,19 @@ contains
       coarse = identity_average(n)
       if (average%is_identity) return
       coarse%is_identity = .false.
-      deallocate (coarse%column, coarse%entry)
-      allocate (coarse%column(0), coarse%entry(0))
+      deallocate (coarse%column, coarse%value)
+      allocate (coarse%column(0), coarse%value(0))
       allocate (row(n))
       do c = 1, n
          row = 0.0_wp
          do i = average%first(interpolation%point(c)), average%first(interpolation%point(c) + 1) - 1
             j = average%column(i)
             do d = interpolation%before(j), last_touched(interpolation, j)
-               row(d) = row(d) + average%entry(i)*share_of(interpolation, j, d)
+               row(d) = row(d) + average%value(i)*share_of(interpolation, j, d)
             end do
          end do
          coarse%column = [coarse%column, pack([(d, d=1, n)], row > 0.0_wp)]
-         coarse%entry = [coarse%entry, pack(row, row > 0.0_wp)]
+         coarse%value = [coarse%value, pack(row, row > 0.0_wp)]
          coarse%first(c + 1) = size(coarse%column, kind=ip) + 1
       end do
    end function coarse_average

@@ -110,7 +110,7 @@ contains
       of_all = 0.0_wp
       do k = line%average%first(j), line%average%first(j + 1) - 1
          i = line%normal(line%average%column(k))
-         if (i > 0) of_all(i) = line%law(j)%nu*line%average%entry(k)/problem%weight(i)
+         if (i > 0) of_all(i) = line%law(j)%nu*line%average%value(k)/problem%weight(i)
       end do
       slope = of_all(active)
    end function bound_slope

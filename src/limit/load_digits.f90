@@ -14,10 +14,11 @@ module atrito_load_digits
    use atrito_dense, only: solve_lu
    use atrito_friction_law, only: FRICTION_NONE
    use atrito_kinds, only: ip, wp
-   use atrito_motion_rows, only: motion_rows_t, motion_forces
+   use atrito_motion_rows, only: motion_rows_t
    use atrito_row_entries, only: first_motions, modes_at_node
    use atrito_scene_data, only: scene_data_t, reload
    use atrito_sliding_motions, only: printed_grain
+   use atrito_sparse_rows, only: transposed_sizes
    implicit none (type, external)
    private
    public :: place_doubt, is_within_digits, take_out
@@ -67,7 +68,7 @@ contains
       type(motion_rows_t), intent(in) :: rows
       real(wp), intent(in) :: v(:)                  !< (k) its amplitudes
       real(wp), intent(in) :: q(:)                  !< (m) forces of the rows, 0: of those that do not hold [F]
-      real(wp) :: allowed, most, forces, turn, along, sizes(rows%k)
+      real(wp) :: allowed, most, forces, turn, along, sizes(rows%n_columns)
       integer(ip) :: first(data%fem%bodies%n + 1), b, i, j, k
 
       first = first_motions(data%fem%bodies)
@@ -84,7 +85,7 @@ contains
             allowed = allowed + forces*turn/body%size
          end associate
       end do
-      do i = 1, rows%m
+      do i = 1, rows%n
          j = data%line%point(i)
          if (j > data%rows%n - data%rows%n_bilateral) cycle
          if (minval(abs(data%rows%normal(:, j))) <= ALONG_AXIS) cycle
@@ -94,7 +95,7 @@ contains
          end do
          allowed = allowed + abs(q(i)*along)/data%rows%reach(j)
       end do
-      sizes = rows%work_size + motion_forces(rows, q, .true.)
+      sizes = rows%work_size + transposed_sizes(rows, q)
       most = 0.0_wp
       do b = 1, data%fem%bodies%n                   ! whatever arms the forces on a body have
          associate (own => sizes(first(b):first(b + 1) - 1))

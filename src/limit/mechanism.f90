@@ -11,7 +11,8 @@ module atrito_mechanism
    use atrito_contact_rows, only: contact_rows_t, row_value
    use atrito_dense, only: least_squares
    use atrito_kinds, only: ip, wp
-   use atrito_motion_rows, only: motion_rows_t, motion_rates
+   use atrito_motion_rows, only: motion_rows_t
+   use atrito_sparse_rows, only: multiply_rows
    implicit none (type, external)
    private
    public :: mechanism_t, describe_motion
@@ -47,11 +48,11 @@ contains
       type(certificate_t), intent(in) :: certificate
       type(mechanism_t), intent(out) :: mechanism
       real(wp), intent(in), optional :: work_at_end(:) !< (k) of the loads at the end of the step; left out: they are these
-      real(wp) :: v(motions%k), by_friction(line%n), rate(motions%m), known_work
+      real(wp) :: v(motions%n_columns), by_friction(line%n), rate(motions%n), known_work
       logical :: closed(line%n)
 
       v = certificate%motion
-      rate = motion_rates(motions, v, .false.)
+      call multiply_rows(motions, v, rate)
       call friction_work(line, rate, by_friction, known_work)
       call look_at_points()
       call remove_lift(line, motions, closed, rate, v)
@@ -124,12 +125,12 @@ contains
       real(wp), intent(inout) :: v(:)
       real(wp), allocatable :: a(:, :), b(:), lift(:)
       integer(ip), allocatable :: moving(:)
-      logical :: kept(motions%m)
-      integer(ip) :: i, e, n, place(motions%k), rank, info
+      logical :: kept(motions%n)
+      integer(ip) :: i, e, n, place(motions%n_columns), rank, info
 
-      moving = pack([(i, i=1, motions%k)], abs(v) > 0.0_wp)
+      moving = pack([(i, i=1, motions%n_columns)], abs(v) > 0.0_wp)
       if (size(moving) > FEW) return
-      do i = 1, motions%m
+      do i = 1, motions%n
          associate (j => line%point(i))
             kept(i) = closed(j) .and. (line%normal(j) == i .or. abs(rate(i)) <= SMALL*maxval(abs(v)))
          end associate
@@ -139,11 +140,11 @@ contains
       allocate (a(count(kept), size(moving)), source=0.0_wp)
       b = pack(rate, kept)
       n = 0
-      do i = 1, motions%m
+      do i = 1, motions%n
          if (.not. kept(i)) cycle
          n = n + 1
          do e = motions%first(i), motions%first(i + 1) - 1
-            if (place(motions%motion(e)) > 0) a(n, place(motions%motion(e))) = motions%value(e)
+            if (place(motions%column(e)) > 0) a(n, place(motions%column(e))) = motions%value(e)
          end do
       end do
       allocate (lift(size(moving)), source=0.0_wp)

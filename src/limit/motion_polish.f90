@@ -7,7 +7,8 @@ module atrito_motion_polish
    use atrito_contact_line, only: contact_line_t
    use atrito_dense, only: least_squares
    use atrito_kinds, only: ip, wp
-   use atrito_motion_rows, only: motion_rows_t, motion_rates
+   use atrito_motion_rows, only: motion_rows_t
+   use atrito_sparse_rows, only: multiply_rows
    implicit none (type, external)
    private
    public :: polish_motion
@@ -31,11 +32,11 @@ contains
       real(wp), intent(in) :: scale(:)           !< (k) size of the forces on each motion [F]; 0: it takes no part
       real(wp), intent(inout) :: v(:)            !< (k) [L]
       real(wp), allocatable :: conditions(:, :), change(:)
-      integer(ip) :: motions(rows%k), column(rows%k), n, i, rank, info
+      integer(ip) :: motions(rows%n_columns), column(rows%n_columns), n, i, rank, info
 
       n = count(scale > 0.0_wp, kind=ip)
       if (n > MOST_MOTIONS) return
-      motions(:n) = pack([(i, i=1, rows%k)], scale > 0.0_wp)
+      motions(:n) = pack([(i, i=1, rows%n_columns)], scale > 0.0_wp)
       column = 0
       column(motions(:n)) = [(i, i=1, n)]
       call set_up_conditions(conditions)
@@ -56,12 +57,12 @@ contains
       subroutine set_up_conditions(conditions)
          real(wp), allocatable, intent(out) :: conditions(:, :) !< (conditions, motions)
          type(resistance_t) :: normal
-         real(wp) :: rate(rows%m), speed(rows%m), share
+         real(wp) :: rate(rows%n), speed(rows%n), share
          real(wp), allocatable :: tangential(:, :)
          integer(ip) :: j, e
          logical :: wanted(line%n), sticks(line%n)
 
-         rate = motion_rates(rows, v, .false.)
+         call multiply_rows(rows, v, rate)
          speed = speeds(rows, v)
          allocate (normal%row(line%n, maxval(column)), normal%rate(line%n), normal%most(line%n), source=0.0_wp)
          allocate (tangential(line%n, maxval(column)), source=0.0_wp)
@@ -76,7 +77,7 @@ contains
                sticks(j) = abs(rate(i)) <= SMALL*speed(i)
                if (sticks(j)) cycle
                do e = line%average%first(j), line%average%first(j + 1) - 1
-                  share = line%weight(j)*line%law(j)%nu*line%average%entry(e)/line%weight(line%average%column(e))
+                  share = line%weight(j)*line%law(j)%nu*line%average%value(e)/line%weight(line%average%column(e))
                   call add_part(rows, i, sign(share, rate(i)), column, rate, speed, line%average%column(e), normal)
                end do
             end associate
@@ -106,17 +107,17 @@ contains
    pure function speeds(rows, v) result(speed)
       type(motion_rows_t), intent(in) :: rows
       real(wp), intent(in) :: v(:)
-      real(wp) :: speed(rows%m), of_body(0:maxval(rows%body))
+      real(wp) :: speed(rows%n), of_body(0:maxval(rows%body))
       integer(ip) :: i, e
 
       of_body = 0.0_wp
-      do i = 1, rows%k
+      do i = 1, rows%n_columns
          of_body(rows%body(i)) = max(of_body(rows%body(i)), abs(v(i)))
       end do
       speed = 0.0_wp
-      do i = 1, rows%m
+      do i = 1, rows%n
          do e = rows%first(i), rows%first(i + 1) - 1
-            speed(i) = max(speed(i), of_body(rows%body(rows%motion(e))))
+            speed(i) = max(speed(i), of_body(rows%body(rows%column(e))))
          end do
       end do
    end function speeds
@@ -130,7 +131,7 @@ contains
       integer(ip) :: e
 
       do e = rows%first(i), rows%first(i + 1) - 1
-         associate (k => column(rows%motion(e)))
+         associate (k => column(rows%column(e)))
             if (k > 0) to(k) = to(k) + part*rows%value(e)
          end associate
       end do

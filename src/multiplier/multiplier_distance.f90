@@ -12,12 +12,12 @@
 !> pair bore in the increment before (NO_FORCE_AFTER), is no force to compare with: a pair without any other has none.
 module atrito_multiplier_distance
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-   use atrito_constraint_rows, only: add_transposed
    use atrito_contact_line, only: contact_line_t
    use atrito_contact_system, only: contact_system_t
    use atrito_kinds, only: ip, wp, HUGE_REAL
    use atrito_multiplier_step, only: largest_of_pairs, pull_of
    use atrito_multipliers, only: multiplier_t
+   use atrito_sparse_rows, only: add_transposed
    implicit none (type, external)
    private
    public :: distance_t, measure_distance, measure_bodies, forces_that_are_none, NO_FORCE_AFTER

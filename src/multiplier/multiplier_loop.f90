@@ -34,7 +34,7 @@
 module atrito_multiplier_loop
    use atrito_accelerator, only: anderson_t
    use atrito_bound_qp, only: bound_qp_t, box_state_t, FREE, AT_LOWER, AT_UPPER, FROZEN
-   use atrito_constraint_rows, only: constraint_rows_t, multiply_rows
+   use atrito_constraint_rows, only: constraint_rows_t
    use atrito_contact_line, only: contact_line_t, pressure_of, shear_force_of, normal_bounds, set_friction_bounds, &
                                   last_contact_pair, pairs_of_unknowns, tangential_of
    use atrito_contact_solution, only: contact_solution_t, asks_no_force, let_rest, FREE_MOTION, bound_of_state
@@ -51,6 +51,7 @@ module atrito_multiplier_loop
    use atrito_loop_progress, only: note_residual, report_step
    use atrito_reporter, only: reporter_t
    use atrito_solve_history, only: begin_outer, end_outer
+   use atrito_sparse_rows, only: multiply_rows
    use atrito_status, only: status_t, set_status, is_ok, STATUS_SINGULAR
    use atrito_strings, only: to_text
    implicit none (type, external)

@@ -30,7 +30,7 @@
 !> it; `noise` is what that does to a force, and neither changes a state nor is a distance from the solution.
 module atrito_multiplier_step
    use atrito_bound_qp, only: bound_qp_t, box_bounds_t, box_state_t, FREE, AT_LOWER, AT_UPPER, FROZEN
-   use atrito_constraint_rows, only: constraint_rows_t, multiply_rows, add_transposed
+   use atrito_constraint_rows, only: constraint_rows_t
    use atrito_contact_system, only: contact_system_t
    use atrito_kinds, only: ip, wp, EPS_MACH
    use atrito_least_forces, only: find_least_forces
@@ -38,6 +38,7 @@ module atrito_multiplier_step
    use atrito_multipliers, only: multiplier_t
    use atrito_range, only: unit_of
    use atrito_solve_history, only: solve_history_t, record_solve
+   use atrito_sparse_rows, only: multiply_rows, add_transposed
    use atrito_status, only: status_t, is_ok
    implicit none (type, external)
    private

@@ -11,12 +11,12 @@
 module atrito_undetermined_motions
    use atrito_bodies, only: simplest_motion
    use atrito_bound_qp, only: box_bounds_t, box_state_t, FREE, AT_LOWER, AT_UPPER
-   use atrito_constraint_rows, only: multiply_rows, add_transposed
    use atrito_contact_system, only: contact_system_t
    use atrito_dense, only: least_squares
    use atrito_kinds, only: ip, wp
    use atrito_multiplier_step, only: set_forces
    use atrito_multipliers, only: multiplier_t
+   use atrito_sparse_rows, only: multiply_rows, add_transposed
    implicit none (type, external)
    private
    public :: settle_undetermined_motions

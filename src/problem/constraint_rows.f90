@@ -16,17 +16,13 @@
 module atrito_constraint_rows
    use atrito_incidence, only: list_holders
    use atrito_kinds, only: ip, lp, wp
+   use atrito_sparse_rows, only: sparse_rows_t
    implicit none (type, external)
    private
-   public :: constraint_rows_t, list_components, multiply_rows, add_transposed
+   public :: constraint_rows_t, list_components
 
-   !> Rows by their entries: those of row i are first(i) .. first(i+1)-1.
-   type :: constraint_rows_t
-      integer(ip) :: n = 0                       !< rows
-      integer(ip) :: n_columns = 0               !< dofs
-      integer(ip), allocatable :: first(:)       !< (n + 1)
-      integer(ip), allocatable :: column(:)      !< dofs
-      real(wp), allocatable :: value(:)
+   !> B: rows of unknown forces, columns of dofs.
+   type, extends(sparse_rows_t) :: constraint_rows_t
       integer(ip), allocatable :: point(:)       !< (n) 1.., the point of each row: one or two rows have the same
    end type constraint_rows_t
 
@@ -40,46 +36,6 @@ module atrito_constraint_rows
    real(wp), parameter :: INDEPENDENT = 1.0e-6_wp !< part of a row on dofs of its own that makes it independent of other points
 
 contains
-
-   !> y = B x, the relative displacements of the points, and the sums of the sizes of its terms, |B| |x|: round-off of y
-   !> is some EPS_MACH of these.
-   pure subroutine multiply_rows(rows, x, y, sizes)
-      type(constraint_rows_t), intent(in) :: rows
-      real(wp), intent(in) :: x(:)               !< (n_columns) [L]
-      real(wp), intent(out) :: y(:)              !< (n) [L]
-      real(wp), intent(out), optional :: sizes(:) !< (n) |B| |x| [L]
-      integer(ip) :: i, k
-
-      do i = 1, rows%n
-         y(i) = 0.0_wp
-         do k = rows%first(i), rows%first(i + 1) - 1
-            y(i) = y(i) + rows%value(k)*x(rows%column(k))
-         end do
-      end do
-      if (.not. present(sizes)) return
-      do i = 1, rows%n
-         sizes(i) = 0.0_wp
-         do k = rows%first(i), rows%first(i + 1) - 1
-            sizes(i) = sizes(i) + abs(rows%value(k)*x(rows%column(k)))
-         end do
-      end do
-   end subroutine multiply_rows
-
-   !> y <- y + factor B' q: the forces of the contact on the dofs, added row by row; rows without a force are passed over.
-   pure subroutine add_transposed(rows, factor, q, y)
-      type(constraint_rows_t), intent(in) :: rows
-      real(wp), intent(in) :: factor                !< 1 or -1, mostly
-      real(wp), intent(in) :: q(:)               !< (n) [F]
-      real(wp), intent(inout) :: y(:)            !< (n_columns) [F]
-      integer(ip) :: i, k
-
-      do i = 1, rows%n
-         if (q(i) == 0.0_wp) cycle
-         do k = rows%first(i), rows%first(i + 1) - 1
-            y(rows%column(k)) = y(rows%column(k)) + factor*(rows%value(k)*q(i))
-         end do
-      end do
-   end subroutine add_transposed
 
    !> Components of the rows that may depend on each other; rows outside `used` do not count, as those of open points.
    !> No component: the forces are unique.

@@ -89,9 +89,8 @@ contains
          message%id = 'E-MEMORY'
          if (allocated(data%model%deck_path)) message%file = data%model%deck_path
          message%text = who//' about '//memory_text(short%needed)//' of memory for the scene, '//to_text(scene%n_dofs)// &
-                        ' free displacements and '//to_text(scene%n_normal &
-                                                            + scene%n_tangential)//' contact unknowns, there are '// &
-                        memory_text(short%there)
+                        ' free displacements and '//to_text(scene%n_normal + scene%n_tangential)// &
+                        ' contact unknowns, there are '//memory_text(short%there)
          message%expected = 'a coarser mesh or fewer contact points, or more memory'
          if (short%first > 0 .or. short%n > 1) message%expected = 'more ranks, '//message%expected//' for each'
          call add_message(message)

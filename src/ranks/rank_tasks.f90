@@ -98,7 +98,7 @@ contains
             if (rank == 0) call begin_own(tasks, process, task_of(0))
          end do
          if (all(task_of == 0)) exit
-         call look_for_outcome(task_of(0), outcome)
+         call look_for_outcome(task_of(0), rank, outcome, is_done)
          if (is_done) then
             busy(rank) = busy(rank) + seconds_from(given(rank))
             times%longest_task = max(times%longest_task, seconds_from(given(rank)))
@@ -118,9 +118,11 @@ contains
    contains
 
       !> What came of a task, of another rank or of rank 0's own.
-      subroutine look_for_outcome(own_task, outcome)
+      subroutine look_for_outcome(own_task, rank, outcome, is_done)
          integer(ip), intent(in) :: own_task           !< 0: none
+         integer(ip), intent(out) :: rank
          type(outcome_t), intent(out) :: outcome
+         logical, intent(out) :: is_done
          type(buffer_t) :: head
          integer(ip) :: end_code
 
