@@ -57,40 +57,39 @@ contains
       allocate (bases%load(2, model%mesh%n_nodes, size(bases%base)))
       if (allocated(fem%heating)) heating = fem%heating
       do i = 1, size(bases%base, kind=ip)
-         call load_of_base(model, step, bases%base(i), released, fem, bases%load(:, :, i))
+         call load_of_base(bases%base(i), bases%load(:, :, i))
       end do
       if (allocated(heating)) fem%heating = heating
       acts = [(any(bases%load(:, :, i) /= 0.0_wp), i=1, size(bases%base))]
       bases%load = bases%load(:, :, pack([(i, i=1, size(acts))], acts))
       bases%base = pack(bases%base, acts)
       allocate (bases%factor(size(bases%base)), source=0.0_wp)
+
+   contains
+
+      !> The load of one base: the forces at the nodes and of the temperatures, less what its prescribed displacements do. Forces of
+      !> supports that the step does not have act at its beginning and fade.
+      subroutine load_of_base(base, load)
+         integer(ip), intent(in) :: base
+         real(wp), intent(out) :: load(:, :)            !< (2, n_nodes) [F]
+         type(step_t) :: acting
+         logical, allocatable :: held(:, :)
+         real(wp), allocatable :: f(:, :), value(:, :), thermal(:, :)
+
+         call base_of(step, base, acting)
+         call nodal_loads(model, acting, f)
+         if (allocated(fem%heating)) then
+            fem%heating = acting%heating
+            allocate (thermal, mold=f)
+            thermal = 0.0_wp
+            call add_thermal_loads(fem, thermal)
+         end if
+         if (allocated(released) .and. base == BASE_BEGIN) f = f + released
+         call list_held(model, acting, held, value)
+         load = without_prescribed(fem, f, thermal, value)
+      end subroutine load_of_base
+
    end subroutine build_bases
-
-   !> The load of one base: the forces at the nodes and of the temperatures, less what its prescribed displacements do. Forces of
-   !> supports that the step does not have act at its beginning and fade.
-   subroutine load_of_base(model, step, base, released, fem, load)
-      type(model_t), intent(in) :: model
-      type(step_t), intent(in) :: step
-      integer(ip), intent(in) :: base
-      real(wp), allocatable, intent(in) :: released(:, :)
-      type(fem_t), intent(inout) :: fem
-      real(wp), intent(out) :: load(:, :)            !< (2, n_nodes) [F]
-      type(step_t) :: acting
-      logical, allocatable :: held(:, :)
-      real(wp), allocatable :: f(:, :), value(:, :), thermal(:, :)
-
-      call base_of(step, base, acting)
-      call nodal_loads(model, acting, f)
-      if (allocated(fem%heating)) then
-         fem%heating = acting%heating
-         allocate (thermal, mold=f)
-         thermal = 0.0_wp
-         call add_thermal_loads(fem, thermal)
-      end if
-      if (allocated(released) .and. base == BASE_BEGIN) f = f + released
-      call list_held(model, acting, held, value)
-      load = without_prescribed(fem, f, thermal, value)
-   end subroutine load_of_base
 
    !> Applied forces and those of the temperatures less those of the prescribed displacements.
    !>
@@ -133,7 +132,7 @@ contains
       type(condensed_body_t), intent(inout) :: bodies(:)
       integer(ip) :: b, i
 
-      if (.not. allocated(bases%reduced)) call reduce_bases(fem, bases, bodies)
+      if (.not. allocated(bases%reduced)) call reduce_bases()
       do b = 1, size(bodies, kind=ip)
          bodies(b)%load = 0.0_wp
          do i = 1, size(bases%base, kind=ip)
@@ -141,22 +140,22 @@ contains
             bodies(b)%load(:, 1) = bodies(b)%load(:, 1) + bases%factor(i)*bases%reduced(b)%x(:, i)
          end do
       end do
-   end subroutine load_bodies
 
-   subroutine reduce_bases(fem, bases, bodies)
-      type(fem_t), intent(in) :: fem
-      type(base_loads_t), intent(inout) :: bases
-      type(condensed_body_t), intent(inout) :: bodies(:)
-      integer(ip) :: b, i
+   contains
 
-      allocate (bases%reduced(size(bodies)))
-      do b = 1, size(bodies, kind=ip)
-         allocate (bases%reduced(b)%x(fem%bodies%list(b)%n, size(bases%base)))
-         do i = 1, size(bases%base, kind=ip)
-            call set_load(fem, b, bases%load(:, :, i), bodies(b))
-            bases%reduced(b)%x(:, i) = bodies(b)%load(:, 1)
+      subroutine reduce_bases()
+         integer(ip) :: b, i
+
+         allocate (bases%reduced(size(bodies)))
+         do b = 1, size(bodies, kind=ip)
+            allocate (bases%reduced(b)%x(fem%bodies%list(b)%n, size(bases%base)))
+            do i = 1, size(bases%base, kind=ip)
+               call set_load(fem, b, bases%load(:, :, i), bodies(b))
+               bases%reduced(b)%x(:, i) = bodies(b)%load(:, 1)
+            end do
          end do
-      end do
-   end subroutine reduce_bases
+      end subroutine reduce_bases
+
+   end subroutine load_bodies
 
 end module atrito_base_loads

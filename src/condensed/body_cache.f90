@@ -99,8 +99,27 @@ contains
       end do
       call move_alloc(bodies, store%bodies)
       if (.not. store%keeps) return
-      call remember(store, fem, held, points, load, asked, results, same_bodies)
+      call remember()
       if (present(bilateral)) store%bilateral = bilateral
+
+   contains
+
+      subroutine remember()
+
+         store%holds = .true.
+         store%asked = asked
+         store%grain = fem%grain
+         store%load = load
+         store%results = results
+         store%sections = fem%sections
+         store%section_of = fem%section_of
+         if (same_bodies) return
+         store%mesh = fem%mesh
+         store%numbering = fem%bodies
+         store%held = held
+         store%points = points
+      end subroutine remember
+
    end subroutine provide_bodies
 
    !> The bodies as the last call of provide_bodies left them, with another load.
@@ -119,30 +138,6 @@ contains
       call stop_phase('factor')
       if (store%holds) store%load = load
    end subroutine reload_bodies
-
-   subroutine remember(store, fem, held, points, load, asked, results, same_bodies)
-      type(body_cache_t), intent(inout) :: store
-      type(fem_t), intent(in) :: fem
-      logical, intent(in) :: held(:, :)
-      type(contact_points_t), intent(in) :: points(:)
-      real(wp), intent(in) :: load(:, :)
-      integer, intent(in) :: asked
-      type(body_result_t), intent(in) :: results(:)
-      logical, intent(in) :: same_bodies               !< mesh, supports and points are those that are there
-
-      store%holds = .true.
-      store%asked = asked
-      store%grain = fem%grain
-      store%load = load
-      store%results = results
-      store%sections = fem%sections
-      store%section_of = fem%section_of
-      if (same_bodies) return
-      store%mesh = fem%mesh
-      store%numbering = fem%bodies
-      store%held = held
-      store%points = points
-   end subroutine remember
 
    !> Gives the memory of the factored bodies back, unless they are kept for a next run.
    subroutine release_bodies(store)

@@ -104,13 +104,48 @@ contains
       real(wp), parameter :: UNEQUAL = 1.25_wp
       integer(lp) :: elements
 
-      elements = element_bytes(fem, b, different_share(fem, b))
+      elements = element_bytes(different_share())
       if (result%solver_kind >= SOLVER_SPARSE) then
          result%memory = int(UNEQUAL*real(result%memory, wp), lp)
          result%most_memory = result%memory + elements
       else
          result%most_memory = result%memory + elements + INDEX_BYTES*int(result%n_equations, lp)
       end if
+
+   contains
+
+      !> Equations and matrices of the elements of a body.
+      pure integer(lp) function element_bytes(share) result(bytes)
+         real(wp), intent(in) :: share              !< of the elements that have a matrix of their own
+         integer(lp) :: i, n
+
+         bytes = 0
+         do i = 1, size(fem%bodies%list(b)%elements)
+            n = 2*fem%mesh%shape(fem%bodies%list(b)%elements(i))
+            bytes = bytes + LONG_BYTES + INDEX_BYTES*(n + 1) + int(share*real(REAL_BYTES*(n*(n + 1)/2), wp), lp)
+         end do
+      end function element_bytes
+
+      !> The share of the elements that differ from the one before, by some of them.
+      !>
+      !> Equal elements share one matrix. In a regular mesh the next element in the list mostly equals the last one, so the share of
+      !> those that do not is about the share of matrices; every body is asked SAMPLES times.
+      pure real(wp) function different_share() result(share)
+         integer(ip) :: i, e, step, seen, different
+
+         seen = 0
+         different = 0
+         associate (elements => fem%bodies%list(b)%elements)
+            step = max(1_ip, size(elements, kind=ip)/SAMPLES)
+            do i = 2, size(elements, kind=ip), step
+               e = elements(i)
+               seen = seen + 1
+               if (.not. are_equal(fem, elements(i - 1), e)) different = different + 1
+            end do
+         end associate
+         share = real(different, wp)/real(max(seen, 1_ip), wp)
+      end function different_share
+
    end subroutine estimate_body_memory
 
    !> Counts what the sparse solver will take: order, elements and fronts are made, and nothing is factored.
@@ -135,42 +170,6 @@ contains
          result%most_memory = max(result%memory, most)
       end associate
    end subroutine count_body_memory
-
-   !> Equations and matrices of the elements of a body.
-   pure integer(lp) function element_bytes(fem, b, share) result(bytes)
-      type(fem_t), intent(in) :: fem
-      integer(ip), intent(in) :: b
-      real(wp), intent(in) :: share              !< of the elements that have a matrix of their own
-      integer(lp) :: i, n
-
-      bytes = 0
-      do i = 1, size(fem%bodies%list(b)%elements)
-         n = 2*fem%mesh%shape(fem%bodies%list(b)%elements(i))
-         bytes = bytes + LONG_BYTES + INDEX_BYTES*(n + 1) + int(share*real(REAL_BYTES*(n*(n + 1)/2), wp), lp)
-      end do
-   end function element_bytes
-
-   !> The share of the elements that differ from the one before, by some of them.
-   !>
-   !> Equal elements share one matrix. In a regular mesh the next element in the list mostly equals the last one, so the share of
-   !> those that do not is about the share of matrices; every body is asked SAMPLES times.
-   pure real(wp) function different_share(fem, b) result(share)
-      type(fem_t), intent(in) :: fem
-      integer(ip), intent(in) :: b
-      integer(ip) :: i, e, step, seen, different
-
-      seen = 0
-      different = 0
-      associate (elements => fem%bodies%list(b)%elements)
-         step = max(1_ip, size(elements, kind=ip)/SAMPLES)
-         do i = 2, size(elements, kind=ip), step
-            e = elements(i)
-            seen = seen + 1
-            if (.not. are_equal(fem, elements(i - 1), e)) different = different + 1
-         end do
-      end associate
-      share = real(different, wp)/real(max(seen, 1_ip), wp)
-   end function different_share
 
    pure logical function are_equal(fem, before, e)
       type(fem_t), intent(in) :: fem

@@ -7,7 +7,7 @@ module atrito_body_motions
    use atrito_assembly, only: fem_t
    use atrito_bodies, only: bodies_t, body_t, mode_at
    use atrito_kinds, only: ip, wp
-   use atrito_row_entries, only: first_motions, modes_at_node
+   use atrito_row_entries, only: first_motions
    use atrito_strings, only: to_text
    use atrito_threads, only: is_shared
    implicit none (type, external)

@@ -57,7 +57,49 @@ contains
 
       call choose_points(line, interpolation)
       call build_coarse_line(line, interpolation, coarse_line)
-      call restrict_problem(problem, line, interpolation, coarse_line, coarse_problem)
+      call restrict_problem(coarse_problem)
+
+   contains
+
+      !> C_c = R C R', G_c = R G, g0_c = R g0: the work of the coarse forces on what the fine points do. Two passes over the columns
+      !> of C, R having two entries a row.
+      subroutine restrict_problem(coarse)
+         type(bound_qp_t), intent(out) :: coarse
+         real(wp), allocatable :: half(:, :)
+         real(wp) :: r
+         integer(ip) :: i, c, u
+
+         coarse%m = size(coarse_line%point, kind=ip)
+         coarse%k = problem%k
+         coarse%n_normal = count(coarse_line%normal > 0, kind=ip)
+         coarse%h = problem%h
+         if (allocated(problem%h_size)) coarse%h_size = problem%h_size
+         coarse%weight = coarse_line%weight(coarse_line%point)
+         allocate (coarse%g0(coarse%m), coarse%g(coarse%m, coarse%k), coarse%c(coarse%m, coarse%m), source=0.0_wp)
+         ! half = C R', then C_c = R half
+         allocate (half(problem%m, coarse%m), source=0.0_wp)
+         do i = 1, problem%m
+            associate (j => line%point(i))
+               do c = interpolation%before(j), last_touched(interpolation, j)
+                  u = unknown_of(problem, coarse_line, i, c)
+                  r = share_of(interpolation, j, c)*problem%weight(i)/coarse%weight(u)
+                  coarse%g0(u) = coarse%g0(u) + r*problem%g0(i)
+                  coarse%g(u, :) = coarse%g(u, :) + r*problem%g(i, :)
+                  half(:, u) = half(:, u) + r*problem%c(:, i)
+               end do
+            end associate
+         end do
+         do i = 1, problem%m
+            associate (j => line%point(i))
+               do c = interpolation%before(j), last_touched(interpolation, j)
+                  u = unknown_of(problem, coarse_line, i, c)
+                  r = share_of(interpolation, j, c)*problem%weight(i)/coarse%weight(u)
+                  coarse%c(:, u) = coarse%c(:, u) + r*half(i, :)
+               end do
+            end associate
+         end do
+      end subroutine restrict_problem
+
    end subroutine coarsen_line
 
    !> Every STRIDE-th point of each pair from its first one on, its last one, and all bilateral rows; with the places of all others
@@ -155,64 +197,22 @@ contains
       coarse = identity_average(n)
       if (average%is_identity) return
       coarse%is_identity = .false.
-      deallocate (coarse%column, coarse%entry)
-      allocate (coarse%column(0), coarse%entry(0))
+      deallocate (coarse%column, coarse%value)
+      allocate (coarse%column(0), coarse%value(0))
       allocate (row(n))
       do c = 1, n
          row = 0.0_wp
          do i = average%first(interpolation%point(c)), average%first(interpolation%point(c) + 1) - 1
             j = average%column(i)
             do d = interpolation%before(j), last_touched(interpolation, j)
-               row(d) = row(d) + average%entry(i)*share_of(interpolation, j, d)
+               row(d) = row(d) + average%value(i)*share_of(interpolation, j, d)
             end do
          end do
          coarse%column = [coarse%column, pack([(d, d=1, n)], row > 0.0_wp)]
-         coarse%entry = [coarse%entry, pack(row, row > 0.0_wp)]
+         coarse%value = [coarse%value, pack(row, row > 0.0_wp)]
          coarse%first(c + 1) = size(coarse%column, kind=ip) + 1
       end do
    end function coarse_average
-
-   !> C_c = R C R', G_c = R G, g0_c = R g0: the work of the coarse forces on what the fine points do. Two passes over the columns of
-   !> C, R having two entries a row.
-   subroutine restrict_problem(problem, line, interpolation, coarse_line, coarse)
-      type(bound_qp_t), intent(in) :: problem
-      type(contact_line_t), intent(in) :: line, coarse_line
-      type(interpolation_t), intent(in) :: interpolation
-      type(bound_qp_t), intent(out) :: coarse
-      real(wp), allocatable :: half(:, :)
-      real(wp) :: r
-      integer(ip) :: i, c, u
-
-      coarse%m = size(coarse_line%point, kind=ip)
-      coarse%k = problem%k
-      coarse%n_normal = count(coarse_line%normal > 0, kind=ip)
-      coarse%h = problem%h
-      if (allocated(problem%h_size)) coarse%h_size = problem%h_size
-      coarse%weight = coarse_line%weight(coarse_line%point)
-      allocate (coarse%g0(coarse%m), coarse%g(coarse%m, coarse%k), coarse%c(coarse%m, coarse%m), source=0.0_wp)
-      ! half = C R', then C_c = R half
-      allocate (half(problem%m, coarse%m), source=0.0_wp)
-      do i = 1, problem%m
-         associate (j => line%point(i))
-            do c = interpolation%before(j), last_touched(interpolation, j)
-               u = unknown_of(problem, coarse_line, i, c)
-               r = share_of(interpolation, j, c)*problem%weight(i)/coarse%weight(u)
-               coarse%g0(u) = coarse%g0(u) + r*problem%g0(i)
-               coarse%g(u, :) = coarse%g(u, :) + r*problem%g(i, :)
-               half(:, u) = half(:, u) + r*problem%c(:, i)
-            end do
-         end associate
-      end do
-      do i = 1, problem%m
-         associate (j => line%point(i))
-            do c = interpolation%before(j), last_touched(interpolation, j)
-               u = unknown_of(problem, coarse_line, i, c)
-               r = share_of(interpolation, j, c)*problem%weight(i)/coarse%weight(u)
-               coarse%c(:, u) = coarse%c(:, u) + r*half(i, :)
-            end do
-         end associate
-      end do
-   end subroutine restrict_problem
 
    !> The unknown at a coarse point of the same kind as unknown i; 0: none.
    pure integer(ip) function unknown_of(problem, coarse_line, i, c) result(u)

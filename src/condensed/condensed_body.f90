@@ -154,8 +154,66 @@ contains
          call set_status(status, STATUS_SINGULAR, loose_text(fem, i_body, status%text, result%worst_node, result%worst_dof))
          return
       end if
-      call factor_contact(fem, i_body, body, status)
-      if (is_ok(status)) call report_contact_pivots(fem, i_body, body, result, status)
+      call factor_contact()
+      if (is_ok(status)) call report_contact_pivots()
+
+   contains
+
+      !> The contact dofs are eliminated last, by the Cholesky factor; digits that their pivots lose count like those of the
+      !> interior, and a pivot that is round-off alone there is none here. status: STATUS_SINGULAR then.
+      !>
+      !> The digits that an elimination loses at a pivot are log10(K_jj / pivot), the pivot being L_jj^2: what is left of the
+      !> diagonal after all others were eliminated.
+      subroutine report_contact_pivots()
+         real(wp) :: original(size(body%factor, 1)), lost
+         integer(ip) :: i, first
+
+         if (size(original) == 0) return
+         first = fem%bodies%list(i_body)%n - fem%bodies%list(i_body)%n_retained
+         call retained_diagonal(fem, i_body, original)
+         do i = 1, size(original, kind=ip)
+            lost = log10(original(i)/body%factor(i, i)**2)
+            if (lost <= result%digits_lost) cycle
+            result%digits_lost = lost
+            call name_equation(fem, i_body, first + i, result)
+         end do
+         if (10.0_wp**(-result%digits_lost) > smallest_ratio(fem%bodies%list(i_body)%n)) return
+         if (len(hourglass_text(fem, i_body)) > 0) then
+            call set_status(status, STATUS_SINGULAR, hourglass_text(fem, i_body))
+            return
+         end if
+         call set_status(status, STATUS_SINGULAR, 'body '//fem%bodies%list(i_body)%name//': its stiffness seen from the contact' &
+                         //' line is round-off alone at node '//to_text(result%worst_node)//' dof '//to_text(result%worst_dof) &
+                         //': it is too slender, or hardly held')
+      end subroutine report_contact_pivots
+
+      !> Cholesky factor of the Schur complement; for a floating body with alpha Q Q' added, alpha = trace(S)/n.
+      !>
+      !> S of a floating body is singular on the rigid motions at its contact dofs. Q is an orthonormal basis of them: fewer than
+      !> the motions where one contact dof alone is there, which two motions move alike. orthonormalise finds how many there are.
+      subroutine factor_contact()
+         real(wp), allocatable :: q(:, :), qs(:, :)
+         real(wp) :: alpha
+         integer(ip) :: n, i, n_independent, failed, info
+
+         n = fem%bodies%list(i_body)%n_retained
+         allocate (body%factor(n, n))
+         if (n == 0) return
+         call body%solver%get_schur(body%factor)
+         if (size(fem%bodies%list(i_body)%modes, 2) > 0) then
+            ! a stiffness of the usual size for the motions, in which the forces balance
+            alpha = sum([(body%factor(i, i)/n, i=1, n)])
+            q = modes_at_contact(fem, i_body)
+            call orthonormalise(q, n_independent, 1.0e-12_wp, info)
+            qs = alpha*q(:, :n_independent)
+            call add_product(q(:, :n_independent), qs, body%factor)
+         end if
+         call factor_in_blocks(body%factor, failed)
+         if (failed == 0) return
+         call set_status(status, STATUS_SINGULAR, 'body '//fem%bodies%list(i_body)%name &
+                         //': its stiffness seen from the contact line is not positive')
+      end subroutine factor_contact
+
    end subroutine factor_body
 
    !> What the sparse solver holds in fact, in place of what was predicted for it.
@@ -189,70 +247,6 @@ contains
          end do
       end associate
    end subroutine name_equation
-
-   !> The contact dofs are eliminated last, by the Cholesky factor; digits that their pivots lose count like those of the interior,
-   !> and a pivot that is round-off alone there is none here. status: STATUS_SINGULAR then.
-   !>
-   !> The digits that an elimination loses at a pivot are log10(K_jj / pivot), the pivot being L_jj^2: what is left of the diagonal
-   !> after all others were eliminated.
-   subroutine report_contact_pivots(fem, i_body, body, result, status)
-      type(fem_t), intent(in) :: fem
-      integer(ip), intent(in) :: i_body
-      type(condensed_body_t), intent(in) :: body
-      type(body_result_t), intent(inout) :: result
-      type(status_t), intent(inout) :: status
-      real(wp) :: original(size(body%factor, 1)), lost
-      integer(ip) :: i, first
-
-      if (size(original) == 0) return
-      first = fem%bodies%list(i_body)%n - fem%bodies%list(i_body)%n_retained
-      call retained_diagonal(fem, i_body, original)
-      do i = 1, size(original, kind=ip)
-         lost = log10(original(i)/body%factor(i, i)**2)
-         if (lost <= result%digits_lost) cycle
-         result%digits_lost = lost
-         call name_equation(fem, i_body, first + i, result)
-      end do
-      if (10.0_wp**(-result%digits_lost) > smallest_ratio(fem%bodies%list(i_body)%n)) return
-      if (len(hourglass_text(fem, i_body)) > 0) then
-         call set_status(status, STATUS_SINGULAR, hourglass_text(fem, i_body))
-         return
-      end if
-      call set_status(status, STATUS_SINGULAR, 'body '//fem%bodies%list(i_body)%name//': its stiffness seen from the contact' &
-                      //' line is round-off alone at node '//to_text(result%worst_node)//' dof '//to_text(result%worst_dof) &
-                      //': it is too slender, or hardly held')
-   end subroutine report_contact_pivots
-
-   !> Cholesky factor of the Schur complement; for a floating body with alpha Q Q' added, alpha = trace(S)/n.
-   !>
-   !> S of a floating body is singular on the rigid motions at its contact dofs. Q is an orthonormal basis of them: fewer than the
-   !> motions where one contact dof alone is there, which two motions move alike. orthonormalise finds how many there are.
-   subroutine factor_contact(fem, i_body, body, status)
-      type(fem_t), intent(in) :: fem
-      integer(ip), intent(in) :: i_body
-      type(condensed_body_t), intent(inout) :: body
-      type(status_t), intent(inout) :: status
-      real(wp), allocatable :: q(:, :), qs(:, :)
-      real(wp) :: alpha
-      integer(ip) :: n, i, n_independent, failed, info
-
-      n = fem%bodies%list(i_body)%n_retained
-      allocate (body%factor(n, n))
-      if (n == 0) return
-      call body%solver%get_schur(body%factor)
-      if (size(fem%bodies%list(i_body)%modes, 2) > 0) then
-         ! a stiffness of the usual size for the motions, in which the forces balance
-         alpha = sum([(body%factor(i, i)/n, i=1, n)])
-         q = modes_at_contact(fem, i_body)
-         call orthonormalise(q, n_independent, 1.0e-12_wp, info)
-         qs = alpha*q(:, :n_independent)
-         call add_product(q(:, :n_independent), qs, body%factor)
-      end if
-      call factor_in_blocks(body%factor, failed)
-      if (failed == 0) return
-      call set_status(status, STATUS_SINGULAR, 'body '//fem%bodies%list(i_body)%name &
-                      //': its stiffness seen from the contact line is not positive')
-   end subroutine factor_contact
 
    !> The rigid motions at the contact dofs, (n_retained, n_modes).
    !>

@@ -194,7 +194,39 @@ contains
             call add_flexibility(condensed(i), b, before - body%n_retained, body%n_retained, problem%c)
          end associate
       end do
-      call add_motions(fem, rows, line, motions, problem%g)
+      call add_motions(motions, problem%g)
+
+   contains
+
+      !> The rigid motions of all bodies at the points: G = B Z. Motions are of size one: what is below rounding of that is no
+      !> motion, nor is one that no point sees but for the rounding of coordinates that supports allow it by (find_rigid_modes).
+      !>
+      !> G_ij is what motion j makes of the overlap or slip of row i. Z is zero at dofs that are held.
+      subroutine add_motions(first, g)
+         integer(ip), intent(in) :: first(:)            !< (bodies + 1) motion of each, the last one behind all
+         real(wp), intent(inout) :: g(:, :)             !< (m, k) zero
+         real(wp), parameter :: ROUND_OFF = 1.0e-13_wp, UNSEEN = 1.0e-10_wp
+         real(wp) :: z(2, 3), vector(2)
+         integer(ip) :: b, i, j, k
+
+         do i = 1, size(g, 1, kind=ip)
+            do k = rows%first(line%point(i)), rows%first(line%point(i) + 1) - 1
+               b = fem%bodies%of_node(rows%node(k))
+               if (first(b + 1) == first(b)) cycle
+               z = modes_at_node(fem, b, rows%node(k))
+               vector = vector_of_entry(rows, line%point(i), k, direction_of(rows, line, i))
+               do j = first(b), first(b + 1) - 1
+                  g(i, j) = g(i, j) + vector(1)*z(1, j - first(b) + 1)
+                  g(i, j) = g(i, j) + vector(2)*z(2, j - first(b) + 1)
+               end do
+            end do
+         end do
+         where (abs(g) < ROUND_OFF) g = 0.0_wp
+         do j = 1, size(g, 2, kind=ip)
+            if (all(abs(g(:, j)) < UNSEEN)) g(:, j) = 0.0_wp
+         end do
+      end subroutine add_motions
+
    end subroutine build_flexibility
 
    !> g0 and h: what prescribed displacements, loads and rest slips do.
@@ -317,37 +349,5 @@ contains
          next(value(i)) = next(value(i)) + 1
       end do
    end function places_in_order
-
-   !> The rigid motions of all bodies at the points: G = B Z. Motions are of size one: what is below rounding of that is no motion,
-   !> nor is one that no point sees but for the rounding of coordinates that supports allow it by (find_rigid_modes).
-   !>
-   !> G_ij is what motion j makes of the overlap or slip of row i. Z is zero at dofs that are held.
-   subroutine add_motions(fem, rows, line, first, g)
-      type(fem_t), intent(in) :: fem
-      type(contact_rows_t), intent(in) :: rows
-      type(contact_line_t), intent(in) :: line
-      integer(ip), intent(in) :: first(:)            !< (bodies + 1) motion of each, the last one behind all
-      real(wp), intent(inout) :: g(:, :)             !< (m, k) zero
-      real(wp), parameter :: ROUND_OFF = 1.0e-13_wp, UNSEEN = 1.0e-10_wp
-      real(wp) :: z(2, 3), vector(2)
-      integer(ip) :: b, i, j, k
-
-      do i = 1, size(g, 1, kind=ip)
-         do k = rows%first(line%point(i)), rows%first(line%point(i) + 1) - 1
-            b = fem%bodies%of_node(rows%node(k))
-            if (first(b + 1) == first(b)) cycle
-            z = modes_at_node(fem, b, rows%node(k))
-            vector = vector_of_entry(rows, line%point(i), k, direction_of(rows, line, i))
-            do j = first(b), first(b + 1) - 1
-               g(i, j) = g(i, j) + vector(1)*z(1, j - first(b) + 1)
-               g(i, j) = g(i, j) + vector(2)*z(2, j - first(b) + 1)
-            end do
-         end do
-      end do
-      where (abs(g) < ROUND_OFF) g = 0.0_wp
-      do j = 1, size(g, 2, kind=ip)
-         if (all(abs(g(:, j)) < UNSEEN)) g(:, j) = 0.0_wp
-      end do
-   end subroutine add_motions
 
 end module atrito_contact_problem

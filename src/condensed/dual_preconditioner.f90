@@ -84,18 +84,47 @@ contains
       found%x = q
       found%b = a
       ! a first step makes the forces balance the load; all later ones keep that
-      call correct(factor, c, system, p, found, remains)
-      call find_residual(c, system, found, terms)
+      call correct()
+      call find_residual(terms)
       call take_steps(factor, c, system, p, most, ROUND_OFF*terms, found, steps)
       solved = maxval(abs(found%r)) <= ROUND_OFF*terms
       factor%steps = factor%steps + max(steps - FEW_STEPS, 0_ip)
       if (.not. solved) return
       ! the residual of the recurrence may have left the true one behind
-      call correct(factor, c, system, p, found, remains)
+      call correct()
       solved = remains <= FALSE_END
       if (.not. solved) return
       q = found%x
       a = found%b
+
+   contains
+
+      !> One step with both residuals.
+      subroutine correct()
+         real(wp) :: z(size(found%x)), db(size(found%b)), terms
+
+         call find_residual(terms)
+         remains = 0.0_wp
+         if (terms > 0.0_wp) remains = maxval(abs(found%r))/terms
+         call apply_inverse(factor, p%relation, found%r, z)
+         db = matmul(p%inverse, system%load - matmul(transpose(system%g), found%x) - matmul(transpose(system%g), z))
+         found%x = found%x + z + matmul(p%y, db)
+         found%b = found%b + db
+      end subroutine correct
+
+      !> r, and the size of what it is the difference of.
+      !>
+      !> All in the scaled unknowns; the product with C goes through the whole matrix.
+      subroutine find_residual(terms)
+         real(wp), intent(out) :: terms
+         real(wp) :: moved(size(found%x)), product(size(found%x))
+
+         moved = matmul(system%g, found%b)
+         product = scaled_product(c, system, found%x)
+         found%r = system%rhs + moved - product
+         terms = maxval(abs(system%rhs)) + maxval(abs(moved)) + maxval(abs(product))
+      end subroutine find_residual
+
    end subroutine solve_with_kept
 
    !> S = G' M^-1 G, scaled to a unit diagonal, by its eigenvectors; y = M^-1 G. A motion that no free unknown sees has the scale 1
@@ -152,41 +181,6 @@ contains
          end do
       end associate
    end subroutine prepare_motions
-
-   !> One step with both residuals.
-   subroutine correct(factor, c, system, p, found, remains)
-      type(free_set_factor_t), intent(in) :: factor
-      real(wp), intent(in), contiguous :: c(:, :)
-      type(free_system_t), intent(in) :: system
-      type(preconditioner_t), intent(in) :: p
-      type(approximation_t), intent(inout) :: found
-      real(wp), intent(out) :: remains           !< largest entry of the residual before, over its terms
-      real(wp) :: z(size(found%x)), db(size(found%b)), terms
-
-      call find_residual(c, system, found, terms)
-      remains = 0.0_wp
-      if (terms > 0.0_wp) remains = maxval(abs(found%r))/terms
-      call apply_inverse(factor, p%relation, found%r, z)
-      db = matmul(p%inverse, system%load - matmul(transpose(system%g), found%x) - matmul(transpose(system%g), z))
-      found%x = found%x + z + matmul(p%y, db)
-      found%b = found%b + db
-   end subroutine correct
-
-   !> r, and the size of what it is the difference of.
-   !>
-   !> All in the scaled unknowns; the product with C goes through the whole matrix.
-   subroutine find_residual(c, system, found, terms)
-      real(wp), intent(in), contiguous :: c(:, :)
-      type(free_system_t), intent(in) :: system
-      type(approximation_t), intent(inout) :: found
-      real(wp), intent(out) :: terms
-      real(wp) :: moved(size(found%x)), product(size(found%x))
-
-      moved = matmul(system%g, found%b)
-      product = scaled_product(c, system, found%x)
-      found%r = system%rhs + moved - product
-      terms = maxval(abs(system%rhs)) + maxval(abs(moved)) + maxval(abs(product))
-   end subroutine find_residual
 
    !> Conjugate gradients until the largest entry of r is small enough.
    !>

@@ -140,8 +140,51 @@ contains
          call solve_motions(complement, load - matmul(transpose(gs), q) - matmul(transpose(gs), correction), da)
          q = q + correction + matmul(y, da)
          a = a + da
-         call judge_motions(problem, complement, system, held, q, a, outcome)
+         call judge_motions()
       end associate
+
+   contains
+
+      !> Whether the load works on a motion that the free set does not hold: then outcome%moves. The load is measured by the forces
+      !> of the solution on the bodies that move, and by what was cancelled in it; those before the bodies have moved to where they
+      !> touch may be larger by any factor, and say nothing.
+      !>
+      !> v is a null vector of S in the amplitudes of the motions. Its work h'v - q_X'G v is that of the loads and of the fixed
+      !> forces; free ones have no part, as G_F v = 0. hardly: it is LITTLE_LOAD of its terms, and a body that nothing stops may as
+      !> well rest.
+      subroutine judge_motions()
+         real(wp) :: all_q(problem%m), none(problem%m), work(problem%k), size_of_work(problem%k), motion(problem%k), way(problem%k)
+         real(wp) :: part, size_of_part, round_off
+         integer(ip) :: j
+
+         ! the usual case: the closed and sticking points hold all bodies
+         if (all(complement%values > NULL_MOTION)) return
+         outcome%hardly = .true.
+         all_q = held
+         all_q(system%set) = q*system%scale
+         none = min(abs(all_q), VANISHING*forces_of_places(problem, system, a))
+         work = problem%h - matmul(transpose(problem%g), all_q)
+         size_of_work = size_of_load(problem) + matmul(transpose(abs(problem%g)), abs(all_q))
+         motion = 0.0_wp
+         do j = 1, problem%k
+            if (complement%values(j) > NULL_MOTION) cycle
+            way = complement%vectors(:, j)*complement%scale
+            part = dot_product(way, work)
+            size_of_part = dot_product(abs(way), size_of_work)
+            round_off = dot_product(abs(matmul(problem%g, way)), none)
+            ! the work h'v - q'G v of all forces on the motion, beside the sum of its terms without sign
+            if (abs(part) > NO_LOAD*size_of_part + round_off) then
+               motion = motion + complement%vectors(:, j)*part
+               outcome%hardly = outcome%hardly .and. abs(part) <= LITTLE_LOAD*size_of_part + round_off
+            else
+               outcome%undetermined = way
+            end if
+         end do
+         if (all(motion == 0.0_wp)) return
+         outcome%moves = .true.
+         outcome%motion = motion*complement%scale
+      end subroutine judge_motions
+
    end subroutine solve_saddle
 
    !> a from G' M^-1 G a = force; a motion that the free set does not hold takes no part.
@@ -161,52 +204,6 @@ contains
       end do
       a = a*complement%scale
    end subroutine solve_motions
-
-   !> Whether the load works on a motion that the free set does not hold: then outcome%moves. The load is measured by the forces of
-   !> the solution on the bodies that move, and by what was cancelled in it; those before the bodies have moved to where they touch
-   !> may be larger by any factor, and say nothing.
-   !>
-   !> v is a null vector of S in the amplitudes of the motions. Its work h'v - q_X'G v is that of the loads and of the fixed forces;
-   !> free ones have no part, as G_F v = 0. hardly: it is LITTLE_LOAD of its terms, and a body that nothing stops may as well rest.
-   subroutine judge_motions(problem, complement, system, held, q, a, outcome)
-      type(bound_qp_t), intent(in) :: problem
-      type(complement_t), intent(in) :: complement
-      type(free_system_t), intent(in) :: system
-      real(wp), intent(in) :: held(:)
-      real(wp), intent(in) :: q(:)               !< scaled, of the free set
-      real(wp), intent(in) :: a(:)
-      type(box_outcome_t), intent(inout) :: outcome
-      real(wp) :: all_q(problem%m), none(problem%m), work(problem%k), size_of_work(problem%k), motion(problem%k), way(problem%k)
-      real(wp) :: part, size_of_part, round_off
-      integer(ip) :: j
-
-      ! the usual case: the closed and sticking points hold all bodies
-      if (all(complement%values > NULL_MOTION)) return
-      outcome%hardly = .true.
-      all_q = held
-      all_q(system%set) = q*system%scale
-      none = min(abs(all_q), VANISHING*forces_of_places(problem, system, a))
-      work = problem%h - matmul(transpose(problem%g), all_q)
-      size_of_work = size_of_load(problem) + matmul(transpose(abs(problem%g)), abs(all_q))
-      motion = 0.0_wp
-      do j = 1, problem%k
-         if (complement%values(j) > NULL_MOTION) cycle
-         way = complement%vectors(:, j)*complement%scale
-         part = dot_product(way, work)
-         size_of_part = dot_product(abs(way), size_of_work)
-         round_off = dot_product(abs(matmul(problem%g, way)), none)
-         ! the work h'v - q'G v of all forces on the motion, beside the sum of its terms without sign
-         if (abs(part) > NO_LOAD*size_of_part + round_off) then
-            motion = motion + complement%vectors(:, j)*part
-            outcome%hardly = outcome%hardly .and. abs(part) <= LITTLE_LOAD*size_of_part + round_off
-         else
-            outcome%undetermined = way
-         end if
-      end do
-      if (all(motion == 0.0_wp)) return
-      outcome%moves = .true.
-      outcome%motion = motion*complement%scale
-   end subroutine judge_motions
 
    !> The work of all loads on each motion without sign [F]: what round-off of h is measured by.
    pure function size_of_load(problem)

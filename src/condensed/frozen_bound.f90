@@ -61,11 +61,43 @@ contains
       if (solution%inner%solved) then
          ! with rows the factor is not that of the free set
          if (.not. allocated(solution%rows)) call open_tensions(problem, solution)
-         call clear_noise(problem, line, solution)
+         call clear_noise()
       end if
       solution%p = pressure_of(line, solution%state%q)
       solution%t = shear_force_of(line, solution%state%q, tau)
       image = bound_of_state(line, solution)
+
+   contains
+
+      !> Forces of a pair that are round-off become none: at all its points what round-off of the displacements there may do, and
+      !> far below the loads of the bodies that they hold. (A body without load between loaded ones has such forces.)
+      !>
+      !> Where a body without load lies between loaded ones, rounding of their displacements presses it. Such forces have no
+      !> meaning, but they have states and friction, which would turn to and fro. Scenes of one pair have nothing to compare with,
+      !> and keep all.
+      subroutine clear_noise()
+         logical :: beside_loads(problem%m)
+         integer(ip), allocatable :: unknowns(:)
+         integer(ip) :: first, last, j
+
+         if (line%n == 0 .or. .not. allocated(line%pair) .or. .not. allocated(problem%h_size)) return
+         if (size(line%pair) < line%n) return
+         if (line%pair(1) == line%pair(line%n)) return
+         beside_loads = .true.
+         do j = 1, problem%k
+            if (problem%h_size(j) > 0.0_wp) beside_loads = beside_loads .and. &
+                                                           abs(problem%g(:, j)*solution%state%q) <= NOISE*problem%h_size(j)
+         end do
+         first = 1
+         do while (first <= line%n)
+            last = last_of_pair(line, first)
+            unknowns = [line%normal(first:last), line%tangential(first:last)]
+            unknowns = pack(unknowns, unknowns > 0)
+            if (is_noise(problem, solution, beside_loads, unknowns)) solution%state%q(unknowns) = 0.0_wp
+            first = last + 1
+         end do
+      end subroutine clear_noise
+
    end subroutine solve_with_bound
 
    !> A closed point may have a tension that is round-off, of the forces on the bodies there: another body may feel it. Such points
@@ -100,37 +132,6 @@ contains
          if (is_settled(problem, solution%bounds, state)) solution%state = state
       end associate
    end subroutine open_tensions
-
-   !> Forces of a pair that are round-off become none: at all its points what round-off of the displacements there may do, and far
-   !> below the loads of the bodies that they hold. (A body without load between loaded ones has such forces.)
-   !>
-   !> Where a body without load lies between loaded ones, rounding of their displacements presses it. Such forces have no meaning,
-   !> but they have states and friction, which would turn to and fro. Scenes of one pair have nothing to compare with, and keep all.
-   subroutine clear_noise(problem, line, solution)
-      type(bound_qp_t), intent(in) :: problem
-      type(contact_line_t), intent(in) :: line
-      type(contact_solution_t), intent(inout) :: solution
-      logical :: beside_loads(problem%m)
-      integer(ip), allocatable :: unknowns(:)
-      integer(ip) :: first, last, j
-
-      if (line%n == 0 .or. .not. allocated(line%pair) .or. .not. allocated(problem%h_size)) return
-      if (size(line%pair) < line%n) return
-      if (line%pair(1) == line%pair(line%n)) return
-      beside_loads = .true.
-      do j = 1, problem%k
-         if (problem%h_size(j) > 0.0_wp) beside_loads = beside_loads .and. &
-                                                        abs(problem%g(:, j)*solution%state%q) <= NOISE*problem%h_size(j)
-      end do
-      first = 1
-      do while (first <= line%n)
-         last = last_of_pair(line, first)
-         unknowns = [line%normal(first:last), line%tangential(first:last)]
-         unknowns = pack(unknowns, unknowns > 0)
-         if (is_noise(problem, solution, beside_loads, unknowns)) solution%state%q(unknowns) = 0.0_wp
-         first = last + 1
-      end do
-   end subroutine clear_noise
 
    !> The compliance of friction goes with its bound, which may be noise as well.
    !>

@@ -50,14 +50,14 @@ contains
 
       ! far more than is ever needed: each unknown is driven once or twice
       left = SOLVES_PER_UNKNOWN*problem%m + 50
-      call release_until_right(problem, bounds, state, history, outcome, left, status, factor)
+      call release_until_right(outcome, status)
       do while (is_ok(status) .and. left > 0 .and. .not. outcome%moves)
          call find_worst(problem, bounds, state, worst)
          if (worst == 0) then
             ! an undetermined motion may have turned a multiplier
             outcome%solved = .not. any([(is_wrong(problem, state, i), i=1, problem%m)])
             if (outcome%solved) exit
-            call release_until_right(problem, bounds, state, history, outcome, left, status, factor)
+            call release_until_right(outcome, status)
             cycle
          end if
          state%state(worst) = DRIVEN
@@ -65,49 +65,46 @@ contains
       end do
       if (allocated(outcome%motion) .and. .not. outcome%moves) deallocate (outcome%motion)
       if (allocated(outcome%undetermined) .and. .not. outcome%solved) deallocate (outcome%undetermined)
-   end subroutine take_goldfarb_idnani_steps
 
-   !> (i) and, where a body is free, (iii).
-   !>
-   !> All wrong multipliers are released at once: the relaxed problem gets smaller by each of them, and only its solution counts.
-   !> Ends with all multipliers right, with a body that nothing stops (outcome%moves), or with `left` = 0.
-   subroutine release_until_right(problem, bounds, state, history, outcome, left, status, factor)
-      type(bound_qp_t), intent(in) :: problem
-      type(box_bounds_t), intent(in) :: bounds
-      type(box_state_t), intent(inout) :: state
-      type(solve_history_t), intent(inout) :: history
-      type(box_outcome_t), intent(out) :: outcome
-      integer(ip), intent(inout) :: left
-      type(status_t), intent(out) :: status
-      type(free_set_factor_t), intent(inout) :: factor
-      real(wp) :: t
-      integer(ip) :: i, released, first
+   contains
 
-      do while (left > 0)
-         ! the exact solution for the present set
-         call put_at_bounds(bounds, state)
-         call solve_free_set(problem, bounds%d, state, outcome, status, factor)
-         left = left - 1
-         if (.not. is_ok(status)) return
-         call record_solve(history, problem, bounds, state)
-         released = 0
-         do i = 1, problem%m
-            if (.not. is_wrong(problem, state, i)) cycle
-            state%state(i) = FREE
-            released = released + 1
+      !> (i) and, where a body is free, (iii).
+      !>
+      !> All wrong multipliers are released at once: the relaxed problem gets smaller by each of them, and only its solution counts.
+      !> Ends with all multipliers right, with a body that nothing stops (outcome%moves), or with `left` = 0.
+      subroutine release_until_right(outcome, status)
+         type(box_outcome_t), intent(out) :: outcome
+         type(status_t), intent(out) :: status
+         real(wp) :: t
+         integer(ip) :: i, released, first
+
+         do while (left > 0)
+            ! the exact solution for the present set
+            call put_at_bounds(bounds, state)
+            call solve_free_set(problem, bounds%d, state, outcome, status, factor)
+            left = left - 1
+            if (.not. is_ok(status)) return
+            call record_solve(history, problem, bounds, state)
+            released = 0
+            do i = 1, problem%m
+               if (.not. is_wrong(problem, state, i)) cycle
+               state%state(i) = FREE
+               released = released + 1
+            end do
+            if (released > 0) cycle
+            if (.not. outcome%moves) return
+            ! all multipliers are right, and a body moves: to the first point that stops it
+            call find_first_reached(problem, state, outcome%motion, first, t)
+            if (first == 0) then
+               call rest(outcome)
+               return
+            end if
+            state%state(first) = FREE
+            outcome%moves = .false.
          end do
-         if (released > 0) cycle
-         if (.not. outcome%moves) return
-         ! all multipliers are right, and a body moves: to the first point that stops it
-         call find_first_reached(problem, state, outcome%motion, first, t)
-         if (first == 0) then
-            call rest(outcome)
-            return
-         end if
-         state%state(first) = FREE
-         outcome%moves = .false.
-      end do
-   end subroutine release_until_right
+      end subroutine release_until_right
+
+   end subroutine take_goldfarb_idnani_steps
 
    !> (ii) and (iii) for one unknown.
    !>

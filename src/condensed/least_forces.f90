@@ -145,7 +145,7 @@ contains
       do i = 1, 10*component%n + 10
          ! y of the free rows = A' lambda + along, A along = 0: without `along` they are as short as they can be
          call split(component, free, component%y, along, lambda)
-         call longest_step(component, free, along, step, first)
+         call longest_step(step, first)
          where (free) component%y = component%y - step*along
          component%y = min(max(component%y, component%lower), component%upper)
          if (first > 0) then
@@ -153,62 +153,59 @@ contains
             component%y(first) = merge(component%lower(first), component%upper(first), along(first) > 0.0_wp)
          else
             ! the shortest y for these rows at their bounds: are the multipliers of the bounds right, too?
-            call find_wrong(component, free, lambda, worst)
+            call find_wrong(worst)
             if (worst == 0) return
             free(worst) = .true.
          end if
       end do
+
+   contains
+
+      !> How far y can go towards y - along within the bounds, and the row that ends it; 0: none does.
+      !>
+      !> 1 where nothing is in the way. Rows whose part is round-off of the largest y do not move, and a bound that is reached but
+      !> for round-off is reached at the step before.
+      pure subroutine longest_step(step, first)
+         real(wp), intent(out) :: step
+         integer(ip), intent(out) :: first
+         real(wp) :: room, round_off
+         integer(ip) :: i
+
+         step = 1.0_wp
+         first = 0
+         round_off = 4*epsilon(1.0_wp)*maxval(abs(component%y))
+         do i = 1, component%n
+            if (.not. free(i) .or. abs(along(i)) <= round_off) cycle
+            room = component%y(i) - merge(component%lower(i), component%upper(i), along(i) > 0.0_wp)
+            if (abs(room) + round_off >= step*abs(along(i))) cycle
+            step = room/along(i)
+            first = i
+         end do
+      end subroutine longest_step
+
+      !> The row at its bound that would most like to leave it; 0 where none would.
+      !>
+      !> The gradient of |y|^2/2 - lambda'(A y - A y_0) is y - A' lambda. At a lower bound y may only grow, so the gradient must
+      !> be >= 0 there, at an upper one <= 0.
+      pure subroutine find_wrong(worst)
+         integer(ip), intent(out) :: worst
+         real(wp) :: gradient(component%n), most
+         integer(ip) :: i
+
+         gradient = component%y - transposed_product(component, lambda)
+         worst = 0
+         most = WRONG*maxval(abs(component%y))
+         do i = 1, component%n
+            if (free(i) .or. component%lower(i) >= component%upper(i)) cycle
+            ! at the lower bound y may only grow
+            if (component%y(i) > component%lower(i)) gradient(i) = -gradient(i)
+            if (-gradient(i) <= most) cycle
+            most = -gradient(i)
+            worst = i
+         end do
+      end subroutine find_wrong
+
    end subroutine shorten
-
-   !> How far y can go towards y - along within the bounds, and the row that ends it; 0: none does.
-   !>
-   !> 1 where nothing is in the way. Rows whose part is round-off of the largest y do not move, and a bound that is reached but for
-   !> round-off is reached at the step before.
-   pure subroutine longest_step(component, free, along, step, first)
-      type(component_t), intent(in) :: component
-      logical, intent(in) :: free(:)
-      real(wp), intent(in) :: along(:)
-      real(wp), intent(out) :: step
-      integer(ip), intent(out) :: first
-      real(wp) :: room, round_off
-      integer(ip) :: i
-
-      step = 1.0_wp
-      first = 0
-      round_off = 4*epsilon(1.0_wp)*maxval(abs(component%y))
-      do i = 1, component%n
-         if (.not. free(i) .or. abs(along(i)) <= round_off) cycle
-         room = component%y(i) - merge(component%lower(i), component%upper(i), along(i) > 0.0_wp)
-         if (abs(room) + round_off >= step*abs(along(i))) cycle
-         step = room/along(i)
-         first = i
-      end do
-   end subroutine longest_step
-
-   !> The row at its bound that would most like to leave it; 0 where none would.
-   !>
-   !> The gradient of |y|^2/2 - lambda'(A y - A y_0) is y - A' lambda. At a lower bound y may only grow, so the gradient must be >=
-   !> 0 there, at an upper one <= 0.
-   pure subroutine find_wrong(component, free, lambda, worst)
-      type(component_t), intent(in) :: component
-      logical, intent(in) :: free(:)
-      real(wp), intent(in) :: lambda(:)
-      integer(ip), intent(out) :: worst
-      real(wp) :: gradient(component%n), most
-      integer(ip) :: i
-
-      gradient = component%y - transposed_product(component, lambda)
-      worst = 0
-      most = WRONG*maxval(abs(component%y))
-      do i = 1, component%n
-         if (free(i) .or. component%lower(i) >= component%upper(i)) cycle
-         ! at the lower bound y may only grow
-         if (component%y(i) > component%lower(i)) gradient(i) = -gradient(i)
-         if (-gradient(i) <= most) cycle
-         most = -gradient(i)
-         worst = i
-      end do
-   end subroutine find_wrong
 
    !> y of the free rows is A' lambda plus a part `along` in the null space of A.
    !>
@@ -221,66 +218,61 @@ contains
       real(wp), intent(out) :: lambda(:)         !< (k)
 
       if (component%n <= MOST_DENSE .and. component%k <= 4*MOST_DENSE) then
-         call split_dense(component, free, y, along, lambda)
+         call split_dense()
       else
-         call split_by_steps(component, free, y, along, lambda)
+         call split_by_steps()
       end if
-   end subroutine split
 
-   subroutine split_dense(component, free, y, along, lambda)
-      type(component_t), intent(in) :: component
-      logical, intent(in) :: free(:)
-      real(wp), intent(in) :: y(:)
-      real(wp), intent(out) :: along(:), lambda(:)
-      real(wp) :: a(component%n, component%k)
-      integer(ip) :: i, k, rank, info
+   contains
 
-      a = 0.0_wp
-      do i = 1, component%n
-         if (.not. free(i)) cycle
-         do k = component%first(i), component%first(i + 1) - 1
-            a(i, component%column(k)) = a(i, component%column(k)) + component%value(k)
+      subroutine split_dense()
+         real(wp) :: a(component%n, component%k)
+         integer(ip) :: i, k, rank, info
+
+         a = 0.0_wp
+         do i = 1, component%n
+            if (.not. free(i)) cycle
+            do k = component%first(i), component%first(i + 1) - 1
+               a(i, component%column(k)) = a(i, component%column(k)) + component%value(k)
+            end do
          end do
-      end do
-      call least_squares(a, merge(y, 0.0_wp, free), lambda, DEPENDENT, rank, info)
-      along = merge(y - matmul(a, lambda), 0.0_wp, free)
-   end subroutine split_dense
+         call least_squares(a, merge(y, 0.0_wp, free), lambda, DEPENDENT, rank, info)
+         along = merge(y - matmul(a, lambda), 0.0_wp, free)
+      end subroutine split_dense
 
-   !> Conjugate gradients on the normal equations A A' lambda = A y (CGLS), begun anew once for the digits.
-   !>
-   !> s = A along is the residual of the normal equations and p the direction; each step costs two products with the rows. The
-   !> second round begins with a residual that is computed afresh, for the digits that the recurrence has lost.
-   subroutine split_by_steps(component, free, y, along, lambda)
-      type(component_t), intent(in) :: component
-      logical, intent(in) :: free(:)
-      real(wp), intent(in) :: y(:)
-      real(wp), intent(out) :: along(:), lambda(:)
-      real(wp) :: s(component%k), p(component%k), t(component%n), begin, now, last
-      integer(ip) :: round, step
+      !> Conjugate gradients on the normal equations A A' lambda = A y (CGLS), begun anew once for the digits.
+      !>
+      !> s = A along is the residual of the normal equations and p the direction; each step costs two products with the rows. The
+      !> second round begins with a residual that is computed afresh, for the digits that the recurrence has lost.
+      subroutine split_by_steps()
+         real(wp) :: s(component%k), p(component%k), t(component%n), begin, now, last
+         integer(ip) :: round, step
 
-      lambda = 0.0_wp
-      along = merge(y, 0.0_wp, free)
-      s = product_of(component, along)
-      begin = norm2(s)
-      ! begun anew once, from a residual without the round-off of the recurrence
-      do round = 1, 2
-         p = s
-         last = norm2(s)
-         do step = 1, 4*(component%n + component%k)
-            if (last <= DONE*begin) exit
-            t = merge(transposed_product(component, p), 0.0_wp, free)
-            if (norm2(t) <= DEPENDENT*norm2(p)) exit
-            lambda = lambda + (last/norm2(t))**2*p
-            along = along - (last/norm2(t))**2*t
-            s = product_of(component, along)
-            now = norm2(s)
-            p = s + (now/last)**2*p
-            last = now
-         end do
-         along = merge(y - transposed_product(component, lambda), 0.0_wp, free)
+         lambda = 0.0_wp
+         along = merge(y, 0.0_wp, free)
          s = product_of(component, along)
-      end do
-   end subroutine split_by_steps
+         begin = norm2(s)
+         ! begun anew once, from a residual without the round-off of the recurrence
+         do round = 1, 2
+            p = s
+            last = norm2(s)
+            do step = 1, 4*(component%n + component%k)
+               if (last <= DONE*begin) exit
+               t = merge(transposed_product(component, p), 0.0_wp, free)
+               if (norm2(t) <= DEPENDENT*norm2(p)) exit
+               lambda = lambda + (last/norm2(t))**2*p
+               along = along - (last/norm2(t))**2*t
+               s = product_of(component, along)
+               now = norm2(s)
+               p = s + (now/last)**2*p
+               last = now
+            end do
+            along = merge(y - transposed_product(component, lambda), 0.0_wp, free)
+            s = product_of(component, along)
+         end do
+      end subroutine split_by_steps
+
+   end subroutine split
 
    !> A y.
    pure function product_of(component, y) result(x)

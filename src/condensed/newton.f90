@@ -131,7 +131,7 @@ contains
       of_all = 0.0_wp
       do k = line%average%first(j), line%average%first(j + 1) - 1
          i = line%normal(line%average%column(k))
-         if (i > 0) of_all(i) = line%law(j)%nu*line%average%entry(k)/problem%weight(i)
+         if (i > 0) of_all(i) = line%law(j)%nu*line%average%value(k)/problem%weight(i)
       end do
       slope = of_all(active)
    end function bound_slope
@@ -172,12 +172,12 @@ contains
          i = active(row)
          ! closed or sticking: r = 0; slipping: q at its bound
          if (solution%state%state(i) == FREE) then
-            call stick_row(problem, line, solution, active, row, jacobian(row, :n))
+            call stick_row(jacobian(row, :n))
             jacobian(row, :n) = jacobian(row, :n)*scale*scale(row)
             jacobian(row, n + 1:) = -problem%g(i, :)*scale(row)*motion_scale
             rhs(row) = r(i)*scale(row)
          else
-            call slip_row(problem, line, solution, active, row, jacobian(row, :n), rhs(row))
+            call slip_row(jacobian(row, :n), rhs(row))
             jacobian(row, :n) = jacobian(row, :n)*scale/scale(row)
             rhs(row) = rhs(row)/scale(row)
          end if
@@ -187,6 +187,42 @@ contains
       end do
       ! the balance of the bodies, scaled like the motions so that the matrix is nearly antisymmetric there
       rhs(n + 1:) = (problem%h - matmul(transpose(problem%g), solution%state%q))*motion_scale
+
+   contains
+
+      !> -dr/dq of a closed or sticking point: C + D, and for the law of Oden and Pires -q D'(tau) dtau/dq.
+      !>
+      !> Minus, since the system is solved for the change that makes r vanish: (C + D) dq - G da = r. For NONLOCAL D = eps/(w tau),
+      !> so dD/dq = -D/tau dtau/dq.
+      pure subroutine stick_row(jacobian)
+         real(wp), intent(inout) :: jacobian(:)
+         integer(ip) :: i, j
+
+         i = active(row)
+         j = line%point(i)
+         jacobian = problem%c(i, active)
+         jacobian(row) = jacobian(row) + solution%bounds%d(i)
+         if (i <= problem%n_normal .or. line%law(j)%kind /= FRICTION_NONLOCAL) return
+         jacobian = jacobian - solution%state%q(i)*solution%bounds%d(i)/solution%tau(j)*bound_slope(problem, line, active, j)
+      end subroutine stick_row
+
+      !> q - sign w tau(q) = 0 of a slipping point.
+      !>
+      !> dq_t -+ w dtau = +-w tau - q_t: the only rows in which pressures move the friction.
+      pure subroutine slip_row(jacobian, rhs)
+         real(wp), intent(inout) :: jacobian(:)
+         real(wp), intent(out) :: rhs
+         real(wp) :: direction
+         integer(ip) :: i, j
+
+         i = active(row)
+         j = line%point(i)
+         direction = merge(1.0_wp, -1.0_wp, solution%state%state(i) == AT_UPPER)
+         jacobian = -direction*line%weight(j)*bound_slope(problem, line, active, j)
+         jacobian(row) = jacobian(row) + 1.0_wp
+         rhs = direction*line%weight(j)*solution%tau(j) - solution%state%q(i)
+      end subroutine slip_row
+
    end subroutine build_system
 
    pure function force_scale(problem, solution, active) result(scale)
@@ -211,47 +247,6 @@ contains
          if (motion_scale(j) > 0.0_wp) motion_scale(j) = 1.0_wp/motion_scale(j)
       end do
    end function scale_of_motions
-
-   !> -dr/dq of a closed or sticking point: C + D, and for the law of Oden and Pires -q D'(tau) dtau/dq.
-   !>
-   !> Minus, since the system is solved for the change that makes r vanish: (C + D) dq - G da = r. For NONLOCAL D = eps/(w tau), so
-   !> dD/dq = -D/tau dtau/dq.
-   pure subroutine stick_row(problem, line, solution, active, row, jacobian)
-      type(bound_qp_t), intent(in) :: problem
-      type(contact_line_t), intent(in) :: line
-      type(contact_solution_t), intent(in) :: solution
-      integer(ip), intent(in) :: active(:), row
-      real(wp), intent(inout) :: jacobian(:)
-      integer(ip) :: i, j
-
-      i = active(row)
-      j = line%point(i)
-      jacobian = problem%c(i, active)
-      jacobian(row) = jacobian(row) + solution%bounds%d(i)
-      if (i <= problem%n_normal .or. line%law(j)%kind /= FRICTION_NONLOCAL) return
-      jacobian = jacobian - solution%state%q(i)*solution%bounds%d(i)/solution%tau(j)*bound_slope(problem, line, active, j)
-   end subroutine stick_row
-
-   !> q - sign w tau(q) = 0 of a slipping point.
-   !>
-   !> dq_t -+ w dtau = +-w tau - q_t: the only rows in which pressures move the friction.
-   pure subroutine slip_row(problem, line, solution, active, row, jacobian, rhs)
-      type(bound_qp_t), intent(in) :: problem
-      type(contact_line_t), intent(in) :: line
-      type(contact_solution_t), intent(in) :: solution
-      integer(ip), intent(in) :: active(:), row
-      real(wp), intent(inout) :: jacobian(:)
-      real(wp), intent(out) :: rhs
-      real(wp) :: direction
-      integer(ip) :: i, j
-
-      i = active(row)
-      j = line%point(i)
-      direction = merge(1.0_wp, -1.0_wp, solution%state%state(i) == AT_UPPER)
-      jacobian = -direction*line%weight(j)*bound_slope(problem, line, active, j)
-      jacobian(row) = jacobian(row) + 1.0_wp
-      rhs = direction*line%weight(j)*solution%tau(j) - solution%state%q(i)
-   end subroutine slip_row
 
    !> A slipping force is its bound to the last digit.
    pure subroutine put_slipping_at_bounds(problem, line, solution)

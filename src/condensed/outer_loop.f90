@@ -202,7 +202,7 @@ contains
          call ease_friction(task, tau, solution, status)
       case default
          if (task%controls%method == METHOD_NEWTON .and. .not. present(rows)) then  ! with rows its matrix cannot be factored
-            call newton_from(task, tau, solution, status)
+            call newton_from(status)
          else
             anderson%mixing = task%controls%relaxation
             call iterate(task, anderson, tau, solution, status)
@@ -213,6 +213,27 @@ contains
           .not. (solution%converged .or. solution%inner%moves .or. present(rows))) then
          call iterate_newton(task%problem, task%line, task%controls, solution)
       end if
+
+   contains
+
+      !> One inner problem, then Newton's method on friction and contact at once.
+      !>
+      !> The QP brings the states near enough: Newton's method alone, from all closed, often goes astray.
+      subroutine newton_from(status)
+         type(status_t), intent(out) :: status
+         real(wp) :: image(task%line%n)
+
+         call begin_outer(solution%history)
+         call solve_with_bound(task%problem, task%line, tau, solution, image, status)
+         if (.not. is_ok(status)) return
+         call end_outer(solution%history, relative_residual(task%line, tau, image))
+         if (solution%inner%moves) then
+            call set_status(status, STATUS_SINGULAR, FREE_MOTION)
+            return
+         end if
+         call iterate_newton(task%problem, task%line, task%controls, solution)
+      end subroutine newton_from
+
    end subroutine solve_from_plain_start
 
    !> All points closed without friction. Where that leaves a body free, all closed and stuck without a bound. tau: the first
@@ -244,27 +265,6 @@ contains
       end if
       if (solution%inner%moves) call set_status(status, STATUS_SINGULAR, FREE_MOTION)
    end subroutine start
-
-   !> One inner problem, then Newton's method on friction and contact at once.
-   !>
-   !> The QP brings the states near enough: Newton's method alone, from all closed, often goes astray.
-   subroutine newton_from(task, tau, solution, status)
-      type(line_task_t), intent(in) :: task
-      real(wp), intent(in) :: tau(:)
-      type(contact_solution_t), intent(inout) :: solution
-      type(status_t), intent(out) :: status
-      real(wp) :: image(task%line%n)
-
-      call begin_outer(solution%history)
-      call solve_with_bound(task%problem, task%line, tau, solution, image, status)
-      if (.not. is_ok(status)) return
-      call end_outer(solution%history, relative_residual(task%line, tau, image))
-      if (solution%inner%moves) then
-         call set_status(status, STATUS_SINGULAR, FREE_MOTION)
-         return
-      end if
-      call iterate_newton(task%problem, task%line, task%controls, solution)
-   end subroutine newton_from
 
    !> From the solution with much more friction to that of the line: the coefficients take the factors LARGEST_FACTOR**s, s from 1
    !> to 0, each from the solution of the one before. A step that does not converge is halved. (With much friction points that carry

@@ -106,7 +106,7 @@ contains
          solution%residual = relative_residual(task%line, tau, image)
          call end_outer(solution%history, solution%residual)
          call report_step(task%reporter, 'outer', outer, solution%history, '', '  residual '//to_text(solution%residual, 3))
-         call judge_step(task%line, task%controls%tolerance, outer, tau, image, loop, solution)
+         call judge_step(task%line, task%controls%tolerance)
          if (solution%converged) return
          ! a loop that converges is not given up, whatever it takes
          if (is_too_much(task%controls, task%problem%m, solution%history%n) .and. outer - loop%progress%best_outer >= STALLED) exit
@@ -123,6 +123,33 @@ contains
          solution%verdict = 'the loop was given up after '//to_text(solution%history%n)//' linear solves'
       end if
       if (.not. solution%inner%solved) solution%verdict = 'the active set did not settle'
+
+   contains
+
+      !> Whether the loop has converged with this bound and its image; and how fast it goes.
+      !>
+      !> The residual is |image - tau|/|tau| pair by pair. It is none at the tolerance; at what round-off of the matrix may do to
+      !> it, eps times its condition, where an iteration no longer halves it; and at STALE_RESIDUAL where STALE iterations have not,
+      !> for round-off of which the matrix knows nothing: displacements far below the initial gaps. The condition is asked for where
+      !> it matters alone: it costs as much as some solves.
+      subroutine judge_step(line, tolerance)
+         type(contact_line_t), intent(in) :: line
+         real(wp), intent(in) :: tolerance
+
+         if (allocated(loop%good) .and. maxval(tau) > 0.0_wp) then
+            call measure_rate(line%weight/maxval(line%weight), (tau - loop%good)/maxval(tau), &
+                              (image - loop%good_image)/maxval(tau), solution%contraction)
+         end if
+         if (may_be_round_off(loop%last_residual, solution%residual)) call judge_condition(solution)
+         solution%converged = has_settled(tolerance, solution%inner%condition, loop%last_residual, solution%residual)
+         loop%last_residual = solution%residual
+         call note_residual(loop%progress, outer, solution%residual)
+         ! round-off that the matrix does not tell: displacements far below the initial gaps
+         if (outer - loop%progress%best_outer < STALE .or. solution%converged) return
+         solution%converged = relative_residual(line, tau, image, beside_noise=.true.) <= STALE_RESIDUAL
+         if (solution%converged) solution%residual = min(solution%residual, STALE_RESIDUAL)
+      end subroutine judge_step
+
    end subroutine iterate
 
    !> Whether so many linear solves went through so many entries of C that the other form of the contact system is cheaper.
@@ -160,34 +187,6 @@ contains
          tau = 2*tau
       end if
    end subroutine step_back
-
-   !> Whether the loop has converged with this bound and its image; and how fast it goes.
-   !>
-   !> The residual is |image - tau|/|tau| pair by pair. It is none at the tolerance; at what round-off of the matrix may do to it,
-   !> eps times its condition, where an iteration no longer halves it; and at STALE_RESIDUAL where STALE iterations have not, for
-   !> round-off of which the matrix knows nothing: displacements far below the initial gaps. The condition is asked for where it
-   !> matters alone: it costs as much as some solves.
-   subroutine judge_step(line, tolerance, outer, tau, image, loop, solution)
-      type(contact_line_t), intent(in) :: line
-      real(wp), intent(in) :: tolerance
-      integer(ip), intent(in) :: outer
-      real(wp), intent(in) :: tau(:), image(:)
-      type(loop_t), intent(inout) :: loop
-      type(contact_solution_t), intent(inout) :: solution
-
-      if (allocated(loop%good) .and. maxval(tau) > 0.0_wp) then
-         call measure_rate(line%weight/maxval(line%weight), (tau - loop%good)/maxval(tau), (image - loop%good_image)/maxval(tau), &
-                           solution%contraction)
-      end if
-      if (may_be_round_off(loop%last_residual, solution%residual)) call judge_condition(solution)
-      solution%converged = has_settled(tolerance, solution%inner%condition, loop%last_residual, solution%residual)
-      loop%last_residual = solution%residual
-      call note_residual(loop%progress, outer, solution%residual)
-      ! round-off that the matrix does not tell: displacements far below the initial gaps
-      if (outer - loop%progress%best_outer < STALE .or. solution%converged) return
-      solution%converged = relative_residual(line, tau, image, beside_noise=.true.) <= STALE_RESIDUAL
-      if (solution%converged) solution%residual = min(solution%residual, STALE_RESIDUAL)
-   end subroutine judge_step
 
    !> Whether the next bound was there before; the verdict says so.
    !>

@@ -84,25 +84,25 @@ contains
       if (.not. is_ok(status) .or. .not. outcome%solved) return
       outcome%solved = stands
       if (.not. present(rows)) return
-      call take_least_forces(problem, bounds, rows, state, outcome%is_shared)
+      call take_least_forces(outcome%is_shared)
+
+   contains
+
+      !> Of the forces that move the bodies alike the least: of rows without compliance, closed or sticking or so by their r.
+      subroutine take_least_forces(is_shared)
+         logical, allocatable, intent(out) :: is_shared(:)
+         logical :: may_change(problem%m)
+         integer(ip) :: i
+
+         do i = 1, problem%m
+            may_change(i) = bounds%d(i) <= NO_COMPLIANCE*problem%c(i, i) .and. state%state(i) /= FROZEN
+            if (may_change(i) .and. state%state(i) /= FREE) may_change(i) = abs(state%r(i)) &
+                                                                            <= AT_REST*row_round_off(problem, state, i)
+         end do
+         call find_least_forces(rows, problem%weight, bounds, may_change, state, is_shared)
+         if (any(is_shared)) call set_residual(problem, bounds%d, state)
+      end subroutine take_least_forces
+
    end subroutine solve_box_proximal
-
-   !> Of the forces that move the bodies alike the least: of rows without compliance, closed or sticking or so by their r.
-   subroutine take_least_forces(problem, bounds, rows, state, is_shared)
-      type(bound_qp_t), intent(in) :: problem
-      type(box_bounds_t), intent(in) :: bounds
-      type(constraint_rows_t), intent(in) :: rows
-      type(box_state_t), intent(inout) :: state
-      logical, allocatable, intent(out) :: is_shared(:)
-      logical :: may_change(problem%m)
-      integer(ip) :: i
-
-      do i = 1, problem%m
-         may_change(i) = bounds%d(i) <= NO_COMPLIANCE*problem%c(i, i) .and. state%state(i) /= FROZEN
-         if (may_change(i) .and. state%state(i) /= FREE) may_change(i) = abs(state%r(i)) <= AT_REST*row_round_off(problem, state, i)
-      end do
-      call find_least_forces(rows, problem%weight, bounds, may_change, state, is_shared)
-      if (any(is_shared)) call set_residual(problem, bounds%d, state)
-   end subroutine take_least_forces
 
 end module atrito_proximal

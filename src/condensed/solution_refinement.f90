@@ -81,7 +81,7 @@ contains
          is_right = share <= TOO_MUCH
          if (.not. is_right .or. share <= ENOUGH .or. share > FALLS*last_share) exit
          call report_progress(problem%reporter, 'refine  residual '//to_text(share, 3)//' by the last digits of the nodes')
-         call correct(problem, controls, bodies, rows, qp, solution, now, status)
+         call correct(status)
          is_right = is_ok(status) .and. solution%converged
          if (.not. is_right .or. share**2 <= ENOUGH) exit ! the next one will be no more than round-off
          last_share = share
@@ -94,6 +94,36 @@ contains
       do b = 1, size(bodies, kind=ip)
          call move_alloc(loads(b)%reduced, bodies(b)%load)
       end do
+
+   contains
+
+      !> One step.
+      !>
+      !> The loads of the bodies become the residuals, g0 gets what they move the points by, the line is solved again from its
+      !> solution, and the displacements change by F (r - B' dq).
+      subroutine correct(status)
+         type(status_t), intent(out) :: status
+         real(wp), allocatable :: change(:, :), moved(:, :)
+         integer(ip) :: b
+
+         do b = 1, size(bodies, kind=ip)
+            if (problem%fem%bodies%list(b)%is_rigid) cycle
+            call set_load(problem%fem, b, now%residual, bodies(b))
+         end do
+         call add_displacements(problem%fem, bodies, rows, qp%g0)
+         call continue_contact_line(qp, problem%line, controls, problem%reporter, solution, status)
+         if (.not. is_ok(status)) return
+         change = -now%contact
+         now%contact = contact_forces(problem%fem, problem%rows, problem%line, solution)
+         change = change + now%contact
+         allocate (moved, mold=now%u)
+         moved = 0.0_wp
+         do b = 1, size(bodies, kind=ip)
+            call elastic_displacements(problem%fem, b, bodies(b), change, moved)
+         end do
+         now%u = now%u + moved
+      end subroutine correct
+
    end subroutine refine_solution
 
    !> f - B'q - K u at the free dofs, 0 at the others; and its largest entry over the largest force.
@@ -132,39 +162,5 @@ contains
       end do
       share = share/max(largest, tiny(largest))
    end subroutine find_residual
-
-   !> One step.
-   !>
-   !> The loads of the bodies become the residuals, g0 gets what they move the points by, the line is solved again from its
-   !> solution, and the displacements change by F (r - B' dq).
-   subroutine correct(problem, controls, bodies, rows, qp, solution, now, status)
-      class(problem_t), intent(in) :: problem
-      type(controls_t), intent(in) :: controls
-      type(condensed_body_t), intent(inout) :: bodies(:)
-      type(constraint_rows_t), intent(in) :: rows       !< of the unknowns over displacements
-      type(bound_qp_t), intent(inout) :: qp
-      type(contact_solution_t), intent(inout) :: solution
-      type(state_t), intent(inout) :: now
-      type(status_t), intent(out) :: status
-      real(wp), allocatable :: change(:, :), moved(:, :)
-      integer(ip) :: b
-
-      do b = 1, size(bodies, kind=ip)
-         if (problem%fem%bodies%list(b)%is_rigid) cycle
-         call set_load(problem%fem, b, now%residual, bodies(b))
-      end do
-      call add_displacements(problem%fem, bodies, rows, qp%g0)
-      call continue_contact_line(qp, problem%line, controls, problem%reporter, solution, status)
-      if (.not. is_ok(status)) return
-      change = -now%contact
-      now%contact = contact_forces(problem%fem, problem%rows, problem%line, solution)
-      change = change + now%contact
-      allocate (moved, mold=now%u)
-      moved = 0.0_wp
-      do b = 1, size(bodies, kind=ip)
-         call elastic_displacements(problem%fem, b, bodies(b), change, moved)
-      end do
-      now%u = now%u + moved
-   end subroutine correct
 
 end module atrito_solution_refinement

@@ -17,6 +17,7 @@ module atrito_average
    use atrito_kinds, only: ip, lp, wp
    use atrito_friction_law, only: KERNEL_LINE
    use atrito_neighbours, only: grid_t, build_grid, list_near
+   use atrito_sparse_rows, only: sparse_rows_t, multiply_rows
    implicit none (type, external)
    private
    public :: average_t, identity_average, add_identity_rows, build_average, count_entries, apply_average, least_spacing
@@ -27,11 +28,8 @@ module atrito_average
    !> A weight below this is none: it would make a friction bound whose inverse, in eps/tau, overflows.
    real(wp), parameter :: NO_WEIGHT = 1.0e-200_wp
 
-   !> W by rows: entries(first(j) : first(j+1)-1) stand in the columns of the same places.
-   type :: average_t
-      integer(ip) :: n = 0
-      integer(ip), allocatable :: first(:), column(:)
-      real(wp), allocatable :: entry(:)
+   !> W by rows.
+   type, extends(sparse_rows_t) :: average_t
       logical :: is_identity = .true.
    end type average_t
 
@@ -43,7 +41,7 @@ contains
       type(average_t) :: w
 
       w%first = [1_ip]
-      allocate (w%column(0), w%entry(0))
+      allocate (w%column(0), w%value(0))
       call add_identity_rows(n, w)
    end function identity_average
 
@@ -56,8 +54,9 @@ contains
       entries = w%first(w%n + 1) - 1
       w%first = [w%first, [(entries + j + 1, j=1, n)]]
       w%column = [w%column, [(w%n + j, j=1, n)]]
-      w%entry = [w%entry, [(1.0_wp, j=1, n)]]
+      w%value = [w%value, [(1.0_wp, j=1, n)]]
       w%n = w%n + n
+      w%n_columns = w%n
    end subroutine add_identity_rows
 
    !> W_jk = omega_rho(|x_j - x_k|) l_k, with rows that sum to one (KERNEL_POINTS) or with the constant of the whole line
@@ -79,12 +78,12 @@ contains
       do j = 1, w%n
          associate (first => w%first(j), last => w%first(j + 1) - 1)
             do k = first, last
-               w%entry(k) = kernel_value(norm2(x(:, w%column(k)) - x(:, j))/rho)*length(w%column(k))
+               w%value(k) = kernel_value(norm2(x(:, w%column(k)) - x(:, j))/rho)*length(w%column(k))
             end do
             if (kernel == KERNEL_LINE) then
-               w%entry(first:last) = w%entry(first:last)*(KERNEL_CONSTANT/rho)
+               w%value(first:last) = w%value(first:last)*(KERNEL_CONSTANT/rho)
             else
-               w%entry(first:last) = w%entry(first:last)/sum(w%entry(first:last))
+               w%value(first:last) = w%value(first:last)/sum(w%value(first:last))
             end if
          end associate
       end do
@@ -103,6 +102,7 @@ contains
       integer(ip) :: pass, i, j, n
 
       w%n = size(x, 2, kind=ip)
+      w%n_columns = w%n
       w%is_identity = .false.
       call build_grid(x, rho, grid)
       allocate (w%first(w%n + 1), near(w%n), next(w%n))
@@ -122,7 +122,7 @@ contains
          do j = 1, w%n
             w%first(j + 1) = w%first(j) + next(j)
          end do
-         allocate (w%column(w%first(w%n + 1) - 1), w%entry(w%first(w%n + 1) - 1))
+         allocate (w%column(w%first(w%n + 1) - 1), w%value(w%first(w%n + 1) - 1))
          next = w%first(:w%n)
       end do
    end subroutine find_entries
@@ -183,11 +183,8 @@ contains
       type(average_t), intent(in) :: w
       real(wp), intent(in) :: p(:)                  !< (n) pressures [F/L^2]
       real(wp) :: average(size(p))
-      integer(ip) :: j
 
-      do j = 1, w%n
-         average(j) = dot_product(w%entry(w%first(j):w%first(j + 1) - 1), p(w%column(w%first(j):w%first(j + 1) - 1)))
-      end do
+      call multiply_rows(w, p, average)
    end function apply_average
 
 end module atrito_average

@@ -129,7 +129,7 @@ contains
             face%places(:face%n) = depth_places(mesh, face%state, face%node(:face%n))
             face%is_corner(:2) = [is_corner_before(mesh, slave, segments, i), &
                                   is_corner_before(mesh, slave, segments, mod(i, slave%n) + 1)]
-            call integrate_face(mesh, face, i, tips, segments, master_faces, master, integrals)
+            call integrate_face(master_faces, integrals)
             call add_face(mesh, face, rule, s, integrals, rows, points)
          end if
          s = s + rule%s(rule%n)
@@ -139,6 +139,39 @@ contains
       points%faces = pack([(int(slave%element(i), lp)*MOST_SIDES + slave%face(i), i=1, slave%n)], &
                           segments%first(2:) > segments%first(:slave%n))
       call finish_points(mesh, rows, points)
+
+   contains
+
+      !> The integrals over the segments of a face: N_GAUSS points on each, t = ((1 - g) from + (1 + g) to)/2, exact to
+      !> degree five, and both ends for the least gap. A face that is covered whole gets its dual functions at the end,
+      !> when int phi_a phi_b is known.
+      subroutine integrate_face(faces, integrals)
+         type(face_list_t), intent(in) :: faces        !< of the master
+         type(face_integrals_t), intent(out) :: integrals !< of the face
+         real(wp) :: gauss(N_GAUSS), weights(N_GAUSS), t, weight
+         integer(ip), allocatable :: nodes(:)
+         integer(ip) :: k, g
+
+         call judge_cover(face, tips, segments%from(segments%first(i):segments%first(i + 1) - 1), &
+                          segments%to(segments%first(i):segments%first(i + 1) - 1), integrals)
+         call gauss_rule(N_GAUSS, gauss, weights)
+         k = MOST*(segments%first(i + 1) - segments%first(i))
+         allocate (integrals%node(k), nodes(0))
+         allocate (integrals%master(MOST, k), source=0.0_wp)
+         do k = segments%first(i), segments%first(i + 1) - 1
+            if (.not. master%rigid) nodes = face_nodes(mesh, faces%element(segments%piece(k)), faces%face(segments%piece(k)))
+            do g = 1, N_GAUSS
+               t = 0.5_wp*((1 - gauss(g))*segments%from(k) + (1 + gauss(g))*segments%to(k))
+               weight = 0.5_wp*weights(g)*(segments%to(k) - segments%from(k))
+               call add_place(face, t, weight, master, segments%piece(k), nodes, segments%common(k), integrals)
+            end do
+            ! a weight of 0: for the least gap alone
+            call add_place(face, segments%from(k), 0.0_wp, master, segments%piece(k), nodes, segments%common(k), integrals)
+            call add_place(face, segments%to(k), 0.0_wp, master, segments%piece(k), nodes, segments%common(k), integrals)
+         end do
+         if (integrals%is_whole) call make_dual(face%n, integrals)
+      end subroutine integrate_face
+
    end subroutine pair_by_mortar
 
    !> Face i and the one before it (of the first face the last one, as on a ring) meet at a corner, and both see the
@@ -160,41 +193,6 @@ contains
          is_corner = before(2) == nodes(1) .and. sine(segments%direction(:, 2, k), segments%direction(:, 1, i)) > CORNER
       end associate
    end function is_corner_before
-
-   !> The integrals over the segments of a face: N_GAUSS points on each, t = ((1 - g) from + (1 + g) to)/2, exact to
-   !> degree five, and both ends for the least gap. A face that is covered whole gets its dual functions at the end,
-   !> when int phi_a phi_b is known.
-   subroutine integrate_face(mesh, face, i, tips, segments, faces, master, integrals)
-      type(mesh_t), intent(in) :: mesh
-      type(slave_face_t), intent(in) :: face        !< of the slave
-      integer(ip), intent(in) :: i, tips(:)         !< nodes of both sides
-      type(segments_t), intent(in) :: segments
-      type(face_list_t), intent(in) :: faces        !< of the master
-      type(master_t), intent(in) :: master
-      type(face_integrals_t), intent(out) :: integrals !< of the face
-      real(wp) :: gauss(N_GAUSS), weights(N_GAUSS), t, weight
-      integer(ip), allocatable :: nodes(:)
-      integer(ip) :: k, g
-
-      call judge_cover(face, tips, segments%from(segments%first(i):segments%first(i + 1) - 1), &
-                       segments%to(segments%first(i):segments%first(i + 1) - 1), integrals)
-      call gauss_rule(N_GAUSS, gauss, weights)
-      k = MOST*(segments%first(i + 1) - segments%first(i))
-      allocate (integrals%node(k), nodes(0))
-      allocate (integrals%master(MOST, k), source=0.0_wp)
-      do k = segments%first(i), segments%first(i + 1) - 1
-         if (.not. master%rigid) nodes = face_nodes(mesh, faces%element(segments%piece(k)), faces%face(segments%piece(k)))
-         do g = 1, N_GAUSS
-            t = 0.5_wp*((1 - gauss(g))*segments%from(k) + (1 + gauss(g))*segments%to(k))
-            weight = 0.5_wp*weights(g)*(segments%to(k) - segments%from(k))
-            call add_place(face, t, weight, master, segments%piece(k), nodes, segments%common(k), integrals)
-         end do
-         ! a weight of 0: for the least gap alone
-         call add_place(face, segments%from(k), 0.0_wp, master, segments%piece(k), nodes, segments%common(k), integrals)
-         call add_place(face, segments%to(k), 0.0_wp, master, segments%piece(k), nodes, segments%common(k), integrals)
-      end do
-      if (integrals%is_whole) call make_dual(face%n, integrals)
-   end subroutine integrate_face
 
    !> Adds what a place x(t) of the slave is worth to the integrals, with ds = weight |dx/dt| and the depth h there:
    !>

@@ -91,8 +91,40 @@ contains
          face = take_face(mesh, slave, i, segments)
          segments%first(i + 1) = segments%first(i)
          call find_cuts(face, master, cuts)
-         if (size(cuts) > 0) call add_segments(face, master, cuts, i, segments)
+         if (size(cuts) > 0) call add_segments(i, segments)
       end do
+
+   contains
+
+      !> The parts of the face between cuts that face a piece of the master. Between two cuts the line of sight passes no
+      !> end of a piece, so what the middle sees is seen from the whole part.
+      pure subroutine add_segments(i_face, segments)
+         integer(ip), intent(in) :: i_face             !< number of the face
+         type(segments_t), intent(inout) :: segments   !< those of the faces before
+         type(sight_t) :: sight
+         real(wp) :: t, covered
+         integer(ip) :: k, before
+
+         before = segments%first(i_face)
+         covered = 0.0_wp
+         associate (next => segments%first(i_face + 1))
+            do k = 1, size(cuts, kind=ip) - 1
+               t = 0.5_wp*(cuts(k) + cuts(k + 1))
+               sight = look_along(place_on_face(face, t), direction_at(face, t), face%length, master)
+               if (sight%piece == 0) cycle
+               covered = covered + (cuts(k + 1) - cuts(k))
+               call make_room(segments%piece, next - 1, next)
+               call make_room(segments%from, next - 1, next)
+               call make_room(segments%to, next - 1, next)
+               segments%piece(next) = sight%piece
+               segments%from(next) = cuts(k)
+               segments%to(next) = cuts(k + 1)
+               next = next + 1
+            end do
+            if (covered < LEAST_COVER) next = before
+         end associate
+      end subroutine add_segments
+
    end subroutine cut_slave
 
    !> The curve that both sides take under pressure. Of the curvature k_s + k_m that they have against each other (> 0: convex) each
@@ -265,37 +297,5 @@ contains
       end do
       if (i <= MOST_STEPS) t = NOWHERE
    end function facing_place
-
-   !> The parts of the face between cuts that face a piece of the master. Between two cuts the line of sight passes no
-   !> end of a piece, so what the middle sees is seen from the whole part.
-   pure subroutine add_segments(face, master, cuts, i_face, segments)
-      type(slave_face_t), intent(in) :: face        !< of the slave
-      type(master_t), intent(in) :: master
-      real(wp), intent(in) :: cuts(:)               !< rising, from -1 to 1
-      integer(ip), intent(in) :: i_face             !< number of the face
-      type(segments_t), intent(inout) :: segments   !< those of the faces before
-      type(sight_t) :: sight
-      real(wp) :: t, covered
-      integer(ip) :: k, before
-
-      before = segments%first(i_face)
-      covered = 0.0_wp
-      associate (next => segments%first(i_face + 1))
-         do k = 1, size(cuts, kind=ip) - 1
-            t = 0.5_wp*(cuts(k) + cuts(k + 1))
-            sight = look_along(place_on_face(face, t), direction_at(face, t), face%length, master)
-            if (sight%piece == 0) cycle
-            covered = covered + (cuts(k + 1) - cuts(k))
-            call make_room(segments%piece, next - 1, next)
-            call make_room(segments%from, next - 1, next)
-            call make_room(segments%to, next - 1, next)
-            segments%piece(next) = sight%piece
-            segments%from(next) = cuts(k)
-            segments%to(next) = cuts(k + 1)
-            next = next + 1
-         end do
-         if (covered < LEAST_COVER) next = before
-      end associate
-   end subroutine add_segments
 
 end module atrito_mortar_segments

@@ -75,14 +75,66 @@ contains
       points%n_faces = slave%n
       used = [(finds_master(mesh, slave, i, master), i=1, slave%n)]
       points%n_left_out = count(.not. used, kind=ip)
-      if (points%n_left_out == slave%n) points%n_seeing = count([(sees_master(mesh, slave, i, master), i=1, slave%n)], kind=ip)
+      if (points%n_left_out == slave%n) points%n_seeing = count([(sees_master(i), i=1, slave%n)], kind=ip)
       points%faces = pack([(int(slave%element(i), lp)*MOST_SIDES + slave%face(i), i=1, slave%n)], used)
       call allocate_points(3*slave%n, 3*slave%n*NODAL_ENTRIES, points)
       call place_points(mesh, thickness, slave, used, master%grain, points, curvature, mixed)
-      call look_for_master(mesh, master, master_faces, curvature, points)
+      call look_for_master(master_faces, points)
       if (.not. master%rigid) points%matching = are_matching(mesh, slave, master, points)
       call mix_rows(mixed, points)
       call drop_points(common_ends(mesh, slave, master_faces), points)
+
+   contains
+
+      !> A node of the face finds the master, or the middle of a straight one does: for the message about a pair none of
+      !> whose faces sees the master with all of its nodes.
+      pure logical function sees_master(i) result(sees)
+         integer(ip), intent(in) :: i                  !< face of the slave
+         type(nodal_rule_t) :: rule
+         type(sight_t) :: sight
+         integer(ip) :: k
+
+         rule = nodal_rule(mesh, slave%element(i), slave%face(i))
+         sight = look_along(0.5_wp*(mesh%x(:, rule%node(1)) + mesh%x(:, rule%node(rule%n))), rule%normal(:, 1), rule%s(rule%n), &
+                            master)
+         sees = sight%piece > 0
+         do k = 1, rule%n
+            sees = sees .or. node_finds(mesh, slave, i, rule, k, master)
+         end do
+      end function sees_master
+
+      !> Initial distances, and the master's shape functions where each point faces it: the row u_j - sum phi_k(t) u_k. A
+      !> distance that is round-off of the coordinates is none: displacements may be smaller than that. A point at a corner
+      !> of the slave whose mean normal misses the master takes the end that is nearest to it.
+      pure subroutine look_for_master(faces, points)
+         type(face_list_t), intent(in) :: faces        !< of the master
+         type(contact_points_t), intent(inout) :: points
+         type(sight_t) :: sight
+         integer(ip), allocatable :: nodes(:)
+         real(wp) :: round_off
+         integer(ip) :: i
+
+         allocate (points%piece(points%n))
+         if (points%n == 0) return
+         round_off = ROUND_OFFS*EPS_MACH*maxval(abs(points%x(:, :points%n)))
+         do i = 1, points%n
+            sight = look_along(points%x(:, i), points%normal(:, i), 2*points%length(i), master)
+            ! where two faces meet at an angle, the mean normal may miss the end of the master
+            if (sight%piece == 0) sight = nearest_end(points%x(:, i), points%normal(:, i), master, any_side=.true.)
+            points%piece(i) = sight%piece
+            points%gap(i) = sight%distance
+            call turn_to_common_normal(master, curvature(i), points%x(:, i), points%length(i), sight, points%normal(:, i), &
+                                       points%gap(i))
+            if (abs(points%gap(i)) <= round_off) points%gap(i) = 0.0_wp
+            points%first(i + 1) = points%first(i)
+            call add_entries([points%node(i)], [1.0_wp], i, points)
+            if (master%rigid) cycle
+            nodes = face_nodes(mesh, faces%element(sight%piece), faces%face(sight%piece))
+            call add_entries(nodes, -face_shape_values(size(nodes, kind=ip), 2*sight%t - 1), i, points)
+         end do
+         if (.not. master%rigid) call find_coarsest(mesh, master, faces, points)
+      end subroutine look_for_master
+
    end subroutine pair_with_master
 
    !> A face is a candidate when each of its nodes finds the master along the face's normal there. On a curved slave
@@ -104,25 +156,6 @@ contains
          if (.not. finds) return
       end do
    end function finds_master
-
-   !> A node of the face finds the master, or the middle of a straight one does: for the message about a pair none of
-   !> whose faces sees the master with all of its nodes.
-   pure logical function sees_master(mesh, slave, i, master) result(sees)
-      type(mesh_t), intent(in) :: mesh
-      type(face_list_t), intent(in) :: slave        !< one chain, ordered
-      integer(ip), intent(in) :: i                  !< face of the slave
-      type(master_t), intent(in) :: master
-      type(nodal_rule_t) :: rule
-      type(sight_t) :: sight
-      integer(ip) :: k
-
-      rule = nodal_rule(mesh, slave%element(i), slave%face(i))
-      sight = look_along(0.5_wp*(mesh%x(:, rule%node(1)) + mesh%x(:, rule%node(rule%n))), rule%normal(:, 1), rule%s(rule%n), master)
-      sees = sight%piece > 0
-      do k = 1, rule%n
-         sees = sees .or. node_finds(mesh, slave, i, rule, k, master)
-      end do
-   end function sees_master
 
    !> Whether a node of face i sees the master along the face's normal there, or an end of it within the doubt about that normal.
    pure logical function node_finds(mesh, slave, i, rule, k, master) result(finds)
@@ -197,41 +230,6 @@ contains
          call clear_small_component(points%x(:, i), points%length(i), points%normal(:, i))
       end do
    end subroutine place_points
-
-   !> Initial distances, and the master's shape functions where each point faces it: the row u_j - sum phi_k(t) u_k. A
-   !> distance that is round-off of the coordinates is none: displacements may be smaller than that. A point at a corner
-   !> of the slave whose mean normal misses the master takes the end that is nearest to it.
-   pure subroutine look_for_master(mesh, master, faces, curvature, points)
-      type(mesh_t), intent(in) :: mesh
-      type(master_t), intent(in) :: master
-      type(face_list_t), intent(in) :: faces        !< of the master
-      real(wp), intent(in) :: curvature(:)          !< of the slave at the points [1/L]
-      type(contact_points_t), intent(inout) :: points
-      type(sight_t) :: sight
-      integer(ip), allocatable :: nodes(:)
-      real(wp) :: round_off
-      integer(ip) :: i
-
-      allocate (points%piece(points%n))
-      if (points%n == 0) return
-      round_off = ROUND_OFFS*EPS_MACH*maxval(abs(points%x(:, :points%n)))
-      do i = 1, points%n
-         sight = look_along(points%x(:, i), points%normal(:, i), 2*points%length(i), master)
-         ! where two faces meet at an angle, the mean normal may miss the end of the master
-         if (sight%piece == 0) sight = nearest_end(points%x(:, i), points%normal(:, i), master, any_side=.true.)
-         points%piece(i) = sight%piece
-         points%gap(i) = sight%distance
-         call turn_to_common_normal(master, curvature(i), points%x(:, i), points%length(i), sight, points%normal(:, i), &
-                                    points%gap(i))
-         if (abs(points%gap(i)) <= round_off) points%gap(i) = 0.0_wp
-         points%first(i + 1) = points%first(i)
-         call add_entries([points%node(i)], [1.0_wp], i, points)
-         if (master%rigid) cycle
-         nodes = face_nodes(mesh, faces%element(sight%piece), faces%face(sight%piece))
-         call add_entries(nodes, -face_shape_values(size(nodes, kind=ip), 2*sight%t - 1), i, points)
-      end do
-      if (.not. master%rigid) call find_coarsest(mesh, master, faces, points)
-   end subroutine look_for_master
 
    !> The gap is measured along the normal that both sides have in common, n ~ (1 - f) n_s - f n_m, f = k_s/(k_s + k_m)
    !> with the curvatures of both sides (share_of_master). f fades out where the master has a kink within NEAR_KINK of

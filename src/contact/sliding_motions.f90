@@ -357,7 +357,7 @@ contains
       integer(ip) :: j, k, m
 
       do j = 1, points%n
-         v = velocity(motion, force_place(mesh, points, j))
+         v = velocity(motion, force_place())
          if (.not. norm2(v) > 0.0_wp) return
          normal(:, j) = [v(2), -v(1)]/norm2(v)
          normal(:, j) = sign(1.0_wp, dot_product(normal(:, j), points%normal(:, j)))*normal(:, j)
@@ -374,8 +374,44 @@ contains
          if (.not. motion%is_round) cycle
          k = first_of_master(points, j)
          m = points%first(j + 1) - 1
-         if (m > k) call shift_force(motion, mesh, points%normal(:, j), points%entry(k:m), points%coefficient(k:m))
+         if (m > k) call shift_force(points%normal(:, j), points%entry(k:m), points%coefficient(k:m))
       end do
+
+   contains
+
+      !> Where the force of a point acts on the slave [L]: sum c_k x_k over the slave's nodes, taken from the first of them.
+      pure function force_place() result(x)
+         real(wp) :: x(2), o(2), away(2)
+         integer(ip) :: k
+
+         o = mesh%x(:, points%entry(points%first(j)))
+         away = 0.0_wp
+         do k = points%first(j), first_of_master(points, j) - 1
+            away = away + points%coefficient(k)*(mesh%x(:, points%entry(k)) - o)
+         end do
+         x = o + away
+      end function force_place
+
+      !> The least change of the master's coefficients, weighted by themselves, that keeps their sum and leaves no motion along n:
+      !> with a_k = n . v(x_k) the changes d_k that minimise sum d_k^2/|c_k| under sum d_k = 0 and sum (c_k + d_k) a_k = 0 are
+      !>
+      !>     d_k = -|c_k| (a_k - mean a) (sum c_i a_i)/sum |c_i| (a_i - mean a)^2,     mean a = sum |c_i| a_i/sum |c_i|.
+      pure subroutine shift_force(n, node, coefficient)
+         real(wp), intent(in) :: n(2)                  !< normal of the point
+         integer(ip), intent(in) :: node(:)            !< of the master
+         real(wp), intent(inout) :: coefficient(:)     !< their sum is -1
+         real(wp) :: along(size(node)), mean, spread_of
+         integer(ip) :: k
+
+         do k = 1, size(node, kind=ip)
+            along(k) = dot_product(n, velocity(motion, mesh%x(:, node(k))))
+         end do
+         mean = sum(abs(coefficient)*along)/sum(abs(coefficient))
+         spread_of = sum(abs(coefficient)*(along - mean)**2)
+         if (.not. spread_of > (EPS_MACH*motion%extent)**2) return
+         coefficient = coefficient - abs(coefficient)*(along - mean)*(sum(coefficient*along)/spread_of)
+      end subroutine shift_force
+
    end subroutine turn_points
 
    !> Whether no point moves along its normal as it is, neither what is the slave's of its row nor what is the master's.
@@ -439,44 +475,6 @@ contains
          points%doubt(j) = max(points%doubt(j), HALF*turn)
       end do
    end subroutine note_doubt
-
-   !> Where the force of a point acts on the slave [L]: sum c_k x_k over the slave's nodes, taken from the first of them.
-   pure function force_place(mesh, points, j) result(x)
-      type(mesh_t), intent(in) :: mesh
-      type(contact_points_t), intent(in) :: points  !< of the pair
-      integer(ip), intent(in) :: j                  !< point
-      real(wp) :: x(2), o(2), away(2)
-      integer(ip) :: k
-
-      o = mesh%x(:, points%entry(points%first(j)))
-      away = 0.0_wp
-      do k = points%first(j), first_of_master(points, j) - 1
-         away = away + points%coefficient(k)*(mesh%x(:, points%entry(k)) - o)
-      end do
-      x = o + away
-   end function force_place
-
-   !> The least change of the master's coefficients, weighted by themselves, that keeps their sum and leaves no motion along n: with
-   !> a_k = n . v(x_k) the changes d_k that minimise sum d_k^2/|c_k| under sum d_k = 0 and sum (c_k + d_k) a_k = 0 are
-   !>
-   !>     d_k = -|c_k| (a_k - mean a) (sum c_i a_i)/sum |c_i| (a_i - mean a)^2,     mean a = sum |c_i| a_i/sum |c_i|.
-   pure subroutine shift_force(motion, mesh, n, node, coefficient)
-      type(sliding_t), intent(in) :: motion
-      type(mesh_t), intent(in) :: mesh
-      real(wp), intent(in) :: n(2)                  !< normal of the point
-      integer(ip), intent(in) :: node(:)            !< of the master
-      real(wp), intent(inout) :: coefficient(:)     !< their sum is -1
-      real(wp) :: along(size(node)), mean, spread_of
-      integer(ip) :: k
-
-      do k = 1, size(node, kind=ip)
-         along(k) = dot_product(n, velocity(motion, mesh%x(:, node(k))))
-      end do
-      mean = sum(abs(coefficient)*along)/sum(abs(coefficient))
-      spread_of = sum(abs(coefficient)*(along - mean)**2)
-      if (.not. spread_of > (EPS_MACH*motion%extent)**2) return
-      coefficient = coefficient - abs(coefficient)*(along - mean)*(sum(coefficient*along)/spread_of)
-   end subroutine shift_force
 
    !> A vector turned by +90 degrees.
    pure function perp(a)

@@ -83,13 +83,33 @@ contains
          ends(:, 2, i) = (own(:, 1) + own(:, 2))/norm2(own(:, 1) + own(:, 2))
          ends(:, 1, k) = ends(:, 2, i)
       end do
-      call bend_chords(is_chord, beside, slope, curvature, bend)
+      call bend_chords(curvature, bend)
       turn = turn + joints/max(n_joints, 1_ip)
       joints = 0.0_wp                               ! of the turns, what is rounding
       if (present(grain)) then
          if (all(1 > LATTICE*grain*curvature)) joints = DIGITS_TURN*grain*curvature
       end if
       curvature = turn*shown(turn, joints)*curvature
+
+   contains
+
+      !> The curvature of chords by the slopes at their ends. At the end of a chain the chord has that of its neighbour besides: two
+      !> chords alone are no curve.
+      pure subroutine bend_chords(per_length, bend)
+         real(wp), intent(in) :: per_length(:)         !< (faces) [1/L]
+         real(wp), intent(inout) :: bend(:)            !< (faces) [1/L] those of chords are set
+         logical :: inside(size(bend))
+         integer(ip) :: i, k
+
+         inside = .not. is_chord .or. all(beside > 0, dim=1)
+         where (is_chord) bend = merge(2*flatter(slope(1, :), slope(2, :))*per_length, 0.0_wp, inside)
+         do i = 1, size(bend, kind=ip)
+            k = maxval(beside(:, i))
+            if (inside(i) .or. k == 0) cycle
+            if (inside(k)) bend(i) = flatter(2*sum(slope(:, i))*per_length(i), bend(k))
+         end do
+      end subroutine bend_chords
+
    end subroutine smooth_surface
 
    !> The angle from one normal to the next [rad], > 0: convex.
@@ -99,26 +119,6 @@ contains
       turn = atan2(a(1)*b(2) - a(2)*b(1), dot_product(a, b))
       if (abs(turn) <= NO_TURN) turn = 0.0_wp
    end function turn_between
-
-   !> The curvature of chords by the slopes at their ends. At the end of a chain the chord has that of its neighbour besides: two
-   !> chords alone are no curve.
-   pure subroutine bend_chords(is_chord, beside, slope, per_length, bend)
-      logical, intent(in) :: is_chord(:)            !< (faces)
-      integer(ip), intent(in) :: beside(:, :)       !< (2, faces) the face before and behind; 0: none
-      real(wp), intent(in) :: slope(:, :)           !< (2, faces)
-      real(wp), intent(in) :: per_length(:)         !< (faces) [1/L]
-      real(wp), intent(inout) :: bend(:)            !< (faces) [1/L] those of chords are set
-      logical :: inside(size(bend))
-      integer(ip) :: i, k
-
-      inside = .not. is_chord .or. all(beside > 0, dim=1)
-      where (is_chord) bend = merge(2*flatter(slope(1, :), slope(2, :))*per_length, 0.0_wp, inside)
-      do i = 1, size(bend, kind=ip)
-         k = maxval(beside(:, i))
-         if (inside(i) .or. k == 0) cycle
-         if (inside(k)) bend(i) = flatter(2*sum(slope(:, i))*per_length(i), bend(k))
-      end do
-   end subroutine bend_chords
 
    !> The smaller of two slopes, so that a straight face beside a curved one stays straight.
    elemental real(wp) function flatter(a, b)

@@ -193,7 +193,7 @@ contains
       do j = 1, n
          w%first(j + 1) = w%first(j) + w%first(j + 1)
       end do
-      allocate (w%column(w%first(n + 1) - 1), w%entry(w%first(n + 1) - 1))
+      allocate (w%column(w%first(n + 1) - 1), w%value(w%first(n + 1) - 1))
       do i = 1, size(parts, kind=ip)
          do j = 1, parts(i)%w%n
             if (.not. parts(i)%takes(j)) cycle
@@ -201,7 +201,7 @@ contains
                        last => parts(i)%w%first(j + 1) - 1)
                do k = from, last
                   w%column(to + k - from) = parts(i)%point(parts(i)%w%column(k))
-                  w%entry(to + k - from) = parts(i)%w%entry(k)
+                  w%value(to + k - from) = parts(i)%w%value(k)
                end do
             end associate
          end do

@@ -1,5 +1,15 @@
 !> One element: stiffness and loads of an isoparametric quadrilateral or triangle.
 !>
+!> Places and displacements have the same shape functions N_a of the coordinates xi of the parent square or triangle,
+!>
+!>     x = sum_a N_a(xi) x_a,     u = sum_a N_a(xi) u_a,     J = dx/dxi,     g_a = J^-T dN_a/dxi,
+!>
+!> and with the strains e = B u, whose rows are made of g_a, the work of the stresses D e on them gives
+!>
+!>     K = int B'D B t dA = sum over the Gauss points of weight det(J) t B'D B.
+!>
+!> g_a det(J) is linear in the coordinates, so sums are formed of it, and divided by det(J) once.
+!>
 !> Coordinates are taken relative to the element's first node: the derivatives of the shape functions add up to zero only but for
 !> round-off, which far from the origin would cost digits.
 module atrito_element

@@ -107,59 +107,56 @@ contains
       do e = first, last
          associate (rule => rules(fem%mesh%shape(e)))
             call fetch_geometry(fem, e, rule, geometry)
-            call add_element(fem, e, u, field, per_unit, rule, geometry, energies)
+            call add_element(rule, energies)
             if (.not. present(square)) cycle
             alone = energies_t()
-            call add_element(fem, e, u, field, per_unit, rule, geometry, alone)
+            call add_element(rule, alone)
             square(e) = alone%error
          end associate
       end do
+
+   contains
+
+      pure subroutine add_element(rule, energies)
+         type(point_rule_t), intent(in) :: rule
+         type(energies_t), intent(inout) :: energies
+         real(wp), dimension(MOST_POINTS, COMPONENTS) :: s, d
+         real(wp) :: c(COMPONENTS, COMPONENTS), weight(MOST_POINTS), largest
+         integer(ip) :: k, n
+
+         n = rule%n
+         c = compliance_matrix(fem%sections(geometry%section), geometry%state)
+         call point_stresses(fem, e, u, rule, geometry, s)
+         s(:n, :) = s(:n, :)*per_unit
+         if (geometry%is_orthotropic) then
+            if (.not. geometry%has_hoop) energies%strain = max(energies%strain, largest_orthotropic_strain(n, c, s))
+         else
+            energies%strain = max(energies%strain, largest_strain(n, 0.5_wp/(geometry%d(3, 3) + min(geometry%d(1, 2), 0.0_wp)), s))
+         end if
+         d(:n, :) = -s(:n, :)
+         largest = 0.0_wp
+         do k = 1, geometry%shape
+            largest = max(largest, abs(u(1, fem%mesh%nodes(k, e))), abs(u(2, fem%mesh%nodes(k, e))))
+            associate (at_node => field%stress(:, field%place(k, e)), value => rule%value(:n, k))
+               d(:n, 1) = d(:n, 1) + value*(at_node(1)*per_unit)
+               d(:n, 2) = d(:n, 2) + value*(at_node(2)*per_unit)
+               d(:n, 3) = d(:n, 3) + value*(at_node(3)*per_unit)
+            end associate
+         end do
+         call find_volumes(fem, e, rule, geometry, weight)
+         if (geometry%is_orthotropic) then
+            energies%solution = energies%solution + orthotropic_integral(n, c, s, weight)
+            energies%error = energies%error + orthotropic_integral(n, c, d, weight)
+         else
+            energies%solution = energies%solution + integral(n, c, s, weight)
+            energies%error = energies%error + integral(n, c, d, weight)
+         end if
+         if (geometry%has_hoop) call add_hoop(fem, e, u, field, per_unit, rule, geometry, energies)
+         energies%round_off = energies%round_off + (max(geometry%d(1, 1), geometry%d(2, 2))*(EPS_MACH*(largest*per_unit))**2) &
+                              *sum(weight(:n)*geometry%steepness(:n))
+      end subroutine add_element
+
    end subroutine measure_chunk
-
-   pure subroutine add_element(fem, e, u, field, per_unit, rule, geometry, energies)
-      type(fem_t), intent(in) :: fem
-      integer(ip), intent(in) :: e
-      real(wp), intent(in) :: u(:, :)
-      type(stress_field_t), intent(in) :: field
-      real(wp), intent(in) :: per_unit
-      type(point_rule_t), intent(in) :: rule
-      type(point_geometry_t), intent(in) :: geometry
-      type(energies_t), intent(inout) :: energies
-      real(wp), dimension(MOST_POINTS, COMPONENTS) :: s, d
-      real(wp) :: c(COMPONENTS, COMPONENTS), weight(MOST_POINTS), largest
-      integer(ip) :: k, n
-
-      n = rule%n
-      c = compliance_matrix(fem%sections(geometry%section), geometry%state)
-      call point_stresses(fem, e, u, rule, geometry, s)
-      s(:n, :) = s(:n, :)*per_unit
-      if (geometry%is_orthotropic) then
-         if (.not. geometry%has_hoop) energies%strain = max(energies%strain, largest_orthotropic_strain(n, c, s))
-      else
-         energies%strain = max(energies%strain, largest_strain(n, 0.5_wp/(geometry%d(3, 3) + min(geometry%d(1, 2), 0.0_wp)), s))
-      end if
-      d(:n, :) = -s(:n, :)
-      largest = 0.0_wp
-      do k = 1, geometry%shape
-         largest = max(largest, abs(u(1, fem%mesh%nodes(k, e))), abs(u(2, fem%mesh%nodes(k, e))))
-         associate (at_node => field%stress(:, field%place(k, e)), value => rule%value(:n, k))
-            d(:n, 1) = d(:n, 1) + value*(at_node(1)*per_unit)
-            d(:n, 2) = d(:n, 2) + value*(at_node(2)*per_unit)
-            d(:n, 3) = d(:n, 3) + value*(at_node(3)*per_unit)
-         end associate
-      end do
-      call find_volumes(fem, e, rule, geometry, weight)
-      if (geometry%is_orthotropic) then
-         energies%solution = energies%solution + orthotropic_integral(n, c, s, weight)
-         energies%error = energies%error + orthotropic_integral(n, c, d, weight)
-      else
-         energies%solution = energies%solution + integral(n, c, s, weight)
-         energies%error = energies%error + integral(n, c, d, weight)
-      end if
-      if (geometry%has_hoop) call add_hoop(fem, e, u, field, per_unit, rule, geometry, energies)
-      energies%round_off = energies%round_off + (max(geometry%d(1, 1), geometry%d(2, 2))*(EPS_MACH*(largest*per_unit))**2) &
-                           *sum(weight(:n)*geometry%steepness(:n))
-   end subroutine add_element
 
    !> The largest root of e11^2 + e22^2 + 2 e12^2 at the points; of rings add_orthotropic_hoop has the strains.
    pure real(wp) function largest_orthotropic_strain(n, c, s)

@@ -34,7 +34,7 @@ contains
       e = body%elements(1)
       if (.not. has_hourglass(fem%mesh, e)) return
       x = fem%mesh%x(:, fem%mesh%nodes(:EIGHT, e))
-      call find_shapes(x, shapes, found)
+      call find_shapes()
       if (.not. found) return
       do i = 1, EIGHT
          motions(2*i - 1:2*i, :) = reshape([1.0_wp, 0.0_wp, 0.0_wp, 1.0_wp, [-1, 1]*(x([2, 1], i) - x([2, 1], 1)) &
@@ -44,6 +44,37 @@ contains
       associate (held => pack([(k, k=1, 2*EIGHT)], is_held))
          if (rank_of(shapes(held, :)) == rank_of(motions(held, :))) element = fem%mesh%element_id(e)
       end associate
+
+   contains
+
+      !> The displacements of an element that strain none of its points, columns of length 1; not found where they are not four.
+      !> They are sought in an element that is mapped to about a square, of which no aspect ratio is left: with x = J y strains are
+      !> J' e J, of displacements J' u.
+      subroutine find_shapes()
+         real(wp) :: j(2, 2), inverse(2, 2), y(2, EIGHT), strain(STRAINS, 2*EIGHT), products(2*EIGHT, 2*EIGHT), values(2*EIGHT), &
+                     xi(2)
+         real(wp) :: weight
+         integer(ip) :: k, i, info
+
+         j = matmul(x - spread(x(:, 1), 2, EIGHT), shape_gradients(EIGHT, [0.0_wp, 0.0_wp]))
+         inverse = inverse_of(j)
+         y = matmul(inverse, x - spread(x(:, 1), 2, EIGHT))
+         products = 0.0_wp
+         do k = 1, BEST_OF(EIGHT)
+            call rule_point(EIGHT, BEST_OF(EIGHT), k, xi, weight)
+            strain = strains_at(y, xi)
+            products = products + matmul(transpose(strain), strain)
+         end do
+         call eigen_symmetric(products, values, info)
+         found = info == 0 .and. count(values <= NONE*values(2*EIGHT)) == RIGID + 1
+         do k = 1, RIGID + 1
+            do i = 1, EIGHT
+               shapes(2*i - 1:2*i, k) = matmul(transpose(inverse), products(2*i - 1:2*i, k))
+            end do
+            shapes(:, k) = shapes(:, k)/norm2(shapes(:, k))
+         end do
+      end subroutine find_shapes
+
    end function free_hourglass
 
    !> Of a body's elements that have neighbours on two sides at most: the strain energy that full integration would see in their
@@ -97,36 +128,6 @@ contains
 
       has = mesh%shape(e) == EIGHT .and. IS_REDUCED(mesh%state(e)) .and. .not. STATES(mesh%state(e))%has_hoop
    end function has_hourglass
-
-   !> The displacements of an element that strain none of its points, columns of length 1; not found where they are not four. They
-   !> are sought in an element that is mapped to about a square, of which no aspect ratio is left: with x = J y strains are J' e J,
-   !> of displacements J' u.
-   subroutine find_shapes(x, shapes, found)
-      real(wp), intent(in) :: x(2, EIGHT)          !< [L]
-      real(wp), intent(out) :: shapes(2*EIGHT, RIGID + 1)
-      logical, intent(out) :: found
-      real(wp) :: j(2, 2), inverse(2, 2), y(2, EIGHT), strain(STRAINS, 2*EIGHT), products(2*EIGHT, 2*EIGHT), values(2*EIGHT), xi(2)
-      real(wp) :: weight
-      integer(ip) :: k, i, info
-
-      j = matmul(x - spread(x(:, 1), 2, EIGHT), shape_gradients(EIGHT, [0.0_wp, 0.0_wp]))
-      inverse = inverse_of(j)
-      y = matmul(inverse, x - spread(x(:, 1), 2, EIGHT))
-      products = 0.0_wp
-      do k = 1, BEST_OF(EIGHT)
-         call rule_point(EIGHT, BEST_OF(EIGHT), k, xi, weight)
-         strain = strains_at(y, xi)
-         products = products + matmul(transpose(strain), strain)
-      end do
-      call eigen_symmetric(products, values, info)
-      found = info == 0 .and. count(values <= NONE*values(2*EIGHT)) == RIGID + 1
-      do k = 1, RIGID + 1
-         do i = 1, EIGHT
-            shapes(2*i - 1:2*i, k) = matmul(transpose(inverse), products(2*i - 1:2*i, k))
-         end do
-         shapes(:, k) = shapes(:, k)/norm2(shapes(:, k))
-      end do
-   end subroutine find_shapes
 
    !> The part of displacements that is the hourglass, by what in them goes with xi eta^2 along xi and with xi^2 eta along eta.
    !> (Bending under a shear force has xi^2 eta along xi: in coarse rows of long elements more than full integration bears.)

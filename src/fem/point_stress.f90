@@ -1,5 +1,11 @@
 !> Stresses at given points of many elements, fast: shape functions are evaluated once for each kind of element, their gradients
 !> once for neighbours that are equal, and the innermost loops run over the points of an element.
+!>
+!>     s = D sum_a B_a (u_a - u_1) - b alpha dT,     B_a of the gradients dN_a/dx at the point
+!>
+!> b being the stress of a thermal strain of one that is held (thermal_stresses), which depends on the plane state. Displacements
+!> are taken less those of the first node: a body may move far more than it deforms, and the gradients add up to zero but for
+!> round-off. s33 follows from s11 + s22 by the plane state (stress_33), or has a row of its own in rings.
 module atrito_point_stress
    use atrito_assembly, only: fem_t, form_t, has_form, take_form
    use atrito_axisymmetric, only: mean_rows, add_hoop_stress
@@ -7,7 +13,7 @@ module atrito_point_stress
    use atrito_element_table, only: SHAPES, MOST_NODES, MOST_CORNERS, has_mean_dilatation
    use atrito_kinds, only: ip, wp
    use atrito_orthotropy, only: IN_PLANE, ACROSS
-   use atrito_plane_state, only: elasticity_matrix, thermal_stresses, IS_REDUCED, IS_TAPERED, COMPONENTS, STATES, depth_at
+   use atrito_plane_state, only: elasticity_matrix, thermal_stresses, IS_REDUCED, IS_TAPERED, COMPONENTS, depth_at
    use atrito_reduced_integration, only: spread_gradients, spread_values
    use atrito_reduced_rings, only: spread_ring_strains
    use atrito_shape_functions, only: shape_values, shape_gradients, rule_point

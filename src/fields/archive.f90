@@ -10,10 +10,11 @@
 !> What the same process reads again goes one value behind the other into a file without a name (spool_archive): nothing of it is
 !> gathered first, and a part is what lies between a place and the next.
 module atrito_archive
+   use atrito_growing_text, only: growing_text_t, append_text
    use atrito_growth, only: grow
    use atrito_hdf5, only: hdf5_file_t, create_hdf5, open_hdf5, put_list, get_list, close_hdf5
    use atrito_kinds, only: ip, lp, wp
-   use atrito_spool, only: spool_t, open_spool, go_to, put_values, get_values
+   use atrito_spool, only: spool_t, open_spool, go_to, pass_values
    use atrito_status, only: status_t, set_status, is_ok, STATUS_FILE
    implicit none (type, external)
    private
@@ -30,8 +31,8 @@ module atrito_archive
       character(len=:), allocatable, private :: part
       real(wp), allocatable, private :: reals(:)     !< of the part
       integer(lp), allocatable, private :: longs(:)
-      character(len=:), allocatable, private :: text
-      integer(lp), private :: n_reals = 0, n_longs = 0, n_text = 0   !< of them written or read so far
+      type(growing_text_t), private :: text
+      integer(lp), private :: n_reals = 0, n_longs = 0  !< of them written or read so far; of the text text%n
    end type archive_t
 
    integer(lp), parameter :: SOME = 1024
@@ -106,10 +107,10 @@ contains
       archive%part = ''
       archive%n_reals = 0
       archive%n_longs = 0
-      archive%n_text = 0
+      archive%text%n = 0
       if (allocated(archive%reals)) return
       allocate (archive%reals(SOME), archive%longs(SOME))
-      allocate (character(len=SOME) :: archive%text)
+      allocate (character(len=SOME) :: archive%text%letters)
    end subroutine empty_part
 
    !> All went well so far.
@@ -129,12 +130,12 @@ contains
       if (.not. archive%is_reading) return
       call get_list(archive%file, archive%part//'/reals', archive%reals)
       call get_list(archive%file, archive%part//'/integers', archive%longs)
-      call get_list(archive%file, archive%part//'/text', archive%text)
+      call get_list(archive%file, archive%part//'/text', archive%text%letters)
       if (is_ok(archive%status)) archive%status = archive%file%status
       ! no room to hold them: there is nothing, and the first value will be missing
       if (.not. allocated(archive%reals)) allocate (archive%reals(0))
       if (.not. allocated(archive%longs)) allocate (archive%longs(0))
-      if (.not. allocated(archive%text)) archive%text = ''
+      if (.not. allocated(archive%text%letters)) archive%text%letters = ''
    end subroutine begin_part
 
    !> Ends a part: writes it, or asks whether all of it was read.
@@ -143,11 +144,11 @@ contains
 
       if (archive%is_reading) then
          call demand(archive, archive%n_reals == size(archive%reals) .and. archive%n_longs == size(archive%longs) .and. &
-                     archive%n_text == len(archive%text), 'the end')
+                     archive%text%n == len(archive%text%letters), 'the end')
       else if (is_ok(archive%status)) then
          call put_list(archive%file, archive%part//'/reals', archive%reals(:archive%n_reals))
          call put_list(archive%file, archive%part//'/integers', archive%longs(:archive%n_longs))
-         call put_list(archive%file, archive%part//'/text', archive%text(:archive%n_text))
+         call put_list(archive%file, archive%part//'/text', archive%text%letters(:archive%text%n))
       end if
    end subroutine end_part
 
@@ -229,7 +230,7 @@ contains
       case (IS_REAL)
          has_enough = n <= size(archive%reals, kind=lp) - archive%n_reals
       case (IS_TEXT)
-         has_enough = n <= len(archive%text, kind=lp) - archive%n_text
+         has_enough = n <= len(archive%text%letters, kind=lp) - archive%text%n
       case default
          has_enough = n <= size(archive%longs, kind=lp) - archive%n_longs
       end select
@@ -243,8 +244,7 @@ contains
       integer(lp) :: next
 
       if (archive%is_spooled) then
-         if (archive%is_reading) call get_values(archive%spool, values)
-         if (.not. archive%is_reading) call put_values(archive%spool, values)
+         call pass_values(archive%spool, archive%is_reading, values)
          call note_outcome(archive)
          if (.not. is_ok(archive%status)) values = 0
          return
@@ -269,8 +269,7 @@ contains
       integer(lp) :: next
 
       if (archive%is_spooled) then
-         if (archive%is_reading) call get_values(archive%spool, values)
-         if (.not. archive%is_reading) call put_values(archive%spool, values)
+         call pass_values(archive%spool, archive%is_reading, values)
          call note_outcome(archive)
          return
       end if
@@ -288,27 +287,18 @@ contains
    subroutine pass_text(archive, text)
       type(archive_t), intent(inout) :: archive
       character(len=*), intent(inout) :: text
-      character(len=:), allocatable :: larger
-      integer(lp) :: next
 
       if (archive%is_spooled) then
-         if (archive%is_reading) call get_values(archive%spool, text)
-         if (.not. archive%is_reading) call put_values(archive%spool, text)
+         call pass_values(archive%spool, archive%is_reading, text)
          call note_outcome(archive)
          return
       end if
-      next = archive%n_text + len(text, kind=lp)
       if (archive%is_reading) then
-         text = archive%text(archive%n_text + 1:next)
+         text = archive%text%letters(archive%text%n + 1:archive%text%n + len(text))
+         archive%text%n = archive%text%n + len(text, kind=ip)
       else
-         if (next > len(archive%text, kind=lp)) then
-            allocate (character(len=2*next) :: larger)
-            larger(:archive%n_text) = archive%text(:archive%n_text)
-            call move_alloc(larger, archive%text)
-         end if
-         archive%text(archive%n_text + 1:next) = text
+         call append_text(archive%text, text)
       end if
-      archive%n_text = next
    end subroutine pass_text
 
    subroutine exchange_real(archive, name, value)

@@ -86,9 +86,28 @@ contains
          if (len(difference) > 0) call set_status(status, STATUS_DECK, path//': is no restart file of this deck: '//difference)
       end if
       if (present(frames)) history%store => frames
-      if (is_ok(status) .and. is_sound(archive)) call read_frames(archive, increments, history)
+      if (is_ok(status) .and. is_sound(archive)) call read_frames()
       call close_archive(archive, closing)
       if (is_ok(status)) status = closing
+
+   contains
+
+      !> Reads the frames; those before the last go to the store, where there is one.
+      subroutine read_frames()
+         integer(ip) :: i
+
+         if (.not. allocated(increments)) return
+         allocate (history%frames(size(increments)))
+         do i = 1, size(increments, kind=ip)
+            if (i > 1) call put_aside(i - 1, history)
+            call begin_part(archive, 'frame_'//to_text(i))
+            call exchange_results(archive, history%frames(i))
+            call demand(archive, history%frames(i)%increment == increments(i), 'increment')
+            call end_part(archive)
+            if (.not. is_sound(archive)) return
+         end do
+      end subroutine read_frames
+
    end subroutine read_restart
 
    !> What the file is and which deck it belongs to.
@@ -161,25 +180,6 @@ contains
          call end_part(archive)
       end do
    end subroutine write_frames
-
-   !> Reads the frames; those before the last go to the store, where there is one.
-   subroutine read_frames(archive, increments, history)
-      type(archive_t), intent(inout) :: archive
-      integer(ip), allocatable, intent(in) :: increments(:) !< of the frames
-      type(history_t), intent(inout) :: history
-      integer(ip) :: i
-
-      if (.not. allocated(increments)) return
-      allocate (history%frames(size(increments)))
-      do i = 1, size(increments, kind=ip)
-         if (i > 1) call put_aside(i - 1, history)
-         call begin_part(archive, 'frame_'//to_text(i))
-         call exchange_results(archive, history%frames(i))
-         call demand(archive, history%frames(i)%increment == increments(i), 'increment')
-         call end_part(archive)
-         if (.not. is_sound(archive)) return
-      end do
-   end subroutine read_frames
 
    subroutine exchange_state(archive, state)
       type(archive_t), intent(inout) :: archive

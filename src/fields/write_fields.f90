@@ -78,29 +78,41 @@ contains
       do i = 1, size(due)
          call view_frame(history, due(i), results)
          frame%grids = mesh_grids
-         call put_frame(file, model, results, frame)
+         call put_frame()
          call add_time(names(1)%s, frame, lines)
-         call flush_lines(lines, text)
+         call flush_lines()
       end do
       call end_xdmf(lines)
-      call flush_lines(lines, text)
+      call flush_lines()
       call close_hdf5(file, status)
       call close_text(text, of_text)
       if (is_ok(status)) status = of_text
+
+   contains
+
+      !> The fields of one increment, into its own group.
+      subroutine put_frame()
+
+         frame%name = 'step '//to_text(results%step)
+         if (.not. results%ends_step) frame%name = frame%name//', increment '//to_text(results%increment)
+         frame%time = time_text(results%time)
+         call put_nodal_fields(file, model, results, frame%grids)
+         if (model%steps(results%step)%requests%fields%stress) call put_stress_points(file, model, results, frame%grids)
+         if (model%steps(results%step)%requests%fields%contact) call put_pairs(file, results, frame%grids)
+      end subroutine put_frame
+
+      !> Writes lines, after which there are none.
+      subroutine flush_lines()
+         integer :: i
+
+         do i = 1, size(lines)
+            call put_line(text, lines(i)%s)
+         end do
+         deallocate (lines)
+         allocate (lines(0))
+      end subroutine flush_lines
+
    end subroutine write_fields
-
-   !> Writes lines, after which there are none.
-   subroutine flush_lines(lines, text)
-      type(string_t), allocatable, intent(inout) :: lines(:)
-      type(text_file_t), intent(inout) :: text
-      integer :: i
-
-      do i = 1, size(lines)
-         call put_line(text, lines(i)%s)
-      end do
-      deallocate (lines)
-      allocate (lines(0))
-   end subroutine flush_lines
 
    !> Places of the frames that are in the file: those whose step asks for fields and that are due, and the last, whatever it is.
    pure function due_frames(model, history) result(list)
@@ -138,21 +150,6 @@ contains
       end associate
    end function warning_of
 
-   !> The fields of one increment, into its own group.
-   subroutine put_frame(file, model, results, frame)
-      type(hdf5_file_t), intent(inout) :: file
-      type(model_t), intent(in) :: model
-      type(results_t), intent(in) :: results
-      type(xdmf_frame_t), intent(inout) :: frame       !< has the grids of the mesh
-
-      frame%name = 'step '//to_text(results%step)
-      if (.not. results%ends_step) frame%name = frame%name//', increment '//to_text(results%increment)
-      frame%time = time_text(results%time)
-      call put_nodal_fields(file, model, results, frame%grids)
-      if (model%steps(results%step)%requests%fields%stress) call put_stress_points(file, model, results, frame%grids)
-      if (model%steps(results%step)%requests%fields%contact) call put_pairs(file, results, frame%grids)
-   end subroutine put_frame
-
    !> Coordinates and numbers of the nodes; the elements of each shape as a grid.
    subroutine put_mesh(file, mesh, grids)
       type(hdf5_file_t), intent(inout) :: file
@@ -164,32 +161,32 @@ contains
       call put_integers(file, '/mesh/node', 'number of the node', mesh%node_id)
       allocate (grids(0))
       do k = 1, MOST_NODES
-         if (SHAPES(k)%n_nodes > 0) call put_shape(file, mesh, k, trim(SHAPES(k)%name), trim(SHAPES(k)%topology), grids)
+         if (SHAPES(k)%n_nodes > 0) call put_shape(k, trim(SHAPES(k)%name), trim(SHAPES(k)%topology))
       end do
+
+   contains
+
+      !> The elements of one shape, if there are any.
+      subroutine put_shape(shape, name, topology)
+         integer(ip), intent(in) :: shape                 !< place in SHAPES
+         character(len=*), intent(in) :: name, topology
+         type(xdmf_grid_t) :: grid
+         integer(ip), allocatable :: elements(:)
+         integer(ip) :: e, n
+
+         elements = pack([(e, e=1, mesh%n_elements)], mesh%shape(:mesh%n_elements) == shape)
+         n = size(elements, kind=ip)
+         if (n == 0) return
+         call put_array(file, '/mesh/'//name//'/nodes', mesh%nodes(:shape, elements) - 1, 'rows of the nodes, counted from 0', '-')
+         call put_integers(file, '/mesh/'//name//'/element', 'number of the element', mesh%element_id(elements))
+         call begin_grid(grid, 'bodies, '//name//' elements', topology, '/mesh/'//name//'/nodes', [n, shape, mesh%n_nodes], &
+                         '/mesh/coordinates')
+         call add_field(grid, '/mesh/node', 1_ip, .false., CENTRE_NODE)
+         call add_field(grid, '/mesh/'//name//'/element', 1_ip, .false., CENTRE_CELL)
+         grids = [grids, grid]
+      end subroutine put_shape
+
    end subroutine put_mesh
-
-   !> The elements of one shape, if there are any.
-   subroutine put_shape(file, mesh, shape, name, topology, grids)
-      type(hdf5_file_t), intent(inout) :: file
-      type(mesh_t), intent(in) :: mesh
-      integer(ip), intent(in) :: shape                 !< place in SHAPES
-      character(len=*), intent(in) :: name, topology
-      type(xdmf_grid_t), allocatable, intent(inout) :: grids(:)
-      type(xdmf_grid_t) :: grid
-      integer(ip), allocatable :: elements(:)
-      integer(ip) :: e, n
-
-      elements = pack([(e, e=1, mesh%n_elements)], mesh%shape(:mesh%n_elements) == shape)
-      n = size(elements, kind=ip)
-      if (n == 0) return
-      call put_array(file, '/mesh/'//name//'/nodes', mesh%nodes(:shape, elements) - 1, 'rows of the nodes, counted from 0', '-')
-      call put_integers(file, '/mesh/'//name//'/element', 'number of the element', mesh%element_id(elements))
-      call begin_grid(grid, 'bodies, '//name//' elements', topology, '/mesh/'//name//'/nodes', [n, shape, mesh%n_nodes], &
-                      '/mesh/coordinates')
-      call add_field(grid, '/mesh/node', 1_ip, .false., CENTRE_NODE)
-      call add_field(grid, '/mesh/'//name//'/element', 1_ip, .false., CENTRE_CELL)
-      grids = [grids, grid]
-   end subroutine put_shape
 
    !> Displacements, reactions and stresses at the nodes, each when asked for. They belong to the grids of all shapes.
    subroutine put_nodal_fields(file, model, results, grids)

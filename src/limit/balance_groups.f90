@@ -23,33 +23,33 @@ contains
       type(motion_rows_t), intent(in) :: rows
       type(contact_line_t), intent(in) :: line
       type(balance_groups_t), intent(out) :: groups
-      integer(ip) :: parent(rows%k + line%n), number(rows%k + line%n), i, j, e
+      integer(ip) :: parent(rows%n_columns + line%n), number(rows%n_columns + line%n), i, j, e
 
-      parent = [(i, i=1, rows%k + line%n)]
-      do i = 2, rows%k
+      parent = [(i, i=1, rows%n_columns + line%n)]
+      do i = 2, rows%n_columns
          if (rows%body(i) == rows%body(i - 1)) call join(parent, i, i - 1)
       end do
-      do i = 1, rows%m
+      do i = 1, rows%n
          do e = rows%first(i), rows%first(i + 1) - 1
-            call join(parent, rows%k + line%point(i), rows%motion(e))
+            call join(parent, rows%n_columns + line%point(i), rows%column(e))
          end do
       end do
       do j = 1, line%n
          if (line%tangential(j) == 0 .or. line%law(j)%nu <= 0) cycle
          do e = line%average%first(j), line%average%first(j + 1) - 1
-            if (line%average%entry(e) > 0) call join(parent, rows%k + line%average%column(e), rows%k + j)
+            if (line%average%value(e) > 0) call join(parent, rows%n_columns + line%average%column(e), rows%n_columns + j)
          end do
       end do
-      allocate (groups%of_motion(rows%k), groups%of_point(line%n))
+      allocate (groups%of_motion(rows%n_columns), groups%of_point(line%n))
       number = 0
-      do i = 1, rows%k + line%n
+      do i = 1, rows%n_columns + line%n
          e = root(parent, i)
-         if (i <= rows%k .and. number(e) == 0) then
+         if (i <= rows%n_columns .and. number(e) == 0) then
             groups%n = groups%n + 1
             number(e) = groups%n
          end if
-         if (i <= rows%k) groups%of_motion(i) = number(e)
-         if (i > rows%k) groups%of_point(i - rows%k) = number(e)
+         if (i <= rows%n_columns) groups%of_motion(i) = number(e)
+         if (i > rows%n_columns) groups%of_point(i - rows%n_columns) = number(e)
       end do
    end subroutine find_groups
 

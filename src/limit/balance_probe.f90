@@ -45,72 +45,68 @@ contains
       began = 0.0_wp
       do k = 1, size(model%steps, kind=ip)
          times = load_breakpoints(model, k)
-         call begin_step(model, k, data, times, status)
+         call begin_step(status)
          if (.not. is_ok(status)) return
          do i = 1, size(times)
             if (size(model%steps) > 1 .or. size(times) > 1) call set_time(data, moment_t(times(i), began + times(i)))
             if (present(collapse)) then
-               call ask_moment(data, moment_text(model, k, times(i), began), answer, excess, collapse)
+               call ask_moment(moment_text(model, k, times(i), began), collapse)
             else
-               call ask_moment(data, '', answer, excess)
+               call ask_moment('')
             end if
          end do
          began = began + model%steps(k)%increments%period
       end do
-   end subroutine probe_balance
 
-   !> The scene of a step; with the same dofs held it is the one that is there. Where supports go, their forces are not known here:
-   !> then only the end is asked about, where they are gone.
-   subroutine begin_step(model, k, data, times, status)
-      type(model_t), intent(in), target :: model
-      integer(ip), intent(in) :: k
-      type(scene_data_t), intent(inout) :: data
-      real(wp), allocatable, intent(inout) :: times(:)
-      type(status_t), intent(out) :: status
-      logical, allocatable :: held(:, :)
-      real(wp), allocatable :: value(:, :)
-      logical :: same_motions
-      type(body_cache_t) :: store
-      type(solve_options_t) :: asked
+   contains
 
-      if (k > 1) then
-         call list_held(model, model%steps(k), held, value)
-         same_motions = hold_the_same(model, data%rigid_prescribed, model%steps(k)%rigid_prescribed)
-         if (any(data%held .and. .not. held) .or. .not. same_motions) times = times(size(times):)
-         if (all(held .eqv. data%held) .and. same_motions) then
-            data%step => model%steps(k)
+      !> The scene of a step; with the same dofs held it is the one that is there. Where supports go, their forces are not known
+      !> here: then only the end is asked about, where they are gone.
+      subroutine begin_step(status)
+         type(status_t), intent(out) :: status
+         logical, allocatable :: held(:, :)
+         real(wp), allocatable :: value(:, :)
+         logical :: same_motions
+         type(body_cache_t) :: store
+         type(solve_options_t) :: asked
+
+         if (k > 1) then
+            call list_held(model, model%steps(k), held, value)
+            same_motions = hold_the_same(model, data%rigid_prescribed, model%steps(k)%rigid_prescribed)
+            if (any(data%held .and. .not. held) .or. .not. same_motions) times = times(size(times):)
+            if (all(held .eqv. data%held) .and. same_motions) then
+               data%step => model%steps(k)
+               return
+            end if
+         end if
+         asked%contact_form = CONTACT_SPARSE           ! no body is numbered for a profile
+         call prepare(model, store, asked, data, status, model%steps(k))
+      end subroutine begin_step
+
+      !> Asks the certificate of what acts now, and keeps the worst answer.
+      subroutine ask_moment(when, collapse)
+         character(len=*), intent(in) :: when          !< in words, before those of the motion
+         type(collapse_t), intent(inout), optional :: collapse
+         type(motion_rows_t) :: motions
+         type(certificate_t) :: certificate
+
+         call build_motion_rows(data%fem, data%rows, data%line, data%f, motions)
+         call prove_balance(motions, data%line, certificate)
+         if (certificate%verdict == BALANCE_POSSIBLE) return
+         if (certificate%verdict /= BALANCE_IMPOSSIBLE) then
+            if (answer == STANDS) answer = UNDECIDED
             return
          end if
-      end if
-      asked%contact_form = CONTACT_SPARSE           ! no body is numbered for a profile
-      call prepare(model, store, asked, data, status, model%steps(k))
-   end subroutine begin_step
+         ! not over the work of the loads, all of which is too much where they fall off a slope
+         excess = max(excess, certificate%excess/sum(motions%work_size, mask=abs(certificate%motion) > 0.0_wp))
+         if (present(collapse) .and. answer /= FALLS) then
+            call describe_collapse(data, motions, certificate, collapse)
+            collapse%text = when//collapse%text
+         end if
+         answer = FALLS
+      end subroutine ask_moment
 
-   !> Asks the certificate of what acts now, and keeps the worst answer.
-   subroutine ask_moment(data, when, answer, excess, collapse)
-      type(scene_data_t), intent(in) :: data
-      character(len=*), intent(in) :: when          !< in words, before those of the motion
-      integer, intent(inout) :: answer
-      real(wp), intent(inout) :: excess
-      type(collapse_t), intent(inout), optional :: collapse
-      type(motion_rows_t) :: motions
-      type(certificate_t) :: certificate
-
-      call build_motion_rows(data%fem, data%rows, data%line, data%f, motions)
-      call prove_balance(motions, data%line, certificate)
-      if (certificate%verdict == BALANCE_POSSIBLE) return
-      if (certificate%verdict /= BALANCE_IMPOSSIBLE) then
-         if (answer == STANDS) answer = UNDECIDED
-         return
-      end if
-      ! not over the work of the loads, all of which is too much where they fall off a slope
-      excess = max(excess, certificate%excess/sum(motions%work_size, mask=abs(certificate%motion) > 0.0_wp))
-      if (present(collapse) .and. answer /= FALLS) then
-         call describe_collapse(data, motions, certificate, collapse)
-         collapse%text = when//collapse%text
-      end if
-      answer = FALLS
-   end subroutine ask_moment
+   end subroutine probe_balance
 
    !> The time, where there is more than one to be asked about.
    pure function moment_text(model, k, time, began) result(text)
@@ -140,36 +136,36 @@ contains
       end do
       call describe_motion(data%fem, data%rows, data%line, motions, certificate, mechanism)
       collapse%text = free_motion_text(data%fem, data%held, data%rows, data%line, pairs, mechanism)
-      call move_nodes(data, mechanism, collapse)
+      call move_nodes()
       largest = max(maxval(norm2(collapse%u, dim=1)), tiny(largest))
       collapse%u = collapse%u(:, :data%model%mesh%n_nodes)/largest
       collapse%motion = collapse%motion/largest
-   end subroutine describe_collapse
 
-   !> The bodies' motions, and what they do to the nodes.
-   subroutine move_nodes(data, mechanism, collapse)
-      type(scene_data_t), intent(in) :: data
-      type(mechanism_t), intent(in) :: mechanism
-      type(collapse_t), intent(inout) :: collapse
-      integer(ip) :: i, k, dof, n
+   contains
 
-      n = size(mechanism%bodies, kind=ip)
-      collapse%bodies = mechanism%bodies
-      collapse%motion = mechanism%mode
-      allocate (collapse%centre(2, n), collapse%names(n))
-      allocate (collapse%u(2, data%fem%mesh%n_nodes), source=0.0_wp)
-      do i = 1, n
-         associate (body => data%fem%bodies%list(mechanism%bodies(i)))
-            collapse%names(i)%s = body%name
-            collapse%centre(:, i) = body%centre
-            collapse%motion(3, i) = mechanism%mode(3, i)/body%size
-            do k = 1, size(body%nodes, kind=ip)
-               do dof = 1, 2
-                  collapse%u(dof, body%nodes(k)) = mode_at(body, mechanism%mode(:, i), data%fem%mesh%x(:, body%nodes(k)), dof)
+      !> The bodies' motions, and what they do to the nodes.
+      subroutine move_nodes()
+         integer(ip) :: i, k, dof, n
+
+         n = size(mechanism%bodies, kind=ip)
+         collapse%bodies = mechanism%bodies
+         collapse%motion = mechanism%mode
+         allocate (collapse%centre(2, n), collapse%names(n))
+         allocate (collapse%u(2, data%fem%mesh%n_nodes), source=0.0_wp)
+         do i = 1, n
+            associate (body => data%fem%bodies%list(mechanism%bodies(i)))
+               collapse%names(i)%s = body%name
+               collapse%centre(:, i) = body%centre
+               collapse%motion(3, i) = mechanism%mode(3, i)/body%size
+               do k = 1, size(body%nodes, kind=ip)
+                  do dof = 1, 2
+                     collapse%u(dof, body%nodes(k)) = mode_at(body, mechanism%mode(:, i), data%fem%mesh%x(:, body%nodes(k)), dof)
+                  end do
                end do
-            end do
-         end associate
-      end do
-   end subroutine move_nodes
+            end associate
+         end do
+      end subroutine move_nodes
+
+   end subroutine describe_collapse
 
 end module atrito_balance_probe

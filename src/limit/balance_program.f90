@@ -62,7 +62,7 @@ contains
       type(columns_t) :: columns
       integer(ip) :: i
 
-      balance%motion = pack([(i, i=1, rows%k)], row_of_motion > 0)
+      balance%motion = pack([(i, i=1, rows%n_columns)], row_of_motion > 0)
       balance%n_motions = size(balance%motion, kind=ip)
       balance%size = scale(balance%motion)
       call sort_points(rows, line, wanted, row_of_motion, balance%n_motions, kinds)
@@ -73,9 +73,32 @@ contains
       balance%n_forces = columns%n
       balance%force = columns%force(:, :columns%n)
       balance%share = columns%share(:, :columns%n)
-      call set_rows(rows, line, kinds, least_largest, balance)
+      call set_rows(balance)
       call add_remainders(balance%n_motions, maxval([0_ip, kinds%bound, balance%n_motions]), least_largest, columns)
       call take_columns(columns, balance%program)
+
+   contains
+
+      !> Right-hand sides of the balance and of the friction bounds.
+      pure subroutine set_rows(balance)
+         type(balance_program_t), intent(inout) :: balance
+         integer(ip) :: j, n
+
+         n = maxval([0_ip, kinds%bound, balance%n_motions])
+         associate (program => balance%program)
+            program%n_rows = n
+            if (least_largest) program%n_rows = n + balance%n_motions
+            allocate (program%row_lower(program%n_rows), source=-HUGE_REAL)
+            allocate (program%row_upper(program%n_rows), source=0.0_wp)
+            program%row_upper(:balance%n_motions) = rows%work(balance%motion)/balance%size
+            program%row_lower(:balance%n_motions) = program%row_upper(:balance%n_motions)
+            do j = 1, line%n
+               if (kinds%bound(j) == 0) cycle
+               program%row_upper(kinds%bound(j)) = line%weight(j)*line%law(j)%nu*kinds%known(j)/kinds%bound_scale(j)
+            end do
+         end associate
+      end subroutine set_rows
+
    end subroutine build_balance_program
 
    pure subroutine sort_points(rows, line, wanted, row_of_motion, n_motions, kinds)
@@ -84,7 +107,7 @@ contains
       logical, intent(in) :: wanted(:)
       integer(ip), intent(in) :: row_of_motion(:), n_motions
       type(point_kinds_t), intent(out) :: kinds
-      real(wp) :: known(line%n), nothing(rows%m)
+      real(wp) :: known(line%n), nothing(rows%n)
       integer(ip) :: j, e, n, users(line%n)
 
       nothing = 0.0_wp
@@ -100,8 +123,8 @@ contains
          if (.not. kinds%rubs(j)) cycle
          do e = line%average%first(j), line%average%first(j + 1) - 1
             associate (k => line%average%column(e))
-               kinds%known(j) = kinds%known(j) + line%average%entry(e)*known(k)
-               if (line%average%entry(e) > 0.0_wp) users(k) = users(k) + 1
+               kinds%known(j) = kinds%known(j) + line%average%value(e)*known(k)
+               if (line%average%value(e) > 0.0_wp) users(k) = users(k) + 1
             end associate
          end do
       end do
@@ -119,7 +142,7 @@ contains
       type(motion_rows_t), intent(in) :: rows
       integer(ip), intent(in) :: i, row_of_motion(:)
 
-      works = any(row_of_motion(rows%motion(rows%first(i):rows%first(i + 1) - 1)) > 0)
+      works = any(row_of_motion(rows%column(rows%first(i):rows%first(i + 1) - 1)) > 0)
    end function works
 
    pure logical function depends_on_itself(line, j)
@@ -127,7 +150,7 @@ contains
       integer(ip), intent(in) :: j
 
       associate (first => line%average%first(j), last => line%average%first(j + 1) - 1)
-         depends_on_itself = all(line%average%column(first:last) == j .or. line%average%entry(first:last) <= 0.0_wp)
+         depends_on_itself = all(line%average%column(first:last) == j .or. line%average%value(first:last) <= 0.0_wp)
       end associate
    end function depends_on_itself
 
@@ -165,57 +188,52 @@ contains
                call scale_column(columns)
             end do
          else if (kinds%is_cone(j)) then
-            call add_cone(rows, line, j, row_of_motion, scale, columns)
+            call add_cone(columns)
          else if (works(rows, line%normal(j), row_of_motion) .or. first(j + 1) > first(j)) then
             associate (users => user(first(j):first(j + 1) - 1), added => pressed(first(j):first(j + 1) - 1))
-               call add_pressure(rows, line%normal(j), line%weight(j), row_of_motion, scale, kinds%bound(users), &
-                                 added/kinds%bound_scale(users), columns)
+               call add_pressure(line%normal(j), line%weight(j), kinds%bound(users), added/kinds%bound_scale(users), columns)
             end associate
          end if
       end do
-   end subroutine add_contact_columns
 
-   !> The two edges of the cone of a point: a pressure with full friction along T and against it.
-   pure subroutine add_cone(rows, line, j, row_of_motion, scale, columns)
-      type(motion_rows_t), intent(in) :: rows
-      type(contact_line_t), intent(in) :: line
-      integer(ip), intent(in) :: j, row_of_motion(:)
-      real(wp), intent(in) :: scale(:)
-      type(columns_t), intent(inout) :: columns
-      real(wp) :: friction
-      integer(ip) :: e, side
+   contains
 
-      friction = 0.0_wp
-      do e = line%average%first(j), line%average%first(j + 1) - 1
-         if (line%average%column(e) == j) friction = friction + line%law(j)%nu*line%average%entry(e)
-      end do
-      do side = -1, 1, 2
-         call begin_column(columns, [line%normal(j), line%tangential(j)], [1.0_wp, side*friction])
-         call add_row(rows, line%normal(j), 1.0_wp, row_of_motion, scale, columns)
-         call add_row(rows, line%tangential(j), side*friction, row_of_motion, scale, columns)
+      !> A pressure, with what it adds to friction bounds.
+      pure subroutine add_pressure(i, weight, bounds, added, columns)
+         integer(ip), intent(in) :: i               !< its unknown
+         real(wp), intent(in) :: weight             !< [L^2]
+         integer(ip), intent(in) :: bounds(:)       !< rows of the bounds
+         real(wp), intent(in) :: added(:)           !< to each, by a pressure of one [F/L^2]
+         type(columns_t), intent(inout) :: columns
+         integer(ip) :: e
+
+         call begin_column(columns, [i, 0_ip], [1.0_wp, 0.0_wp])
+         call add_row(rows, i, 1.0_wp, row_of_motion, scale, columns)
+         do e = 1, size(bounds, kind=ip)
+            call add_entry(columns, bounds(e), -added(e)/weight)
+         end do
          call scale_column(columns)
-      end do
-   end subroutine add_cone
+      end subroutine add_pressure
 
-   !> A pressure, with what it adds to friction bounds.
-   pure subroutine add_pressure(rows, i, weight, row_of_motion, scale, bounds, added, columns)
-      type(motion_rows_t), intent(in) :: rows
-      integer(ip), intent(in) :: i               !< its unknown
-      real(wp), intent(in) :: weight             !< [L^2]
-      integer(ip), intent(in) :: row_of_motion(:)
-      real(wp), intent(in) :: scale(:)
-      integer(ip), intent(in) :: bounds(:)       !< rows of the bounds
-      real(wp), intent(in) :: added(:)           !< to each, by a pressure of one [F/L^2]
-      type(columns_t), intent(inout) :: columns
-      integer(ip) :: e
+      !> The two edges of the cone of a point: a pressure with full friction along T and against it.
+      pure subroutine add_cone(columns)
+         type(columns_t), intent(inout) :: columns
+         real(wp) :: friction
+         integer(ip) :: e, side
 
-      call begin_column(columns, [i, 0_ip], [1.0_wp, 0.0_wp])
-      call add_row(rows, i, 1.0_wp, row_of_motion, scale, columns)
-      do e = 1, size(bounds, kind=ip)
-         call add_entry(columns, bounds(e), -added(e)/weight)
-      end do
-      call scale_column(columns)
-   end subroutine add_pressure
+         friction = 0.0_wp
+         do e = line%average%first(j), line%average%first(j + 1) - 1
+            if (line%average%column(e) == j) friction = friction + line%law(j)%nu*line%average%value(e)
+         end do
+         do side = -1, 1, 2
+            call begin_column(columns, [line%normal(j), line%tangential(j)], [1.0_wp, side*friction])
+            call add_row(rows, line%normal(j), 1.0_wp, row_of_motion, scale, columns)
+            call add_row(rows, line%tangential(j), side*friction, row_of_motion, scale, columns)
+            call scale_column(columns)
+         end do
+      end subroutine add_cone
+
+   end subroutine add_contact_columns
 
    !> Whose friction bounds the pressure of a point adds to, and how much.
    pure subroutine list_users(line, kinds, first, user, pressed)
@@ -243,35 +261,11 @@ contains
          do e = line%average%first(j), line%average%first(j + 1) - 1
             k = line%average%column(e)
             user(next(k)) = j
-            pressed(next(k)) = line%weight(j)*line%law(j)%nu*line%average%entry(e)
+            pressed(next(k)) = line%weight(j)*line%law(j)%nu*line%average%value(e)
             next(k) = next(k) + 1
          end do
       end do
    end subroutine list_users
-
-   !> Right-hand sides of the balance and of the friction bounds.
-   pure subroutine set_rows(rows, line, kinds, least_largest, balance)
-      type(motion_rows_t), intent(in) :: rows
-      type(contact_line_t), intent(in) :: line
-      type(point_kinds_t), intent(in) :: kinds
-      logical, intent(in) :: least_largest
-      type(balance_program_t), intent(inout) :: balance
-      integer(ip) :: j, n
-
-      n = maxval([0_ip, kinds%bound, balance%n_motions])
-      associate (program => balance%program)
-         program%n_rows = n
-         if (least_largest) program%n_rows = n + balance%n_motions
-         allocate (program%row_lower(program%n_rows), source=-HUGE_REAL)
-         allocate (program%row_upper(program%n_rows), source=0.0_wp)
-         program%row_upper(:balance%n_motions) = rows%work(balance%motion)/balance%size
-         program%row_lower(:balance%n_motions) = program%row_upper(:balance%n_motions)
-         do j = 1, line%n
-            if (kinds%bound(j) == 0) cycle
-            program%row_upper(kinds%bound(j)) = line%weight(j)*line%law(j)%nu*kinds%known(j)/kinds%bound_scale(j)
-         end do
-      end associate
-   end subroutine set_rows
 
    !> The columns of what is left unbalanced, at a cost each, or below one column that alone has a cost.
    pure subroutine add_remainders(n_motions, n_rows, least_largest, columns)
@@ -332,8 +326,8 @@ contains
       integer(ip) :: e
 
       do e = rows%first(i), rows%first(i + 1) - 1
-         if (row_of_motion(rows%motion(e)) == 0) cycle
-         call add_entry(columns, row_of_motion(rows%motion(e)), factor*rows%value(e)/scale(rows%motion(e)))
+         if (row_of_motion(rows%column(e)) == 0) cycle
+         call add_entry(columns, row_of_motion(rows%column(e)), factor*rows%value(e)/scale(rows%column(e)))
       end do
    end subroutine add_row
 

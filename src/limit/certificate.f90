@@ -4,6 +4,21 @@
 !> resist (the lemma of Farkas): N_k v + (1/w_k) sum_j w_j nu_j W_jk |T_j v| <= 0 at every point k with an unknown pressure, and
 !> h'v above what known pressures can take by friction. Both come from one linear programme a group of bodies that touch, and both
 !> are checked here from the data, whatever its solver said; what passes neither check is undecided.
+!>
+!> Why v is a proof. Let q be any forces that the contact can take, and v a motion; q works q'G v on it. Friction works most at
+!> its bound against the slip, so with p_k = q_n,k/w_k
+!>
+!>     q'G v <= sum_k q_n,k N_k v + sum_j w_j nu_j (sum_k W_jk p_k) |T_j v|
+!>            = sum_k q_n,k (N_k v + (1/w_k) sum_j w_j nu_j W_jk |T_j v|)
+!>
+!> The brackets are <= 0 and q_n >= 0: what unknown pressures and their friction work on v is <= 0, whatever they are. (Pressures
+!> that are known, of a prescribed overlap, add a number that does not depend on q.) If q balanced the loads, G'q = h, then h'v
+!> would be that same work, and h'v > 0 beyond the known part is a contradiction. Conversely the set of all G'q is a closed convex
+!> cone, for the conditions on q are linear inequalities; h outside of it is separated from it by some v, which is such a motion.
+!>
+!> Numbers have round-off, so v is only believed where the excess is far more than round-off of the loads' work, and MANY_TIMES
+!> what forces of the bodies' size would work where a bracket is above zero by more than ROUND_OFF of its terms (motion_excess). q
+!> is believed where G'q - h is round-off of the forces on each motion and on each body (forces_balance).
 module atrito_certificate
    use atrito_balance_groups, only: balance_groups_t, find_groups
    use atrito_balance_program, only: balance_program_t, build_balance_program, forces_of_columns, motion_of_duals
@@ -12,7 +27,8 @@ module atrito_certificate
    use atrito_kinds, only: ip, wp
    use atrito_linear_program, only: linear_solution_t, LP_BY_SIMPLEX, LP_BY_BARRIER, LP_OPTIMAL, LP_NOT_AVAILABLE
    use atrito_motion_polish, only: polish_motion
-   use atrito_motion_rows, only: motion_rows_t, motion_rates, motion_forces
+   use atrito_motion_rows, only: motion_rows_t
+   use atrito_sparse_rows, only: add_transposed, multiply_rows, transposed_sizes
    implicit none (type, external)
    private
    public :: certificate_t, prove_balance, motion_excess, friction_work, forces_balance
@@ -51,7 +67,7 @@ contains
       integer(ip) :: g
 
       call find_groups(rows, line, groups)
-      allocate (certificate%motion(rows%k), certificate%q(rows%m), source=0.0_wp)
+      allocate (certificate%motion(rows%n_columns), certificate%q(rows%n), source=0.0_wp)
       certificate%verdict = BALANCE_POSSIBLE
       worst = 0.0_wp
       do g = 1, groups%n
@@ -83,47 +99,55 @@ contains
       logical, intent(in) :: member(:)           !< (k)
       logical, intent(in) :: touched(:)          !< (line%n)
       type(certificate_t), intent(out) :: certificate
-      real(wp) :: scale(rows%k), body_force(rows%k)
+      real(wp) :: scale(rows%n_columns), body_force(rows%n_columns)
       logical :: solved
       integer(ip) :: pass
 
       scale = 0.0_wp
       where (member) scale = maxval(rows%work_size, mask=member)
       do pass = 1, MOST_PASSES
-         call try_scale(rows, line, member, touched, scale, certificate, solved)
+         call try_scale()
          if (certificate%verdict /= BALANCE_UNDECIDED .or. .not. solved) exit
          call measure_forces(rows, certificate%q, member, body_force, scale)
       end do
       if (certificate%verdict /= BALANCE_IMPOSSIBLE) return
       call measure_forces(rows, certificate%q, member, body_force, scale)
-      call simplify_motion(rows, line, touched, scale, certificate)
+      call simplify_motion()
       certificate%excess = certificate%excess/maxval(abs(certificate%motion))
       certificate%motion = certificate%motion/maxval(abs(certificate%motion))
+
+   contains
+
+      !> One linear programme, and what its two answers are worth.
+      subroutine try_scale()
+         real(wp) :: v(rows%n_columns), q(rows%n), body_force(rows%n_columns)
+         integer :: outcome
+
+         call solve_balance(rows, line, member, touched, scale, .false., q, v, outcome)
+         certificate%solver_missing = outcome == LP_NOT_AVAILABLE
+         solved = outcome == LP_OPTIMAL
+         if (.not. solved) return
+         certificate%q = q
+         if (forces_balance(rows, line, q, member)) then
+            certificate%verdict = BALANCE_POSSIBLE
+            return
+         end if
+         call measure_forces(rows, q, member, body_force)
+         call accept_motion(rows, line, body_force, scale, v, certificate)
+      end subroutine try_scale
+
+      !> A simpler motion of the same bodies, and of those that it needs, where one proves it as well.
+      subroutine simplify_motion()
+         real(wp) :: v(rows%n_columns), q(rows%n), body_force(rows%n_columns)
+         integer :: outcome
+
+         call solve_balance(rows, line, abs(certificate%motion) > 0.0_wp, touched, scale, .true., q, v, outcome)
+         if (outcome /= LP_OPTIMAL) return
+         call measure_forces(rows, certificate%q, scale > 0.0_wp, body_force)
+         call accept_motion(rows, line, body_force, scale, v, certificate)
+      end subroutine simplify_motion
+
    end subroutine judge_group
-
-   !> One linear programme, and what its two answers are worth.
-   subroutine try_scale(rows, line, member, touched, scale, certificate, solved)
-      type(motion_rows_t), intent(in) :: rows
-      type(contact_line_t), intent(in) :: line
-      logical, intent(in) :: member(:), touched(:)
-      real(wp), intent(in) :: scale(:)
-      type(certificate_t), intent(inout) :: certificate
-      logical, intent(out) :: solved
-      real(wp) :: v(rows%k), q(rows%m), body_force(rows%k)
-      integer :: outcome
-
-      call solve_balance(rows, line, member, touched, scale, .false., q, v, outcome)
-      certificate%solver_missing = outcome == LP_NOT_AVAILABLE
-      solved = outcome == LP_OPTIMAL
-      if (.not. solved) return
-      certificate%q = q
-      if (forces_balance(rows, line, q, member)) then
-         certificate%verdict = BALANCE_POSSIBLE
-         return
-      end if
-      call measure_forces(rows, q, member, body_force)
-      call accept_motion(rows, line, body_force, scale, v, certificate)
-   end subroutine try_scale
 
    !> Takes a motion that proves it, without its smallest parts where it does so without them.
    subroutine accept_motion(rows, line, body_force, scale, v, certificate)
@@ -132,7 +156,7 @@ contains
       real(wp), intent(in) :: body_force(:), scale(:)
       real(wp), intent(in) :: v(:)
       type(certificate_t), intent(inout) :: certificate
-      real(wp) :: clean(rows%k), excess
+      real(wp) :: clean(rows%n_columns), excess
       logical :: proven
 
       clean = v
@@ -152,22 +176,6 @@ contains
       certificate%excess = excess
    end subroutine accept_motion
 
-   !> A simpler motion of the same bodies, and of those that it needs, where one proves it as well.
-   subroutine simplify_motion(rows, line, touched, scale, certificate)
-      type(motion_rows_t), intent(in) :: rows
-      type(contact_line_t), intent(in) :: line
-      logical, intent(in) :: touched(:)
-      real(wp), intent(in) :: scale(:)
-      type(certificate_t), intent(inout) :: certificate
-      real(wp) :: v(rows%k), q(rows%m), body_force(rows%k)
-      integer :: outcome
-
-      call solve_balance(rows, line, abs(certificate%motion) > 0.0_wp, touched, scale, .true., q, v, outcome)
-      if (outcome /= LP_OPTIMAL) return
-      call measure_forces(rows, certificate%q, scale > 0.0_wp, body_force)
-      call accept_motion(rows, line, body_force, scale, v, certificate)
-   end subroutine simplify_motion
-
    !> The linear programme of the balance of some bodies: forces, and the motion of its duals. Measured on walls of 100 to 1,000
    !> blocks: simplex steps are slow for the sum (most for loads far beyond the limit), interior points for the largest.
    subroutine solve_balance(rows, line, member, touched, scale, least_largest, q, v, outcome)
@@ -181,11 +189,11 @@ contains
       integer, intent(out) :: outcome            !< LP_*
       type(balance_program_t) :: balance
       type(linear_solution_t) :: solution
-      integer(ip) :: row_of_motion(rows%k), i, n
+      integer(ip) :: row_of_motion(rows%n_columns), i, n
 
       row_of_motion = 0
       n = 0
-      do i = 1, rows%k
+      do i = 1, rows%n_columns
          if (.not. member(i)) cycle
          n = n + 1
          row_of_motion(i) = n
@@ -209,17 +217,17 @@ contains
       logical, intent(in) :: member(:)
       real(wp), intent(out) :: body_force(:)
       real(wp), intent(inout), optional :: scale(:) !< of bodies without a force but round-off: the least load of the group
-      real(wp) :: sizes(rows%k), least, largest
+      real(wp) :: sizes(rows%n_columns), least, largest
       integer(ip) :: first, last
 
-      sizes = rows%work_size + motion_forces(rows, q, .true.)
+      sizes = rows%work_size + transposed_sizes(rows, q)
       least = 0.0_wp
       if (any(member .and. rows%work_size > 0.0_wp)) least = minval(rows%work_size, mask=member .and. rows%work_size > 0.0_wp)
       largest = maxval(sizes, mask=member)
       first = 1
-      do while (first <= rows%k)
+      do while (first <= rows%n_columns)
          last = first
-         do while (last < rows%k)
+         do while (last < rows%n_columns)
             if (rows%body(last + 1) /= rows%body(first)) exit
             last = last + 1
          end do
@@ -240,22 +248,21 @@ contains
       real(wp), intent(in) :: v(:)               !< (k) [L]
       real(wp), intent(out) :: excess            !< [F L]
       logical, intent(out) :: proven
-      real(wp) :: rate(rows%m), terms(rows%m), by_friction(line%n), known_work, work_size, taken, resisted
+      real(wp) :: rate(rows%n), terms(rows%n), by_friction(line%n), known_work, work_size, taken, resisted
       integer(ip) :: i
 
-      rate = motion_rates(rows, v, .false.)
-      terms = motion_rates(rows, v, .true.)
+      call multiply_rows(rows, v, rate, terms)
       call friction_work(line, rate, by_friction, known_work)
       excess = dot_product(rows%work, v) - known_work
       work_size = dot_product(rows%work_size, abs(v)) + known_work
       taken = 0.0_wp
-      do i = 1, rows%m
+      do i = 1, rows%n
          if (line%normal(line%point(i)) /= i) cycle
          resisted = rate(i) + by_friction(line%point(i))
          if (line%point(i) > line%n - line%n_bilateral) resisted = abs(rate(i))
          if (resisted <= ROUND_OFF*(terms(i) + by_friction(line%point(i)))) cycle
          if (rows%first(i + 1) > rows%first(i)) then
-            taken = taken + resisted*minval(body_force(rows%motion(rows%first(i):rows%first(i + 1) - 1)))
+            taken = taken + resisted*minval(body_force(rows%column(rows%first(i):rows%first(i + 1) - 1)))
          else
             taken = taken + resisted*maxval(body_force)      ! its pressure only raises the friction of others
          end if
@@ -280,7 +287,7 @@ contains
          if (line%tangential(j) == 0) cycle
          do e = line%average%first(j), line%average%first(j + 1) - 1
             associate (k => line%average%column(e), &
-                       rubbed => line%weight(j)*line%law(j)%nu*line%average%entry(e)*abs(rate(line%tangential(j))))
+                       rubbed => line%weight(j)*line%law(j)%nu*line%average%value(e)*abs(rate(line%tangential(j))))
                by_friction(k) = by_friction(k) + rubbed/line%weight(k)
                known_work = known_work + rubbed*p(k)
             end associate
@@ -295,7 +302,7 @@ contains
       real(wp), intent(in) :: q(:)               !< (m) [F]
       logical, intent(in) :: member(:)           !< (k)
       logical :: balanced
-      real(wp) :: p(line%n), tau(line%n), remainder(rows%k), sizes(rows%k), body_force(rows%k)
+      real(wp) :: p(line%n), tau(line%n), remainder(rows%n_columns), sizes(rows%n_columns), body_force(rows%n_columns)
       integer(ip) :: j
 
       p = pressure_of(line, q)
@@ -305,8 +312,10 @@ contains
          if (line%tangential(j) == 0) cycle
          balanced = balanced .and. abs(q(line%tangential(j))) <= tau(j)*line%weight(j)*(1.0_wp + IN_BALANCE)
       end do
-      remainder = abs(rows%work - motion_forces(rows, q, .false.))
-      sizes = rows%work_size + motion_forces(rows, q, .true.)
+      remainder = 0.0_wp
+      call add_transposed(rows, 1.0_wp, q, remainder)
+      remainder = abs(rows%work - remainder)
+      sizes = rows%work_size + transposed_sizes(rows, q)
       call measure_forces(rows, q, member, body_force)
       balanced = balanced .and. all(remainder <= IN_BALANCE*sizes + OF_BODY*body_force .or. .not. member)
    end function forces_balance

@@ -32,17 +32,71 @@ contains
 
       associate (bodies => mechanism%bodies)
          if (size(bodies) == 1) then
-            text = motion_text(fem, bodies(1), mechanism%mode(:, 1))//pivot_text(fem, mechanism, rows) &
-                   //' under its load: '//cause_text(line, pairs, mechanism, 'it')
+            text = motion_text(fem, bodies(1), mechanism%mode(:, 1))//pivot_text() &
+                   //' under its load: '//cause_text('it')
          else if (mechanism%together) then
             text = body_names(fem, bodies)//' are free to '//how_it_moves(fem, bodies(1), mechanism%mode(:, 1)) &
-                   //pivot_text(fem, mechanism, rows)//' together under their loads: '//cause_text(line, pairs, mechanism, 'they')
+                   //pivot_text()//' together under their loads: '//cause_text('they')
          else
-            text = body_names(fem, bodies)//' are free to move under their loads: '//each_motion(fem, mechanism)//'; ' &
+            text = body_names(fem, bodies)//' are free to move under their loads: '//each_motion()//'; ' &
                    //work_text(mechanism)//joint_text(pairs, mechanism)
          end if
          text = text//'; '//support_text(fem, bodies, held)
       end associate
+
+   contains
+
+      !> What drives bodies that move as one, and what could hold them.
+      function cause_text(subject) result(text)
+         character(len=*), intent(in) :: subject  !< it, they
+         character(len=:), allocatable :: text, driven
+
+         driven = 'the load drives it with '
+         if (subject == 'they') driven = 'the loads drive them with '
+         if (mechanism%turns) then
+            text = turning_text(pairs, mechanism, subject)
+         else if (any(mechanism%slides)) then
+            text = subject//trim(merge(' slides', ' slide ', subject == 'it'))//joint_text(pairs, mechanism)//', '//driven//'H = ' &
+                   //driving(mechanism, .false.)//' and '//friction_text(line, mechanism)
+         else if (any(mechanism%opens)) then
+            text = 'the contact opens'//joint_text(pairs, mechanism)//', '//driven//driving(mechanism, .false.)
+         else
+            text = driven//driving(mechanism, .false.)
+            if (mechanism%touches) text = text//', and no contact is in the way'
+         end if
+      end function cause_text
+
+      !> The contact node about which bodies turn as one, where there is one.
+      pure function pivot_text() result(text)
+         character(len=:), allocatable :: text
+         real(wp) :: centre(2)
+         integer(ip) :: j
+
+         text = ''
+         if (.not. mechanism%turns) return
+         associate (body => fem%bodies%list(mechanism%bodies(1)), mode => mechanism%mode(:, 1))
+            centre = body%centre + [-mode(2), mode(1)]*body%size/mode(3)
+            do j = 1, rows%n
+               if (norm2(fem%mesh%x(:, rows%node(rows%first(j))) - centre) > SMALL*body%size) cycle
+               text = ', which is node '//to_text(fem%mesh%node_id(rows%node(rows%first(j))))//' of the contact,'
+               return
+            end do
+         end associate
+      end function pivot_text
+
+      !> `A can rotate about (1, 0), B can move along x1`, of the first ones.
+      function each_motion() result(text)
+         character(len=:), allocatable :: text
+         integer(ip) :: i
+
+         text = ''
+         do i = 1, min(size(mechanism%bodies, kind=ip), MOST_NAMES)
+            if (i > 1) text = text//', '
+            text = text//fem%bodies%list(mechanism%bodies(i))%name//' can ' &
+                   //how_it_moves(fem, mechanism%bodies(i), mechanism%mode(:, i))
+         end do
+      end function each_motion
+
    end function free_motion_text
 
    !> `bodies A, B, C and 5 more`
@@ -69,44 +123,6 @@ contains
       if (i < min(n, MOST_NAMES)) text = ', '
       if (i == n - 1 .and. n <= MOST_NAMES .or. i == MOST_NAMES .and. n > MOST_NAMES) text = ' and '
    end function separator
-
-   !> `A can rotate about (1, 0), B can move along x1`, of the first ones.
-   function each_motion(fem, mechanism) result(text)
-      type(fem_t), intent(in) :: fem
-      type(mechanism_t), intent(in) :: mechanism
-      character(len=:), allocatable :: text
-      integer(ip) :: i
-
-      text = ''
-      do i = 1, min(size(mechanism%bodies, kind=ip), MOST_NAMES)
-         if (i > 1) text = text//', '
-         text = text//fem%bodies%list(mechanism%bodies(i))%name//' can ' &
-                //how_it_moves(fem, mechanism%bodies(i), mechanism%mode(:, i))
-      end do
-   end function each_motion
-
-   !> What drives bodies that move as one, and what could hold them.
-   function cause_text(line, pairs, mechanism, subject) result(text)
-      type(contact_line_t), intent(in) :: line
-      type(pair_scene_t), intent(in) :: pairs(:)
-      type(mechanism_t), intent(in) :: mechanism
-      character(len=*), intent(in) :: subject  !< it, they
-      character(len=:), allocatable :: text, driven
-
-      driven = 'the load drives it with '
-      if (subject == 'they') driven = 'the loads drive them with '
-      if (mechanism%turns) then
-         text = turning_text(pairs, mechanism, subject)
-      else if (any(mechanism%slides)) then
-         text = subject//trim(merge(' slides', ' slide ', subject == 'it'))//joint_text(pairs, mechanism)//', '//driven//'H = ' &
-                //driving(mechanism, .false.)//' and '//friction_text(line, mechanism)
-      else if (any(mechanism%opens)) then
-         text = 'the contact opens'//joint_text(pairs, mechanism)//', '//driven//driving(mechanism, .false.)
-      else
-         text = driven//driving(mechanism, .false.)
-         if (mechanism%touches) text = text//', and no contact is in the way'
-      end if
-   end function cause_text
 
    function turning_text(pairs, mechanism, subject) result(text)
       type(pair_scene_t), intent(in) :: pairs(:)
@@ -222,27 +238,6 @@ contains
 
       text = to_text(force, DIGITS)//' [F'//trim(merge(' L]', ']  ', turns))
    end function amount
-
-   !> The contact node about which bodies turn as one, where there is one.
-   pure function pivot_text(fem, mechanism, rows) result(text)
-      type(fem_t), intent(in) :: fem
-      type(mechanism_t), intent(in) :: mechanism
-      type(contact_rows_t), intent(in) :: rows
-      character(len=:), allocatable :: text
-      real(wp) :: centre(2)
-      integer(ip) :: j
-
-      text = ''
-      if (.not. mechanism%turns) return
-      associate (body => fem%bodies%list(mechanism%bodies(1)), mode => mechanism%mode(:, 1))
-         centre = body%centre + [-mode(2), mode(1)]*body%size/mode(3)
-         do j = 1, rows%n
-            if (norm2(fem%mesh%x(:, rows%node(rows%first(j))) - centre) > SMALL*body%size) cycle
-            text = ', which is node '//to_text(fem%mesh%node_id(rows%node(rows%first(j))))//' of the contact,'
-            return
-         end do
-      end associate
-   end function pivot_text
 
    !> Supports that the bodies have, though they leave them this motion.
    pure function support_text(fem, bodies, held) result(text)

@@ -19,9 +19,10 @@ module atrito_idle_motions
    use atrito_incidence, only: list_holders
    use atrito_kinds, only: ip, wp
    use atrito_load_digits, only: place_doubt, is_within_digits, take_out
-   use atrito_motion_rows, only: motion_rows_t, build_motion_rows, motion_rates
+   use atrito_motion_rows, only: motion_rows_t, build_motion_rows
    use atrito_row_entries, only: first_motions, modes_at_node
    use atrito_scene_data, only: scene_data_t
+   use atrito_sparse_rows, only: multiply_rows
    implicit none (type, external)
    private
    public :: settle_idle_motions, stop_slow_motion
@@ -61,15 +62,15 @@ contains
       may_change = again
       again = .false.
       call build_motion_rows(data%fem, data%rows, data%line, data%f, rows)
-      if (rows%k == 0) return
+      if (rows%n_columns == 0) return
       tau = friction_bound(data%line, max(solution%p, 0.0_wp))
-      holds = [(is_holding(data, solution, tau, i), i=1, rows%m)]
+      holds = [(is_holding(data, solution, tau, i), i=1, rows%n)]
       call join_motions(rows, holds, group)
       if (largest_group(group) > MOST_MOTIONS) return
       call find_idle(rows, holds, group, idle)
       if (may_change) call doubt_loads(data, rows, group, idle, holds, solution, again)
       if (again) return
-      call doubt_small_forces(data, rows, group, idle, holds, solution)
+      call doubt_small_forces()
       if (allocated(solution%inner%undetermined)) deallocate (solution%inner%undetermined)
       if (size(idle, 2) == 0) return
       solution%inner%undetermined = simplest_motion(idle)
@@ -85,8 +86,41 @@ contains
       call take_least(data%fem, rows, idle, off, metric, maxval(abs(u)), solution, way)
       if (.not. solution%has_settled) return
       ! only those that have moved: others are exact to their own rounding, which may be far less
-      holds = [(holds(i) .and. has_moved(rows, group, way, i), i=1, rows%m)]
+      holds = [(holds(i) .and. has_moved(rows, group, way, i), i=1, rows%n)]
       call close_rows(data, rows, holds, u, solution)
+
+   contains
+
+      !> A force that is less than what the digits of the deck make of the largest one on its body, and without which a motion were
+      !> idle, is none: a roller that stands on one node does not turn until the next one touches because its load is off by the
+      !> last digit. With friction the bound at its neighbours may hang on it, and it stays.
+      subroutine doubt_small_forces()
+         real(wp) :: largest(rows%n)
+         logical :: is_sure(size(holds))
+         real(wp), allocatable :: more(:, :)
+         integer(ip) :: i
+
+         largest = largest_forces(rows, solution%state%q)
+         is_sure = holds
+         do i = 1, rows%n
+            associate (j => data%line%point(i))
+               if (.not. holds(i) .or. rows%first(i + 1) == rows%first(i) .or. data%line%law(j)%kind /= FRICTION_NONE) cycle
+               if (j > data%line%n - data%line%n_bilateral) cycle
+               is_sure(i) = abs(solution%state%q(i)) > dropped_part(data, i)*largest(i)
+            end associate
+         end do
+         if (all(is_sure .eqv. holds)) return
+         call find_idle(rows, is_sure, group, more)
+         if (size(more, 2) <= size(idle, 2)) return
+         call move_alloc(more, idle)
+         do i = 1, rows%n
+            if (.not. holds(i) .or. is_sure(i)) cycle
+            solution%state%q(i) = 0.0_wp
+            solution%p(data%line%point(i)) = 0.0_wp
+         end do
+         holds = is_sure
+      end subroutine doubt_small_forces
+
    end subroutine settle_idle_motions
 
    !> Whether an unknown holds a motion: it takes a force, or would take one of either sign.
@@ -103,42 +137,6 @@ contains
       end associate
    end function is_holding
 
-   !> A force that is less than what the digits of the deck make of the largest one on its body, and without which a motion were
-   !> idle, is none: a roller that stands on one node does not turn until the next one touches because its load is off by the last
-   !> digit. With friction the bound at its neighbours may hang on it, and it stays.
-   subroutine doubt_small_forces(data, rows, group, idle, holds, solution)
-      type(scene_data_t), intent(in) :: data
-      type(motion_rows_t), intent(in) :: rows
-      integer(ip), intent(in) :: group(:)           !< (k)
-      real(wp), allocatable, intent(inout) :: idle(:, :) !< (k, motions)
-      logical, intent(inout) :: holds(:)            !< (m)
-      type(contact_solution_t), intent(inout) :: solution
-      real(wp) :: largest(rows%m)
-      logical :: is_sure(size(holds))
-      real(wp), allocatable :: more(:, :)
-      integer(ip) :: i
-
-      largest = largest_forces(rows, solution%state%q)
-      is_sure = holds
-      do i = 1, rows%m
-         associate (j => data%line%point(i))
-            if (.not. holds(i) .or. rows%first(i + 1) == rows%first(i) .or. data%line%law(j)%kind /= FRICTION_NONE) cycle
-            if (j > data%line%n - data%line%n_bilateral) cycle
-            is_sure(i) = abs(solution%state%q(i)) > dropped_part(data, i)*largest(i)
-         end associate
-      end do
-      if (all(is_sure .eqv. holds)) return
-      call find_idle(rows, is_sure, group, more)
-      if (size(more, 2) <= size(idle, 2)) return
-      call move_alloc(more, idle)
-      do i = 1, rows%m
-         if (.not. holds(i) .or. is_sure(i)) cycle
-         solution%state%q(i) = 0.0_wp
-         solution%p(data%line%point(i)) = 0.0_wp
-      end do
-      holds = is_sure
-   end subroutine doubt_small_forces
-
    !> Where no solution was found since a motion went on that the loads drive: takes its work out of the loads, where it is no more
    !> than what the digits of the deck make of them.
    subroutine stop_slow_motion(data, solution, has_changed)
@@ -151,7 +149,7 @@ contains
       if (.not. (allocated(solution%inner%motion) .and. allocated(solution%state%q))) return
       if (data%line%has_friction) return
       call build_motion_rows(data%fem, data%rows, data%line, data%f, rows)
-      if (size(solution%inner%motion) /= rows%k .or. size(solution%state%q) /= rows%m) return
+      if (size(solution%inner%motion) /= rows%n_columns .or. size(solution%state%q) /= rows%n) return
       if (.not. any(place_doubt(data) > 0.0_wp)) return
       associate (v => solution%inner%motion)
          if (.not. sum(v**2) > 0.0_wp) return
@@ -165,23 +163,23 @@ contains
    pure function largest_forces(rows, q) result(least)
       type(motion_rows_t), intent(in) :: rows
       real(wp), intent(in) :: q(:)                  !< (m) [F]
-      real(wp) :: least(rows%m), largest(rows%k)
+      real(wp) :: least(rows%n), largest(rows%n_columns)
       integer(ip) :: i, k
 
       largest = 0.0_wp
-      do i = 1, rows%m
-         associate (own => rows%motion(rows%first(i):rows%first(i + 1) - 1))
+      do i = 1, rows%n
+         associate (own => rows%column(rows%first(i):rows%first(i + 1) - 1))
             largest(own) = max(largest(own), abs(q(i)))
          end associate
       end do
-      do k = 2, rows%k                              ! the motions of a body stand one after the other
+      do k = 2, rows%n_columns                              ! the motions of a body stand one after the other
          if (rows%body(k) == rows%body(k - 1)) largest(k) = max(largest(k), largest(k - 1))
       end do
-      do k = rows%k - 1, 1, -1
+      do k = rows%n_columns - 1, 1, -1
          if (rows%body(k) == rows%body(k + 1)) largest(k) = largest(k + 1)
       end do
-      do i = 1, rows%m
-         least(i) = minval(largest(rows%motion(rows%first(i):rows%first(i + 1) - 1)))
+      do i = 1, rows%n
+         least(i) = minval(largest(rows%column(rows%first(i):rows%first(i + 1) - 1)))
       end do
    end function largest_forces
 
@@ -203,8 +201,8 @@ contains
       logical, intent(in) :: holds(:)               !< (m)
       type(contact_solution_t), intent(in) :: solution
       logical, intent(out) :: has_changed
-      real(wp) :: largest(rows%m), doubt(rows%m)
-      logical :: is_sure(rows%m), is_due            ! larger forces than those that are dropped in any case
+      real(wp) :: largest(rows%n), doubt(rows%n)
+      logical :: is_sure(rows%n), is_due            ! larger forces than those that are dropped in any case
       real(wp), allocatable :: more(:, :)
       integer(ip) :: i
 
@@ -214,7 +212,7 @@ contains
       largest = largest_forces(rows, solution%state%q)
       is_sure = holds
       is_due = .false.
-      do i = 1, rows%m
+      do i = 1, rows%n
          if (.not. (holds(i) .and. doubt(i) > 0.0_wp) .or. rows%first(i + 1) == rows%first(i)) cycle
          associate (force => abs(solution%state%q(i)), most => largest(i))
             is_sure(i) = force > doubt(i)*most
@@ -240,14 +238,14 @@ contains
       integer(ip), allocatable, intent(out) :: group(:) !< (k)
       integer(ip) :: i, e
 
-      group = [(i, i=1, rows%k)]
-      do i = 1, rows%m
+      group = [(i, i=1, rows%n_columns)]
+      do i = 1, rows%n
          if (.not. holds(i)) cycle
          do e = rows%first(i) + 1, rows%first(i + 1) - 1
-            call join(group, rows%motion(e - 1), rows%motion(e))
+            call join(group, rows%column(e - 1), rows%column(e))
          end do
       end do
-      group = [(root(group, i), i=1, rows%k)]
+      group = [(root(group, i), i=1, rows%n_columns)]
    end subroutine join_motions
 
    pure integer(ip) function largest_group(group) result(n)
@@ -273,14 +271,14 @@ contains
       integer(ip) :: place(size(group)), g, i, j, n, info
 
       n = 0
-      allocate (of_group(rows%m), source=0_ip)
-      do i = 1, rows%m
-         if (holds(i) .and. rows%first(i + 1) > rows%first(i)) of_group(i) = group(rows%motion(rows%first(i)))
+      allocate (of_group(rows%n), source=0_ip)
+      do i = 1, rows%n
+         if (holds(i) .and. rows%first(i + 1) > rows%first(i)) of_group(i) = group(rows%column(rows%first(i)))
       end do
-      call list_holders(rows%k, reshape(of_group, [1_ip, rows%m]), first, member)
-      do g = 1, rows%k
+      call list_holders(rows%n_columns, reshape(of_group, [1_ip, rows%n]), first, member)
+      do g = 1, rows%n_columns
          if (group(g) /= g) cycle
-         list = pack([(i, i=1, rows%k)], group == g)
+         list = pack([(i, i=1, rows%n_columns)], group == g)
          place(list) = [(i, i=1, size(list, kind=ip))]
          allocate (a(size(list), size(list)), source=0.0_wp)
          do j = first(g), first(g + 1) - 1
@@ -309,7 +307,7 @@ contains
 
       do d = rows%first(i), rows%first(i + 1) - 1
          do e = rows%first(i), rows%first(i + 1) - 1
-            a(place(rows%motion(d)), place(rows%motion(e))) = a(place(rows%motion(d)), place(rows%motion(e))) &
+            a(place(rows%column(d)), place(rows%column(e))) = a(place(rows%column(d)), place(rows%column(e))) &
                                                               + rows%value(d)*rows%value(e)
          end do
       end do
@@ -356,7 +354,7 @@ contains
       type(contact_solution_t), intent(inout) :: solution
       real(wp), intent(out) :: way(:)               !< (k) that the bodies went [L]; 0 where they did not
       real(wp) :: basis(size(idle, 1), size(idle, 2)), gram(size(idle, 2), size(idle, 2)), values(size(idle, 2))
-      real(wp) :: rate(rows%m)
+      real(wp) :: rate(rows%n)
       integer(ip) :: j, info
 
       way = 0.0_wp
@@ -376,7 +374,7 @@ contains
       ! a body that comes back to where it was is there
       way = merge(way, -solution%state%a, abs(solution%state%a + way) > BACK*abs(way))
       solution%state%a = solution%state%a + way
-      rate = motion_rates(rows, way, .false.)
+      call multiply_rows(rows, way, rate)
       where (solution%state%state /= FREE) solution%state%r = solution%state%r + rate
       solution%has_settled = .true.
    end subroutine take_least
@@ -390,7 +388,7 @@ contains
 
       has_moved = .false.
       do e = rows%first(i), rows%first(i + 1) - 1
-         has_moved = has_moved .or. any(abs(way) > 0.0_wp .and. group == group(rows%motion(e)))
+         has_moved = has_moved .or. any(abs(way) > 0.0_wp .and. group == group(rows%column(e)))
       end do
    end function has_moved
 
@@ -403,18 +401,18 @@ contains
       type(contact_solution_t), intent(inout) :: solution
       real(wp), parameter :: DEPENDENT = 1.0e-8_wp
       real(wp), allocatable :: g(:, :), off(:), moved(:)
-      real(wp) :: back(rows%k)
+      real(wp) :: back(rows%n_columns)
       integer(ip), allocatable :: list(:)
       integer(ip) :: i, rank, info
 
-      list = pack([(i, i=1, rows%m)], holds)
-      if (size(list) == 0 .or. real(size(list), wp)*rows%k > MOST_ENTRIES) return
-      allocate (g(size(list), rows%k), source=0.0_wp)
-      allocate (off(size(list)))
-      moved = motion_rates(rows, solution%state%a, .false.)
+      list = pack([(i, i=1, rows%n)], holds)
+      if (size(list) == 0 .or. real(size(list), wp)*rows%n_columns > MOST_ENTRIES) return
+      allocate (g(size(list), rows%n_columns), source=0.0_wp)
+      allocate (off(size(list)), moved(rows%n))
+      call multiply_rows(rows, solution%state%a, moved)
       do i = 1, size(list, kind=ip)
          associate (k => list(i))
-            g(i, rows%motion(rows%first(k):rows%first(k + 1) - 1)) = rows%value(rows%first(k):rows%first(k + 1) - 1)
+            g(i, rows%column(rows%first(k):rows%first(k + 1) - 1)) = rows%value(rows%first(k):rows%first(k + 1) - 1)
             off(i) = moved(k) - solution%bounds%d(k)*solution%state%q(k) + row_of(data, k, u)
          end associate
       end do
@@ -458,15 +456,15 @@ contains
       type(motion_rows_t), intent(in) :: rows
       real(wp), intent(in) :: basis(:, :), wanted(:)
       type(contact_solution_t), intent(in) :: solution
-      real(wp) :: s(size(wanted)), a(size(wanted), rows%m), bound(rows%m), multiplier(rows%m), size_of(rows%m), step, most
+      real(wp) :: s(size(wanted)), a(size(wanted), rows%n), bound(rows%n), multiplier(rows%n), size_of(rows%n), step, most
       integer(ip) :: i, j, sweep
 
       do j = 1, size(wanted, kind=ip)
-         a(j, :) = motion_rates(rows, basis(:, j), .false.)
+         call multiply_rows(rows, basis(:, j), a(j, :))
       end do
       bound = max(-solution%state%r, 0.0_wp)
       where (solution%state%state == AT_UPPER) bound = max(solution%state%r, 0.0_wp)
-      do i = 1, rows%m
+      do i = 1, rows%n
          if (solution%state%state(i) == AT_UPPER) a(:, i) = -a(:, i)
          size_of(i) = sum(a(:, i)**2)
          if (all(solution%state%state(i) /= [AT_LOWER, AT_UPPER])) size_of(i) = 0.0_wp
@@ -475,7 +473,7 @@ contains
       multiplier = 0.0_wp
       do sweep = 1, MOST_SWEEPS
          most = 0.0_wp
-         do i = 1, rows%m
+         do i = 1, rows%n
             if (size_of(i) <= SEEN*maxval(size_of)) cycle
             step = max(-multiplier(i), (dot_product(a(:, i), s) - bound(i))/size_of(i))
             multiplier(i) = multiplier(i) + step

@@ -14,10 +14,11 @@ module atrito_load_digits
    use atrito_dense, only: solve_lu
    use atrito_friction_law, only: FRICTION_NONE
    use atrito_kinds, only: ip, wp
-   use atrito_motion_rows, only: motion_rows_t, motion_forces
+   use atrito_motion_rows, only: motion_rows_t
    use atrito_row_entries, only: first_motions, modes_at_node
    use atrito_scene_data, only: scene_data_t, reload
    use atrito_sliding_motions, only: printed_grain
+   use atrito_sparse_rows, only: transposed_sizes
    implicit none (type, external)
    private
    public :: place_doubt, is_within_digits, take_out
@@ -67,7 +68,7 @@ contains
       type(motion_rows_t), intent(in) :: rows
       real(wp), intent(in) :: v(:)                  !< (k) its amplitudes
       real(wp), intent(in) :: q(:)                  !< (m) forces of the rows, 0: of those that do not hold [F]
-      real(wp) :: allowed, most, forces, turn, along, sizes(rows%k)
+      real(wp) :: allowed, most, forces, turn, along, sizes(rows%n_columns)
       integer(ip) :: first(data%fem%bodies%n + 1), b, i, j, k
 
       first = first_motions(data%fem%bodies)
@@ -84,17 +85,17 @@ contains
             allowed = allowed + forces*turn/body%size
          end associate
       end do
-      do i = 1, rows%m
+      do i = 1, rows%n
          j = data%line%point(i)
          if (j > data%rows%n - data%rows%n_bilateral) cycle
          if (minval(abs(data%rows%normal(:, j))) <= ALONG_AXIS) cycle
          along = 0.0_wp
          do k = data%rows%first(j), data%rows%first(j + 1) - 1
-            along = along + rate_of_entry(data, first, v, j, k)
+            along = along + rate_of_entry()
          end do
          allowed = allowed + abs(q(i)*along)/data%rows%reach(j)
       end do
-      sizes = rows%work_size + motion_forces(rows, q, .true.)
+      sizes = rows%work_size + transposed_sizes(rows, q)
       most = 0.0_wp
       do b = 1, data%fem%bodies%n                   ! whatever arms the forces on a body have
          associate (own => sizes(first(b):first(b + 1) - 1))
@@ -103,27 +104,27 @@ contains
       end do
       allowed = min(GRAINS*digits_of_deck(data)*allowed, most)
       is_within_digits = abs(dot_product(v, rows%work)) <= allowed
-   end function is_within_digits
 
-   !> What entry k of point j adds to its slip in a motion of the bodies.
-   real(wp) function rate_of_entry(data, first, v, j, k) result(rate)
-      type(scene_data_t), intent(in) :: data
-      integer(ip), intent(in) :: first(:), j, k
-      real(wp), intent(in) :: v(:)
-      real(wp) :: vector(2), z(2, 3)
-      integer(ip) :: b, mode, dof
+   contains
 
-      rate = 0.0_wp
-      b = data%fem%bodies%of_node(data%rows%node(k))
-      if (b == 0) return
-      vector = vector_of_entry(data%rows, j, k, data%rows%tangent(:, j))
-      z = modes_at_node(data%fem, b, data%rows%node(k))
-      do mode = 1, first(b + 1) - first(b)
-         do dof = 1, 2
-            rate = rate + vector(dof)*z(dof, mode)*v(first(b) + mode - 1)
+      !> What entry k of point j adds to its slip in a motion of the bodies.
+      real(wp) function rate_of_entry() result(rate)
+         real(wp) :: vector(2), z(2, 3)
+         integer(ip) :: b, mode, dof
+
+         rate = 0.0_wp
+         b = data%fem%bodies%of_node(data%rows%node(k))
+         if (b == 0) return
+         vector = vector_of_entry(data%rows, j, k, data%rows%tangent(:, j))
+         z = modes_at_node(data%fem, b, data%rows%node(k))
+         do mode = 1, first(b + 1) - first(b)
+            do dof = 1, 2
+               rate = rate + vector(dof)*z(dof, mode)*v(first(b) + mode - 1)
+            end do
          end do
-      end do
-   end function rate_of_entry
+      end function rate_of_entry
+
+   end function is_within_digits
 
    !> Takes work h on the motions of the bodies out of the loads: of all forces with that work the least, Z (Z'Z)^-1 h.
    subroutine take_out(data, work)

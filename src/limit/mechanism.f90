@@ -11,7 +11,8 @@ module atrito_mechanism
    use atrito_contact_rows, only: contact_rows_t, row_value
    use atrito_dense, only: least_squares
    use atrito_kinds, only: ip, wp
-   use atrito_motion_rows, only: motion_rows_t, motion_rates
+   use atrito_motion_rows, only: motion_rows_t
+   use atrito_sparse_rows, only: multiply_rows
    implicit none (type, external)
    private
    public :: mechanism_t, describe_motion
@@ -47,62 +48,73 @@ contains
       type(certificate_t), intent(in) :: certificate
       type(mechanism_t), intent(out) :: mechanism
       real(wp), intent(in), optional :: work_at_end(:) !< (k) of the loads at the end of the step; left out: they are these
-      real(wp) :: v(motions%k), by_friction(line%n), rate(motions%m), known_work
+      real(wp) :: v(motions%n_columns), by_friction(line%n), rate(motions%n), known_work
       logical :: closed(line%n)
 
       v = certificate%motion
-      rate = motion_rates(motions, v, .false.)
+      call multiply_rows(motions, v, rate)
       call friction_work(line, rate, by_friction, known_work)
-      call look_at_points(fem, rows, line, v, by_friction, closed, mechanism)
+      call look_at_points()
       call remove_lift(line, motions, closed, rate, v)
       ! where the loads drive the lift itself it belongs to the motion
       if (dot_product(motions%work, v) < (1 - SMALL)*certificate%excess) v = certificate%motion
       call list_bodies(fem, v, mechanism)
       call compare_bodies(fem, mechanism)
-      call measure_forces(fem, motions, certificate, v, mechanism)
+      call measure_forces()
       mechanism%load_at_end = mechanism%load
       if (present(work_at_end)) mechanism%load_at_end = mechanism%load/dot_product(motions%work, v)*dot_product(work_at_end, v)
       ! without friction the difference is round-off
       if (.not. any(by_friction > 0.0_wp)) mechanism%friction = 0.0_wp
-   end subroutine describe_motion
 
-   !> Which pairs slide or open, and which points stay closed but for the lift.
-   subroutine look_at_points(fem, rows, line, v, by_friction, closed, mechanism)
-      type(fem_t), intent(in) :: fem
-      type(contact_rows_t), intent(in) :: rows
-      type(contact_line_t), intent(in) :: line
-      real(wp), intent(in) :: v(:)
-      real(wp), intent(in) :: by_friction(:)     !< (n) the lift that friction asks for
-      logical, intent(out) :: closed(:)
-      type(mechanism_t), intent(inout) :: mechanism
-      real(wp), allocatable :: u(:, :)
-      real(wp) :: least, apart, along
-      integer(ip) :: j, k
+   contains
 
-      allocate (u(2, fem%mesh%n_nodes), source=0.0_wp)
-      call add_rigid_motions(fem, v, u)
-      least = SMALL*maxval(abs(u))
-      k = 0
-      if (line%n > 0) k = maxval(line%pair)
-      allocate (mechanism%slides(k), mechanism%opens(k), source=.false.)
-      closed = .false.
-      do j = 1, line%n
-         if (line%normal(j) == 0) cycle
-         if (j > line%n - line%n_bilateral) then
-            closed(j) = .true.
-            mechanism%touches = .true.
-            cycle
-         end if
-         apart = row_value(rows, j, rows%normal(:, j), u) + by_friction(j)
-         along = row_value(rows, j, rows%tangent(:, j), u)
-         closed(j) = apart >= -least
-         do k = rows%first(j), rows%first(j + 1) - 1
-            mechanism%touches = mechanism%touches .or. any(abs(u(:, rows%node(k))) > least)
+      !> Which pairs slide or open, and which points stay closed but for the lift.
+      subroutine look_at_points()
+         real(wp), allocatable :: u(:, :)
+         real(wp) :: least, apart, along
+         integer(ip) :: j, k
+
+         allocate (u(2, fem%mesh%n_nodes), source=0.0_wp)
+         call add_rigid_motions(fem, v, u)
+         least = SMALL*maxval(abs(u))
+         k = 0
+         if (line%n > 0) k = maxval(line%pair)
+         allocate (mechanism%slides(k), mechanism%opens(k), source=.false.)
+         closed = .false.
+         do j = 1, line%n
+            if (line%normal(j) == 0) cycle
+            if (j > line%n - line%n_bilateral) then
+               closed(j) = .true.
+               mechanism%touches = .true.
+               cycle
+            end if
+            apart = row_value(rows, j, rows%normal(:, j), u) + by_friction(j)
+            along = row_value(rows, j, rows%tangent(:, j), u)
+            closed(j) = apart >= -least
+            do k = rows%first(j), rows%first(j + 1) - 1
+               mechanism%touches = mechanism%touches .or. any(abs(u(:, rows%node(k))) > least)
+            end do
+            if (.not. closed(j)) mechanism%opens(line%pair(j)) = .true.
+            if (closed(j) .and. abs(along) > least) mechanism%slides(line%pair(j)) = .true.
          end do
-         if (.not. closed(j)) mechanism%opens(line%pair(j)) = .true.
-         if (closed(j) .and. abs(along) > least) mechanism%slides(line%pair(j)) = .true.
-      end do
-   end subroutine look_at_points
+      end subroutine look_at_points
+
+      !> What drives the motion without its lift, what friction can hold of it, and the force that lifting it takes.
+      subroutine measure_forces()
+         real(wp) :: scale, lifts(3, fem%bodies%n)
+
+         scale = norm2(mechanism%mode(:2, 1))
+         if (mechanism%turns .and. mechanism%together) scale = abs(mechanism%mode(3, 1))/fem%bodies%list(mechanism%bodies(1))%size
+         mechanism%load = dot_product(motions%work, v)/scale
+         mechanism%friction = max(0.0_wp, mechanism%load - certificate%excess/scale)
+         if (mechanism%turns .or. .not. mechanism%together) return
+         lifts = motions_of_bodies(fem%bodies, certificate%motion - v)
+         associate (lift => norm2(lifts(:2, mechanism%bodies(1))))
+            if (lift > 0.0_wp) mechanism%normal = -dot_product(motions%work, certificate%motion - v)/lift
+         end associate
+      end subroutine measure_forces
+
+   end subroutine describe_motion
 
    !> v less the least motion that closes what is lifted, where no closed point slides that did not before, and where much remains.
    subroutine remove_lift(line, motions, closed, rate, v)
@@ -113,12 +125,12 @@ contains
       real(wp), intent(inout) :: v(:)
       real(wp), allocatable :: a(:, :), b(:), lift(:)
       integer(ip), allocatable :: moving(:)
-      logical :: kept(motions%m)
-      integer(ip) :: i, e, n, place(motions%k), rank, info
+      logical :: kept(motions%n)
+      integer(ip) :: i, e, n, place(motions%n_columns), rank, info
 
-      moving = pack([(i, i=1, motions%k)], abs(v) > 0.0_wp)
+      moving = pack([(i, i=1, motions%n_columns)], abs(v) > 0.0_wp)
       if (size(moving) > FEW) return
-      do i = 1, motions%m
+      do i = 1, motions%n
          associate (j => line%point(i))
             kept(i) = closed(j) .and. (line%normal(j) == i .or. abs(rate(i)) <= SMALL*maxval(abs(v)))
          end associate
@@ -128,11 +140,11 @@ contains
       allocate (a(count(kept), size(moving)), source=0.0_wp)
       b = pack(rate, kept)
       n = 0
-      do i = 1, motions%m
+      do i = 1, motions%n
          if (.not. kept(i)) cycle
          n = n + 1
          do e = motions%first(i), motions%first(i + 1) - 1
-            if (place(motions%motion(e)) > 0) a(n, place(motions%motion(e))) = motions%value(e)
+            if (place(motions%column(e)) > 0) a(n, place(motions%column(e))) = motions%value(e)
          end do
       end do
       allocate (lift(size(moving)), source=0.0_wp)
@@ -185,25 +197,5 @@ contains
          end do
       end associate
    end subroutine compare_bodies
-
-   !> What drives the motion without its lift, what friction can hold of it, and the force that lifting it takes.
-   subroutine measure_forces(fem, motions, certificate, v, mechanism)
-      type(fem_t), intent(in) :: fem
-      type(motion_rows_t), intent(in) :: motions
-      type(certificate_t), intent(in) :: certificate
-      real(wp), intent(in) :: v(:)
-      type(mechanism_t), intent(inout) :: mechanism
-      real(wp) :: scale, lifts(3, fem%bodies%n)
-
-      scale = norm2(mechanism%mode(:2, 1))
-      if (mechanism%turns .and. mechanism%together) scale = abs(mechanism%mode(3, 1))/fem%bodies%list(mechanism%bodies(1))%size
-      mechanism%load = dot_product(motions%work, v)/scale
-      mechanism%friction = max(0.0_wp, mechanism%load - certificate%excess/scale)
-      if (mechanism%turns .or. .not. mechanism%together) return
-      lifts = motions_of_bodies(fem%bodies, certificate%motion - v)
-      associate (lift => norm2(lifts(:2, mechanism%bodies(1))))
-         if (lift > 0.0_wp) mechanism%normal = -dot_product(motions%work, certificate%motion - v)/lift
-      end associate
-   end subroutine measure_forces
 
 end module atrito_mechanism

@@ -72,8 +72,8 @@ contains
       call look_at_ends(search, x, step, standing)
       if (step /= STEP_DONE .or. search%found /= 0) return
       call narrow_balance(search, standing, x, step)
-      if (step == STEP_DONE) call follow_curve(search, standing, x, step)
-      if (step == STEP_DONE) call narrow_solutions(search, standing, x, step)
+      if (step == STEP_DONE) call follow_curve(x, step)
+      if (step == STEP_DONE) call narrow_solutions(x, step)
       if (step == STEP_SOLVE) then   ! a value between two that can be balanced need not be one itself; where it falls, the limit
          known = known_of(search, x) ! is sought on this side of it
          if (known%balance == UNKNOWN) step = STEP_BALANCE
@@ -81,6 +81,50 @@ contains
       if (step /= STEP_DONE) return
       search%found = FOUND_INTERVAL
       if (abs(falling_value(search) - standing_value(search)) <= allowed_width(search)) search%found = FOUND_LIMIT
+
+   contains
+
+      !> The last value that can be balanced, then those of the curve.
+      pure subroutine follow_curve(x, step)
+         real(wp), intent(out) :: x
+         integer, intent(out) :: step
+         real(wp) :: start, reach
+         integer :: i
+
+         start = search%ends(standing)
+         x = reached_value(search, start, distance_of_fall(search, start))
+         reach = abs(x - start)
+         step = STEP_SOLVE
+         if (is_unsolved(search, x)) return
+         do i = 1, size(SHARES)
+            x = start + signed(search, standing, SHARES(i)*reach)
+            if (is_unsolved(search, x)) return
+         end do
+         step = STEP_DONE
+      end subroutine follow_curve
+
+      !> Half way between the last value that stands and the undecided one next to it.
+      pure subroutine narrow_solutions(x, step)
+         real(wp), intent(out) :: x
+         integer, intent(out) :: step
+         real(wp) :: start, stand, fall, next, at
+         integer :: i
+
+         start = search%ends(standing)
+         stand = abs(standing_value(search) - start)
+         fall = distance_of_fall(search, start)
+         next = fall
+         do i = 1, size(search%tried)
+            at = abs(search%tried(i)%x - start)
+            if (search%tried(i)%solution == UNDECIDED .and. at > stand) next = min(next, at)
+         end do
+         step = STEP_DONE
+         x = start + signed(search, standing, 0.5_wp*(stand + next))
+         if (fall - stand <= allowed_width(search)) return
+         if (next < fall .and. next - stand > max(allowed_width(search), UNDECIDED_SHARE*(fall - stand)) &
+             .and. is_unsolved(search, x)) step = STEP_SOLVE
+      end subroutine narrow_solutions
+
    end subroutine next_step
 
    !> The ends come first. Two that can be balanced are both solved, to tell what they are.
@@ -206,51 +250,6 @@ contains
       found = excess(1) > 0.0_wp .and. excess(2) > excess(1)
       if (found) root = fall - excess(1)*(beyond - fall)/(excess(2) - excess(1))
    end subroutine predict_root
-
-   !> The last value that can be balanced, then those of the curve.
-   pure subroutine follow_curve(search, standing, x, step)
-      type(search_t), intent(in) :: search
-      integer, intent(in) :: standing
-      real(wp), intent(out) :: x
-      integer, intent(out) :: step
-      real(wp) :: start, reach
-      integer :: i
-
-      start = search%ends(standing)
-      x = reached_value(search, start, distance_of_fall(search, start))
-      reach = abs(x - start)
-      step = STEP_SOLVE
-      if (is_unsolved(search, x)) return
-      do i = 1, size(SHARES)
-         x = start + signed(search, standing, SHARES(i)*reach)
-         if (is_unsolved(search, x)) return
-      end do
-      step = STEP_DONE
-   end subroutine follow_curve
-
-   !> Half way between the last value that stands and the undecided one next to it.
-   pure subroutine narrow_solutions(search, standing, x, step)
-      type(search_t), intent(in) :: search
-      integer, intent(in) :: standing
-      real(wp), intent(out) :: x
-      integer, intent(out) :: step
-      real(wp) :: start, stand, fall, next, at
-      integer :: i
-
-      start = search%ends(standing)
-      stand = abs(standing_value(search) - start)
-      fall = distance_of_fall(search, start)
-      next = fall
-      do i = 1, size(search%tried)
-         at = abs(search%tried(i)%x - start)
-         if (search%tried(i)%solution == UNDECIDED .and. at > stand) next = min(next, at)
-      end do
-      step = STEP_DONE
-      x = start + signed(search, standing, 0.5_wp*(stand + next))
-      if (fall - stand <= allowed_width(search)) return
-      if (next < fall .and. next - stand > max(allowed_width(search), UNDECIDED_SHARE*(fall - stand)) &
-          .and. is_unsolved(search, x)) step = STEP_SOLVE
-   end subroutine narrow_solutions
 
    !> What the balance of the loads at a value was found to be.
    pure subroutine record_balance(search, x, answer, excess)

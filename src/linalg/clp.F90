@@ -85,11 +85,51 @@ contains
       solution%status = LP_FAILED
       if (c_associated(model)) then
          call load(model, program)
-         call solve(model, method, solution)
-         if (solution%status == LP_OPTIMAL) call fetch(model, program, solution)
+         call solve()
+         if (solution%status == LP_OPTIMAL) call fetch()
          call release(model)
       end if
       call restore_halting(halting)
+
+   contains
+
+      !> The dual simplex method goes from basis to basis, each with reduced costs of the right signs, until no row is beyond its
+      !> bounds: a few steps where the programme differs little from one that starts near its end. The barrier method goes through
+      !> the interior in some twenty to fifty steps of a sparse factorisation each, whatever the size, and ends with simplex steps
+      !> to a basis: it is for large programmes.
+      subroutine solve()
+         procedure(run_simplex), pointer :: simplex
+         integer(c_int) :: ignored
+
+         if (method == LP_BY_BARRIER) then
+            ignored = ask('Clp_initialBarrierSolve', model)
+         else
+            call c_f_procpointer(routine('Clp_dual'), simplex)
+            ignored = simplex(model, 0_c_int)
+         end if
+         select case (ask('Clp_status', model))
+         case (0)
+            solution%status = LP_OPTIMAL
+         case (1)
+            solution%status = LP_INFEASIBLE
+         case (2)
+            solution%status = LP_UNBOUNDED
+         case default
+            solution%status = LP_FAILED
+         end select
+         solution%iterations = int(ask('Clp_numberIterations', model), ip)
+      end subroutine solve
+
+      !> Copies of x, of the dual and of the objective: what Clp has is gone with the model.
+      subroutine fetch()
+         procedure(ask_real), pointer :: value
+
+         call copy_array('Clp_primalColumnSolution', model, program%n_columns, solution%x)
+         call copy_array('Clp_dualRowSolution', model, program%n_rows, solution%dual)
+         call c_f_procpointer(routine('Clp_objectiveValue'), value)
+         solution%objective = value(model)
+      end subroutine fetch
+
    end subroutine solve_linear_program
 
    !> Hands the programme over, as Clp keeps it: A by columns, places counted from 0. Its own scaling is off, since columns and rows
@@ -110,49 +150,6 @@ contains
       steps = max(FEWEST_STEPS, MOST_STEPS_A_ROW*int(program%n_rows, c_int))
       call set('Clp_setMaximumIterations', model, steps)
    end subroutine load
-
-   !> The dual simplex method goes from basis to basis, each with reduced costs of the right signs, until no row is beyond its
-   !> bounds: a few steps where the programme differs little from one that starts near its end. The barrier method goes through the
-   !> interior in some twenty to fifty steps of a sparse factorisation each, whatever the size, and ends with simplex steps to a
-   !> basis: it is for large programmes.
-   subroutine solve(model, method, solution)
-      type(c_ptr), intent(in) :: model
-      integer, intent(in) :: method
-      type(linear_solution_t), intent(inout) :: solution
-      procedure(run_simplex), pointer :: simplex
-      integer(c_int) :: ignored
-
-      if (method == LP_BY_BARRIER) then
-         ignored = ask('Clp_initialBarrierSolve', model)
-      else
-         call c_f_procpointer(routine('Clp_dual'), simplex)
-         ignored = simplex(model, 0_c_int)
-      end if
-      select case (ask('Clp_status', model))
-      case (0)
-         solution%status = LP_OPTIMAL
-      case (1)
-         solution%status = LP_INFEASIBLE
-      case (2)
-         solution%status = LP_UNBOUNDED
-      case default
-         solution%status = LP_FAILED
-      end select
-      solution%iterations = int(ask('Clp_numberIterations', model), ip)
-   end subroutine solve
-
-   !> Copies of x, of the dual and of the objective: what Clp has is gone with the model.
-   subroutine fetch(model, program, solution)
-      type(c_ptr), intent(in) :: model
-      type(linear_program_t), intent(in) :: program
-      type(linear_solution_t), intent(inout) :: solution
-      procedure(ask_real), pointer :: value
-
-      call copy_array('Clp_primalColumnSolution', model, program%n_columns, solution%x)
-      call copy_array('Clp_dualRowSolution', model, program%n_rows, solution%dual)
-      call c_f_procpointer(routine('Clp_objectiveValue'), value)
-      solution%objective = value(model)
-   end subroutine fetch
 
    !> Gives the model back to Clp, with all it has.
    subroutine release(model)

@@ -58,7 +58,35 @@ contains
       section%length = sum(weight)
       if (.not. section%length > 0.0_wp) weight = merge(1.0_wp, 0.0_wp, crossings%is_taken)   ! of points the middle is their mean
       if (any(crossings%is_taken)) section%middle = point_at(section%line, sum(weight/sum(weight)*place))
-      call collect_parts(mesh, around, pieces, crossings, section)
+      call collect_parts(section)
+
+   contains
+
+      !> Elements and nodes of the crossings that are taken.
+      pure subroutine collect_parts(section)
+         type(cross_section_t), intent(inout) :: section
+         logical :: is_known(mesh%n_nodes)
+         integer(ip) :: i
+
+         allocate (section%node(0), section%share(0), section%shared(0), section%split(0), section%is_behind(0), &
+                   section%edge_share(0))
+         is_known = .false.
+         do i = 1, size(pieces, kind=ip)
+            associate (piece => pieces(i), e => pieces(i)%element)
+               if (.not. crossings(piece%crossing)%is_taken) cycle
+               if (piece%kind == INSIDE) then
+                  call add_nodes_inside(mesh, around, e, is_known, section)
+                  if (.not. piece%is_split) cycle
+                  section%split = [section%split, e]
+                  section%is_behind = [section%is_behind,.not. is_ahead(mesh, section%line, e)]
+               else
+                  call add_edge(mesh, piece, is_known, section)
+               end if
+            end associate
+         end do
+         call collect_behind(mesh, around, section)
+      end subroutine collect_parts
+
    end subroutine find_cross_section
 
    !> Edges count where their body is not crossed; those of bodies ahead, which lie against what is behind, where there is nothing
@@ -77,34 +105,6 @@ contains
       if (any(crossings%is_taken)) return
       crossings%is_taken = crossings%is_met .and. crossings%is_wanted .and. crossings%kind == EDGE_AHEAD
    end subroutine take_crossings
-
-   !> Elements and nodes of the crossings that are taken.
-   pure subroutine collect_parts(mesh, around, pieces, crossings, section)
-      type(mesh_t), intent(in) :: mesh
-      type(node_elements_t), intent(in) :: around
-      type(piece_t), intent(in) :: pieces(:)
-      type(crossing_t), intent(in) :: crossings(:)
-      type(cross_section_t), intent(inout) :: section
-      logical :: is_known(mesh%n_nodes)
-      integer(ip) :: i
-
-      allocate (section%node(0), section%share(0), section%shared(0), section%split(0), section%is_behind(0), section%edge_share(0))
-      is_known = .false.
-      do i = 1, size(pieces, kind=ip)
-         associate (piece => pieces(i), e => pieces(i)%element)
-            if (.not. crossings(piece%crossing)%is_taken) cycle
-            if (piece%kind == INSIDE) then
-               call add_nodes_inside(mesh, around, e, is_known, section)
-               if (.not. piece%is_split) cycle
-               section%split = [section%split, e]
-               section%is_behind = [section%is_behind,.not. is_ahead(mesh, section%line, e)]
-            else
-               call add_edge(mesh, piece, is_known, section)
-            end if
-         end associate
-      end do
-      call collect_behind(mesh, around, section)
-   end subroutine collect_parts
 
    !> The nodes of an element at the line: whether elements of both sides share them, and what part of their own forces counts.
    !>

@@ -184,68 +184,66 @@ contains
       if (minval(height(:n_nodes)) < -near .and. maxval(height(:n_nodes)) > near) then
          piece%element = e
          piece%is_split = .true.
-         call span_of_split(mesh, line, nodes(:n_nodes), height(:n_nodes), piece%from, piece%to)
+         call span_of_split(nodes(:n_nodes), height(:n_nodes), piece%from, piece%to)
          call add_piece(piece, list, n)
       else
-         call look_beside(mesh, around, line, e, abs(height(:n_nodes)) <= near, list, n)
+         call look_beside(abs(height(:n_nodes)) <= near, list, n)
       end if
+
+   contains
+
+      !> What the line has of an element that lies beside it: sides on the line, and corners on the line where elements lie on the
+      !> other side, too.
+      pure subroutine look_beside(is_on, list, n)
+         logical, intent(in) :: is_on(:)               !< the nodes on its sides, in their order: they are on the line
+         type(piece_t), allocatable, intent(inout) :: list(:)
+         integer(ip), intent(inout) :: n
+         real(wp) :: place(2)
+         integer(ip) :: side, stride, kind, i
+         logical :: ahead
+
+         ahead = is_ahead(mesh, line, e)
+         stride = size(is_on, kind=ip)/side_count(mesh, e)   ! from a corner to the next
+         do side = 1, side_count(mesh, e)
+            if (.not. all(is_on(stride*(side - 1) + 1:stride*side)) .or. .not. is_on(mod(stride*side, size(is_on)) + 1)) cycle
+            place = [place_along(line, mesh%x(:, mesh%nodes(side, e))), &
+                     place_along(line, mesh%x(:, mesh%nodes(face_end(mesh, e, side), e)))]
+            kind = INSIDE
+            if (is_outer_face(mesh, around, e, side)) kind = merge(EDGE_AHEAD, EDGE_BEHIND, ahead)
+            call add_piece(piece_t(kind=kind, element=e, face=side, from=minval(place), to=maxval(place)), list, n)
+         end do
+         do side = 1, side_count(mesh, e)
+            associate (node => mesh%nodes(side, e))
+               if (.not. is_on(stride*(side - 1) + 1)) cycle
+               if (all([(is_ahead(mesh, line, around%list(i)) .eqv. ahead, &
+                         i=around%first(node), around%first(node + 1) - 1)])) cycle
+               place = place_along(line, mesh%x(:, node))
+            end associate
+            call add_piece(piece_t(element=e, from=place(1), to=place(1)), list, n)
+         end do
+      end subroutine look_beside
+
+      !> From where to where along the line it runs through a polygon.
+      pure subroutine span_of_split(nodes, height, from, to)
+         integer(ip), intent(in) :: nodes(:)           !< in their order
+         real(wp), intent(in) :: height(:)             !< of the nodes [L]
+         real(wp), intent(out) :: from, to             !< [L]
+         real(wp) :: place, share
+         integer(ip) :: k, next
+
+         from = huge(from)
+         to = -huge(to)
+         do k = 1, size(nodes, kind=ip)
+            next = mod(k, size(nodes, kind=ip)) + 1
+            if (height(k) > 0.0_wp .eqv. height(next) > 0.0_wp) cycle
+            share = height(k)/(height(k) - height(next))
+            place = (1 - share)*place_along(line, mesh%x(:, nodes(k))) + share*place_along(line, mesh%x(:, nodes(next)))
+            from = min(from, place)
+            to = max(to, place)
+         end do
+      end subroutine span_of_split
+
    end subroutine look_at_element
-
-   !> From where to where along the line it runs through a polygon.
-   pure subroutine span_of_split(mesh, line, nodes, height, from, to)
-      type(mesh_t), intent(in) :: mesh
-      type(cut_line_t), intent(in) :: line
-      integer(ip), intent(in) :: nodes(:)           !< in their order
-      real(wp), intent(in) :: height(:)             !< of the nodes [L]
-      real(wp), intent(out) :: from, to             !< [L]
-      real(wp) :: place, share
-      integer(ip) :: k, next
-
-      from = huge(from)
-      to = -huge(to)
-      do k = 1, size(nodes, kind=ip)
-         next = mod(k, size(nodes, kind=ip)) + 1
-         if (height(k) > 0.0_wp .eqv. height(next) > 0.0_wp) cycle
-         share = height(k)/(height(k) - height(next))
-         place = (1 - share)*place_along(line, mesh%x(:, nodes(k))) + share*place_along(line, mesh%x(:, nodes(next)))
-         from = min(from, place)
-         to = max(to, place)
-      end do
-   end subroutine span_of_split
-
-   !> What the line has of an element that lies beside it: sides on the line, and corners on the line where elements lie on the
-   !> other side, too.
-   pure subroutine look_beside(mesh, around, line, e, is_on, list, n)
-      type(mesh_t), intent(in) :: mesh
-      type(node_elements_t), intent(in) :: around
-      type(cut_line_t), intent(in) :: line
-      integer(ip), intent(in) :: e
-      logical, intent(in) :: is_on(:)               !< the nodes on its sides, in their order: they are on the line
-      type(piece_t), allocatable, intent(inout) :: list(:)
-      integer(ip), intent(inout) :: n
-      real(wp) :: place(2)
-      integer(ip) :: side, stride, kind, i
-      logical :: ahead
-
-      ahead = is_ahead(mesh, line, e)
-      stride = size(is_on, kind=ip)/side_count(mesh, e)   ! from a corner to the next
-      do side = 1, side_count(mesh, e)
-         if (.not. all(is_on(stride*(side - 1) + 1:stride*side)) .or. .not. is_on(mod(stride*side, size(is_on)) + 1)) cycle
-         place = [place_along(line, mesh%x(:, mesh%nodes(side, e))), &
-                  place_along(line, mesh%x(:, mesh%nodes(face_end(mesh, e, side), e)))]
-         kind = INSIDE
-         if (is_outer_face(mesh, around, e, side)) kind = merge(EDGE_AHEAD, EDGE_BEHIND, ahead)
-         call add_piece(piece_t(kind=kind, element=e, face=side, from=minval(place), to=maxval(place)), list, n)
-      end do
-      do side = 1, side_count(mesh, e)
-         associate (node => mesh%nodes(side, e))
-            if (.not. is_on(stride*(side - 1) + 1)) cycle
-            if (all([(is_ahead(mesh, line, around%list(i)) .eqv. ahead, i=around%first(node), around%first(node + 1) - 1)])) cycle
-            place = place_along(line, mesh%x(:, node))
-         end associate
-         call add_piece(piece_t(element=e, from=place(1), to=place(1)), list, n)
-      end do
-   end subroutine look_beside
 
    pure subroutine add_piece(piece, list, n)
       type(piece_t), intent(in) :: piece

@@ -42,46 +42,46 @@ contains
       end do
       cut%node = each_once(cut%node)
       do i = 1, size(cut%node, kind=ip)
-         call part_node(mesh, around, faces, i, cut)
+         call part_node(i, cut)
          if (cut%tip > 0) return
       end do
-   end subroutine find_cut
 
-   !> The elements round a node on the side of the faces' own ones: from these on over all faces that are not cut.
-   pure subroutine part_node(mesh, around, faces, place, cut)
-      type(mesh_t), intent(in) :: mesh
-      type(node_elements_t), intent(in) :: around
-      type(face_list_t), intent(in) :: faces
-      integer(ip), intent(in) :: place                 !< in cut%node
-      type(mesh_cut_t), intent(inout) :: cut
-      integer(ip) :: own(around%first(cut%node(place) + 1) - around%first(cut%node(place))), n, i, face, other, other_face
+   contains
 
-      associate (node => cut%node(place))
-         n = 0
-         do i = 1, faces%n
-            if (touches(mesh, faces%element(i), faces%face(i), node)) call take(faces%element(i), own, n)
-         end do
-         i = 0
-         do while (i < n)
-            i = i + 1
-            do face = 1, side_count(mesh, own(i))
-               if (.not. touches(mesh, own(i), face, node)) cycle
-               call find_across(mesh, around, own(i), face, other, other_face)
-               if (other == 0) cycle
-               if (is_listed(faces, own(i), face) .or. is_listed(faces, other, other_face)) cycle
-               call take(other, own, n)
+      !> The elements round a node on the side of the faces' own ones: from these on over all faces that are not cut.
+      pure subroutine part_node(place, cut)
+         integer(ip), intent(in) :: place                 !< in cut%node
+         type(mesh_cut_t), intent(inout) :: cut
+         integer(ip) :: own(around%first(cut%node(place) + 1) - around%first(cut%node(place))), n, i, face, other, other_face
+
+         associate (node => cut%node(place))
+            n = 0
+            do i = 1, faces%n
+               if (touches(mesh, faces%element(i), faces%face(i), node)) call take(faces%element(i), own, n)
             end do
-         end do
-         do i = 1, faces%n                             ! none of them lies across a face
-            if (touches(mesh, faces%element(i), faces%face(i), node) .and. any(own(:n) == cut%other(i))) cut%tip = node
-         end do
-         if (cut%tip > 0) return
-         do i = 1, n
-            cut%change = reshape([cut%change, place, own(i), findloc(mesh%nodes(:, own(i)), node, dim=1, kind=ip)], &
-                                 [3_ip, size(cut%change, 2, kind=ip) + 1])
-         end do
-      end associate
-   end subroutine part_node
+            i = 0
+            do while (i < n)
+               i = i + 1
+               do face = 1, side_count(mesh, own(i))
+                  if (.not. touches(mesh, own(i), face, node)) cycle
+                  call find_across(mesh, around, own(i), face, other, other_face)
+                  if (other == 0) cycle
+                  if (is_listed(faces, own(i), face) .or. is_listed(faces, other, other_face)) cycle
+                  call take(other, own, n)
+               end do
+            end do
+            do i = 1, faces%n                             ! none of them lies across a face
+               if (touches(mesh, faces%element(i), faces%face(i), node) .and. any(own(:n) == cut%other(i))) cut%tip = node
+            end do
+            if (cut%tip > 0) return
+            do i = 1, n
+               cut%change = reshape([cut%change, place, own(i), findloc(mesh%nodes(:, own(i)), node, dim=1, kind=ip)], &
+                                    [3_ip, size(cut%change, 2, kind=ip) + 1])
+            end do
+         end associate
+      end subroutine part_node
+
+   end subroutine find_cut
 
    pure subroutine take(element, list, n)
       integer(ip), intent(in) :: element

@@ -58,10 +58,64 @@ contains
       refinement%n_nodes = mesh%n_nodes
       refinement%n_elements = mesh%n_elements
       refinement%is_triangle = CORNERS_OF(mesh%shape(:mesh%n_elements)) == 3
-      call list_edges(mesh, around, refinement)
+      call list_edges(refinement)
       call number_nodes(mesh, refinement)
-      call place_nodes(mesh, refinement, fine)
+      call place_nodes(fine)
       call place_elements(mesh, refinement, fine)
+
+   contains
+
+      !> The edges of all elements, each once; elements of different order do not share theirs.
+      pure subroutine list_edges(refinement)
+         type(refinement_t), intent(inout) :: refinement
+         integer(ip) :: e, face, n, other, other_face
+
+         allocate (refinement%face_edge(MOST_SIDES, mesh%n_elements), source=0_ip)
+         n = MOST_SIDES*mesh%n_elements
+         allocate (refinement%edge_node(3, n), refinement%edge_element(2, n), source=0_ip)
+         n = 0
+         do e = 1, mesh%n_elements
+            do face = 1, side_count(mesh, e)
+               if (refinement%face_edge(face, e) > 0) cycle
+               n = n + 1
+               refinement%face_edge(face, e) = n
+               refinement%edge_node(:, n) = [mesh%nodes(face, e), mesh%nodes(face_end(mesh, e, face), e), &
+                                             middle_node(mesh, e, face)]
+               refinement%edge_element(1, n) = e
+               call find_across(mesh, around, e, face, other, other_face)
+               if (other == 0) cycle
+               refinement%face_edge(other_face, other) = n
+               refinement%edge_element(2, n) = other
+            end do
+         end do
+         refinement%n_edges = n
+         refinement%edge_node = refinement%edge_node(:, :n)
+         refinement%edge_element = refinement%edge_element(:, :n)
+      end subroutine list_edges
+
+      !> Coordinates and numbers of the nodes: new numbers follow the greatest.
+      pure subroutine place_nodes(fine)
+         type(mesh_t), intent(inout) :: fine
+         integer(ip), allocatable :: grid(:, :)
+         integer(ip) :: n, e, i, greatest
+         logical :: known
+
+         n = refinement%inner_first(mesh%n_elements + 1) - 1
+         fine%n_nodes = n
+         allocate (fine%node_id(n), fine%x(2, n))
+         fine%x(:, :mesh%n_nodes) = mesh%x(:, :mesh%n_nodes)
+         fine%node_id(:mesh%n_nodes) = mesh%node_id(:mesh%n_nodes)
+         greatest = maxval(mesh%node_id(:mesh%n_nodes))
+         fine%node_id(mesh%n_nodes + 1:) = [(greatest + i, i=1, n - mesh%n_nodes)]
+         fine%node_map = mesh%node_map
+         do i = mesh%n_nodes + 1, n
+            call add_id(fine%node_map, fine%node_id(i), i, known)
+         end do
+         do e = 1, mesh%n_elements
+            call map_element(mesh, refinement, e, fine%x, grid)
+         end do
+      end subroutine place_nodes
+
    end subroutine refine_mesh
 
    !> Shape of the pieces of an element.
@@ -93,35 +147,6 @@ contains
          n = 2*n
       end if
    end function edge_intervals
-
-   !> The edges of all elements, each once; elements of different order do not share theirs.
-   pure subroutine list_edges(mesh, around, refinement)
-      type(mesh_t), intent(in) :: mesh
-      type(node_elements_t), intent(in) :: around
-      type(refinement_t), intent(inout) :: refinement
-      integer(ip) :: e, face, n, other, other_face
-
-      allocate (refinement%face_edge(MOST_SIDES, mesh%n_elements), source=0_ip)
-      n = MOST_SIDES*mesh%n_elements
-      allocate (refinement%edge_node(3, n), refinement%edge_element(2, n), source=0_ip)
-      n = 0
-      do e = 1, mesh%n_elements
-         do face = 1, side_count(mesh, e)
-            if (refinement%face_edge(face, e) > 0) cycle
-            n = n + 1
-            refinement%face_edge(face, e) = n
-            refinement%edge_node(:, n) = [mesh%nodes(face, e), mesh%nodes(face_end(mesh, e, face), e), middle_node(mesh, e, face)]
-            refinement%edge_element(1, n) = e
-            call find_across(mesh, around, e, face, other, other_face)
-            if (other == 0) cycle
-            refinement%face_edge(other_face, other) = n
-            refinement%edge_element(2, n) = other
-         end do
-      end do
-      refinement%n_edges = n
-      refinement%edge_node = refinement%edge_node(:, :n)
-      refinement%edge_element = refinement%edge_element(:, :n)
-   end subroutine list_edges
 
    pure subroutine number_nodes(mesh, refinement)
       type(mesh_t), intent(in) :: mesh
@@ -166,31 +191,6 @@ contains
       drops_centre = has_centre(mesh, element) .and. is_hollow(fine_shape(mesh, refinement%shape, element), refinement%pieces, &
                                                                refinement%pieces)
    end function drops_centre
-
-   !> Coordinates and numbers of the nodes: new numbers follow the greatest.
-   pure subroutine place_nodes(mesh, refinement, fine)
-      type(mesh_t), intent(in) :: mesh
-      type(refinement_t), intent(in) :: refinement
-      type(mesh_t), intent(inout) :: fine
-      integer(ip), allocatable :: grid(:, :)
-      integer(ip) :: n, e, i, greatest
-      logical :: known
-
-      n = refinement%inner_first(mesh%n_elements + 1) - 1
-      fine%n_nodes = n
-      allocate (fine%node_id(n), fine%x(2, n))
-      fine%x(:, :mesh%n_nodes) = mesh%x(:, :mesh%n_nodes)
-      fine%node_id(:mesh%n_nodes) = mesh%node_id(:mesh%n_nodes)
-      greatest = maxval(mesh%node_id(:mesh%n_nodes))
-      fine%node_id(mesh%n_nodes + 1:) = [(greatest + i, i=1, n - mesh%n_nodes)]
-      fine%node_map = mesh%node_map
-      do i = mesh%n_nodes + 1, n
-         call add_id(fine%node_map, fine%node_id(i), i, known)
-      end do
-      do e = 1, mesh%n_elements
-         call map_element(mesh, refinement, e, fine%x, grid)
-      end do
-   end subroutine place_nodes
 
    !> Places the new nodes of an element where its isoparametric map takes the points of a uniform grid.
    !>

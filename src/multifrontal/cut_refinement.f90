@@ -3,6 +3,16 @@
 !> The method of Fiduccia and Mattheyses (19th Design Automation Conference (1982) 175-181), with the nodes that both sides have
 !> in place of cut edges: the element whose move saves most nodes goes, even if that costs some, and stays where it is from then on;
 !> when that has led nowhere for a while, all is taken back to the best that was there.
+!>
+!> A node is in the separator when elements of both sides have it. Of each node the elements on either side are counted, so a move
+!> changes the counts of its corners alone, and what it saves, the gain, is found from them:
+!>
+!>     +1 for each corner that the element alone has on its side, while others have it on the other: it leaves the separator,
+!>     -1 for each corner that several elements have, all of them on the element's side: it gets into the separator.
+!>
+!> Gains are -CORNERS..CORNERS, so the elements at the cut wait in as many lists a side, and the best is the first of the highest
+!> list that is not empty. A move changes the gains of the elements round its corners alone, so it takes the same few operations
+!> in a large mesh as in a small one. Neither side gets smaller than LEAST_SHARE of the elements, unless it was.
 module atrito_cut_refinement
    use atrito_incidence, only: list_holders
    use atrito_kinds, only: ip

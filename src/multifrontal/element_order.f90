@@ -55,7 +55,7 @@ contains
       real(wp) :: angle, by_metis, by_places, takes
       logical :: refines
 
-      call find_direction(elements, nodes, x, angle)
+      call find_direction(angle)
       guide%cosine = cos(angle)
       guide%sine = sin(angle)
       call dissect(elements, nodes, n_nodes_of, x, wanted, guide, parts)
@@ -73,10 +73,45 @@ contains
       call compact(parts%element, nodes, n_nodes_of, x, wanted, mesh)
       guide%refines = .true.
       call list_corners(mesh%list, mesh%nodes, mesh%n_nodes_of, size(mesh%node, kind=ip), guide%lists)
-      if (refines) call dissect_again(text//', refined', by_places, mesh, guide, parts, text)
+      if (refines) call dissect_again(text//', refined')
       if (by_metis >= OPERATIONS*parts%work) return
       call halve_elements(mesh%list, guide)
-      if (allocated(guide%half)) call dissect_again('by METIS', by_places, mesh, guide, parts, text)
+      if (allocated(guide%half)) call dissect_again('by METIS')
+
+   contains
+
+      !> Another dissection by another guide, where that has less work.
+      subroutine dissect_again(how)
+         character(len=*), intent(in) :: how
+         type(dissection_t) :: other
+
+         call dissect(mesh%list, mesh%nodes, mesh%n_nodes_of, mesh%x, mesh%wanted, guide, other)
+         if (other%work >= parts%work) return
+         text = how//', predicted operations '//to_text(other%work/by_places, 2)//' of those by places'
+         parts = other
+         parts%order = mesh%node(other%order)
+      end subroutine dissect_again
+
+      !> The angle that the sides of the elements have in common, or that less a right one; 0: none that counts.
+      pure subroutine find_direction(angle)
+         real(wp), intent(out) :: angle             !< [rad] -pi/4 to pi/4
+         integer(ip) :: i, n
+         complex(wp) :: total, side
+
+         n = min(MOST_SAMPLES, size(elements, kind=ip))
+         total = 0.0_wp
+         do i = 1, n
+            associate (corner => nodes(:2, elements(sample_place(i, n, size(elements, kind=ip)))))
+               side = cmplx(x(1, corner(2)) - x(1, corner(1)), x(2, corner(2)) - x(2, corner(1)), wp)
+               if (abs(side) > 0.0_wp) total = total + (side/abs(side))**4
+            end associate
+         end do
+         angle = 0.0_wp
+         if (abs(total) < IN_COMMON*real(n, wp) .or. n == 0) return
+         angle = 0.25_wp*atan2(total%im, total%re)
+         if (abs(angle) < LEAST_ANGLE) angle = 0.0_wp
+      end subroutine find_direction
+
    end subroutine order_elements
 
    !> The share of the work that is left when elements were moved, from what a sample of them has for corners.
@@ -94,23 +129,6 @@ contains
       share = REFINED_QUADRILATERALS + (REFINED_TRIANGLES - REFINED_QUADRILATERALS)*real(n_triangles, wp)/real(n, wp)
    end function expected_share
 
-   !> Another dissection by another guide, where that has less work.
-   subroutine dissect_again(how, by_places, mesh, guide, parts, text)
-      character(len=*), intent(in) :: how
-      real(wp), intent(in) :: by_places          !< work of the first dissection
-      type(compact_mesh_t), intent(in) :: mesh
-      type(dissection_guide_t), intent(in) :: guide
-      type(dissection_t), intent(inout) :: parts
-      character(len=:), allocatable, intent(inout) :: text
-      type(dissection_t) :: other
-
-      call dissect(mesh%list, mesh%nodes, mesh%n_nodes_of, mesh%x, mesh%wanted, guide, other)
-      if (other%work >= parts%work) return
-      text = how//', predicted operations '//to_text(other%work/by_places, 2)//' of those by places'
-      parts = other
-      parts%order = mesh%node(other%order)
-   end subroutine dissect_again
-
    !> Halves, halves of these and so on, by METIS.
    subroutine halve_elements(list, guide)
       integer(ip), intent(in) :: list(:)
@@ -127,28 +145,6 @@ contains
                        IMBALANCE, half, done)
       if (done) guide%half = half(clusters%of_element)
    end subroutine halve_elements
-
-   !> The angle that the sides of the elements have in common, or that less a right one; 0: none that counts.
-   pure subroutine find_direction(elements, nodes, x, angle)
-      integer(ip), intent(in) :: elements(:), nodes(:, :)
-      real(wp), intent(in) :: x(:, :)
-      real(wp), intent(out) :: angle             !< [rad] -pi/4 to pi/4
-      integer(ip) :: i, n
-      complex(wp) :: total, side
-
-      n = min(MOST_SAMPLES, size(elements, kind=ip))
-      total = 0.0_wp
-      do i = 1, n
-         associate (corner => nodes(:2, elements(sample_place(i, n, size(elements, kind=ip)))))
-            side = cmplx(x(1, corner(2)) - x(1, corner(1)), x(2, corner(2)) - x(2, corner(1)), wp)
-            if (abs(side) > 0.0_wp) total = total + (side/abs(side))**4
-         end associate
-      end do
-      angle = 0.0_wp
-      if (abs(total) < IN_COMMON*real(n, wp) .or. n == 0) return
-      angle = 0.25_wp*atan2(total%im, total%re)
-      if (abs(angle) < LEAST_ANGLE) angle = 0.0_wp
-   end subroutine find_direction
 
    !> Most elements have not one extent in common with the next one.
    pure logical function are_irregular(elements, nodes, x)

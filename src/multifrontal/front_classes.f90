@@ -1,4 +1,11 @@
 !> Classes of equal fronts: a list of different records (atrito_front_records) in which a hash table finds the one that is asked.
+!>
+!> A front is the sum of the matrices of its own elements and of what its children leave. Two fronts are the same to the last bit
+!> where they add the same element matrices at the same places, and children of the same classes, and eliminate as many unknowns:
+!> then one of them is factored for all. The record of a front says that in whole numbers, with the classes of the children for
+!> their numbers, so equality of records is equality of fronts, from the leaves up. In a mesh of equal elements that is cut in
+!> halves again and again, only a few fronts a level of the tree are different. The hash of a record gives the slot to begin at; a
+!> slot that another class has leads on to the next one, and the table is at most half full, so a few are looked at.
 module atrito_front_classes
    use atrito_front_records, only: HEADER
    use atrito_growth, only: grow

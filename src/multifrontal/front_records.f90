@@ -146,14 +146,14 @@ contains
          base = base - tree%border_size(child)
          child = tree%next_child(child)
       end do
-      call collect_border(store, tree, p, base, writer)
+      call collect_border(writer)
       n_elements = tree%first_element(p + 1) - tree%first_element(p)
       length = HEADER + 2*n_children + writer%top - base + n_elements*(2 + tree%longest)
       if (length > size(writer%record, kind=lp)) call grow(writer%record, 2*length, writer%enough)
       if (.not. writer%enough) return
       writer%record(:HEADER) = [tree%first(p + 1) - tree%first(p), writer%n_border, n_children, n_elements]
       writer%written = HEADER
-      call write_children(tree, p, base, writer)
+      call write_children(writer)
       do i = tree%first_element(p), tree%first_element(p + 1) - 1
          e = tree%element(i)
          call write_positions(tree, p, store%matrix_of(e), tree%position(store%start(e) + 1:store%start(e + 1)), writer)
@@ -162,6 +162,50 @@ contains
       writer%top = base
       call push_border(writer, writer%border(:writer%n_border))
       tree%border_size(p) = writer%n_border
+
+   contains
+
+      !> The border of a supernode: the borders of its children and the equations of its elements, beyond its own, in order. `at`
+      !> then holds the position in the front of each.
+      pure subroutine collect_border(writer)
+         type(record_writer_t), intent(inout) :: writer
+         integer(ip) :: child, i, e
+         integer(lp) :: from
+
+         writer%n_border = 0
+         from = base
+         child = tree%first_child(p)
+         do while (child /= 0)
+            call take_new(writer%stack(from + 1:from + tree%border_size(child)), tree%first(p + 1), writer)
+            call merge_new(writer)
+            from = from + tree%border_size(child)
+            child = tree%next_child(child)
+         end do
+         do i = tree%first_element(p), tree%first_element(p + 1) - 1
+            e = tree%element(i)
+            call take_new(tree%position(store%start(e) + 1:store%start(e + 1)), tree%first(p + 1), writer)
+         end do
+         call sort_new(writer%buffer(:writer%n_new))
+         call merge_new(writer)
+         do i = 1, writer%n_border
+            writer%at(writer%border(i)) = tree%first(p + 1) - tree%first(p) + i
+         end do
+      end subroutine collect_border
+
+      pure subroutine write_children(writer)
+         type(record_writer_t), intent(inout) :: writer
+         integer(ip) :: child
+         integer(lp) :: from
+
+         from = base
+         child = tree%first_child(p)
+         do while (child /= 0)
+            call write_positions(tree, p, child, writer%stack(from + 1:from + tree%border_size(child)), writer)
+            from = from + tree%border_size(child)
+            child = tree%next_child(child)
+         end do
+      end subroutine write_children
+
    end subroutine write_supernode
 
    !> The border on top of the stack.
@@ -185,37 +229,6 @@ contains
       writer%stack(writer%top + 1:writer%top + n) = border
       writer%top = writer%top + n
    end subroutine push_border
-
-   !> The border of a supernode: the borders of its children and the equations of its elements, beyond its own, in order. `at` then
-   !> holds the position in the front of each.
-   pure subroutine collect_border(store, tree, p, base, writer)
-      type(element_store_t), intent(in) :: store
-      type(assembly_tree_t), intent(in) :: tree
-      integer(ip), intent(in) :: p
-      integer(lp), intent(in) :: base            !< of the stack below the children
-      type(record_writer_t), intent(inout) :: writer
-      integer(ip) :: child, i, e
-      integer(lp) :: from
-
-      writer%n_border = 0
-      from = base
-      child = tree%first_child(p)
-      do while (child /= 0)
-         call take_new(writer%stack(from + 1:from + tree%border_size(child)), tree%first(p + 1), writer)
-         call merge_new(writer)
-         from = from + tree%border_size(child)
-         child = tree%next_child(child)
-      end do
-      do i = tree%first_element(p), tree%first_element(p + 1) - 1
-         e = tree%element(i)
-         call take_new(tree%position(store%start(e) + 1:store%start(e + 1)), tree%first(p + 1), writer)
-      end do
-      call sort_new(writer%buffer(:writer%n_new))
-      call merge_new(writer)
-      do i = 1, writer%n_border
-         writer%at(writer%border(i)) = tree%first(p + 1) - tree%first(p) + i
-      end do
-   end subroutine collect_border
 
    !> Takes the positions from a first one on that are not in the border into the buffer.
    pure subroutine take_new(positions, first, writer)
@@ -267,23 +280,6 @@ contains
          writer%n_new = writer%n_new - 1
       end do
    end subroutine merge_new
-
-   pure subroutine write_children(tree, p, base, writer)
-      type(assembly_tree_t), intent(in) :: tree
-      integer(ip), intent(in) :: p
-      integer(lp), intent(in) :: base
-      type(record_writer_t), intent(inout) :: writer
-      integer(ip) :: child
-      integer(lp) :: from
-
-      from = base
-      child = tree%first_child(p)
-      do while (child /= 0)
-         call write_positions(tree, p, child, writer%stack(from + 1:from + tree%border_size(child)), writer)
-         from = from + tree%border_size(child)
-         child = tree%next_child(child)
-      end do
-   end subroutine write_children
 
    !> Writes a child or a matrix, and where in the front of supernode p its positions are.
    pure subroutine write_positions(tree, p, name, positions, writer)

@@ -213,7 +213,7 @@ contains
       end if
       ! points whose states have changed
       do v = 1, n_points
-         if (is_changed(self, v, stiffness)) call set_point(self, v, stiffness)
+         if (is_changed(self, v, stiffness)) call set_point()
       end do
       ! floating bodies whose pull has changed
       v = n_points
@@ -233,6 +233,33 @@ contains
       if (is_ok(status)) return
       self%stiffness = -1.0_wp
       self%pull = -1.0_wp
+
+   contains
+
+      !> The element of a point: the sum of stiffness b b' over its rows b.
+      subroutine set_point()
+         real(wp), allocatable :: row(:), matrix(:, :)
+         integer(ip) :: i, j, k, at
+
+         associate (n => self%start(v + 1) - self%start(v))
+            allocate (row(n), matrix(n, n))
+         end associate
+         matrix = 0.0_wp
+         do i = 1, ROWS_A_POINT
+            j = self%point_row(i, v)
+            if (j == 0) cycle
+            row = 0.0_wp
+            do k = self%rows%first(j), self%rows%first(j + 1) - 1
+               at = findloc(self%unknown(self%start(v) + 1:self%start(v + 1)), self%rows%column(k), dim=1, kind=ip)
+               row(at) = row(at) + self%rows%value(k)
+            end do
+            do k = 1, size(row, kind=ip)
+               matrix(:, k) = matrix(:, k) + row*(stiffness(j)*row(k))
+            end do
+         end do
+         call set_variable_element(self%matrix, v, matrix)
+      end subroutine set_point
+
    end subroutine factor_scene
 
    !> Whether a row of point v has another stiffness than in the last factorisation.
@@ -260,33 +287,6 @@ contains
          matrix(i, i) = d(i)
       end do
    end function diagonal_matrix
-
-   !> The element of a point: the sum of stiffness b b' over its rows b.
-   subroutine set_point(self, v, stiffness)
-      class(assembled_scene_t), intent(inout) :: self
-      integer(ip), intent(in) :: v
-      real(wp), intent(in) :: stiffness(:)
-      real(wp), allocatable :: row(:), matrix(:, :)
-      integer(ip) :: i, j, k, at
-
-      associate (n => self%start(v + 1) - self%start(v))
-         allocate (row(n), matrix(n, n))
-      end associate
-      matrix = 0.0_wp
-      do i = 1, ROWS_A_POINT
-         j = self%point_row(i, v)
-         if (j == 0) cycle
-         row = 0.0_wp
-         do k = self%rows%first(j), self%rows%first(j + 1) - 1
-            at = findloc(self%unknown(self%start(v) + 1:self%start(v + 1)), self%rows%column(k), dim=1, kind=ip)
-            row(at) = row(at) + self%rows%value(k)
-         end do
-         do k = 1, size(row, kind=ip)
-            matrix(:, k) = matrix(:, k) + row*(stiffness(j)*row(k))
-         end do
-      end do
-      call set_variable_element(self%matrix, v, matrix)
-   end subroutine set_point
 
    !> x <- H^-1 x with the last factors.
    subroutine solve_scene(self, x)

@@ -25,7 +25,7 @@
 !> right. Where the states do not come to rest in MOST_SOLVES (bodies that nothing holds while all slips, say), they begin without.
 module atrito_contact_fronts
    use atrito_bound_qp, only: bound_qp_t, box_bounds_t, box_state_t, FREE, AT_LOWER, AT_UPPER, FROZEN
-   use atrito_constraint_rows, only: multiply_rows
+   use atrito_sparse_rows, only: multiply_rows
    use atrito_contact_line, only: contact_line_t, last_of_pair, pairs_of_unknowns, set_friction_bounds
    use atrito_contact_solution, only: contact_solution_t, bound_of_state, relative_residual
    use atrito_contact_system, only: contact_system_t

@@ -12,12 +12,12 @@
 !> pair bore in the increment before (NO_FORCE_AFTER), is no force to compare with: a pair without any other has none.
 module atrito_multiplier_distance
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-   use atrito_constraint_rows, only: add_transposed
    use atrito_contact_line, only: contact_line_t
    use atrito_contact_system, only: contact_system_t
    use atrito_kinds, only: ip, wp, HUGE_REAL
    use atrito_multiplier_step, only: largest_of_pairs, pull_of
    use atrito_multipliers, only: multiplier_t
+   use atrito_sparse_rows, only: add_transposed
    implicit none (type, external)
    private
    public :: distance_t, measure_distance, measure_bodies, forces_that_are_none, NO_FORCE_AFTER
@@ -53,11 +53,47 @@ contains
       call measure_pairs(system, multipliers, of_body, least)
       distance%forces = greatest_ratio(largest_of_pairs(multipliers, abs(q - multipliers%q_old) - multipliers%noise), &
                                        max(least, largest_of_pairs(multipliers, abs(q))))
-      distance%bound = bound_distance(line, multipliers, tau, image, least)
+      distance%bound = bound_distance()
       ! bodies without load that went clear of each other have nothing that a pull could be compared with
       if (all(system%load == 0.0_wp) .and. all(abs(q) <= multipliers%noise)) return
-      distance%pull = pull_distance(system, multipliers, of_body)
-      distance%drive = pull_distance(system, multipliers, spread(maxval(of_body), 1, size(of_body)))
+      distance%pull = pull_distance(of_body)
+      distance%drive = pull_distance(spread(maxval(of_body), 1, size(of_body)))
+
+   contains
+
+      !> |nu S_rho(p) - tau| pair by pair, over the largest bound of the pair, or that of the least pressure that counts there. A
+      !> bound that is no number is as far off as can be.
+      real(wp) function bound_distance() result(distance)
+         real(wp) :: bound(size(least)), off(size(least)), noise(size(least)), of_force
+         integer(ip) :: j, k
+
+         bound = 0.0_wp
+         off = 0.0_wp
+         noise = 0.0_wp
+         do j = 1, line%n
+            k = 1
+            if (allocated(line%pair)) k = line%pair(j)
+            of_force = line%law(j)%nu/line%weight(j)
+            if (line%normal(j) > 0) noise(k) = max(noise(k), of_force*multipliers%noise(line%normal(j)))
+            bound(k) = max(bound(k), tau(j), image(j), of_force*least(k))
+            off(k) = max(off(k), abs(tau(j) - image(j)))
+         end do
+         distance = greatest_ratio(off - noise, bound)
+         if (.not. all(ieee_is_finite(image))) distance = HUGE_REAL
+      end function bound_distance
+
+      !> The largest pull on a motion, over the forces on its body.
+      !>
+      !> pull_of is kappa H_j; times the way |a - a_o| of the step it is the force that held the motion.
+      pure real(wp) function pull_distance(of_body) result(distance)
+         real(wp), intent(in) :: of_body(:)
+
+         associate (first => system%n - system%k + 1)
+            distance = greatest_ratio(pull_of(multipliers)*abs(multipliers%x(first:) - multipliers%a_old), &
+                                      of_body(system%body(first:)))
+         end associate
+      end function pull_distance
+
    end function measure_distance
 
    !> Which rows are of pairs whose forces are round-off of those on their bodies.
@@ -149,44 +185,6 @@ contains
          end associate
       end do
    end subroutine measure_pairs
-
-   !> |nu S_rho(p) - tau| pair by pair, over the largest bound of the pair, or that of the least pressure that counts there. A bound
-   !> that is no number is as far off as can be.
-   real(wp) function bound_distance(line, multipliers, tau, image, least) result(distance)
-      type(contact_line_t), intent(in) :: line
-      type(multiplier_t), intent(in) :: multipliers
-      real(wp), intent(in) :: tau(:), image(:), least(:)
-      real(wp) :: bound(size(least)), off(size(least)), noise(size(least)), of_force
-      integer(ip) :: j, k
-
-      bound = 0.0_wp
-      off = 0.0_wp
-      noise = 0.0_wp
-      do j = 1, line%n
-         k = 1
-         if (allocated(line%pair)) k = line%pair(j)
-         of_force = line%law(j)%nu/line%weight(j)
-         if (line%normal(j) > 0) noise(k) = max(noise(k), of_force*multipliers%noise(line%normal(j)))
-         bound(k) = max(bound(k), tau(j), image(j), of_force*least(k))
-         off(k) = max(off(k), abs(tau(j) - image(j)))
-      end do
-      distance = greatest_ratio(off - noise, bound)
-      if (.not. all(ieee_is_finite(image))) distance = HUGE_REAL
-   end function bound_distance
-
-   !> The largest pull on a motion, over the forces on its body.
-   !>
-   !> pull_of is kappa H_j; times the way |a - a_o| of the step it is the force that held the motion.
-   pure real(wp) function pull_distance(system, multipliers, of_body) result(distance)
-      class(contact_system_t), intent(in) :: system
-      type(multiplier_t), intent(in) :: multipliers
-      real(wp), intent(in) :: of_body(:)
-
-      associate (first => system%n - system%k + 1)
-         distance = greatest_ratio(pull_of(multipliers)*abs(multipliers%x(first:) - multipliers%a_old), &
-                                   of_body(system%body(first:)))
-      end associate
-   end function pull_distance
 
    !> The largest part(i)/whole(i); where the whole is nothing there is nothing to be off by.
    pure real(wp) function greatest_ratio(part, whole) result(ratio)

@@ -34,7 +34,8 @@
 module atrito_multiplier_loop
    use atrito_accelerator, only: anderson_t
    use atrito_bound_qp, only: bound_qp_t, box_state_t, FREE, AT_LOWER, AT_UPPER, FROZEN
-   use atrito_constraint_rows, only: constraint_rows_t, multiply_rows
+   use atrito_constraint_rows, only: constraint_rows_t
+   use atrito_sparse_rows, only: multiply_rows
    use atrito_contact_fronts, only: find_fronts, has_long_pair
    use atrito_contact_line, only: contact_line_t, pressure_of, shear_force_of, normal_bounds, set_friction_bounds, &
                                   last_contact_pair, pairs_of_unknowns, tangential_of

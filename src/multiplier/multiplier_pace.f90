@@ -185,35 +185,35 @@ contains
       end if
       call anderson%reset()
       if (loop%slow) then
-         call go_part_of_the_way(image, loop, tau)
+         call go_part_of_the_way()
       else
          tau = image
       end if
+
+   contains
+
+      !> A point whose bound goes up and down goes a part of the way to Picard's: with much friction, more of it may leave less
+      !> pressure there, and the point would slip and open in turn for ever.
+      !>
+      !> share falls to LESS of itself where the sign of nu S_rho(p) - tau at the point has changed, and grows by MORE elsewhere:
+      !> each point finds the damping that it needs.
+      subroutine go_part_of_the_way()
+
+         if (.not. allocated(loop%share)) then
+            allocate (loop%share(size(tau)), source=1.0_wp)
+            allocate (loop%off(size(tau)), source=0.0_wp)
+         end if
+         where ((image - tau)*loop%off < 0.0_wp)
+            loop%share = max(LESS*loop%share, LEAST_SHARE)
+         else where
+            loop%share = min(MORE*loop%share, 1.0_wp)
+         end where
+         ! the share of the way that each point goes; whole ways to the last digit
+         loop%off = image - tau
+         tau = tau + loop%share*loop%off
+         where (loop%share >= 1.0_wp) tau = image
+      end subroutine go_part_of_the_way
+
    end subroutine next_bound
-
-   !> A point whose bound goes up and down goes a part of the way to Picard's: with much friction, more of it may leave less
-   !> pressure there, and the point would slip and open in turn for ever.
-   !>
-   !> share falls to LESS of itself where the sign of nu S_rho(p) - tau at the point has changed, and grows by MORE elsewhere: each
-   !> point finds the damping that it needs.
-   subroutine go_part_of_the_way(image, loop, tau)
-      real(wp), intent(in) :: image(:)
-      type(loop_t), intent(inout) :: loop
-      real(wp), intent(inout) :: tau(:)
-
-      if (.not. allocated(loop%share)) then
-         allocate (loop%share(size(tau)), source=1.0_wp)
-         allocate (loop%off(size(tau)), source=0.0_wp)
-      end if
-      where ((image - tau)*loop%off < 0.0_wp)
-         loop%share = max(LESS*loop%share, LEAST_SHARE)
-      else where
-         loop%share = min(MORE*loop%share, 1.0_wp)
-      end where
-      ! the share of the way that each point goes; whole ways to the last digit
-      loop%off = image - tau
-      tau = tau + loop%share*loop%off
-      where (loop%share >= 1.0_wp) tau = image
-   end subroutine go_part_of_the_way
 
 end module atrito_multiplier_pace

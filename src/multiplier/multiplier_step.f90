@@ -30,7 +30,7 @@
 !> it; `noise` is what that does to a force, and neither changes a state nor is a distance from the solution.
 module atrito_multiplier_step
    use atrito_bound_qp, only: bound_qp_t, box_bounds_t, box_state_t, FREE, AT_LOWER, AT_UPPER, FROZEN
-   use atrito_constraint_rows, only: constraint_rows_t, multiply_rows, add_transposed
+   use atrito_constraint_rows, only: constraint_rows_t
    use atrito_contact_system, only: contact_system_t
    use atrito_kinds, only: ip, wp, EPS_MACH
    use atrito_least_forces, only: find_least_forces
@@ -38,6 +38,7 @@ module atrito_multiplier_step
    use atrito_multipliers, only: multiplier_t
    use atrito_range, only: unit_of
    use atrito_solve_history, only: solve_history_t, record_solve
+   use atrito_sparse_rows, only: multiply_rows, add_transposed
    use atrito_status, only: status_t, is_ok
    implicit none (type, external)
    private
@@ -271,7 +272,7 @@ contains
          call multiply_rows(system%rows, dx, de)
          before = state%q
          call try_full_step(system, bounds, dx, de, multipliers, state, stays)
-         if (.not. stays) call take_part_of_step(system, bounds, residual, dx, de, multipliers, state)
+         if (.not. stays) call take_part_of_step()
          ! points at the edge of contact may change for ever by what is round-off of their forces
          if (newton >= PATIENCE .and. .not. stays) stays = all(abs(state%q - before) <= multipliers%noise)
          call record_solve(history, shape, bounds, state)
@@ -279,6 +280,33 @@ contains
          if (stays) return
          multipliers%changed = .true.
       end do
+
+   contains
+
+      !> As far along the step as the convex function falls.
+      !>
+      !> phi'(x + t dx) = -dx'residual_without_rows + t dx'(A + kappa H) dx + sum_i de_i clip((e_i + t de_i + rho_i q_o,i)/(D_i +
+      !> rho_i)): the function of atrito_line_search. Work is told over a unit of length: forces times displacements may leave the
+      !> range of numbers.
+      subroutine take_part_of_step()
+         real(wp) :: adx(system%n), constant, slope, t, unit
+
+         ! slope: dx'(A + kappa H) dx; constant: phi' at x without the rows
+         call system%multiply(dx, adx)
+         unit = unit_of(reshape(dx, [system%n, 1_ip]))   ! work over it: forces times displacements may be no numbers
+         slope = dot_product(dx/unit, adx)
+         associate (a => dx(system%n - system%k + 1:))
+            slope = slope + dot_product(a/unit, pull_of(multipliers)*a)
+         end associate
+         constant = -dot_product(dx/unit, residual) - dot_product(de/unit, state%q)
+         associate (rho => rho_of(system, multipliers))
+            t = search_line(constant, slope, de, multipliers%e, rho*multipliers%q_old, bounds%d + rho, bounds%lower, bounds%upper, &
+                            unit)
+         end associate
+         multipliers%x = multipliers%x + t*dx
+         call set_forces(system, bounds, multipliers, state, t*de)
+      end subroutine take_part_of_step
+
    end subroutine take_multiplier_step
 
    !> Of a long way that a body went, and of the forces that closed gaps far larger than its strains, round-off is left in its
@@ -391,35 +419,6 @@ contains
       multipliers%x = multipliers%x + dx
       call set_forces(system, bounds, multipliers, state, de)
    end subroutine try_full_step
-
-   !> As far along the step as the convex function falls.
-   !>
-   !> phi'(x + t dx) = -dx'residual_without_rows + t dx'(A + kappa H) dx + sum_i de_i clip((e_i + t de_i + rho_i q_o,i)/(D_i +
-   !> rho_i)): the function of atrito_line_search. Work is told over a unit of length: forces times displacements may leave the
-   !> range of numbers.
-   subroutine take_part_of_step(system, bounds, residual, dx, de, multipliers, state)
-      class(contact_system_t), intent(in) :: system
-      type(box_bounds_t), intent(in) :: bounds
-      real(wp), intent(in) :: residual(:), dx(:), de(:)
-      type(multiplier_t), intent(inout) :: multipliers
-      type(box_state_t), intent(inout) :: state
-      real(wp) :: adx(system%n), constant, slope, t, unit
-
-      ! slope: dx'(A + kappa H) dx; constant: phi' at x without the rows
-      call system%multiply(dx, adx)
-      unit = unit_of(reshape(dx, [system%n, 1_ip]))   ! work over it: forces times displacements may be no numbers
-      slope = dot_product(dx/unit, adx)
-      associate (a => dx(system%n - system%k + 1:))
-         slope = slope + dot_product(a/unit, pull_of(multipliers)*a)
-      end associate
-      constant = -dot_product(dx/unit, residual) - dot_product(de/unit, state%q)
-      associate (rho => rho_of(system, multipliers))
-         t = search_line(constant, slope, de, multipliers%e, rho*multipliers%q_old, bounds%d + rho, bounds%lower, bounds%upper, &
-                         unit)
-      end associate
-      multipliers%x = multipliers%x + t*dx
-      call set_forces(system, bounds, multipliers, state, t*de)
-   end subroutine take_part_of_step
 
    !> Of the forces that move the bodies alike the least.
    !>

@@ -54,32 +54,32 @@ contains
          solution = fresh
          call solve_by_multipliers(system, rows, problem%line, controls, problem%reporter, solution, x, status)
       end if
-      if (system%failed > 0) call name_failure(problem, system, status)
+      if (system%failed > 0) call name_failure()
       if (.not. allocated(x)) return
       u = problem%value
       call displacements_of(problem%fem, system, x, u)
-   end subroutine solve_multiplier
 
-   !> A pivot that is not positive, by its body, node and dof.
-   subroutine name_failure(problem, system, status)
-      class(problem_t), intent(in) :: problem
-      class(scene_system_t), intent(in) :: system
-      type(status_t), intent(inout) :: status
-      integer(ip) :: b, node, dof
+   contains
 
-      associate (bodies => problem%fem%bodies)
-         do node = 1, problem%fem%mesh%n_nodes
-            b = bodies%of_node(node)
-            if (b == 0) cycle
-            do dof = 1, 2
-               if (bodies%equation(dof, node) <= 0) cycle
-               if (system%numbering%before(b) + bodies%equation(dof, node) /= system%failed) cycle
-               call set_status(status, STATUS_SINGULAR, &
-                               loose_text(problem%fem, b, status%text, problem%fem%mesh%node_id(node), dof))
-               return
+      !> A pivot that is not positive, by its body, node and dof.
+      subroutine name_failure()
+         integer(ip) :: b, node, dof
+
+         associate (bodies => problem%fem%bodies)
+            do node = 1, problem%fem%mesh%n_nodes
+               b = bodies%of_node(node)
+               if (b == 0) cycle
+               do dof = 1, 2
+                  if (bodies%equation(dof, node) <= 0) cycle
+                  if (system%numbering%before(b) + bodies%equation(dof, node) /= system%failed) cycle
+                  call set_status(status, STATUS_SINGULAR, &
+                                  loose_text(problem%fem, b, status%text, problem%fem%mesh%node_id(node), dof))
+                  return
+               end do
             end do
-         end do
-      end associate
-   end subroutine name_failure
+         end associate
+      end subroutine name_failure
+
+   end subroutine solve_multiplier
 
 end module atrito_solve_multiplier

@@ -11,12 +11,12 @@
 module atrito_undetermined_motions
    use atrito_bodies, only: simplest_motion
    use atrito_bound_qp, only: box_bounds_t, box_state_t, FREE, AT_LOWER, AT_UPPER
-   use atrito_constraint_rows, only: multiply_rows, add_transposed
    use atrito_contact_system, only: contact_system_t
    use atrito_dense, only: least_squares
    use atrito_kinds, only: ip, wp
    use atrito_multiplier_step, only: set_forces
    use atrito_multipliers, only: multiplier_t
+   use atrito_sparse_rows, only: multiply_rows, add_transposed
    implicit none (type, external)
    private
    public :: settle_undetermined_motions
@@ -99,39 +99,51 @@ contains
             v(first:) = [(modulo(GOLDEN*real(j*(j + 2*i), wp), 1.0_wp) - 0.5_wp, j=1, system%k)]
             call orthogonalise(found(first:, :n), v(first:))
             before = norm2(v)
-            call apply_step(system, multipliers, v)
-            call apply_step(system, multipliers, v)
+            call apply_step()
+            call apply_step()
             call orthogonalise(found(first:, :n), v(first:))
             if (norm2(v(first:)) <= NO_PART*before) exit
             before = norm2(v(first:))
-            call take_out_held(system, multipliers, v)
+            call take_out_held()
             if (norm2(v(first:)) <= STAYS*before) exit
             n = n + 1
             found(:, n) = v/norm2(v(first:))
          end do
       end associate
       basis = found(:, :n)
+
+   contains
+
+      !> An undetermined motion strains nothing: what strain there is is round-off of the step, and is taken out.
+      !>
+      !> v <- v - H^-1 (A v + B' s B v), twice: what the rows and the bodies feel of v goes. A motion that loses a thousandth of
+      !> itself by that was held, weakly.
+      subroutine take_out_held()
+         real(wp) :: force(system%n), relative(system%rows%n)
+         integer(ip) :: i
+
+         do i = 1, 2
+            call system%multiply(v, force)
+            call multiply_rows(system%rows, v, relative)
+            call add_transposed(system%rows, 1.0_wp, multipliers%stiffness*relative, force)
+            call system%solve(force)
+            v = v - force
+         end do
+      end subroutine take_out_held
+
+      !> a <- H^-1 (kappa a), with the displacements that go with it.
+      !>
+      !> The step from rest with a_o = a and no loads: x = H^-1 (0, kappa H a).
+      subroutine apply_step()
+
+         associate (n_displacements => system%n - system%k)
+            v(:n_displacements) = 0.0_wp
+            v(n_displacements + 1:) = multipliers%pull*v(n_displacements + 1:)
+         end associate
+         call system%solve(v)
+      end subroutine apply_step
+
    end subroutine find_undetermined_motions
-
-   !> An undetermined motion strains nothing: what strain there is is round-off of the step, and is taken out.
-   !>
-   !> v <- v - H^-1 (A v + B' s B v), twice: what the rows and the bodies feel of v goes. A motion that loses a thousandth of itself
-   !> by that was held, weakly.
-   subroutine take_out_held(system, multipliers, v)
-      class(contact_system_t), intent(in) :: system
-      type(multiplier_t), intent(in) :: multipliers
-      real(wp), intent(inout) :: v(:)
-      real(wp) :: force(system%n), relative(system%rows%n)
-      integer(ip) :: i
-
-      do i = 1, 2
-         call system%multiply(v, force)
-         call multiply_rows(system%rows, v, relative)
-         call add_transposed(system%rows, 1.0_wp, multipliers%stiffness*relative, force)
-         call system%solve(force)
-         v = v - force
-      end do
-   end subroutine take_out_held
 
    pure subroutine orthogonalise(basis, v)
       real(wp), intent(in) :: basis(:, :)
@@ -142,21 +154,6 @@ contains
          v = v - dot_product(basis(:, j), v)*basis(:, j)
       end do
    end subroutine orthogonalise
-
-   !> a <- H^-1 (kappa a), with the displacements that go with it.
-   !>
-   !> The step from rest with a_o = a and no loads: x = H^-1 (0, kappa H a).
-   subroutine apply_step(system, multipliers, v)
-      class(contact_system_t), intent(in) :: system
-      type(multiplier_t), intent(in) :: multipliers
-      real(wp), intent(inout) :: v(:)
-
-      associate (n_displacements => system%n - system%k)
-         v(:n_displacements) = 0.0_wp
-         v(n_displacements + 1:) = multipliers%pull*v(n_displacements + 1:)
-      end associate
-      call system%solve(v)
-   end subroutine apply_step
 
    !> Least squares of B x over the undetermined motions; those that no row sees get the amplitude zero.
    !>

@@ -16,17 +16,13 @@
 module atrito_constraint_rows
    use atrito_incidence, only: list_holders
    use atrito_kinds, only: ip, lp, wp
+   use atrito_sparse_rows, only: sparse_rows_t
    implicit none (type, external)
    private
-   public :: constraint_rows_t, list_components, multiply_rows, add_transposed
+   public :: constraint_rows_t, list_components
 
-   !> Rows by their entries: those of row i are first(i) .. first(i+1)-1.
-   type :: constraint_rows_t
-      integer(ip) :: n = 0                       !< rows
-      integer(ip) :: n_columns = 0               !< dofs
-      integer(ip), allocatable :: first(:)       !< (n + 1)
-      integer(ip), allocatable :: column(:)      !< dofs
-      real(wp), allocatable :: value(:)
+   !> B: rows of unknown forces, columns of dofs.
+   type, extends(sparse_rows_t) :: constraint_rows_t
       integer(ip), allocatable :: point(:)       !< (n) 1.., the point of each row: one or two rows have the same
    end type constraint_rows_t
 
@@ -40,46 +36,6 @@ module atrito_constraint_rows
    real(wp), parameter :: INDEPENDENT = 1.0e-6_wp !< part of a row on dofs of its own that makes it independent of other points
 
 contains
-
-   !> y = B x, the relative displacements of the points, and the sums of the sizes of its terms, |B| |x|: round-off of y
-   !> is some EPS_MACH of these.
-   pure subroutine multiply_rows(rows, x, y, sizes)
-      type(constraint_rows_t), intent(in) :: rows
-      real(wp), intent(in) :: x(:)               !< (n_columns) [L]
-      real(wp), intent(out) :: y(:)              !< (n) [L]
-      real(wp), intent(out), optional :: sizes(:) !< (n) |B| |x| [L]
-      integer(ip) :: i, k
-
-      do i = 1, rows%n
-         y(i) = 0.0_wp
-         do k = rows%first(i), rows%first(i + 1) - 1
-            y(i) = y(i) + rows%value(k)*x(rows%column(k))
-         end do
-      end do
-      if (.not. present(sizes)) return
-      do i = 1, rows%n
-         sizes(i) = 0.0_wp
-         do k = rows%first(i), rows%first(i + 1) - 1
-            sizes(i) = sizes(i) + abs(rows%value(k)*x(rows%column(k)))
-         end do
-      end do
-   end subroutine multiply_rows
-
-   !> y <- y + factor B' q: the forces of the contact on the dofs, added row by row; rows without a force are passed over.
-   pure subroutine add_transposed(rows, factor, q, y)
-      type(constraint_rows_t), intent(in) :: rows
-      real(wp), intent(in) :: factor                !< 1 or -1, mostly
-      real(wp), intent(in) :: q(:)               !< (n) [F]
-      real(wp), intent(inout) :: y(:)            !< (n_columns) [F]
-      integer(ip) :: i, k
-
-      do i = 1, rows%n
-         if (q(i) == 0.0_wp) cycle
-         do k = rows%first(i), rows%first(i + 1) - 1
-            y(rows%column(k)) = y(rows%column(k)) + factor*(rows%value(k)*q(i))
-         end do
-      end do
-   end subroutine add_transposed
 
    !> Components of the rows that may depend on each other; rows outside `used` do not count, as those of open points.
    !> No component: the forces are unique.
@@ -97,48 +53,70 @@ contains
          if (used(i)) rows_of(merge(1, 2, rows_of(1, rows%point(i)) == 0), rows%point(i)) = i
       end do
       waits = rows_of(1, :) > 0
-      call set_aside(rows, rows_of, waits)
-      call group(rows, rows_of, waits, first, member)
-   end subroutine list_components
+      call set_aside()
+      call group(first, member)
 
-   !> Takes out the points that dofs of their own make independent, until there is none (steps 1 and 2 at the head of
-   !> the module). The queue is a ring of as many places as points wait at first; a point goes in again when it has
-   !> become alone with a dof.
-   subroutine set_aside(rows, rows_of, waits)
-      type(constraint_rows_t), intent(in) :: rows
-      integer(ip), intent(in) :: rows_of(:, :)      !< (MOST_OF_POINT, points) of each; 0: none
-      logical, intent(inout) :: waits(:)         !< (points) in: points with rows; out: those that may depend on others
-      type(touches_t) :: touches
-      integer(ip), allocatable :: queue(:), dofs(:)
-      logical :: queued(size(waits))
-      integer(ip) :: j, k, head, tail            !< head and tail: taken out and put in so far
+   contains
 
-      call count_touches(rows, rows_of, waits, touches)
-      queue = pack([(j, j=1, size(waits, kind=ip))], waits) ! a ring: a point is in it once at most
-      queued = waits
-      head = 0
-      tail = size(queue, kind=ip)
-      do while (tail > head)
-         head = head + 1
-         j = queue(mod(head - 1, size(queue, kind=ip)) + 1)
-         queued(j) = .false.
-         if (.not. waits(j)) cycle
-         dofs = dofs_of_point(rows, rows_of(:, j))
-         if (.not. stands_alone(rows, rows_of(:, j), touches)) cycle
-         waits(j) = .false.
-         do k = 1, size(dofs, kind=ip)
-            touches%count(dofs(k)) = touches%count(dofs(k)) - 1
-            touches%sum(dofs(k)) = touches%sum(dofs(k)) - j
-            if (touches%count(dofs(k)) /= 1) cycle
-            associate (last => int(touches%sum(dofs(k)), ip))
-               if (queued(last)) cycle
-               tail = tail + 1
-               queue(mod(tail - 1, size(queue, kind=ip)) + 1) = last
-               queued(last) = .true.
-            end associate
+      !> Takes out the points that dofs of their own make independent, until there is none (steps 1 and 2 at the head of
+      !> the module). The queue is a ring of as many places as points wait at first; a point goes in again when it has
+      !> become alone with a dof.
+      subroutine set_aside()
+         type(touches_t) :: touches
+         integer(ip), allocatable :: queue(:), dofs(:)
+         logical :: queued(size(waits))
+         integer(ip) :: j, k, head, tail            !< head and tail: taken out and put in so far
+
+         call count_touches(rows, rows_of, waits, touches)
+         queue = pack([(j, j=1, size(waits, kind=ip))], waits) ! a ring: a point is in it once at most
+         queued = waits
+         head = 0
+         tail = size(queue, kind=ip)
+         do while (tail > head)
+            head = head + 1
+            j = queue(mod(head - 1, size(queue, kind=ip)) + 1)
+            queued(j) = .false.
+            if (.not. waits(j)) cycle
+            dofs = dofs_of_point(rows, rows_of(:, j))
+            if (.not. stands_alone(rows, rows_of(:, j), touches)) cycle
+            waits(j) = .false.
+            do k = 1, size(dofs, kind=ip)
+               touches%count(dofs(k)) = touches%count(dofs(k)) - 1
+               touches%sum(dofs(k)) = touches%sum(dofs(k)) - j
+               if (touches%count(dofs(k)) /= 1) cycle
+               associate (last => int(touches%sum(dofs(k)), ip))
+                  if (queued(last)) cycle
+                  tail = tail + 1
+                  queue(mod(tail - 1, size(queue, kind=ip)) + 1) = last
+                  queued(last) = .true.
+               end associate
+            end do
          end do
-      end do
-   end subroutine set_aside
+      end subroutine set_aside
+
+      !> Lists the rows of the points that are left by what shares dofs, in the order of the points.
+      subroutine group(first, member)
+         integer(ip), allocatable, intent(out) :: first(:), member(:) !< as in list_components
+         integer(ip), allocatable :: root(:), component(:, :), points(:), of_points(:)
+         integer(ip) :: j, n
+
+         call join_points(rows, rows_of, waits, root)
+         allocate (component(1, size(waits)), source=0_ip)
+         n = 0
+         do j = 1, size(waits, kind=ip)                ! the root of a component is its first point
+            if (.not. waits(j)) cycle
+            if (root(j) == j) n = n + 1
+            component(1, j) = merge(n, component(1, root(j)), root(j) == j)
+         end do
+         call list_holders(n, component, first, points)
+         member = pack(rows_of(:, points), rows_of(:, points) > 0)
+         of_points = first
+         do j = 1, n
+            first(j + 1) = first(j) + count(rows_of(:, points(of_points(j):of_points(j + 1) - 1)) > 0, kind=ip)
+         end do
+      end subroutine group
+
+   end subroutine list_components
 
    !> The points that touch each dof, and the sum of their numbers.
    pure subroutine count_touches(rows, rows_of, waits, touches)
@@ -209,31 +187,6 @@ contains
       end do
       whole = norm2(rows%value(rows%first(i):rows%first(i + 1) - 1))
    end subroutine spread_row
-
-   !> Lists the rows of the points that are left by what shares dofs, in the order of the points.
-   subroutine group(rows, rows_of, waits, first, member)
-      type(constraint_rows_t), intent(in) :: rows
-      integer(ip), intent(in) :: rows_of(:, :)      !< (MOST_OF_POINT, points) of each; 0: none
-      logical, intent(in) :: waits(:)               !< (points) that may depend on others
-      integer(ip), allocatable, intent(out) :: first(:), member(:) !< as in list_components
-      integer(ip), allocatable :: root(:), component(:, :), points(:), of_points(:)
-      integer(ip) :: j, n
-
-      call join_points(rows, rows_of, waits, root)
-      allocate (component(1, size(waits)), source=0_ip)
-      n = 0
-      do j = 1, size(waits, kind=ip)                ! the root of a component is its first point
-         if (.not. waits(j)) cycle
-         if (root(j) == j) n = n + 1
-         component(1, j) = merge(n, component(1, root(j)), root(j) == j)
-      end do
-      call list_holders(n, component, first, points)
-      member = pack(rows_of(:, points), rows_of(:, points) > 0)
-      of_points = first
-      do j = 1, n
-         first(j + 1) = first(j) + count(rows_of(:, points(of_points(j):of_points(j + 1) - 1)) > 0, kind=ip)
-      end do
-   end subroutine group
 
    !> A common root for all points that shared dofs lead to: of each dof the first point that has it is kept, and every
    !> other one that comes is joined with it, the larger root becoming a child of the smaller.

@@ -3,27 +3,21 @@
 !> Equilibrium of the bodies is G' q = h (docs/theory/formulation.md, section 4), q being the contact forces in the order of the
 !> unknowns of the line. A row touches the motions of two bodies at most, so G is kept by its entries.
 !>
-!>     motion_rates     G v:  how fast the motion v opens the points and lets them slip
-!>     motion_forces    G' q: the work of the contact forces on each motion
-!>
-!> With `sizes` the terms of the sums are taken without their signs: a sum that is less than some EPS_MACH of that is round-off.
+!>     G v     how fast the motion v opens the points and lets them slip (multiply_rows)
+!>     G' q    the work of the contact forces on each motion (add_transposed)
 module atrito_motion_rows
    use atrito_assembly, only: fem_t
    use atrito_contact_line, only: contact_line_t
    use atrito_contact_rows, only: contact_rows_t
    use atrito_kinds, only: ip, wp
    use atrito_row_entries, only: motions_of_row, first_motions, work_on_motion, MOST_MODES
+   use atrito_sparse_rows, only: sparse_rows_t
    implicit none (type, external)
    private
-   public :: motion_rows_t, build_motion_rows, motion_rates, motion_forces
+   public :: motion_rows_t, build_motion_rows
 
    !> G by the entries of its rows, and h.
-   type :: motion_rows_t
-      integer(ip) :: m = 0                       !< unknown contact forces
-      integer(ip) :: k = 0                       !< rigid motions
-      integer(ip), allocatable :: first(:)       !< (m + 1) entries of row i: first(i) : first(i+1) - 1
-      integer(ip), allocatable :: motion(:)      !< of each entry, 1 .. k
-      real(wp), allocatable :: value(:)          !< of each entry, dimensionless
+   type, extends(sparse_rows_t) :: motion_rows_t
       integer(ip), allocatable :: body(:)        !< (k) whose motion it is; the motions of a body follow each other
       real(wp), allocatable :: work(:)           !< (k) h: of the loads on the motion of amplitude one [F]
       real(wp), allocatable :: work_size(:)      !< (k) the same, of the terms without their signs: what may have cancelled [F]
@@ -42,72 +36,30 @@ contains
       integer(ip) :: first_motion(fem%bodies%n + 1), b, i, n
 
       first_motion = first_motions(fem%bodies)
-      motions%k = first_motion(fem%bodies%n + 1) - 1
-      allocate (motions%body(motions%k), motions%work(motions%k), motions%work_size(motions%k))
+      motions%n_columns = first_motion(fem%bodies%n + 1) - 1
+      allocate (motions%body(motions%n_columns), motions%work(motions%n_columns), motions%work_size(motions%n_columns))
       do b = 1, fem%bodies%n
          do i = first_motion(b), first_motion(b + 1) - 1
             motions%body(i) = b
             call work_on_motion(fem, fem%bodies%list(b), i - first_motion(b) + 1_ip, f, motions%work(i), motions%work_size(i))
          end do
       end do
-      motions%m = size(line%point, kind=ip)
+      motions%n = size(line%point, kind=ip)
       n = 0
-      do i = 1, motions%m
+      do i = 1, motions%n
          n = n + MOST_MODES*max(2_ip, min(fem%bodies%n, rows%first(line%point(i) + 1) - rows%first(line%point(i))))
       end do
-      allocate (motions%first(motions%m + 1), motions%motion(n), motions%value(n))
+      allocate (motions%first(motions%n + 1), motions%column(n), motions%value(n))
       motions%first(1) = 1
-      do i = 1, motions%m
+      do i = 1, motions%n
          associate (first => motions%first(i))
-            call motions_of_row(fem, rows, line, i, first_motion, n, motions%motion(first:), motions%value(first:))
+            call motions_of_row(fem, rows, line, i, first_motion, n, motions%column(first:), motions%value(first:))
             motions%first(i + 1) = first + n
          end associate
       end do
-      n = motions%first(motions%m + 1) - 1
-      motions%motion = motions%motion(:n)
+      n = motions%first(motions%n + 1) - 1
+      motions%column = motions%column(:n)
       motions%value = motions%value(:n)
    end subroutine build_motion_rows
-
-   !> G v, the openings and slips [L] of a motion with the amplitudes v; or, with sizes, |G| |v|.
-   pure function motion_rates(rows, v, sizes) result(rate)
-      type(motion_rows_t), intent(in) :: rows
-      real(wp), intent(in) :: v(:)               !< (k) [L]
-      logical, intent(in) :: sizes                  !< of the terms without their signs
-      real(wp) :: rate(rows%m)                   !< [L]
-      integer(ip) :: i, e
-
-      rate = 0.0_wp
-      do i = 1, rows%m
-         do e = rows%first(i), rows%first(i + 1) - 1
-            if (sizes) then
-               rate(i) = rate(i) + abs(rows%value(e)*v(rows%motion(e)))
-            else
-               rate(i) = rate(i) + rows%value(e)*v(rows%motion(e))
-            end if
-         end do
-      end do
-   end function motion_rates
-
-   !> G' q, the work [F] of the contact forces on the motions of amplitude one; or, with sizes, |G|' |q|.
-   pure function motion_forces(rows, q, sizes) result(force)
-      type(motion_rows_t), intent(in) :: rows
-      real(wp), intent(in) :: q(:)               !< (m) [F]
-      logical, intent(in) :: sizes                  !< of the terms without their signs
-      real(wp) :: force(rows%k)                  !< [F]
-      integer(ip) :: i, e
-
-      force = 0.0_wp
-      do i = 1, rows%m
-         do e = rows%first(i), rows%first(i + 1) - 1
-            associate (f => force(rows%motion(e)))
-               if (sizes) then
-                  f = f + abs(rows%value(e)*q(i))
-               else
-                  f = f + rows%value(e)*q(i)
-               end if
-            end associate
-         end do
-      end do
-   end function motion_forces
 
 end module atrito_motion_rows

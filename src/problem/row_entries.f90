@@ -56,7 +56,7 @@ contains
       constraints%first(1) = 1
       do i = 1, constraints%n
          at = constraints%first(i)
-         call displacements_of_row(fem, rows, line, i, before, n, constraints%column(at:), constraints%value(at:))
+         call displacements_of_row(n, constraints%column(at:), constraints%value(at:))
          at = at + n
          call motions_of_row(fem, rows, line, i, first_motion, n, constraints%column(at:), constraints%value(at:), &
                              rigid_only=.not. with_motions)
@@ -66,6 +66,31 @@ contains
       constraints%column = constraints%column(:n)
       constraints%value = constraints%value(:n)
       if (with_motions) call drop_unseen_motions(before(fem%bodies%n + 1), constraints)
+
+   contains
+
+      !> The entries of a row of B over the displacements: its vectors at the dofs with equations.
+      pure subroutine displacements_of_row(n, column, value)
+         integer(ip), intent(out) :: n              !< entries
+         integer(ip), intent(inout) :: column(:)       !< of the entries
+         real(wp), intent(inout) :: value(:)
+         real(wp) :: direction(2), vector(2)
+         integer(ip) :: k, dof, node
+
+         direction = direction_of(rows, line, i)
+         n = 0
+         do k = rows%first(line%point(i)), rows%first(line%point(i) + 1) - 1
+            node = rows%node(k)
+            vector = vector_of_entry(rows, line%point(i), k, direction)
+            do dof = 1, 2
+               if (vector(dof) == 0.0_wp .or. fem%bodies%equation(dof, node) <= 0) cycle
+               n = n + 1
+               column(n) = before(fem%bodies%of_node(node)) + fem%bodies%equation(dof, node)
+               value(n) = vector(dof)
+            end do
+         end do
+      end subroutine displacements_of_row
+
    end subroutine build_constraint_rows
 
    !> A motion that no row sees but for the rounding of coordinates that supports allow it by (find_rigid_modes) is seen
@@ -88,33 +113,6 @@ contains
          if (seen(constraints%column(e)) < UNSEEN) constraints%value(e) = 0.0_wp
       end do
    end subroutine drop_unseen_motions
-
-   !> The entries of a row of B over the displacements: its vectors at the dofs with equations.
-   pure subroutine displacements_of_row(fem, rows, line, i, before, n, column, value)
-      type(fem_t), intent(in) :: fem
-      type(contact_rows_t), intent(in) :: rows      !< directions and coefficients
-      type(contact_line_t), intent(in) :: line      !< which unknown is of which point
-      integer(ip), intent(in) :: i               !< unknown force
-      integer(ip), intent(in) :: before(:)       !< (bodies) columns of the bodies before
-      integer(ip), intent(out) :: n              !< entries
-      integer(ip), intent(inout) :: column(:)       !< of the entries
-      real(wp), intent(inout) :: value(:)
-      real(wp) :: direction(2), vector(2)
-      integer(ip) :: k, dof, node
-
-      direction = direction_of(rows, line, i)
-      n = 0
-      do k = rows%first(line%point(i)), rows%first(line%point(i) + 1) - 1
-         node = rows%node(k)
-         vector = vector_of_entry(rows, line%point(i), k, direction)
-         do dof = 1, 2
-            if (vector(dof) == 0.0_wp .or. fem%bodies%equation(dof, node) <= 0) cycle
-            n = n + 1
-            column(n) = before(fem%bodies%of_node(node)) + fem%bodies%equation(dof, node)
-            value(n) = vector(dof)
-         end do
-      end do
-   end subroutine displacements_of_row
 
    !> The entries of a row of G = B Z: G_im = sum_k (c_k d_i + turn) . z_m(x_k) over the nodes k of the row that motion
    !> m moves. Entries below ROUND_OFF are left out.

@@ -69,38 +69,37 @@ contains
          call outline_of(model%mesh, loads%element(i), nodes, n)
          corners = part_beside(corners_at(model, loads%element(i), line, nodes(:n)), ahead, closed=.true.)
          do k = 2, size(corners, kind=ip) - 1       ! triangles round the first corner
-            call add_load_on(model, loads, i, corners([1_ip, k, k + 1_ip]), factor, sum)
+            call add_load_on(corners([1_ip, k, k + 1_ip]), sum)
          end do
       else
          face = face_nodes(model%mesh, loads%element(i), loads%face(i))
          if (size(face) == 3) face = face([1, 3, 2])
          do k = 1, size(face, kind=ip) - 1
             corners = part_beside(corners_at(model, loads%element(i), line, face(k:k + 1)), ahead, closed=.false.)
-            if (size(corners) == 2) call add_load_on(model, loads, i, corners, factor, sum)
+            if (size(corners) == 2) call add_load_on(corners, sum)
          end do
       end if
+
+   contains
+
+      !> Adds the load on a triangle or on a straight piece of a face: its nodal forces at the corners, which have the
+      !> resultant and the moment of the load, exactly.
+      pure subroutine add_load_on(corners, sum)
+         type(corner_t), intent(in) :: corners(:)
+         type(resultant_t), intent(inout) :: sum       !< of what came before
+         real(wp) :: x(2, size(corners)), fe(2, size(corners))
+         integer(ip) :: k
+
+         do k = 1, size(corners, kind=ip)
+            x(:, k) = corners(k)%x
+         end do
+         call forces_of_load(model, loads, i, x, corners%place, fe)
+         do k = 1, size(corners, kind=ip)
+            call add_force(sum, x(:, k), factor*fe(:, k))
+         end do
+      end subroutine add_load_on
+
    end subroutine add_part_of_load
-
-   !> Adds the load on a triangle or on a straight piece of a face: its nodal forces at the corners, which have the
-   !> resultant and the moment of the load, exactly.
-   pure subroutine add_load_on(model, loads, i, corners, factor, sum)
-      type(model_t), intent(in) :: model
-      type(element_load_t), intent(in) :: loads     !< all loads on elements
-      integer(ip), intent(in) :: i                  !< load
-      type(corner_t), intent(in) :: corners(:)
-      real(wp), intent(in) :: factor                !< of the forces
-      type(resultant_t), intent(inout) :: sum       !< of what came before
-      real(wp) :: x(2, size(corners)), fe(2, size(corners))
-      integer(ip) :: k
-
-      do k = 1, size(corners, kind=ip)
-         x(:, k) = corners(k)%x
-      end do
-      call forces_of_load(model, loads, i, x, corners%place, fe)
-      do k = 1, size(corners, kind=ip)
-         call add_force(sum, x(:, k), factor*fe(:, k))
-      end do
-   end subroutine add_load_on
 
    !> The share of an element's area that lies ahead of the line, or behind it, and its centre: on the full circle the
    !> hoop stresses of an element that is parted are shared out by it.

@@ -121,10 +121,10 @@ contains
       apart = [dot_product(normal, d), normal(1)*d(2) - normal(2)*d(1)]
       where (abs(apart) <= TOUCHING*maxval(abs(o))) apart = 0.0_wp
       if (all(apart == 0.0_wp) .or. maxval(abs(apart)) > FAR*points%length(j)) return
-      call add_master(points, j, fem, body, node, n)
+      call add_master(j, node, n)
       if (n == 1) then
-         if (j > 1) call add_master(points, j - 1, fem, body, node, n)
-         if (j < points%n) call add_master(points, j + 1, fem, body, node, n)
+         if (j > 1) call add_master(j - 1, node, n)
+         if (j < points%n) call add_master(j + 1, node, n)
       end if
       do k = 1, n
          s(k) = normal(1)*(fem%mesh%x(2, node(k)) - o(2)) - normal(2)*(fem%mesh%x(1, node(k)) - o(1))
@@ -137,24 +137,24 @@ contains
       end if
       turn(1, :n) = -s(:n)*(apart(2)/spread_of)
       turn(2, :n) = s(:n)*(apart(1)/spread_of)
+
+   contains
+
+      !> Adds the nodes of the master at a point that belong to a body, each once.
+      pure subroutine add_master(j, node, n)
+         integer(ip), intent(in) :: j                  !< point
+         integer(ip), intent(inout) :: node(:), n      !< the first n are in use
+         integer(ip) :: k
+
+         do k = first_of_master(points, j), points%first(j + 1) - 1
+            if (fem%bodies%of_node(points%entry(k)) /= body .or. n == size(node)) cycle
+            if (any(node(:n) == points%entry(k))) cycle
+            n = n + 1
+            node(n) = points%entry(k)
+         end do
+      end subroutine add_master
+
    end subroutine find_turn
-
-   !> Adds the nodes of the master at a point that belong to a body, each once.
-   pure subroutine add_master(points, j, fem, body, node, n)
-      type(contact_points_t), intent(in) :: points  !< of the pair
-      integer(ip), intent(in) :: j                  !< point
-      type(fem_t), intent(in) :: fem
-      integer(ip), intent(in) :: body               !< whose nodes count
-      integer(ip), intent(inout) :: node(:), n      !< the first n are in use
-      integer(ip) :: k
-
-      do k = first_of_master(points, j), points%first(j + 1) - 1
-         if (fem%bodies%of_node(points%entry(k)) /= body .or. n == size(node)) cycle
-         if (any(node(:n) == points%entry(k))) cycle
-         n = n + 1
-         node(n) = points%entry(k)
-      end do
-   end subroutine add_master
 
    !> Gives the rows of points what is n's of some nodes; those that a row has not yet become entries of it, with a
    !> coefficient of 0. The rows are written anew, one behind the other, since they grow.

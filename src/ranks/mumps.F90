@@ -163,7 +163,7 @@ contains
 
       system%weakest = 0
       if (system%n == 0) return
-      call find_scale(system, values)
+      call find_scale()
       if (system%weakest > 0) then
          call set_status(status, STATUS_SINGULAR, 'the matrix is singular: unknown '//to_text(system%weakest)//' is empty')
          return
@@ -173,9 +173,50 @@ contains
       call scale_values(system, system%scale, values)
       system%instance%mumps%a_loc => values
       call run_with_room(system)
-      call judge_pivots(system, values, status)
+      call judge_pivots()
       call scale_values(system, 1.0_wp/system%scale, values)   ! powers of two: nothing is lost
       call drop_coordinates(system)
+
+   contains
+
+      !> The status, and the weakest unknown where there is no factor, from what MUMPS says. A pivot that is negative, or no larger
+      !> than the rounding errors of the elimination (smallest_ratio of the scaled diagonal, which is about 1), is none. Where MUMPS
+      !> could not finish the factor, the matrix is factored once more with its diagonal raised by SHIFT, which leaves its softest
+      !> motion as it is.
+      subroutine judge_pivots()
+         real(wp) :: diagonal(size(system%own))
+
+         associate (mumps => system%instance%mumps, places => diagonal_places(size(system%own, kind=ip)))
+            if (any(mumps%infog(1) == NO_PIVOTS)) then   ! once more, with what find_weakest wants
+               diagonal = values(places)
+               values(places) = (1.0_wp + SHIFT)*diagonal
+               call run_with_room(system)
+               values(places) = diagonal
+            else
+               call judge_failure(system, status)
+               if (.not. is_ok(status)) return
+               if (mumps%rinfog(19) > smallest_ratio(system%n) .and. mumps%infog(12) == 0) return   ! smallest pivot, negative ones
+            end if
+         end associate
+         call find_weakest(system)
+         call set_status(status, STATUS_SINGULAR, &
+                         'the matrix is singular or indefinite: its softest motion is largest at unknown '// &
+                         to_text(system%weakest))
+      end subroutine judge_pivots
+
+      !> From the diagonal of the sum. The weakest unknown is the first one without stiffness, if there is any.
+      subroutine find_scale()
+         real(wp) :: diagonal(system%n)
+
+         diagonal = 0.0_wp
+         diagonal(system%own) = values(diagonal_places(size(system%own, kind=ip)))
+         call sum_over_ranks(diagonal)
+         if (.not. allocated(system%scale)) allocate (system%scale(system%n))
+         system%scale = 1.0_wp
+         where (abs(diagonal) > 0.0_wp) system%scale = root_scale(diagonal)
+         system%weakest = findloc(abs(diagonal) > 0.0_wp, .false., dim=1, kind=ip)
+      end subroutine find_scale
+
    end subroutine factor_mumps_system
 
    !> Where the diagonal of a lower triangle of order n stands in its columns.
@@ -186,21 +227,6 @@ contains
 
       places = [(1 + (j - 1)*n - (j - 1)*(j - 2)/2, j=1, n)]
    end function diagonal_places
-
-   !> From the diagonal of the sum. The weakest unknown is the first one without stiffness, if there is any.
-   subroutine find_scale(system, values)
-      type(mumps_system_t), intent(inout) :: system
-      real(wp), intent(in) :: values(:)
-      real(wp) :: diagonal(system%n)
-
-      diagonal = 0.0_wp
-      diagonal(system%own) = values(diagonal_places(size(system%own, kind=ip)))
-      call sum_over_ranks(diagonal)
-      if (.not. allocated(system%scale)) allocate (system%scale(system%n))
-      system%scale = 1.0_wp
-      where (abs(diagonal) > 0.0_wp) system%scale = root_scale(diagonal)
-      system%weakest = findloc(abs(diagonal) > 0.0_wp, .false., dim=1, kind=ip)
-   end subroutine find_scale
 
    !> A power of two that brings a diagonal to 1/2 .. 2 when it multiplies row and column.
    elemental real(wp) function root_scale(diagonal)
@@ -236,33 +262,6 @@ contains
          if (.not. any(system%instance%mumps%infog(1) == NO_ROOM)) exit
       end do
    end subroutine run_with_room
-
-   !> The status, and the weakest unknown where there is no factor, from what MUMPS says. A pivot that is negative, or no larger
-   !> than the rounding errors of the elimination (smallest_ratio of the scaled diagonal, which is about 1), is none. Where MUMPS
-   !> could not finish the factor, the matrix is factored once more with its diagonal raised by SHIFT, which leaves its softest
-   !> motion as it is.
-   subroutine judge_pivots(system, values, status)
-      type(mumps_system_t), intent(inout) :: system
-      real(wp), intent(inout) :: values(:)
-      type(status_t), intent(inout) :: status
-      real(wp) :: diagonal(size(system%own))
-
-      associate (mumps => system%instance%mumps, places => diagonal_places(size(system%own, kind=ip)))
-         if (any(mumps%infog(1) == NO_PIVOTS)) then   ! once more, with what find_weakest wants
-            diagonal = values(places)
-            values(places) = (1.0_wp + SHIFT)*diagonal
-            call run_with_room(system)
-            values(places) = diagonal
-         else
-            call judge_failure(system, status)
-            if (.not. is_ok(status)) return
-            if (mumps%rinfog(19) > smallest_ratio(system%n) .and. mumps%infog(12) == 0) return   ! smallest pivot, negative ones
-         end if
-      end associate
-      call find_weakest(system)
-      call set_status(status, STATUS_SINGULAR, 'the matrix is singular or indefinite: its softest motion is largest at unknown '// &
-                      to_text(system%weakest))
-   end subroutine judge_pivots
 
    subroutine judge_failure(system, status)
       type(mumps_system_t), intent(in) :: system

@@ -32,44 +32,69 @@ contains
 
       associate (elements => cut%element(cut%first_element(p):cut%first_element(p + 1) - 1), &
                  points => cut%point(cut%first_point(p):cut%first_point(p + 1) - 1))
-         call list_members(fem, rows, elements, points, p, cut, nodes, bodies)
+         call list_members(elements, points, nodes, bodies)
          call number_part(fem, rows, numbering, nodes, bodies, p, cut, part, place)
          call take_piece(fem, nodes, elements, part%fem)
          call take_bodies(fem, numbering, elements, nodes, bodies, cut, part%fem%bodies)
          part%scene%numbering%spring = cut%unknown_at(pack(numbering%spring, cut%spring_part == p))
          part%spring_stiffness = pack(cut%spring_stiffness, cut%spring_part == p)
-         call take_rows(rows, line, constraints, points, cut, part, place%row)
+         call take_rows(points, place%row)
       end associate
       cut%place(nodes) = 0
       cut%place(fem%mesh%n_nodes + bodies) = 0
       cut%unknown_at(place%unknown) = 0
+
+   contains
+
+      !> The points with their nodes, and their rows: normal and tangential one after the other.
+      subroutine take_rows(points, row)
+         integer(ip), intent(in) :: points(:)
+         integer(ip), allocatable, intent(out) :: row(:)
+         integer(ip) :: i, k, n
+
+         n = size(points, kind=ip)
+         part%rows%n = n
+         allocate (part%rows%first(n + 1), source=1_ip)
+         part%rows%node = [(cut%place(rows%node(rows%first(points(i)):rows%first(points(i) + 1) - 1)), i=1, n)]
+         part%line%n = n
+         allocate (part%line%normal(n), part%line%tangential(n), source=0_ip)
+         k = 0
+         do i = 1, n
+            part%rows%first(i + 1) = part%rows%first(i) + rows%first(points(i) + 1) - rows%first(points(i))
+            part%rows%longest = max(part%rows%longest, part%rows%first(i + 1) - part%rows%first(i))
+            if (line%normal(points(i)) > 0) part%line%normal(i) = k + 1
+            if (line%tangential(points(i)) > 0) part%line%tangential(i) = k + 1 + min(1_ip, part%line%normal(i))
+            k = max(k, part%line%normal(i), part%line%tangential(i))
+         end do
+         row = [(line%normal(points(i)), line%tangential(points(i)), i=1, n)]
+         row = pack(row, row > 0)
+         call take_constraints(constraints, row, cut%unknown_at, size(part%scene%numbering%body, kind=ip), part%scene%rows)
+      end subroutine take_rows
+
+      !> The nodes of the elements and points of a part, and its bodies, in their order; cut%place has their numbers.
+      subroutine list_members(elements, points, nodes, bodies)
+         integer(ip), intent(in) :: elements(:), points(:)
+         integer(ip), allocatable, intent(out) :: nodes(:), bodies(:)
+         logical :: is_in(fem%mesh%n_nodes)
+         integer(ip) :: i, b
+
+         is_in = .false.
+         do i = 1, size(elements, kind=ip)
+            is_in(fem%mesh%nodes(:fem%mesh%shape(elements(i)), elements(i))) = .true.
+         end do
+         do i = 1, size(points, kind=ip)
+            is_in(rows%node(rows%first(points(i)):rows%first(points(i) + 1) - 1)) = .true.
+         end do
+         do b = 1, fem%bodies%n                         ! without a point their motions stand with these nodes
+            if (cut%pull_part(b) == p .and. fem%bodies%list(b)%is_rigid) is_in(fem%bodies%list(b)%nodes) = .true.
+         end do
+         nodes = pack([(i, i=1, fem%mesh%n_nodes)], is_in)
+         bodies = each_once([fem%bodies%of_node(nodes), pack([(b, b=1, fem%bodies%n)], cut%pull_part == p)])
+         cut%place(nodes) = [(i, i=1, size(nodes, kind=ip))]
+         cut%place(fem%mesh%n_nodes + bodies) = [(i, i=1, size(bodies, kind=ip))]
+      end subroutine list_members
+
    end subroutine make_scene_part
-
-   !> The nodes of the elements and points of a part, and its bodies, in their order; cut%place has their numbers.
-   subroutine list_members(fem, rows, elements, points, p, cut, nodes, bodies)
-      type(fem_t), intent(in) :: fem
-      type(contact_rows_t), intent(in) :: rows
-      integer(ip), intent(in) :: elements(:), points(:), p
-      type(scene_cut_t), intent(inout) :: cut
-      integer(ip), allocatable, intent(out) :: nodes(:), bodies(:)
-      logical :: is_in(fem%mesh%n_nodes)
-      integer(ip) :: i, b
-
-      is_in = .false.
-      do i = 1, size(elements, kind=ip)
-         is_in(fem%mesh%nodes(:fem%mesh%shape(elements(i)), elements(i))) = .true.
-      end do
-      do i = 1, size(points, kind=ip)
-         is_in(rows%node(rows%first(points(i)):rows%first(points(i) + 1) - 1)) = .true.
-      end do
-      do b = 1, fem%bodies%n                         ! without a point their motions stand with these nodes
-         if (cut%pull_part(b) == p .and. fem%bodies%list(b)%is_rigid) is_in(fem%bodies%list(b)%nodes) = .true.
-      end do
-      nodes = pack([(i, i=1, fem%mesh%n_nodes)], is_in)
-      bodies = each_once([fem%bodies%of_node(nodes), pack([(b, b=1, fem%bodies%n)], cut%pull_part == p)])
-      cut%place(nodes) = [(i, i=1, size(nodes, kind=ip))]
-      cut%place(fem%mesh%n_nodes + bodies) = [(i, i=1, size(bodies, kind=ip))]
-   end subroutine list_members
 
    !> Numbers the unknowns: those that are kept last, in each of the two displacements before motions.
    subroutine number_part(fem, rows, numbering, nodes, bodies, p, cut, part, place)
@@ -99,7 +124,7 @@ contains
       call number_items(pack(items, cut%is_shared(items)))
       part%n_kept = n - part%n_kept
       place%unknown = place%unknown(:n)
-      call number_motions(numbering, bodies, sees, p, cut, part, place%pull)
+      call number_motions(place%pull)
       part%scene%numbering%n = n
       part%scene%numbering%body = numbering%body(place%unknown)
 
@@ -120,34 +145,28 @@ contains
          end do
       end subroutine number_items
 
+      !> Motions and pulls of the bodies of a part.
+      subroutine number_motions(pull)
+         integer(ip), allocatable, intent(out) :: pull(:)
+         integer(ip) :: i, k, n
+
+         n = size(bodies, kind=ip)
+         allocate (pull(0))
+         associate (own => part%scene%numbering)
+            allocate (own%before(n), own%first_motion(n), own%n_motions(n), own%first_pull(n), source=0_ip)
+            do i = 1, n
+               if (.not. sees(i)) cycle
+               own%n_motions(i) = numbering%n_motions(bodies(i))
+               own%first_motion(i) = cut%unknown_at(numbering%first_motion(bodies(i)))
+               if (cut%pull_part(bodies(i)) /= p) cycle
+               own%first_pull(i) = size(pull, kind=ip) + 1
+               pull = [pull, [(numbering%first_pull(bodies(i)) + k - 1, k=1, own%n_motions(i))]]
+            end do
+            own%k = size(pull, kind=ip)
+         end associate
+      end subroutine number_motions
+
    end subroutine number_part
-
-   !> Motions and pulls of the bodies of a part.
-   subroutine number_motions(numbering, bodies, sees, p, cut, part, pull)
-      type(scene_numbering_t), intent(in) :: numbering
-      integer(ip), intent(in) :: bodies(:)
-      logical, intent(in) :: sees(:)                 !< the motions of the body are unknowns of the part
-      integer(ip), intent(in) :: p
-      type(scene_cut_t), intent(in) :: cut
-      type(scene_part_t), intent(inout) :: part
-      integer(ip), allocatable, intent(out) :: pull(:)
-      integer(ip) :: i, k, n
-
-      n = size(bodies, kind=ip)
-      allocate (pull(0))
-      associate (own => part%scene%numbering)
-         allocate (own%before(n), own%first_motion(n), own%n_motions(n), own%first_pull(n), source=0_ip)
-         do i = 1, n
-            if (.not. sees(i)) cycle
-            own%n_motions(i) = numbering%n_motions(bodies(i))
-            own%first_motion(i) = cut%unknown_at(numbering%first_motion(bodies(i)))
-            if (cut%pull_part(bodies(i)) /= p) cycle
-            own%first_pull(i) = size(pull, kind=ip) + 1
-            pull = [pull, [(numbering%first_pull(bodies(i)) + k - 1, k=1, own%n_motions(i))]]
-         end do
-         own%k = size(pull, kind=ip)
-      end associate
-   end subroutine number_motions
 
    !> Bodies with the numbers of the part's unknowns as equations; of their elements one, where there is any.
    subroutine take_bodies(fem, numbering, elements, nodes, bodies, cut, own)
@@ -179,36 +198,6 @@ contains
                                                             cut%place(fem%bodies%list(bodies(i))%nodes) > 0)
       end do
    end subroutine take_bodies
-
-   !> The points with their nodes, and their rows: normal and tangential one after the other.
-   subroutine take_rows(rows, line, constraints, points, cut, part, row)
-      type(contact_rows_t), intent(in) :: rows
-      type(contact_line_t), intent(in) :: line
-      type(constraint_rows_t), intent(in) :: constraints
-      integer(ip), intent(in) :: points(:)
-      type(scene_cut_t), intent(in) :: cut
-      type(scene_part_t), intent(inout) :: part
-      integer(ip), allocatable, intent(out) :: row(:)
-      integer(ip) :: i, k, n
-
-      n = size(points, kind=ip)
-      part%rows%n = n
-      allocate (part%rows%first(n + 1), source=1_ip)
-      part%rows%node = [(cut%place(rows%node(rows%first(points(i)):rows%first(points(i) + 1) - 1)), i=1, n)]
-      part%line%n = n
-      allocate (part%line%normal(n), part%line%tangential(n), source=0_ip)
-      k = 0
-      do i = 1, n
-         part%rows%first(i + 1) = part%rows%first(i) + rows%first(points(i) + 1) - rows%first(points(i))
-         part%rows%longest = max(part%rows%longest, part%rows%first(i + 1) - part%rows%first(i))
-         if (line%normal(points(i)) > 0) part%line%normal(i) = k + 1
-         if (line%tangential(points(i)) > 0) part%line%tangential(i) = k + 1 + min(1_ip, part%line%normal(i))
-         k = max(k, part%line%normal(i), part%line%tangential(i))
-      end do
-      row = [(line%normal(points(i)), line%tangential(points(i)), i=1, n)]
-      row = pack(row, row > 0)
-      call take_constraints(constraints, row, cut%unknown_at, size(part%scene%numbering%body, kind=ip), part%scene%rows)
-   end subroutine take_rows
 
    !> Some rows of B over the unknowns of the part.
    pure subroutine take_constraints(constraints, row, unknown_at, n, own)

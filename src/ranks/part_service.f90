@@ -117,13 +117,70 @@ contains
       case (REFACTOR)
          call answer_factored(request, answer)
       case (MULTIPLY, REDUCE, EXPAND)
-         call answer_values(wanted, request, answer)
+         call answer_values()
       case (SCHUR_BEGIN, SCHUR_FACTOR, SCHUR_SOLVE)
-         call answer_schur(wanted, request, answer)
+         call answer_schur()
       case (FORGET)
          call end_mumps_system(own%schur)
          own%part = no_part
       end select
+
+   contains
+
+      !> Vectors: A_p x; g_c of the loads f; x of x_c.
+      subroutine answer_values()
+         real(wp), allocatable :: x(:), y(:)
+         integer(ip) :: n_interior
+
+         call take(request, x)
+         n_interior = own%part%scene%n - own%part%n_kept
+         select case (wanted)
+         case (MULTIPLY)
+            allocate (y(size(x)))
+            call own%part%scene%multiply(x, y)
+         case (REDUCE)
+            call reduce_variable(own%part%scene%matrix, x)
+            y = x(n_interior + 1:)
+            call move_alloc(x, own%x)
+         case (EXPAND)
+            own%x(n_interior + 1:) = x
+            call expand_variable(own%part%scene%matrix, own%x)
+            call move_alloc(own%x, y)
+         end select
+         call put(answer, y)
+      end subroutine answer_values
+
+      !> All ranks are asked, for MUMPS wants them together: to begin, with the number of shared unknowns and those of this rank;
+      !> to factor; to solve, with the loads [F], which the first rank alone has. Answer: status, the unknown that moves most in the
+      !> softest motion of an S that has no factor, or the solution [L].
+      subroutine answer_schur()
+         type(status_t) :: status
+         integer(ip) :: n
+         integer(ip), allocatable :: unknown(:)
+         real(wp), allocatable :: x(:)
+         real(wp), pointer, contiguous :: values(:)
+         real(wp), target :: nothing(0)
+
+         select case (wanted)
+         case (SCHUR_BEGIN)
+            call take(request, n)
+            call take(request, unknown)
+            call begin_mumps_system(own%schur, n, unknown, status)
+            call put_status(answer, status)
+         case (SCHUR_FACTOR)
+            values => kept_values(own%part%scene%matrix)
+            if (.not. associated(values)) values => nothing   ! the rank has no part, or shares nothing
+            call factor_mumps_system(own%schur, values, status)
+            call put_status(answer, status)
+            call put(answer, own%schur%weakest)
+         case (SCHUR_SOLVE)
+            call take(request, x)
+            call solve_mumps_system(own%schur, x, status)
+            call put_status(answer, status)
+            call put(answer, x)
+         end select
+      end subroutine answer_schur
+
    end subroutine answer_question
 
    !> Takes the part, in the place of the one that there was. Answer: status, is_near, the order, what factoring will take [bytes].
@@ -158,64 +215,6 @@ contains
          call put(answer, is_ok(status) .and. scene%matrix%n_refactored > 0)   ! what failed is factored again
       end associate
    end subroutine answer_factored
-
-   !> Vectors: A_p x; g_c of the loads f; x of x_c.
-   subroutine answer_values(wanted, request, answer)
-      integer(ip), intent(in) :: wanted
-      type(buffer_t), intent(inout) :: request, answer
-      real(wp), allocatable :: x(:), y(:)
-      integer(ip) :: n_interior
-
-      call take(request, x)
-      n_interior = own%part%scene%n - own%part%n_kept
-      select case (wanted)
-      case (MULTIPLY)
-         allocate (y(size(x)))
-         call own%part%scene%multiply(x, y)
-      case (REDUCE)
-         call reduce_variable(own%part%scene%matrix, x)
-         y = x(n_interior + 1:)
-         call move_alloc(x, own%x)
-      case (EXPAND)
-         own%x(n_interior + 1:) = x
-         call expand_variable(own%part%scene%matrix, own%x)
-         call move_alloc(own%x, y)
-      end select
-      call put(answer, y)
-   end subroutine answer_values
-
-   !> All ranks are asked, for MUMPS wants them together: to begin, with the number of shared unknowns and those of this rank;
-   !> to factor; to solve, with the loads [F], which the first rank alone has. Answer: status, the unknown that moves most in the
-   !> softest motion of an S that has no factor, or the solution [L].
-   subroutine answer_schur(wanted, request, answer)
-      integer(ip), intent(in) :: wanted
-      type(buffer_t), intent(inout) :: request, answer
-      type(status_t) :: status
-      integer(ip) :: n
-      integer(ip), allocatable :: unknown(:)
-      real(wp), allocatable :: x(:)
-      real(wp), pointer, contiguous :: values(:)
-      real(wp), target :: nothing(0)
-
-      select case (wanted)
-      case (SCHUR_BEGIN)
-         call take(request, n)
-         call take(request, unknown)
-         call begin_mumps_system(own%schur, n, unknown, status)
-         call put_status(answer, status)
-      case (SCHUR_FACTOR)
-         values => kept_values(own%part%scene%matrix)
-         if (.not. associated(values)) values => nothing   ! the rank has no part, or shares nothing
-         call factor_mumps_system(own%schur, values, status)
-         call put_status(answer, status)
-         call put(answer, own%schur%weakest)
-      case (SCHUR_SOLVE)
-         call take(request, x)
-         call solve_mumps_system(own%schur, x, status)
-         call put_status(answer, status)
-         call put(answer, x)
-      end select
-   end subroutine answer_schur
 
    !> Memory held by this process for its part and S [bytes].
    pure integer(lp) function held_bytes() result(bytes)

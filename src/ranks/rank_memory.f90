@@ -75,7 +75,43 @@ contains
       call forecast_ranks(data, size(ranks, kind=ip), growth)
       short = find_shortage(ranks, growth, limit)
       scene%memory = max(scene%peak_before, ranks(0)%held + growth(0))
-      if (short%is_there) call add_shortage(data, scene, who_text(ranks, short), short, status)
+      if (short%is_there) call add_shortage(who_text())
+
+   contains
+
+      subroutine add_shortage(who)
+         character(len=*), intent(in) :: who            !< e.g. 'rank 1 of 2 needs'
+         type(message_t) :: message
+
+         status%code = STATUS_DECK
+         if (allocated(status%text)) deallocate (status%text)   ! the message tells it
+         message%severity = SEVERITY_ERROR
+         message%id = 'E-MEMORY'
+         if (allocated(data%model%deck_path)) message%file = data%model%deck_path
+         message%text = who//' about '//memory_text(short%needed)//' of memory for the scene, '//to_text(scene%n_dofs)// &
+                        ' free displacements and '//to_text(scene%n_normal + scene%n_tangential)// &
+                        ' contact unknowns, there are '//memory_text(short%there)
+         message%expected = 'a coarser mesh or fewer contact points, or more memory'
+         if (short%first > 0 .or. short%n > 1) message%expected = 'more ranks, '//message%expected//' for each'
+         call add_message(message)
+      end subroutine add_shortage
+
+      !> 'rank 1 (host node7) of 4 needs'
+      function who_text() result(text)
+         character(len=:), allocatable :: text, host
+         integer(ip) :: r
+
+         host = ''
+         if (any([(ranks(r)%host /= ranks(0)%host, r=1, size(ranks, kind=ip) - 1)])) host = 'host '//ranks(short%first)%host
+         if (short%n > 1) then
+            if (len(host) == 0) host = 'this machine'
+            text = 'the '//to_text(short%n)//' ranks of '//host//' need'
+         else
+            if (len(host) > 0) host = ' ('//host//')'
+            text = 'rank '//to_text(short%first)//host//' of '//to_text(size(ranks, kind=ip))//' needs'
+         end if
+      end function who_text
+
    end subroutine check_ranks
 
    !> Asks all ranks.
@@ -217,44 +253,5 @@ contains
 
       together = left + min(held, huge(left) - left)
    end function together
-
-   subroutine add_shortage(data, scene, who, short, status)
-      class(scene_data_t), intent(in) :: data
-      type(scene_t), intent(in) :: scene
-      character(len=*), intent(in) :: who            !< e.g. 'rank 1 of 2 needs'
-      type(shortage_t), intent(in) :: short
-      type(status_t), intent(inout) :: status
-      type(message_t) :: message
-
-      status%code = STATUS_DECK
-      if (allocated(status%text)) deallocate (status%text)   ! the message tells it
-      message%severity = SEVERITY_ERROR
-      message%id = 'E-MEMORY'
-      if (allocated(data%model%deck_path)) message%file = data%model%deck_path
-      message%text = who//' about '//memory_text(short%needed)//' of memory for the scene, '//to_text(scene%n_dofs)// &
-                     ' free displacements and '//to_text(scene%n_normal + scene%n_tangential)//' contact unknowns, there are '// &
-                     memory_text(short%there)
-      message%expected = 'a coarser mesh or fewer contact points, or more memory'
-      if (short%first > 0 .or. short%n > 1) message%expected = 'more ranks, '//message%expected//' for each'
-      call add_message(message)
-   end subroutine add_shortage
-
-   !> 'rank 1 (host node7) of 4 needs'
-   function who_text(ranks, short) result(text)
-      type(rank_memory_t), intent(in) :: ranks(0:)
-      type(shortage_t), intent(in) :: short
-      character(len=:), allocatable :: text, host
-      integer(ip) :: r
-
-      host = ''
-      if (any([(ranks(r)%host /= ranks(0)%host, r=1, size(ranks, kind=ip) - 1)])) host = 'host '//ranks(short%first)%host
-      if (short%n > 1) then
-         if (len(host) == 0) host = 'this machine'
-         text = 'the '//to_text(short%n)//' ranks of '//host//' need'
-      else
-         if (len(host) > 0) host = ' ('//host//')'
-         text = 'rank '//to_text(short%first)//host//' of '//to_text(size(ranks, kind=ip))//' needs'
-      end if
-   end function who_text
 
 end module atrito_rank_memory

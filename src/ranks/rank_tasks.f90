@@ -98,7 +98,7 @@ contains
             if (rank == 0) call begin_own(tasks, process, task_of(0))
          end do
          if (all(task_of == 0)) exit
-         call look_for_outcome(tasks, process, task_of(0), outcome, rank, is_done)
+         call look_for_outcome(task_of(0), rank, outcome, is_done)
          if (is_done) then
             busy(rank) = busy(rank) + seconds_from(given(rank))
             times%longest_task = max(times%longest_task, seconds_from(given(rank)))
@@ -114,6 +114,31 @@ contains
          call send_number(LAST_TASK, rank)
       end do
       call end_task_process(process)
+
+   contains
+
+      !> What came of a task, of another rank or of rank 0's own.
+      subroutine look_for_outcome(own_task, rank, outcome, is_done)
+         integer(ip), intent(in) :: own_task           !< 0: none
+         integer(ip), intent(out) :: rank
+         type(outcome_t), intent(out) :: outcome
+         logical, intent(out) :: is_done
+         type(buffer_t) :: head
+         integer(ip) :: end_code
+
+         rank = 0
+         is_done = .false.
+         if (rank_count() > 1) is_done = has_message()
+         if (is_done) then
+            call receive_buffer(head, ANY_RANK, rank)
+            call take(head, end_code)
+            outcome%end_code = int(end_code)
+            call receive_buffer(outcome%answer, rank)
+         else if (own_task > 0) then
+            call look_at_own(tasks, process, own_task, outcome, is_done)
+         end if
+      end subroutine look_for_outcome
+
    end subroutine hand_out
 
    !> A number for another rank.
@@ -124,30 +149,6 @@ contains
       call put(buffer, number)
       call send_buffer(buffer, rank)
    end subroutine send_number
-
-   !> What came of a task, of another rank or of rank 0's own.
-   subroutine look_for_outcome(tasks, process, own_task, outcome, rank, is_done)
-      class(rank_tasks_t), intent(inout) :: tasks
-      type(task_process_t), intent(inout) :: process
-      integer(ip), intent(in) :: own_task           !< 0: none
-      type(outcome_t), intent(out) :: outcome
-      integer(ip), intent(out) :: rank
-      logical, intent(out) :: is_done
-      type(buffer_t) :: head
-      integer(ip) :: end_code
-
-      rank = 0
-      is_done = .false.
-      if (rank_count() > 1) is_done = has_message()
-      if (is_done) then
-         call receive_buffer(head, ANY_RANK, rank)
-         call take(head, end_code)
-         outcome%end_code = int(end_code)
-         call receive_buffer(outcome%answer, rank)
-      else if (own_task > 0) then
-         call look_at_own(tasks, process, own_task, outcome, is_done)
-      end if
-   end subroutine look_for_outcome
 
    !> On the other ranks: does what rank 0 hands out, until there is nothing more.
    subroutine work_for_first(tasks)

@@ -70,7 +70,7 @@ contains
       end do
       call list_holders(n_parts, part, cut%first_point, cut%point)
       call find_shared(fem, rows, numbering, cut)
-      call place_pulls(fem, numbering, part_of_element, cut)
+      call place_pulls(cut)
       allocate (cut%spring_part(numbering%k), source=0_ip)
       allocate (cut%spring_stiffness(numbering%k), source=0.0_wp)
       node = spring_nodes(fem, numbering)
@@ -78,8 +78,39 @@ contains
          if (node(i) > 0) cut%spring_part(i) = home(node(i))
          if (numbering%spring(i) > 0) cut%spring_stiffness(i) = diagonal(numbering%spring(i))
       end do
-      call number_shared(fem, numbering, cut)
+      call number_shared(cut)
       allocate (cut%place(fem%mesh%n_nodes + fem%bodies%n), cut%unknown_at(numbering%n), source=0_ip)
+
+   contains
+
+      !> Bodies that no point sees.
+      pure subroutine place_pulls(cut)
+         type(scene_cut_t), intent(inout) :: cut
+         integer(ip) :: b
+
+         do b = 1, fem%bodies%n
+            if (numbering%n_motions(b) == 0 .or. cut%pull_part(b) > 0) cycle
+            cut%pull_part(b) = 1
+            if (.not. fem%bodies%list(b)%is_rigid) cut%pull_part(b) = part_of_element(fem%bodies%list(b)%elements(1))
+         end do
+      end subroutine place_pulls
+
+      !> Numbers the unknowns that are shared, in the order of all.
+      pure subroutine number_shared(cut)
+         type(scene_cut_t), intent(inout) :: cut
+         integer(ip) :: i
+
+         allocate (cut%shared_number(numbering%n), source=0_ip)
+         do i = 1, fem%mesh%n_nodes + fem%bodies%n
+            if (cut%is_shared(i)) cut%shared_number(unknowns_at(fem, numbering, i)) = 1
+         end do
+         do i = 1, numbering%n
+            if (cut%shared_number(i) == 0) cycle
+            cut%n_shared = cut%n_shared + 1
+            cut%shared_number(i) = cut%n_shared
+         end do
+      end subroutine number_shared
+
    end subroutine plan_cut
 
    !> The part of the first slave node with elements, else of any node; 1 where rigid bodies meet alone.
@@ -136,21 +167,6 @@ contains
 
    end subroutine find_shared
 
-   !> Bodies that no point sees.
-   pure subroutine place_pulls(fem, numbering, part_of_element, cut)
-      type(fem_t), intent(in) :: fem
-      type(scene_numbering_t), intent(in) :: numbering
-      integer(ip), intent(in) :: part_of_element(:)
-      type(scene_cut_t), intent(inout) :: cut
-      integer(ip) :: b
-
-      do b = 1, fem%bodies%n
-         if (numbering%n_motions(b) == 0 .or. cut%pull_part(b) > 0) cycle
-         cut%pull_part(b) = 1
-         if (.not. fem%bodies%list(b)%is_rigid) cut%pull_part(b) = part_of_element(fem%bodies%list(b)%elements(1))
-      end do
-   end subroutine place_pulls
-
    !> The node of each spring; 0 where there is none.
    pure function spring_nodes(fem, numbering) result(node)
       type(fem_t), intent(in) :: fem
@@ -170,24 +186,6 @@ contains
          end do
       end do
    end function spring_nodes
-
-   !> Numbers the unknowns that are shared, in the order of all.
-   pure subroutine number_shared(fem, numbering, cut)
-      type(fem_t), intent(in) :: fem
-      type(scene_numbering_t), intent(in) :: numbering
-      type(scene_cut_t), intent(inout) :: cut
-      integer(ip) :: i
-
-      allocate (cut%shared_number(numbering%n), source=0_ip)
-      do i = 1, fem%mesh%n_nodes + fem%bodies%n
-         if (cut%is_shared(i)) cut%shared_number(unknowns_at(fem, numbering, i)) = 1
-      end do
-      do i = 1, numbering%n
-         if (cut%shared_number(i) == 0) cycle
-         cut%n_shared = cut%n_shared + 1
-         cut%shared_number(i) = cut%n_shared
-      end do
-   end subroutine number_shared
 
    !> The unknowns of a node, or of the motions of a body.
    pure function unknowns_at(fem, numbering, i) result(unknowns)

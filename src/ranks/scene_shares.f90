@@ -37,7 +37,7 @@ contains
          i = elimination%last(s) + 1
       end do
       do e = 1, fem%mesh%n_elements
-         part_of_element(e) = rank_of_element(fem, numbering, elimination, rank_at, e)
+         part_of_element(e) = rank_of_element()
       end do
       call join_neighbours(fem, part_of_element)
       part_of_rank = 0
@@ -48,6 +48,25 @@ contains
          part_of_rank(i) = size(rank, kind=ip)
       end do
       part_of_element = part_of_rank(part_of_element)
+
+   contains
+
+      !> That of the unknown of the element that is eliminated first; -1: all of them are above the subtrees, or there are none.
+      pure integer(ip) function rank_of_element() result(rank)
+         integer(ip) :: k, dof, first
+
+         first = huge(first)
+         do k = 1, fem%mesh%shape(e)
+            do dof = 1, 2
+               associate (equation => fem%bodies%equation(dof, fem%mesh%nodes(k, e)))
+                  if (equation > 0) first = min(first, elimination%position(numbering%before(fem%bodies%of_element(e)) + equation))
+               end associate
+            end do
+         end do
+         rank = -1
+         if (first < huge(first)) rank = rank_at(first)
+      end function rank_of_element
+
    end subroutine share_elements
 
    !> Whose the supernodes of the subtrees are; -1: above them.
@@ -76,7 +95,7 @@ contains
       is_top = .false.
       is_root = elimination%parent == 0
       do
-         call give_to_ranks(n_ranks, weight, is_root, rank_of)
+         call give_to_ranks(rank_of)
          heaviest = maxloc(weight, dim=1, kind=ip, mask=is_root)
          if (is_even(n_ranks, weight, is_root, rank_of) .or. .not. is_worth_cutting(heaviest)) exit
          is_root(heaviest) = .false.
@@ -96,26 +115,23 @@ contains
          is_worth_cutting = any(elimination%parent == s) .and. weight(s) > LEAST_CUT*sum(weight, mask=is_root)/real(n_ranks, wp)
       end function is_worth_cutting
 
+      !> Subtrees to ranks in their order: with the weights w_s and their sum W, subtree s goes to the rank floor(n (sum of w
+      !> before s + w_s/2)/W), where its middle lies in the sum of all.
+      pure subroutine give_to_ranks(rank_of)
+         integer(ip), intent(inout) :: rank_of(:)       !< at the roots
+         real(wp) :: before, mean
+         integer(ip) :: s
+
+         mean = max(sum(weight, mask=is_root), 1.0_wp)/real(n_ranks, wp)
+         before = 0.0_wp
+         do s = 1, size(rank_of, kind=ip)
+            if (.not. is_root(s)) cycle
+            rank_of(s) = min(floor((before + 0.5_wp*weight(s))/mean, ip), n_ranks - 1)
+            before = before + weight(s)
+         end do
+      end subroutine give_to_ranks
+
    end subroutine share_supernodes
-
-   !> Subtrees to ranks in their order: with the weights w_s and their sum W, subtree s goes to the rank floor(n (sum of w before s
-   !> + w_s/2)/W), where its middle lies in the sum of all.
-   pure subroutine give_to_ranks(n_ranks, weight, is_root, rank_of)
-      integer(ip), intent(in) :: n_ranks
-      real(wp), intent(in) :: weight(:)
-      logical, intent(in) :: is_root(:)
-      integer(ip), intent(inout) :: rank_of(:)       !< at the roots
-      real(wp) :: before, mean
-      integer(ip) :: s
-
-      mean = max(sum(weight, mask=is_root), 1.0_wp)/real(n_ranks, wp)
-      before = 0.0_wp
-      do s = 1, size(rank_of, kind=ip)
-         if (.not. is_root(s)) cycle
-         rank_of(s) = min(floor((before + 0.5_wp*weight(s))/mean, ip), n_ranks - 1)
-         before = before + weight(s)
-      end do
-   end subroutine give_to_ranks
 
    pure logical function is_even(n_ranks, weight, is_root, rank_of)
       integer(ip), intent(in) :: n_ranks
@@ -131,27 +147,6 @@ contains
       end do
       is_even = maxval(load) <= (1.0_wp + MARGIN)*sum(load)/real(n_ranks, wp)
    end function is_even
-
-   !> That of the unknown of the element that is eliminated first; -1: all of them are above the subtrees, or there are none.
-   pure integer(ip) function rank_of_element(fem, numbering, elimination, rank_at, e) result(rank)
-      type(fem_t), intent(in) :: fem
-      type(scene_numbering_t), intent(in) :: numbering
-      type(elimination_t), intent(in) :: elimination
-      integer(ip), intent(in) :: rank_at(:)          !< (positions in the elimination)
-      integer(ip), intent(in) :: e
-      integer(ip) :: k, dof, first
-
-      first = huge(first)
-      do k = 1, fem%mesh%shape(e)
-         do dof = 1, 2
-            associate (equation => fem%bodies%equation(dof, fem%mesh%nodes(k, e)))
-               if (equation > 0) first = min(first, elimination%position(numbering%before(fem%bodies%of_element(e)) + equation))
-            end associate
-         end do
-      end do
-      rank = -1
-      if (first < huge(first)) rank = rank_at(first)
-   end function rank_of_element
 
    !> Elements that no subtree has go with one that has a node of theirs; without such a one, with the first rank.
    pure subroutine join_neighbours(fem, rank_of)

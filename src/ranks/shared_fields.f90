@@ -92,12 +92,30 @@ contains
          else
             call receive_buffer(answer, rank)
          end if
-         call take_found(self%regions(rank), answer, results, energies)
+         call take_found(self%regions(rank))
       end do
       deallocate (self%regions)
       if (self%by_element) results%element_error = share_errors(energies, results%element_error)
       results%error_estimate = relative_error(energies)
       strain_bound = energies%strain + 2*largest_thermal_strain(fem)   ! as estimate_error
+
+   contains
+
+      !> Adds what was found in a region; at a border the last rank has its way.
+      subroutine take_found(region)
+         type(region_t), intent(in) :: region
+         real(wp), allocatable :: stress(:, :), sums(:), square(:)
+
+         if (region%n_own == 0) return
+         call take(answer, stress)
+         call take(answer, sums)
+         call take(answer, square)
+         results%nodal_stress(:, region%node(:region%n_nodes)) = stress
+         energies = energies_t(energies%solution + sums(1), energies%error + sums(2), energies%round_off + sums(3), &
+                               max(energies%strain, sums(4)))
+         if (allocated(results%element_error)) results%element_error(region%element(:region%n_own)) = square
+      end subroutine take_found
+
    end subroutine end_fields
 
    subroutine put_region(self, fem, u, region, request)
@@ -161,24 +179,6 @@ contains
       call put(answer, [e%solution, e%error, e%round_off, e%strain])
       call put(answer, square)
    end subroutine answer_fields
-
-   !> Adds what was found in a region; at a border the last rank has its way.
-   subroutine take_found(region, answer, results, energies)
-      type(region_t), intent(in) :: region
-      type(buffer_t), intent(inout) :: answer
-      type(results_t), intent(inout) :: results
-      type(energies_t), intent(inout) :: energies
-      real(wp), allocatable :: stress(:, :), sums(:), square(:)
-
-      if (region%n_own == 0) return
-      call take(answer, stress)
-      call take(answer, sums)
-      call take(answer, square)
-      results%nodal_stress(:, region%node(:region%n_nodes)) = stress
-      energies = energies_t(energies%solution + sums(1), energies%error + sums(2), energies%round_off + sums(3), &
-                            max(energies%strain, sums(4)))
-      if (allocated(results%element_error)) results%element_error(region%element(:region%n_own)) = square
-   end subroutine take_found
 
    !> The elements of a rank, then those of the rings round them; and their nodes in this order.
    pure subroutine find_region(mesh, rank_of, near, rank, region)

@@ -84,33 +84,31 @@ contains
       allocate (scene%parts(size(rank)))
       scene%parts%rank = rank
       scene%trouble => trouble
-      call hand_over(fem, rows, line, cut, scene)
+      call hand_over()
       call hear_assembled(scene, status)
+
+   contains
+
+      !> Makes the parts, the first rank's last: the others assemble theirs meanwhile.
+      subroutine hand_over()
+         type(scene_part_t) :: part, nothing
+         type(buffer_t) :: request
+         integer(ip) :: p
+
+         do p = size(scene%parts, kind=ip), 1, -1
+            associate (place => scene%parts(p))
+               call make_scene_part(fem, rows, line, scene%numbering, scene%rows, p, cut, part, place)
+               place%shared = cut%shared_number(place%unknown(size(place%unknown) - part%n_kept + 1:))
+               place%n_elements = cut%first_element(p + 1) - cut%first_element(p)
+               call begin_question(ASSEMBLE, request)
+               call put_scene_part(request, part)
+               part = nothing
+               call ask(place%rank, request)
+            end associate
+         end do
+      end subroutine hand_over
+
    end subroutine share_scene
-
-   !> Makes the parts, the first rank's last: the others assemble theirs meanwhile.
-   subroutine hand_over(fem, rows, line, cut, scene)
-      type(fem_t), intent(in) :: fem
-      type(contact_rows_t), intent(in) :: rows
-      type(contact_line_t), intent(in) :: line
-      type(scene_cut_t), intent(inout) :: cut
-      type(shared_scene_t), intent(inout) :: scene
-      type(scene_part_t) :: part, nothing
-      type(buffer_t) :: request
-      integer(ip) :: p
-
-      do p = size(scene%parts, kind=ip), 1, -1
-         associate (place => scene%parts(p))
-            call make_scene_part(fem, rows, line, scene%numbering, scene%rows, p, cut, part, place)
-            place%shared = cut%shared_number(place%unknown(size(place%unknown) - part%n_kept + 1:))
-            place%n_elements = cut%first_element(p + 1) - cut%first_element(p)
-            call begin_question(ASSEMBLE, request)
-            call put_scene_part(request, part)
-            part = nothing
-            call ask(place%rank, request)
-         end associate
-      end do
-   end subroutine hand_over
 
    !> What became of the parts; then MUMPS is told who has which shared unknowns.
    subroutine hear_assembled(scene, status)

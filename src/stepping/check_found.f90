@@ -82,8 +82,8 @@ contains
 
       call check_time(data%model%steps, frame, own)
       if (.not. allocated(own)) then
-         call check_fields(data, frame, own)
-         call check_stress(data, data%model%steps(frame%step), frame, own)
+         call check_fields(own)
+         call check_stress(data%model%steps(frame%step), own)
          call check_scene(scene, frame%scene, is_same_step, own)
          call check_contact_list(data, frame, own)
          call check_joints(data, frame, own)
@@ -95,6 +95,57 @@ contains
       end if
       if (allocated(own)) call require(wrong, .false., own//' of step '//to_text(frame%step)//', increment ' &
                                        //to_text(frame%increment))
+
+   contains
+
+      !> What there is at nodes, elements and bilateral rows.
+      pure subroutine check_fields(wrong)
+         character(len=:), allocatable, intent(inout) :: wrong
+
+         associate (n => data%model%mesh%n_nodes, rows => data%model%bilateral%n)
+            call require(wrong, is_list(frame%u, 2_ip, n), 'u')
+            call require(wrong, is_list(frame%reaction, 2_ip, n), 'reaction')
+            call require(wrong, allocated(frame%prescribed), 'prescribed')
+            if (.not. allocated(wrong)) call require(wrong, all(shape(frame%prescribed) == [2, int(n)]), 'prescribed')
+            if (allocated(frame%row_x)) call require(wrong, is_list(frame%row_x, 2_ip, rows), 'row_x')
+            if (allocated(frame%row_force)) call require(wrong, is_list(frame%row_force, rows), 'row_force')
+            if (allocated(frame%nodal_stress)) call require(wrong, is_list(frame%nodal_stress, 5_ip, n), 'nodal_stress')
+            if (allocated(frame%element_error)) then
+               call require(wrong, is_list(frame%element_error, data%model%mesh%n_elements), 'element_error')
+            end if
+         end associate
+      end subroutine check_fields
+
+      !> The points of the elements that are asked for, in their order.
+      pure subroutine check_stress(step, wrong)
+         type(step_t), intent(in) :: step
+         character(len=:), allocatable, intent(inout) :: wrong
+         logical :: is_wanted
+         integer(ip) :: e, k, n
+
+         if (allocated(wrong) .or. .not. allocated(frame%stress_element)) return
+         n = size(frame%stress_element, kind=ip)
+         call require(wrong, is_list(frame%stress_point, n) .and. is_list(frame%stress_x, 2_ip, n) .and. &
+                      is_list(frame%stress, 5_ip, n), 'stress')
+         if (allocated(wrong)) return
+         n = 0
+         associate (mesh => data%model%mesh, requests => step%requests)
+            do e = 1, mesh%n_elements
+               is_wanted = .false.
+               if (requests%stress) is_wanted = requests%element_s(e)
+               if (requests%fields%stress) is_wanted = is_wanted .or. requests%fields%element_s(e)
+               if (.not. is_wanted) cycle
+               do k = 1, POINT_COUNT(mesh%shape(e), mesh%state(e))
+                  n = n + 1
+                  call require(wrong, n <= size(frame%stress_element), 'stress')
+                  if (allocated(wrong)) return
+                  call require(wrong, frame%stress_element(n) == e .and. frame%stress_point(n) == k, 'stress_element')
+               end do
+            end do
+         end associate
+         call require(wrong, n == size(frame%stress_element), 'stress')
+      end subroutine check_stress
+
    end subroutine check_frame
 
    pure subroutine check_time(steps, frame, wrong)
@@ -117,58 +168,6 @@ contains
       call require(wrong, is_plain(frame%verdict), 'the verdict')
    end subroutine check_time
 
-   !> What there is at nodes, elements and bilateral rows.
-   pure subroutine check_fields(data, frame, wrong)
-      type(scene_data_t), intent(in) :: data
-      type(results_t), intent(in) :: frame
-      character(len=:), allocatable, intent(inout) :: wrong
-
-      associate (n => data%model%mesh%n_nodes, rows => data%model%bilateral%n)
-         call require(wrong, is_list(frame%u, 2_ip, n), 'u')
-         call require(wrong, is_list(frame%reaction, 2_ip, n), 'reaction')
-         call require(wrong, allocated(frame%prescribed), 'prescribed')
-         if (.not. allocated(wrong)) call require(wrong, all(shape(frame%prescribed) == [2, int(n)]), 'prescribed')
-         if (allocated(frame%row_x)) call require(wrong, is_list(frame%row_x, 2_ip, rows), 'row_x')
-         if (allocated(frame%row_force)) call require(wrong, is_list(frame%row_force, rows), 'row_force')
-         if (allocated(frame%nodal_stress)) call require(wrong, is_list(frame%nodal_stress, 5_ip, n), 'nodal_stress')
-         if (allocated(frame%element_error)) then
-            call require(wrong, is_list(frame%element_error, data%model%mesh%n_elements), 'element_error')
-         end if
-      end associate
-   end subroutine check_fields
-
-   !> The points of the elements that are asked for, in their order.
-   pure subroutine check_stress(data, step, frame, wrong)
-      type(scene_data_t), intent(in) :: data
-      type(step_t), intent(in) :: step
-      type(results_t), intent(in) :: frame
-      character(len=:), allocatable, intent(inout) :: wrong
-      logical :: is_wanted
-      integer(ip) :: e, k, n
-
-      if (allocated(wrong) .or. .not. allocated(frame%stress_element)) return
-      n = size(frame%stress_element, kind=ip)
-      call require(wrong, is_list(frame%stress_point, n) .and. is_list(frame%stress_x, 2_ip, n) .and. &
-                   is_list(frame%stress, 5_ip, n), 'stress')
-      if (allocated(wrong)) return
-      n = 0
-      associate (mesh => data%model%mesh, requests => step%requests)
-         do e = 1, mesh%n_elements
-            is_wanted = .false.
-            if (requests%stress) is_wanted = requests%element_s(e)
-            if (requests%fields%stress) is_wanted = is_wanted .or. requests%fields%element_s(e)
-            if (.not. is_wanted) cycle
-            do k = 1, POINT_COUNT(mesh%shape(e), mesh%state(e))
-               n = n + 1
-               call require(wrong, n <= size(frame%stress_element), 'stress')
-               if (allocated(wrong)) return
-               call require(wrong, frame%stress_element(n) == e .and. frame%stress_point(n) == k, 'stress_element')
-            end do
-         end do
-      end associate
-      call require(wrong, n == size(frame%stress_element), 'stress')
-   end subroutine check_stress
-
    !> Names and sizes of bodies and pairs; in the same step also what its supports make of them.
    pure subroutine check_scene(own, scene, is_same_step, wrong)
       type(scene_t), intent(in) :: own, scene        !< of the deck, of the file
@@ -188,7 +187,7 @@ contains
                                                 == [own%n_dofs, own%n_normal, own%n_tangential, own%n_rows, own%n_rigid]) .and. &
                                      (scene%outer_loop .eqv. own%outer_loop), 'scene')
       do i = 1, size(scene%bodies)
-         call check_body(own, scene, i, is_same_step, wrong)
+         call check_body(wrong)
       end do
       do i = 1, size(scene%pairs)
          associate (pair => scene%pairs(i), ours => own%pairs(i))
@@ -200,31 +199,31 @@ contains
                          is_finite([pair%least_gap, pair%greatest_gap, pair%least_x, pair%greatest_x]), 'pairs')
          end associate
       end do
+
+   contains
+
+      pure subroutine check_body(wrong)
+         character(len=:), allocatable, intent(inout) :: wrong
+
+         associate (body => scene%bodies(i), ours => own%bodies(i))
+            call require(wrong, is_text(body%name, ours%name) .and. body%n_nodes == ours%n_nodes .and. &
+                         body%n_elements == ours%n_elements, 'bodies')
+            if (is_same_step) call require(wrong, body%n_equations == ours%n_equations .and. &
+                                           body%n_contact_equations == ours%n_contact_equations .and. &
+                                           body%n_free_motions == ours%n_free_motions, 'bodies')
+            call require(wrong, min(body%n_equations, body%n_contact_equations, body%n_free_motions) >= 0 .and. &
+                         min(body%profile, body%memory, body%most_memory) >= 0 .and. &
+                         min(body%half_bandwidth, body%sign_changes, body%n_fronts, body%n_different_fronts) >= 0, 'bodies')
+            call require(wrong, max(body%half_bandwidth, body%sign_changes, body%n_contact_equations) <= body%n_equations .and. &
+                         body%n_equations <= 2*ours%n_nodes .and. body%n_free_motions <= 3 .and. &
+                         body%n_different_fronts <= body%n_fronts, 'bodies')
+            call require(wrong, body%worst_dof >= 0 .and. body%worst_dof <= 2, 'worst_dof')
+            call require(wrong, is_plain(body%solver) .and. is_plain(body%reason) .and. is_plain(body%order) .and. &
+                         is_finite([body%digits_lost]) .and. body%solver_kind >= 0, 'bodies')
+         end associate
+      end subroutine check_body
+
    end subroutine check_scene
-
-   pure subroutine check_body(own, scene, i, is_same_step, wrong)
-      type(scene_t), intent(in) :: own, scene
-      integer, intent(in) :: i
-      logical, intent(in) :: is_same_step
-      character(len=:), allocatable, intent(inout) :: wrong
-
-      associate (body => scene%bodies(i), ours => own%bodies(i))
-         call require(wrong, is_text(body%name, ours%name) .and. body%n_nodes == ours%n_nodes .and. &
-                      body%n_elements == ours%n_elements, 'bodies')
-         if (is_same_step) call require(wrong, body%n_equations == ours%n_equations .and. &
-                                        body%n_contact_equations == ours%n_contact_equations .and. &
-                                        body%n_free_motions == ours%n_free_motions, 'bodies')
-         call require(wrong, min(body%n_equations, body%n_contact_equations, body%n_free_motions) >= 0 .and. &
-                      min(body%profile, body%memory, body%most_memory) >= 0 .and. &
-                      min(body%half_bandwidth, body%sign_changes, body%n_fronts, body%n_different_fronts) >= 0, 'bodies')
-         call require(wrong, max(body%half_bandwidth, body%sign_changes, body%n_contact_equations) <= body%n_equations .and. &
-                      body%n_equations <= 2*ours%n_nodes .and. body%n_free_motions <= 3 .and. &
-                      body%n_different_fronts <= body%n_fronts, 'bodies')
-         call require(wrong, body%worst_dof >= 0 .and. body%worst_dof <= 2, 'worst_dof')
-         call require(wrong, is_plain(body%solver) .and. is_plain(body%reason) .and. is_plain(body%order) .and. &
-                      is_finite([body%digits_lost]) .and. body%solver_kind >= 0, 'bodies')
-      end associate
-   end subroutine check_body
 
    pure subroutine check_contact_list(data, frame, wrong)
       type(scene_data_t), intent(in) :: data

@@ -45,11 +45,22 @@ contains
 
       copies = WHOLE
       if (model%restart_every > 0) copies = copies + WHOLE_OF_RESTART
-      bytes = copies*frame_bytes(model, n_points, stress_rows) + OPEN_TABLES
+      bytes = copies*frame_bytes() + OPEN_TABLES
       do k = 1, size(model%steps)
          bytes = bytes + increments_of(model%steps(k))*(ITERATION_ROWS + PAIR_ROW*size(model%pairs, kind=lp)) &
                  + printed_of(model%steps(k))*FRAME_NUMBERS
       end do
+
+   contains
+
+      !> The fields of an increment that is printed.
+      pure integer(lp) function frame_bytes() result(bytes)
+         integer(lp), parameter :: NODE_BYTES = 80_lp, POINT_BYTES = 150_lp, ROW_BYTES = 64_lp, PAIR_BYTES = 6000_lp
+
+         bytes = NODE_BYTES*model%mesh%n_nodes + POINT_BYTES*n_points + ROW_BYTES*stress_rows + &
+                 PAIR_BYTES*size(model%pairs, kind=lp)
+      end function frame_bytes
+
    end function history_bytes
 
    !> What the library of field files keeps of increments that are in the file [bytes].
@@ -67,17 +78,6 @@ contains
       end do
       bytes = min(bytes, MOST_OF_FIELDS)
    end function field_growth
-
-   !> The fields of an increment that is printed.
-   pure integer(lp) function frame_bytes(model, n_points, stress_rows) result(bytes)
-      type(model_t), intent(in) :: model
-      integer(ip), intent(in) :: n_points
-      integer(lp), intent(in) :: stress_rows
-      integer(lp), parameter :: NODE_BYTES = 80_lp, POINT_BYTES = 150_lp, ROW_BYTES = 64_lp, PAIR_BYTES = 6000_lp
-
-      bytes = NODE_BYTES*model%mesh%n_nodes + POINT_BYTES*n_points + ROW_BYTES*stress_rows + &
-              PAIR_BYTES*size(model%pairs, kind=lp)
-   end function frame_bytes
 
    !> Increments of a step, of which none is cut or lengthened.
    pure integer(lp) function increments_of(step)

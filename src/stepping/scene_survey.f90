@@ -30,11 +30,11 @@ contains
 
       allocate (scene%bodies(data%fem%bodies%n))
       do b = 1, data%fem%bodies%n
-         call describe_body(data, b, scene%bodies(b))
+         call describe_body(scene%bodies(b))
          scene%n_dofs = scene%n_dofs + scene%bodies(b)%n_equations
          scene%n_rigid = scene%n_rigid + scene%bodies(b)%n_free_motions
       end do
-      call describe_pairs(data, scene)
+      call describe_pairs()
       scene%n_normal = count(data%line%normal > 0, kind=ip)
       scene%n_rows = count(data%line%normal(data%line%n - data%line%n_bilateral + 1:) > 0, kind=ip)
       scene%n_tangential = count(data%line%tangential > 0, kind=ip)
@@ -46,6 +46,53 @@ contains
       scene%memory_before = held_memory()
       scene%memory = forecast_memory(data%model, data, scene)
       call list_left_out(data, scene)
+
+   contains
+
+      !> A body, and the solver of its matrix where it has one of its own.
+      subroutine describe_body(result)
+         type(body_result_t), intent(inout) :: result
+         type(profile_t) :: profile
+
+         associate (body => data%fem%bodies%list(b))
+            result%name = body%name
+            result%n_nodes = size(body%nodes, kind=ip)
+            result%n_elements = size(body%elements, kind=ip)
+            result%n_equations = body%n
+            result%n_contact_equations = body%n_retained
+            result%n_free_motions = size(body%modes, 2, kind=ip)
+         end associate
+         if (data%fem%bodies%list(b)%is_rigid) then
+            result%n_nodes = 1                                ! its reference node
+            result%solver = 'none'
+            result%reason = 'rigid'
+         else if (data%contact_form == CONTACT_SPARSE) then
+            result%solver = 'scene'
+         else
+            call body_profile(data%fem, b, profile)
+            call choose_solver(profile, data%solver_kind, result)
+            call estimate_body_memory(data%fem, b, result)
+         end if
+      end subroutine describe_body
+
+      subroutine describe_pairs()
+         integer(ip) :: i
+
+         allocate (scene%pairs(size(data%points)))
+         do i = 1, size(data%points, kind=ip)
+            associate (pair => scene%pairs(i), points => data%points(i))
+               pair%slave = data%model%surfaces(data%model%pairs(i)%slave)%name
+               pair%master = data%model%surfaces(data%model%pairs(i)%master)%name
+               pair%interaction = data%model%interactions(data%model%pairs(i)%interaction)%name
+               pair%n_points = points%n
+               pair%n_left_out = points%n_left_out
+               pair%matching = points%matching
+               pair%master_is_rigid = points%rigid
+               if (points%n > 0) call find_gaps(data%model%mesh%node_id, points, pair)
+            end associate
+         end do
+      end subroutine describe_pairs
+
    end subroutine describe_scene
 
    !> Of the sparse form, when it is assembled.
@@ -56,34 +103,6 @@ contains
       scene%solving = data%assembled%solving_bytes()
       scene%order = data%assembled%order
    end subroutine describe_order
-
-   !> A body, and the solver of its matrix where it has one of its own.
-   subroutine describe_body(data, b, result)
-      type(scene_data_t), intent(in) :: data
-      integer(ip), intent(in) :: b
-      type(body_result_t), intent(inout) :: result
-      type(profile_t) :: profile
-
-      associate (body => data%fem%bodies%list(b))
-         result%name = body%name
-         result%n_nodes = size(body%nodes, kind=ip)
-         result%n_elements = size(body%elements, kind=ip)
-         result%n_equations = body%n
-         result%n_contact_equations = body%n_retained
-         result%n_free_motions = size(body%modes, 2, kind=ip)
-      end associate
-      if (data%fem%bodies%list(b)%is_rigid) then
-         result%n_nodes = 1                                ! its reference node
-         result%solver = 'none'
-         result%reason = 'rigid'
-      else if (data%contact_form == CONTACT_SPARSE) then
-         result%solver = 'scene'
-      else
-         call body_profile(data%fem, b, profile)
-         call choose_solver(profile, data%solver_kind, result)
-         call estimate_body_memory(data%fem, b, result)
-      end if
-   end subroutine describe_body
 
    !> Counts what could be estimated only: the fronts of bodies with the sparse solver. A run, which makes them itself in a while,
    !> wants it where the estimate does not fit.
@@ -115,26 +134,6 @@ contains
                         to_text(scene%n_normal + scene%n_tangential)//' contact unknowns,', scene%memory, memory, status, &
                         held=scene%memory_before)
    end subroutine check_scene
-
-   subroutine describe_pairs(data, scene)
-      type(scene_data_t), intent(in) :: data
-      type(scene_t), intent(inout) :: scene
-      integer(ip) :: i
-
-      allocate (scene%pairs(size(data%points)))
-      do i = 1, size(data%points, kind=ip)
-         associate (pair => scene%pairs(i), points => data%points(i))
-            pair%slave = data%model%surfaces(data%model%pairs(i)%slave)%name
-            pair%master = data%model%surfaces(data%model%pairs(i)%master)%name
-            pair%interaction = data%model%interactions(data%model%pairs(i)%interaction)%name
-            pair%n_points = points%n
-            pair%n_left_out = points%n_left_out
-            pair%matching = points%matching
-            pair%master_is_rigid = points%rigid
-            if (points%n > 0) call find_gaps(data%model%mesh%node_id, points, pair)
-         end associate
-      end do
-   end subroutine describe_pairs
 
    !> The least and the greatest initial gap, and where.
    pure subroutine find_gaps(node_id, points, pair)

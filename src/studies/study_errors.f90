@@ -76,36 +76,57 @@ contains
       integer :: i
 
       do i = 1, size(study%quantities)
-         if (.not. study%quantities(i)%is_given) call extrapolate(study, i)
-         call measure_errors(study, i)
+         if (.not. study%quantities(i)%is_given) call extrapolate()
+         call measure_errors()
       end do
+
+   contains
+
+      !> The limit of the element whose finest three levels leave the least to extrapolate.
+      subroutine extrapolate()
+         real(wp) :: limit, order, least
+         integer :: k, best
+
+         associate (quantity => study%quantities(i), rows => study%rows)
+            quantity%reference = ieee_value(1.0_wp, ieee_quiet_nan)
+            quantity%source = 'no limit: fewer than three levels of one element, or differences that do not shrink'
+            least = huge(1.0_wp)
+            best = 0
+            do k = 3, size(rows)
+               if (.not. is_last(rows, k)) cycle
+               call limit_of_three(study, i, k, limit, order)
+               if (is_nan(limit)) cycle
+               if (abs(rows(k)%values(i) - limit) >= least) cycle
+               least = abs(rows(k)%values(i) - limit)
+               best = k
+               quantity%reference = limit
+               quantity%source = 'extrapolated from '//rows(k)%element//', order '//to_text(order, 3)
+            end do
+            if (best > 0) quantity%doubt = distance_of_limits(study, i, best)
+         end associate
+      end subroutine extrapolate
+
+      subroutine measure_errors()
+         integer :: k
+
+         associate (quantity => study%quantities(i), rows => study%rows)
+            allocate (quantity%error(size(rows)), quantity%order(size(rows)), source=ieee_value(1.0_wp, ieee_quiet_nan))
+            if (is_nan(quantity%reference)) return
+            quantity%scale = abs(quantity%reference)
+            if (quantity%scale <= 0.0_wp) quantity%scale = 1.0_wp
+            do k = 1, size(rows)
+               quantity%error(k) = abs(rows(k)%values(i) - quantity%reference)/quantity%scale
+               if (k == 1) cycle
+               if (rows(k)%element /= rows(k - 1)%element .or. is_nan(quantity%error(k)) .or. is_nan(quantity%error(k - 1))) cycle
+               if (min(quantity%error(k), quantity%error(k - 1)) <= 0.0_wp) cycle
+               quantity%order(k) = log(quantity%error(k - 1)/quantity%error(k))/log(2.0_wp)
+            end do
+            quantity%is_held = .not. any(is_nan(quantity%error))
+            if (quantity%is_held) quantity%is_held = all(quantity%error <= study%rounding)
+         end associate
+      end subroutine measure_errors
+
    end subroutine find_errors
-
-   !> The limit of the element whose finest three levels leave the least to extrapolate.
-   subroutine extrapolate(study, i)
-      type(study_t), intent(inout) :: study
-      integer, intent(in) :: i
-      real(wp) :: limit, order, least
-      integer :: k, best
-
-      associate (quantity => study%quantities(i), rows => study%rows)
-         quantity%reference = ieee_value(1.0_wp, ieee_quiet_nan)
-         quantity%source = 'no limit: fewer than three levels of one element, or differences that do not shrink'
-         least = huge(1.0_wp)
-         best = 0
-         do k = 3, size(rows)
-            if (.not. is_last(rows, k)) cycle
-            call limit_of_three(study, i, k, limit, order)
-            if (is_nan(limit)) cycle
-            if (abs(rows(k)%values(i) - limit) >= least) cycle
-            least = abs(rows(k)%values(i) - limit)
-            best = k
-            quantity%reference = limit
-            quantity%source = 'extrapolated from '//rows(k)%element//', order '//to_text(order, 3)
-         end do
-         if (best > 0) quantity%doubt = distance_of_limits(study, i, best)
-      end associate
-   end subroutine extrapolate
 
    !> How far the limits of other elements, and of the same element without its finest level, are from the reference; relative.
    real(wp) function distance_of_limits(study, i, best) result(distance)
@@ -179,28 +200,6 @@ contains
       order = log(d1/d2)/log(2.0_wp)
       limit = q(3) + d2/(d1/d2 - 1.0_wp)
    end subroutine richardson_limit
-
-   subroutine measure_errors(study, i)
-      type(study_t), intent(inout) :: study
-      integer, intent(in) :: i
-      integer :: k
-
-      associate (quantity => study%quantities(i), rows => study%rows)
-         allocate (quantity%error(size(rows)), quantity%order(size(rows)), source=ieee_value(1.0_wp, ieee_quiet_nan))
-         if (is_nan(quantity%reference)) return
-         quantity%scale = abs(quantity%reference)
-         if (quantity%scale <= 0.0_wp) quantity%scale = 1.0_wp
-         do k = 1, size(rows)
-            quantity%error(k) = abs(rows(k)%values(i) - quantity%reference)/quantity%scale
-            if (k == 1) cycle
-            if (rows(k)%element /= rows(k - 1)%element .or. is_nan(quantity%error(k)) .or. is_nan(quantity%error(k - 1))) cycle
-            if (min(quantity%error(k), quantity%error(k - 1)) <= 0.0_wp) cycle
-            quantity%order(k) = log(quantity%error(k - 1)/quantity%error(k))/log(2.0_wp)
-         end do
-         quantity%is_held = .not. any(is_nan(quantity%error))
-         if (quantity%is_held) quantity%is_held = all(quantity%error <= study%rounding)
-      end associate
-   end subroutine measure_errors
 
    !> Seconds of a phase by one of the clocks.
    pure real(wp) function phase_seconds(row, name, clock) result(seconds)

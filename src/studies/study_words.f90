@@ -3,7 +3,7 @@ module atrito_study_words
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
    use atrito_kinds, only: wp, is_nan
    use atrito_strings, only: append_string, to_text
-   use atrito_study_errors, only: study_t, study_row_t, study_probe_t, find_errors, is_last, total_seconds, PROCESSOR
+   use atrito_study_errors, only: study_t, study_probe_t, find_errors, is_last, total_seconds, PROCESSOR
    implicit none (type, external)
    private
    public :: judge_study

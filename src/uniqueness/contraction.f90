@@ -59,50 +59,43 @@ contains
       if (.not. any(can_slip)) return
       all_points = [(i, i=1, problem%n_normal)]
       closed = pack(all_points, state(:problem%n_normal) == FREE)
-      sigma = contraction_of_sliding(problem, line, compliance, all_points, pack(all_points, can_slip))
-      if (size(closed) < size(all_points)) sigma = max(sigma, contraction_of_sliding(problem, line, compliance, closed, &
-                                                                                     pack(closed, can_slip(closed))))
-      sigma = max(sigma, contraction_of_solution(problem, line, compliance, state, closed, can_slip))
+      sigma = contraction_of_sliding(all_points, pack(all_points, can_slip))
+      if (size(closed) < size(all_points)) sigma = max(sigma, contraction_of_sliding(closed, pack(closed, can_slip(closed))))
+      sigma = max(sigma, contraction_of_solution())
+
+   contains
+
+      !> The estimate of the solution: what sticks holds. Where all closed points slip the same way it has been made.
+      !>
+      !> Sticking points are in the set with their tangential unknowns, so their friction follows what the others do.
+      function contraction_of_solution() result(sigma)
+         real(wp) :: sigma
+         integer(ip), allocatable :: points(:), sticking(:), slipping(:)
+         real(wp), allocatable :: direction(:)
+
+         sigma = 0.0_wp
+         points = pack(closed, can_slip(closed))
+         slipping = line%tangential(line%point(points))
+         sticking = pack(slipping, state(slipping) == FREE)
+         points = pack(points, state(slipping) /= FREE)
+         slipping = pack(slipping, state(slipping) /= FREE)
+         direction = merge(-1.0_wp, 1.0_wp, state(slipping) == AT_LOWER)
+         if (size(sticking) == 0 .and. abs(sum(direction)) >= size(direction)) return
+         sigma = contraction_of(problem, line, compliance, [closed, sticking], points, direction)
+      end function contraction_of_solution
+
+      !> The estimate of a set of points that all slip the same way.
+      function contraction_of_sliding(set, points) result(sigma)
+         integer(ip), intent(in) :: set(:)           !< normal unknowns
+         integer(ip), intent(in) :: points(:)        !< of those the ones that can slip
+         real(wp) :: sigma
+         real(wp) :: direction(size(points))
+
+         direction = 1.0_wp
+         sigma = contraction_of(problem, line, compliance, set, points, direction)
+      end function contraction_of_sliding
+
    end function estimate_contraction
-
-   !> The estimate of a set of points that all slip the same way.
-   function contraction_of_sliding(problem, line, compliance, set, points) result(sigma)
-      type(bound_qp_t), intent(in) :: problem
-      type(contact_line_t), intent(in) :: line
-      real(wp), intent(in) :: compliance(:)
-      integer(ip), intent(in) :: set(:)           !< normal unknowns
-      integer(ip), intent(in) :: points(:)        !< of those the ones that can slip
-      real(wp) :: sigma
-      real(wp) :: direction(size(points))
-
-      direction = 1.0_wp
-      sigma = contraction_of(problem, line, compliance, set, points, direction)
-   end function contraction_of_sliding
-
-   !> The estimate of the solution: what sticks holds. Where all closed points slip the same way it has been made.
-   !>
-   !> Sticking points are in the set with their tangential unknowns, so their friction follows what the others do.
-   function contraction_of_solution(problem, line, compliance, state, closed, can_slip) result(sigma)
-      type(bound_qp_t), intent(in) :: problem
-      type(contact_line_t), intent(in) :: line
-      real(wp), intent(in) :: compliance(:)
-      integer(ip), intent(in) :: state(:)
-      integer(ip), intent(in) :: closed(:)        !< normal unknowns
-      logical, intent(in) :: can_slip(:)          !< normal unknowns
-      real(wp) :: sigma
-      integer(ip), allocatable :: points(:), sticking(:), slipping(:)
-      real(wp), allocatable :: direction(:)
-
-      sigma = 0.0_wp
-      points = pack(closed, can_slip(closed))
-      slipping = line%tangential(line%point(points))
-      sticking = pack(slipping, state(slipping) == FREE)
-      points = pack(points, state(slipping) /= FREE)
-      slipping = pack(slipping, state(slipping) /= FREE)
-      direction = merge(-1.0_wp, 1.0_wp, state(slipping) == AT_LOWER)
-      if (size(sticking) == 0 .and. abs(sum(direction)) >= size(direction)) return
-      sigma = contraction_of(problem, line, compliance, [closed, sticking], points, direction)
-   end function contraction_of_solution
 
    !> The estimate of a set of unknowns that follow where some points slip.
    function contraction_of(problem, line, compliance, set, points, direction) result(sigma)
@@ -123,48 +116,45 @@ contains
       places = 0
       places(set) = [(i, i=1, size(set, kind=ip))]
       place = places(points)
-      call build_map(problem, line, compliance, set, place, line%tangential(line%point(points)), map, possible)
+      call build_map(line%tangential(line%point(points)), map)
       if (possible) sigma = radius_of(map, direction)
+
+   contains
+
+      subroutine build_map(slipping, map)
+         integer(ip), intent(in) :: slipping(:)      !< their tangential unknowns
+         type(slip_map_t), intent(out) :: map
+         integer(ip) :: i, n, failed
+
+         n = size(set, kind=ip)
+         map%factor = problem%c(set, set)
+         do i = 1, n
+            map%factor(i, i) = map%factor(i, i) + compliance(set(i))
+         end do
+         ! (C_nn + D) of the set, scaled to a unit diagonal and factored
+         possible = all([(map%factor(i, i) > 0.0_wp, i=1, n)])  ! rows among rigid bodies alone give way nowhere
+         if (.not. possible) return
+         map%scale = [(1.0_wp/sqrt(map%factor(i, i)), i=1, n)]
+         do i = 1, n
+            map%factor(:, i) = map%factor(:, i)*map%scale*map%scale(i)
+         end do
+         call factor_in_blocks(map%factor, failed)
+         possible = failed == 0
+         if (.not. possible) return
+         map%coupling = problem%c(set, slipping)
+         map%gt = problem%g(slipping, :)
+         map%y = problem%g(set, :)
+         do i = 1, problem%k
+            map%y(:, i) = solved(map, map%y(:, i))
+         end do
+         map%place = place
+         ! pressures from forces on the left, forces from shears on the right
+         map%left = line%law(line%point(slipping))%nu/problem%weight(slipping)
+         map%right = problem%weight(slipping)
+         call invert_on_range(matmul(transpose(problem%g(set, :)), map%y), map%inverse)
+      end subroutine build_map
+
    end function contraction_of
-
-   subroutine build_map(problem, line, compliance, set, place, slipping, map, possible)
-      type(bound_qp_t), intent(in) :: problem
-      type(contact_line_t), intent(in) :: line
-      real(wp), intent(in) :: compliance(:)
-      integer(ip), intent(in) :: set(:)           !< unknowns that follow
-      integer(ip), intent(in) :: place(:)         !< of those that slip, in the set
-      integer(ip), intent(in) :: slipping(:)      !< their tangential unknowns
-      type(slip_map_t), intent(out) :: map
-      logical, intent(out) :: possible
-      integer(ip) :: i, n, failed
-
-      n = size(set, kind=ip)
-      map%factor = problem%c(set, set)
-      do i = 1, n
-         map%factor(i, i) = map%factor(i, i) + compliance(set(i))
-      end do
-      ! (C_nn + D) of the set, scaled to a unit diagonal and factored
-      possible = all([(map%factor(i, i) > 0.0_wp, i=1, n)])  ! rows among rigid bodies alone give way nowhere
-      if (.not. possible) return
-      map%scale = [(1.0_wp/sqrt(map%factor(i, i)), i=1, n)]
-      do i = 1, n
-         map%factor(:, i) = map%factor(:, i)*map%scale*map%scale(i)
-      end do
-      call factor_in_blocks(map%factor, failed)
-      possible = failed == 0
-      if (.not. possible) return
-      map%coupling = problem%c(set, slipping)
-      map%gt = problem%g(slipping, :)
-      map%y = problem%g(set, :)
-      do i = 1, problem%k
-         map%y(:, i) = solved(map, map%y(:, i))
-      end do
-      map%place = place
-      ! pressures from forces on the left, forces from shears on the right
-      map%left = line%law(line%point(slipping))%nu/problem%weight(slipping)
-      map%right = problem%weight(slipping)
-      call invert_on_range(matmul(transpose(problem%g(set, :)), map%y), map%inverse)
-   end subroutine build_map
 
    !> (C_nn + D)^-1 x
    function solved(map, x) result(y)

@@ -131,10 +131,35 @@ contains
       if (length > LARGEST_FILE) then
          call set_status(status, STATUS_FILE, path//': is larger than 2 GB')
       else
-         call read_text(file, int(length), peek, text, status)
+         call read_text(int(length), text)
          if (.not. is_ok(status)) call set_status(status, STATUS_FILE, path//': '//status%text)
       end if
       call c_close_input(file)
+
+   contains
+
+      !> status%text says why, without the name of the file.
+      subroutine read_text(length, text)
+         integer, intent(in) :: length
+         character(len=:), allocatable, intent(out) :: text
+         integer :: first, state
+         logical :: is_read
+
+         first = min(length, peek)
+         allocate (character(len=first) :: text)
+         is_read = .true.
+         if (length > 0) is_read = c_read_input(file, text, int(first, c_size_t), 0_c_int64_t) == 1
+         if (is_read .and. length > first .and. index(text, achar(0)) == 0) then
+            deallocate (text)
+            allocate (character(len=length) :: text, stat=state)
+            is_read = state == 0
+            if (.not. is_read) call set_status(status, STATUS_FILE, 'cannot be read: there is not enough memory for its '// &
+                                               to_text(length)//' bytes')
+            if (is_read) is_read = c_read_input(file, text, int(length, c_size_t), 0_c_int64_t) == 1
+         end if
+         if (is_ok(status) .and. .not. is_read) call set_status(status, STATUS_FILE, 'cannot be read')
+      end subroutine read_text
+
    end subroutine read_plain
 
    !> What is read must be a plain file: a folder has no text, and a pipe that nobody writes into would never end.
@@ -150,31 +175,6 @@ contains
 
       call set_status(status, STATUS_FILE, path//': '//trim(REASONS(min(-code, size(REASONS)))))
    end subroutine tell_unread
-
-   !> status%text says why, without the name of the file.
-   subroutine read_text(file, length, peek, text, status)
-      integer(c_int), intent(in) :: file
-      integer, intent(in) :: length
-      integer, intent(in) :: peek            !< of a file that turns out to be no text no more are read
-      character(len=:), allocatable, intent(out) :: text
-      type(status_t), intent(inout) :: status
-      integer :: first, state
-      logical :: is_read
-
-      first = min(length, peek)
-      allocate (character(len=first) :: text)
-      is_read = .true.
-      if (length > 0) is_read = c_read_input(file, text, int(first, c_size_t), 0_c_int64_t) == 1
-      if (is_read .and. length > first .and. index(text, achar(0)) == 0) then
-         deallocate (text)
-         allocate (character(len=length) :: text, stat=state)
-         is_read = state == 0
-         if (.not. is_read) call set_status(status, STATUS_FILE, 'cannot be read: there is not enough memory for its '// &
-                                            to_text(length)//' bytes')
-         if (is_read) is_read = c_read_input(file, text, int(length, c_size_t), 0_c_int64_t) == 1
-      end if
-      if (is_ok(status) .and. .not. is_read) call set_status(status, STATUS_FILE, 'cannot be read')
-   end subroutine read_text
 
    !> The first line of a file of the system (which has no length) that begins with a label.
    subroutine read_system_line(path, label, line, found)

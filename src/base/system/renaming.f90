@@ -69,8 +69,8 @@ contains
       do i = 1, size(stale)
          paths(size(names) + i)%s = folder//'/'//stale(i)%s
       end do
-      call move_aside(paths, is_aside, status)
-      call name_new_files(paths(:size(names)), done, status)
+      call move_aside(status)
+      call name_new_files(paths(:size(names)))
       if (is_ok(status)) then
          do i = 1, size(paths)
             if (is_aside(i)) call remove_file(paths(i)%s//FORMER)
@@ -83,6 +83,37 @@ contains
             if (.not. renamed(paths(j)%s//FORMER, paths(j)%s)) status%text = status%text//'; the former one is '//paths(j)%s//FORMER
          end do
       end if
+
+   contains
+
+      !> Gives former files their second name; a folder with the name of a stale file is somebody else's.
+      subroutine move_aside(status)
+         type(status_t), intent(out) :: status
+         integer :: i
+
+         is_aside = .false.
+         do i = 1, size(paths)
+            if (is_folder(paths(i)%s)) cycle
+            is_aside(i) = renamed(paths(i)%s, paths(i)%s//FORMER)
+            if (is_aside(i) .or. .not. file_exists(paths(i)%s)) cycle
+            call set_status(status, STATUS_FILE, paths(i)%s//': cannot be replaced')
+            return
+         end do
+      end subroutine move_aside
+
+      subroutine name_new_files(paths)
+         type(string_t), intent(in) :: paths(:)
+
+         done = 0
+         do while (is_ok(status) .and. done < size(paths))
+            if (renamed(paths(done + 1)%s//TEMPORARY, paths(done + 1)%s)) then
+               done = done + 1
+            else
+               call set_status(status, STATUS_FILE, paths(done + 1)%s//': cannot be written')
+            end if
+         end do
+      end subroutine name_new_files
+
    end subroutine replace_files
 
    !> What a run left that was killed among its renamings: former files come back, whatever deck they are of; where all new ones
@@ -133,38 +164,6 @@ contains
          return
       end do
    end subroutine rename_over
-
-   !> Gives former files their second name; a folder with the name of a stale file is somebody else's.
-   subroutine move_aside(paths, is_aside, status)
-      type(string_t), intent(in) :: paths(:)
-      logical, intent(out) :: is_aside(:)
-      type(status_t), intent(out) :: status
-      integer :: i
-
-      is_aside = .false.
-      do i = 1, size(paths)
-         if (is_folder(paths(i)%s)) cycle
-         is_aside(i) = renamed(paths(i)%s, paths(i)%s//FORMER)
-         if (is_aside(i) .or. .not. file_exists(paths(i)%s)) cycle
-         call set_status(status, STATUS_FILE, paths(i)%s//': cannot be replaced')
-         return
-      end do
-   end subroutine move_aside
-
-   subroutine name_new_files(paths, done, status)
-      type(string_t), intent(in) :: paths(:)
-      integer, intent(out) :: done                  !< files that have their names
-      type(status_t), intent(inout) :: status       !< nothing is done where it is not STATUS_OK
-
-      done = 0
-      do while (is_ok(status) .and. done < size(paths))
-         if (renamed(paths(done + 1)%s//TEMPORARY, paths(done + 1)%s)) then
-            done = done + 1
-         else
-            call set_status(status, STATUS_FILE, paths(done + 1)%s//': cannot be written')
-         end if
-      end do
-   end subroutine name_new_files
 
    logical function renamed(from, to)
       character(len=*), intent(in) :: from, to

@@ -9,22 +9,17 @@ module atrito_spool
    use atrito_system, only: c_close_file, c_go_to_place, c_open_nameless, c_place_in_file, c_read_bytes, c_write_bytes
    implicit none (type, external)
    private
-   public :: spool_t, open_spool, place_of, go_to, give_up_rest, put_values, get_values, close_spool
+   public :: spool_t, open_spool, place_of, go_to, give_up_rest, pass_values, close_spool
 
    type :: spool_t
       logical :: is_sound = .false.                  !< there is a file, and all that was asked of it so far was done
       type(c_ptr), private :: stream = c_null_ptr
    end type spool_t
 
-   !> Writes values at the place where the file is.
-   interface put_values
-      module procedure put_numbers, put_text
-   end interface put_values
-
-   !> Reads as many from there.
-   interface get_values
-      module procedure get_numbers, get_text
-   end interface get_values
+   !> Writes values at the place where the file is, or reads as many from there.
+   interface pass_values
+      module procedure pass_numbers, pass_text
+   end interface pass_values
 
    integer(c_size_t), parameter :: NUMBER_BYTES = 8_c_size_t     !< of a real and of a long
 
@@ -65,49 +60,35 @@ contains
       spool%is_sound = .true.
    end subroutine give_up_rest
 
-   subroutine put_numbers(spool, values)
+   subroutine pass_numbers(spool, is_reading, values)
       type(spool_t), intent(inout) :: spool
-      type(*), intent(in), contiguous, target :: values(:)    !< reals or longs
-
-      call put_bytes(spool, c_loc(values), NUMBER_BYTES*size(values, kind=c_size_t))
-   end subroutine put_numbers
-
-   subroutine put_text(spool, text)
-      type(spool_t), intent(inout) :: spool
-      character(len=*), intent(in), target :: text
-
-      call put_bytes(spool, c_loc(text), len(text, kind=c_size_t))
-   end subroutine put_text
-
-   subroutine put_bytes(spool, bytes, length)
-      type(spool_t), intent(inout) :: spool
-      type(c_ptr), intent(in) :: bytes
-      integer(c_size_t), intent(in) :: length
-
-      if (spool%is_sound) spool%is_sound = c_write_bytes(spool%stream, bytes, length) == 1
-   end subroutine put_bytes
-
-   subroutine get_numbers(spool, values)
-      type(spool_t), intent(inout) :: spool
+      logical, intent(in) :: is_reading
       type(*), intent(inout), contiguous, target :: values(:) !< reals or longs
 
-      call get_bytes(spool, c_loc(values), NUMBER_BYTES*size(values, kind=c_size_t))
-   end subroutine get_numbers
+      call move_bytes(spool, is_reading, c_loc(values), NUMBER_BYTES*size(values, kind=c_size_t))
+   end subroutine pass_numbers
 
-   subroutine get_text(spool, text)
+   subroutine pass_text(spool, is_reading, text)
       type(spool_t), intent(inout) :: spool
+      logical, intent(in) :: is_reading
       character(len=*), intent(inout), target :: text
 
-      call get_bytes(spool, c_loc(text), len(text, kind=c_size_t))
-   end subroutine get_text
+      call move_bytes(spool, is_reading, c_loc(text), len(text, kind=c_size_t))
+   end subroutine pass_text
 
-   subroutine get_bytes(spool, bytes, length)
+   subroutine move_bytes(spool, is_reading, bytes, length)
       type(spool_t), intent(inout) :: spool
+      logical, intent(in) :: is_reading
       type(c_ptr), intent(in) :: bytes
       integer(c_size_t), intent(in) :: length
 
-      if (spool%is_sound) spool%is_sound = c_read_bytes(spool%stream, bytes, length) == 1
-   end subroutine get_bytes
+      if (.not. spool%is_sound) return
+      if (is_reading) then
+         spool%is_sound = c_read_bytes(spool%stream, bytes, length) == 1
+      else
+         spool%is_sound = c_write_bytes(spool%stream, bytes, length) == 1
+      end if
+   end subroutine move_bytes
 
    !> Closes the file, which is gone then, and makes the spool as it was before it was opened.
    subroutine close_spool(spool)

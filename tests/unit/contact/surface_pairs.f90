@@ -42,16 +42,16 @@ contains
       n = sum(list%n)
       entries = 0
       do i = 1, size(list, kind=ip)
-         entries = entries + size(list(i)%entry, kind=ip)
+         entries = entries + size(list(i)%value, kind=ip)
       end do
-      allocate (w%first(n + 1), w%column(entries), w%entry(entries))
+      allocate (w%first(n + 1), w%column(entries), w%value(entries))
       w%first(1) = 1
       entries = 0
       do i = 1, size(list, kind=ip)
-         associate (more => list(i), last => entries + size(list(i)%entry))
+         associate (more => list(i), last => entries + size(list(i)%value))
             w%first(w%n + 2:w%n + 1 + more%n) = more%first(2:) + entries
             w%column(entries + 1:last) = more%column + w%n
-            w%entry(entries + 1:last) = more%entry
+            w%value(entries + 1:last) = more%value
             w%is_identity = w%is_identity .and. more%is_identity
             w%n = w%n + more%n
             entries = last

@@ -73,11 +73,11 @@ contains
       scene%line%law%kind = merge(FRICTION_LOCAL, FRICTION_NONE, scene%nu > 0.0_wp)
       scene%line%average = identity_average(n)
       call number_unknowns(scene%line, scene%side(1, :) >= 0, scene%side(1, :) >= 0)
-      scene%rows%m = size(scene%line%point, kind=ip)
-      scene%rows%k = 3*scene%n_bodies
-      scene%rows%body = [((j - 1)/3 + 1, j=1, scene%rows%k)]
-      scene%rows%work = reshape(scene%work, [scene%rows%k])
-      scene%rows%work_size = reshape(scene%work_size, [scene%rows%k])
+      scene%rows%n = size(scene%line%point, kind=ip)
+      scene%rows%n_columns = 3*scene%n_bodies
+      scene%rows%body = [((j - 1)/3 + 1, j=1, scene%rows%n_columns)]
+      scene%rows%work = reshape(scene%work, [scene%rows%n_columns])
+      scene%rows%work_size = reshape(scene%work_size, [scene%rows%n_columns])
       call fill_rows(scene)
    end subroutine finish_scene
 
@@ -87,8 +87,8 @@ contains
       integer(ip) :: i, j, s, b
 
       scene%rows%first = [1_ip]
-      allocate (scene%rows%motion(0), scene%rows%value(0))
-      do i = 1, scene%rows%m
+      allocate (scene%rows%column(0), scene%rows%value(0))
+      do i = 1, scene%rows%n
          j = scene%line%point(i)
          direction = scene%normal(:, j)
          if (scene%line%normal(j) /= i) direction = [-direction(2), direction(1)]
@@ -96,11 +96,11 @@ contains
             b = scene%side(s, j)
             if (b == 0) cycle
             arm = (scene%x(:, j) - scene%centre(:, b))/scene%size(b)
-            scene%rows%motion = [scene%rows%motion, 3*b - 2, 3*b - 1, 3*b]
+            scene%rows%column = [scene%rows%column, 3*b - 2, 3*b - 1, 3*b]
             scene%rows%value = [scene%rows%value, merge(1.0_wp, -1.0_wp, s == 1) &
                                 *[direction, arm(1)*direction(2) - arm(2)*direction(1)]]
          end do
-         scene%rows%first = [scene%rows%first, size(scene%rows%motion, kind=ip) + 1_ip]
+         scene%rows%first = [scene%rows%first, size(scene%rows%column, kind=ip) + 1_ip]
       end do
    end subroutine fill_rows
 
