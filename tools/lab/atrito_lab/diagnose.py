@@ -319,7 +319,7 @@ def _judge_factor(case: Case, quantity: Quantity, value: float, right: float) ->
 
 
 def _neighbour_of(case: Case, given: dict[str, float]) -> str:
-    """Whose values these are: the one of the class with whom most wrong values agree, two at least (or one to all its digits)."""
+    """Whose values these are: the one of the class with whom most wrong values agree, two at least (or all, where there is one)."""
     quantities = {quantity.name: quantity for quantity in case.sheet.quantities}
     wrong = {name: value for name, value in given.items()
              if abs(value - case.reference.value(quantities[name])) > quantities[name].tolerance*max(
@@ -329,8 +329,7 @@ def _neighbour_of(case: Case, given: dict[str, float]) -> str:
         if number == case.hand_in.number:
             continue
         same = [name for name, value in wrong.items() if _is_of(reference, quantities[name], value)]
-        exact = [name for name in same if _near(wrong[name], reference.value(quantities[name]), 1e-5)]
-        if len(same) > most and (len(same) >= 2 or len(exact) == len(wrong)):
+        if len(same) > most and (len(same) >= 2 or len(same) == len(given)):
             best, most = number, len(same)
     return best if 2*most >= len(wrong) else ""
 
