@@ -257,7 +257,7 @@ def _classify(case: Case, quantity: Quantity, value: float, right: float) -> tup
         return "deck", 0.0, "This is what your deck gives, but the deck is not what was asked for."
     if own is not None and abs(own - right) <= quantity.tolerance*size:
         return "wrong", 0.0, f"Wrong. Your own run gives {own:.4g}."
-    return "wrong", 0.0, "Wrong."
+    return "wrong", 0.0, "Wrong." if case.deck_kind in ("right", "missing") else f"Wrong. {case.deck_reason}"
 
 
 def _credited(case: Case, kind: str, reason: str) -> tuple[str, float, str]:

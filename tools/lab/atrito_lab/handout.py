@@ -13,7 +13,7 @@ from .program import Keeper, LabError, Limits
 from .references import Reference
 from .sheet import Sheet
 
-BESIDE = (".md", ".png", ".svg", ".msh", ".pdf")
+BESIDE = (".md", ".png", ".svg", ".pdf")
 
 
 def hand_out(sheet: Sheet, students: list[Student], out: Path, program: str, limits: Limits, jobs: int) -> None:
