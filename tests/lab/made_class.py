@@ -257,6 +257,8 @@ def _neighbours_answers(made: Made, quantities: list[Quantity]) -> Expected:
         if not made.is_right(quantity, made.values[quantity.name]):
             expected[quantity.name] = ({"neighbour"}, 0.0)
     made.write()
+    if len(expected) == 1 and made.deck != made.sheet.complete_deck(made.other.drawn):  # one value alone says little
+        return {name: ({"neighbour", "wrong", "factor", "unit", "step"} | _mistaken(made), None) for name in expected}
     return expected
 
 

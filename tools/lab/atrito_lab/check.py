@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import shutil
 import tempfile
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
@@ -60,7 +59,6 @@ def make_hand_in(marking: Marking, number: str, mistake: Mistake | None, folder:
     for name in sheet.tables:
         if not (folder/"output"/f"{name}.tab").is_file():
             return [f"the deck writes no table {name}, which is to be handed in"]
-    shutil.rmtree(folder/"output"/"plots", ignore_errors=True)
     return []
 
 

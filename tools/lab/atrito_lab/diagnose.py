@@ -257,7 +257,7 @@ def _classify(case: Case, quantity: Quantity, value: float, right: float) -> tup
         return "deck", 0.0, "This is what your deck gives, but the deck is not what was asked for."
     if own is not None and abs(own - right) <= quantity.tolerance*size:
         return "wrong", 0.0, f"Wrong. Your own run gives {own:.4g}."
-    return "wrong", 0.0, "Wrong."
+    return "wrong", 0.0, "Wrong." if case.deck_kind in ("right", "missing") else f"Wrong. {case.deck_reason}"
 
 
 def _credited(case: Case, kind: str, reason: str) -> tuple[str, float, str]:
@@ -319,7 +319,10 @@ def _judge_factor(case: Case, quantity: Quantity, value: float, right: float) ->
 
 
 def _neighbour_of(case: Case, given: dict[str, float]) -> str:
-    """Whose values these are: the one of the class with whom most wrong values agree, two at least (or one to all its digits)."""
+    """Whose values these are: the one of the class with whom most wrong values agree, three of four, and two at least.
+
+    One alone counts where one is asked for. Values of a class are round and lie close together: fewer agree by chance.
+    """
     quantities = {quantity.name: quantity for quantity in case.sheet.quantities}
     wrong = {name: value for name, value in given.items()
              if abs(value - case.reference.value(quantities[name])) > quantities[name].tolerance*max(
@@ -329,10 +332,9 @@ def _neighbour_of(case: Case, given: dict[str, float]) -> str:
         if number == case.hand_in.number:
             continue
         same = [name for name, value in wrong.items() if _is_of(reference, quantities[name], value)]
-        exact = [name for name in same if _near(wrong[name], reference.value(quantities[name]), 1e-5)]
-        if len(same) > most and (len(same) >= 2 or len(exact) == len(wrong)):
+        if len(same) > most and (len(same) >= 2 or len(same) == len(given)):
             best, most = number, len(same)
-    return best if 2*most >= len(wrong) else ""
+    return best if 4*most >= 3*len(wrong) else ""
 
 
 def _is_of(reference: Reference, quantity: Quantity, value: float) -> bool:

@@ -189,6 +189,8 @@ def failures(cases: list[Case]) -> list[str]:
 
 def summary(case: Case) -> str:
     """What was not right, in a line."""
+    if not case.hand_in.there:
+        return "nothing handed in"
     kinds: dict[str, list[str]] = {}
     for verdict in case.verdicts:
         if verdict.points < verdict.of:
