@@ -30,7 +30,8 @@ install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} PATTERN "make-*" EXCL
 
 # The laboratory, which runs by Python's standard library (docs/labs/README.md).
 install(PROGRAMS tools/lab/atrito-lab DESTINATION ${CMAKE_INSTALL_BINDIR})
-install(DIRECTORY tools/lab/ DESTINATION ${CMAKE_INSTALL_DATADIR}/atrito/lab FILES_MATCHING PATTERN "*.py")
+install(FILES tools/lab/atrito-lab.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
+install(DIRECTORY tools/lab/ DESTINATION ${CMAKE_INSTALL_DATADIR}/atrito/lab FILES_MATCHING PATTERN "*.py" PATTERN "*.css")
 
 # ---- the package ----
 

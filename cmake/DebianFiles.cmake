@@ -14,6 +14,6 @@ file(WRITE ${doc}/changelog "${CPACK_PACKAGE_NAME} (${CPACK_PACKAGE_VERSION}) un
 
  -- ${CPACK_PACKAGE_CONTACT}  ${date}
 ")
-foreach(file ${doc}/changelog ${usr}/share/man/man1/atrito.1)
+foreach(file ${doc}/changelog ${usr}/share/man/man1/atrito.1 ${usr}/share/man/man1/atrito-lab.1)
    execute_process(COMMAND gzip --best --no-name ${file} COMMAND_ERROR_IS_FATAL ANY)
 endforeach()

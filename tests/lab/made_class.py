@@ -55,6 +55,11 @@ class Made:
                  "[explanations]", *[f'{name} = """\n{text}\n"""' for name, text in self.texts.items()]]
         (self.folder/"answers.toml").write_text("\n".join(lines) + "\n")
 
+    def is_right(self, quantity: Quantity, value: float) -> bool:
+        """Whether a value is within the tolerance."""
+        right_value = self.reference.value(quantity)
+        return abs(value - right_value) <= quantity.tolerance*max(abs(right_value), quantity.scale)
+
     def table(self, name: str) -> Path:
         """A table that was written."""
         return self.folder/"output"/f"{name}.tab"
@@ -77,9 +82,9 @@ def six_digits(made: Made) -> Expected:
 def several_runs(made: Made) -> Expected:
     """Runs with other friction, or what the last parameter is, beside the one that counts, in folders that come before it."""
     made.write()
-    parameter = made.sheet.parameters[-1]
-    run_atrito(made.keeper.program, [made.sheet.deck_name, "-o", "a-try", "--quiet", "--set", f"{parameter.name}={parameter.choices[-1]}*1.5"], made.folder, Limits(),
-               made.folder/"a-try")
+    for parameter in made.sheet.parameters[-1:]:
+        words = [made.sheet.deck_name, "-o", "a-try", "--quiet", "--set", f"{parameter.name}={parameter.choices[-1]}*1.5"]
+        run_atrito(made.keeper.program, words, made.folder, Limits(), made.folder/"a-try")
     return {}
 
 
@@ -145,21 +150,20 @@ def _own_run(made: Made, kinds: set[str], credit: float | None) -> Expected:
     """Answers are what the deck gives; `kinds` is expected of what is not within the tolerance."""
     expected: Expected = {}
     for quantity in made.sheet.quantities:
-        value, mine = made.reference.value_by(made.deck, quantity, made.sheet.refine), made.reference.value(quantity)
+        value = made.reference.value_by(made.deck, quantity, made.sheet.refine)
         if value is not None:
             made.values[quantity.name] = value
-            if abs(value - mine) > quantity.tolerance*max(abs(mine), quantity.scale):
+            if not made.is_right(quantity, value):
                 expected[quantity.name] = (kinds, credit)
     made.write()
     return expected
 
 
 def _scaled(made: Made, factor: float, kinds: set[str], credit: float) -> Expected:
-    counted = [item for item in made.asked if made.values[item.name]]
-    for item in counted:
+    for item in made.asked:
         made.values[item.name] *= factor
     made.write()
-    return {item.name: (kinds, credit) for item in counted}
+    return {item.name: (kinds, credit) for item in made.asked if not made.is_right(item, made.values[item.name])}
 
 
 def sign(made: Made) -> Expected:
@@ -187,6 +191,8 @@ def wrong(made: Made) -> Expected:
 
 
 def force_in_other_unit(made: Made) -> Expected:
+    if not made.sheet.parameters:
+        return right(made)
     parameter = made.sheet.parameters[-1]
     made.deck = made.sheet.complete_deck(made.reference.drawn | {parameter.name: repr(float(made.reference.drawn[parameter.name])*10)})
     made.write()
@@ -225,8 +231,7 @@ def _mistake_in_deck(made: Made, mistake: Mistake) -> Expected:
         if value is None:
             continue
         made.values[quantity.name] = value
-        right_value = made.reference.value(quantity)
-        if abs(value - right_value) > quantity.tolerance*max(abs(right_value), quantity.scale):
+        if not made.is_right(quantity, value):
             expected[quantity.name] = ({kind}, mistake.credit if mistake.credit >= 0 else made.sheet.credit[mistake.kind])
     made.write()
     assert expected, f"mistake {mistake.name} changes nothing"
@@ -235,8 +240,10 @@ def _mistake_in_deck(made: Made, mistake: Mistake) -> Expected:
 
 def neighbour_in_all(made: Made) -> Expected:
     made.deck = made.sheet.complete_deck(made.other.drawn)
-    shared = {f"table {name}": ({"neighbour"}, 0.0) for name in made.sheet.tables if made.sheet.table_points}
-    return _neighbours_answers(made, made.sheet.quantities) | shared
+    expected = _neighbours_answers(made, made.sheet.quantities)
+    if made.sheet.table_points and made.other.drawn != made.reference.drawn:
+        expected |= {f"table {name}": ({"neighbour"}, 0.0) for name in made.sheet.tables}
+    return expected
 
 
 def neighbours_answers(made: Made) -> Expected:
@@ -246,11 +253,12 @@ def neighbours_answers(made: Made) -> Expected:
 def _neighbours_answers(made: Made, quantities: list[Quantity]) -> Expected:
     expected: Expected = {}
     for quantity in quantities:
-        value, mine = made.other.value(quantity), made.reference.value(quantity)
-        made.values[quantity.name] = value
-        if abs(value - mine) > quantity.tolerance*max(abs(mine), quantity.scale):
+        made.values[quantity.name] = made.other.value(quantity)
+        if not made.is_right(quantity, made.values[quantity.name]):
             expected[quantity.name] = ({"neighbour"}, 0.0)
     made.write()
+    if len(expected) == 1 and made.deck != made.sheet.complete_deck(made.other.drawn):  # one value alone says little
+        return {name: ({"neighbour", "wrong", "factor", "unit", "step"} | _mistaken(made), None) for name in expected}
     return expected
 
 
@@ -269,7 +277,9 @@ def _larger(line: str) -> str:
 
 
 def edited_once(made: Made) -> Expected:
-    """One number of one table, in its last row but one of the last step."""
+    """One number of one table, in the last row that has any."""
+    if not made.sheet.tables:
+        return right(made)
     made.write()
     path = made.table(made.sheet.tables[-1])
     lines = path.read_text().splitlines(keepends=True)
@@ -279,13 +289,23 @@ def edited_once(made: Made) -> Expected:
     return {name: ({"edited"}, 0.0) for name in made.of_tables([made.sheet.tables[-1]])}
 
 
+def added_rows(made: Made) -> Expected:
+    """A later step, with larger numbers, behind the rows of the run."""
+    made.write()
+    for name in made.sheet.tables:
+        lines = made.table(name).read_text().splitlines()
+        rows = [re.sub(r"^( *)\d+", r"\g<1>7", _larger(line)) for line in lines if not line.startswith("#")]
+        made.table(name).write_text("\n".join([*lines, *rows]) + "\n")
+    return {name: ({"edited"}, 0.0) for name in made.of_tables()}
+
+
 def tables_of_another_deck(made: Made) -> Expected:
     """Tables of the neighbour's deck beside one's own."""
     own = made.deck
     made.deck = made.sheet.complete_deck(made.other.drawn)
     made.write()
     (made.folder/made.sheet.deck_name).write_text(own)
-    return {name: ({"other deck"}, 0.0) for name in made.of_tables()}
+    return {} if made.other.drawn == made.reference.drawn else {name: ({"other deck"}, 0.0) for name in made.of_tables()}
 
 
 def not_converged(made: Made) -> Expected:
@@ -377,6 +397,6 @@ def late_step(made: Made) -> Expected:
 
 
 KINDS = [right, six_digits, same_words, several_runs, by_set, twelve_digits_in_odd_places, comma_and_unit, damaged_answers, csv_tables, refined, coarse, very_coarse, sign, twice,
-         thousand, exchanged, mistake_in_deck, mistake_in_formula, neighbour_in_all, neighbours_answers, edited, edited_once,
+         thousand, exchanged, mistake_in_deck, mistake_in_formula, neighbour_in_all, neighbours_answers, edited, edited_once, added_rows,
          tables_of_another_deck, not_converged, cut_tables, late_step, no_deck, deck_with_gaps, nothing, no_explanation, binary_tables,
          empty_tables, no_tables, no_answers, words_for_numbers, short_explanation, tenth, wrong, right, coarse, edited, sign]

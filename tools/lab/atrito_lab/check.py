@@ -43,7 +43,8 @@ def make_hand_in(marking: Marking, number: str, mistake: Mistake | None, folder:
     in_deck = mistake is not None and not mistake.observe
     deck = mistaken_deck(sheet, mistake, reference.drawn) if in_deck and mistake else sheet.complete_deck(reference.drawn)
     (folder/sheet.deck_name).write_text(deck)
-    run = run_atrito(marking.program, [sheet.deck_name, "-o", "output", "--quiet", "--messages", "json"], folder, marking.limits, folder/"output")
+    words = [sheet.deck_name, "-o", "output", "--quiet", "--messages", "json"]
+    run = run_atrito(marking.program, words, folder, marking.limits, folder/"output")
     place = sheet.mistakes.index(mistake) if mistake else 0
     lines = []
     for quantity in sheet.quantities:
@@ -55,7 +56,7 @@ def make_hand_in(marking: Marking, number: str, mistake: Mistake | None, folder:
     lines += [f'{explanation.name} = """{explanation.good}"""\n' for explanation in sheet.explanations]
     (folder/"answers.toml").write_text("".join(lines))
     if run.code:
-        return [f"{'mistake ' + mistake.name if mistake else 'the deck'}: atrito ends with {run.code}: {run.error}"] if not in_deck else []
+        return [] if in_deck else [f"the deck with the values of {number} ends with {run.code}: {run.error}"]
     for name in sheet.tables:
         if not (folder/"output"/f"{name}.tab").is_file():
             return [f"the deck writes no table {name}, which is to be handed in"]
@@ -65,7 +66,8 @@ def make_hand_in(marking: Marking, number: str, mistake: Mistake | None, folder:
 
 def judge_model(case: Case) -> list[str]:
     """What the model answer does not have full points for."""
-    return [f"the model answer of {case.hand_in.number}: {verdict.name} has {verdict.points:g} of {verdict.of:g}: {verdict.kind}: {verdict.reason}"
+    return [f"the model answer of {case.hand_in.number}: {verdict.name} has {verdict.points:g} of {verdict.of:g}: "
+            f"{verdict.kind}: {verdict.reason}"
             for verdict in case.verdicts if verdict.points < verdict.of or verdict.kind not in ("right", "lecturer")]
 
 
@@ -74,4 +76,4 @@ def judge_mistake(case: Case, mistake: Mistake) -> list[str]:
     wanted = "exchanged" if mistake.kind == "exchanged" else f"mistake:{mistake.name}"
     kinds = [verdict.kind for verdict in case.verdicts if not mistake.quantity or verdict.name == mistake.quantity]
     told = ", ".join(f"{verdict.name}: {verdict.kind}" for verdict in case.verdicts)
-    return [] if wanted in kinds else [f"mistake {mistake.name} is not recognised ({told}{'; ' + case.deck_reason if case.deck_kind != 'right' else ''})"]
+    return [] if wanted in kinds else [f"mistake {mistake.name} is not recognised ({told}). {case.deck_reason}"]

@@ -32,16 +32,18 @@ def parser() -> argparse.ArgumentParser:
     common = argparse.ArgumentParser(add_help=False)
     common.add_argument("sheet", metavar="SHEET")
     common.add_argument("--jobs", type=int, default=processors(), help="runs side by side; default: the processors")
-    out = commands.add_parser("hand-out", parents=[common], help="a folder a student")
-    out.add_argument("people", metavar="CLASS.csv", type=Path)
-    out.add_argument("-o", dest="out", type=Path, required=True, metavar="DIR", help="folder that is made")
     limits = argparse.ArgumentParser(add_help=False)
     limits.add_argument("--seconds", type=int, default=10, help="of processor that one run may take; default 10")
     limits.add_argument("--megabytes", type=int, default=2000, help="of memory that one run may take; default 2000")
+    out = commands.add_parser("hand-out", parents=[common, limits], help="a folder a student")
+    out.add_argument("people", metavar="CLASS.csv", type=Path)
+    out.add_argument("-o", dest="out", type=Path, required=True, metavar="DIR", help="folder that is made")
     marking = commands.add_parser("mark", parents=[common, limits], help="points and reasons")
     marking.add_argument("folder", metavar="DIR", type=Path, help="a folder a hand-in, named by the student's number")
-    marking.add_argument("-o", dest="out", type=Path, required=True, metavar="MARKS", help="folder of marks.csv, lecturer.html, students/")
-    marking.add_argument("--class", dest="people", type=Path, metavar="CLASS.csv", help="the class; default: class.csv in DIR, else the folders of DIR")
+    marking.add_argument("-o", dest="out", type=Path, required=True, metavar="MARKS",
+                         help="folder of marks.csv, lecturer.html, students/")
+    marking.add_argument("--class", dest="people", type=Path, metavar="CLASS.csv",
+                         help="the class; default: class.csv in DIR, else the folders of DIR")
     commands.add_parser("check", parents=[common, limits], help="try a sheet")
     return top
 
@@ -51,10 +53,10 @@ def main(words: list[str] | None = None) -> int:
     options = parser().parse_args(words)
     try:
         sheet, program, jobs = load_sheet(options.sheet), find_program(), max(1, options.jobs)
-        if options.command == "hand-out":
-            hand_out(sheet, read_class(options.people), options.out, program, jobs)
-            return 0
         limits = Limits(max(1, options.seconds), max(100, options.megabytes))
+        if options.command == "hand-out":
+            hand_out(sheet, read_class(options.people), options.out, program, limits, jobs)
+            return 0
         if options.command == "mark":
             mark(sheet, options.folder, options.out, read_class(options.people) if options.people else None, program, limits, jobs)
             return 0
@@ -62,7 +64,8 @@ def main(words: list[str] | None = None) -> int:
         for complaint in complaints:
             print(f"{sheet.name}: {complaint}")
         if not complaints:
-            print(f"{sheet.name}: {sheet.points:g} points; the model answer has all of them, {len(sheet.mistakes)} mistakes are recognised")
+            print(f"{sheet.name}: {sheet.points:g} points; the model answer has all of them, "
+                  f"{len(sheet.mistakes)} mistakes are recognised")
         return 1 if complaints else 0
     except (LabError, OSError) as trouble:
         print(f"atrito-lab: {trouble}", file=sys.stderr)

@@ -8,11 +8,14 @@ from typing import Callable
 from .handin import HandIn, number_of, shown, text_of
 from .program import Run
 from .references import Folder, Reference
-from .sheet import Explanation, Mistake, Quantity, Sheet, mistaken_values
+from .sheet import Explanation, Mistake, Quantity, Sheet, is_number, mistaken_values
 from .tables import Table, TableError, differences, parameters_of, read_table, value_of
 
 CLOSE = 3e-3  # what is copied with three digits and more
 DIGITS = 3e-5  # what a table with six digits may differ from one with more
+DECK_KINDS = {2: ("damaged", "The deck has errors"), 3: ("not converged", "The deck does not converge"),
+              4: ("no equilibrium", "The deck has no unique equilibrium"),
+              5: ("file", "The deck wants a file that it may not read, or is too large")}
 FACTORS = (2.0, 4.0, 10.0, 100.0, 1e3, 1e6)
 
 
@@ -79,11 +82,22 @@ def diagnose(case: Case) -> None:
     for name in case.sheet.tables if share else []:
         state = case.states[name]
         credit = 1.0 if state.kind == "right" else case.sheet.credit.get(state.kind, 0.0)
-        case.verdicts.append(Verdict(f"table {name}", f"Table {name}, as the deck gives it", credit*share, share, state.kind, state.reason))
+        case.verdicts.append(Verdict(f"table {name}", f"Table {name}, as the deck gives it", credit*share, share, state.kind,
+                                     state.reason))
     for quantity in case.sheet.quantities:
         case.verdicts.append(_judge_quantity(case, quantity, given[quantity.name]))
     for explanation in case.sheet.explanations:
         case.verdicts.append(_judge_explanation(case, explanation))
+
+
+def give_up(case: Case, reason: str) -> None:
+    """No points for anything, for a reason that is none of the student's: the lecturer has to look."""
+    sheet = case.sheet
+    share = sheet.table_points/max(1, len(sheet.tables))
+    items = [(f"table {name}", f"Table {name}, as the deck gives it", share) for name in sheet.tables if share]
+    items += [(item.name, item.text, item.points) for item in sheet.quantities]
+    items += [(item.name, item.text, item.points) for item in sheet.explanations]
+    case.verdicts = [Verdict(name, text, 0.0, points, "not marked", reason) for name, text, points in items]
 
 
 # ---- the deck ----
@@ -100,9 +114,7 @@ def _judge_deck(case: Case) -> None:
     elif run.timed_out:
         case.deck_kind, case.deck_reason = "time", "The deck ran for longer than it may and was ended."
     elif run.code != 0:
-        kinds = {2: ("damaged", "The deck has errors"), 3: ("not converged", "The deck does not converge"),
-                 4: ("no equilibrium", "The deck has no unique equilibrium"), 5: ("file", "The deck wants a file that it may not read, or is too large")}
-        case.deck_kind, words = kinds.get(run.code, ("damaged", f"The deck cannot be run (exit code {run.code})"))
+        case.deck_kind, words = DECK_KINDS.get(run.code, ("damaged", f"The deck cannot be run (exit code {run.code})"))
         case.deck_reason = f"{words}: {shown(run.error, 300)}" if run.error else f"{words}."
     else:
         case.deck_kind, case.deck_reason = "right", "The deck runs."
@@ -116,20 +128,23 @@ def _judge_values(case: Case) -> None:
     except TableError:
         return
     drawn = case.reference.drawn
-    missing = [name for name in drawn if name.lower() not in has]
-    differ = [name for name in drawn if name not in missing and not _near(has[name.lower()], float(drawn[name]), 1e-9)]
+
+    def differing(values: dict[str, str]) -> list[str]:
+        return [name for name in drawn if name.lower() in has and not _near(has[name.lower()], float(values[name]), 1e-9)]
+
+    differ = differing(drawn)
     if not differ:
         return
     words = ", ".join(f"{name} = {has[name.lower()]:g} (yours is {drawn[name]})" for name in differ)
     case.values_kind, case.values_reason = "own", f"The deck has other values than your sheet: {words}."
     for other, reference in case.class_references.items():
-        if other != case.hand_in.number and all(_near(has.get(name.lower(), 0), float(value), 1e-9) for name, value in reference.drawn.items()):
+        if other != case.hand_in.number and not differing(reference.drawn):
             case.neighbour = other
             case.values_kind, case.values_reason = "neighbour", f"The deck has the values of somebody else: {words}."
             return
     for mistake in case.sheet.mistakes:
-        changed = drawn | mistaken_values(mistake, drawn)
-        if mistake.values and all(_near(has.get(name.lower(), 0), float(value), 1e-9) for name, value in changed.items() if _is_number(value)):
+        changed = {name: value for name, value in mistaken_values(mistake, drawn).items() if is_number(value)}
+        if mistake.values and not differing(drawn | changed):
             case.values_kind, case.values_reason = f"mistake:{mistake.name}", f"{mistake.text} The deck has {words}."
             return
     ratio = has[differ[0].lower()]/float(drawn[differ[0]]) if float(drawn[differ[0]]) else 0.0
@@ -174,7 +189,8 @@ def _judge_table(case: Case, name: str) -> TableState:
 def _given(case: Case, quantity: Quantity) -> float | Verdict:
     """The value that was handed in, or the verdict where there is none."""
     def none(kind: str, reason: str) -> Verdict:
-        return Verdict(quantity.name, quantity.text, 0.0, quantity.points, kind, reason, None, case.reference.value(quantity), quantity.unit)
+        right = case.reference.value(quantity)
+        return Verdict(quantity.name, quantity.text, 0.0, quantity.points, kind, reason, None, right, quantity.unit)
 
     if quantity.given == "table":
         assert quantity.cell
@@ -206,10 +222,12 @@ def _judge_quantity(case: Case, quantity: Quantity, given: float | Verdict) -> V
         state = case.states[quantity.cell.table]
         if state.kind not in ("right", "neighbour"):
             part = case.sheet.credit.get(state.kind, 0.0)
-            kind, credit, reason = state.kind, min(credit, part), state.reason if credit >= 1 or part == 0 else f"{reason} {state.reason}"
+            reason = state.reason if credit >= 1 or part == 0 else f"{reason} {state.reason}"
+            kind, credit = state.kind, min(credit, part)
     if credit < 1 and quantity.hint:
         reason = f"{reason} {quantity.hint}"
-    return Verdict(quantity.name, quantity.text, round(credit*quantity.points, 6), quantity.points, kind, reason, given, right, quantity.unit)
+    points = round(credit*quantity.points, 6)
+    return Verdict(quantity.name, quantity.text, points, quantity.points, kind, reason, given, right, quantity.unit)
 
 
 def _classify(case: Case, quantity: Quantity, value: float, right: float) -> tuple[str, float, str]:
@@ -224,13 +242,14 @@ def _classify(case: Case, quantity: Quantity, value: float, right: float) -> tup
         return _credited(case, case.values_kind, case.values_reason)
     if case.neighbour and _is_of(case.class_references[case.neighbour], quantity, value):
         return _credited(case, "neighbour", "This is the value of somebody else, not yours.")
-    if from_own:
-        verdict = _judge_mesh(case, quantity, value, right, size)
+    if from_own and folder:
+        verdict = _judge_mesh(case, quantity, value, right, folder.estimate())
         if verdict:
             return verdict
     for step, increment, other in case.reference.others(quantity):
         if _near(value, other, CLOSE) and not _near(other, right, CLOSE):
-            return _credited(case, "step", f"This is the value at the end of step {step}, increment {increment}; asked for is {_instant(quantity)}.")
+            asked = f"step {quantity.step}" if quantity.step else "the last step"
+            return _credited(case, "step", f"This is the value of step {step}, increment {increment}; asked for is the end of {asked}.")
     verdict = _judge_mistakes(case, quantity, value, right, from_own) or _judge_factor(case, quantity, value, right)
     if verdict:
         return verdict
@@ -238,7 +257,7 @@ def _classify(case: Case, quantity: Quantity, value: float, right: float) -> tup
         return "deck", 0.0, "This is what your deck gives, but the deck is not what was asked for."
     if own is not None and abs(own - right) <= quantity.tolerance*size:
         return "wrong", 0.0, f"Wrong. Your own run gives {own:.4g}."
-    return "wrong", 0.0, "Wrong."
+    return "wrong", 0.0, "Wrong." if case.deck_kind in ("right", "missing") else f"Wrong. {case.deck_reason}"
 
 
 def _credited(case: Case, kind: str, reason: str) -> tuple[str, float, str]:
@@ -250,19 +269,13 @@ def _credited(case: Case, kind: str, reason: str) -> tuple[str, float, str]:
     return kind, case.sheet.credit.get(kind, 0.0), reason
 
 
-def _instant(quantity: Quantity) -> str:
-    return f"the end of step {quantity.step}" if quantity.step else "the end of the last step"
-
-
-def _judge_mesh(case: Case, quantity: Quantity, value: float, right: float, size: float) -> tuple[str, float, str] | None:
+def _judge_mesh(case: Case, quantity: Quantity, value: float, right: float, mine: float) -> tuple[str, float, str] | None:
     """Whether the mesh explains the difference.
 
     It may be twice what one more refinement changes, by the square of the ratio of the estimated errors, or the square of the
     student's estimated error, which is what the energy is off by; never more than `coarse`.
     """
-    assert case.own
-    finer = case.reference.finer(quantity)
-    mine, theirs = case.own.estimate(), case.reference.tables().estimate()
+    finer, theirs, size = case.reference.finer(quantity), case.reference.tables(quantity.run).estimate(), max(abs(right), quantity.scale)
     ratio = max(1.0, mine/theirs) if mine > 0 and theirs > 0 else 1.0
     refined = 2*abs(right - (right if finer is None else finer))*ratio**2
     allowed = quantity.tolerance*size + max(refined, (mine/100)**2*size)
@@ -275,7 +288,7 @@ def _judge_mesh(case: Case, quantity: Quantity, value: float, right: float, size
 
 
 def _judge_mistakes(case: Case, quantity: Quantity, value: float, right: float, from_own: bool) -> tuple[str, float, str] | None:
-    """Which of the sheet's mistakes comes nearest to this value. What a deck with the right values gives is no mistake of the values."""
+    """Which of the sheet's mistakes comes nearest to this value; of what a deck with the right values gives none of the values."""
     near: list[tuple[float, Mistake]] = []
     for place, mistake in enumerate(case.sheet.mistakes):
         wrong = None if mistake.values and from_own else case.reference.mistaken(mistake, place, quantity)
@@ -306,7 +319,7 @@ def _judge_factor(case: Case, quantity: Quantity, value: float, right: float) ->
 
 
 def _neighbour_of(case: Case, given: dict[str, float]) -> str:
-    """Whose values these are: the one of the class with whom most wrong values agree, two at least (or one to all its digits)."""
+    """Whose values these are: the one of the class with whom most wrong values agree, two at least (or all, where there is one)."""
     quantities = {quantity.name: quantity for quantity in case.sheet.quantities}
     wrong = {name: value for name, value in given.items()
              if abs(value - case.reference.value(quantities[name])) > quantities[name].tolerance*max(
@@ -316,8 +329,7 @@ def _neighbour_of(case: Case, given: dict[str, float]) -> str:
         if number == case.hand_in.number:
             continue
         same = [name for name, value in wrong.items() if _is_of(reference, quantities[name], value)]
-        exact = [name for name in same if _near(wrong[name], reference.value(quantities[name]), 1e-5)]
-        if len(same) > most and (len(same) >= 2 or len(exact) == len(wrong)):
+        if len(same) > most and (len(same) >= 2 or len(same) == len(given)):
             best, most = number, len(same)
     return best if 2*most >= len(wrong) else ""
 
@@ -343,11 +355,3 @@ def _judge_explanation(case: Case, explanation: Explanation) -> Verdict:
 
 def _near(value: float, other: float, relative: float) -> bool:
     return abs(value - other) <= relative*abs(other)
-
-
-def _is_number(word: str) -> bool:
-    try:
-        float(word)
-    except ValueError:
-        return False
-    return True

@@ -1,4 +1,4 @@
-"""A hand-in, which is not trusted: what is in its folder is looked at, and plain files of moderate size are copied; nothing else is opened."""
+"""A hand-in, which is not trusted: plain files of moderate size are copied from its folder; nothing else is opened."""
 
 from __future__ import annotations
 
@@ -151,7 +151,8 @@ def read_answers(path: Path, notes: list[str]) -> dict[str, Any]:
         return _flat(tomllib.loads(text))
     except (ValueError, RecursionError) as trouble:  # TOMLDecodeError is a ValueError
         place = re.search(r"line \d+", str(trouble))
-        notes.append(f"answers.toml is damaged ({place[0] if place else 'it cannot be read'}); what could be made out line by line was read.")
+        where = place[0] if place else "it cannot be read"
+        notes.append(f"answers.toml is damaged ({where}); what could be made out line by line was read.")
     answers = {}
     pattern = r'^[ \t]*(\w+)[ \t]*=[ \t]*(?:"""(.*?)"""|"([^"\n]*)"|([^#\n]*))'
     for name, long_, short, bare in re.findall(pattern, text, re.M | re.S):

@@ -4,24 +4,25 @@ from __future__ import annotations
 
 import csv
 import shutil
-import subprocess
 import tempfile
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 from .people import Student
-from .program import LabError
+from .program import Keeper, LabError, Limits
+from .references import Reference
 from .sheet import Sheet
 
-BESIDE = (".md", ".png", ".svg", ".msh", ".pdf")
+BESIDE = (".md", ".png", ".svg", ".pdf")
 
 
-def hand_out(sheet: Sheet, students: list[Student], out: Path, program: str, jobs: int) -> None:
-    """Make the folders; each complete deck is checked first, and nothing is written if one has an error."""
+def hand_out(sheet: Sheet, students: list[Student], out: Path, program: str, limits: Limits, jobs: int) -> None:
+    """Make the folders; each complete deck is solved first, and nothing is written if one gives no values."""
     if out.exists() and any(out.iterdir()):
         raise LabError(f"{out} is not empty: students may have worked there; give another folder")
     with tempfile.TemporaryDirectory(prefix="atrito-lab-") as work, ThreadPoolExecutor(jobs) as pool:
-        list(pool.map(lambda student: check_deck(sheet, student.number, program, Path(work)), students))
+        keeper = Keeper(program, Path(work), limits)
+        list(pool.map(lambda student: Reference(sheet, keeper, student.number).try_all(), students))
     for student in students:
         folder = out/student.number
         folder.mkdir(parents=True)
@@ -34,33 +35,27 @@ def hand_out(sheet: Sheet, students: list[Student], out: Path, program: str, job
     with (out/"class.csv").open("w", newline="", encoding="utf-8") as file:
         writer = csv.writer(file)
         writer.writerow(["number", "name", "email", *[parameter.name for parameter in sheet.parameters]])
-        writer.writerows([student.number, student.name, student.email, *sheet.draw(student.number).values()] for student in students)
+        for student in students:
+            writer.writerow([student.number, student.name, student.email, *sheet.draw(student.number).values()])
     print(f"{len(students)} folders in {out}; class.csv there has the list and everybody's values")
-
-
-def check_deck(sheet: Sheet, number: str, program: str, work: Path) -> None:
-    """atrito check of the complete deck."""
-    deck = work/number/sheet.deck_name
-    deck.parent.mkdir()
-    deck.write_text(sheet.complete_deck(sheet.draw(number)), encoding="utf-8")
-    done = subprocess.run([program, "check", deck.name, "--quiet"], cwd=deck.parent, capture_output=True, text=True, check=False)
-    if done.returncode:
-        raise LabError(f"the deck with the values of {number} has errors:\n{done.stderr}")
 
 
 def empty_answers(sheet: Sheet, student: Student) -> str:
     """answers.toml, with a line a question."""
-    lines = [f"# Answers to sheet {sheet.name} ({sheet.title})", "# Write numbers behind =, such as 12.5 or 1.2e-3, in the unit that is named, and texts between the",
-             "# three quotes. A line that begins with # is not read.", "", f'student = "{student.number}"', "", "# your values, as they stand in the deck:"]
+    lines = [f"# Answers to sheet {sheet.name} ({sheet.title})",
+             "# Write numbers behind =, such as 12.5 or 1.2e-3, in the unit that is named, and texts between",
+             "# the three quotes. A line that begins with # is not read.", "",
+             f'student = "{student.number}"', "", "# your values, as they stand in the deck:"]
     lines += [f"#    {name} = {value}" for name, value in sheet.draw(student.number).items()]
     lines += ["", "[answers]"]
     for quantity in sheet.quantities:
         if quantity.given == "answer":
-            lines += [f"# {quantity.text}{f' [{quantity.unit}]' if quantity.unit else ''}: {quantity.points:g} points", f'{quantity.name} = ""']
+            unit = f" [{quantity.unit}]" if quantity.unit else ""
+            lines += [f"# {quantity.text}{unit}: {quantity.points:g} points", f'{quantity.name} = ""']
     if sheet.explanations:
         lines += ["", "[explanations]"]
-    for explanation in sheet.explanations:
-        lines += [f"# {explanation.text} ({explanation.words} words at least, {explanation.points:g} points)", f'{explanation.name} = """', '"""']
-    tables = [f"{name}.tab" for name in sheet.tables]
-    lines += ["", f"# Hand in this file, your deck {sheet.deck_name}" + (f", and of its output folder {', '.join(tables)}." if tables else ".")]
+    for item in sheet.explanations:
+        lines += [f"# {item.text} ({item.words} words at least, {item.points:g} points)", f'{item.name} = """', '"""']
+    tables = ", ".join(f"{name}.tab" for name in sheet.tables)
+    lines += ["", f"# Hand in this file, your deck {sheet.deck_name}" + (f", and of its output folder {tables}." if tables else ".")]
     return "\n".join(lines) + "\n"

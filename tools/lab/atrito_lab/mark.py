@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from . import outputs, pages
-from .diagnose import Case, diagnose
+from .diagnose import Case, diagnose, give_up
 from .handin import HandIn, file_name, options_of, shown, take_in
 from .people import Student, read_class
 from .program import Keeper, LabError, Limits, Run, observe_words, run_atrito, seconds_since
@@ -32,7 +32,7 @@ class Marking:
     work: Path
 
 
-def mark(sheet: Sheet, folder: Path, out: Path, students: list[Student] | None, program: str, limits: Limits, jobs: int) -> list[Case]:
+def mark(sheet: Sheet, folder: Path, out: Path, students: list[Student] | None, program: str, limits: Limits, jobs: int) -> None:
     """Mark all hand-ins of a folder; marks, pages and results go into `out`."""
     start = time.monotonic()
     if not folder.is_dir():
@@ -49,10 +49,10 @@ def mark(sheet: Sheet, folder: Path, out: Path, students: list[Student] | None, 
             place.mkdir(parents=True, exist_ok=True)
             outputs.write_results(case, place/"results.json")
             pages.write_feedback(case, place/"feedback.html")
-        strange = sorted(shown(name) for name in set(os.listdir(folder)) - {source.name for _, source in found if source} - {"class.csv"})
+        known = {"class.csv", *(source.name for _, source in found if source)}
+        strange = sorted(shown(name) for name in os.listdir(folder) if name not in known)
         pages.write_lecturer(sheet, cases, strange, out/"lecturer.html")
     print(f"{len(cases)} hand-ins of {sheet.name} marked in {seconds_since(start)}: {out/'marks.csv'}, {out/'lecturer.html'}")
-    return cases
 
 
 def correct(cases: list[Case], path: Path) -> None:
@@ -83,8 +83,9 @@ def hand_ins_of(folder: Path, students: list[Student] | None) -> list[tuple[Stud
         raise LabError(f"{folder} has no hand-ins: a folder a student, named by the number")
     found: list[tuple[Student, Path | None]] = []
     for student in students:
-        fits = [name for name in names if student.number in (name, name.rpartition(".")[0])] or [
-            name for name in names if student.number in re.split(r"[ _()]+", name) or student.name and name.split("_")[0] == student.name]
+        fits = [name for name in names if student.number in (name, name.rpartition(".")[0])]
+        fits += [name for name in names if student.number in re.split(r"[ _()]+", name)]
+        fits += [name for name in names if student.name and name.split("_")[0] == student.name]
         found.append((student, folder/fits[0] if fits else None))
     return found
 
@@ -92,25 +93,35 @@ def hand_ins_of(folder: Path, students: list[Student] | None) -> list[tuple[Stud
 def mark_all(marking: Marking, found: list[tuple[Student, Path | None]]) -> list[Case]:
     """References and the students' own runs first, side by side; then the verdicts, which compare the whole class."""
     references = {student.number: Reference(marking.sheet, marking.keeper, student.number) for student, _ in found}
+    cases = [Case(marking.sheet, HandIn(student.number, student.name, student.email), references[student.number], references)
+             for student, _ in found]
 
-    def prepare(item: tuple[int, tuple[Student, Path | None]]) -> Case:
-        place, (student, source) = item
-        references[student.number].tables()
-        case = Case(marking.sheet, HandIn(student.number, student.name, student.email), references[student.number], references)
+    def prepare(item: tuple[int, Case]) -> None:
+        place, case = item
+        case.reference.try_all()
+        source = found[place][1]
         if source:
             copy = marking.work/str(place)
-            take_in(source, copy, marking.sheet, case.hand_in)
+            try:
+                take_in(source, copy, marking.sheet, case.hand_in)
+            except OSError as trouble:
+                case.hand_in.notes.append(f"The hand-in could not be read ({trouble.strerror}).")
             case.run = run_again(marking, case, copy, "")
             case.own = own_tables(case.run)
             case.run_own = lambda run: own_tables(run_again(marking, case, copy, run))
-        return case
 
-    def judge(case: Case) -> Case:
-        diagnose(case)
-        return case
+    def judge(case: Case) -> None:
+        try:
+            diagnose(case)
+        except LabError:
+            raise
+        except Exception as trouble:  # one hand-in that nobody foresaw does not keep the others from being marked
+            give_up(case, f"This hand-in could not be marked ({type(trouble).__name__}: {trouble}).")
 
     with ThreadPoolExecutor(marking.jobs) as pool:
-        return list(pool.map(judge, list(pool.map(prepare, enumerate(found)))))
+        list(pool.map(prepare, enumerate(cases)))
+        list(pool.map(judge, cases))
+    return cases
 
 
 def run_again(marking: Marking, case: Case, copy: Path, run: str) -> Run | None:
@@ -119,10 +130,11 @@ def run_again(marking: Marking, case: Case, copy: Path, run: str) -> Run | None:
     if deck is None or of.command != "run":
         return None
     table = next((case.hand_in.tables[name] for name in ("summary", *marking.sheet.tables) if name in case.hand_in.tables), None)
-    words = ["--confine", str(copy), "--quiet", "--messages", "json", "--digits", "12", *(options_of(table) if table else []), *of.options]
+    words = [os.path.join(".", deck.relative_to(copy)), "--confine", str(copy), "--quiet", "--messages", "json", "--digits", "12"]
+    words += [*(options_of(table) if table else []), *of.options]
     out = marking.work/f"{copy.name}-out-{len(run) and list(marking.sheet.runs).index(run)}"
     for observed in (observe_words(marking.sheet.observations(run)), []):  # a deck may lack what is observed
-        made = run_atrito(marking.program, [os.path.join(".", deck.relative_to(copy)), "-o", str(out), *words, *observed], copy, marking.limits, out)
+        made = run_atrito(marking.program, [*words, "-o", str(out), *observed], copy, marking.limits, out)
         if made.code != 1:
             break
     return made

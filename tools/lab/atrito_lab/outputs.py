@@ -26,7 +26,8 @@ def write_marks(sheet: Sheet, cases: list[Case], path: Path) -> None:
         writer.writerow(["ID number", "Name", "Email address", f"{sheet.name} (of {sheet.points:g})", *items, "Feedback"])
         for case in cases:
             told = "; ".join(f"{verdict.name}: {verdict.reason}" for verdict in case.verdicts if verdict.points < verdict.of)
-            row = [case.hand_in.number, case.hand_in.name, case.hand_in.email, case.points, *[verdict.points for verdict in case.verdicts], told]
+            person = case.hand_in
+            row = [person.number, person.name, person.email, case.points, *[verdict.points for verdict in case.verdicts], told]
             writer.writerow([cell(value) for value in row])
 
 
@@ -35,7 +36,9 @@ def write_results(case: Case, path: Path) -> None:
     tests = [{"name": verdict.text, "number": str(place), "score": verdict.points, "max_score": verdict.of,
               "status": "passed" if verdict.points >= verdict.of else "failed", "output": verdict.reason, "output_format": "text"}
              for place, verdict in enumerate(case.verdicts, 1)]
-    results = {"score": case.points, "output": " ".join([case.deck_reason, case.values_reason, *case.hand_in.notes]).strip(), "output_format": "text",
-               "test_output_format": "text", "test_name_format": "text", "visibility": "visible", "tests": tests,
-               "extra_data": {"sheet": case.sheet.name, "values": case.reference.drawn, "whose": case.neighbour, "kinds": {verdict.name: verdict.kind for verdict in case.verdicts}}}
+    extra = {"sheet": case.sheet.name, "values": case.reference.drawn, "whose": case.neighbour,
+             "kinds": {verdict.name: verdict.kind for verdict in case.verdicts}}
+    results = {"score": case.points, "output": " ".join([case.deck_reason, case.values_reason, *case.hand_in.notes]).strip(),
+               "output_format": "text", "test_output_format": "text", "test_name_format": "text", "visibility": "visible",
+               "tests": tests, "extra_data": extra}
     path.write_text(json.dumps(results, indent=1) + "\n", encoding="utf-8")

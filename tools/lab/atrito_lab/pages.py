@@ -12,22 +12,7 @@ from .handin import file_name, shown, text_of
 from .sheet import Sheet
 from .tables import Cell, Table, TableError, number, read_table, rows_of
 
-STYLE = """
-:root { color-scheme: light dark; --ink: #1c2430; --soft: #5b6675; --line: #d5dae1; --back: #fff; --good: #1a7f4b; --part: #a86400; --bad: #b3261e; --own: #1f6fb2; --ref: #d9730d }
-@media (prefers-color-scheme: dark) { :root { --ink: #e6e9ee; --soft: #9aa5b4; --line: #3a4250; --back: #14181f; --good: #5ac98d; --part: #e0a84a; --bad: #f28b82; --own: #6fb3ea; --ref: #f0a35e } }
-body { font: 16px/1.5 system-ui, sans-serif; color: var(--ink); background: var(--back); max-width: 60rem; margin: 0 auto; padding: 1rem; overflow-wrap: anywhere }
-h1 { font-size: 1.4rem; margin: .2rem 0 } h2 { font-size: 1.1rem; margin: 1.8rem 0 .5rem }
-.soft { color: var(--soft) } .total { font-size: 1.2rem; font-weight: 600 }
-table { border-collapse: collapse; width: 100% } th, td { text-align: left; vertical-align: top; padding: .4rem .6rem .4rem 0; border-bottom: 1px solid var(--line) }
-th { font-weight: 600; color: var(--soft); font-size: .85rem } td.n, th.n { text-align: right; white-space: nowrap; font-variant-numeric: tabular-nums }
-.good { color: var(--good) } .part { color: var(--part) } .bad { color: var(--bad) }
-.text { white-space: pre-wrap; border-left: 3px solid var(--line); padding-left: .7rem; margin: .3rem 0 1rem }
-svg { width: 100%; height: auto; max-height: 24rem } svg text { fill: var(--soft); font: 13px system-ui, sans-serif }
-.axis { stroke: var(--soft); fill: none } .grid { stroke: var(--line) } .own { stroke: var(--own); fill: none; stroke-width: 2 } .ref { stroke: var(--ref); fill: none; stroke-width: 2; stroke-dasharray: 6 4 }
-circle.own { fill: var(--own); stroke: none } rect.bar { fill: var(--own) }
-@media (max-width: 40rem) { thead { display: none } tr { display: block; border-bottom: 1px solid var(--line); padding: .5rem 0 } td, td.n { display: block; border: 0; padding: 0; text-align: left } td:empty { display: none } td[data-l]::before { content: attr(data-l) ": "; color: var(--soft); font-size: .85rem } }
-@media print { body { max-width: none; padding: 0; font-size: 10pt } :root { color-scheme: light } tr, svg { break-inside: avoid } h2 { break-after: avoid } }
-"""
+STYLE = Path(__file__).with_name("style.css").read_text(encoding="utf-8")
 
 
 def say(text: object) -> str:
@@ -44,13 +29,12 @@ def page(title: str, body: list[str]) -> str:
         "</head>", "<body>", *body, "</body>", "</html>", ""])
 
 
-def table_of(heads: list[str], rows: list[list[str]], right: set[int] = frozenset()) -> list[str]:  # type: ignore[assignment]
+def table_of(heads: list[str], rows: list[list[str]], right: set[int]) -> list[str]:
     """A table; `right` are the columns of numbers. The words of the cells are HTML already."""
-    lines = ["<table>", "<thead><tr>" + "".join(f'<th{" class=n" if place in right else ""}>{say(head)}</th>' for place, head in enumerate(heads))
-             + "</tr></thead>", "<tbody>"]
+    kinds = [" class=n" if place in right else "" for place in range(len(heads))]
+    lines = ["<table>", "<thead><tr>", *(f"<th{kind}>{say(head)}</th>" for kind, head in zip(kinds, heads)), "</tr></thead>", "<tbody>"]
     for row in rows:
-        lines.append("<tr>" + "".join(f'<td data-l="{say(heads[place])}"{" class=n" if place in right else ""}>{word}</td>'
-                                      for place, word in enumerate(row)) + "</tr>")
+        lines += ["<tr>", *(f'<td data-l="{say(head)}"{kind}>{word}</td>' for kind, head, word in zip(kinds, heads, row)), "</tr>"]
     return [*lines, "</tbody>", "</table>"]
 
 
@@ -76,8 +60,8 @@ def write_feedback(case: Case, path: Path) -> None:
              f'<span class={mood(verdict)}>{verdict.points:g}</span> / {verdict.of:g}', say(verdict.reason)] for verdict in case.verdicts]
     body += ["<h2>Points</h2>", *table_of(["Asked", "Yours", "Right", "Points", "Why"], rows, {1, 2, 3})]
     body += picture_of(case)
-    body += ["<h2>Your values</h2>", *table_of(["", "Value", ""], [
-        [say(parameter.name), say(f"{case.reference.drawn[parameter.name]} {parameter.unit}"), say(parameter.text)] for parameter in sheet.parameters], {1})]
+    values = [[say(item.name), say(f"{case.reference.drawn[item.name]} {item.unit}"), say(item.text)] for item in sheet.parameters]
+    body += ["<h2>Your values</h2>", *table_of(["", "Value", ""], values, {1})] if values else []
     for explanation in sheet.explanations:
         text = text_of(hand_in.answers.get(explanation.name.lower()))
         if text:
@@ -109,38 +93,45 @@ def picture_of(case: Case) -> list[str]:
     except TableError as error:
         trouble = f" Yours cannot be drawn: {error}."
     return [f"<h2>{say(picture['text'])}</h2>", *draw(reference, own, picture),
-            f"<p class=soft>Line with points: your table {say(picture['table'])}{'' if own else ' (there is none to draw)'}. Dashed: the reference, "
-            f"{say(picture['y'])} over {say(picture['x'])} with your values.{say(trouble)}</p>"]
+            f"<p class=soft>Line with points: your table {say(picture['table'])}{'' if own else ' (there is none to draw)'}. "
+            f"Dashed: the reference, {say(picture['y'])} over {say(picture['x'])} with your values.{say(trouble)}</p>"]
+
+
+def ticks(low: float, high: float) -> list[float]:
+    """Round numbers from below `low` to above `high`, 1, 2 or 5 times a power of ten apart."""
+    size = 10.0**math.floor(math.log10((high - low)/4))
+    step = next(size*factor for factor in (1, 2, 5, 10) if (high - low)/(size*factor) <= 5)
+    first, last = math.floor(low/step + 1e-9), math.ceil(high/step - 1e-9)
+    return [place*step for place in range(first, last + 1)]
 
 
 def draw(reference: list[tuple[float, float]], own: list[tuple[float, float]], picture: dict[str, str]) -> list[str]:
     """Two curves as a drawing (SVG), where that of the reference is not zero."""
-    top = max(abs(y) for _, y in reference) or 1.0
+    top = max((abs(y) for _, y in reference), default=0.0) or 1.0
     counted = [place for place, (_, y) in enumerate(reference) if abs(y) > 1e-3*top] or [0, len(reference) - 1]
     left, right = reference[max(0, counted[0] - 1)][0], reference[min(counted[-1] + 1, len(reference) - 1)][0]
-    shown_own = [(x, y) for x, y in own if left <= x <= right and abs(y) < 5*top]
-    heights = [0.0, *[y for x, y in [*reference, *shown_own] if left <= x <= right]]
-    low, high = min(heights), max(heights)
-    span, wide = (high - low) or 1.0, (right - left) or 1.0
+    right = right if right > left else left + 1.0
+    heights = [0.0, *(y for x, y in [*reference, *own] if left <= x <= right and abs(y) < 3*top)]
+    up = ticks(min(heights), max(*heights, min(heights) + 1e-9*top))
+    low, span = up[0], up[-1] - up[0]
 
-    def place(point: tuple[float, float]) -> str:
-        return f"{70 + 610*(point[0] - left)/wide:.1f},{280 - 255*(point[1] - low)/span:.1f}"
+    def place(x: float, y: float) -> tuple[float, float]:
+        return 70 + 610*(x - left)/(right - left), 280 - 255*(y - low)/span
 
-    lines = ['<svg viewBox="0 0 700 320" role="img">']
-    for part in range(5):
-        y = low + part*span/4
-        lines.append(f'<line class=grid x1="70" x2="680" y1="{280 - 255*part/4:.1f}" y2="{280 - 255*part/4:.1f}"/>'
-                     f'<text x="64" y="{284 - 255*part/4:.1f}" text-anchor="end">{y:.3g}</text>')
-        lines.append(f'<text x="{70 + 610*part/4:.1f}" y="298" text-anchor="middle">{left + part*wide/4:.3g}</text>')
-    lines.append(f'<text x="375" y="316" text-anchor="middle">{say(picture["x"])}</text><text x="70" y="15">{say(picture["y"])}</text>')
-    lines.append('<polyline class=axis points="70,25 70,280 680,280"/>')
-    for kind, curve in (("own", shown_own), ("ref", [point for point in reference if left <= point[0] <= right])):
-        if curve:
-            lines.append(f'<polyline class={kind} points="{" ".join(place(point) for point in curve)}"/>')
-    for point in shown_own if len(shown_own) <= 200 else []:
-        across, _, up = place(point).partition(",")
-        lines.append(f'<circle class=own cx="{across}" cy="{up}" r="3"/>')
-    return [*lines, "</svg>"]
+    lines = ['<svg viewBox="0 0 700 325" role="img">', '<clipPath id="inside"><rect x="66" y="20" width="620" height="264"/></clipPath>']
+    for y in up:
+        height = place(left, y)[1]
+        lines.append(f'<line class=grid x1="70" x2="680" y1="{height:.1f}" y2="{height:.1f}"/>'
+                     f'<text x="64" y="{height + 4:.1f}" text-anchor="end">{y:.4g}</text>')
+    lines += [f'<text x="{place(x, 0)[0]:.1f}" y="300" text-anchor="middle">{x:.4g}</text>' for x in ticks(left, right) if left <= x <= right]
+    lines += [f'<text x="375" y="320" text-anchor="middle">{say(picture["x"])}</text>', f'<text x="70" y="14">{say(picture["y"])}</text>',
+              '<polyline class=axis points="70,25 70,280 680,280"/>', '<g clip-path="url(#inside)">']
+    for kind, curve in (("own", own), ("ref", reference)):
+        points = [place(x, y) for x, y in curve if abs(y) < 1e3*top]
+        lines.append(f'<polyline class={kind} points="{" ".join(f"{x:.1f},{y:.1f}" for x, y in points)}"/>')
+        if kind == "own" and len(points) <= 500:
+            lines += [f'<circle class=own cx="{x:.1f}" cy="{y:.1f}" r="3"/>' for x, y in points if 66 <= x <= 686]
+    return [*lines, "</g>", "</svg>"]
 
 
 # ---- the lecturer's page ----
@@ -148,15 +139,16 @@ def draw(reference: list[tuple[float, float]], own: list[tuple[float, float]], p
 def write_lecturer(sheet: Sheet, cases: list[Case], strange: list[str], path: Path) -> None:
     """The page of the lecturer."""
     points = [case.points for case in cases]
-    body = [f"<h1>{say(sheet.title)}</h1>", f"<p class=total>{len(cases)} hand-ins, {sum(points)/len(points):.1f} of {sheet.points:g} points in the mean</p>",
+    body = [f"<h1>{say(sheet.title)}</h1>",
+            f"<p class=total>{len(cases)} hand-ins, {sum(points)/len(points):.1f} of {sheet.points:g} points in the mean</p>",
             "<h2>Points of the class</h2>", *histogram(points, sheet.points)]
     body += ["<h2>What failed most</h2>", *failures(cases)]
     alike = hand_ins_alike(cases)
-    body += ["<h2>Hand-ins that are alike</h2>", "<ul>" if alike else "<p>None.</p>", *[f"<li>{say(line)}</li>" for line in alike], "</ul>" if alike else ""]
+    body += ["<h2>Hand-ins that are alike</h2>", *(["<ul>", *[f"<li>{say(line)}</li>" for line in alike], "</ul>"] if alike else ["<p>None.</p>"])]
     if strange:
         body += ["<h2>Of nobody in the class</h2>", f"<p>{say(', '.join(strange[:50]))}</p>"]
-    rows = [[f'<a href="students/{say(file_name(case.hand_in.number))}/feedback.html">{say(case.hand_in.number)}</a>', say(case.hand_in.name),
-             f"{case.points:g}", say(summary(case))] for case in cases]
+    rows = [[f'<a href="students/{file_name(case.hand_in.number)}/feedback.html">{say(case.hand_in.number)}</a>',
+             say(case.hand_in.name), f"{case.points:g}", say(summary(case))] for case in cases]
     body += ["<h2>The class</h2>", *table_of(["Number", "Name", "Points", "What was not right"], rows, {2})]
     for explanation in sheet.explanations:
         body += [f"<h2>To read: {say(explanation.text)}</h2>", f"<p class=soft>A good answer: {say(explanation.good)}</p>"]

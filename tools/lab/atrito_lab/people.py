@@ -44,8 +44,9 @@ def read_class(path: Path) -> list[Student]:
     for line, row in enumerate(rows[1:], 2):
         row = [word.strip() for word in row] + [""]*(len(heads) - len(row))
         if not re.fullmatch(r"[A-Za-z0-9][A-Za-z0-9._-]{0,39}", row[number]):
-            raise LabError(f"{path}, row {line}: {row[number]!r} is no number of a student: letters, digits, '.', '_' and '-', at most 40")
-        students.append(Student(row[number], " ".join(row[place] for place in parts if row[place]), row[email] if email is not None else ""))
+            raise LabError(f"{path}, row {line}: {row[number]!r} is no number of a student: letters, digits, . _ and -, at most 40")
+        name = " ".join(row[place] for place in parts if row[place])
+        students.append(Student(row[number], name, row[email] if email is not None else ""))
     numbers = [student.number.lower() for student in students]
     twice = {number for number in numbers if numbers.count(number) > 1}
     if twice:

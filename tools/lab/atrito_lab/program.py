@@ -64,8 +64,8 @@ def run_atrito(program: str, words: list[str], folder: Path, limits: Limits, out
     surroundings = {"PATH": os.defpath, "HOME": str(folder), "LC_ALL": "C.UTF-8", "TMPDIR": str(folder), "OMP_NUM_THREADS": "1",
                     "OPENBLAS_NUM_THREADS": "1"}
     with tempfile.TemporaryFile() as said:
-        process = subprocess.Popen(["/bin/sh", "-c", guard, "sh", program, *words], cwd=folder, env=surroundings, stdin=subprocess.DEVNULL,
-                                   stdout=subprocess.DEVNULL, stderr=said, start_new_session=True)
+        process = subprocess.Popen(["/bin/sh", "-c", guard, "sh", program, *words], cwd=folder, env=surroundings,
+                                   stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=said, start_new_session=True)
         timed_out = False
         try:
             process.wait(2*limits.seconds + 5)

@@ -59,6 +59,7 @@ class Reference:
         self.sheet, self.keeper, self.number = sheet, keeper, number
         self.drawn = sheet.draw(number)
         self._folders: dict[tuple[str, str, int], Folder | Run] = {}
+        self._values: dict[str, float] = {}
         self._lock = threading.Lock()
 
     def folder(self, deck: str, run: str, refine: int) -> Folder | Run:
@@ -66,7 +67,8 @@ class Reference:
         with self._lock:
             if (deck, run, refine) not in self._folders:
                 of = self.sheet.runs[run]
-                words = [*of.options, "--digits", "12", *(["--refine", str(refine)] if refine else []), *observe_words(self.sheet.observations(run))]
+                words = [*of.options, "--digits", "12", *(["--refine", str(refine)] if refine else [])]
+                words += observe_words(self.sheet.observations(run))
                 made = self.keeper.run(of.command, deck, words, self.sheet.deck_name)
                 self._folders[deck, run, refine] = Folder(made.folder) if made.code == of.code else made
             return self._folders[deck, run, refine]
@@ -79,12 +81,20 @@ class Reference:
             raise LabError(f"the deck of the sheet with the values of {self.number} ({values}) ends with {folder.code}: {folder.error}")
         return folder
 
+    def try_all(self) -> None:
+        """Whether all values are there."""
+        self.tables()
+        for quantity in self.sheet.quantities:
+            self.value(quantity)
+
     def value(self, quantity: Quantity) -> float:
         """The right value of a quantity."""
-        found = self.tables(quantity.run).value(quantity)
-        if found is None:
-            raise LabError(f"the deck of the sheet gives no value of {quantity.name}")
-        return found
+        if quantity.name not in self._values:
+            found = self.tables(quantity.run).value(quantity)
+            if found is None:
+                raise LabError(f"the deck of the sheet gives no value of {quantity.name}")
+            self._values[quantity.name] = found
+        return self._values[quantity.name]
 
     def value_by(self, deck: str, quantity: Quantity, refine: int) -> float | None:
         """What another deck, or another mesh, makes of a quantity; None where it gives no value."""
@@ -104,7 +114,7 @@ class Reference:
             return []
         wanted = quantity.step or max((step for step, _ in there), default=0)
         last = max((increment for step, increment in there if step == wanted), default=0)
-        values = [(step, increment, folder.value(quantity, step, increment)) for step, increment in there if (step, increment) != (wanted, last)]
+        values = [(*instant, folder.value(quantity, *instant)) for instant in there if instant != (wanted, last)]
         return [(step, increment, value) for step, increment, value in values if value is not None]
 
     def mistaken(self, mistake: Mistake, place: int, quantity: Quantity) -> float | None:

@@ -16,8 +16,8 @@ from .tables import Cell
 GAP, END = re.compile(r"^\*\*\s*LAB\s+gap:\s*(.*)$", re.I), re.compile(r"^\*\*\s*LAB\s+end\s*$", re.I)
 NAME = re.compile(r"[a-z][a-z0-9_]{0,24}", re.I)
 # part of the points for what is not quite right; a sheet may say otherwise in [credit]
-CREDIT = {"mesh": 1.0, "sign": 0.5, "factor": 0.5, "unit": 0.5, "exchanged": 0.5, "mistake": 0.5, "coarse": 0.5, "step": 0.5, "own": 0.5,
-          "unverified": 0.5, "neighbour": 0.0, "edited": 0.0, "not converged": 0.0}
+CREDIT = {"mesh": 1.0, "sign": 0.5, "factor": 0.5, "unit": 0.5, "exchanged": 0.5, "mistake": 0.5, "coarse": 0.5, "step": 0.5,
+          "own": 0.5, "unverified": 0.5, "neighbour": 0.0, "edited": 0.0, "other deck": 0.0, "not converged": 0.0}
 
 
 @dataclass(frozen=True)
@@ -107,7 +107,7 @@ class Sheet:
     @property
     def points(self) -> float:
         """What a faultless hand-in has."""
-        return self.table_points + sum(item.points for item in [*self.quantities, *self.explanations])
+        return self.table_points + sum(item.points for item in self.quantities) + sum(item.points for item in self.explanations)
 
     def draw(self, number: str) -> dict[str, str]:
         """The values of a student: the same whenever they are drawn, since the number alone decides."""
@@ -142,8 +142,17 @@ class Sheet:
             return {}
         mine = {item.name for item in self.quantities if item.run == run}
         wanted = {f"lab_{item.name}": item.observe for item in self.quantities if item.observe and item.name in mine}
-        wanted.update({f"lab_wrong_{place}": item.observe for place, item in enumerate(self.mistakes) if item.observe and item.quantity in mine})
-        return wanted
+        wrong = {f"lab_wrong_{place}": item.observe for place, item in enumerate(self.mistakes) if item.observe and item.quantity in mine}
+        return wanted | wrong
+
+
+def is_number(word: str) -> bool:
+    """Whether a word is a number."""
+    try:
+        float(word)
+    except ValueError:
+        return False
+    return True
 
 
 def with_values(deck: str, values: dict[str, str]) -> str:
@@ -151,7 +160,7 @@ def with_values(deck: str, values: dict[str, str]) -> str:
     for name, value in values.items():
         deck, count = re.subn(rf"(?im)^([ \t]*{re.escape(name)}[ \t]*=[ \t]*)[^\n]*$", lambda found: found[1] + value, deck)
         if count != 1:
-            raise LabError(f"the deck defines {name} {count} times; a parameter of a sheet stands once in it, as a line '{name} = value'")
+            raise LabError(f"the deck defines {name} {count} times, and not once, as a line '{name} = value' of its own")
     return deck
 
 
@@ -270,8 +279,8 @@ def _parameter_of(name: str, taker: _Taker) -> Parameter:
         choices = tuple(str(first + place*step) for place in range(int((last - first)/step) + 1))
     parameter = Parameter(name, taker.take("text", str), taker.take("unit", str, ""), choices)
     taker.end()
-    if not choices:
-        raise LabError(f"parameter {name} has no choices")
+    if not choices or not all(is_number(choice) for choice in choices):
+        raise LabError(f"the choices of parameter {name} have to be numbers")
     return parameter
 
 
@@ -331,7 +340,7 @@ def _picture_of(table: dict[str, Any]) -> dict[str, str]:
 
 def _check_sheet(sheet: Sheet) -> None:
     """What one item alone does not show: names given twice or not at all, texts that the deck does not have."""
-    names = [item.name for item in [*sheet.quantities, *sheet.explanations]]
+    names = [item.name for item in sheet.quantities] + [item.name for item in sheet.explanations]
     for name in names:
         if not NAME.fullmatch(name):
             raise LabError(f"{name!r} is no name: letters, digits and underscores, at most 25, a letter first")
@@ -348,7 +357,7 @@ def _check_sheet(sheet: Sheet) -> None:
             raise LabError(f"mistake {mistake.name}: kind is mistake or exchanged")
     for item in sheet.quantities:
         if item.run not in sheet.runs or item.run and item.given == "table" or item.observe and sheet.runs[item.run].command != "run":
-            raise LabError(f"{item.name}: there is no such run, or one whose tables are not handed in (given), or that does not observe")
+            raise LabError(f"{item.name}: there is no run {item.run!r}, or one whose tables are not handed in, or that does not observe")
         if item.given == "table" and item.cell and item.cell.table not in sheet.tables:
             raise LabError(f"{item.name} is read from {item.cell.table}, which hand_in of [tables] does not name")
     depth = 0

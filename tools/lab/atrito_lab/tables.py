@@ -137,8 +137,8 @@ def rows_of(table: Table, cell: Cell, step: int | None, increment: int | None = 
     for name, value in (("step", step), ("increment", increment)):
         if name in table.columns and rows:
             place = table.column(name)
-            wanted = value if value is not None else max(number(row[place]) for row in rows)
-            rows = [row for row in rows if number(row[place]) == wanted]
+            instant = value if value is not None else max(number(row[place]) for row in rows)
+            rows = [row for row in rows if number(row[place]) == instant]
     return rows
 
 
@@ -152,8 +152,9 @@ def value_of(table: Table, cell: Cell, step: int | None = None, increment: int |
         raise TableError(f"there is no row with {what}" if what else "there is no such row")
     if cell.pick == "only" and len(values) > 1:
         raise TableError(f"there are {len(values)} rows with {what}")
-    return {"max": max, "min": min, "first": lambda all_: all_[0], "last": lambda all_: all_[-1], "only": lambda all_: all_[0]}[
-        cell.pick](values)
+    if cell.pick in ("max", "min"):
+        return max(values) if cell.pick == "max" else min(values)
+    return values[-1] if cell.pick == "last" else values[0]
 
 
 def instants(table: Table) -> list[tuple[int, int]]:
@@ -176,33 +177,32 @@ def _same(word: str, wanted: str) -> bool:
 def differences(given: Table, made: Table, tolerance: float) -> tuple[int, int, str]:
     """How many numbers of a table handed in differ from those of a run, of how many, and the first one, in words.
 
-    A number may differ by `tolerance` of the largest of its column (of summary.tab: of its own row), and by a millionth of
-    that of the largest of its dimension, which is round-off.
+    A number may differ by `tolerance` of the largest of its column (of a row a quantity: of itself), and by a millionth of that of
+    the largest of its dimension, which is round-off. Quantities that the run does not have are the student's own.
     """
     keys = [name for name in KEYS if name in given.columns and name in made.columns]
     ours = {_key(made, row, keys, place): row for place, row in enumerate(made.rows)}
-    columns = _compared(given, made)
-    scales = _scales(made, columns, tolerance)
-    count, total, first = 0, 0, ""
-    seen = 0
+    columns = [name for name, dimension in zip(made.columns, made.dimensions) if dimension != "-" and name in given.columns]
+    columns = ["value"] if "value" in columns else columns
+    largest = _largest(made, columns)
+    count, total, first, met = 0, 0, "", 0
     for place, row in enumerate(given.rows):
+        quantity = row[given.column("quantity")] if "quantity" in keys else ""
         other = ours.get(_key(given, row, keys, place))
-        if other is None:
+        if other is None and not (quantity and all(quantity != words[made.column("quantity")] for words in made.rows)):
+            count, first = count + 1, first or f"the run has no row {' '.join(row)[:60]}"
+        if other is None or quantity in WAY:
             continue
-        seen += 1
+        met += 1
         for name in columns:
-            if _is_way(given, row):
-                continue
             mine, theirs = number(row[given.column(name)]), number(other[made.column(name)])
+            size = max(abs(theirs), 1e-6*largest[made.groups.get(quantity, "-")]) if quantity else largest[name]
             total += 1
-            allowed = scales[name] if "quantity" not in keys else max(tolerance*abs(theirs), _floor(made, other, scales, tolerance))
-            if not abs(mine - theirs) <= allowed and not (math.isnan(mine) and math.isnan(theirs)):
-                count += 1
+            if not abs(mine - theirs) <= tolerance*size and not (math.isnan(mine) and math.isnan(theirs)):
                 which = ", ".join(f"{key} {row[given.column(key)]}" for key in keys if key != "increment")
-                first = first or f"{name} of {which}: {mine:.6g} handed in, {theirs:.6g} from the deck"
-    missing = len(made.rows) - seen
-    if missing > 0 and "quantity" not in keys:
-        count, first = count + missing, first or f"{missing} rows of the run are not in the table handed in"
+                count, first = count + 1, first or f"{name} of {which}: {mine:.6g} handed in, {theirs:.6g} from the deck"
+    if met < len(made.rows) and "quantity" not in keys:
+        count, first = count + len(made.rows) - met, first or f"{len(made.rows) - met} rows of the run are not in the table handed in"
     return count, max(total, 1), first
 
 
@@ -210,30 +210,15 @@ def _key(table: Table, row: list[str], keys: list[str], place: int) -> tuple[str
     return tuple(row[table.column(name)] for name in keys) + (() if "quantity" in keys else (str(place),))
 
 
-def _is_way(table: Table, row: list[str]) -> bool:
-    return "quantity" in table.columns and row[table.column("quantity")] in WAY
-
-
-def _compared(given: Table, made: Table) -> list[str]:
-    """Columns with numbers of the result: those with a dimension."""
-    if "value" in made.columns:
-        return ["value"] if "value" in given.columns else []
-    return [name for name, dimension in zip(made.columns, made.dimensions) if dimension != "-" and name in given.columns]
-
-
-def _scales(made: Table, columns: list[str], tolerance: float) -> dict[str, float]:
-    """What the numbers of each column may differ."""
-    largest = {name: max((abs(value) for value in made.numbers(name) if math.isfinite(value)), default=0) for name in columns}
+def _largest(made: Table, columns: list[str]) -> dict[str, float]:
+    """The size of the numbers of each column, or of the quantities of each dimension where the table has a row a quantity."""
+    sizes: dict[str, float] = {"-": 0.0}
+    if "quantity" in made.columns:
+        for row in made.rows:
+            value, group = abs(number(row[made.column("value")])), made.groups.get(row[made.column("quantity")], "-")
+            sizes[group] = max(sizes.get(group, 0.0), value if math.isfinite(value) else 0.0)
+        return sizes
     dimension = dict(zip(made.columns, made.dimensions))
-    return {name: tolerance*max(largest[name], 1e-6*max(largest[other] for other in columns if dimension.get(other) == dimension.get(name)))
+    column = {name: max((abs(value) for value in made.numbers(name) if math.isfinite(value)), default=0.0) for name in columns}
+    return {name: max(column[name], *(1e-6*column[other] for other in columns if dimension[other] == dimension[name]))
             for name in columns}
-
-
-def _floor(made: Table, row: list[str], scales: dict[str, float], tolerance: float) -> float:
-    """Round-off of a row of summary.tab: a millionth of the tolerance of the largest of its dimension."""
-    if not made.groups:
-        return 0.0
-    quantity, value = made.column("quantity"), made.column("value")
-    mine = made.groups.get(row[quantity], "-")
-    return 1e-6*tolerance*max((abs(number(other[value])) for other in made.rows
-                               if made.groups.get(other[quantity], "-") == mine and math.isfinite(number(other[value]))), default=0.0)
