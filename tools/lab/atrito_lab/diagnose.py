@@ -319,7 +319,10 @@ def _judge_factor(case: Case, quantity: Quantity, value: float, right: float) ->
 
 
 def _neighbour_of(case: Case, given: dict[str, float]) -> str:
-    """Whose values these are: the one of the class with whom most wrong values agree, two at least (or all, where there is one)."""
+    """Whose values these are: the one of the class with whom most wrong values agree, three of four, and two at least.
+
+    One alone counts where one is asked for. Values of a class are round and lie close together: fewer agree by chance.
+    """
     quantities = {quantity.name: quantity for quantity in case.sheet.quantities}
     wrong = {name: value for name, value in given.items()
              if abs(value - case.reference.value(quantities[name])) > quantities[name].tolerance*max(
@@ -331,7 +334,7 @@ def _neighbour_of(case: Case, given: dict[str, float]) -> str:
         same = [name for name, value in wrong.items() if _is_of(reference, quantities[name], value)]
         if len(same) > most and (len(same) >= 2 or len(same) == len(given)):
             best, most = number, len(same)
-    return best if 2*most >= len(wrong) else ""
+    return best if 4*most >= 3*len(wrong) else ""
 
 
 def _is_of(reference: Reference, quantity: Quantity, value: float) -> bool:

@@ -51,11 +51,11 @@ def empty_answers(sheet: Sheet, student: Student) -> str:
     for quantity in sheet.quantities:
         if quantity.given == "answer":
             unit = f" [{quantity.unit}]" if quantity.unit else ""
-            lines += [f"# {quantity.text}{unit}: {quantity.points:g} points", f'{quantity.name} = ""']
+            lines += [f"# {quantity.text}{unit} (points: {quantity.points:g})", f'{quantity.name} = ""']
     if sheet.explanations:
         lines += ["", "[explanations]"]
     for item in sheet.explanations:
-        lines += [f"# {item.text} ({item.words} words at least, {item.points:g} points)", f'{item.name} = """', '"""']
+        lines += [f"# {item.text} ({item.words} words at least; points: {item.points:g})", f'{item.name} = """', '"""']
     tables = ", ".join(f"{name}.tab" for name in sheet.tables)
     lines += ["", f"# Hand in this file, your deck {sheet.deck_name}" + (f", and of its output folder {tables}." if tables else ".")]
     return "\n".join(lines) + "\n"

@@ -224,6 +224,10 @@ class _Taker:
             raise LabError(f"{key} of {self.where} is {value!r}, not {getattr(kind, '__name__', kind)}")
         return value
 
+    def line(self, key: str) -> str:
+        """A text as one line."""
+        return " ".join(self.take(key, str).split())
+
     def tables(self, key: str) -> list[_Taker]:
         """A list of tables; an empty one where there is none."""
         return [_Taker(item, f"{key} {item.get('name', place) if isinstance(item, dict) else place}")
@@ -242,7 +246,7 @@ def _sheet_of(folder: Path, taker: _Taker) -> Sheet:
     deck_name = taker.take("deck", str)
     parameters = taker.take("parameters", dict, {})
     sheet = Sheet(
-        folder=folder, name=folder.name, title=taker.take("title", str), seed=str(taker.take("seed", (str, int))), deck_name=deck_name,
+        folder=folder, name=folder.name, title=taker.line("title"), seed=str(taker.take("seed", (str, int))), deck_name=deck_name,
         deck=find_deck(folder, deck_name), refine=reference.take("refine", int, 0), runs=_runs_of(reference, taker),
         parameters=[_parameter_of(name, _Taker(item, f"parameter {name}")) for name, item in parameters.items()],
         tables=tables.take("hand_in", list, []), table_points=tables.take("points", float, 0.0),
@@ -277,7 +281,7 @@ def _parameter_of(name: str, taker: _Taker) -> Parameter:
         if step <= 0 or last < first:
             raise LabError(f"the range of parameter {name} is empty")
         choices = tuple(str(first + place*step) for place in range(int((last - first)/step) + 1))
-    parameter = Parameter(name, taker.take("text", str), taker.take("unit", str, ""), choices)
+    parameter = Parameter(name, taker.line("text"), taker.take("unit", str, ""), choices)
     taker.end()
     if not choices or not all(is_number(choice) for choice in choices):
         raise LabError(f"the choices of parameter {name} have to be numbers")
@@ -292,7 +296,7 @@ def _quantity_of(taker: _Taker) -> Quantity:
         cell = Cell(taker.take("table", str), taker.take("column", str), where, taker.take("pick", str, "only"))
     tolerance = taker.take("tolerance", float)
     quantity = Quantity(
-        name=taker.take("name", str), text=taker.take("text", str), unit=taker.take("unit", str, ""), points=taker.take("points", float),
+        name=taker.take("name", str), text=taker.line("text"), unit=taker.take("unit", str, ""), points=taker.take("points", float),
         tolerance=tolerance, coarse=taker.take("coarse", float, 5*tolerance), scale=taker.take("scale", float, 0.0),
         given=taker.take("given", str, "answer"), observe=observe, cell=cell, step=taker.take("step", int, 0) or None,
         hint=taker.take("hint", str, ""), run=taker.take("run", str, ""))
@@ -307,7 +311,7 @@ def _quantity_of(taker: _Taker) -> Quantity:
 
 
 def _explanation_of(taker: _Taker) -> Explanation:
-    explanation = Explanation(taker.take("name", str), taker.take("text", str), taker.take("points", float), taker.take("words", int, 20),
+    explanation = Explanation(taker.take("name", str), taker.line("text"), taker.take("points", float), taker.take("words", int, 20),
                               taker.take("good", str))
     taker.end()
     return explanation
@@ -318,7 +322,7 @@ def _mistake_of(taker: _Taker) -> Mistake:
     if replace and (len(replace) != 2 or not all(isinstance(word, str) for word in replace)):
         raise LabError(f"{taker.where}: replace is two texts, the one in the deck and the one of the mistake")
     mistake = Mistake(
-        name=taker.take("name", str), text=taker.take("text", str), credit=taker.take("credit", float, -1.0),
+        name=taker.take("name", str), text=taker.line("text"), credit=taker.take("credit", float, -1.0),
         kind=taker.take("kind", str, "mistake"), quantity=taker.take("quantity", str, ""), observe=taker.take("observe", str, ""),
         values=tuple((name, str(value)) for name, value in taker.take("set", dict, {}).items()),
         replace=(replace[0], replace[1]) if replace else None)
