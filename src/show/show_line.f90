@@ -6,7 +6,7 @@ module atrito_show_line
    use atrito_contact_line, only: contact_line_t
    use atrito_contact_solution, only: contact_solution_t
    use atrito_dense, only: eigen_symmetric
-   use atrito_kinds, only: ip, wp
+   use atrito_kinds, only: ip, wp, EPS_MACH
    use atrito_page, only: page_t, add_heading, add_line, plural
    use atrito_show_text, only: add_matrix
    use atrito_strings, only: append_string, string_t, to_text
@@ -52,7 +52,7 @@ contains
       vectors = qp%c
       call eigen_symmetric(vectors, values, info)
       call add_line(page, 'eigenvalues of C: '//to_text(values(1), 4)//' to '//to_text(values(qp%m), 4)//' [L/F], their ratio '// &
-                    to_text(values(qp%m)/max(values(1), tiny(1.0_wp)), 3))
+                    to_text(values(qp%m)/max(values(1), EPS_MACH*values(qp%m)), 3))
       call begin_table(table, 'show-line', 'a row an unknown force of the contact line', qp%m)
       call append_string(table%remarks, 'r = g0 - (C + D) q + G a; c_j: column j of C, g_j: column j of G')
       call add_words(table, 'unknown', '-', words, on_the_left=.true.)

@@ -3,6 +3,7 @@
 module atrito_show_loop
    use atrito_contact_line, only: contact_line_t
    use atrito_contact_solution, only: contact_solution_t
+   use atrito_iteration, only: iteration_t
    use atrito_kinds, only: ip, wp, HUGE_REAL
    use atrito_page, only: page_t, add_heading, add_line, left, right
    use atrito_points, only: contact_points_t
@@ -105,34 +106,34 @@ contains
       integer(ip), allocatable :: numbers(:, :)
       real(wp), allocatable :: values(:, :)         ! (5, rows): s, x, y, pressure, bound
       real(wp) :: p(line%n), tau(line%n), residual, before
+      type(iteration_t) :: record
       integer(ip) :: i, j, k, pair
 
       call add_heading(page, 'outer iterations, in each the bound of the friction is frozen')
       call add_line(page, 'outer  solves   largest pressure   largest bound   residual   over before')
       allocate (numbers(3, 0), values(5, 0))
       before = 0.0_wp
-      associate (records => solution%history%records)
-         do i = 1, logged(solution)
-            if (i < solution%history%n) then
-               if (records(i + 1)%outer == records(i)%outer) cycle
-            end if
-            call fetch_stresses(line, solution, i, p, tau)
-            residual = records(i)%residual
-            if (records(i)%outer == 0) residual = 0.0_wp
-            call add_line(page, right(to_text(records(i)%outer), 5)//right(to_text(records(i)%inner), 8)// &
-                          right(to_text(maxval([p, 0.0_wp]), 6), 19)//right(to_text(maxval([tau, 0.0_wp]), 6), 16)// &
-                          right(ratio(residual, 1.0_wp), 12)//right(ratio(residual, before), 12))
-            before = residual
-            j = 0
-            do pair = 1, size(points, kind=ip)
-               do k = 1, points(pair)%n
-                  j = j + 1
-                  numbers = reshape([numbers, records(i)%outer, pair, k], [3, size(values, 2) + 1])
-                  values = reshape([values, points(pair)%s(k), points(pair)%x(:, k), p(j), tau(j)], [5, size(numbers, 2)])
-               end do
+      do i = 1, logged(solution)
+         record = solution%history%records(i)
+         if (i < solution%history%n) then
+            if (solution%history%records(i + 1)%outer == record%outer) cycle
+         end if
+         call fetch_stresses(line, solution, i, p, tau)
+         residual = record%residual
+         if (record%outer == 0) residual = 0.0_wp
+         call add_line(page, right(to_text(record%outer), 5)//right(to_text(record%inner), 8)// &
+                       right(to_text(maxval([p, 0.0_wp]), 6), 19)//right(to_text(maxval([tau, 0.0_wp]), 6), 16)// &
+                       right(ratio(residual, 1.0_wp), 12)//right(ratio(residual, before), 12))
+         before = residual
+         j = 0
+         do pair = 1, size(points, kind=ip)
+            do k = 1, points(pair)%n
+               j = j + 1
+               numbers = reshape([numbers, record%outer, pair, k], [3, size(values, 2) + 1])
+               values = reshape([values, points(pair)%s(k), points(pair)%x(:, k), p(j), tau(j)], [5, size(numbers, 2)])
             end do
          end do
-      end associate
+      end do
       call begin_table(table, 'show-picard', 'a row a point at the end of an outer iteration', size(values, 2, kind=ip))
       call append_string(table%remarks, 'of step '//to_text(results%step)//', increment '//to_text(results%increment)// &
                          '; the pressure was found with the bound |t| <= bound; outer 0: without friction')

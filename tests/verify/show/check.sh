@@ -34,6 +34,8 @@ small 'the law of friction' "$(paste law contact | awk '
 small 'the last bound' "$(awk '/^#/ { next } FILENAME ~ /contact/ { bound[$3] = 0.3*$9; next } { last[$3] = $8 }
    END { for (i = 1; i <= 7; i++) { e = bound[i] - last[i]; if (e < 0) e = -e; if (e > most) most = e } print most/3.5 }' \
    shown/contact.tab shown/show-picard.tab)"
+small 'the first bound' "$(awk '/^#/ { next } $1 == 0 { bound[$3] = 0.3*$7 } $1 == 1 { e = bound[$3] - $8; if (e < 0) e = -e; if (e > most) most = e; n++ }
+   END { if (n == 7) print most/3.4 }' shown/show-picard.tab)"
 awk '/^#/ { next } FILENAME ~ /iterations/ { n++; row[n] = $7" "$8" "$9; next }
    { m++; s = $NF; o = gsub(/o/, "", s); k = gsub(/=/, "", s); if (row[m] != o" "k" "length(s)) print "solve " m ": " row[m] }
    END { if (n != m || n == 0) print n " solves, " m " of states" }' shown/iterations.tab shown/show-states.tab >found
