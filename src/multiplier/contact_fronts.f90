@@ -251,7 +251,7 @@ contains
       if (m == 0 .or. .not. is_from(m + 1)) return
       if (from == FREE) then
          taken = 2*m
-         if (line%tangential(edge) == unknown(edge) .and. 2*m >= last_moves%found(edge)) taken = max(taken, 2*last_moves%went(edge))
+         if (2*m >= last_moves%found(edge)) taken = max(taken, 2*last_moves%went(edge))
       else
          taken = (2*m + 1)/3
       end if
