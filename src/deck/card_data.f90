@@ -11,7 +11,7 @@ module atrito_card_data
    use atrito_strings, only: string_t, append_string, same_name, to_text, upper_case
    implicit none (type, external)
    private
-   public :: check_data
+   public :: check_data, form_applies
 
    !> The forms that apply to a card, and what was found of each.
    type :: tally_t
@@ -127,7 +127,7 @@ contains
       allocate (tally%forms(0))
       associate (forms => deck%keywords(card%keyword)%forms)
          do i = 1, size(forms)
-            if (.not. applies(deck, card, forms(i))) cycle
+            if (.not. form_applies(deck, card, forms(i))) cycle
             tally%forms = [tally%forms, i]
             if (len(forms(i)%word) > 0) tally%n_words = tally%n_words + 1
          end do
@@ -135,7 +135,8 @@ contains
       allocate (tally%n_lines(size(tally%forms)), source=0)
    end subroutine find_forms
 
-   pure logical function applies(deck, card, form)
+   !> Whether lines of this form may stand in a card, by its options.
+   pure logical function form_applies(deck, card, form) result(applies)
       type(deck_t), intent(in) :: deck
       type(card_t), intent(in) :: card
       type(form_t), intent(in) :: form
@@ -145,13 +146,16 @@ contains
          applies = .true.
       else if (size(form%values) == 0) then
          applies = has_option(deck, card, form%option) .neqv. form%absent
+      else if (form%absent) then
+         applies = .not. (has_option(deck, card, form%option) .or. &
+                          any([(has_option(deck, card, form%values(i)%s), i=1, size(form%values))]))
       else
          applies = .false.
          do i = 1, size(form%values)
             applies = applies .or. form%values(i)%s == option_word(deck, card, form%option)
          end do
       end if
-   end function applies
+   end function form_applies
 
    !> The form of a line among those that apply: by its leading word, else by its position. 0 when there is none (reported).
    subroutine find_form(deck, card, line, tally, f)

@@ -5,6 +5,7 @@
 !> and of a deck with errors nothing is noted: it is not run.
 module atrito_note_edits
    use atrito_as_run_names, only: mesh_copy_name
+   use atrito_card_data, only: form_applies
    use atrito_deck, only: deck_t, card_t, token_t, data_line_t, token_text, is_empty_token, KEYWORD_UNKNOWN
    use atrito_deck_expressions, only: evaluate_at, index_of_parameter
    use atrito_edits, only: append_edit, append_known_edit, take_known_edit
@@ -139,7 +140,7 @@ contains
       is_whole = .true.
       associate (forms => deck%keywords(card%keyword)%forms)
          do f = 1, size(forms)
-            if (size(forms(f)%items) == 0) cycle
+            if (size(forms(f)%items) == 0 .or. .not. form_applies(deck, card, forms(f))) cycle
             if (len(forms(f)%word) > 0) then               ! it begins with that word
                if (.not. same_name(forms(f)%word, token_text(deck, deck%tokens(line%first_token)))) cycle
             end if

@@ -5,7 +5,7 @@
 !> only once an error has been reported, so a deck is never accepted with something left out.
 module atrito_build_context
    use atrito_build_parts, only: open_step_t, inherited_t, replaced_t, numbered_t, block_t, section_cut_t, &
-                                 BLOCK_SIDES, LOOSE_HELD, LOOSE_RELEASED, LOOSE_MOVES
+                                 node_finder_t, BLOCK_SIDES, LOOSE_HELD, LOOSE_RELEASED, LOOSE_MOVES
    use atrito_curves, only: curve_list_t, line_list_t
    use atrito_deck, only: deck_t, card_t, token_t, data_line_t, token_text, is_empty_token, line_item, keyword_name, scope_shift, &
                           scope_text, model_number
@@ -26,7 +26,7 @@ module atrito_build_context
    implicit none (type, external)
    private
    public :: LOOSE_HELD, LOOSE_RELEASED, LOOSE_MOVES
-   public :: build_context_t, open_step_t, inherited_t, replaced_t, numbered_t, block_t, section_cut_t
+   public :: build_context_t, open_step_t, inherited_t, replaced_t, numbered_t, block_t, section_cut_t, node_finder_t
    public :: BLOCK_SIDES
    public :: prepare_context, add_context_block, note_undetermined_mesh, line_token, open_line
    public :: invalidate_block, invalidate_name, spoil_number, is_invalid, is_undetermined, has_errors, has_lost_elements
@@ -51,6 +51,7 @@ module atrito_build_context
       integer(ip), allocatable :: block_of_card(:)     !< for each card the first one; 0: none
       integer(ip) :: elements_to_come = 0              !< of blocks whose elements are not made yet
       type(line_list_t) :: lines
+      type(node_finder_t) :: finder                    !< of all nodes of elements
       type(curve_list_t) :: curves                     !< lines that carry names
       type(curve_list_t) :: node_surfaces              !< of *SURFACE, TYPE=NODE
       integer(ip), allocatable :: mesh_shift(:)        !< of the node numbers of each mesh of the deck; < 0: it is refused

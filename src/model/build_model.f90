@@ -243,7 +243,7 @@ contains
       end do
    end subroutine take_parameters
 
-   !> Nodes, and the node sets.
+   !> Nodes, and the node sets that are made with them.
    subroutine build_nodes(context)
       type(build_context_t), intent(inout) :: context
       integer(ip) :: i
@@ -265,7 +265,6 @@ contains
          end select
       end do
       call read_lines(context)
-      call read_sets(context, 'NSET')
    end subroutine build_nodes
 
    !> The cards of sets that have not been read yet.
@@ -279,7 +278,7 @@ contains
       end do
    end subroutine read_sets
 
-   !> Elements, and the element sets.
+   !> Elements, the element sets, and the node sets that may name them or be of their nodes.
    subroutine build_elements(context)
       type(build_context_t), intent(inout) :: context
       integer(ip) :: i
@@ -301,6 +300,7 @@ contains
       end do
       call turn_elements(context)
       call read_sets(context, 'ELSET')
+      call read_sets(context, 'NSET')
    end subroutine build_elements
 
 end module atrito_build_model

@@ -2,12 +2,12 @@
 module atrito_build_parts
    use atrito_block_map, only: block_map_t
    use atrito_id_map, only: id_map_t
-   use atrito_kinds, only: ip, wp
+   use atrito_kinds, only: ip, lp, wp
    use atrito_load_lists, only: condition_list_t
    use atrito_name_list, only: name_list_t
    implicit none (type, external)
    private
-   public :: open_step_t, inherited_t, replaced_t, numbered_t, block_t, section_cut_t, BLOCK_SIDES
+   public :: open_step_t, inherited_t, replaced_t, numbered_t, block_t, section_cut_t, node_finder_t, BLOCK_SIDES
    public :: LOOSE_HELD, LOOSE_RELEASED, LOOSE_MOVES
 
    !> Ends of the names that a *BLOCK gives to its sides, in the order of the faces S1..S4.
@@ -45,6 +45,14 @@ module atrito_build_parts
       integer(ip) :: greatest = 0                      !< number
       integer(ip), allocatable :: place(:)             !< of each, by its place in the mesh; > 0: token; < 0: card
    end type numbered_t
+
+   !> Nodes of elements in the order of their x.
+   type :: node_finder_t
+      integer(ip), allocatable :: node(:)              !< places; not allocated: not asked for yet
+      integer(lp), allocatable :: key(:)               !< of x
+      real(wp), allocatable :: longest(:)              !< side of the elements round each [L]
+      real(wp) :: reach = 0.0_wp                       !< half of the longest of all [L]
+   end type node_finder_t
 
    !> The loads that a step inherits, in lists by the dof or the element on which they act.
    type :: inherited_t

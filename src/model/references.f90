@@ -10,6 +10,7 @@ module atrito_references
    use atrito_kinds, only: ip
    use atrito_mesh, only: find_node, find_element
    use atrito_name_list, only: name_list_t, find_name
+   use atrito_named_nodes, only: find_named_nodes
    use atrito_refined_members, only: fine_elements
    use atrito_refinement, only: is_refined
    use atrito_sets, only: set_list_t, find_set, members_of
@@ -161,9 +162,30 @@ contains
          call find_one_node(context, token, node, ok, keyword)
          members = pack([node], [ok])
       else
-         call find_members(context%model%node_sets, context, token, 'node', members, ok, keyword)
+         call find_node_members(context, token, members, ok, keyword)
       end if
    end subroutine find_nodes
+
+   !> The nodes that a name means.
+   subroutine find_node_members(context, token, members, ok, keyword)
+      type(build_context_t), intent(in) :: context
+      type(token_t), intent(in) :: token
+      integer(ip), allocatable, intent(out) :: members(:)
+      logical, intent(out) :: ok
+      character(len=*), intent(in) :: keyword
+      character(len=:), allocatable :: name, fault
+
+      members = [integer(ip) ::]
+      call get_name(context%deck, token, 'node number, or name of a set', name, ok, keyword=keyword)
+      if (.not. ok) return
+      call find_named_nodes(context%model%mesh, context%model%node_sets, context%model%element_sets, name, members, ok, fault)
+      if (allocated(fault)) then
+         call report_error(context%deck, token, 'E-SET', fault, expected='a corner, or a middle with a node: of an even number '// &
+                           'of elements; *NSET, AT takes the nearest', keyword=keyword)
+      else if (.not. ok) then
+         call report_unknown(context, token, 'node set', 'E-SET', context%model%node_sets%names, keyword)
+      end if
+   end subroutine find_node_members
 
    !> The places of the elements that an item names: a number or an element set.
    subroutine find_elements(context, token, members, ok, keyword)
@@ -179,15 +201,13 @@ contains
          members = pack([element], [ok])
          if (is_refined(context%refinement)) members = fine_elements(context%refinement, members)
       else
-         call find_members(context%model%element_sets, context, token, 'element', members, ok, keyword)
+         call find_element_members(context, token, members, ok, keyword)
       end if
    end subroutine find_elements
 
-   subroutine find_members(list, context, token, noun, members, ok, keyword)
-      type(set_list_t), intent(in) :: list
+   subroutine find_element_members(context, token, members, ok, keyword)
       type(build_context_t), intent(in) :: context
       type(token_t), intent(in) :: token
-      character(len=*), intent(in) :: noun             !< 'node' or 'element'
       integer(ip), allocatable, intent(out) :: members(:)
       logical, intent(out) :: ok
       character(len=*), intent(in) :: keyword
@@ -195,16 +215,15 @@ contains
       integer(ip) :: i
 
       members = [integer(ip) ::]
-      call get_name(context%deck, token, noun//' number, or name of a set', name, ok, keyword=keyword)
+      call get_name(context%deck, token, 'element number, or name of a set', name, ok, keyword=keyword)
       if (.not. ok) return
-      i = find_set(list, name)
-      ok = i > 0
-      if (ok) then
-         members = members_of(list%sets(i))
-      else
-         call report_unknown(context, token, noun//' set', 'E-SET', list%names, keyword)
-      end if
-   end subroutine find_members
+      associate (sets => context%model%element_sets)
+         i = find_set(sets, name)
+         ok = i > 0
+         if (ok) members = members_of(sets%sets(i))
+         if (.not. ok) call report_unknown(context, token, 'element set', 'E-SET', sets%names, keyword)
+      end associate
+   end subroutine find_element_members
 
    !> The set that an option of a card names; 0: the option is not given.
    subroutine find_set_option(context, card, option, noun, sets, set, ok)

@@ -10,6 +10,7 @@ module atrito_observed_places
    use atrito_messages, only: message_t
    use atrito_model, only: model_t, nodal_values_t, SURFACE_ELEMENTS
    use atrito_name_list, only: names_of
+   use atrito_named_nodes, only: find_named_nodes
    use atrito_numbers, only: read_integer, NUMBER_OK
    use atrito_sets, only: find_set, members_of
    use atrito_strings, only: string_t, append_string, same_name, to_text
@@ -154,16 +155,22 @@ contains
       real(wp), intent(inout) :: of_node(:)
       logical, intent(inout) :: is_there(:)
       type(message_t), intent(inout) :: fault
-      integer(ip) :: i
+      character(len=:), allocatable :: lacks
+      integer(ip), allocatable :: nodes(:)
+      logical :: found
 
-      i = find_set(model%node_sets, name)
-      if (i == 0) then
+      call find_named_nodes(model%mesh, model%node_sets, model%element_sets, name, nodes, found, lacks)
+      if (allocated(lacks)) then
+         fault%text = lacks
+         fault%expected = A_PLACE
+         return
+      else if (.not. found) then
          fault%text = 'the deck has no set or surface '//name
          fault%expected = A_PLACE
          fault%known = place_names(model)
          return
       end if
-      is_there(members_of(model%node_sets%sets(i))) = .true.
+      is_there(nodes) = .true.
       where (is_there) of_node = 1.0_wp
    end subroutine weigh_nodes
 

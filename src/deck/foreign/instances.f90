@@ -4,7 +4,7 @@
 module atrito_instances
    use atrito_deck, only: deck_t, card_t, data_line_t, token_t, scope_t, is_empty_token, append_card, append_line, append_token
    use atrito_diagnostics, only: report_error, report_note
-   use atrito_items, only: option_text, option_word
+   use atrito_items, only: has_option, option_text, option_word
    use atrito_kinds, only: ip, lp
    use atrito_memory, only: available_memory, memory_text
    use atrito_name_list, only: name_list_t, add_name, find_name
@@ -294,7 +294,7 @@ contains
       case ('NGEN', 'NFILL')
          n = 2
       case ('ELEMENT', 'NSET', 'ELSET', 'EQUATION')
-         n = huge(1_ip)
+         n = merge(0_ip, huge(1_ip), has_option(deck, card, 'AT'))
       case ('SURFACE')
          n = merge(0_ip, 1_ip, option_word(deck, card, 'TYPE') == 'SEGMENTS')
       case default
@@ -363,6 +363,7 @@ contains
                            among=parts%instances, keyword=trim(card%name))
       end if
       card%ok = card%ok .and. scope > 0
+      if (has_option(deck, card, 'AT')) return          ! of places
       do i = card%first_line, card%first_line + card%n_lines - 1
          if (scope == 0) deck%lines(i)%ok = .false.
          do k = deck%lines(i)%first_token, deck%lines(i)%first_token + deck%lines(i)%n_tokens - 1

@@ -64,8 +64,8 @@ module atrito_keyword
    !> form with a leading word are known by it, the others by their position.
    type :: form_t
       character(len=:), allocatable :: option    !< '' : always
-      type(string_t), allocatable :: values(:)   !< size 0: any value
-      logical :: absent = .false.                !< applies when the option is not given
+      type(string_t), allocatable :: values(:)   !< size 0: any value; absent: other options
+      logical :: absent = .false.                !< applies when the option is not given, nor another one
       character(len=:), allocatable :: word      !< '' : none
       integer :: min_lines = 1, max_lines = ANY_NUMBER
       integer :: min_items = 0, max_items = 0

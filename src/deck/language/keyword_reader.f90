@@ -6,7 +6,7 @@
 !>     option NAME | VALUE | meaning
 !>     lines COUNT | meaning                     a form of data line, COUNT of them: 1, 0-4, 1- (one or more)
 !>     lines COUNT, with OPTION | meaning        that applies with an option; also `with OPTION=A or B`, `without OPTION`,
-!>                                               `word WORD` (with which the lines begin), `no effect`, `going on` (goes_on)
+!>                                               `without A or B`, `word WORD` (with which the lines begin), `no effect`, `going on` (goes_on)
 !>     item NAME, NAME | VALUE | meaning         its items
 !>     > LINE                                    of the example
 !>     define GROUP                              names the lines up to the next keyword or `define`, of which
@@ -291,6 +291,7 @@ contains
             form%absent = begins(what, 'without ')
             form%option = what(index(what, ' ') + 1:)
             call cut_off(form%option, '=', values)
+            if (form%absent) call cut_off(form%option, ' or ', values)
             call split_text(values, ' or ', form%values)
          else if (begins(what, 'word ')) then
             form%word = what(6:)

@@ -115,8 +115,8 @@ contains
       text = 'with '//form%option
       if (form%absent) text = 'without '//form%option
       do i = 1, size(form%values)
-         text = text//merge('=', ' ', i == 1)
-         if (i > 1) text = text//'or '
+         if (i == 1 .and. .not. form%absent) text = text//'='
+         if (i > 1 .or. form%absent) text = text//' or '
          text = text//form%values(i)%s
       end do
    end function condition_text

@@ -13,8 +13,8 @@ module atrito_adjustment
    use atrito_pairing, only: make_master
    use atrito_pieces, only: place_at
    use atrito_points, only: contact_points_t
-   use atrito_references, only: report_unknown
-   use atrito_sets, only: find_set, members_of
+   use atrito_references, only: find_nodes
+   use atrito_sets, only: find_set, grow_set, members_of
    use atrito_slave_faces, only: nodal_rule_t, nodal_rule, turn_at
    use atrito_strings, only: to_text
    implicit none (type, external)
@@ -42,6 +42,7 @@ contains
       character(len=*), parameter :: WHAT = 'largest gap that is closed, a real >= 0 [L], or a node set'
       type(option_t) :: option
       character(len=:), allocatable :: text
+      integer(ip), allocatable :: nodes(:)
       logical :: found, ok
 
       call find_option(context%deck, card, 'ADJUST', option, found)
@@ -53,9 +54,11 @@ contains
          if (ok .and. pair%adjust < 0.0_wp) call report_error(context%deck, option%value, 'E-VALUE', 'ADJUST = '// &
                                                               to_text(pair%adjust), expected=WHAT, keyword='CONTACT PAIR')
       else
+         call find_nodes(context, option%value, nodes, ok, 'CONTACT PAIR')
+         if (ok) pair%adjust_set = find_set(context%model%node_sets, text)
+         if (.not. ok .or. pair%adjust_set > 0) return
+         call grow_set(context%model%node_sets, text, nodes)    ! of an element set, or a place of a block
          pair%adjust_set = find_set(context%model%node_sets, text)
-         if (pair%adjust_set == 0) call report_unknown(context, option%value, 'node set', 'E-SET', &
-                                                       context%model%node_sets%names, 'CONTACT PAIR')
       end if
    end subroutine read_adjustment
 

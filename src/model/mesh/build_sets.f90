@@ -16,6 +16,7 @@ module atrito_build_sets
    use atrito_motion, only: motion_t, read_shift, read_rotation, moved
    use atrito_number_list, only: number_list_t, add_number, numbers_of
    use atrito_numbers, only: read_integer, NUMBER_OK
+   use atrito_places, only: read_places
    use atrito_ranges, only: ranges_t, add_range, add_numbers, add_ranges, count_numbers
    use atrito_references, only: get_id, find_nodes, find_elements, report_unknown
    use atrito_sets, only: set_list_t, find_set, grow_set, members_of
@@ -34,7 +35,9 @@ contains
       logical :: known
 
       associate (deck => context%deck, card => context%deck%cards(i_card), model => context%model)
-         if (has_option(deck, card, 'GENERATE') .and. keyword_name(card) == 'NSET') then
+         if (has_option(deck, card, 'AT') .or. (keyword_name(card) == 'NSET' .and. has_option(deck, card, 'ELSET'))) then
+            known = .false.                            ! all nodes and elements belong to it
+         else if (has_option(deck, card, 'GENERATE') .and. keyword_name(card) == 'NSET') then
             known = ranges_are_known(deck, card, model%mesh%node_map)
          else if (has_option(deck, card, 'GENERATE')) then
             known = ranges_are_known(deck, card, model%mesh%element_map)
@@ -117,9 +120,10 @@ contains
          is_of_nodes = keyword_name(card) == 'NSET'
          call option_text(context%deck, card, keyword_name(card), name, found)
          if (.not. found) return
+         if (is_of_nodes .and. card%ok) call read_places(card, context, members)
          do i = card%first_line, card%first_line + card%n_lines - 1
             associate (line => context%deck%lines(i))
-               if (.not. line%ok) cycle
+               if (.not. line%ok .or. has_option(context%deck, card, 'AT')) cycle
                if (.not. has_option(context%deck, card, 'GENERATE')) then
                   if (is_of_nodes) call read_items(line, i_card, model%node_sets, context, members)
                   if (.not. is_of_nodes) call read_items(line, i_card, model%element_sets, context, members)

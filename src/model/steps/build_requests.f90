@@ -1,17 +1,16 @@
 !> *CONTROLS, and the tables and fields that the step asks for.
 module atrito_build_requests
    use atrito_controls, only: controls_t, METHOD_PICARD, METHOD_NAME
-   use atrito_deck, only: deck_t, card_t, token_text, option_t, line_item, keyword_name
+   use atrito_deck, only: deck_t, card_t, token_t, token_text, option_t, line_item, keyword_name
    use atrito_diagnostics, only: report_error
    use atrito_build_context, only: build_context_t
    use atrito_build_cuts, only: read_cut_card
    use atrito_propagation, only: is_of_step
    use atrito_foreign_words, only: variable_of_component
-   use atrito_items, only: find_option, has_option, option_integer, option_real, option_word, refuse_option
+   use atrito_items, only: find_option, has_option, option_integer, option_real, option_text, option_word, refuse_option
    use atrito_kinds, only: ip, wp
    use atrito_model, only: requested_t, requests_t, step_t
-   use atrito_references, only: find_set_option
-   use atrito_sets, only: set_list_t, members_of
+   use atrito_references, only: find_nodes, find_elements
    use atrito_strings, only: to_text, upper_case
    implicit none (type, external)
    private
@@ -223,11 +222,11 @@ contains
 
       associate (model => context%model)
          if (index(keyword_name(card), 'NODE') == 1) then
-            call choose_members(card, 'NSET', 'node set', model%node_sets, model%mesh%n_nodes, context, chosen, ok)
+            call choose_members(card, 'NSET', model%mesh%n_nodes, context, chosen, ok)
             if (ok .and. asks_for(context%deck, card, 'U')) call ask_for(chosen, requested%nodes, requested%node_u)
             if (ok .and. asks_for(context%deck, card, 'RF')) call ask_for(chosen, requested%reactions, requested%node_rf)
          else
-            call choose_members(card, 'ELSET', 'element set', model%element_sets, model%mesh%n_elements, context, chosen, ok)
+            call choose_members(card, 'ELSET', model%mesh%n_elements, context, chosen, ok)
             if (ok .and. asks_for(context%deck, card, 'S')) call ask_for(chosen, requested%stress, requested%element_s)
          end if
       end associate
@@ -243,7 +242,7 @@ contains
       logical :: ok
 
       associate (mesh => context%model%mesh)
-         call choose_members(card, 'ELSET', 'element set', context%model%element_sets, mesh%n_elements, context, elements, ok)
+         call choose_members(card, 'ELSET', mesh%n_elements, context, elements, ok)
          if (.not. ok .or. .not. asks_for(context%deck, card, 'S')) return
          allocate (nodes(mesh%n_nodes), source=.false.)
          do e = 1, mesh%n_elements
@@ -283,19 +282,25 @@ contains
    end subroutine refuse_field_files
 
    !> The members of the set that an option names; all without it.
-   subroutine choose_members(card, option, noun, sets, n, context, chosen, ok)
+   subroutine choose_members(card, option, n, context, chosen, ok)
       type(card_t), intent(in) :: card
-      character(len=*), intent(in) :: option, noun
-      type(set_list_t), intent(in) :: sets
+      character(len=*), intent(in) :: option           !< NSET or ELSET
       integer(ip), intent(in) :: n                     !< nodes or elements of the mesh
       type(build_context_t), intent(in) :: context
       logical, allocatable, intent(out) :: chosen(:)
       logical, intent(out) :: ok
-      integer(ip) :: set
+      character(len=:), allocatable :: name
+      type(token_t) :: place
+      integer(ip), allocatable :: members(:)
+      logical :: given
 
-      call find_set_option(context, card, option, noun, sets, set, ok)
-      allocate (chosen(n), source=set == 0)
-      if (set > 0) chosen(members_of(sets%sets(set))) = .true.
+      ok = .true.
+      call option_text(context%deck, card, option, name, given, place)
+      allocate (chosen(n), source=.not. given)
+      if (.not. given) return
+      if (option == 'NSET') call find_nodes(context, place, members, ok, keyword_name(card))
+      if (option == 'ELSET') call find_elements(context, place, members, ok, keyword_name(card))
+      chosen(members) = .true.
    end subroutine choose_members
 
    !> One of the card's items is this variable, or a component of it.

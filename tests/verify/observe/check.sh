@@ -147,10 +147,12 @@ ROD-TOP, P, 10
 *END STEP
 END
 run 0 cylinder.inp cylinder --digits 17 --quiet --observe 'top=mean(u1,ROD-TOP)' --observe 'all=mean(u1,ROD)' \
-   --observe 'most=max(u1,ROD-TOP)' --observe 'down=rf2(ROD-BOTTOM)'
+   --observe 'most=max(u1,ROD-TOP)' --observe 'down=rf2(ROD-BOTTOM)' --observe 'corner=u1(ROD-TOP-RIGHT)' --observe 'half=u1(ROD-CENTRE)'
 near 'mean over the end of a cylinder' "$(value_of cylinder top)" 0.04 1e-13
 near 'mean over a cylinder' "$(value_of cylinder all)" 0.04 1e-13
 near 'its largest radial displacement' "$(value_of cylinder most)" 0.06 1e-13
+near 'a corner of a block' "$(value_of cylinder corner)" 0.06 1e-13
+near 'the middle of a block' "$(value_of cylinder half)" 0.03 1e-13
 near 'its support' "$(value_of cylinder down)" "$(value '10*4*atan2(0,-1)')" 1e-10
 
 # A history in which only the end is printed: every increment is observed, stresses too.
