@@ -8,7 +8,7 @@ module atrito_renaming
    use atrito_own_files, only: check_own, check_unread, is_own, names_with, remove_own_file, TEMPORARY, FORMER
    use atrito_paths, only: file_exists, is_folder, may_write, remove_file
    use atrito_status, only: status_t, set_status, is_ok, STATUS_FILE
-   use atrito_strings, only: string_t, append_string, ends_with
+   use atrito_strings, only: string_t, ends_with
    use atrito_system, only: c_rename
    implicit none (type, external)
    private
@@ -62,12 +62,12 @@ contains
       logical :: is_aside(size(names) + size(stale))
       integer :: i, j, done
 
-      allocate (paths(0))
+      allocate (paths(size(names) + size(stale)))
       do i = 1, size(names)
-         call append_string(paths, folder//'/'//names(i)%s)
+         paths(i)%s = folder//'/'//names(i)%s
       end do
       do i = 1, size(stale)
-         call append_string(paths, folder//'/'//stale(i)%s)
+         paths(size(names) + i)%s = folder//'/'//stale(i)%s
       end do
       call move_aside(paths, is_aside, status)
       call name_new_files(paths(:size(names)), done, status)
