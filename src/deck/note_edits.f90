@@ -97,22 +97,34 @@ contains
    subroutine note_lines(deck, card)
       type(deck_t), intent(inout) :: deck
       type(card_t), intent(in) :: card
-      logical :: has_function
-      integer(ip) :: i, k
+      integer(ip) :: i, k, first                       ! item of a function of x and y
 
-      has_function = card%name == 'BOUNDARY'
-      if (has_function) has_function = has_option(deck, card, 'FUNCTION')
+      first = first_of_function(deck, card)
       do i = card%first_line, card%first_line + card%n_lines - 1
          associate (line => deck%lines(i))
-            do k = 1, line%n_tokens
-               if (has_function .and. k > 3) exit
+            do k = 1, min(line%n_tokens, first - 1)
                if (.not. is_bracketed(deck, deck%tokens(line%first_token + k - 1))) cycle
                call note_item(deck, card, line, k)
             end do
-            if (has_function .and. line%n_tokens > 3) call note_function(deck, line)
+            if (line%n_tokens >= first) call note_function(deck, line, first)
          end associate
       end do
    end subroutine note_lines
+
+   !> The item at which a function begins: the last of its form. Beyond all items where there is none.
+   pure integer(ip) function first_of_function(deck, card) result(first)
+      type(deck_t), intent(in) :: deck
+      type(card_t), intent(in) :: card
+      integer :: f
+
+      first = huge(first)
+      if (.not. has_option(deck, card, 'FUNCTION')) return
+      associate (forms => deck%keywords(card%keyword)%forms)
+         do f = 1, size(forms)
+            if (form_applies(deck, card, forms(f))) first = size(forms(f)%items, kind=ip)
+         end do
+      end associate
+   end function first_of_function
 
    !> An item begins like an expression.
    pure logical function is_bracketed(deck, token)
@@ -193,14 +205,15 @@ contains
    end subroutine note_value
 
    !> The names of parameters in an expression of x and y; a value below 0 stands in parentheses, for a power of it.
-   subroutine note_function(deck, line)
+   subroutine note_function(deck, line, k)
       type(deck_t), intent(inout) :: deck
       type(data_line_t), intent(in) :: line
+      integer(ip), intent(in) :: k                     !< its first item
       character(len=:), allocatable :: text, value
       integer(ip) :: i
       integer :: first, last
 
-      associate (token => deck%tokens(line%first_token + 3), end => deck%tokens(line%first_token + line%n_tokens - 1)%last)
+      associate (token => deck%tokens(line%first_token + k - 1), end => deck%tokens(line%first_token + line%n_tokens - 1)%last)
          text = deck%sources(token%source)%text(token%first:end)
          last = 0
          do

@@ -367,14 +367,15 @@ contains
    end function mean_gradients
 
    !> Nodal forces [F] of a pressure on a face; a positive pressure pushes on the element.
-   pure subroutine pressure_load(x, pressure, thickness, state, f, places)
+   pure subroutine pressure_load(x, pressure, thickness, state, f, places, slope)
       real(wp), intent(in) :: x(:, :)              !< the face's nodes in the order of face_nodes [L], (2, 2 or 3)
       real(wp), intent(in) :: pressure             !< [F/L^2]
       real(wp), intent(in) :: thickness            !< [L]
       integer(ip), intent(in) :: state             !< place in STATES
       real(wp), intent(out) :: f(:, :)             !< shape of x
       real(wp), intent(in), optional :: places(:)  !< what the depth goes by at the nodes (depth_places) [L]; default x1
-      real(wp) :: points(3), weights(3), n(size(x, 2)), tangent(2), relative(2, size(x, 2)), goes_by(size(x, 2)), depth
+      real(wp), intent(in), optional :: slope(2)   !< of a pressure that is linear in the place, and `pressure` at the origin [F/L^3]
+      real(wp) :: points(3), weights(3), n(size(x, 2)), tangent(2), relative(2, size(x, 2)), goes_by(size(x, 2)), push
       integer(ip) :: i, order, n_face
 
       goes_by = x(1, :)
@@ -386,11 +387,13 @@ contains
       f = 0.0_wp
       do i = 1, order
          n = face_shape_values(n_face, points(i))
-         depth = depth_at(state, thickness, dot_product(n, goes_by))
+         push = pressure
+         if (present(slope)) push = pressure + dot_product(slope, matmul(x, n))
+         push = weights(i)*push*depth_at(state, thickness, dot_product(n, goes_by))
          tangent = matmul(relative, face_shape_slopes(n_face, points(i)))
          ! travelling counter-clockwise the inward normal is the tangent turned by +90 degrees
-         f(1, :) = f(1, :) - n*tangent(2)*(weights(i)*pressure*depth)
-         f(2, :) = f(2, :) + n*tangent(1)*(weights(i)*pressure*depth)
+         f(1, :) = f(1, :) - n*tangent(2)*push
+         f(2, :) = f(2, :) + n*tangent(1)*push
       end do
    end subroutine pressure_load
 

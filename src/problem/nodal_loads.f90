@@ -84,7 +84,7 @@ contains
          case (LOAD_HYDROSTATIC)
             call hydrostatic_load(x, value(1), value(2:3), thickness, state, fe, places)
          case default
-            call pressure_load(x, value(1), thickness, state, fe, places)
+            call pressure_load(x, value(1), thickness, state, fe, places, value(2:))
          end select
       end associate
    end subroutine forces_of_load

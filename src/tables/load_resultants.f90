@@ -101,7 +101,7 @@ contains
       tapers = IS_TAPERED(model%mesh%state(loads%element(i)))
       select case (loads%kind(i))
       case (LOAD_PRESSURE)
-         if (tapers) then
+         if (tapers .or. any(abs(loads%value(2:, i)) > 0.0_wp)) then
             call add_face_load(model, loads, i, force)
          else
             call add_pressure(model, loads, i, force)
@@ -183,7 +183,7 @@ contains
          case (LOAD_HYDROSTATIC)
             call hydrostatic_load(x, value(1), value(2:3), thickness, model%mesh%state(e), f, places)
          case default
-            call pressure_load(x, value(1), thickness, model%mesh%state(e), f, places)
+            call pressure_load(x, value(1), thickness, model%mesh%state(e), f, places, value(2:))
          end select
          do k = 1, size(nodes, kind=ip)
             call add_to(force, f(:, k), x(:, k))

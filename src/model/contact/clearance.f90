@@ -3,7 +3,7 @@
 !> contact does not feel it; over the step what is allowed goes to 0.
 module atrito_clearance
    use atrito_build_context, only: build_context_t, count_cards, place_text
-   use atrito_deck, only: card_t, data_line_t, token_t, line_item, keyword_name, option_t
+   use atrito_deck, only: card_t, data_line_t, token_t, last_item, line_item, keyword_name, option_t
    use atrito_diagnostics, only: report_error, report_note
    use atrito_growth, only: make_room
    use atrito_id_map, only: id_map_t, add_id, find_id
@@ -12,10 +12,12 @@ module atrito_clearance
    use atrito_mesh, only: face_nodes
    use atrito_number_list, only: number_list_t, add_numbers, numbers_of
    use atrito_pair_names, only: pair_index_t, index_pairs, find_pair
+   use atrito_parameters, only: evaluate_function
    use atrito_points, only: contact_points_t
    use atrito_references, only: find_nodes
    use atrito_refined_members, only: edge_value
    use atrito_refinement, only: refinement_t, edge_place, is_refined
+   use atrito_sorting, only: each_once
    use atrito_strings, only: string_t, to_text
    implicit none (type, external)
    private
@@ -28,6 +30,7 @@ module atrito_clearance
       integer(ip) :: pair = 0                          !< place in model%pairs
       type(token_t) :: place
       logical :: is_uniform = .false.
+      logical :: is_function = .false.                 !< the values are those of a function at all nodes of the slave
       real(wp) :: value = 0.0_wp                       !< [L]
       integer(ip), allocatable :: node(:)
       real(wp), allocatable :: values(:)               !< of the nodes [L]
@@ -101,12 +104,13 @@ contains
                                      one%pair)
       has_table = has_option(context%deck, card, 'TABULAR')
       call option_real(context%deck, card, 'VALUE', WHAT, one%value, one%is_uniform)
+      one%is_function = has_option(context%deck, card, 'FUNCTION')
       ok = card%ok
-      if (ok .and. (has_table .eqv. one%is_uniform)) then
+      if (ok .and. count([has_table, one%is_uniform, one%is_function]) /= 1) then
          ok = .false.
-         call report_error(context%deck, card%place, 'E-CONFLICT', '*CLEARANCE with '//trim(merge('both VALUE and TABULAR   ', &
-                                                                                         'neither VALUE nor TABULAR', has_table)), &
-                           expected='VALUE=, or TABULAR and data lines node, gap', keyword='CLEARANCE')
+         call report_error(context%deck, card%place, 'E-CONFLICT', '*CLEARANCE without VALUE, TABULAR or FUNCTION, or with two '// &
+                           'of them', expected='VALUE=; or TABULAR and data lines node, gap; or FUNCTION and an expression', &
+                           keyword='CLEARANCE')
       end if
       ok = ok .and. one%pair > 0
       if (.not. ok) return
@@ -115,17 +119,42 @@ contains
       associate (faces => context%model%surfaces(context%model%pairs(one%pair)%slave)%faces)
          do i = 1, faces%n
             on_face = face_nodes(context%model%mesh, faces%element(i), faces%face(i))
-            do k = 1, size(on_face, kind=ip)
+            if (one%is_function) call add_numbers(nodes, on_face)
+            do k = 1, merge(0_ip, size(on_face, kind=ip), one%is_function)
                call add_id(of_slave, on_face(k), 1_ip, known)
             end do
          end do
       end associate
+      if (one%is_function) then
+         call read_function(context%deck%lines(card%first_line), context, each_once(numbers_of(nodes)), one, ok)
+         return
+      end if
       do i = card%first_line, card%first_line + card%n_lines - 1
          call read_line(context%deck%lines(i), context, of_slave, nodes, values, ok)
       end do
       one%node = numbers_of(nodes)
       if (nodes%n > 0) one%values = values(:nodes%n)
    end subroutine read_card
+
+   !> An expression in x and y, evaluated at the nodes of the slave.
+   subroutine read_function(line, context, nodes, one, ok)
+      type(data_line_t), intent(in) :: line
+      type(build_context_t), intent(in) :: context
+      integer(ip), intent(in) :: nodes(:)
+      type(clearance_t), intent(inout) :: one
+      logical, intent(out) :: ok
+      type(token_t) :: expression, last
+
+      ok = line%ok
+      if (.not. ok) return
+      expression = line_item(context%deck, line, 1_ip)
+      last = last_item(context%deck, line)
+      expression%last = last%last                      ! commas belong to the expression: max(x, y)
+      one%node = nodes
+      deallocate (one%values)
+      allocate (one%values(size(nodes)))
+      call evaluate_function(context%deck, expression, context%model%mesh%x(:, nodes), one%values, ok, 'CLEARANCE')
+   end subroutine read_function
 
    !> node or set, gap.
    subroutine read_line(line, context, of_slave, all_nodes, values, ok)
@@ -179,7 +208,8 @@ contains
             value(list(i)%node(k)) = list(i)%values(k)
             is_given(list(i)%node(k)) = .true.
          end do
-         if (is_refined(refinement)) call fill_edges(refinement, points(list(i)%pair), value, is_given)
+         if (is_refined(refinement) .and. .not. list(i)%is_function) call fill_edges(refinement, points(list(i)%pair), value, &
+                                                                                     is_given)
          ! the gap of a point is that of its node; of MORTAR the mean over the nodes of its row that have one, as their
          ! displacements are
          associate (pair => points(list(i)%pair))

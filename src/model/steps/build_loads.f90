@@ -6,7 +6,7 @@ module atrito_build_loads
    use atrito_build_context, only: build_context_t, line_token, replaced_t, ids_text, is_invalid, has_errors, has_lost_elements
    use atrito_build_rigid_bodies, only: can_move, is_reference, ROTATION_DOF
    use atrito_faces, only: is_outer_face
-   use atrito_items, only: get_integer, get_real
+   use atrito_items, only: get_integer, get_real, has_option
    use atrito_kinds, only: ip, wp
    use atrito_local_axes, only: dof_direction
    use atrito_load_lists, only: condition_t, condition_list_t, add_condition, add_part, dof_slot, nodal_values_of, &
@@ -16,7 +16,7 @@ module atrito_build_loads
    use atrito_numbers, only: read_integer
    use atrito_plane_state, only: STATES
    use atrito_propagation, only: is_of_step, removes_all, propagate, list_inherited, apply_condition, set_to_zero, warn_of_replaced
-   use atrito_read_load, only: read_face_load, read_direction, read_spin, has_no_rest, magnitude_of
+   use atrito_read_load, only: read_face_function, read_face_load, read_direction, read_spin, has_no_rest, magnitude_of
    use atrito_references, only: find_nodes, find_elements, find_surface, check_faces
    use atrito_refined_members, only: is_on_side
    use atrito_refinement, only: is_refined
@@ -61,7 +61,7 @@ contains
                case ('DLOAD')
                   call read_dload_line(context)
                case ('DSLOAD')
-                  call read_dsload_line(context)
+                  call read_dsload_line(context, has_option(context%deck, card, 'FUNCTION'))
                end select
             end do
          end associate
@@ -342,21 +342,24 @@ contains
    end subroutine need_density
 
    !> Surface, label, magnitude[, direction or levels].
-   subroutine read_dsload_line(context)
+   subroutine read_dsload_line(context, is_function)
       type(build_context_t), intent(inout) :: context
+      logical, intent(in) :: is_function               !< the magnitude is one of x and y
       type(token_t) :: token
       type(condition_t) :: load
       character(len=:), allocatable :: label
-      real(wp) :: value(3)
+      real(wp), allocatable :: values(:, :)            ! of the faces
       integer(ip) :: i, s
       logical :: ok
 
       token = line_token(context, 1_ip)
       label = upper_case(token_text(context%deck, line_token(context, 2_ip)))
       load = load_of_line(context, label)
-      call read_face_load(context, label, 'DSLOAD', load%kind, value, ok)
       call find_surface(context, token, s, 'DSLOAD')
+      allocate (values(3, 1))
+      if (.not. is_function) call read_face_load(context, label, 'DSLOAD', load%kind, values(:, 1), ok)
       if (s == 0) return
+      if (is_function) call read_face_function(context, label, context%model%surfaces(s)%faces, load%kind, values, ok)
       associate (surface => context%model%surfaces(s))
          if (surface%kind /= SURFACE_ELEMENTS) then
             call report_error(context%deck, token, 'E-SURFACE', 'surface '//surface%name// &
@@ -370,7 +373,7 @@ contains
          if (.not. ok) return
          do i = 1, surface%faces%n
             load%face = surface%faces%face(i)
-            call add_load(context, load, surface%faces%element(i), value)
+            call add_load(context, load, surface%faces%element(i), values(:, min(i, size(values, 2, kind=ip))))
          end do
       end associate
    end subroutine read_dsload_line

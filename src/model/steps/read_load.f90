@@ -5,16 +5,20 @@
 !> lies in it. An oblique axis would push out of the plane.
 module atrito_read_load
    use atrito_coordinates, only: get_reals
-   use atrito_deck, only: data_line_t
+   use atrito_deck, only: data_line_t, token_t, line_item
    use atrito_diagnostics, only: report_error
    use atrito_build_context, only: build_context_t, line_token, open_line
+   use atrito_faces, only: face_list_t
    use atrito_items, only: get_real
    use atrito_kinds, only: ip, wp
+   use atrito_mesh, only: face_nodes
    use atrito_model, only: LOAD_PRESSURE, LOAD_TRACTION, LOAD_HYDROSTATIC
+   use atrito_parameters, only: evaluate_function
+   use atrito_shape_functions, only: face_shape_values
    use atrito_strings, only: to_text
    implicit none (type, external)
    private
-   public :: read_face_load, read_direction, read_spin, has_no_rest, magnitude_of
+   public :: read_face_load, read_face_function, read_direction, read_spin, has_no_rest, magnitude_of
 
    character(len=*), parameter :: LEVEL = 'level x2 of zero pressure, a real [L]'
    character(len=*), parameter :: LEVEL_OF_MAGNITUDE = 'another level x2, of the magnitude, a real [L]'
@@ -68,6 +72,58 @@ contains
       ok = all(good)
    end subroutine read_face_load
 
+   !> The same where the magnitude is a function of the place: of P linear on each face, of TRVEC, whose direction stands behind it,
+   !> uniform; as at the points of Gauss, so that the resultant of each face is that of the function up to the fourth order.
+   subroutine read_face_function(context, label, faces, kind, values, ok)
+      type(build_context_t), intent(in) :: context
+      character(len=*), intent(in) :: label            !< P or TRVEC
+      type(face_list_t), intent(in) :: faces
+      integer(ip), intent(out) :: kind
+      real(wp), allocatable, intent(out) :: values(:, :) !< of each face, as element_load_t has it
+      logical, intent(out) :: ok
+      real(wp), parameter :: GAUSS(2) = [-1.0_wp, 1.0_wp]/sqrt(3.0_wp)
+      type(token_t) :: expression, last
+      real(wp) :: x(2, 2*faces%n), p(2*faces%n), direction(2), along(2)
+      integer(ip), allocatable :: nodes(:)
+      integer(ip) :: i, k, rest
+
+      allocate (values(3, faces%n), source=0.0_wp)
+      kind = merge(LOAD_TRACTION, LOAD_PRESSURE, label == 'TRVEC')
+      rest = merge(2_ip, 0_ip, label == 'TRVEC')
+      associate (line => open_line(context))
+         ok = line%n_tokens > 2 + rest .and. label /= 'HP'
+         if (.not. ok) then
+            call report_error(context%deck, line_token(context, 2_ip), 'E-VALUE', trim(merge('HP with FUNCTION     ', &
+                              'no direction of TRVEC', label == 'HP')), expected='P, function; or TRVEC, function, t1, t2', &
+                              keyword='DSLOAD')
+            return
+         end if
+         expression = line_item(context%deck, line, 3_ip)
+         last = line_item(context%deck, line, line%n_tokens - rest)
+         expression%last = last%last                   ! commas belong to the expression: max(x, y)
+         if (rest > 0) call read_direction(context, 'traction', 'DSLOAD', direction, ok, line%n_tokens - 1)
+      end associate
+      if (.not. ok) return
+      do i = 1, faces%n
+         nodes = face_nodes(context%model%mesh, faces%element(i), faces%face(i))
+         do k = 1, 2
+            x(:, 2*i - 2 + k) = matmul(context%model%mesh%x(:, nodes), face_shape_values(size(nodes, kind=ip), GAUSS(k)))
+         end do
+      end do
+      call evaluate_function(context%deck, expression, x, p, ok, 'DSLOAD')
+      do i = 1, merge(faces%n, 0_ip, ok)
+         associate (a => x(:, 2*i - 1), b => x(:, 2*i), mean => 0.5_wp*(p(2*i - 1) + p(2*i)))
+            if (rest > 0) then
+               values(:2, i) = mean*direction
+            else
+               along = (b - a)/dot_product(b - a, b - a)
+               values(2:, i) = (p(2*i) - p(2*i - 1))*along
+               values(1, i) = mean - dot_product(values(2:, i), 0.5_wp*(a + b))
+            end if
+         end associate
+      end do
+   end subroutine read_face_function
+
    !> How many items a load has: 1,5 is no pressure of 1.5.
    logical function has_no_rest(context, label, keyword)
       type(build_context_t), intent(in) :: context
@@ -115,29 +171,33 @@ contains
       end select
    end function magnitude_of
 
-   !> The unit vector of items 4 to 6, of any length.
-   subroutine read_direction(context, what, keyword, direction, ok)
+   !> The unit vector of items 4 to 6, or of those from another one on, of any length.
+   subroutine read_direction(context, what, keyword, direction, ok, first)
       type(build_context_t), intent(in) :: context
       character(len=*), intent(in) :: what             !< has the direction
       character(len=*), intent(in) :: keyword
       real(wp), intent(out) :: direction(2)
       logical, intent(out) :: ok
+      integer(ip), intent(in), optional :: first
       character(len=:), allocatable :: wanted
+      integer(ip) :: item
       real(wp) :: d(3)
 
       direction = 0.0_wp
       wanted = 'direction of '//what//', two components, not both 0 [-]'
       if (what == 'gravity') wanted = 'direction of gravity, gx, gy, not both 0 [-]'
-      call get_reals(context%deck, open_line(context), 4_ip, wanted, d, ok, keyword, spread(0.0_wp, 1, 3))
+      item = 4
+      if (present(first)) item = first
+      call get_reals(context%deck, open_line(context), item, wanted, d, ok, keyword, spread(0.0_wp, 1, 3))
       if (.not. ok) return
       if (abs(d(3)) <= FLAT*maxval(abs(d(:2)))) d(3) = 0.0_wp ! what a cosine of 90 degrees leaves
       ok = .not. abs(d(3)) > 0.0_wp .and. maxval(abs(d)) > 0.0_wp
       if (abs(d(3)) > 0.0_wp) then
-         call report_error(context%deck, line_token(context, 6_ip), 'E-VALUE', 'the scene is plane: ' &
+         call report_error(context%deck, line_token(context, item + 2), 'E-VALUE', 'the scene is plane: ' &
                            //trim(merge('gz                 ', 'the third component', what == 'gravity'))//' is not 0', &
                            expected=trim(merge('gz = 0', '0     ', what == 'gravity')), keyword=keyword)
       else if (.not. ok) then
-         call report_error(context%deck, line_token(context, 4_ip), 'E-VALUE', &
+         call report_error(context%deck, line_token(context, item), 'E-VALUE', &
                            what//' has no direction', expected=wanted, keyword=keyword)
       else
          d = d/maxval(abs(d))

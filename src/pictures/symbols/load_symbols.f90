@@ -302,7 +302,8 @@ contains
                   depth = dot_product(x(2, :), face_shape_values(size(x, 2, kind=ip), t))
                   traction = traction - factor*value(1)*max(0.0_wp, (depth - value(2))/(value(3) - value(2)))*normal
                case default
-                  traction = traction - factor*value(1)*normal
+                  traction = traction - factor*(value(1) + dot_product(value(2:), matmul(x, face_shape_values(size(x, 2, kind=ip), &
+                                                                                                              t))))*normal
                end select
             end associate
             k = faces%next(k)

@@ -48,7 +48,7 @@ contains
       model%steps(1)%element_loads%element = [2_ip]
       model%steps(1)%element_loads%kind = [LOAD_PRESSURE]
       model%steps(1)%element_loads%face = [3_ip]
-      model%steps(1)%element_loads%value = reshape([0.5_wp, 0.0_wp], [2, 1])
+      model%steps(1)%element_loads%value = reshape([0.5_wp, 0.0_wp, 0.0_wp], [3, 1])
       model%steps(1)%requests%nodes = .true.
       model%steps(1)%requests%reactions = .true.
    end subroutine make_model

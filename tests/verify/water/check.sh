@@ -23,6 +23,16 @@ for level in 2 1.7 1 0.3; do
    dam "faces-$level" faces.inp $level
 done
 for level in 1.7 0.3; do same_tables "faces $level" dam-$level/nodes.tab faces-$level/nodes.tab 1e-14; done
+# The same as functions of the place, which are exact where the level is at the end of a face; also on a finer mesh.
+sed 's/^\*DSLOAD/&, FUNCTION/; s/^FACE, HP, .*/FACE, P, 10*max(0, 1 - y\/level)/' dam.inp >function.inp
+run 0 function.inp function --set level=1 --digits 17 --quiet
+same_tables 'a function' dam-1/nodes.tab function/nodes.tab 1e-14
+run 0 function.inp function-finer --set level=1 --refine 1 --digits 17 --quiet
+sums 'a function, refined' function-finer -10 0 1e-10
+sed 's/^\*DSLOAD/&, FUNCTION/; s/^FACE, HP, .*/FACE, TRVEC, level*3*y*y, 4, 3/' dam.inp >shear.inp
+run 0 shear.inp shear --set level=2 --digits 17 --quiet
+sums 'a traction' shear "$(value '-2*16*0.8')" "$(value '-2*16*0.6')" 1e-10
+near 'its resultant' "$(awk '$3 == "DSLOAD" { print $5 }' shear/resultants.tab)" 19.2 1e-10
 # A level above the block: 10 at the foot, 10 (3 - 2)/3 at the top.
 run 0 dam.inp over --set level=3 --digits 17 --quiet
 sums 'over the top' over "$(value '-2*(10 + 10/3)')" 0 1e-10
