@@ -10,24 +10,29 @@ module atrito_block
 contains
 
    !> Lines 0..1 of one direction with n elements: equal, or each longer than the one before by a constant factor such that
-   !> the last is `grade` times the first.
-   pure function graded_lines(n, grade) result(t)
+   !> the last is `grade` times the first; of both halves from the ends on, such that the middle is `grade` times the ends.
+   pure function graded_lines(n, grade, of_halves) result(t)
       integer(ip), intent(in) :: n        !< elements, >= 1
       real(wp), intent(in) :: grade       !< last over first element length, > 0
+      logical, intent(in) :: of_halves
       real(wp) :: t(0:n), ratio
-      integer(ip) :: i
+      integer(ip) :: i, steps
 
+      steps = n - 1
+      if (of_halves) steps = steps/2
       ratio = 1.0_wp
-      if (n > 1) ratio = grade**(1.0_wp/real(n - 1, wp))
+      if (steps > 0) ratio = grade**(1.0_wp/real(steps, wp))
       if (ratio == 1.0_wp) then
          t = [(real(i, wp)/real(n, wp), i=0, n)]
          return
       end if
       t(0) = 0.0_wp
       do i = 1, n
-         t(i) = t(i - 1) + ratio**(i - 1)
+         t(i) = t(i - 1) + ratio**merge(min(i - 1, n - i), i - 1, of_halves)
       end do
       t = t/t(n)
+      if (of_halves) t(n:n - n/2 + 1:-1) = 1 - t(:n/2 - 1)   ! the same both ways
+      if (of_halves .and. mod(n, 2_ip) == 0) t(n/2) = 0.5_wp
    end function graded_lines
 
    !> Nodes of a block, row by row from BOTTOM (corner 1 to 2) to TOP (corner 4 to 3).

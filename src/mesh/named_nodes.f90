@@ -11,10 +11,11 @@ module atrito_named_nodes
    use atrito_strings, only: ends_with, to_text, upper_case
    implicit none (type, external)
    private
-   public :: find_named_nodes, nodes_of_elements
+   public :: find_named_nodes, nodes_of_elements, part_place_name, BLOCK_SIDES
 
-   !> Sides in the order of the faces, the corners at which they begin, their middles, and the centre.
-   character(len=7), parameter :: SIDES(4) = ['-BOTTOM', '-RIGHT ', '-TOP   ', '-LEFT  ']
+   !> Ends of the names that a *BLOCK gives to its sides, in the order of the faces S1..S4; the corners at which they begin, their
+   !> middles, and the centre.
+   character(len=7), parameter :: BLOCK_SIDES(4) = ['-BOTTOM', '-RIGHT ', '-TOP   ', '-LEFT  ']
    character(len=14), parameter :: PLACES(9) = [character(len=14) :: '-BOTTOM-LEFT', '-BOTTOM-RIGHT', '-TOP-RIGHT', '-TOP-LEFT', &
                                                 '-BOTTOM-MIDDLE', '-RIGHT-MIDDLE', '-TOP-MIDDLE', '-LEFT-MIDDLE', '-CENTRE']
    integer(ip), parameter :: CENTRE = 9
@@ -81,12 +82,9 @@ contains
       integer(ip) :: side(4), wanted, place, k
 
       nodes = [integer(ip) ::]
-      do wanted = CENTRE, 1, -1
-         if (ends_with(upper_case(name), trim(PLACES(wanted)))) exit
-      end do
+      call part_place_name(name, block, wanted)
       if (wanted == 0) return
-      block = name(:len(name) - len_trim(PLACES(wanted)))
-      side = [(find_set(sets, block//trim(SIDES(k))), k=1, 4)]
+      side = [(find_set(sets, block//trim(BLOCK_SIDES(k))), k=1, 4)]
       if (any(side == 0)) return                             ! it is no block
       do place = 1, wanted
          if (place > 4 .and. place < wanted .and. wanted < CENTRE) cycle
@@ -110,6 +108,19 @@ contains
       if (size(nodes) > 1) fault = to_text(size(nodes, kind=ip))//' nodes stand in '//name
       nodes = [integer(ip) ::]
    end subroutine find_place_of_block
+
+   !> The block whose corner, middle or centre a name may be, and which of them.
+   pure subroutine part_place_name(name, block, place)
+      character(len=*), intent(in) :: name
+      character(len=:), allocatable, intent(out) :: block
+      integer(ip), intent(out) :: place                      !< in PLACES; 0: none
+
+      block = ''
+      do place = CENTRE, 1, -1
+         if (ends_with(upper_case(name), trim(PLACES(place)))) exit
+      end do
+      if (place > 0) block = name(:len(name) - len_trim(PLACES(place)))
+   end subroutine part_place_name
 
    !> Points as far from one place as from another: of a straight side or an arc its middle.
    pure function is_halfway(points, a, b) result(halfway)

@@ -19,6 +19,7 @@ module atrito_build_context
    use atrito_messages, only: count_messages, SEVERITY_ERROR
    use atrito_model, only: model_t
    use atrito_motion, only: motion_t
+   use atrito_named_nodes, only: part_place_name
    use atrito_name_list, only: name_list_t, add_name, find_name, has_name
    use atrito_numbers, only: read_integer, NUMBER_OK
    use atrito_refinement, only: refinement_t
@@ -266,11 +267,15 @@ contains
    recursive logical function is_invalid(context, name) result(invalid)
       type(build_context_t), intent(in) :: context
       character(len=*), intent(in) :: name
+      character(len=:), allocatable :: block
+      integer(ip) :: place
       integer :: i, k
 
       invalid = .false.
       if (.not. has_errors()) return
+      call part_place_name(name, block, place)
       invalid = is_invalid_block(context, name)
+      if (place > 0) invalid = invalid .or. is_invalid_block(context, block)
       do i = 1, size(BLOCK_SIDES)
          k = len(name) - len_trim(BLOCK_SIDES(i))
          if (invalid .or. k < 0) cycle

@@ -5,13 +5,11 @@ module atrito_build_parts
    use atrito_kinds, only: ip, lp, wp
    use atrito_load_lists, only: condition_list_t
    use atrito_name_list, only: name_list_t
+   use atrito_named_nodes, only: BLOCK_SIDES
    implicit none (type, external)
    private
    public :: open_step_t, inherited_t, replaced_t, numbered_t, block_t, section_cut_t, node_finder_t, BLOCK_SIDES
    public :: LOOSE_HELD, LOOSE_RELEASED, LOOSE_MOVES
-
-   !> Ends of the names that a *BLOCK gives to its sides, in the order of the faces S1..S4.
-   character(len=7), parameter :: BLOCK_SIDES(4) = ['-BOTTOM', '-RIGHT ', '-TOP   ', '-LEFT  ']
 
    !> A *BLOCK between the pass that makes its nodes and the one that makes its elements.
    type :: block_t

@@ -41,7 +41,8 @@ module atrito_block_spec
       integer(ip) :: order = 1                         !< 1 for Q1, 2 for Q2: node intervals of an element along each direction
       integer(ip) :: n(2) = 0                          !< elements along and across
       type(block_map_t) :: map                         !< its corners and sides
-      real(wp) :: grade(2) = 1.0_wp
+      real(wp) :: grade(2) = 1.0_wp                    !< as of graded_lines
+      logical :: of_halves(2) = .false.
       real(wp), allocatable :: along(:), across(:)     !< inner break points, 0..1; not allocated: graded
       type(copies_t) :: copies
    end type block_spec_t
@@ -210,13 +211,15 @@ contains
                         'do not cross another side; several blocks make other shapes', keyword='BLOCK')
    end subroutine check_map
 
-   !> GRADE, along, across.
+   !> GRADE, along, across, words for both.
    subroutine read_grade(deck, line, spec, ok)
       type(deck_t), intent(in) :: deck
       type(data_line_t), intent(in) :: line
       type(block_spec_t), intent(inout) :: spec
       logical, intent(inout) :: ok                     !< false where there is an error
-      character(len=*), parameter :: WHAT = 'last over first element length, a real, 1e-12 to 1e12 [-]'
+      character(len=*), parameter :: WHAT = 'last over first element length, a real, 1e-12 to 1e12 [-]', &
+                                     LONGEST = 'longest over shortest element length, a real, 1 to 1e12 [-]'
+      character(len=:), allocatable :: word
       integer(ip) :: k
       logical :: good
 
@@ -224,10 +227,19 @@ contains
       do k = 1, merge(2_ip, 0_ip, line%ok)
          call get_real(deck, line_item(deck, line, k + 1), WHAT, spec%grade(k), good, 1.0_wp, 'BLOCK')
          ok = ok .and. good
-         if (.not. good .or. (spec%grade(k) >= 1/LARGEST_GRADE .and. spec%grade(k) <= LARGEST_GRADE)) cycle
-         ok = .false.
-         call report_error(deck, line_item(deck, line, k + 1), 'E-VALUE', 'a grading of '//to_text(spec%grade(k)), &
-                           expected=WHAT, keyword='BLOCK')
+         if (.not. good) cycle
+         word = upper_case(token_text(deck, line_item(deck, line, k + 3)))
+         spec%of_halves(k) = len(word) > 0
+         good = spec%grade(k) >= merge(1.0_wp, 1/LARGEST_GRADE, len(word) > 0) .and. spec%grade(k) <= LARGEST_GRADE
+         if (.not. good) then
+            ok = .false.
+            if (len(word) > 0) word = ' towards '//word
+            call report_error(deck, line_item(deck, line, k + 1), 'E-VALUE', 'a grading of '//to_text(spec%grade(k))//word, &
+                              expected=trim(merge(WHAT//repeat(' ', len(LONGEST) - len(WHAT)), LONGEST, len(word) == 0)), &
+                              keyword='BLOCK')
+         else if (word == 'MIDDLE') then
+            spec%grade(k) = 1/spec%grade(k)
+         end if
       end do
       if (allocated(spec%along) .and. abs(spec%grade(1) - 1) > 0 .or. allocated(spec%across) .and. abs(spec%grade(2) - 1) > 0) then
          ok = .false.

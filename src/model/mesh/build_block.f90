@@ -113,8 +113,8 @@ contains
       allocate (x(2, (n(1) + 1)*(n(2) + 1)))
       block%map = spec%map
       allocate (block%along(0:n(1)), block%across(0:n(2)))
-      block%along(:) = node_lines(spec%n(1), spec%order, spec%grade(1), spec%along)
-      block%across(:) = node_lines(spec%n(2), spec%order, spec%grade(2), spec%across)
+      block%along(:) = node_lines(spec%n(1), spec%order, spec%grade(1), spec%of_halves(1), spec%along)
+      block%across(:) = node_lines(spec%n(2), spec%order, spec%grade(2), spec%of_halves(2), spec%across)
       if (has_arcs(spec%map)) then
          call curved_nodes(block%map, block%along, block%across, x)
       else
@@ -171,17 +171,18 @@ contains
    end subroutine straighten_diagonals
 
    !> Places of the nodes along a direction, 0..1: those of the element lines and, of order 2, the middles between them.
-   pure function node_lines(n, order, grade, breaks) result(t)
+   pure function node_lines(n, order, grade, of_halves, breaks) result(t)
       integer(ip), intent(in) :: n                     !< elements
       integer(ip), intent(in) :: order                 !< 1 or 2
-      real(wp), intent(in) :: grade                    !< last over first length, where there are no break points
+      real(wp), intent(in) :: grade                    !< as of graded_lines, where there are no break points
+      logical, intent(in) :: of_halves
       real(wp), allocatable, intent(in) :: breaks(:)   !< the inner lines
       real(wp) :: t(0:order*n), lines(0:n)
 
       if (allocated(breaks)) then
          lines = [0.0_wp, breaks, 1.0_wp]
       else
-         lines = graded_lines(n, grade)
+         lines = graded_lines(n, grade, of_halves)
       end if
       t(0::order) = lines
       if (order == 2) t(1::2) = 0.5_wp*(lines(:n - 1) + lines(1:))
