@@ -2,13 +2,13 @@
 module atrito_includes
    use atrito_deck, only: deck_t, card_t, token_t, token_text, LEVEL_STEP
    use atrito_diagnostics, only: report_error
-   use atrito_files, only: true_path
+   use atrito_files, only: file_exists, true_path
    use atrito_items, only: option_word
    use atrito_kinds, only: ip, lp
-   use atrito_strings, only: to_text
+   use atrito_strings, only: replaced, to_text
    implicit none (type, external)
    private
-   public :: relative_path, may_include, is_told
+   public :: path_of_include, may_include, is_told
 
    integer, parameter :: DEEPEST_INCLUDE = 20
    !> Includes that each include two others would fill any memory at a depth of 20.
@@ -48,6 +48,16 @@ contains
          may_include = .true.
       end if
    end function may_include
+
+   !> The path of the file that an *INCLUDE names. Where there is none with backslashes in its name they are those of Windows.
+   function path_of_include(from, name) result(path)
+      character(len=*), intent(in) :: from, name
+      character(len=:), allocatable :: path
+
+      path = relative_path(from, name)
+      if (index(name, '\') == 0) return
+      if (.not. file_exists(path)) path = relative_path(from, replaced(name, '\', '/'))
+   end function path_of_include
 
    !> The path of a file relative to the folder of another one, without `./`.
    pure function relative_path(from, name) result(path)

@@ -11,7 +11,7 @@ module atrito_reader
    use atrito_gmsh_file, only: read_gmsh_text
    use atrito_gmsh_mesh, only: gmsh_mesh_t
    use atrito_gmsh_words, only: fault_t
-   use atrito_includes, only: relative_path, may_include, is_told
+   use atrito_includes, only: path_of_include, may_include, is_told
    use atrito_instances, only: expand_instances
    use atrito_items, only: has_option, option_text, option_word
    use atrito_keyword, only: keyword_t, KIND_TEXT
@@ -368,7 +368,7 @@ contains
       call option_text(deck, card, 'INPUT', name, found, place)
       found = found .and. len(name) > 0 .and. (card%ok .or. .not. has_option(deck, card, 'TYPE'))
       if (found) then
-         name = relative_path(deck%sources(cursor%source)%name, name)
+         name = path_of_include(deck%sources(cursor%source)%name, name)
          found = may_include(deck, reading%depth, cursor%source, name, place)
       end if
       if (found) then

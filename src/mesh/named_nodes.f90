@@ -17,7 +17,7 @@ module atrito_named_nodes
    !> middles, and the centre.
    character(len=7), parameter :: BLOCK_SIDES(4) = ['-BOTTOM', '-RIGHT ', '-TOP   ', '-LEFT  ']
    character(len=14), parameter :: PLACES(9) = [character(len=14) :: '-BOTTOM-LEFT', '-BOTTOM-RIGHT', '-TOP-RIGHT', '-TOP-LEFT', &
-                                                '-BOTTOM-MIDDLE', '-RIGHT-MIDDLE', '-TOP-MIDDLE', '-LEFT-MIDDLE', '-CENTRE']
+                                                        '-BOTTOM-MIDDLE', '-RIGHT-MIDDLE', '-TOP-MIDDLE', '-LEFT-MIDDLE', '-CENTRE']
    integer(ip), parameter :: CENTRE = 9
 
    !> A node stands in a place if it is not farther from it than this part of the block's side.

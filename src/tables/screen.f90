@@ -10,6 +10,7 @@ module atrito_screen
    use atrito_results, only: contact_result_t, results_t, history_t, observed_t, scene_t, has_forces, last_frame
    use atrito_increments, only: list_increments, has_history, increment_name, ending_text
    use atrito_extreme_report, only: add_extremes
+   use atrito_name_report, only: describe_names
    use atrito_model_report, only: describe_counts, describe_instances, describe_steps, is_history
    use atrito_resultant_report, only: add_supports
    use atrito_row_tables, only: joined_text
@@ -400,6 +401,7 @@ contains
       call begin_deck_report(page, model, ' check')
       call add_rule(page, '=')
       call describe_counts(page, model)
+      call describe_names(page, model)
       call describe_instances(page, model)
       if (is_history(model)) then
          call add_heading(page, 'history')

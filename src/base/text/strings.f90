@@ -6,7 +6,7 @@ module atrito_strings
    public :: string_t, string_list_t, add_string, take_strings, replaced
    public :: break_line
    public :: lower_case, upper_case, to_text, join, nearest_names, edit_distance, same_name, append_string, deck_name, count_symbol
-   public :: begins_with, ends_with
+   public :: begins_with, ends_with, fits_pattern
 
    !> A string of its own length, for lists of strings.
    type :: string_t
@@ -349,6 +349,38 @@ contains
       ends_with = .false.
       if (len(text) > len(ending)) ends_with = text(len(text) - len(ending) + 1:) == ending
    end function ends_with
+
+   !> Whether a text is a pattern in which each * stands for any letters, or none; without case. A * takes as few letters as it can,
+   !> and more where what follows does not fit: the last * alone can be wrong, since what stood before it fits in any case.
+   pure logical function fits_pattern(text, pattern) result(fits)
+      character(len=*), intent(in) :: text, pattern
+      integer :: i, k, star, taken                      ! places in both; the last *, and where what it has not taken begins
+
+      i = 1
+      k = 1
+      star = 0
+      taken = 1
+      fits = .false.
+      do while (i <= len(text))
+         if (k <= len(pattern)) then
+            if (pattern(k:k) == '*') then
+               star = k
+               taken = i
+               k = k + 1
+               cycle
+            else if (same_name(pattern(k:k), text(i:i))) then
+               i = i + 1
+               k = k + 1
+               cycle
+            end if
+         end if
+         if (star == 0) return
+         taken = taken + 1
+         i = taken
+         k = star + 1
+      end do
+      fits = verify(pattern(min(k, len(pattern) + 1):), '*') == 0
+   end function fits_pattern
 
    !> Name of a deck: its path without folder and .inp.
    pure function deck_name(path) result(name)

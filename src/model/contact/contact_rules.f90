@@ -10,7 +10,7 @@ module atrito_contact_rules
    use atrito_number_list, only: number_list_t, add_number, numbers_of
    use atrito_references, only: find_surface, report_unknown
    use atrito_sorting, only: first_at_least, sorted_places
-   use atrito_strings, only: to_text
+   use atrito_strings, only: fits_pattern, same_name, to_text
    implicit none (type, external)
    private
    public :: contact_rules_t, read_contact_rules, add_rule, last_rule, sort_rules, quadrature_of, ANY_BODY
@@ -26,11 +26,18 @@ module atrito_contact_rules
       integer(ip), allocatable :: order(:)           !< the rules by their keys; of equal ones the last is the last
    end type rule_list_t
 
+   !> What a name with * stands for: surfaces of elements. Rules name the k-th of these by the number of surfaces + k.
+   type :: group_t
+      character(len=:), allocatable :: pattern
+      integer(ip), allocatable :: surfaces(:)
+   end type group_t
+
    type :: contact_rules_t
       logical :: given = .false.
       type(token_t) :: place                         !< of the *CONTACT
       real(wp) :: distance = 0.0_wp                  !< [L]; 0: half a face
       integer(ip) :: quadrature = QUADRATURE_AUTO
+      type(group_t), allocatable :: groups(:)
       type(rule_list_t) :: included, excluded
       type(rule_list_t) :: assigned                  !< value: place of the interaction
    end type contact_rules_t
@@ -47,6 +54,7 @@ contains
       integer(ip) :: i
       logical :: found
 
+      allocate (rules%groups(0))
       do i = 1, context%deck%n_cards
          associate (deck => context%deck, card => context%deck%cards(i))
             select case (keyword_name(card))
@@ -66,11 +74,11 @@ contains
                call report_error(deck, place, 'E-VALUE', 'DISTANCE = '//to_text(rules%distance), expected=WHAT, keyword='CONTACT')
             case ('CONTACT INCLUSIONS')
                if (has_option(deck, card, 'ALL EXTERIOR')) call add_rule(rules%included, ANY_BODY, ANY_BODY, 1_ip)
-               call read_lines(card, context, rules%included)
+               call read_lines(card, context, rules%included, rules%groups)
             case ('CONTACT EXCLUSIONS')
-               call read_lines(card, context, rules%excluded)
+               call read_lines(card, context, rules%excluded, rules%groups)
             case ('CONTACT PROPERTY ASSIGNMENT')
-               call read_lines(card, context, rules%assigned)
+               call read_lines(card, context, rules%assigned, rules%groups)
             end select
          end associate
       end do
@@ -94,10 +102,11 @@ contains
    end function quadrature_of
 
    !> Lines of two surfaces, and of an interaction where one belongs. Two rigid surfaces cannot touch each other.
-   subroutine read_lines(card, context, rules)
+   subroutine read_lines(card, context, rules, groups)
       type(card_t), intent(in) :: card
       type(build_context_t), intent(in) :: context
       type(rule_list_t), intent(inout) :: rules
+      type(group_t), allocatable, intent(inout) :: groups(:)
       type(token_t) :: items(3)
       integer(ip) :: i, k, surface(2), value
       logical :: ok(3), is_rigid(2)
@@ -105,8 +114,8 @@ contains
       do i = card%first_line, card%first_line + card%n_lines - 1
          if (.not. context%deck%lines(i)%ok) cycle
          items = [(line_item(context%deck, context%deck%lines(i), k), k=1, 3)]
-         call find_party(card, items(1), context, ANY_BODY, surface(1), ok(1))
-         call find_party(card, items(2), context, surface(1), surface(2), ok(2))
+         call find_party(card, items(1), context, ANY_BODY, groups, surface(1), ok(1))
+         call find_party(card, items(2), context, surface(1), groups, surface(2), ok(2))
          value = 1
          if (keyword_name(card) == 'CONTACT PROPERTY ASSIGNMENT') then
             value = find_name(context%interaction_names, token_text(context%deck, items(3)))
@@ -116,7 +125,7 @@ contains
          ok(3) = value > 0
          if (all(ok(:2))) then
             do k = 1, 2
-               is_rigid(k) = surface(k) /= ANY_BODY
+               is_rigid(k) = surface(k) /= ANY_BODY .and. surface(k) <= size(context%model%surfaces)
                if (is_rigid(k)) is_rigid(k) = context%model%surfaces(surface(k))%kind == SURFACE_SEGMENTS
             end do
             ok(1) = .not. all(is_rigid)
@@ -128,18 +137,24 @@ contains
       end do
    end subroutine read_lines
 
-   !> The surface that an item names; where the item is empty, another one.
-   subroutine find_party(card, token, context, default, surface, ok)
+   !> The surface that an item names, or the group of those that fit its pattern; where the item is empty, another one.
+   subroutine find_party(card, token, context, default, groups, surface, ok)
       type(card_t), intent(in) :: card
       type(token_t), intent(in) :: token
       type(build_context_t), intent(in) :: context
       integer(ip), intent(in) :: default             !< of an empty item
-      integer(ip), intent(out) :: surface            !< place, or ANY_BODY
+      type(group_t), allocatable, intent(inout) :: groups(:)
+      integer(ip), intent(out) :: surface            !< place, that of a group, or ANY_BODY
       logical, intent(out) :: ok                     !< .false.: unknown, reported
 
       surface = default
       ok = .true.
       if (is_empty_token(token)) return
+      if (index(token_text(context%deck, token), '*') > 0) then
+         call find_group(context, token, keyword_name(card), groups, surface)
+         ok = surface > 0
+         return
+      end if
       call find_surface(context, token, surface, keyword_name(card))
       ok = surface > 0
       if (.not. ok) return
@@ -150,6 +165,38 @@ contains
                            expected='*RIGID BODY, ANALYTICAL SURFACE='//line%name, keyword='RIGID BODY')
       end associate
    end subroutine find_party
+
+   !> The group of a name with *, a new one where it is the first of this name; 0: nothing fits, reported.
+   subroutine find_group(context, token, keyword, groups, place)
+      type(build_context_t), intent(in) :: context
+      type(token_t), intent(in) :: token
+      character(len=*), intent(in) :: keyword
+      type(group_t), allocatable, intent(inout) :: groups(:)
+      integer(ip), intent(out) :: place
+      type(group_t) :: group
+      type(group_t), allocatable :: longer(:)
+      integer(ip) :: i
+
+      group%pattern = token_text(context%deck, token)
+      associate (surfaces => context%model%surfaces)
+         do i = 1, size(groups, kind=ip)
+            place = size(surfaces, kind=ip) + i
+            if (same_name(groups(i)%pattern, group%pattern)) return
+         end do
+         place = 0
+         group%surfaces = pack([(i, i=1, size(surfaces, kind=ip))], [(surfaces(i)%kind /= SURFACE_SEGMENTS .and. &
+                                                      fits_pattern(surfaces(i)%name, group%pattern), i=1, size(surfaces, kind=ip))])
+         if (size(group%surfaces) == 0) then
+            call report_unknown(context, token, 'surface', 'E-SURFACE', context%surface_names, keyword)
+            return
+         end if
+         allocate (longer(size(groups) + 1))
+         longer(:size(groups)) = groups
+         longer(size(longer)) = group
+         call move_alloc(longer, groups)
+         place = size(surfaces, kind=ip) + size(groups, kind=ip)
+      end associate
+   end subroutine find_group
 
    !> Adds a rule to those that there are.
    pure subroutine add_rule(rules, a, b, value)

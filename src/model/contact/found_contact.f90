@@ -80,9 +80,9 @@ contains
       type(build_context_t), intent(in) :: context
       type(contact_rules_t), intent(inout) :: rules
       type(search_t), intent(out) :: search
-      logical :: is_named(0:size(context%model%surfaces))
-      integer(ip), allocatable :: place(:, :), surface(:), holder(:)
-      integer(ip) :: i, k, n
+      logical :: is_named(0:size(context%model%surfaces) + size(rules%groups))
+      integer(ip), allocatable :: place(:, :), surface(:), holder(:), members(:)
+      integer(ip) :: i, j, k, n
 
       associate (model => context%model)
          call find_bodies(model%mesh, search%bodies)
@@ -96,7 +96,8 @@ contains
          is_named = .false.
          is_named(numbers_of(rules%included%a)) = .true.
          is_named(numbers_of(rules%included%b)) = .true.
-         search%rigid = pack([(i, i=1, size(model%surfaces, kind=ip))], is_named(1:) .and. model%surfaces%kind == SURFACE_SEGMENTS)
+         search%rigid = pack([(i, i=1, size(model%surfaces, kind=ip))], is_named(1:size(model%surfaces)) .and. &
+                             model%surfaces%kind == SURFACE_SEGMENTS)
          allocate (search%masters(search%bodies%n + size(search%rigid)))
          do i = 1, size(search%rigid, kind=ip)
             associate (line => model%surfaces(search%rigid(i)))
@@ -114,20 +115,28 @@ contains
          is_named(numbers_of(rules%excluded%b)) = .true.
          is_named(numbers_of(rules%assigned%a)) = .true.
          is_named(numbers_of(rules%assigned%b)) = .true.
-         ! to which surfaces that rules and pairs name each face belongs
-         n = sum(pack(model%surfaces%faces%n, is_named(1:)))
+         ! to which surfaces and groups that rules and pairs name each face belongs
+         n = sum(pack(model%surfaces%faces%n, is_named(1:size(model%surfaces))))
+         do i = 1, size(rules%groups, kind=ip)
+            n = n + sum(model%surfaces(rules%groups(i)%surfaces)%faces%n)
+         end do
          allocate (place(1, n), surface(n))
          n = 0
-         do i = 1, size(model%surfaces, kind=ip)
+         do i = 1, ubound(is_named, 1, kind=ip)
             if (.not. is_named(i)) cycle
-            associate (faces => model%surfaces(i)%faces)
-               do k = 1, faces%n
-                  n = n + 1
-                  place(1, n) = search%outlines%place(faces%face(k), faces%element(k))
-                  surface(n) = i
-               end do
-            end associate
+            members = [i]
+            if (i > size(model%surfaces)) members = rules%groups(i - size(model%surfaces))%surfaces
+            do j = 1, size(members, kind=ip)
+               associate (faces => model%surfaces(members(j))%faces)
+                  do k = 1, faces%n
+                     n = n + 1
+                     place(1, n) = search%outlines%place(faces%face(k), faces%element(k))
+                     surface(n) = i
+                  end do
+               end associate
+            end do
          end do
+         place = place(:, :n)
          call list_holders(search%outlines%faces%n, place, search%first_surface, holder)
          search%surface_of = surface(holder)
       end associate

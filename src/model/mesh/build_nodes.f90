@@ -1,7 +1,7 @@
 !> *NODE, *NGEN and *NFILL: the nodes of the mesh, in the order of the deck.
 module atrito_build_nodes
-   use atrito_coordinates, only: get_coordinate, is_coordinate
-   use atrito_deck, only: deck_t, data_line_t, line_item, keyword_name
+   use atrito_coordinates, only: get_coordinate, spread_of_nodes, FLAT
+   use atrito_deck, only: data_line_t, line_item, keyword_name
    use atrito_diagnostics, only: report_error
    use atrito_build_context, only: build_context_t, spoil_number, note_number, note_place
    use atrito_items, only: get_integer, get_real, option_text
@@ -10,7 +10,6 @@ module atrito_build_nodes
    use atrito_model_memory, only: fits_memory, most_nodes
    use atrito_motion, only: moved
    use atrito_number_list, only: number_list_t, add_numbers, numbers_of
-   use atrito_numbers, only: read_real, NUMBER_OK
    use atrito_plain_numbers, only: read_plain_nodes, SLICE
    use atrito_references, only: get_id, find_nodes, find_one_node
    use atrito_ranges, only: ranges_t, add_to_ranges => add_numbers
@@ -21,9 +20,6 @@ module atrito_build_nodes
    public :: read_node_card, read_fill_card, place_node, put_node_set
 
    character(len=*), parameter :: WHAT_STEP = 'increment of the numbers, an integer'
-
-   !> A z up to this part of the scene is what preprocessors leave of a rotation.
-   real(wp), parameter :: FLAT = 1.0e-10_wp
 
    !> Puts nodes into a node set and keeps which card made it: call put_node_set(context, i_card, name, places), or a ranges_t.
    interface put_node_set
@@ -113,31 +109,6 @@ contains
          end if
       end associate
    end subroutine read_node_line
-
-   !> The longer side of the box round all lines of *NODE, as they stand there; what is no plain number has no part in it.
-   pure real(wp) function spread_of_nodes(deck) result(spread)
-      type(deck_t), intent(in) :: deck
-      real(wp) :: low(2), high(2), x
-      integer(ip) :: i, axis, k
-      integer :: outcome
-
-      low = 0.25_wp*huge(1.0_wp)
-      high = -low
-      do i = 1, deck%n_cards
-         if (keyword_name(deck%cards(i)) /= 'NODE') cycle
-         do k = deck%cards(i)%first_line, deck%cards(i)%first_line + deck%cards(i)%n_lines - 1
-            do axis = 1, 2
-               associate (token => line_item(deck, deck%lines(k), axis + 1))
-                  call read_real(deck%sources(token%source)%text(token%first:token%last), x, outcome)
-               end associate
-               if (outcome /= NUMBER_OK .or. .not. is_coordinate(x)) cycle
-               low(axis) = min(low(axis), x)
-               high(axis) = max(high(axis), x)
-            end do
-         end do
-      end do
-      spread = maxval(max(high - low, 0.0_wp))
-   end function spread_of_nodes
 
    !> Adds a node and keeps where it comes from; a number given twice is an error.
    subroutine place_node(context, id, x, place, ok, keyword)

@@ -27,6 +27,8 @@ module atrito_build_loads
    private
    public :: build_loads
 
+   integer, parameter :: DIGITS = 6                    !< of numbers in messages
+
    integer(ip), parameter :: LAST_DOF = 6              !< of a node in three dimensions: 3..6 do not exist here
 
    character(len=6), parameter :: LOAD_KEYWORDS(3) = [character(len=6) :: 'CLOAD', 'DLOAD', 'DSLOAD']
@@ -158,6 +160,11 @@ contains
                            ' belongs to no element and cannot carry a force', expected='nodes of elements', keyword='CLOAD')
          return
       end if
+      if (size(nodes) > 1 .and. abs(force%value(1)) > 0.0_wp) &
+         call report_note(context%deck, line_token(context, 3_ip), 'N-EACH', 'each of the '//to_text(size(nodes, kind=ip))// &
+                          ' nodes of '//token_text(context%deck, line_token(context, 1_ip))//' takes '// &
+                          to_text(force%value(1), DIGITS)//', all together '//to_text(size(nodes)*force%value(1), DIGITS), &
+                          keyword='CLOAD')
       do i = 1, size(nodes, kind=ip)
          if (is_reference(context, nodes(i))) then
             if (.not. can_move(context, line_token(context, 1_ip), nodes(i), force%dof, force%value(1), 'CLOAD')) cycle

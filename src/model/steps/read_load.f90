@@ -94,7 +94,7 @@ contains
          ok = line%n_tokens > 2 + rest .and. label /= 'HP'
          if (.not. ok) then
             call report_error(context%deck, line_token(context, 2_ip), 'E-VALUE', trim(merge('HP with FUNCTION     ', &
-                              'no direction of TRVEC', label == 'HP')), expected='P, function; or TRVEC, function, t1, t2', &
+                                     'no direction of TRVEC', label == 'HP')), expected='P, function; or TRVEC, function, t1, t2', &
                               keyword='DSLOAD')
             return
          end if

@@ -1,16 +1,20 @@
 !> Coordinates of a deck, and other rows of reals.
 module atrito_coordinates
-   use atrito_deck, only: data_line_t, deck_t, line_item, token_t
+   use atrito_deck, only: data_line_t, deck_t, keyword_name, line_item, token_t
    use atrito_diagnostics, only: report_error
    use atrito_items, only: get_real
    use atrito_kinds, only: ip, wp
+   use atrito_numbers, only: read_real, NUMBER_OK
    use atrito_strings, only: to_text
    implicit none (type, external)
    private
-   public :: get_coordinate, get_reals, is_coordinate
+   public :: get_coordinate, get_reals, is_coordinate, spread_of_nodes, FLAT
 
    !> Areas and their squares must be numbers, too.
    real(wp), parameter :: LARGEST_COORDINATE = 1.0e60_wp
+
+   !> A z up to this part of the scene is what preprocessors leave of a rotation.
+   real(wp), parameter :: FLAT = 1.0e-10_wp
 
 contains
 
@@ -60,5 +64,30 @@ contains
 
       is_coordinate = abs(x) <= LARGEST_COORDINATE
    end function is_coordinate
+
+   !> The longer side of the box round all lines of *NODE, as they stand there; what is no plain number has no part in it.
+   pure real(wp) function spread_of_nodes(deck) result(spread)
+      type(deck_t), intent(in) :: deck
+      real(wp) :: low(2), high(2), x
+      integer(ip) :: i, axis, k
+      integer :: outcome
+
+      low = 0.25_wp*huge(1.0_wp)
+      high = -low
+      do i = 1, deck%n_cards
+         if (keyword_name(deck%cards(i)) /= 'NODE') cycle
+         do k = deck%cards(i)%first_line, deck%cards(i)%first_line + deck%cards(i)%n_lines - 1
+            do axis = 1, 2
+               associate (token => line_item(deck, deck%lines(k), axis + 1))
+                  call read_real(deck%sources(token%source)%text(token%first:token%last), x, outcome)
+               end associate
+               if (outcome /= NUMBER_OK .or. .not. is_coordinate(x)) cycle
+               low(axis) = min(low(axis), x)
+               high(axis) = max(high(axis), x)
+            end do
+         end do
+      end do
+      spread = maxval(max(high - low, 0.0_wp))
+   end function spread_of_nodes
 
 end module atrito_coordinates

@@ -1,6 +1,6 @@
 !> A translation and a rotation in the plane: of *NCOPY and of *INSTANCE.
 module atrito_motion
-   use atrito_coordinates, only: get_coordinate
+   use atrito_coordinates, only: get_coordinate, spread_of_nodes, FLAT
    use atrito_deck, only: deck_t, data_line_t, line_item
    use atrito_diagnostics, only: report_error
    use atrito_items, only: get_real
@@ -54,10 +54,11 @@ contains
       call get_coordinate(deck, line_item(deck, line, 2_ip), 'translation along y, a real [L]', motion%shift(2), good(2), keyword)
       call get_coordinate(deck, line_item(deck, line, 3_ip), 'translation along z, 0 [L]', z, good(3), keyword, 0.0_wp)
       ok = all(good)
-      if (.not. ok .or. .not. abs(z) > 0.0_wp) return
-      ok = .false.
-      call report_error(deck, line_item(deck, line, 3_ip), 'E-VALUE', 'the scene is plane: the translation along z is not 0', &
-                        expected='0 [L], or no third item', keyword=keyword)
+      if (.not. ok .or. abs(z) <= FLAT*maxval(abs(motion%shift))) return
+      ok = abs(z) <= FLAT*spread_of_nodes(deck)
+      if (.not. ok) call report_error(deck, line_item(deck, line, 3_ip), 'E-VALUE', &
+                                      'the scene is plane: the translation along z is not 0', &
+                                      expected='0 [L], or no third item', keyword=keyword)
    end subroutine read_shift
 
    !> The axis stands upright on the plane; the angle is positive round its direction.
@@ -80,7 +81,7 @@ contains
       call get_real(deck, line_item(deck, line, 7_ip), 'angle, a real [degrees]', angle, good, keyword=keyword)
       ok = ok .and. good
       if (.not. ok) return
-      ok = .not. any(abs(axis(4:5) - axis(1:2)) > 0.0_wp) .and. abs(axis(6) - axis(3)) > 0.0_wp
+      ok = all(abs(axis(4:5) - axis(1:2)) <= FLAT*abs(axis(6) - axis(3))) .and. abs(axis(6) - axis(3)) > 0.0_wp
       if (.not. ok) then
          call report_error(deck, line_item(deck, line, 1_ip), 'E-VALUE', 'the axis does not stand upright on the plane', &
                            expected='xa, ya, za, xb, yb, zb with xb = xa, yb = ya, zb other than za [L]', keyword=keyword)
