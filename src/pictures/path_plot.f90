@@ -1,9 +1,9 @@
-!> The pictures of paths: stresses and displacements along each, in two panels, at the end of the history. The data has an empty line
-!> where a path leaves a body.
+!> The pictures of paths: stresses and displacements along each, in two panels, at the end of the history. The data has an empty
+!> line where a path leaves a body.
 module atrito_path_plot
    use atrito_kinds, only: ip, wp
    use atrito_model, only: model_t, path_t
-   use atrito_path_table, only: path_values, PATH_COLUMNS
+   use atrito_frame_tables, only: path_values, PATH_COLUMNS
    use atrito_plot_files, only: PATH_PLOT
    use atrito_plot_scripts, only: plots_t, put, begin_data, begin_script, put_terminal, put_frame, put_panel, put_plot
    use atrito_plot_text, only: cleaned, colour_styles, picture_title, quoted, range_of, LF
@@ -18,9 +18,9 @@ module atrito_path_plot
    integer, parameter :: LONGEST_NAME = 30, DIGITS = 10
    !> What is drawn: normal stresses, the shear stress, displacements, of a straight path and about a centre.
    character(len=8), parameter :: DRAWN(5, 2) = reshape([character(len=8) :: 's_along', 's_across', 's_shear', 'u_along', &
-                                                         'u_across', 's_rr', 's_tt', 's_rt', 'u_r', 'u_t'], [5, 2])
+                                                                          'u_across', 's_rr', 's_tt', 's_rt', 'u_r', 'u_t'], [5, 2])
    character(len=10), parameter :: TITLES(5, 2) = reshape([character(len=10) :: 'along', 'across', 'shear', 'along', 'across', &
-                                                           'radial', 'hoop', 'shear', 'radial', 'tangential'], [5, 2])
+                                                                         'radial', 'hoop', 'shear', 'radial', 'tangential'], [5, 2])
 
 contains
 
@@ -56,9 +56,11 @@ contains
          columns(k) = column_of(DRAWN(k, kind))
       end do
       call put_values(plots, name, path, values)
-      call begin_script(plots, name, 'stresses and displacements along a path', 'Columns of '//name//'.dat: 1 s [L], '// &
+      call begin_script(plots, name, 'stresses and displacements along path '//cleaned(path%name, LONGEST_NAME), &
+                        'Columns of '//name//'.dat: 1 s [L], '// &
                         'then those of path.tab behind element; an empty line where the path leaves a body')
-      call put(plots, 'heading = '//quoted(picture_title(origin_of(model, history)))//LF//'path_line = '//quoted(title_of(path)))
+      call put(plots, 'heading = '//quoted(picture_title(origin_of(model, history)))//LF// &
+               'path_line = '//quoted('path '//cleaned(path%name, LONGEST_NAME)))
       call put_frame(plots, 2_ip, range_of(path%s), '"s [L]"')
       call put_terminal(plots, '1000,height')
       call put(plots, colour_styles(' lw 2')//LF//'set style line 2 dt (8,4)'//LF//'set style line 3 dt (3,3)'//LF// &
@@ -98,27 +100,6 @@ contains
          call put(plots, line)
       end do
    end subroutine put_values
-
-   !> `path root: line from (0, 1) to (0, 2)`
-   pure function title_of(path) result(text)
-      type(path_t), intent(in) :: path
-      character(len=:), allocatable :: text
-
-      text = 'path '//cleaned(path%name, LONGEST_NAME)//': '
-      if (path%is_arc) then
-         text = text//'arc about '//pair_text(path%centre)//', radius '//to_text(path%radius, 6)
-      else
-         text = text//'line from '//pair_text(path%ends(:, 1))//' to '//pair_text(path%ends(:, 2))
-         if (path%has_centre) text = text//', centre '//pair_text(path%centre)
-      end if
-   end function title_of
-
-   pure function pair_text(x) result(text)
-      real(wp), intent(in) :: x(2)
-      character(len=:), allocatable :: text
-
-      text = '('//to_text(x(1), 6)//', '//to_text(x(2), 6)//')'
-   end function pair_text
 
    subroutine put_curves(plots, name, columns, titles)
       type(plots_t), intent(inout) :: plots

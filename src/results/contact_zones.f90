@@ -10,7 +10,7 @@ module atrito_contact_zones
    use atrito_results, only: contact_result_t, history_row_t, POINT_OPEN, POINT_STICK
    implicit none (type, external)
    private
-   public :: contact_zone, stick_zone, closing_time, opening_time
+   public :: contact_zone, stick_zone, time_of_change
 
 contains
 
@@ -70,63 +70,37 @@ contains
 
    end function zone_ends
 
-   !> When a pair has closed last: the time at which its normal force, continued backwards from the first two increments with
-   !> contact, is zero, but not before the end of the last one without; nan where it has not closed.
-   pure real(wp) function closing_time(rows, pair) result(time)
+   !> When a pair has closed last, or opened: the time at which its normal force, continued as a line from the two increments with
+   !> contact that are nearest, is zero, within the increment in which it changes; nan where it has not. At first it is open.
+   pure real(wp) function time_of_change(rows, pair, closes) result(time)
       type(history_row_t), intent(in) :: rows(:)     !< of the history so far
       integer(ip), intent(in) :: pair
+      logical, intent(in) :: closes                  !< else it opens
       type(history_row_t), allocatable :: own(:)
-      integer :: i
+      integer :: i, way, near
 
       time = ieee_value(1.0_wp, ieee_quiet_nan)
-      own = pack(rows, rows%pair == pair)
-      do i = size(own), 1, -1
-         if (.not. touches(own(i))) cycle
-         if (i > 1) then
-            if (touches(own(i - 1))) cycle
-         end if
-         time = own(i)%time
-         if (i < size(own)) then
-            if (touches(own(i + 1))) time = zero_of(own(i), own(i + 1))
-         end if
-         if (i > 1) time = max(time, own(i - 1)%time)
-         time = max(time, 0.0_wp)
-         return
-      end do
-   end function closing_time
-
-   !> When it has opened last, in the same way; nan where it has not.
-   pure real(wp) function opening_time(rows, pair) result(time)
-      type(history_row_t), intent(in) :: rows(:)     !< of the history so far
-      integer(ip), intent(in) :: pair
-      type(history_row_t), allocatable :: own(:)
-      integer :: i
-
-      time = ieee_value(1.0_wp, ieee_quiet_nan)
-      own = pack(rows, rows%pair == pair)
+      own = [history_row_t(), pack(rows, rows%pair == pair)]
       do i = size(own), 2, -1
-         if (touches(own(i)) .or. .not. touches(own(i - 1))) cycle
-         time = own(i)%time
-         if (i > 2) then
-            if (touches(own(i - 2))) time = min(time, zero_of(own(i - 1), own(i - 2)))
-         end if
-         return
+         if (touches(own(i)) .eqv. touches(own(i - 1))) cycle
+         if (touches(own(i)) .eqv. closes) exit
       end do
-   end function opening_time
+      if (i < 2) return
+      way = merge(1, -1, closes)                     ! towards the contact
+      near = merge(i, i - 1, closes)
+      time = own(i)%time
+      if (near + way < 1 .or. near + way > size(own)) return
+      associate (first => own(near), second => own(near + way))
+         if (.not. touches(second) .or. second%normal <= first%normal) return
+         time = first%time - first%normal*(second%time - first%time)/(second%normal - first%normal)
+         time = min(max(time, own(i - 1)%time), own(i)%time)
+      end associate
+   end function time_of_change
 
    pure logical function touches(row)
       type(history_row_t), intent(in) :: row
 
       touches = row%stick + row%slip > 0
    end function touches
-
-   !> Where the line through the normal forces of two increments is zero, behind the first as seen from the second; else the time
-   !> of the first.
-   pure real(wp) function zero_of(near, far) result(time)
-      type(history_row_t), intent(in) :: near, far
-
-      time = near%time
-      if (far%normal > near%normal) time = near%time - near%normal*(far%time - near%time)/(far%normal - near%normal)
-   end function zero_of
 
 end module atrito_contact_zones

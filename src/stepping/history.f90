@@ -64,7 +64,7 @@ contains
       if (has_one_increment(model) .and. .not. is_recorded(run)) then
          call solve_only_increment(model, options, reporter, history, status, store)
          if (associated(run%observer) .and. is_ok(status)) call run%observer%observe(history%frames(1), &
-                                                                                                                     history%rows)
+                                                                                     history%rows)
          return
       end if
       allocate (history%frames(0))
@@ -290,7 +290,7 @@ contains
       results%iterations%increment = results%increment
       call add_iterations(results%iterations, run%n_iterations, history%iterations)
       if (associated(run%observer)) call note_observed(run%observer, run%data, results, history%rows(:run%n_rows), &
-                                                        history%observed)
+                                                       history%observed)
       if (run%data%is_printed) then
          results%scene%memory = forecast_memory(model, run%data, results%scene)
          idle = idle_text(run%data, solution)

@@ -32,6 +32,8 @@ module atrito_screen
    integer, parameter :: ANSWER_LINES = 3           !< the largest displacement and stress, and supports
    integer, parameter :: LEAST_OF_PAIRS = 2         !< that there are pairs
    integer(ip), parameter :: MOST_STEPS = 200       !< that `check` describes
+   integer, parameter :: MOST_OBSERVED = 2          !< lines of what is observed, and one that tells of more
+   integer, parameter :: LABELS = 13                !< columns of the label of an item
    integer, parameter :: MOST_OUTER = 4             !< outer iterations shown of a run that did not converge
    integer, parameter :: UNSETTLED_LINES = 2
    integer, parameter :: DIGITS = 5
@@ -65,7 +67,7 @@ contains
          call add_verdict(page, last, ending_text(history))
          call add_sizes(page, model, last)
          if (has_history(model, history)) call add_item(page, 'history', history_text(model, history))
-         if (allocated(last%observed)) call add_item(page, 'observed', observed_text(last%observed))
+         if (allocated(last%observed)) call add_observed(page, last%observed)
          after = CLOSING_LINES + extra_lines(files, present(pictures))
          if (last%converged .and. last%law_holds .and. SCREEN_LINES - page%n - after >= ANSWER_LINES + LEAST_OF_PAIRS) then
             call add_extremes(page, last)
@@ -98,18 +100,30 @@ contains
       end associate
    end function history_text
 
-   !> `tip = -0.012, peak = 3.4`: what the line holds; all are in the listing.
-   pure function observed_text(observed) result(text)
+   !> `tip = -0.012, peak = 3.4`: what some lines hold; all are in the listing.
+   subroutine add_observed(page, observed)
+      type(page_t), intent(inout) :: page
       type(observed_t), intent(in) :: observed(:)
-      character(len=:), allocatable :: text
-      integer :: i
+      character(len=:), allocatable :: text, next
+      integer :: i, n
 
       text = ''
+      n = 0
       do i = 1, size(observed)
-         text = text//', '//trim(observed(i)%name)//' = '//number(observed(i)%value, DIGITS)
+         next = trim(observed(i)%name)//' = '//number(observed(i)%value, DIGITS)
+         if (len(text) > 0 .and. len(text) + len(next) + len(', ,') > WIDTH - LABELS) then
+            n = n + 1
+            call add_item(page, trim(merge('observed', '        ', n == 1)), text//',')
+            text = ''
+            if (n == MOST_OBSERVED) next = 'and '//to_text(size(observed, kind=ip) - int(i, ip) + 1)//' more in the listing'
+         else if (i > 1) then
+            text = text//', '
+         end if
+         text = text//next
+         if (n == MOST_OBSERVED) exit
       end do
-      text = text(3:)
-   end function observed_text
+      call add_item(page, trim(merge('observed', '        ', n == 0)), text)
+   end subroutine add_observed
 
    subroutine add_verdict(page, results, ending)
       type(page_t), intent(inout) :: page

@@ -21,9 +21,9 @@ module atrito_write_tables
 
    !> Every table that atrito can write.
    character(len=12), parameter :: TABLE_NAMES(19) = [character(len=12) :: 'contact', 'summary', 'extremes', 'resultants', &
-                                                      'history', 'nodes', 'reactions', 'stress', 'nodal_stress', 'bodies', &
-                                                      'rigid', 'joints', 'sections', 'path', 'ties', 'equations', 'springs', &
-                                                      'iterations', 'timing']
+                                                              'history', 'nodes', 'reactions', 'stress', 'nodal_stress', 'bodies', &
+                                                            'rigid', 'joints', 'sections', 'path', 'ties', 'equations', 'springs', &
+                                                                                                             'iterations', 'timing']
 
    !> Those of --show.
    character(len=12), parameter :: SHOWN_TABLES(7) = [character(len=12) :: 'show-element', 'show-matrix', 'show-line', &

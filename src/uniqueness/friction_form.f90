@@ -57,7 +57,7 @@ contains
             do k = line%average%first(j), line%average%first(j + 1) - 1
                associate (other => line%average%column(k))
                   if (line%normal(other) == 0) cycle          ! its pressure is known: the same in all solutions
-                  form%w(line%normal(other), i) = line%law(j)%nu/form%nu*line%weight(j)*line%average%entry(k) &
+                  form%w(line%normal(other), i) = line%law(j)%nu/form%nu*line%weight(j)*line%average%value(k) &
                                                          /line%weight(other)
                end associate
             end do

@@ -47,7 +47,8 @@ module atrito_observations
 
 contains
 
-   !> Reads `NAME=EXPRESSION`, several: those of the deck, then the texts of --observe. is_ok is false where one is wrong, and error says how.
+   !> Reads `NAME=EXPRESSION`, several: those of the deck, then the texts of --observe. is_ok is false where one is
+   !> wrong, and error says how.
    subroutine read_observations(texts, model, observations, is_ok, error)
       type(string_t), intent(in) :: texts(:)
       type(model_t), intent(in) :: model
@@ -77,8 +78,9 @@ contains
             if (is_ok) call find_terms(model, observations, i, is_ok, error)
             if (.not. is_ok) return
             observations%wants_stress = observations%wants_stress .or. wants_stress(one%terms)
-            if (any([(is_of_strain(one%terms(k)), k=1, size(one%terms))]) .and. .not. allocated(observations%mesh)) &
-               allocate (observations%mesh, source=model%mesh)
+            do k = 1, size(one%terms)
+               if (is_of_strain(one%terms(k))) observations%mesh = model%mesh
+            end do
          end associate
       end do
    end subroutine read_observations
@@ -181,8 +183,8 @@ contains
       end associate
    end subroutine find_terms
 
-   !> An error of the deck or the command line, of which its words are known and where in the expression it is; of names that are known the
-   !> nearest are told, or all where none is near and they are few.
+   !> An error of the deck or the command line, of which its words are known and where in the expression it is; of names that are
+   !> known the nearest are told, or all where none is near and they are few.
    subroutine complete_error(one, error)
       type(observation_t), intent(in) :: one
       type(message_t), intent(inout) :: error

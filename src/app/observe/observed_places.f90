@@ -146,8 +146,7 @@ contains
       do i = 1, size(model%instances, kind=ip)
          if (same_name(model%instances(i)%name, name)) first = model%instances(i)%first_number
       end do
-      if (first > 0 .and. any(model%instances%first_number > first)) &
-         next = minval(model%instances%first_number, model%instances%first_number > first)
+      if (first > 0) next = minval([huge(1_ip), model%instances%first_number], [.true., model%instances%first_number > first])
    end subroutine find_instance
 
    !> `12`, or `LEFT.12` of an instance. nodes is not allocated where it is no number.

@@ -1,7 +1,7 @@
 !> What stands for a number of the solution in an expression of --observe, and how that is found in the results.
 module atrito_observed_terms
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
-   use atrito_contact_zones, only: closing_time, contact_zone, opening_time, stick_zone
+   use atrito_contact_zones, only: contact_zone, stick_zone, time_of_change
    use atrito_kinds, only: ip, is_nan, wp
    use atrito_place_fields, only: place_field, place_values_t, FIRST_STRAIN, FIRST_STRESS, PLACE_FIELDS
    use atrito_results, only: contact_result_t, history_row_t, results_t
@@ -26,9 +26,9 @@ module atrito_observed_terms
 
    !> Of a pair: a zone with its ends, or a time.
    character(len=18), parameter :: ZONE_FIELDS(12) = [character(len=18) :: 'contact_start', 'contact_end', 'contact_extent', &
-                                                      'contact_half_width', 'contact_centre', 'stick_start', 'stick_end', &
-                                                      'stick_extent', 'stick_half_width', 'stick_centre', 'closing_time', &
-                                                      'opening_time']
+                                                               'contact_half_width', 'contact_centre', 'stick_start', 'stick_end', &
+                                                               'stick_extent', 'stick_half_width', 'stick_centre', 'closing_time', &
+                                                                                                                     'opening_time']
 
    type :: term_t
       integer :: kind = TERM_TIME
@@ -94,8 +94,7 @@ contains
       case ('centre')
          value = 0.5_wp*(ends(1) + ends(2))
       case ('time')
-         if (name == 'closing_time') value = closing_time(rows, term%pair)
-         if (name == 'opening_time') value = opening_time(rows, term%pair)
+         value = time_of_change(rows, term%pair, name == 'closing_time')
       case default
          value = 0.0_wp
          if (.not. any(is_nan(ends))) value = ends(2) - ends(1)

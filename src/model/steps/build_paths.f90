@@ -68,22 +68,18 @@ contains
       type(data_line_t), intent(in) :: line
       type(path_t), intent(inout) :: path
       logical, intent(out) :: ok
-      character(len=*), parameter :: OF_LINE(6) = ['x1', 'y1', 'x2', 'y2', 'xc', 'yc'], OF_ARC(5) = ['xc', 'yc', 'r ', 'a1', 'a2']
+      character(len=*), parameter :: OF_LINE(6) = ['x1', 'y1', 'x2', 'y2', 'xc', 'yc'], OF_ARC(6) = ['xc', 'yc', 'r ', 'a1', &
+                                                                                                     'a2', '  ']
+      character(len=:), allocatable :: wrong, expected
       real(wp) :: x(6)
       logical :: good(6)
-      integer(ip) :: k, n
+      integer(ip) :: k
 
       x = 0.0_wp
       good = .true.
-      n = merge(5_ip, min(6_ip, line%n_tokens), path%is_arc)
-      do k = 1, n
-         if (path%is_arc) then
-            call get_real(context%deck, line_item(context%deck, line, k), trim(OF_ARC(k))//trim(merge(', a real [degrees]', &
-                          ', a real [L]      ', k > 3)), x(k), good(k), keyword=KEYWORD)
-         else
-            call get_real(context%deck, line_item(context%deck, line, k), OF_LINE(k)//', a real [L]', x(k), good(k), &
-                          keyword=KEYWORD)
-         end if
+      do k = 1, line%n_tokens
+         call get_real(context%deck, line_item(context%deck, line, k), trim(merge(OF_ARC(k), OF_LINE(k), path%is_arc))// &
+                       ', a real', x(k), good(k), keyword=KEYWORD)
       end do
       ok = all(good)
       if (.not. ok) return
@@ -92,19 +88,18 @@ contains
          path%radius = x(3)
          path%angles = x(4:5)*DEGREE
          ok = x(3) > 0.0_wp .and. abs(x(5) - x(4)) > 0.0_wp .and. abs(x(5) - x(4)) <= 360.0_wp
-         k = merge(4_ip, 3_ip, x(3) > 0.0_wp)
-         if (.not. ok) call report_error(context%deck, line_item(context%deck, line, k), 'E-VALUE', 'this is no arc', &
-                                         expected='a radius > 0 [L], and two angles that differ by at most 360 [degrees]', &
-                                         keyword=KEYWORD)
+         wrong = 'this is no arc'
+         expected = 'a radius > 0 [L], and two angles that differ by at most 360 [degrees]'
       else
          path%ends = reshape(x(:4), [2, 2])
          path%centre = x(5:6)
-         path%has_centre = n > 4
+         path%has_centre = line%n_tokens > 4
          ok = any(abs(path%ends(:, 1) - path%ends(:, 2)) > 0.0_wp)
-         if (.not. ok) call report_error(context%deck, line_item(context%deck, line, 3_ip), 'E-VALUE', &
-                                         'both ends of the path are the same', expected='x1, y1, x2, y2: two points [L]', &
-                                         keyword=KEYWORD)
+         wrong = 'both ends of the path are the same'
+         expected = 'x1, y1, x2, y2: two points [L]'
       end if
+      if (.not. ok) call report_error(context%deck, line_item(context%deck, line, 3_ip), 'E-VALUE', wrong, expected=expected, &
+                                      keyword=KEYWORD)
    end subroutine read_line
 
    !> Appends a path; there is room for one of each line.
