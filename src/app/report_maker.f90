@@ -6,7 +6,7 @@ module atrito_report_maker
    use atrito_listing, only: date_text
    use atrito_model, only: model_t
    use atrito_report, only: report_t
-   use atrito_report_file, only: REPORT_NAME
+   use atrito_plot_files, only: REPORT_NAME
    use atrito_reporter, only: reporter_t, report_phase
    use atrito_results, only: history_t
    use atrito_run_report, only: report_of_run

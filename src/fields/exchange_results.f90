@@ -285,8 +285,10 @@ contains
       call exchange(archive, 'applied_moment', balance%applied_moment)
       call exchange(archive, 'reaction_moment', balance%reaction_moment)
       call exchange_vector(archive, 'rigid', balance%rigid)
+      call exchange(archive, 'rigid_moment', balance%rigid_moment)
       call exchange(archive, 'is_revolved', balance%is_revolved)
       call exchange_vector(archive, 'rows', balance%rows)
+      call exchange(archive, 'rows_moment', balance%rows_moment)
    end subroutine exchange_balance
 
    subroutine exchange_scene(archive, scene)

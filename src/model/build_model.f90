@@ -242,6 +242,7 @@ contains
       allocate (model%parameters(deck%n_parameters))
       do i = 1, deck%n_parameters
          model%parameters(i)%name = deck%parameters(i)%name
+         model%parameters(i)%written = token_text(deck, deck%parameters(i)%expression)
          model%parameters(i)%value = deck%parameters(i)%value
          model%parameters(i)%overridden = deck%parameters(i)%overridden
       end do

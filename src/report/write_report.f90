@@ -9,7 +9,7 @@ module atrito_write_report
    use atrito_messages, only: add_warning
    use atrito_page, only: page_t, add_line, begin_page
    use atrito_report, only: report_t, page_section_t, begin_section, add_section
-   use atrito_report_file, only: REPORT_NAME
+   use atrito_plot_files, only: REPORT_NAME
    use atrito_report_pictures, only: compose_pictures
    use atrito_report_sections, only: contents_t, read_contents, add_numbers, add_results, add_messages, add_sources
    use atrito_status, only: status_t, is_ok

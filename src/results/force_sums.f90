@@ -43,6 +43,7 @@ contains
             balance%applied_moment = balance%applied_moment + part%applied_moment
             balance%reaction_moment = balance%reaction_moment + part%reaction_moment
             balance%rigid = balance%rigid + part%rigid
+            balance%rigid_moment = balance%rigid_moment + part%rigid_moment
          end associate
       end do
       work = work_of(1_ip, [sum(sums%work)], [unit])
@@ -60,6 +61,7 @@ contains
             s%applied_moment = s%applied_moment + (x(1, i)*f(2, i) - x(2, i)*f(1, i))
             s%reaction_moment = s%reaction_moment + (x(1, i)*reaction(2, i) - x(2, i)*reaction(1, i))
             s%rigid = s%rigid + contact(:, i)
+            s%rigid_moment = s%rigid_moment + (x(1, i)*contact(2, i) - x(2, i)*contact(1, i))
          end associate
          sums%work = sums%work + ((f(1, i) + reaction(1, i))*(u(1, i)*per_unit) + (f(2, i) + reaction(2, i))*(u(2, i)*per_unit))
       end do

@@ -20,7 +20,7 @@ contains
       type(contact_solution_t), intent(in) :: solution
       real(wp), intent(inout) :: contact(:, :)             !< (2, n_nodes) with all rows; without supports on return [F]
       type(results_t), intent(inout) :: results
-      real(wp), intent(out) :: others(2)                   !< resultant of springs and equations [F]
+      real(wp), intent(out) :: others(3)                   !< resultant of springs and equations [F], moment about the origin [F L]
       real(wp) :: q(data%rows%n), to_ground(2, data%fem%mesh%n_nodes)
       integer(ip) :: j
 
@@ -37,7 +37,9 @@ contains
          end do
          to_ground = 0.0_wp
          call add_bilateral_forces(data%rows, kind == ROW_SPRING .or. kind == ROW_EQUATION, q, to_ground)
-         others = sum(to_ground, dim=2)
+         associate (x => data%fem%mesh%x)
+            others = [sum(to_ground, dim=2), sum(x(1, :)*to_ground(2, :) - x(2, :)*to_ground(1, :))]
+         end associate
       end associate
    end subroutine share_out_rows
 
@@ -58,6 +60,7 @@ contains
             balance%applied_moment = balance%applied_moment - (x(1)*f(2) - x(2)*f(1))
             balance%reaction_moment = balance%reaction_moment - (x(1)*r(2) - x(2)*r(1))
             balance%rigid = balance%rigid - contact(:, nodes(1))
+            balance%rigid_moment = balance%rigid_moment - (x(1)*contact(2, nodes(1)) - x(2)*contact(1, nodes(1)))
          end associate
       end do
    end subroutine leave_out_sections

@@ -412,7 +412,7 @@ contains
       type(results_t), intent(inout) :: results
       real(wp), allocatable :: contact(:, :)
       type(equilibrium_t) :: equilibrium
-      real(wp) :: imbalance, others(2)
+      real(wp) :: imbalance, others(3)
 
       contact = contact_forces(data%fem, data%rows, data%line, solution)
       call move_alloc(u, results%u)
@@ -445,8 +445,10 @@ contains
       call sum_forces(data%fem%mesh%x, results%u, data%f, results%reaction, contact, results%balance, results%external_work)
       call leave_out_sections(data, results%reaction, contact, results%balance)
       results%balance%is_revolved = is_revolved(data%fem%mesh)
-      results%balance%rows = others
-      results%balance%rigid = results%balance%rigid - others
+      results%balance%rows = others(:2)
+      results%balance%rows_moment = others(3)
+      results%balance%rigid = results%balance%rigid - others(:2)
+      results%balance%rigid_moment = results%balance%rigid_moment - others(3)
       if (data%rows%n_bilateral > 0) call clear_balance(results%balance)
       ! with the contact forces less those of bilateral rows that are supports
       if (data%step%requests%bodies) call sum_bodies(data%fem, results%u, data%f, results%reaction, contact, results%bodies)

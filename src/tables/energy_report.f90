@@ -5,7 +5,7 @@ module atrito_energy_report
    use atrito_model, only: model_t
    use atrito_page, only: page_t, add_entry, number
    use atrito_results, only: results_t
-   use atrito_summary, only: pair_count
+   use atrito_summary, only: pair_count, scales_t
    implicit none (type, external)
    private
    public :: energies_t, find_energies, describe_energies
@@ -21,7 +21,7 @@ module atrito_energy_report
    end type energies_t
 
    integer, parameter :: DIGITS = 6
-   real(wp), parameter :: AGREES = 1.0e-6_wp     !< of the scale
+   real(wp), parameter :: AGREES = 1.0e-3_wp     !< of the scale
    real(wp), parameter :: ROUND_OFF = 1.0e-12_wp !< of the scale: no work
 
 contains
@@ -50,15 +50,17 @@ contains
    end function find_energies
 
    !> A line each, and whether they add up.
-   subroutine describe_energies(page, model, results)
+   subroutine describe_energies(page, model, results, scales)
       type(page_t), intent(inout) :: page
       type(model_t), intent(in) :: model
       type(results_t), intent(in) :: results
+      type(scales_t), intent(in) :: scales
       type(energies_t) :: e
       character(len=:), allocatable :: reasons
       integer :: i
 
       e = find_energies(model, results)
+      if (e%scale <= ROUND_OFF*scales%force*scales%displacement) e = energies_t()
       call add_energy('strain energy', e%strain)
       call add_energy('half of the external work', e%external)
       if (abs(e%friction) > ROUND_OFF*e%scale) call add_energy('half of the work of friction', e%friction)

@@ -1,7 +1,8 @@
 !> The largest and least displacements, stresses and tractions: extremes.tab, and their lines of the listing and on the screen.
 module atrito_extreme_report
    use atrito_kinds, only: ip, wp
-   use atrito_page, only: page_t, add_blank, add_item, add_line, left, right, number
+   use atrito_grid, only: grid_t, begin_grid, add_row, put_grid, CELL
+   use atrito_page, only: page_t, add_blank, add_item, add_line, left, number
    use atrito_results, only: results_t, extreme_t
    use atrito_strings, only: append_string, replaced, string_t, to_text
    use atrito_summary, only: scales_t
@@ -61,23 +62,25 @@ contains
       type(page_t), intent(inout) :: page
       type(results_t), intent(in) :: results
       type(scales_t), intent(in) :: scales
-      integer, parameter :: LABEL = 28
-      real(wp) :: value(1)
+      type(grid_t) :: grid
+      real(wp) :: value(1), x(2)
       integer :: i
 
       if (.not. allocated(results%extremes)) return
       call add_blank(page)
       call add_line(page, '   '//left('largest and least; stresses are those recovered at the nodes', 60))
-      call add_line(page, '   '//left('', LABEL)//right('value', 16)//right('node', 12)//right('x [L]', 16)//right('y [L]', 16))
+      call begin_grid(grid, 1, CELL//'value'//CELL//'node'//CELL//'x [L]'//CELL//'y [L]')
       do i = 1, size(results%extremes)
          associate (extreme => results%extremes(i))
             value = extreme%value
             call clear_small(scale_of(extreme, scales), value)
-            call add_line(page, '   '//left(name_of(extreme), LABEL)//right(number(value(1), DIGITS), 16)// &
-                          right(to_text(extreme%id), 12)//right(number(extreme%x(1), DIGITS), 16)// &
-                          right(number(extreme%x(2), DIGITS), 16))
+            x = extreme%x
+            call clear_small(scales%length, x)
+            call add_row(grid, name_of(extreme)//CELL//number(value(1), DIGITS)//CELL//to_text(extreme%id)//CELL// &
+                         number(x(1), DIGITS)//CELL//number(x(2), DIGITS))
          end associate
       end do
+      call put_grid(page, grid)
    end subroutine describe_extremes
 
    !> `u1 max [L]`; |u| is the size of the displacement.

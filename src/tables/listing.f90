@@ -5,13 +5,14 @@ module atrito_listing
    use atrito_strings, only: string_t, join, replaced, to_text
    use atrito_version, only: PROGRAM_NAME, PROGRAM_VERSION
    use atrito_status, only: status_t
-   use atrito_files, only: file_set_t, text_file_t, open_text, put_line, close_text
+   use atrito_files, only: file_set_t, text_file_t, open_text, put_line, close_text, NEW_LINE_CHARACTER
    use atrito_messages, only: count_messages, get_message, format_message
    use atrito_system, only: peak_memory
    use atrito_timers, only: phase_time_t, get_phases
    use atrito_energy_report, only: describe_energies
    use atrito_extreme_report, only: describe_extremes
-   use atrito_frame_tables, only: has_frame_rows
+   use atrito_frame_tables, only: build_frame_table, has_frame_rows
+   use atrito_grid, only: grid_t, begin_grid, add_row, name_units, put_grid, put_table, CELL
    use atrito_increments, only: increment_t, list_increments, has_history, increment_name, ending_text, time_text
    use atrito_libraries, only: library_t, list_libraries
    use atrito_model, only: model_t
@@ -23,16 +24,20 @@ module atrito_listing
    use atrito_row_tables, only: describe_rows
    use atrito_rigid_report, only: describe_rigid_bodies
    use atrito_scene_report, only: describe_needs, describe_bodies, describe_pairs
-   use atrito_summary, only: quantity_t, scales_t, summarise_pair, pair_quantities, step_quantities, measure_history, pair_name, &
+   use atrito_summary, only: quantity_t, scales_t, summarise_pair, pair_quantities, step_quantities, measure_history, pair_count, &
+                             pair_name, &
                              closed_word
-   use atrito_table, only: ZERO_SHARE
+   use atrito_patched_text, only: take_ends
+   use atrito_table, only: table_t, clear_small, ZERO_SHARE
+   use atrito_units, only: unit_names
    use atrito_utf8, only: visible
    use atrito_uniqueness_text, only: uniqueness_text
    implicit none (type, external)
    private
    public :: write_listing, compose_listing, list_used_libraries, date_text
 
-   integer, parameter :: WIDTH = 100                !< columns
+   integer, parameter :: WIDTH = 80                 !< columns
+   integer, parameter :: MOST_LINES = 200           !< of the deck; of a longer one half as many at each end
    integer, parameter :: DIGITS = 6                 !< of numbers for people
    character(len=22), parameter :: SAID_ELSEWHERE(*) = &
                                    [character(len=22) :: 'error_estimate_percent', 'strain_energy', 'external_work']
@@ -69,9 +74,13 @@ contains
       type(string_t), intent(in), optional :: pictures(:)    !< that are drawn after the listing, names without ending
       type(scales_t) :: scales
       type(scales_t), allocatable :: own(:)
+      integer :: first, i
 
       call begin_page(page, WIDTH)
       call add_title(page, model, history)
+      call add_deck(page, model)
+      first = page%n + 1
+      page%units = model%units
       call add_heading(page, '1  WHAT WAS UNDERSTOOD')
       call describe_model(page, model)
       call add_blank(page)
@@ -86,14 +95,19 @@ contains
          call add_iterations(page, last)
          call add_heading(page, '5  CONTACT')
          call measure_history(model, history, scales, own)
-         call add_contact(page, model, history, own)
+         call add_contact(page, model, history, scales, own)
          call describe_rows(page, model, last)
          call add_heading(page, '6  REACTIONS AND EQUILIBRIUM')
          if (has_history(model, history)) call add_line(page, '   at the end: '//frame_name(last))
          call add_equilibrium(page, model, last, scales)
          call describe_extremes(page, last, scales)
+         call add_heading(page, '7  WHAT WAS PRINTED')
+         call add_tables(page, model, history, scales, own)
          call add_end(page, last, pictures)
       end associate
+      do i = first, merge(page%n, 0, len(unit_names(model%units)) > 0)
+         call name_units(model%units, page%lines(i)%s)
+      end do
    end subroutine compose_listing
 
    !> How the bodies were factored, and by which libraries.
@@ -125,14 +139,14 @@ contains
       type(results_t), intent(in) :: results
       type(string_t), intent(in), optional :: pictures(:)
 
-      call add_heading(page, '7  MESSAGES')
+      call add_heading(page, '8  MESSAGES')
       call add_messages(page)
       if (present(pictures)) then
          call add_blank(page)
          call add_entry(page, 'plots, drawn after this listing', 'plots/')
          call add_paragraph(page, join(pictures, ', '), 6)
       end if
-      call add_heading(page, '8  ERROR AND TIME')
+      call add_heading(page, '9  ERROR AND TIME')
       call add_entry(page, 'estimated error', number(results%error_estimate, DIGITS)//' % of the energy norm')
       call add_times(page)
    end subroutine add_end
@@ -204,12 +218,12 @@ contains
       integer :: i
 
       call add_rule(page, '=')
-      call add_line(page, left(PROGRAM_NAME//' '//PROGRAM_VERSION, 60)//right(date_text(), WIDTH - 60))
+      call add_line(page, left(PROGRAM_NAME//' '//PROGRAM_VERSION, 40)//right(date_text(), WIDTH - 40))
       call add_line(page, 'deck  '//model%deck_path)
       do i = 1, size(model%heading)
          call add_paragraph(page, model%heading(i)%s, 6)
       end do
-      if (allocated(model%provenance%options)) call add_line(page, left('options  '//model%provenance%options, WIDTH))
+      if (allocated(model%provenance%options)) call add_paragraph(page, 'options  '//model%provenance%options, 0)
       if (allocated(model%provenance%digest)) call add_line(page, 'as run  '//as_run_name(model%deck_name)//', digest '// &
                                                             model%provenance%digest)
       call add_rule(page, '=')
@@ -225,6 +239,80 @@ contains
          if (allocated(last%verdict)) call add_paragraph(page, last%verdict, 0)
       end associate
    end subroutine add_title
+
+   !> The deck as it was run, which runs by itself: its lines, of a long one those at both ends.
+   subroutine add_deck(page, model)
+      type(page_t), intent(inout) :: page
+      type(model_t), intent(in) :: model
+      integer(ip), parameter :: ROOM = 400_ip*MOST_LINES    !< characters that are looked at, at either end
+      character(len=:), allocatable :: front, back
+
+      if (.not. allocated(model%as_run)) return
+      call take_ends(model%as_run(1)%text, ROOM, front, back)
+      if (len(back) == 0 .and. line_count(front) > MOST_LINES) back = front
+      call add_heading(page, 'THE DECK AS IT WAS RUN')
+      call add_lines(page, front, 1, merge(MOST_LINES/2, MOST_LINES, len(back) > 0))
+      if (len(back) == 0) return
+      call add_line(page, '... the lines between are in '//as_run_name(model%deck_name))
+      call add_lines(page, back, line_count(back) - MOST_LINES/2 + 1, huge(1))
+   end subroutine add_deck
+
+   pure integer function line_count(text)
+      character(len=*), intent(in) :: text
+      integer :: i
+
+      line_count = 0
+      do i = 1, len(text)
+         if (text(i:i) == NEW_LINE_CHARACTER) line_count = line_count + 1
+      end do
+   end function line_count
+
+   !> Some lines of a text.
+   subroutine add_lines(page, text, first, last)
+      type(page_t), intent(inout) :: page
+      character(len=*), intent(in) :: text
+      integer, intent(in) :: first, last
+      character(len=:), allocatable :: line
+      integer :: begin, end, i
+
+      end = 0
+      i = 0
+      do while (end < len(text) .and. i < last)
+         i = i + 1
+         begin = end + 1
+         end = end + index(text(begin:), NEW_LINE_CHARACTER)
+         if (end < begin) end = len(text) + 1
+         if (i < first) cycle
+         line = text(begin:end - 1)
+         if (len(line) > 0) line = line(:len(line) - merge(1, 0, line(len(line):) == achar(13)))   ! of Windows
+         if (index(line, '**') == 1 .and. len(line) > page%width) line = left(line, page%width)   ! what is read is broken
+         if (len_trim(line) == 0) call add_blank(page)
+         call add_paragraph(page, line, 0)
+      end do
+   end subroutine add_lines
+
+   !> The tables of the last increment that is printed, each with its rows or its extremes.
+   subroutine add_tables(page, model, history, scales, own)
+      type(page_t), intent(inout) :: page
+      type(model_t), intent(in) :: model
+      type(history_t), intent(in), target :: history
+      type(scales_t), intent(in) :: scales, own(:)
+      character(len=12), parameter :: NAMES(8) = [character(len=12) :: 'contact', 'nodes', 'reactions', 'stress', 'nodal_stress', &
+                                                  'bodies', 'joints', 'sections']
+      type(results_t), pointer :: frame
+      type(table_t) :: table
+      character(len=:), allocatable :: only_pair
+      integer :: i
+
+      call view_frame(history, last_frame(history), frame)
+      only_pair = ''
+      if (pair_count(frame) == 1) only_pair = 'pair '
+      do i = 1, size(NAMES)
+         if (.not. has_frame_rows(model, frame, trim(NAMES(i)), .true.)) cycle
+         call build_frame_table(model, frame, scales, own, trim(NAMES(i)), table)
+         call put_table(page, table, ' step increment s weight weighted_pressure slip_increment '//only_pair)
+      end do
+   end subroutine add_tables
 
    !> yyyy-mm-dd hh:mm
    function date_text() result(text)
@@ -255,14 +343,14 @@ contains
       if (size(results%iterations) == 0) return
       call add_blank(page)
       call add_line(page, right('outer', 8)//right('inner', 6)//right('open', 7)//right('stick', 7)// &
-                    right(closed_word(results%scene), 7)//right('d displ.', 14)// &
-                    right('d pressure', 14)//right('d friction', 14)//right('residual', 14))
+                    right(closed_word(results%scene), 7)//right('d displ.', 11)// &
+                    right('d press.', 11)//right('d frict.', 11)//right('residual', 11))
       do i = 1, size(results%iterations)
          associate (row => results%iterations(i))
             call add_line(page, right(to_text(row%outer), 8)//right(to_text(row%inner), 6)//right(to_text(row%open), 7)// &
                           right(to_text(row%stick), 7)//right(to_text(row%slip), 7)// &
-                          right(number(row%change_displacement, 4), 14)//right(number(row%change_pressure, 4), 14)// &
-                          right(number(row%change_friction, 4), 14)//right(number(row%residual, 4), 14))
+                          right(number(row%change_displacement, 4), 11)//right(number(row%change_pressure, 4), 11)// &
+                          right(number(row%change_friction, 4), 11)//right(number(row%residual, 4), 11))
          end associate
       end do
       if (allocated(results%unsettled)) call add_unsettled(page, results%unsettled)
@@ -289,10 +377,11 @@ contains
    end subroutine add_unsettled
 
    !> The pairs of each increment whose contact is printed.
-   subroutine add_contact(page, model, history, own)
+   subroutine add_contact(page, model, history, scales, own)
       type(page_t), intent(inout) :: page
       type(model_t), intent(in) :: model
       type(history_t), intent(in), target :: history
+      type(scales_t), intent(in) :: scales
       type(scales_t), intent(in) :: own(:)           !< of each pair
       type(results_t), pointer :: frame
       logical :: is_told
@@ -306,7 +395,7 @@ contains
          is_told = .true.
          if (has_history(model, history)) call add_line(page, frame_name(frame))
          call add_pairs(page, frame, own)
-         if (has_history(model, history)) call describe_rigid_bodies(page, frame)
+         if (has_history(model, history)) call describe_rigid_bodies(page, frame, scales)
       end do
       if (.not. is_told) call add_line(page, '   no contact pair')
    end subroutine add_contact
@@ -354,7 +443,11 @@ contains
       type(scales_t), intent(in) :: scales
       type(quantity_t), allocatable :: list(:)
       type(balance_t) :: b
-      real(wp) :: total(2)
+      type(grid_t) :: grid
+      real(wp) :: parts(3, 5), force
+      real(wp), parameter :: SUMMED = 10.0_wp        !< round-offs of a sum over elements
+      character(len=26), parameter :: PART_NAMES(5) = [character(len=26) :: 'applied', 'reactions of the supports', &
+                                                             'from rigid surfaces', 'from springs and equations', 'sum']
       integer :: i
 
       b = results%balance
@@ -363,36 +456,34 @@ contains
          b = balance_t([0.0_wp, b%applied(2)], [0.0_wp, b%reactions(2)], rigid=[0.0_wp, b%rigid(2)], &
                        rows=[0.0_wp, b%rows(2)])
       end if
-      call add_line(page, '   '//left('resultants', 30)//right('F1 [F]', 18)//right('F2 [F]', 18)// &
-                    right('moment about 0,0', 20))
-      call add_line(page, force_line('applied', b%applied)//right(number(b%applied_moment, DIGITS), 20))
-      call add_line(page, force_line('reactions of the supports', b%reactions)//right(number(b%reaction_moment, DIGITS), 20))
-      call add_line(page, force_line('from rigid surfaces', -b%rigid))
-      if (any(abs(b%rows) > 0.0_wp)) call add_line(page, force_line('from springs and equations', -b%rows))
-      total = b%applied + b%reactions - b%rigid - b%rows     ! equilibrium makes it zero; rounding of its parts is nothing
-      where (abs(total) < ZERO_SHARE*(abs(b%applied) + abs(b%reactions) + abs(b%rigid) + abs(b%rows))) total = 0.0_wp
-      call add_line(page, force_line('sum', total))
+      parts(:, 1) = [b%applied, b%applied_moment]
+      parts(:, 2) = [b%reactions, b%reaction_moment]
+      parts(:, 3) = -[b%rigid, b%rigid_moment]
+      parts(:, 4) = -[b%rows, b%rows_moment]
+      parts(:, 5) = sum(parts(:, :4), dim=2)         ! equilibrium makes it zero
+      force = SUMMED*sum(abs(parts(:2, :4)))         ! by which round-off is measured
+      call begin_grid(grid, 1, 'resultants'//CELL//'F1 [F]'//CELL//'F2 [F]'//CELL//'moment about 0,0 [F L]')
+      do i = 1, size(parts, 2)
+         call clear_small(force, parts(:2, i))
+         call clear_small(max(force*scales%length, SUMMED*sum(abs(parts(3, :4)))), parts(3:, i))
+         if (any(i == [3, 4]) .and. .not. any(abs(parts(:, i)) > 0.0_wp)) cycle
+         call add_row(grid, trim(PART_NAMES(i))//CELL//number(parts(1, i), DIGITS)//CELL//number(parts(2, i), DIGITS)//CELL// &
+                      number(parts(3, i), DIGITS))
+      end do
+      call put_grid(page, grid)
       call describe_resultants(page, model, results, scales)
-      call describe_rigid_bodies(page, results)
+      call describe_rigid_bodies(page, results, scales)
       call add_blank(page)
       list = step_quantities(results)
       do i = 1, size(list)
          if (list(i)%is_count .or. any(list(i)%name == SAID_ELSEWHERE)) cycle
          call add_quantity(page, list(i))
       end do
-      call describe_energies(page, model, results)
+      call describe_energies(page, model, results, scales)
       call add_entry(page, 'contact law, checked anew', trim(merge('holds at every point             ', &
                                                                    'DOES NOT HOLD, or was not reached', &
                                                                    results%converged .and. results%law_holds)))
    end subroutine add_equilibrium
-
-   pure function force_line(name, f) result(text)
-      character(len=*), intent(in) :: name
-      real(wp), intent(in) :: f(2)
-      character(len=:), allocatable :: text
-
-      text = '   '//left(name, 30)//right(number(f(1), DIGITS), 18)//right(number(f(2), DIGITS), 18)
-   end function force_line
 
    subroutine add_messages(page)
       type(page_t), intent(inout) :: page

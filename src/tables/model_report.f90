@@ -5,7 +5,9 @@ module atrito_model_report
    use atrito_load_resultants, only: force_t, load_resultants, last_value
    use atrito_row_tables, only: joined_text
    use atrito_kinds, only: ip, wp
+   use atrito_grid, only: grid_t, begin_grid, add_row, put_grid, CELL
    use atrito_rigid_report, only: describe_references
+   use atrito_table, only: clear_small
    use atrito_strings, only: to_text
    use atrito_units, only: unit_names
    use atrito_mesh, only: is_revolved
@@ -13,7 +15,7 @@ module atrito_model_report
    use atrito_sets, only: set_count
    use atrito_model, only: model_t, step_t, requested_t, increments_t, interaction_t, FORMULATION_NAME, FRICTION_NAME, &
                            KERNEL_NAME, FRICTION_NONE, FRICTION_NONLOCAL, LOAD_TRACTION, SURFACE_SEGMENTS
-   use atrito_page, only: page_t, add_line, add_blank, add_entry, left, right, number, plural
+   use atrito_page, only: page_t, add_line, add_blank, add_entry, number, plural
    implicit none (type, external)
    private
    public :: describe_model, describe_counts, describe_instances, describe_steps, is_history
@@ -84,42 +86,49 @@ contains
    subroutine describe_instances(page, model)
       type(page_t), intent(inout) :: page
       type(model_t), intent(in) :: model
+      type(grid_t) :: grid
       integer(ip) :: i
 
       if (.not. allocated(model%instances)) return
       if (size(model%instances, kind=ip) == 0) return
       call add_blank(page)
-      call add_line(page, '   '//left('instance', 24)//left('part', 24)//right('number 1 is', 12)//right('dx [L]', 14)// &
-                    right('dy [L]', 14)//right('turned [deg]', 14))
+      call begin_grid(grid, 2, 'instance'//CELL//'part'//CELL//'number 1 is'//CELL//'dx [L]'//CELL//'dy [L]'//CELL//'turned [deg]')
       do i = 1, size(model%instances, kind=ip)
          associate (instance => model%instances(i))
-            call add_line(page, '   '//left(instance%name, 24)//left(instance%part, 24)// &
-                          right(to_text(instance%first_number), 12)//right(number(instance%shift(1), DIGITS), 14)// &
-                          right(number(instance%shift(2), DIGITS), 14)//right(number(instance%angle, DIGITS), 14))
+            call add_row(grid, instance%name//CELL//instance%part//CELL//to_text(instance%first_number)//CELL// &
+                         number(instance%shift(1), DIGITS)//CELL//number(instance%shift(2), DIGITS)//CELL// &
+                         number(instance%angle, DIGITS))
          end associate
       end do
+      call put_grid(page, grid)
    end subroutine describe_instances
 
    subroutine describe_parameters(page, model)
       type(page_t), intent(inout) :: page
       type(model_t), intent(in) :: model
+      type(grid_t) :: grid
+      character(len=:), allocatable :: written
       integer(ip) :: i
 
       if (size(model%parameters, kind=ip) == 0) return
       call add_blank(page)
-      call add_line(page, '   '//left('parameter', 24)//right('value', 16))
+      call begin_grid(grid, 2, 'parameter'//CELL//'as written'//CELL//'value')
       do i = 1, size(model%parameters, kind=ip)
          associate (parameter => model%parameters(i))
-            call add_line(page, '   '//left(parameter%name, 24)//right(number(parameter%value, 10), 16)// &
-                          merge('   by --set', '           ', parameter%overridden))
+            written = ''
+            if (allocated(parameter%written)) written = parameter%written
+            if (parameter%overridden) written = 'by --set, not '//written
+            call add_row(grid, parameter%name//CELL//written//CELL//number(parameter%value, 10))
          end associate
       end do
+      call put_grid(page, grid)
    end subroutine describe_parameters
 
    subroutine describe_materials(page, model)
       type(page_t), intent(inout) :: page
       type(model_t), intent(in) :: model
       character(len=:), allocatable :: thickness, elastic
+      type(grid_t) :: grid
       integer(ip) :: elements(size(model%sections, kind=ip)), i
 
       elements = 0
@@ -129,28 +138,28 @@ contains
          end do
       end if
       call add_blank(page)
-      call add_line(page, '   '//left('material', 24)//right('E [F/L^2]', 16)//right('mu', 12)//right('density', 16))
+      call begin_grid(grid, 1, 'material'//CELL//'E [F/L^2]'//CELL//'mu'//CELL//'density')
       do i = 1, size(model%materials, kind=ip)
          associate (material => model%materials(i))
-            elastic = right(number(material%young, DIGITS), 16)//right(number(material%poisson, DIGITS), 12)
-            if (material%is_orthotropic) elastic = right('orthotropic', 16)//right('', 12)
-            call add_line(page, '   '//left(material%name, 24)//elastic//right(number(material%density, DIGITS), 16))
+            elastic = number(material%young, DIGITS)//CELL//number(material%poisson, DIGITS)
+            if (material%is_orthotropic) elastic = 'orthotropic'//CELL
+            call add_row(grid, material%name//CELL//elastic//CELL//number(material%density, DIGITS))
          end associate
       end do
+      call put_grid(page, grid)
       if (any(model%materials%is_orthotropic)) call describe_orthotropic(page, model)
       if (any(model%materials%has_expansion)) call describe_expansions(page, model)
       call add_blank(page)
-      call add_line(page, '   '//left('section of elements', 24)//right('elements', 16)//right('thickness', 12)//'    '// &
-                    left('material', 24)//'formulation')
+      call begin_grid(grid, 3, 'section of elements'//CELL//'material'//CELL//'formulation'//CELL//'elements'//CELL//'thickness')
       do i = 1, size(model%sections, kind=ip)
          associate (section => model%sections(i))
             thickness = number(section%thickness, DIGITS)
             if (section%is_tapered) thickness = 'of nodes'
-            call add_line(page, '   '//left(section%elset, 24)//right(to_text(elements(i)), 16)// &
-                          right(thickness, 12)//'    '//left(model%materials(section%material)%name, 24)// &
-                          trim(FORMULATION_NAME(section%formulation)))
+            call add_row(grid, section%elset//CELL//model%materials(section%material)%name//CELL// &
+                         trim(FORMULATION_NAME(section%formulation))//CELL//to_text(elements(i))//CELL//thickness)
          end associate
       end do
+      call put_grid(page, grid)
    end subroutine describe_materials
 
    !> Moduli and Poisson's ratios of orthotropic materials, and the axes of the sections that have them.
@@ -158,23 +167,25 @@ contains
       type(page_t), intent(inout) :: page
       type(model_t), intent(in) :: model
       real(wp) :: s(SPATIAL, SPATIAL), moduli(7)
+      type(grid_t) :: grid
       character(len=:), allocatable :: text
       integer(ip) :: i
       integer :: k
 
       call add_blank(page)
-      call add_line(page, '   '//left('orthotropic', 16)//right('E1', 12)//right('E2', 12)//right('E3', 12)//right('nu12', 12)// &
-                    right('nu13', 12)//right('nu23', 12)//right('G12', 12))
+      call begin_grid(grid, 1, 'orthotropic'//CELL//'E1'//CELL//'E2'//CELL//'E3'//CELL//'nu12'//CELL//'nu13'//CELL//'nu23'//CELL// &
+                      'G12')
       do i = 1, size(model%materials, kind=ip)
          if (.not. model%materials(i)%is_orthotropic) cycle
          s = inverse_of(model%materials(i)%stiffness)
          moduli = [1/s(1, 1), 1/s(2, 2), 1/s(3, 3), -s(1, 2)/s(1, 1), -s(1, 3)/s(1, 1), -s(2, 3)/s(2, 2), 1/s(4, 4)]
-         text = ''
+         text = model%materials(i)%name
          do k = 1, size(moduli)
-            text = text//right(number(moduli(k), DIGITS), 12)
+            text = text//CELL//number(moduli(k), DIGITS)
          end do
-         call add_line(page, '   '//left(model%materials(i)%name, 16)//text)
+         call add_row(grid, text)
       end do
+      call put_grid(page, grid)
       do i = 1, size(model%sections, kind=ip)
          associate (section => model%sections(i))
             if (model%materials(section%material)%is_orthotropic) then
@@ -320,9 +331,12 @@ contains
       type(model_t), intent(in) :: model
       integer(ip), intent(in) :: k                  !< the step
       type(force_t) :: concentrated, pressure, body
+      type(grid_t) :: grid
+      real(wp) :: force, arm
       integer(ip) :: n_loads
 
       call load_resultants(model, concentrated, pressure, body, k)
+      force = concentrated%terms + pressure%terms + body%terms       ! by which round-off is measured
       if (is_revolved(model%mesh)) then              ! the circle has no resultant along a radius, and no moment
          concentrated = force_t([0.0_wp, concentrated%f(2)])
          pressure = force_t([0.0_wp, pressure%f(2)])
@@ -336,14 +350,15 @@ contains
       if (size(model%steps) > 1 .and. n_loads == 0) then
          call add_entry(page, 'loads', 'none')
       else
-         call add_line(page, '   '//left('loads, resultants', 24)//right('F1 [F]', 16)//right('F2 [F]', 16)// &
-                       right('moment about 0,0', 18))
-         call add_force(page, 'on nodes', concentrated)
-         call add_force(page, trim(merge('loads on faces   ', 'pressure on faces', &
-                                         any(model%steps(k)%element_loads%kind == LOAD_TRACTION))), pressure)
-         call add_force(page, 'in elements', body)
-         call add_force(page, 'all', force_t(concentrated%f + pressure%f + body%f, &
-                                             concentrated%moment + pressure%moment + body%moment))
+         arm = maxval(abs(model%mesh%x))
+         call begin_grid(grid, 1, 'loads, resultants'//CELL//'F1 [F]'//CELL//'F2 [F]'//CELL//'moment about 0,0 [F L]')
+         call add_force(grid, 'on nodes', concentrated, force, arm)
+         call add_force(grid, trim(merge('loads on faces   ', 'pressure on faces', &
+                                         any(model%steps(k)%element_loads%kind == LOAD_TRACTION))), pressure, force, arm)
+         call add_force(grid, 'in elements', body, force, arm)
+         call add_force(grid, 'all', force_t(concentrated%f + pressure%f + body%f, &
+                                             concentrated%moment + pressure%moment + body%moment), force, arm)
+         call put_grid(page, grid)
       end if
       if (.not. allocated(model%steps(k)%heating)) return
       call add_blank(page)
@@ -352,13 +367,19 @@ contains
                      to_text(count(abs(model%steps(k)%heating) > 0.0_wp, kind=ip))//' not zero')
    end subroutine describe_loads
 
-   subroutine add_force(page, name, force)
-      type(page_t), intent(inout) :: page
+   !> A resultant in a row; what is round-off of a force, or of its moment with an arm, is 0.
+   pure subroutine add_force(grid, name, force, scale, arm)
+      type(grid_t), intent(inout) :: grid
       character(len=*), intent(in) :: name
       type(force_t), intent(in) :: force
+      real(wp), intent(in) :: scale, arm
+      real(wp) :: values(3)
+      real(wp), parameter :: SUMMED = 10.0_wp        !< round-offs of a sum over elements
 
-      call add_line(page, '   '//left(name, 24)//right(number(force%f(1), DIGITS), 16)// &
-                    right(number(force%f(2), DIGITS), 16)//right(number(force%moment, DIGITS), 18))
+      values = [force%f, force%moment]
+      call clear_small(SUMMED*scale, values(:2))
+      call clear_small(SUMMED*scale*arm, values(3:))
+      call add_row(grid, name//CELL//number(values(1), DIGITS)//CELL//number(values(2), DIGITS)//CELL//number(values(3), DIGITS))
    end subroutine add_force
 
    subroutine describe_interactions(page, model)

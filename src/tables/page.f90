@@ -5,6 +5,7 @@ module atrito_page
    use atrito_strings, only: string_t, break_line, join, to_text
    use atrito_version, only: PROGRAM_NAME, PROGRAM_VERSION
    use atrito_system, only: hide_line
+   use atrito_units, only: units_t
    use atrito_utf8, only: visible
    implicit none (type, external)
    private
@@ -16,6 +17,7 @@ module atrito_page
       integer :: width = 80                         !< columns
       integer :: n = 0
       type(string_t), allocatable :: lines(:)       !< the first n are in use
+      type(units_t) :: units                        !< that have names
    end type page_t
 
    integer, parameter :: SCREEN_WIDTH = 79          !< a terminal of 80 columns does not wrap
@@ -144,7 +146,7 @@ contains
 
       first = 1
       do while (first <= len_trim(text))
-         call break_line(trim(text), page%width - margin, first, last, next)
+         call break_line(text(:len_trim(text)), page%width - margin, first, last, next)
          call add_line(page, repeat(' ', margin)//text(first:last))
          first = next
       end do

@@ -13,7 +13,7 @@ module atrito_plot_files
    implicit none (type, external)
    private
    public :: plot_folder, remove_plots, told_pictures, PLOTS_OF_RUN, PLOTS_OF_SWEEP, PLOTS_OF_STUDY, PLOTS_OF_LIMIT, PLOTS_OF_CHECK
-   public :: list_plots, check_scripts, open_data
+   public :: list_plots, check_scripts, open_data, REPORT_NAME, remove_report
    public :: picture_endings, LOG_NAME, MESH_PLOT, OVERLAY_PLOT, OVERLAY_SUMMARY, CONTACT_PLOT, STUDY_PLOT, LIMIT_PLOT, &
              MECHANISM_PLOT, JOINT_PLOT, HISTORY_PLOT, LOOP_PLOT, MOTION_PLOT, TRACTION_PLOT, CONTOUR_PLOTS, SYMBOLS_OF, &
              SCENE_PLOT, SET_PLOT, GAP_PLOT, PATH_PLOT, SHOWN_PLOTS
@@ -41,6 +41,7 @@ module atrito_plot_files
    character(len=*), parameter :: CONTACT_PLOT = 'contact-', OVERLAY_PLOT = 'overlay-'   !< and the number of the pair
    character(len=*), parameter :: PATH_PLOT = 'path-'       !< and the number of the path
    character(len=*), parameter :: LOG_NAME = 'gnuplot.log'
+   character(len=*), parameter :: REPORT_NAME = 'report.html'   !< of --report, in the folder of the tables: there it would lie, too
    character(len=3), parameter :: ENDINGS(6) = ['gp ', 'dat', 'bin', 'png', 'svg', 'gif']
 
 contains
@@ -182,5 +183,15 @@ contains
       if (size(names) > 0) call remove_empty_folder(plot_folder(folder))
       if (stays) call add_warning('W-PLOT', plot_folder(folder)//': pictures of an earlier run cannot be removed')
    end subroutine remove_plots
+
+   !> Removes the report of an earlier run. One that stays is a warning.
+   subroutine remove_report(folder)
+      character(len=*), intent(in) :: folder        !< of the tables
+
+      call remove_file(folder//'/'//REPORT_NAME)
+      if (file_exists(folder//'/'//REPORT_NAME)) then
+         call add_warning('W-REPORT', folder//'/'//REPORT_NAME//': the report of an earlier run cannot be removed')
+      end if
+   end subroutine remove_report
 
 end module atrito_plot_files

@@ -2,7 +2,8 @@
 module atrito_resultant_report
    use atrito_kinds, only: ip, wp
    use atrito_model, only: model_t
-   use atrito_page, only: page_t, add_blank, add_item, add_line, left, right, number
+   use atrito_grid, only: grid_t, begin_grid, add_row, put_grid, CELL
+   use atrito_page, only: page_t, add_blank, add_item, add_line, number
    use atrito_resultants, only: resultant_t, find_resultants, holds
    use atrito_results, only: results_t
    use atrito_strings, only: string_t, to_text
@@ -82,18 +83,20 @@ contains
       type(scales_t), intent(in) :: scales
       integer, parameter :: MOST = 40                !< lines
       type(resultant_t), allocatable :: list(:)
+      type(grid_t) :: grid
       integer :: i
 
       call find_clear_resultants(model, results, scales%length, list)
       if (size(list) == 0) return
       call add_blank(page)
-      call add_line(page, '   '//left('set by set', 30)//right('F1 [F]', 18)//right('F2 [F]', 18)//right('moment about 0,0', 20))
+      call begin_grid(grid, 1, 'set by set'//CELL//'F1 [F]'//CELL//'F2 [F]'//CELL//'moment about 0,0 [F L]')
       do i = 1, min(size(list), MOST)
          associate (force => list(i)%force)
-            call add_line(page, '   '//left('*'//list(i)%keyword//' '//list(i)%name, 30)//right(number(force%f(1), DIGITS), 18)// &
-                          right(number(force%f(2), DIGITS), 18)//right(number(force%moment, DIGITS), 20))
+            call add_row(grid, '*'//list(i)%keyword//' '//list(i)%name//CELL//number(force%f(1), DIGITS)//CELL// &
+                         number(force%f(2), DIGITS)//CELL//number(force%moment, DIGITS))
          end associate
       end do
+      call put_grid(page, grid)
       if (size(list) > MOST) call add_line(page, '   ... and '//to_text(size(list, kind=ip) - MOST)//' more in resultants.tab')
    end subroutine describe_resultants
 

@@ -4,7 +4,8 @@ module atrito_rigid_report
    use atrito_load_resultants, only: last_value
    use atrito_model, only: model_t, nodal_values_t, rigid_body_name
    use atrito_page, only: page_t, add_entry, add_line, add_blank, left, right, number
-   use atrito_results, only: results_t
+   use atrito_grid, only: grid_t, begin_grid, add_row, put_grid, CELL
+   use atrito_results, only: results_t, rigid_result_t
    use atrito_strings, only: string_t, to_text
    use atrito_summary, only: scales_t
    use atrito_table, only: table_t, begin_step_table, add_integers, add_words, add_real_columns, clear_small, one_word
@@ -25,20 +26,14 @@ contains
       type(table_t), intent(out) :: table
       character(len=:), allocatable :: title
       type(string_t) :: names(size(results%rigid))
-      real(wp) :: field(size(results%rigid), 6), force
+      real(wp) :: field(size(results%rigid), 6)
       integer(ip) :: i, n
 
       n = size(results%rigid, kind=ip)
       do i = 1, n
          associate (body => results%rigid(i))
             names(i)%s = one_word(body%name)
-            field(i, :) = [body%u, body%rotation, body%reaction, body%moment]
-            if (body%is_section) field(i, 4) = body%force
-            force = max(scales%force, norm2(body%reaction), abs(body%force))
-            call clear_small(scales%displacement, field(i, 1:2))
-            call clear_small(scales%displacement/body%size, field(i, 3:3))
-            call clear_small(force, field(i, 4:5))
-            call clear_small(SUMMED*force*body%size, field(i, 6:6))
+            field(i, :) = numbers_of(body, scales)
          end associate
       end do
       title = 'a row a rigid surface with a reference node'
@@ -49,6 +44,21 @@ contains
       call add_real_columns(table, ['u1', 'u2', 'ur'], ['L', 'L', '-'], field(:, :3))
       call add_real_columns(table, ['r1    ', 'r2    ', 'moment'], ['F  ', 'F  ', 'F*L'], field(:, 4:))
    end subroutine build_rigid_table
+
+   !> Motion and reaction of a body, what is rounding in them 0.
+   pure function numbers_of(body, scales) result(numbers)
+      type(rigid_result_t), intent(in) :: body
+      type(scales_t), intent(in) :: scales
+      real(wp) :: numbers(6), force
+
+      numbers = [body%u, body%rotation, body%reaction, body%moment]
+      if (body%is_section) numbers(4) = body%force
+      force = max(scales%force, norm2(body%reaction), abs(body%force))
+      call clear_small(scales%displacement, numbers(1:2))
+      call clear_small(scales%displacement/body%size, numbers(3:3))
+      call clear_small(force, numbers(4:5))
+      call clear_small(SUMMED*force*body%size, numbers(6:6))
+   end function numbers_of
 
    !> The rigid surfaces that move, and what of them is prescribed at the end of a step.
    subroutine describe_references(page, model, step)
@@ -122,27 +132,30 @@ contains
    end subroutine add_up
 
    !> Motions and reactions, as rigid.tab has them, for the listing.
-   subroutine describe_rigid_bodies(page, results)
+   subroutine describe_rigid_bodies(page, results, scales)
       type(page_t), intent(inout) :: page
       type(results_t), intent(in) :: results
+      type(scales_t), intent(in) :: scales
+      type(grid_t) :: grid
+      real(wp) :: numbers(6)
       integer :: i
 
       if (.not. allocated(results%rigid)) return
       call describe_sections(page, results)
       if (all(results%rigid%is_section)) return
       call add_blank(page)
-      call add_line(page, '   '//left('rigid body', 15)//right('u1 [L]', 14)//right('u2 [L]', 14)//right('rotation', 14)// &
-                    right('R1 [F]', 14)//right('R2 [F]', 14)//right('moment [F L]', 14))
+      call begin_grid(grid, 1, 'rigid body'//CELL//'u1 [L]'//CELL//'u2 [L]'//CELL//'rotation'//CELL//'R1 [F]'//CELL//'R2 [F]'// &
+                      CELL//'moment [F L]')
       do i = 1, size(results%rigid)
          associate (body => results%rigid(i))
             if (body%is_section) cycle
-            call add_line(page, '   '//left(body%name, 15)//right(number(body%u(1), DIGITS), 14)// &
-                          right(number(body%u(2), DIGITS), 14)//right(number(body%rotation, DIGITS), 14)// &
-                          right(held(body%has_reaction(1), body%reaction(1)), 14)// &
-                          right(held(body%has_reaction(2), body%reaction(2)), 14)// &
-                          right(held(body%is_prescribed(3), body%moment), 14))
+            numbers = numbers_of(body, scales)
+            call add_row(grid, body%name//CELL//number(numbers(1), DIGITS)//CELL//number(numbers(2), DIGITS)//CELL// &
+                         number(numbers(3), DIGITS)//CELL//held(body%has_reaction(1), numbers(4))//CELL// &
+                         held(body%has_reaction(2), numbers(5))//CELL//held(body%is_prescribed(3), numbers(6)))
          end associate
       end do
+      call put_grid(page, grid)
    end subroutine describe_rigid_bodies
 
    !> What the sides of sections approach by, and their forces.

@@ -18,7 +18,7 @@ module atrito_screen
    use atrito_page, only: page_t, begin_report, add_blank, add_heading, add_item, add_line, add_rule, left, right, number, bytes, &
                           plural
    use atrito_plot_files, only: plot_folder, told_pictures
-   use atrito_report_file, only: REPORT_NAME
+   use atrito_plot_files, only: REPORT_NAME
    use atrito_summary, only: pair_summary_t, summarise_pair, states_text, closed_word, body_count, pair_count, pair_name
    use atrito_table, only: TAB_ENDING, CSV_ENDING
    use atrito_uniqueness_text, only: uniqueness_text

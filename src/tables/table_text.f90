@@ -14,7 +14,8 @@ module atrito_table_text
    use atrito_utf8, only: visible
    implicit none (type, external)
    private
-   public :: write_table, write_table_set, growing_table_t, measure_rows, open_table, put_table, close_table
+   public :: write_table, write_table_set, growing_table_t, measure_rows, open_table, put_table, close_table, fetch_integers, &
+             fetch_reals
 
    !> Rows that are made into text at a time: that of a wide table stays in the nearer part of the cache.
    integer(ip), parameter :: PIECE_ROWS = 256

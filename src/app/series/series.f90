@@ -20,7 +20,7 @@ module atrito_series
    use atrito_reader, only: read_deck
    use atrito_report, only: report_t
    use atrito_report_maker, only: make_report
-   use atrito_report_file, only: REPORT_NAME, remove_report
+   use atrito_plot_files, only: REPORT_NAME, remove_report
    use atrito_status, only: status_t, is_ok
    use atrito_strings, only: string_t, append_string
    use atrito_sweep_journal, only: JOURNAL_NAME

@@ -9,7 +9,8 @@ module atrito_patched_text
    use atrito_strings, only: string_t
    implicit none (type, external)
    private
-   public :: patched_text_t, named_text_t, append_place, append_words, write_patched, digest_of_texts, OWN_WORDS, UNCOUNTED
+   public :: patched_text_t, named_text_t, append_place, append_words, write_patched, take_ends, digest_of_texts, OWN_WORDS, &
+             UNCOUNTED
 
    !> In the place of a text: a piece is a place in `words`; or one that no digest counts, the name of another file.
    integer(ip), parameter :: OWN_WORDS = 0, UNCOUNTED = -1
@@ -83,6 +84,38 @@ contains
       if (present(behind)) call put_text(file, behind)
       call close_text(file, status)
    end subroutine write_patched
+
+   !> The first characters of a text, and its last ones where they are not among those.
+   pure subroutine take_ends(patched, room, front, back)
+      type(patched_text_t), intent(in) :: patched
+      integer(ip), intent(in) :: room                !< characters of each at most
+      character(len=:), allocatable, intent(out) :: front, back
+      integer(ip) :: i, begin, total
+
+      total = sum(patched%pieces(:patched%n)%last - patched%pieces(:patched%n)%first + 1)
+      front = ''
+      back = ''
+      begin = 0                                      ! characters before the piece
+      do i = 1, patched%n
+         associate (k => patched%pieces(i)%text, first => patched%pieces(i)%first, last => patched%pieces(i)%last)
+            call take(min(last, first + room - 1 - begin), first, front)
+            if (total > room) call take(last, max(first, first + total - room - begin), back)
+            begin = begin + (last - first + 1)
+         end associate
+      end do
+
+   contains
+
+      pure subroutine take(last, first, text)
+         integer(ip), intent(in) :: last, first
+         character(len=:), allocatable, intent(inout) :: text
+
+         if (last < first) return
+         if (patched%pieces(i)%text < 1) text = text//patched%words%letters(first:last)
+         if (patched%pieces(i)%text > 0) text = text//patched%texts(patched%pieces(i)%text)%s(first:last)
+      end subroutine take
+
+   end subroutine take_ends
 
    !> Sixteen hexadecimal digits of texts one after the other, whatever the pieces they are made of.
    pure function digest_of_texts(list) result(text)

@@ -208,6 +208,7 @@ module atrito_model
 
    type :: parameter_value_t
       character(len=:), allocatable :: name
+      character(len=:), allocatable :: written      !< its expression in the deck; not allocated: not known
       real(wp) :: value = 0.0_wp
       logical :: overridden = .false.               !< by --set
    end type parameter_value_t

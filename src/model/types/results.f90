@@ -92,8 +92,10 @@ module atrito_results
       real(wp) :: applied(2) = 0.0_wp, reactions(2) = 0.0_wp
       real(wp) :: applied_moment = 0.0_wp, reaction_moment = 0.0_wp
       real(wp) :: rigid(2) = 0.0_wp                 !< force of the bodies' contact upon rigid surfaces
+      real(wp) :: rigid_moment = 0.0_wp             !< of it, with what is left between the sides of all contact (W-SUMS)
       logical :: is_revolved = .false.              !< forces along 1 are radial: they and the moments balance in themselves
       real(wp) :: rows(2) = 0.0_wp                  !< of the bodies upon springs to the ground and equations
+      real(wp) :: rows_moment = 0.0_wp
    end type balance_t
 
    !> A row of bodies.tab: the rigid motion that comes nearest to the displacements of a body, and what acts upon it.

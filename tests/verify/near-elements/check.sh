@@ -55,7 +55,7 @@ awk 'BEGIN {
    printf "*NSET, NSET=FOOT, GENERATE\n1, %d, %d\n*NSET, NSET=TIP\n%d\n", m*(n + 1) + 1, n + 1, n + 1
    print "*MATERIAL, NAME=M\n*ELASTIC\n1000., .3\n*SOLID SECTION, ELSET=STRIP, MATERIAL=M\n1."
    print "*BOUNDARY\nFOOT, 1, 2\n*STEP\n*STATIC\n*CLOAD\nTIP, 2, 1e-6\n*NODE PRINT\nU\n*END STEP" }' >strip.inp
-run 0 strip.inp strip --solver sparse --digits 17
+run 0 strip.inp strip --solver sparse --digits 17 --progress all
 grep -qF 'each element with its own last digits' strip.out strip.err || complain 'strip: refined in spite of its slenderness'
 grep -qF "$words" strip/strip.lst && complain 'strip: the listing tells of a refinement'
 run 0 strip.inp strip-own --quiet --solver skyline --digits 17

@@ -109,9 +109,9 @@ for case in CPE8:-3:0.3 CAX4:0:0 CPS3:-3:0; do
 done
 
 # 6. The sums of the listing: what is applied goes into the supports, nothing into the ground by rigid surfaces.
-says 'listing' push-CPE8-dense/push-CPE8.lst 'from rigid surfaces                            0                 0'
+grep -q 'from rigid surfaces' push-CPE8-dense/push-CPE8.lst && complain 'listing: a rigid surface that moves leaves a sum'
 near 'listing: sum' "$(awk '/resultants  .*F1/ { at = 1 } at && $1 == "sum" { print $2 + $3; exit }' push-CPE8-dense/push-CPE8.lst)" 0 1e-11
-says 'listing' force-dense/force.lst 'PUNCH                       0      -4.52146             0'
+grep -Eq '^   PUNCH +0 +-4.52146 +0 ' force-dense/force.lst || complain 'listing'
 
 # 7. A node that is held along x under a punch that is free to go there.
 run 0 "$here/held.inp" held --digits 17 --quiet

@@ -159,5 +159,5 @@ awk '/^#/ || $2 < 100 { print }' instances/nodes.tab >first.txt
 awk '/^#/ { print; next } $2 > 100 { printf "%d %d %s %s %s %.17g\n", $1, $2 - 100, $3, $4, $6, -$5 }' instances/nodes.tab >second.txt
 below 'first instance' "$(off first.txt)" 5e-7
 below 'turned instance' "$(off second.txt)" 5e-7
-says 'listing' instances/instances.lst 'of nodes    M'
+grep -Eq '  M +STANDARD +[0-9]+ +of nodes$' instances/instances.lst || complain 'listing'
 finish

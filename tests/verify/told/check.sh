@@ -52,6 +52,29 @@ says 'carried: the screen' carried.out 'no forces act; the contact law holds'
 near 'carried: stress' "$(awk '$2 == "mises" { print $3 }' carried/extremes.tab)" 0 0
 near 'carried: residual' "$(summary carried equilibrium_residual)" 0 0
 
+# The listing can be handed in: 80 columns, the deck (of a long one both ends), parameters as written, tables or their extremes, the
+# moments of all sums, nothing that is round-off, the names of units.
+{
+   printf '*UNITS\nm, kN\n'
+   cat fine.inp
+   awk 'BEGIN { for (i = 1; i <= 300; i++) print "** comment " i (i == 300 ? " that is much longer than a line of the listing, and is cut there in the end" : "") }' </dev/null
+} >long.inp
+run 0 long.inp long --set drag=0.01
+listing=long/long.lst
+[ -z "$(awk 'length($0) > 80' $listing)" ] || complain 'the listing is wider than 80 columns'
+says 'listing: the deck' $listing 'A block on another one'
+says 'listing: both ends' $listing '... the lines between are in long.run.inp'
+says 'listing: the last line' $listing '** comment 300 that is much longer than a line of the listing, and is cut ther..'
+! grep -q 'comment 150$' $listing || complain 'listing: the middle of the deck'
+grep -Eq '^   high +1 \+ gap \+ tilt +1$' $listing || complain 'listing: a parameter as it was written'
+grep -Eq '^   drag +by --set, not 0 +0.01$' $listing || complain 'listing: a parameter of --set'
+says 'listing: a long table' $listing 'nodes: a row a node; 246 rows, in nodes.tab'
+grep -Eq '^   u1 \[m\] +0 +[0-9]+ +0.01 +[0-9]+$' $listing || complain 'listing: the extremes of a table'
+grep -Eq '^ +41 +1 +1 +0 +1 +0 +0.01 +2$' $listing || complain 'listing: a short table'
+grep -Eq '^   reactions of the supports +0 +1 +0.5$' $listing || complain 'listing: a sum and its moment, without round-off'
+grep -Eq '^   sum +0 +0 +0$' $listing || complain 'listing: the balance'
+grep -q '\[kN/m^2\]' $listing && ! sed '1,/WHAT WAS UNDERSTOOD/d' $listing | grep -q '\[[^]]*[FL][^]]*\]' || complain 'listing: the names of units'
+
 # A run that ends without results tells whose results its folder still holds.
 "$atrito" fine.inp -o fine --set drag=0.01 --set E=-1 --refine 1 >older.out 2>older.err
 [ $? -eq 2 ] || complain 'older: the exit code'

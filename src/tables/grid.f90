@@ -1,0 +1,246 @@
+!> Tables on a page for people: columns as wide as what stands in them; what is too wide for the page goes on below, with the first
+!> columns again.
+module atrito_grid
+   use atrito_kinds, only: ip, wp
+   use atrito_page, only: page_t, add_blank, add_line, add_paragraph, left, number, text_width
+   use atrito_strings, only: append_string, string_t, to_text
+   use atrito_table, only: table_t, KIND_INTEGER, KIND_REAL, KIND_WORD
+   use atrito_table_text, only: fetch_integers, fetch_reals
+   use atrito_units, only: in_units, unit_names, units_t
+   implicit none (type, external)
+   private
+   public :: grid_t, begin_grid, add_row, put_grid, put_table, name_units, CELL
+
+   character(len=1), parameter :: CELL = achar(9)   !< between the cells of a row
+   integer, parameter :: INDENT = 3, GAP = 2, DIGITS = 6
+   integer(ip), parameter :: MOST_ROWS = 60         !< of a table of results; of longer ones the extremes are told
+
+   type :: grid_t
+      integer :: n_left = 0                         !< so many columns are words, on the left
+      integer :: n_kept = 1                         !< columns that begin each part of a wide one
+      type(string_t), allocatable :: rows(:)        !< the first one is the head
+   end type grid_t
+
+contains
+
+   pure subroutine begin_grid(grid, n_left, head)
+      type(grid_t), intent(out) :: grid
+      integer, intent(in) :: n_left
+      character(len=*), intent(in) :: head          !< names of the columns, CELL between them
+
+      grid%n_left = n_left
+      grid%n_kept = max(1, n_left)
+      allocate (grid%rows(0))
+      call append_string(grid%rows, head)
+   end subroutine begin_grid
+
+   pure subroutine add_row(grid, cells)
+      type(grid_t), intent(inout) :: grid
+      character(len=*), intent(in) :: cells         !< CELL between them
+
+      call append_string(grid%rows, cells)
+   end subroutine add_row
+
+   !> Puts it on a page.
+   pure subroutine put_grid(page, grid)
+      type(page_t), intent(inout) :: page
+      type(grid_t), intent(inout) :: grid           !< its units get their names
+      integer, allocatable :: ends(:, :), width(:)
+      integer :: first, last, i, k, n
+
+      n = 1
+      do i = 1, len(grid%rows(1)%s)
+         if (grid%rows(1)%s(i:i) == CELL) n = n + 1
+      end do
+      allocate (ends(0:n, size(grid%rows)), width(n))
+      width = 0
+      if (len(unit_names(page%units)) > 0) then
+         do i = 1, size(grid%rows)
+            call name_units(page%units, grid%rows(i)%s)
+         end do
+      end if
+      do i = 1, size(grid%rows)
+         associate (row => grid%rows(i)%s)
+            ends(:, i) = len(row) + 1
+            ends(0, i) = 0
+            do k = 1, n - 1
+               last = index(row(min(ends(k - 1, i), len(row)) + 1:), CELL)
+               if (last == 0) exit
+               ends(k, i) = ends(k - 1, i) + last
+            end do
+            do k = 1, n
+               first = ends(k - 1, i) + 1
+               if (k <= grid%n_left) width(k) = max(width(k), text_width(row(first:ends(k, i) - 1)))
+               if (k > grid%n_left) width(k) = max(width(k), ends(k, i) - first)
+            end do
+         end associate
+      end do
+      width(:grid%n_left) = min(width(:grid%n_left), (page%width - INDENT)/2)
+      associate (kept => grid%n_kept)
+         last = kept
+         do while (last < n)
+            first = last + 1
+            last = first
+            do while (last < n)
+               if (sum(width(:kept) + GAP) + sum(width(first:last + 1) + GAP) - GAP > page%width - INDENT) exit
+               last = last + 1
+            end do
+            if (first > kept + 1) call add_blank(page)
+            do i = 1, size(grid%rows)
+               call put_row(page, grid, i, ends(:, i), width, [(k, k=1, kept), (k, k=first, last)])
+            end do
+         end do
+      end associate
+   end subroutine put_grid
+
+   !> `[F/L^2]` is `[kN/m^2]` where the deck names its units.
+   pure subroutine name_units(units, line)
+      type(units_t), intent(in) :: units
+      character(len=:), allocatable, intent(inout) :: line
+      character(len=:), allocatable :: name
+      integer :: begin, end, next
+
+      begin = index(line, '[')
+      do while (begin > 0)
+         end = begin + index(line(begin:), ']') - 1
+         if (end < begin) return
+         name = in_units(units, line(begin + 1:end - 1))
+         line = line(:begin)//name//line(end:)
+         end = begin + len(name) + 1
+         next = index(line(end:), '[')
+         begin = merge(0, end + next - 1, next == 0)
+      end do
+   end subroutine name_units
+
+   !> Some columns of a row.
+   pure subroutine put_row(page, grid, i, ends, width, columns)
+      type(page_t), intent(inout) :: page
+      type(grid_t), intent(in) :: grid
+      integer, intent(in) :: i                      !< the row
+      integer, intent(in) :: ends(0:), width(:)
+      integer, intent(in) :: columns(:)
+      character(len=:), allocatable :: words
+      character(len=sum(width(columns) + GAP)) :: line
+      integer :: k, place
+
+      words = repeat(' ', INDENT)
+      line = ''
+      place = 0
+      do k = 1, size(columns)
+         associate (cell => grid%rows(i)%s(ends(columns(k) - 1) + 1:ends(columns(k)) - 1), wide => width(columns(k)))
+            if (columns(k) <= grid%n_left) then
+               words = words//left(cell, wide)//repeat(' ', GAP)
+            else
+               place = place + wide
+               line(place - len(cell) + 1:place) = cell
+               place = place + GAP
+            end if
+         end associate
+      end do
+      call add_line(page, words//line)
+   end subroutine put_row
+
+   !> A table of results but for some of its columns; of many rows the least and the greatest value of each column.
+   subroutine put_table(page, table, without)
+      type(page_t), intent(inout) :: page
+      type(table_t), intent(in) :: table
+      character(len=*), intent(in) :: without       !< ' step increment ', names with blanks round them
+      type(grid_t) :: grid
+      character(len=:), allocatable :: text
+      integer :: k, kept                            ! columns before the first of reals; then less than 0
+      integer(ip) :: row
+
+      call add_blank(page)
+      text = ''
+      if (table%n_rows > MOST_ROWS) text = '; '//to_text(table%n_rows)//' rows, in '//table%name//'.tab'
+      call add_paragraph(page, table%name//': '//table%title//text, INDENT)
+      if (table%n_rows > MOST_ROWS) then
+         call put_extremes(page, table)
+         return
+      end if
+      kept = 0
+      do row = -1, table%n_rows                     ! names, dimensions, rows
+         text = ''
+         do k = 1, size(table%columns)
+            associate (column => table%columns(k))
+               if (index(without, ' '//column%name//' ') > 0) cycle
+               if (row == -1) text = text//CELL//column%name
+               if (row == 0 .and. column%dimension == '-') text = text//CELL
+               if (row == 0 .and. column%dimension /= '-') text = text//CELL//'['//column%dimension//']'
+               if (row > 0) text = text//CELL//text_of(table, k, row)
+               if (row == -1 .and. kept >= 0) kept = merge(kept + 1, -kept - 1, column%kind /= KIND_REAL)
+            end associate
+         end do
+         if (row == -1) call begin_grid(grid, 0, text(2:))
+         if (row > -1) call add_row(grid, text(2:))
+      end do
+      grid%n_kept = max(1, -kept - 1)
+      call put_grid(page, grid)
+   end subroutine put_table
+
+   !> A row a column of reals: its least and greatest value, and the row of each by its integers.
+   subroutine put_extremes(page, table)
+      type(page_t), intent(inout) :: page
+      type(table_t), intent(in) :: table
+      type(grid_t) :: grid
+      real(wp), allocatable :: x(:)
+      integer(ip) :: least, greatest
+      integer :: k
+
+      call begin_grid(grid, 1, CELL//'least'//CELL//'at '//place_of(0_ip)//CELL//'greatest'//CELL//'at '//place_of(0_ip))
+      allocate (x(table%n_rows))
+      do k = 1, size(table%columns)
+         if (table%columns(k)%kind /= KIND_REAL) cycle
+         call fetch_reals(table, table%columns(k), 0_ip, x)
+         least = minloc(x, dim=1)
+         greatest = maxloc(x, dim=1)
+         call add_row(grid, table%columns(k)%name//' ['//table%columns(k)%dimension//']'//CELL//text_of(table, k, least)//CELL// &
+                      place_of(least)//CELL//text_of(table, k, greatest)//CELL//place_of(greatest))
+      end do
+      call put_grid(page, grid)
+
+   contains
+
+      !> `7, 3`, of a row; what these are, of row 0: `element, point`
+      function place_of(row) result(text)
+         integer(ip), intent(in) :: row
+         character(len=:), allocatable :: text
+         integer :: i
+
+         text = ''
+         do i = 1, size(table%columns)
+            if (index(' step increment status ', ' '//table%columns(i)%name//' ') > 0) cycle
+            if (table%columns(i)%kind /= KIND_INTEGER) cycle
+            if (row == 0) text = text//', '//table%columns(i)%name
+            if (row > 0) text = text//', '//text_of(table, i, row)
+         end do
+         text = text(3:)
+      end function place_of
+
+   end subroutine put_extremes
+
+   !> An item of a table in words; what is small beside its column is 0.
+   function text_of(table, k, row) result(text)
+      type(table_t), intent(in) :: table
+      integer, intent(in) :: k                      !< the column
+      integer(ip), intent(in) :: row
+      character(len=:), allocatable :: text
+      real(wp) :: x(1)
+      integer(ip) :: i(1)
+
+      associate (column => table%columns(k))
+         select case (column%kind)
+         case (KIND_REAL)
+            call fetch_reals(table, column, row - 1, x)
+            if (abs(x(1)) < column%zero) x = 0.0_wp
+            text = number(x(1), DIGITS)
+         case (KIND_INTEGER)
+            call fetch_integers(table, column, row - 1, i)
+            text = to_text(i(1))
+         case (KIND_WORD)
+            text = column%words(row)%s
+         end select
+      end associate
+   end function text_of
+
+end module atrito_grid
