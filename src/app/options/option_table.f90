@@ -78,7 +78,7 @@ module atrito_option_table
                    default='chosen by their size', expected='a number, 0 or more, by which displacements are drawn; with --plot'), &
                        option_t('--plot-box', 'X1,Y1,X2,Y2', [Y, Y, N, N, N, N, Y], 'what pictures of bodies show', default='all', &
                                          expected='x1,y1,x2,y2, two corners of what pictures show; with --plot'), &
-                      option_t('--plot-labels', '', [Y, Y, N, N, N, N, N], 'numbers and names in the pictures of mesh or scene'), &
+                       option_t('--plot-labels', '', [Y, Y, N, N, N, N, N], 'numbers and names in the pictures of mesh or scene'), &
                      option_t('--report', '', [Y, N, N, N, Y, Y, Y], 'all in one page, DIR/report.html; draws the pictures, too'), &
                option_t('--restart', VALUE_FILE, [Y, N, N, N, N, N, N], 'go on behind the increment in a file of *RESTART, WRITE', &
                                          expected='a restart file of this deck, NAME.restart.h5'), &
