@@ -17,9 +17,8 @@ module atrito_contact_plot
    use atrito_write_tables, only: origin_of
    implicit none (type, external)
    private
-   public :: pair_legend
-   public :: write_contact_plot, shown_frames, pair_title, law_text, put_contact_columns, shows_slip_bound, shear_range, state_of, &
-             N_STATES, STATE_WORD, STATE_COLOUR, STATE_DASH
+   public :: write_contact_plot, shown_frames, pair_title, pair_legend, law_text, put_contact_columns, shows_slip_bound
+   public :: shear_range, state_of, N_STATES, STATE_WORD, STATE_COLOUR, STATE_DASH
 
    !> The bound of the shear is shown whole up to so many times the largest shear; a greater one would hide the shear itself.
    real(wp), parameter :: MOST_BOUND = 4.0_wp

@@ -143,6 +143,7 @@ contains
             if (initial%n /= contact%n) cycle
             do j = 1, contact%n
                nearer = initial%gap(j) - contact%gap(j)
+               if (.not. ieee_is_finite(nearer)) cycle
                if (nearer > tiny(nearer)*1.0e3_wp) reach = min(reach, (max(0.0_wp, initial%gap(j)) + &
                                                                        SEEN_SHARE*size_of_scene)/nearer)
             end do

@@ -69,7 +69,7 @@ contains
    !> arrows of one do not cross those of another.
    pure real(wp) function longest_arrow(results, size_of_scene) result(length)
       type(results_t), intent(in) :: results
-      real(wp), intent(in) :: size_of_scene         !< diagonal [L]
+      real(wp), intent(in) :: size_of_scene         !< diagonal of what is shown [L]
       real(wp) :: middle(2, size(results%contact)), apart
       integer :: i, k
 
@@ -97,7 +97,9 @@ contains
       integer(ip) :: n_drawn, n
 
       largest = largest_traction(drawing%results)
-      arrow = longest_arrow(drawing%results, drawing%size)/largest
+      arrow = drawing%size
+      if (allocated(drawing%view%box)) arrow = norm2(drawing%view%box(3:) - drawing%view%box(:2))
+      arrow = longest_arrow(drawing%results, arrow)/largest
       call begin_symbols(plots, TRACTION_PLOT, 'contact points by state, then all of them in lines; columns: x [L]  y [L]  '// &
                          'u1 [L]  u2 [L]  traction upon the slave along x and y [F/L^2]', drawing, symbols)
       call put_tractions(drawing%results, arrow, symbols, n_drawn, n)
@@ -139,12 +141,12 @@ contains
                u(:, i) = contact%u(:, j)
                place(:, i) = contact%x(:, j) + symbols%scale*u(:, i)
                state(i) = state_of(contact%status(j), contact%has_friction)
+               if (.not. all(ieee_is_finite([t(:, i), place(:, i)]))) t(:, i) = 0.0_wp
                goes_on(i) = j < contact%n
                if (goes_on(i)) goes_on(i) = contact%follows(j + 1)
             end do
          end associate
       end do
-      where (.not. (ieee_is_finite(t) .and. ieee_is_finite(place))) t = 0.0_wp
       is_drawn = norm2(t, dim=1)*arrow >= SHORTEST*symbols%pixel
       n = count(is_drawn, kind=ip)
       is_drawn = unpack(thinned(place(:, pack([(i, i=1, size(is_drawn, kind=ip))], is_drawn)), BETWEEN*symbols%pixel), is_drawn, &

@@ -192,8 +192,8 @@ contains
       do i = 1, count_messages()
          message = get_message(i)
          if (message%severity == SEVERITY_NOTE) n_notes = n_notes + 1
-         if (message%severity /= SEVERITY_NOTE .or. n_notes <= MOST_NOTES) &
-            call add_pre(section%page, shortened(join(format_message(message), achar(10)), LONGEST_VALUE))
+         if (message%severity == SEVERITY_NOTE .and. n_notes > MOST_NOTES) cycle
+         call add_pre(section%page, shortened(join(format_message(message), achar(10)), LONGEST_VALUE))
       end do
       if (n_notes > MOST_NOTES) call add_note(section%page, 'And '//to_text(n_notes - MOST_NOTES)//' more notes.')
       if (allocated(report%other_messages)) call add_element(section%page, 'p', report%other_messages)

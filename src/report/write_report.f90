@@ -69,17 +69,17 @@ module atrito_write_report
                                   '@page{size:A4;margin:14mm 13mm}'//LF// &
         '@media print{:root{color-scheme:light;--paper:#fff;--ink:#000;--soft:#444;--line:#bbb;--panel:#f6f6f6;--good:#064;'//LF// &
                                   '--good-paper:#fff;--bad:#900;--bad-paper:#fff;--accent:#0b5cad}'//LF// &
-                 'body{font-size:9pt;line-height:1.3;orphans:1;widows:1}main{max-width:none;padding:0}nav{display:none}'//LF// &
-           'h1{font-size:16pt}h2{font-size:12pt;margin:.8em 0 .3em;padding-top:.3em}h3{font-size:9pt;margin:.6em 0 .2em}'//LF// &
-             'h2,h3,h2+.note{break-after:avoid}footer{margin-top:1em}section:has(details){display:none}'//LF// &
+                     'body{font-size:9pt;line-height:1.3;orphans:1;widows:1}main{max-width:none;padding:0}nav{display:none}'//LF// &
+              'h1{font-size:16pt}h2{font-size:12pt;margin:.8em 0 .3em;padding-top:.3em}h3{font-size:9pt;margin:.6em 0 .2em}'//LF// &
+                                 'h2,h3,h2+.note{break-after:avoid}footer{margin-top:1em}section:has(details){display:none}'//LF// &
                                   '.verdict{border:1px solid;border-left-width:6px}'//LF// &
                                   'figure,.whole,.tiles div,.plain div,table,tr,.verdict,svg.chart{break-inside:avoid}'//LF// &
-            '.pictures{display:grid;grid-template-columns:1fr 1fr;gap:4mm 6mm}figure{margin:0;min-width:0}'//LF// &
+                             '.pictures{display:grid;grid-template-columns:1fr 1fr;gap:4mm 6mm}figure{margin:0;min-width:0}'//LF// &
                                   'figure img{width:auto;max-width:100%;max-height:80mm;border:0;margin:0 auto}'//LF// &
                                   '.whole{display:inline-block;vertical-align:top;width:min-content;margin-right:4mm}'//LF// &
-            'thead{display:table-header-group}figcaption,.note{font-size:7.5pt}.plain{font-size:8pt;columns:2}'//LF// &
-                          '.scroll{overflow:visible}table{font-size:6.5pt;line-height:1.15}'//LF// &
-            'th,td{padding:.1em .4em}table.wide{font-size:6pt}table.wide th,table.wide td{padding:.1em .3em}'//LF// &
+                         'thead{display:table-header-group}figcaption,.note{font-size:7.5pt}.plain{font-size:8pt;columns:2}'//LF// &
+                                  '.scroll{overflow:visible}table{font-size:6.5pt;line-height:1.15}'//LF// &
+                           'th,td{padding:.1em .4em}table.wide{font-size:6pt}table.wide th,table.wide td{padding:.1em .3em}'//LF// &
                                   'svg.chart{min-width:0;width:90mm}'//LF// &
                                   '.tiles{grid-template-columns:repeat(5,1fr);gap:1.5mm}.tiles dd{font-size:10pt}'//LF// &
                                   '.tiles div{padding:.3em .5em}.tiles dt,.tiles dd.small{font-size:7.5pt}'//LF// &

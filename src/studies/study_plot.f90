@@ -18,7 +18,7 @@ module atrito_study_plot
    !> Columns of study.dat; the errors of the quantities follow.
    integer(ip), parameter :: SIDE = 1, DOFS = 2, SECONDS = 3, ESTIMATE = 4
    character(len=*), parameter :: X_LABELS(3) = [character(len=24) :: 'side of an element [L]', 'displacements', &
-                                                                                                'processor time [s]']
+                                                                                                               'processor time [s]']
 
 contains
 

@@ -81,7 +81,7 @@ module atrito_option_table
                    default='chosen by their size', expected='a number, 0 or more, by which displacements are drawn; with --plot'), &
                        option_t('--plot-box', 'X1,Y1,X2,Y2', [Y, Y, N, N, N, N, Y], 'what pictures of bodies show', default='all', &
                                          expected='x1,y1,x2,y2, two corners of what pictures show; with --plot'), &
-                      option_t('--plot-labels', '', [Y, Y, N, N, N, N, N], 'numbers and names in the pictures of mesh or scene'), &
+                       option_t('--plot-labels', '', [Y, Y, N, N, N, N, N], 'numbers and names in the pictures of mesh or scene'), &
                                 option_t('--show', 'VIEW', [Y, N, N, N, N, N, N], &
                                          'a look inside a small scene, on the screen and in tables; may be repeated', &
                                          expected='element=N, matrix, line, states, law or picard'), &

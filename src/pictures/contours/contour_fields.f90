@@ -182,6 +182,8 @@ contains
       do e = 1, mesh%n_elements
          associate (nodes => mesh%nodes(:mesh%shape(e), e))
             if (all(nodes /= node)) cycle
+            is_near = all(ieee_is_finite(field%value(nodes)))
+            if (.not. is_near) return
             total = total + sum(field%value(nodes)) - field%value(node)
             n = n + size(nodes, kind=ip) - 1
          end associate

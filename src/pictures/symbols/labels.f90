@@ -3,6 +3,7 @@
 !> Numbers that would cover each other are left out, so a large mesh has few of them; more have room in a part of it (`--plot-box`).
 !> Names are written below or above others that are in their way.
 module atrito_labels
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use atrito_drawing, only: drawing_t
    use atrito_kinds, only: ip, wp
    use atrito_mesh, only: face_nodes, side_count
@@ -10,7 +11,7 @@ module atrito_labels
    use atrito_model, only: SURFACE_SEGMENTS
    use atrito_plot_text, only: range_t, cleaned
    use atrito_plot_view, only: shown_window
-   use atrito_sets, only: members_of, set_count
+   use atrito_sets, only: set_list_t, members_of, member_count, set_count
    use atrito_strings, only: string_t, append_string, same_name, to_text
    use atrito_symbols, only: symbols_t, begin_block, put_text, thinned
    implicit none (type, external)
@@ -111,7 +112,8 @@ contains
       type(range_t) :: shown(2)
 
       shown = shown_window(drawing%view, drawing%window)
-      is_shown = all(place >= shown%low) .and. all(place <= shown%high)
+      is_shown = all(ieee_is_finite(place))
+      if (is_shown) is_shown = all(place >= shown%low .and. place <= shown%high)
    end function is_shown
 
    !> The names of surfaces, outside of them, of element sets and of node sets in their middles; each once.
@@ -140,19 +142,24 @@ contains
                end if
             end associate
          end do
-         do i = 1, set_count(model%element_sets)
-            associate (set => model%element_sets%sets(i))
-               points = middles(:, members_of(set))
-               if (size(points) > 0) call place_name(drawing, pixel, set%name, mean_of(points), mean_of(points), names)
-            end associate
-         end do
-         do i = 1, set_count(model%node_sets)
-            associate (set => model%node_sets%sets(i))
-               points = x(:, members_of(set))
-               if (size(points) > 0) call place_name(drawing, pixel, set%name, mean_of(points), mean_of(points), names)
-            end associate
-         end do
+         call place_sets(model%element_sets, middles)
+         call place_sets(model%node_sets, x)
       end associate
+
+   contains
+
+      subroutine place_sets(list, places)
+         type(set_list_t), intent(in) :: list
+         real(wp), intent(in) :: places(:, :)       !< of what can be a member
+         integer(ip) :: k
+
+         do k = 1, set_count(list)
+            if (member_count(list%sets(k)) == 0) cycle
+            points = places(:, members_of(list%sets(k)))
+            call place_name(drawing, pixel, list%sets(k)%name, mean_of(points), mean_of(points), names)
+         end do
+      end subroutine place_sets
+
    end subroutine place_names
 
    pure function mean_of(points) result(mean)
@@ -198,12 +205,13 @@ contains
 
       pure logical function is_free(middle)
          real(wp), intent(in) :: middle(2)
+         real(wp) :: room(2)
          integer :: j
 
          is_free = .true.
          do j = 1, size(names%text)
-            if (all(abs(middle - names%place(:, j)) < pixel*[half(1) + 0.5_wp*LETTER*len(names%text(j)%s), 0.95_wp*LINE])) &
-               is_free = .false.
+            room = pixel*[half(1) + 0.5_wp*LETTER*len(names%text(j)%s), 0.95_wp*LINE]
+            is_free = is_free .and. any(abs(middle - names%place(:, j)) >= room)
          end do
       end function is_free
 
