@@ -6,8 +6,8 @@
 !>     R = (gamma W'W (+) 0 + A_t'A_t/gamma)/2           every load
 !>     R = -sym(diag(alpha 1, 1) [A_t S W, 0])           the directions S of slip given
 !>
-!> for some alpha, gamma > 0; A_t are the tangential rows of A. The least s at which this fails is 1/lambda, lambda the largest ratio
-!> z'Rz/z'Hz. Each vector z that a search for it finds is a cut: for all alpha and gamma
+!> for some alpha, gamma > 0; A_t are the tangential rows of A. The least s at which this fails is 1/lambda, lambda the largest
+!> ratio z'Rz/z'Hz. Each vector z that a search for it finds is a cut: for all alpha and gamma
 !>
 !>     lambda(alpha, gamma) >= (a gamma + b/gamma + e alpha + f)/(c alpha + d),
 !>

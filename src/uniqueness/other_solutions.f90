@@ -1,7 +1,7 @@
 !> A search for other solutions of a contact line: Newton's method on the states, from many starts.
 !>
-!> The states of the points and the bound of friction are solved for together (atrito_newton, with nu p inside), which finds solutions
-!> that the Picard loop runs away from, those of index -1 among them. The starts, all points with the same force at first:
+!> The states of the points and the bound of friction are solved for together (atrito_newton, with nu p inside), which finds
+!> solutions that the Picard loop runs away from, those of index -1 among them. The starts, all points with the same force at first:
 !>
 !>     1 all stick     2, 3 all slip along T, against it     4, 5 one half one way, the other half the other way
 !>     6 and on        each point open, sticking, or slipping either way at random, in proportions that are random too
