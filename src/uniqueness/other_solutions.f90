@@ -130,14 +130,15 @@ contains
    pure real(wp) function usual_pressure(problem, first) result(pressure)
       type(bound_qp_t), intent(in) :: problem
       type(contact_solution_t), intent(in) :: first
-      real(wp) :: force
       integer(ip) :: i
 
       pressure = maxval([0.0_wp, first%state%q(:problem%n_normal)/problem%weight(:problem%n_normal)])
       if (pressure > 0.0_wp) return
       ! nothing touches: what would press a point back to where it was
-      force = maxval([1.0_wp/HUGE_REAL, (abs(problem%g0(i))/max(problem%c(i, i), 1.0_wp/HUGE_REAL), i=1, problem%n_normal)])
-      pressure = force/maxval(problem%weight)
+      do i = 1, problem%n_normal
+         if (.not. problem%c(i, i) > 0.0_wp) cycle
+         pressure = max(pressure, abs(problem%g0(i))/problem%c(i, i)/problem%weight(i))
+      end do
    end function usual_pressure
 
    !> Between 0 and 1, neither of them.
