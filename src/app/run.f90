@@ -27,7 +27,7 @@ module atrito_run
    use atrito_parameter_text, only: list_parameters
    use atrito_patched_text, only: digest_of_texts
    use atrito_plane_state, only: FULL_STATE
-   use atrito_plot_files, only: plot_folder, list_plots, PLOTS_OF_RUN
+   use atrito_plot_files, only: plot_folder, solution_folder, list_plots, PLOTS_OF_RUN
    use atrito_reader, only: read_deck
    use atrito_report_maker, only: make_run_report
    use atrito_rank_distribution, only: distribute_over_ranks
@@ -47,7 +47,6 @@ module atrito_run
    use atrito_threads, only: lent_threads, set_threads
    use atrito_timers, only: start_phase, stop_phase
    use atrito_write_plots, only: write_plots, plot_names
-   use atrito_uniqueness_text, only: solution_folder
    use atrito_write_results, only: write_results, remove_results, list_files_of_run
    implicit none (type, external)
    private

@@ -104,8 +104,8 @@ contains
       solution%factorisations = factorisations
    end subroutine solve_condensed
 
-   !> From a solution of the line to the bodies: displacements without rigid motions, refined where elements are near, and amplitudes
-   !> that count from no load.
+   !> From a solution of the line to the bodies: displacements without rigid motions, refined where elements are near, and
+   !> amplitudes that count from no load.
    subroutine expand_solution(problem, controls, store, scene, solution, u)
       class(problem_t), intent(inout) :: problem !< the increment, with C and G
       type(controls_t), intent(in) :: controls !< method, tolerance, MAXIT

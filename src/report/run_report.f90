@@ -11,11 +11,10 @@ module atrito_run_report
    use atrito_report, only: report_t
    use atrito_results, only: results_t, history_t, scene_t, balance_t, last_frame
    use atrito_strings, only: string_t, append_string, to_text
-   use atrito_summary, only: body_count, pair_count, pair_name
+   use atrito_summary, only: body_count, pair_count, pair_name, uniqueness_text
    use atrito_system, only: peak_memory
    use atrito_table, only: ZERO_SHARE, abs_is_below
    use atrito_timers, only: phase_time_t, get_phases
-   use atrito_uniqueness_text, only: uniqueness_text
    implicit none (type, external)
    private
    public :: report_of_run

@@ -13,6 +13,7 @@ module atrito_scene_forecast
    use atrito_results, only: scene_t
    use atrito_scene_data, only: scene_data_t
    use atrito_solver_choice, only: SOLVER_SPARSE
+   use atrito_uniqueness, only: LONGEST
    implicit none (type, external)
    private
    public :: forecast_memory, field_library_bytes, load_bytes, recovery_bytes, request_bytes, with_holes, LATER_BYTES
@@ -42,7 +43,7 @@ contains
       end if
       recovering = recovery_bytes(model, int(model%mesh%n_nodes, lp), int(model%mesh%n_elements, lp)) + request_bytes(model, data)
       is_sparse = data%contact_form == CONTACT_SPARSE
-      solving = load_bytes(model) + merge(scene%solving, dense_solving_bytes(scene), is_sparse)
+      solving = load_bytes(model) + merge(scene%solving, dense_solving_bytes(scene, data%starts > 0), is_sparse)
       if (is_solved_by_increments(model)) then
          ! the factor of the contact system of the increment before, from which the next one starts, is there besides
          kept = merge(0_lp, REAL_BYTES*int(scene%n_normal + scene%n_tangential, lp)**2, is_sparse)
@@ -65,8 +66,9 @@ contains
    end function field_library_bytes
 
    !> Bodies one after the other, then the flexibility, its factor and a copy, and as many motions of each row.
-   pure integer(lp) function dense_solving_bytes(scene) result(most)
+   pure integer(lp) function dense_solving_bytes(scene, is_searched) result(most)
       type(scene_t), intent(in) :: scene
+      logical, intent(in) :: is_searched             !< for other solutions
       integer(lp) :: held
       integer(ip) :: b
 
@@ -78,27 +80,30 @@ contains
             held = held + with_holes(body%solver_kind, body%memory) + REAL_BYTES*int(body%n_equations, lp)
          end associate
       end do
-      most = max(most, held + contact_bytes(scene))
+      most = max(most, held + contact_bytes(scene, is_searched))
       associate (m => int(scene%n_normal + scene%n_tangential, lp))
          most = most + share_of(ROUNDING_UP, most) + min(MOST_OF_BLAS, REAL_BYTES*m**2)
       end associate
    end function dense_solving_bytes
 
-   !> The contact system of the dense form: the flexibility, its factor and a copy, and as many motions of each row.
-   pure integer(lp) function contact_bytes(scene) result(bytes)
+   !> The contact system of the dense form: the flexibility, its factor and a copy, and as many motions of each row; where its
+   !> solution is certified to be the only one, the matrices of that besides.
+   pure integer(lp) function contact_bytes(scene, is_searched) result(bytes)
       type(scene_t), intent(in) :: scene
-      integer(lp), parameter :: MATRICES = 3_lp, MOTIONS = 6_lp
-      integer(lp) :: m, rows
+      logical, intent(in) :: is_searched             !< for other solutions
+      integer(lp), parameter :: MOTIONS = 6_lp
+      integer(lp) :: m, rows, matrices
       integer(ip) :: b
 
       m = scene%n_normal + scene%n_tangential
+      matrices = merge(8_lp, 3_lp, scene%n_tangential > 0 .and. (m <= LONGEST .or. is_searched))
       rows = 0
       do b = 1, size(scene%bodies, kind=ip)
          associate (n => scene%bodies(b)%n_contact_equations)
             rows = max(rows, n*min(m, 2*int(n, lp)))
          end associate
       end do
-      bytes = REAL_BYTES*max(m*(m + scene%n_rigid) + rows, m*(MATRICES*m + MOTIONS*scene%n_rigid))
+      bytes = REAL_BYTES*max(m*(m + scene%n_rigid) + rows, m*(matrices*m + MOTIONS*scene%n_rigid))
    end function contact_bytes
 
    !> With what the updates of fronts leave behind between the factors when they are given back: nothing else fits there.

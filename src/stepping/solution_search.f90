@@ -22,8 +22,8 @@ module atrito_solution_search
 
 contains
 
-   !> Searches from data%starts starts. The numbers of both go into the results. Where the dense form was not tried there is nothing to
-   !> search with.
+   !> Searches from data%starts starts. The numbers of both go into the results. Where the dense form was not tried there is nothing
+   !> to search with.
    subroutine search_solutions(data, store, first, results, others)
       type(scene_data_t), intent(inout) :: data             !< with C and G
       type(body_cache_t), intent(inout) :: store            !< with the bodies

@@ -25,13 +25,11 @@ module atrito_listing
    use atrito_rigid_report, only: describe_rigid_bodies
    use atrito_scene_report, only: describe_needs, describe_bodies, describe_pairs
    use atrito_summary, only: quantity_t, scales_t, summarise_pair, pair_quantities, step_quantities, measure_history, pair_count, &
-                             pair_name, &
-                             closed_word
+                             pair_name, closed_word, uniqueness_text
    use atrito_patched_text, only: take_ends
    use atrito_table, only: table_t, clear_small, ZERO_SHARE
    use atrito_units, only: unit_names
    use atrito_utf8, only: visible
-   use atrito_uniqueness_text, only: uniqueness_text
    implicit none (type, external)
    private
    public :: write_listing, compose_listing, list_used_libraries, date_text

@@ -12,6 +12,7 @@ module atrito_plot_files
    use atrito_status, only: status_t, is_ok
    implicit none (type, external)
    private
+   public :: plot_folder, solution_folder
    public :: plot_folder, remove_plots, told_pictures, PLOTS_OF_RUN, PLOTS_OF_SWEEP, PLOTS_OF_STUDY, PLOTS_OF_LIMIT, PLOTS_OF_CHECK
    public :: list_plots, check_scripts, open_data, REPORT_NAME, remove_report
    public :: picture_endings, LOG_NAME, MESH_PLOT, OVERLAY_PLOT, OVERLAY_SUMMARY, CONTACT_PLOT, STUDY_PLOT, LIMIT_PLOT, &
@@ -53,6 +54,15 @@ contains
 
       path = folder//'/plots'
    end function plot_folder
+
+   !> The folder of solution k, below that of the run, which has the first.
+   pure function solution_folder(folder, k) result(path)
+      character(len=*), intent(in) :: folder
+      integer(ip), intent(in) :: k                  !< 2, 3, ..
+      character(len=:), allocatable :: path
+
+      path = folder//'/solution-'//to_text(k)
+   end function solution_folder
 
    !> Endings of the files in which a picture is drawn, with their dots: the one that moves is a gif.
    pure function picture_endings(name) result(list)

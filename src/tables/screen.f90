@@ -19,9 +19,9 @@ module atrito_screen
                           plural
    use atrito_plot_files, only: plot_folder, told_pictures
    use atrito_plot_files, only: REPORT_NAME
-   use atrito_summary, only: pair_summary_t, summarise_pair, states_text, closed_word, body_count, pair_count, pair_name
+   use atrito_summary, only: pair_summary_t, summarise_pair, states_text, closed_word, body_count, pair_count, pair_name, &
+                             uniqueness_text
    use atrito_table, only: TAB_ENDING, CSV_ENDING
-   use atrito_uniqueness_text, only: uniqueness_text
    implicit none (type, external)
    private
    public :: compose_summary, compose_check

@@ -2,6 +2,7 @@
 module atrito_summary
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
    use atrito_kinds, only: ip, wp
+   use atrito_page, only: number
    use atrito_strings, only: string_t, append_string, to_text
    use atrito_model, only: model_t
    use atrito_results, only: results_t, history_t, scene_t, contact_result_t, uniqueness_t, view_frame, &
@@ -10,7 +11,7 @@ module atrito_summary
    implicit none (type, external)
    private
    public :: pair_summary_t, quantity_t, scales_t
-   public :: summarise_pair, pair_quantities, step_quantities, quantity_names, states_text, closed_word
+   public :: summarise_pair, uniqueness_text, pair_quantities, step_quantities, quantity_names, states_text, closed_word
    public :: measure_history
    public :: pair_count, pair_name, body_count
 
@@ -185,6 +186,36 @@ contains
               counted('solutions_found', known%solutions)]
       list = pack(list, known%nu > 0.0_wp .and. [len_trim(known%why_not) == 0, known%index /= 0, known%starts > 0])
    end function unique_quantities
+
+   !> What is proved of the solution being the only one, in words that promise no more: one line of some 65 columns; '' without
+   !> friction.
+   pure function uniqueness_text(known) result(text)
+      type(uniqueness_t), intent(in) :: known
+      character(len=:), allocatable :: text
+      character(len=:), allocatable :: up_to
+
+      text = ''
+      if (.not. known%nu > 0.0_wp) return
+      up_to = 'nu = '//number(known%up_to_nu, 3)
+      if (known%solutions > 1) then
+         text = 'not the only solution: '//to_text(known%solutions - 1)//merge(' other ', ' others', known%solutions == 2)
+         text = trim(text)//' found from '//to_text(known%starts)//' starts'
+      else if (known%index < 0) then
+         text = 'not the only solution: its index is -1'
+      else if (known%up_to_nu >= known%nu) then
+         text = 'exactly one solution for every load up to '//up_to//' (certified)'
+      else
+         text = 'not proved'
+         if (known%up_to_nu > 0.0_wp) text = text//' beyond '//up_to
+         if (known%solutions == 1) then
+            text = text//'; '//to_text(known%starts)//' starts find no other solution'
+         else if (len_trim(known%why_not) > 0) then
+            text = text//': '//trim(known%why_not)
+         else if (known%same_way_up_to_nu >= known%nu) then
+            text = text//'; no other moves alike everywhere'
+         end if
+      end if
+   end function uniqueness_text
 
    !> Every quantity that summary.tab can have.
    pure function quantity_names() result(names)

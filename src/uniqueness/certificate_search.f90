@@ -6,8 +6,8 @@
 !>     R = (gamma W'W (+) 0 + A_t'A_t/gamma)/2           every load
 !>     R = -sym(diag(alpha 1, 1) [A_t S W, 0])           the directions S of slip given
 !>
-!> for some alpha, gamma > 0; A_t are the tangential rows of A. The least s at which this fails is 1/lambda, lambda the largest ratio
-!> z'Rz/z'Hz. Each vector z that a search for it finds is a cut: for all alpha and gamma
+!> for some alpha, gamma > 0; A_t are the tangential rows of A. The least s at which this fails is 1/lambda, lambda the largest
+!> ratio z'Rz/z'Hz. Each vector z that a search for it finds is a cut: for all alpha and gamma
 !>
 !>     lambda(alpha, gamma) >= (a gamma + b/gamma + e alpha + f)/(c alpha + d),
 !>
@@ -44,6 +44,7 @@ module atrito_certificate_search
    end type place_t
 
    integer, parameter :: ROUNDS = 8, HALVINGS = 5, MOST_POLISHING = 6
+   integer, parameter :: SMALL = 16               !< unknowns of a line whose ratios stand after the steps of the rounds
    real(wp), parameter :: FAR = 2.0_wp            !< first change of an exponent at most, twice as much where it was all used
    real(wp), parameter :: GOOD_ENOUGH = 0.98_wp   !< of the ratio: no more to be gained
    real(wp), parameter :: MARGIN = 1.0e-10_wp     !< of the diagonal of H: what is left of the certified matrix is no rounding
@@ -140,9 +141,9 @@ contains
       real(wp), allocatable :: factor(:, :), r(:, :)
       real(wp) :: z(size(forms%form%a, 1)), reach
       integer :: round, n_cuts
-      integer(ip) :: i, failed
+      integer(ip) :: failed
 
-      z = [(1.0_wp + 0.9_wp*sin(real(5*i*i, wp)), i=1, size(z))]   ! a part of every vector, as good as surely
+      z = 0.0_wp
       now%y = first_gamma(forms) + 0.5_wp*now%x
       n_cuts = 0
       reach = FAR
@@ -168,7 +169,7 @@ contains
          reach = merge(2*reach, FAR, abs(now%x - best%x) > 0.9_wp*reach)
          if (now%ratio > GOOD_ENOUGH*best%ratio) exit
       end do
-      if (best%ratio < huge(1.0_wp)) call polish(forms, z, best)
+      if (best%ratio < huge(1.0_wp) .and. size(z) > SMALL) call polish(forms, z, best)
    end subroutine search
 
    !> More steps at the best place, until the ratio stands.

@@ -4,11 +4,11 @@
 !>
 !>     A = C + diag(delta/w, 0),     q_n >= 0, r_n <= 0, q_n r_n = 0,     |q_t| <= b = nu W q_n.
 !>
-!> nu is the largest coefficient, W = diag(w nu_j/nu) S_rho diag(1/w) takes normal forces to friction bounds, each row with the share
-!> of its own pair. Of two solutions the loads are the same,
-!> and so the difference dq lies in the kernel of G'. Bodies that can move along the contact are out of reach of the certificates;
-!> where G has no tangential rows, k reflections (Householder) turn its columns onto the first k normal directions, and what is left
-!> without these is the kernel:  A <- Y' A Y,  W <- W Y. No basis is stored, and without free bodies nothing is done.
+!> nu is the largest coefficient, W = diag(w nu_j/nu) S_rho diag(1/w) takes normal forces to friction bounds, each row with the
+!> share of its own pair. Of two solutions the loads are the same, and so the difference dq lies in the kernel of G'. Bodies that
+!> can move along the contact are out of reach of the certificates; where G has no tangential rows, k reflections (Householder) turn
+!> its columns onto the first k normal directions, and what is left without these is the kernel:  A <- Y' A Y,  W <- W Y. No basis
+!> is stored, and without free bodies nothing is done.
 module atrito_friction_form
    use atrito_bound_qp, only: bound_qp_t
    use atrito_contact_line, only: contact_line_t
@@ -24,7 +24,7 @@ module atrito_friction_form
       real(wp), allocatable :: w(:, :)            !< (n, m - n) the transpose of W: a column a tangential force
    end type friction_form_t
 
-   real(wp), parameter :: NONE_ALONG = 1.0e-12_wp  !< of the largest entry of a motion: it does not move the points along the contact
+   real(wp), parameter :: NONE_ALONG = 1.0e-12_wp  !< of the largest entry of a motion: it does not go along the contact
 
 contains
 
@@ -43,6 +43,7 @@ contains
          do k = 1, problem%k
             if (maxval([0.0_wp, abs(problem%g(n + 1:, k))]) > NONE_ALONG*maxval(abs(problem%g(:, k)))) then
                why_not = 'a body is held along the contact by friction alone'
+               if (line%n_bilateral > 0) why_not = 'a body is held along the contact by friction and joints'
                return
             end if
          end do
@@ -69,8 +70,8 @@ contains
 
    !> Leaves the motions' directions out of A and W.
    !>
-   !> The reflection 1 - 2 v v' that takes a column g of G, from row i on, to a multiple of the unit vector i has v along g + |g| e_i.
-   !> With x = A v and y = 2 (x - (v'x) v) it makes of A the matrix A - v y' - y v'.
+   !> The reflection 1 - 2 v v' that takes a column g of G, from row i on, to a multiple of the unit vector i has v along g + |g|
+   !> e_i. With x = A v and y = 2 (x - (v'x) v) it makes of A the matrix A - v y' - y v'.
    pure subroutine take_kernel(g, form)
       real(wp), intent(inout) :: g(:, :)          !< (n, k) normal rows of G; reflected
       type(friction_form_t), intent(inout) :: form

@@ -19,11 +19,12 @@ module atrito_largest_ratio
    public :: find_largest_ratio
 
    integer(ip), parameter :: STEPS = 8
+   real(wp), parameter :: STIRRED = 0.1_wp          !< part of the start that is not z: of an eigenvector alone nothing else comes
    real(wp), parameter :: NOTHING_NEW = 1.0e-12_wp  !< part of R z that is rounding: the steps have all there is
 
 contains
 
-   !> Goes STEPS steps from H^-1 R z; on return z is the vector of the largest ratio that was met, with z'Hz = 1.
+   !> Goes STEPS steps from about H^-1 R z; on return z is the vector of the largest ratio that was met, with z'Hz = 1.
    subroutine find_largest_ratio(r, factor, z, ratio)
       real(wp), intent(in), contiguous :: r(:, :)       !< (m, m) R, lower triangle
       real(wp), intent(in), contiguous :: factor(:, :)  !< (m, m) Cholesky factor of H, lower triangle
@@ -35,6 +36,9 @@ contains
 
       t = 0.0_wp
       n = 0
+      length = norm2(z)
+      if (length > 0.0_wp) z = z/length
+      z = z + STIRRED/sqrt(real(size(z), wp))*[(1.0_wp + 0.9_wp*sin(real(5*i*i, wp)), i=1, size(z))]
       call multiply_symmetric(r, z, image)
       before = 0.0_wp
       do j = 1, min(STEPS, size(z, kind=ip))

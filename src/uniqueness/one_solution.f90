@@ -13,12 +13,12 @@
 !>
 !>     sym(diag(alpha 1, 1) A) - nu/2 (gamma W'W (+) 0 + A_t'A_t/gamma) > 0.                      certify_every_load
 !>
-!> The largest nu is looked for; up to it there is one solution for all loads, gaps and directions of slip. It falls as 1/sqrt(n) with the number n of points where
-!> friction is local, and does not fall where the average S_rho keeps its rho (Oden and Pires).
+!> The largest nu is looked for; up to it there is one solution for all loads, gaps and directions of slip. It falls as 1/sqrt(n)
+!> with the number n of points where friction is local, and does not fall where the average S_rho keeps its rho (Oden and Pires).
 !>
 !> With exact stick, two solutions of which no point moves against directions S (1 or -1) that are given, the open points too, have
-!> m = S_j in all points, and dq = 0 where sym(diag(alpha 1, 1) A [1 0; nu S W 1]) > 0: at most one solution moves that way everywhere
-!> (certify_way). That reaches further, since no point is taken to slip against its neighbours.
+!> m = S_j in all points, and dq = 0 where sym(diag(alpha 1, 1) A [1 0; nu S W 1]) > 0: at most one solution moves that way
+!> everywhere (certify_way). That reaches further, since no point is taken to slip against its neighbours.
 !>
 !> What is certified is the discrete problem, of this mesh; beyond the coefficient there may be one solution all the same.
 module atrito_one_solution
@@ -33,8 +33,8 @@ module atrito_one_solution
 
 contains
 
-   !> The largest nu found up to which there is one solution, whatever the loads; 0 where there is none, the points depending on each
-   !> other.
+   !> The largest nu found up to which there is one solution, whatever the loads; 0 where there is none, the points depending on
+   !> each other.
    subroutine certify_every_load(form, nu)
       type(friction_form_t), intent(in) :: form
       real(wp), intent(out) :: nu

@@ -1,7 +1,7 @@
 !> A search for other solutions of a contact line: Newton's method on the states, from many starts.
 !>
-!> The states of the points and the bound of friction are solved for together (atrito_newton, with nu p inside), which finds solutions
-!> that the Picard loop runs away from, those of index -1 among them. The starts, all points with the same force at first:
+!> The states of the points and the bound of friction are solved for together (atrito_newton, with nu p inside), which finds
+!> solutions that the Picard loop runs away from, those of index -1 among them. The starts, all points with the same force at first:
 !>
 !>     1 all stick     2, 3 all slip along T, against it     4, 5 one half one way, the other half the other way
 !>     6 and on        each point open, sticking, or slipping either way at random, in proportions that are random too
@@ -130,14 +130,15 @@ contains
    pure real(wp) function usual_pressure(problem, first) result(pressure)
       type(bound_qp_t), intent(in) :: problem
       type(contact_solution_t), intent(in) :: first
-      real(wp) :: force
       integer(ip) :: i
 
       pressure = maxval([0.0_wp, first%state%q(:problem%n_normal)/problem%weight(:problem%n_normal)])
       if (pressure > 0.0_wp) return
       ! nothing touches: what would press a point back to where it was
-      force = maxval([1.0_wp/HUGE_REAL, (abs(problem%g0(i))/max(problem%c(i, i), 1.0_wp/HUGE_REAL), i=1, problem%n_normal)])
-      pressure = force/maxval(problem%weight)
+      do i = 1, problem%n_normal
+         if (.not. problem%c(i, i) > 0.0_wp) cycle
+         pressure = max(pressure, abs(problem%g0(i))/problem%c(i, i)/problem%weight(i))
+      end do
    end function usual_pressure
 
    !> Between 0 and 1, neither of them.

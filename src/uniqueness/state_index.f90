@@ -2,10 +2,10 @@
 !>
 !> Where every point is well inside its state the equations of the line are linear near the solution, with the matrix M, and the
 !> solution is isolated where M is regular. At nu = 0 there is one solution, of index 1 (det M(0) > 0: A is positive definite on the
-!> forces that balance). All solutions for coefficients from 0 to nu are bounded, where the motions of the bodies do not go along the
-!> contact, and so the indices of those at nu add up to 1, too (degree of a map). A solution of index -1 therefore cannot be the only
-!> one: there are two more at least, unless another one stands on the edge of its state or with a singular matrix, and then one.
-!> An index of 1 says nothing. The price is one factorisation by LU.
+!> forces that balance). All solutions for coefficients from 0 to nu are bounded, where the motions of the bodies do not go along
+!> the contact, and so the indices of those at nu add up to 1, too (degree of a map). A solution of index -1 therefore cannot be the
+!> only one: there are two more at least, unless another one stands on the edge of its state or with a singular matrix, and then
+!> one. An index of 1 says nothing. The price is one factorisation by LU.
 module atrito_state_index
    use atrito_bound_qp, only: bound_qp_t, FREE, AT_LOWER
    use atrito_contact_line, only: contact_line_t

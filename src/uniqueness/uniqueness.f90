@@ -1,8 +1,8 @@
 !> Whether the solution of a contact line is the only one: what is proved, and what is not.
 !>
 !>     1. without friction there is one;
-!>     2. a certificate of the matrix (atrito_one_solution), for every load up to a coefficient of friction. It does not depend on the
-!>        loads: a history makes one as long as the bodies are factored;
+!>     2. a certificate of the matrix (atrito_one_solution), for every load up to a coefficient of friction. It does not depend on
+!>        the loads: a history makes one as long as the bodies are factored;
 !>     3. where it does not reach the deck's coefficients: the index of the solution (atrito_state_index); with exact stick, whether
 !>        another one can move the same way at every point; and an estimate of the contraction (atrito_contraction), no proof.
 !>
@@ -20,7 +20,7 @@ module atrito_uniqueness
    use atrito_state_index, only: index_of_solution
    implicit none (type, external)
    private
-   public :: certify_line, judge_solution, is_certified
+   public :: certify_line, judge_solution, is_certified, LONGEST
 
    integer(ip), parameter :: LONGEST = 400        !< unknown forces of a line that is certified without being asked to
 

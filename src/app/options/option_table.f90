@@ -74,7 +74,7 @@ module atrito_option_table
                                          expected='a whole number, 6 to 17'), &
                 option_t('--format', 'NAME', [Y, N, N, N, Y, Y, Y], 'tables as text, or as comma-separated values', default='tab', &
                                          words='tab csv'), &
-      option_t('--unique', 'N', [Y, N, N, N, Y, Y, N], 'looks for other solutions, from N starts: 40, say', &
+                             option_t('--unique', 'N', [Y, N, N, N, Y, Y, N], 'looks for other solutions, from N starts: 40, say', &
                                          expected='a whole number, 1 to 100000: starts of the search'), &
       option_t('--plot', '', [Y, Y, N, N, Y, Y, Y], 'pictures by gnuplot, in DIR/plots; of check: the scene before it is solved'), &
                                 option_t('--plot-scale', 'S', [Y, N, N, N, N, N, Y], 'displacements are drawn S times as large', &

@@ -21,7 +21,8 @@ module atrito_build_requests
    character(len=*), parameter :: AT_NODES = 'AVERAGED AT NODES'
    character(len=*), parameter :: WHAT_TOLERANCE = 'tolerance of the outer iteration, 0 < r <= 0.1 [-]'
    character(len=*), parameter :: WHAT_MAXIT = 'most outer iterations, an integer >= 1'
-   character(len=*), parameter :: WHAT_UNIQUENESS = 'starts of a search for other solutions, an integer >= 1'
+   integer(ip), parameter :: MOST_STARTS = 100000
+   character(len=*), parameter :: WHAT_UNIQUENESS = 'starts of a search for other solutions, 1 to 100000'
    character(len=*), parameter :: WHAT_RELAXATION = 'part of each change that is taken, 0 < r <= 1 [-]'
 
 contains
@@ -200,7 +201,9 @@ contains
          call refuse_option(deck, card, 'RELAXATION', WHAT_RELAXATION)
       end if
       call option_integer(deck, card, 'UNIQUENESS', WHAT_UNIQUENESS, controls%starts, found)
-      if (found .and. controls%starts < 1) call refuse_option(deck, card, 'UNIQUENESS', WHAT_UNIQUENESS)
+      if (found .and. .not. (controls%starts >= 1 .and. controls%starts <= MOST_STARTS)) then
+         call refuse_option(deck, card, 'UNIQUENESS', WHAT_UNIQUENESS)
+      end if
    end subroutine read_controls_card
 
    !> RELAXATION= belongs to PICARD: the other methods choose their steps themselves.

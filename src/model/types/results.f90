@@ -167,7 +167,7 @@ module atrito_results
    type :: uniqueness_t
       real(wp) :: nu = 0.0_wp                       !< the largest coefficient of friction; 0: without friction there is one
       real(wp) :: up_to_nu = 0.0_wp                 !< one solution for every load, all coefficients scaled, this the largest
-      real(wp) :: same_way_up_to_nu = 0.0_wp        !< no other one that moves the same way at every point; 0: not asked, or no proof
+      real(wp) :: same_way_up_to_nu = 0.0_wp        !< no other one that moves the same way at every point; 0: no proof
       integer(ip) :: index = 0                      !< 1 or -1; 0: not known
       integer(ip) :: starts = 0, solutions = 0      !< of the search: tried, and found with the one that is printed; 0: none
       character(len=64) :: why_not = ''             !< why there is no certificate

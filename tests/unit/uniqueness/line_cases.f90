@@ -40,7 +40,7 @@ contains
       call line_of(c, 4*g0 - 2, nu, problem, line)
    end subroutine random_line
 
-   !> Loads that have a solution in a state whose determinant is negative, so that there are others; unchanged where no state is such.
+   !> Loads that have a solution in a state whose determinant is negative, so that there are others; unchanged where no state is so.
    subroutine load_folded(problem, nu)
       type(bound_qp_t), intent(inout) :: problem
       real(wp), intent(in) :: nu
