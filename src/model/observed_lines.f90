@@ -9,6 +9,7 @@ module atrito_observed_lines
 
 contains
 
+   !> The lines in the order of the deck.
    pure subroutine list_observed(deck, lines)
       type(deck_t), intent(in) :: deck
       type(observed_line_t), allocatable, intent(out) :: lines(:)

@@ -13,7 +13,7 @@ module atrito_plot_files
    implicit none (type, external)
    private
    public :: plot_folder, solution_folder
-   public :: plot_folder, remove_plots, told_pictures, PLOTS_OF_RUN, PLOTS_OF_SWEEP, PLOTS_OF_STUDY, PLOTS_OF_LIMIT, PLOTS_OF_CHECK
+   public :: remove_plots, told_pictures, PLOTS_OF_RUN, PLOTS_OF_SWEEP, PLOTS_OF_STUDY, PLOTS_OF_LIMIT, PLOTS_OF_CHECK
    public :: list_plots, check_scripts, open_data, REPORT_NAME, remove_report
    public :: picture_endings, LOG_NAME, MESH_PLOT, OVERLAY_PLOT, OVERLAY_SUMMARY, CONTACT_PLOT, STUDY_PLOT, LIMIT_PLOT, &
              MECHANISM_PLOT, JOINT_PLOT, HISTORY_PLOT, LOOP_PLOT, MOTION_PLOT, TRACTION_PLOT, CONTOUR_PLOTS, SYMBOLS_OF, &

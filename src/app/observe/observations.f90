@@ -40,10 +40,11 @@ module atrito_observations
 
    integer, parameter :: MOST_NEAREST = 3, FEW = 20  !< names that are told: near ones, or all where they are few
    !> Other columns of the tables in which the names stand.
-   character(len=*), parameter :: COLUMNS(19) = [character(len=14) :: 'step', 'increment', 'pair', 'quantity', 'value', 'run', &
+   character(len=*), parameter :: COLUMNS(26) = [character(len=14) :: 'step', 'increment', 'pair', 'quantity', 'value', 'run', &
                                                          'exit', 'factorisations', 'folder', 'moment', 'contact_length', 'centre', &
                                                                  'dissipation', 'elastic_energy', 'level', 'element', 'h', 'dofs', &
-                                                                                                                   'contact_points']
+                                                                      'contact_points', 'open', 'stick', 'slip', 'code', 'excess', &
+                                                                                                       'displacement', 'iterations']
 
 contains
 

@@ -137,6 +137,7 @@ contains
       is_number = .not. allocated(wrong%text)
    end function is_number
 
+   !> The arguments are too few or too many.
    subroutine complain_of_count(call, form, fault)
       type(call_t), intent(in) :: call
       character(len=*), intent(in) :: form           !< how it should read
@@ -149,6 +150,7 @@ contains
       fault%expected = form
    end subroutine complain_of_count
 
+   !> The place of a fault is that of an argument.
    subroutine put_place(argument, fault)
       type(argument_t), intent(in) :: argument
       type(message_t), intent(inout) :: fault

@@ -87,8 +87,8 @@ near 'pressure at the surface' "$(path disc axis s_along | head -1)" "$(value "-
 
 # A gap of 0.1 of which 0.13 is asked over the first step, and taken back in the second.
 run 0 "$here/gap.inp" gap --digits 17 --quiet
-near 'the pair closes' "$(observed gap close)" "$(value 10/13)" 1e-9
-near 'and opens' "$(observed gap open)" "$(value 16/13)" 1e-9
+near 'the pair closes' "$(observed gap closed)" "$(value 10/13)" 1e-9
+near 'and opens' "$(observed gap opened)" "$(value 16/13)" 1e-9
 [ "$(awk '!/^#/ && $2 == 7 && $1 == 1 { print $(NF - 1), $NF }' gap/history.tab)" = 'nan nan' ] || complain 'times before anything closes'
 
 # A press fit: where the bodies touch a point has a row for each, in the order of the path.
