@@ -387,12 +387,11 @@ contains
       end do
       room = LEAST_SPAN*max(abs(range%low), abs(range%high))
       if (range%low <= range%high .and. span(range) < room) range = range_t(range%low - room, range%high + room)
+      call put(plots, 'unset logscale y; set format y "%h"')    ! of the panel before
       call put_panel(plots, place, trim(QUANTITIES(place)%label), trim(QUANTITIES(place)%dimension), range)
       if (is_logarithmic([(runs(i)%quantity(place, :), i=1, size(runs))])) then
-         call put(plots, 'set logscale y; set yrange ['//to_text(range%low/1.5_wp, 6)//'/unit:'//to_text(range%high*1.5_wp, 6)// &
-                  '/unit]; set format y "10^{%T}"')
-      else
-         call put(plots, 'unset logscale y; set format y "%h"')
+         call put(plots, 'set yrange ['//to_text(range%low/1.5_wp, 6)//'/unit:'//to_text(range%high*1.5_wp, 6)// &
+                  '/unit]'//LF//'set logscale y; set format y "10^{%T}"')
       end if
       column = to_text(place + 1)
       line = 'plot for [i=1:pairs] "overlay-summary.dat" index i-1 using 1:($'//column// &

@@ -289,6 +289,13 @@ pictures grid overlay-1
 absent grid/plots/overlay-summary.gp
 "$atrito" sweep "$ex1" --vary nu=0,0.1 --quiet -o sweep 2>sweep.err || complain 'the second sweep failed'
 absent sweep/plots
+# values that span decades, and 0 among them
+"$atrito" sweep "$ex1" --vary q=0,1e-3,1 --plot --quiet -o decades 2>decades.err || complain 'the sweep over decades failed'
+pictures decades overlay-summary
+says 'an axis with 0' decades/plots/overlay-summary.gp 'set nonlinear x'
+"$atrito" sweep "$ex1" --vary q=1e-4,1e-3,1 --plot --quiet -o decades 2>decades.err || complain 'the sweep over decades failed'
+pictures decades overlay-summary
+[ "$(grep -c '^set logscale y' decades/plots/overlay-summary.gp)" -eq 3 ] || complain 'the resultant, pressure and shear go with q'
 
 # histories: curves over time, the loop, steps over one another, and a picture that moves
 moving() { # FOLDER IMAGES
