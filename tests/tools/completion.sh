@@ -29,7 +29,7 @@ yields 'check' ch
 yields 'check compare decks help limit plate.inp study sweep' ''
 yields 'decks plate.inp' check ''
 yields 'decks/arch.inp' sweep decks/
-yields '--set --share --solver' plate.inp --s
+yields '--set --share --show --solver' plate.inp --s
 yields '--quiet' check --q
 yields '--quiet' compare --q
 yields '--plot --plot-box --plot-labels' check --plot
