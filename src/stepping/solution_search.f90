@@ -39,7 +39,12 @@ contains
       integer(ip) :: i, n
 
       allocate (others(0))
-      if (data%starts == 0 .or. .not. allocated(data%flexibility) .or. .not. data%line%has_friction) return
+      if (data%starts == 0) return
+      if (.not. (allocated(data%flexibility) .and. data%line%has_friction)) then
+         if (data%line%has_friction) results%uniqueness%why_not = 'no search either, the sparse form has no matrix'
+         results%uniqueness%starts = data%starts
+         return
+      end if
       call start_phase('search')
       call find_others(data%flexibility, data%line, data%step%controls, first, data%starts, found)
       call stop_phase('search')

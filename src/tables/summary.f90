@@ -184,7 +184,7 @@ contains
 
       list = [quantity_t('unique_up_to_nu', '-', known%up_to_nu, 0.0_wp), counted('index', known%index), &
               counted('solutions_found', known%solutions)]
-      list = pack(list, known%nu > 0.0_wp .and. [len_trim(known%why_not) == 0, known%index /= 0, known%starts > 0])
+      list = pack(list, known%nu > 0.0_wp .and. [len_trim(known%why_not) == 0, known%index /= 0, known%solutions > 0])
    end function unique_quantities
 
    !> What is proved of the solution being the only one, in words that promise no more: one line of some 65 columns; '' without
@@ -195,6 +195,7 @@ contains
       character(len=:), allocatable :: up_to
 
       text = ''
+      if (known%starts > 0) text = 'no search: without friction the energy has one minimum'
       if (.not. known%nu > 0.0_wp) return
       up_to = 'nu = '//number(known%up_to_nu, 3)
       if (known%solutions > 1) then
@@ -224,7 +225,7 @@ contains
       type(results_t) :: full
       integer :: i
 
-      full%uniqueness = uniqueness_t(nu=1.0_wp, index=1_ip, starts=1_ip)
+      full%uniqueness = uniqueness_t(nu=1.0_wp, index=1_ip, solutions=1_ip)
       list = [pair_quantities(pair_summary_t(), scales_t()), step_quantities(full)]
       allocate (names(0))
       do i = 1, size(list)
