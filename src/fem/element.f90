@@ -384,7 +384,7 @@ contains
       integer(ip), intent(in) :: state             !< place in STATES
       real(wp), intent(out) :: f(:, :)             !< shape of x
       real(wp), intent(in), optional :: places(:)  !< what the depth goes by at the nodes (depth_places) [L]; default x1
-      real(wp), intent(in), optional :: slope(2)   !< of a pressure that is linear in the place, and `pressure` at the origin [F/L^3]
+      real(wp), intent(in), optional :: slope(2)   !< [F/L^3] of a pressure that is linear in the place, `pressure` at the origin
       real(wp) :: points(3), weights(3), n(size(x, 2)), tangent(2), relative(2, size(x, 2)), goes_by(size(x, 2)), push
       integer(ip) :: i, order, n_face
 

@@ -10,11 +10,10 @@ module atrito_screen
    use atrito_results, only: contact_result_t, results_t, history_t, observed_t, scene_t, has_forces, last_frame
    use atrito_increments, only: list_increments, has_history, increment_name, ending_text
    use atrito_extreme_report, only: add_extremes
-   use atrito_name_report, only: describe_names
    use atrito_model_report, only: describe_counts, describe_instances, describe_steps, is_history
    use atrito_resultant_report, only: add_supports
    use atrito_row_tables, only: joined_text
-   use atrito_scene_report, only: describe_needs, describe_bodies, describe_pairs
+   use atrito_scene_report, only: describe_needs, describe_bodies, describe_names, describe_pairs
    use atrito_page, only: page_t, begin_report, add_blank, add_heading, add_item, add_line, add_rule, left, right, number, bytes, &
                           plural
    use atrito_plot_files, only: plot_folder, told_pictures

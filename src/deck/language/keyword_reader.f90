@@ -6,7 +6,8 @@
 !>     option NAME | VALUE | meaning
 !>     lines COUNT | meaning                     a form of data line, COUNT of them: 1, 0-4, 1- (one or more)
 !>     lines COUNT, with OPTION | meaning        that applies with an option; also `with OPTION=A or B`, `without OPTION`,
-!>                                               `without A or B`, `word WORD` (with which the lines begin), `no effect`, `going on` (goes_on)
+!>                                               `without A or B`, `word WORD` (with which the lines begin), `no effect`,
+!>                                               `going on` (goes_on)
 !>     item NAME, NAME | VALUE | meaning         its items
 !>     > LINE                                    of the example
 !>     define GROUP                              names the lines up to the next keyword or `define`, of which

@@ -160,11 +160,12 @@ contains
                            ' belongs to no element and cannot carry a force', expected='nodes of elements', keyword='CLOAD')
          return
       end if
-      if (size(nodes) > 1 .and. abs(force%value(1)) > 0.0_wp) &
+      if (size(nodes) > 1 .and. abs(force%value(1)) > 0.0_wp) then
          call report_note(context%deck, line_token(context, 3_ip), 'N-EACH', 'each of the '//to_text(size(nodes, kind=ip))// &
                           ' nodes of '//token_text(context%deck, line_token(context, 1_ip))//' takes '// &
                           to_text(force%value(1), DIGITS)//', all together '//to_text(size(nodes)*force%value(1), DIGITS), &
                           keyword='CLOAD')
+      end if
       do i = 1, size(nodes, kind=ip)
          if (is_reference(context, nodes(i))) then
             if (.not. can_move(context, line_token(context, 1_ip), nodes(i), force%dof, force%value(1), 'CLOAD')) cycle

@@ -140,9 +140,9 @@ module atrito_model
       integer(ip), allocatable :: line(:)           !< of the deck, that gives it
       integer(ip), allocatable :: source(:)         !< place in model%sources; 0, or not allocated: not known
       real(wp), allocatable :: value(:, :)          !< (3, n): pressure at the origin and its slopes along x and y, 0 where it is
-      !< uniform [F/L^2], [F/L^3]; force per volume [F/L^3] or traction [F/L^2] in two; LOAD_HYDROSTATIC: pressure at a level x2, the
-      !< level where it is 0, and that level [F/L^2], [L]; LOAD_LINEAR: force per volume A x, x from the origin: A11, A12 = A21, A22
-      !< [F/L^4]
+      !< uniform [F/L^2], [F/L^3]; force per volume [F/L^3] or traction [F/L^2] in two; LOAD_HYDROSTATIC: pressure at a level x2,
+      !< the level where it is 0, and that level [F/L^2], [L]; LOAD_LINEAR: force per volume A x, x from the origin: A11, A12 = A21,
+      !< A22 [F/L^4]
       real(wp), allocatable :: from(:, :)           !< (3, n) the same at the beginning of a step; not allocated: 0, with the levels
       !< of LOAD_HYDROSTATIC as they are in value
       integer(ip), allocatable :: amplitude(:)      !< (n) place in model%amplitudes; 0, or not allocated: none
