@@ -190,7 +190,7 @@ contains
       call begin_grid(grid, 1, CELL//'least'//CELL//'at '//place_of(0_ip)//CELL//'greatest'//CELL//'at '//place_of(0_ip))
       allocate (x(table%n_rows))
       do k = 1, size(table%columns)
-         if (table%columns(k)%kind /= KIND_REAL) cycle
+         if (table%columns(k)%kind /= KIND_REAL .or. any(table%columns(k)%name == ['x', 'y'])) cycle
          call fetch_reals(table, table%columns(k), 0_ip, x)
          least = minloc(x, dim=1)
          greatest = maxloc(x, dim=1)

@@ -284,8 +284,11 @@ contains
          line = text(begin:end - 1)
          if (len(line) > 0) line = line(:len(line) - merge(1, 0, line(len(line):) == achar(13)))   ! of Windows
          if (index(line, '**') == 1 .and. len(line) > page%width) line = left(line, page%width)   ! what is read is broken
-         if (len_trim(line) == 0) call add_blank(page)
-         call add_paragraph(page, line, 0)
+         if (len_trim(line) <= page%width) then
+            call add_line(page, line)
+         else
+            call add_paragraph(page, line, 0)
+         end if
       end do
    end subroutine add_lines
 
@@ -296,7 +299,7 @@ contains
       type(history_t), intent(in), target :: history
       type(scales_t), intent(in) :: scales, own(:)
       character(len=12), parameter :: NAMES(8) = [character(len=12) :: 'contact', 'nodes', 'reactions', 'stress', 'nodal_stress', &
-                                                  'bodies', 'joints', 'sections']
+                                                                                                     'bodies', 'joints', 'sections']
       type(results_t), pointer :: frame
       type(table_t) :: table
       character(len=:), allocatable :: only_pair
@@ -443,9 +446,9 @@ contains
       type(balance_t) :: b
       type(grid_t) :: grid
       real(wp) :: parts(3, 5), force
-      real(wp), parameter :: SUMMED = 10.0_wp        !< round-offs of a sum over elements
+      real(wp), parameter :: SUMMED = 1.0e5_wp       !< 1e-9 of all forces is nothing, as on the screen
       character(len=26), parameter :: PART_NAMES(5) = [character(len=26) :: 'applied', 'reactions of the supports', &
-                                                             'from rigid surfaces', 'from springs and equations', 'sum']
+                                                                         'from rigid surfaces', 'from springs and equations', 'sum']
       integer :: i
 
       b = results%balance

@@ -15,6 +15,7 @@ module atrito_resultant_report
 
    integer, parameter :: DIGITS = 6, SCREEN_DIGITS = 5
    real(wp), parameter :: SUMMED = 10.0_wp          !< round-offs of a reaction, which is a sum over elements
+   real(wp), parameter :: SHOWN = 1.0e5_wp          !< what is less than 1e-9 of all forces is nothing to people
 
 contains
 
@@ -84,6 +85,7 @@ contains
       integer, parameter :: MOST = 40                !< lines
       type(resultant_t), allocatable :: list(:)
       type(grid_t) :: grid
+      real(wp) :: moment(1)
       integer :: i
 
       call find_clear_resultants(model, results, scales%length, list)
@@ -92,8 +94,11 @@ contains
       call begin_grid(grid, 1, 'set by set'//CELL//'F1 [F]'//CELL//'F2 [F]'//CELL//'moment about 0,0 [F L]')
       do i = 1, min(size(list), MOST)
          associate (force => list(i)%force)
+            moment = force%moment
+            call clear_small(SHOWN*sum(list%force%terms), force%f)
+            call clear_small(SHOWN*sum(list%force%terms)*scales%length, moment)
             call add_row(grid, '*'//list(i)%keyword//' '//list(i)%name//CELL//number(force%f(1), DIGITS)//CELL// &
-                         number(force%f(2), DIGITS)//CELL//number(force%moment, DIGITS))
+                         number(force%f(2), DIGITS)//CELL//number(moment(1), DIGITS))
          end associate
       end do
       call put_grid(page, grid)
@@ -106,7 +111,6 @@ contains
       type(model_t), intent(in) :: model
       type(results_t), intent(in) :: results
       integer, parameter :: ROOM = 66                !< columns behind the label
-      real(wp), parameter :: SHOWN = 1.0e5_wp        !< 1e-9 of all forces
       type(resultant_t), allocatable :: list(:)
       character(len=:), allocatable :: text
       real(wp) :: f(2), total(2), scale

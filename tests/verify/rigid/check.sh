@@ -112,6 +112,7 @@ done
 grep -q 'from rigid surfaces' push-CPE8-dense/push-CPE8.lst && complain 'listing: a rigid surface that moves leaves a sum'
 near 'listing: sum' "$(awk '/resultants  .*F1/ { at = 1 } at && $1 == "sum" { print $2 + $3; exit }' push-CPE8-dense/push-CPE8.lst)" 0 1e-11
 grep -Eq '^   PUNCH +0 +-4.52146 +0 ' force-dense/force.lst || complain 'listing'
+grep -Eq '^   sum +0 +0 +0$' force-dense/force.lst || complain 'listing: the sum and its moment'
 
 # 7. A node that is held along x under a punch that is free to go there.
 run 0 "$here/held.inp" held --digits 17 --quiet
