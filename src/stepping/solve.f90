@@ -105,9 +105,8 @@ contains
       if (is_ok(status)) then
          data%reporter = reporter
          call report_place(reporter, 'solve', is_phase=.true.)
-         data%keeps = associated(data%viewer)               ! C and G of the bodies, which it looks at
+         data%keeps = associated(data%viewer) .or. data%starts > 0     ! C and G of the bodies, for views and searches
          call note_method(data, model%steps(1:1))
-         data%keeps = data%starts > 0
          call solve_increment(data, options%contact_form, store, results, solution, status)
          if (is_solved(results, status)) call search_solutions(data, store, solution, results, found)
          if (present(others)) call move_alloc(found, others)

@@ -45,6 +45,18 @@ column() {
    awk -v name="$2" '/^# columns:/ { for (i = 3; i <= NF; i++) if ($i == name) k = i - 2 } !/^#/ { print $k }' "$1"
 }
 
+# drop_columns FILE NAME...: a table without some of its columns.
+drop_columns() {
+   table=$1
+   shift
+   awk -v names="$*" 'BEGIN { n = split(names, list, " "); for (i = 1; i <= n; i++) drop[list[i]] = 1 }
+      /^# columns:/ { for (i = 3; i <= NF; i++) gone[i - 2] = $i in drop }
+      /^# (columns|dimensions):/ { line = $1 " " $2; for (i = 3; i <= NF; i++) if (!gone[i - 2]) line = line " " $i; print line; next }
+      /^#/ { print; next }
+      { line = ""; for (i = 1; i <= NF; i++) if (!gone[i]) line = line " " $i; print line }' "$table" >"$table.rest"
+   mv "$table.rest" "$table"
+}
+
 # near WHAT VALUE EXPECTED TOLERANCE: |value - expected| <= tolerance. Nothing but a finite number passes. (To mawk a NaN is equal to
 # everything, so NaNs are found by how they are written.)
 near() {
