@@ -8,7 +8,7 @@ module atrito_renaming
    use atrito_own_files, only: check_own, check_unread, is_own, names_with, remove_own_file, TEMPORARY, FORMER
    use atrito_paths, only: file_exists, is_folder, may_write, remove_file
    use atrito_status, only: status_t, set_status, is_ok, STATUS_FILE
-   use atrito_strings, only: string_t, ends_with
+   use atrito_strings, only: string_t, append_string, ends_with
    use atrito_system, only: c_rename
    implicit none (type, external)
    private
@@ -62,15 +62,15 @@ contains
       logical :: is_aside(size(names) + size(stale))
       integer :: i, j, done
 
-      allocate (paths(size(names) + size(stale)))
+      allocate (paths(0))
       do i = 1, size(names)
-         paths(i)%s = folder//'/'//names(i)%s
+         call append_string(paths, folder//'/'//names(i)%s)
       end do
       do i = 1, size(stale)
-         paths(size(names) + i)%s = folder//'/'//stale(i)%s
+         call append_string(paths, folder//'/'//stale(i)%s)
       end do
-      call move_aside(status)
-      call name_new_files(paths(:size(names)))
+      call move_aside(paths, is_aside, status)
+      call name_new_files(paths(:size(names)), done, status)
       if (is_ok(status)) then
          do i = 1, size(paths)
             if (is_aside(i)) call remove_file(paths(i)%s//FORMER)
@@ -83,37 +83,6 @@ contains
             if (.not. renamed(paths(j)%s//FORMER, paths(j)%s)) status%text = status%text//'; the former one is '//paths(j)%s//FORMER
          end do
       end if
-
-   contains
-
-      !> Gives former files their second name; a folder with the name of a stale file is somebody else's.
-      subroutine move_aside(status)
-         type(status_t), intent(out) :: status
-         integer :: i
-
-         is_aside = .false.
-         do i = 1, size(paths)
-            if (is_folder(paths(i)%s)) cycle
-            is_aside(i) = renamed(paths(i)%s, paths(i)%s//FORMER)
-            if (is_aside(i) .or. .not. file_exists(paths(i)%s)) cycle
-            call set_status(status, STATUS_FILE, paths(i)%s//': cannot be replaced')
-            return
-         end do
-      end subroutine move_aside
-
-      subroutine name_new_files(paths)
-         type(string_t), intent(in) :: paths(:)
-
-         done = 0
-         do while (is_ok(status) .and. done < size(paths))
-            if (renamed(paths(done + 1)%s//TEMPORARY, paths(done + 1)%s)) then
-               done = done + 1
-            else
-               call set_status(status, STATUS_FILE, paths(done + 1)%s//': cannot be written')
-            end if
-         end do
-      end subroutine name_new_files
-
    end subroutine replace_files
 
    !> What a run left that was killed among its renamings: former files come back, whatever deck they are of; where all new ones
@@ -164,6 +133,38 @@ contains
          return
       end do
    end subroutine rename_over
+
+   !> Gives former files their second name; a folder with the name of a stale file is somebody else's.
+   subroutine move_aside(paths, is_aside, status)
+      type(string_t), intent(in) :: paths(:)
+      logical, intent(out) :: is_aside(:)
+      type(status_t), intent(out) :: status
+      integer :: i
+
+      is_aside = .false.
+      do i = 1, size(paths)
+         if (is_folder(paths(i)%s)) cycle
+         is_aside(i) = renamed(paths(i)%s, paths(i)%s//FORMER)
+         if (is_aside(i) .or. .not. file_exists(paths(i)%s)) cycle
+         call set_status(status, STATUS_FILE, paths(i)%s//': cannot be replaced')
+         return
+      end do
+   end subroutine move_aside
+
+   subroutine name_new_files(paths, done, status)
+      type(string_t), intent(in) :: paths(:)
+      integer, intent(out) :: done                  !< files that have their names
+      type(status_t), intent(inout) :: status       !< nothing is done where it is not STATUS_OK
+
+      done = 0
+      do while (is_ok(status) .and. done < size(paths))
+         if (renamed(paths(done + 1)%s//TEMPORARY, paths(done + 1)%s)) then
+            done = done + 1
+         else
+            call set_status(status, STATUS_FILE, paths(done + 1)%s//': cannot be written')
+         end if
+      end do
+   end subroutine name_new_files
 
    logical function renamed(from, to)
       character(len=*), intent(in) :: from, to
