@@ -356,6 +356,7 @@ contains
              ', the largest is %g [L]", scale, '//to_text(drawing%largest, 4)//')'
    end function scale_title
 
+   !> What a title adds where the scale of displacements makes sides of contact overlap that do not.
    pure function overlap_text(drawing) result(text)
       type(drawing_t), intent(in) :: drawing
       character(len=:), allocatable :: text

@@ -23,6 +23,7 @@ module atrito_grid
 
 contains
 
+   !> A grid with its head and no rows. The first n_left columns are words, to the left; the others are numbers, to the right.
    pure subroutine begin_grid(grid, n_left, head)
       type(grid_t), intent(out) :: grid
       integer, intent(in) :: n_left
@@ -34,6 +35,7 @@ contains
       call append_string(grid%rows, head)
    end subroutine begin_grid
 
+   !> One more row, with as many cells as the head has.
    pure subroutine add_row(grid, cells)
       type(grid_t), intent(inout) :: grid
       character(len=*), intent(in) :: cells         !< CELL between them

@@ -359,6 +359,7 @@ contains
       end select
    end subroutine format_column
 
+   !> The values of some rows of a column, before + 1 and the following: its own, or those of the field that it points at.
    pure subroutine fetch_reals(table, column, before, x)
       type(table_t), intent(in) :: table
       type(column_t), intent(in) :: column
@@ -376,6 +377,7 @@ contains
       end if
    end subroutine fetch_reals
 
+   !> The same of a column of integers; of numbers of nodes or elements those of the deck.
    pure subroutine fetch_integers(table, column, before, k)
       type(table_t), intent(in) :: table
       type(column_t), intent(in) :: column

@@ -170,6 +170,7 @@ contains
       call put(symbols%plots, '')
    end subroutine put_text
 
+   !> Makes the window hold some places, where it is to follow what is drawn.
    pure subroutine widen(symbols, places)
       type(symbols_t), intent(inout) :: symbols
       real(wp), intent(in) :: places(:, :)          !< (2, n) [L]
