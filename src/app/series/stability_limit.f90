@@ -124,8 +124,7 @@ contains
             call ask_solution(command, limit, store, search, one, code)
          end if
          if (code /= STATUS_OK) exit
-         ! Puts it at its place among the others.
-         limit%values = [pack(limit%values, limit%values%value < x), one, pack(limit%values, limit%values%value > x)]
+         call put_value(one, limit%values)
          call report_phase(reporter, limit%parameter//' = '//to_text(x, 12)//'  '//answer_text(one))
       end do
    end subroutine ask_all
