@@ -1,0 +1,23 @@
+# What the lessons of docs/user say, against closed forms; README.md has them.
+. "$(dirname "$0")/../lib.sh"
+
+# lesson NAME [options]: a deck of at most 40 lines, run into a folder of its name.
+lesson() {
+   name=$1
+   shift
+   run 0 "$input/lessons/$name.inp" "$name" --digits 17 --quiet "$@"
+   [ "$(wc -l <"$input/lessons/$name.inp")" -le 40 ] || complain "$name: more than 40 lines"
+}
+
+# rows FOLDER TABLE FIRST LAST: these rows of a table, with its header, into the file rows.
+rows() {
+   awk -v first="$3" -v last="$4" '/^#/ || (++n >= first && n <= last)' "$1/$2.tab" >rows
+}
+
+lesson cantilever
+near 'cantilever: tip against Euler' "$(summary cantilever tip_to_euler)" 1 0.006
+near 'cantilever: tip against Timoshenko' "$(summary cantilever tip_to_timoshenko)" 1 0.004
+near 'cantilever: stress one depth from the root' "$(summary cantilever inside)" 1 1e-4
+rows cantilever path 42 82
+field_near 'cantilever: stress along the path there' rows s_across '21.6*(y - 5)' 0.02
+finish
