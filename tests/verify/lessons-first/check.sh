@@ -20,4 +20,13 @@ near 'cantilever: tip against Timoshenko' "$(summary cantilever tip_to_timoshenk
 near 'cantilever: stress one depth from the root' "$(summary cantilever inside)" 1 1e-4
 rows cantilever path 42 82
 field_near 'cantilever: stress along the path there' rows s_across '21.6*(y - 5)' 0.02
+
+lesson hertz
+near 'Hertz: half width' "$(summary hertz width)" 1 0.006
+near 'Hertz: largest pressure' "$(summary hertz peak)" 1 5e-4
+near 'Hertz: largest shear on the axis' "$(summary hertz subsurface)" 0.3003 0.006
+rows hertz contact 1 22   # to 0.9 a
+field_near 'Hertz: pressure along the line' rows pressure '37.405405*sqrt(1 - (x/0.68077837)^2)' 0.4
+deepest=$(column hertz/path.tab y >y && column hertz/path.tab tresca | paste - y | sort -g | tail -1 | cut -f 2)
+near 'Hertz: its depth over a' "$(value "$deepest/0.68077837")" 0.786 0.03
 finish
