@@ -29,4 +29,14 @@ rows hertz contact 1 22   # to 0.9 a
 field_near 'Hertz: pressure along the line' rows pressure '37.405405*sqrt(1 - (x/0.68077837)^2)' 0.4
 deepest=$(column hertz/path.tab y >y && column hertz/path.tab tresca | paste - y | sort -g | tail -1 | cut -f 2)
 near 'Hertz: its depth over a' "$(value "$deepest/0.68077837")" 0.786 0.03
+
+lesson press-fit
+near 'press fit: pressure' "$(summary press-fit fit)" 1 1e-4
+near 'press fit: hoop stress of the hub' "$(summary press-fit hub)" 2.6 0.03
+rows press-fit path 1 11
+field_near 'press fit: radial stress of the shaft' rows s_rr '-49.21875*4/3*(1 - 100/x^2)' 1.5
+field_near 'press fit: hoop stress of the shaft' rows s_tt '-49.21875*4/3*(1 + 100/x^2)' 1.5
+rows press-fit path 12 22
+field_near 'press fit: radial stress of the hub' rows s_rr '49.21875*0.8*(1 - 900/x^2)' 1.5
+field_near 'press fit: hoop stress of the hub' rows s_tt '49.21875*0.8*(1 + 900/x^2)' 1.5
 finish
