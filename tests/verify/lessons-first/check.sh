@@ -39,4 +39,17 @@ field_near 'press fit: hoop stress of the shaft' rows s_tt '-49.21875*4/3*(1 + 1
 rows press-fit path 12 22
 field_near 'press fit: radial stress of the hub' rows s_rr '49.21875*0.8*(1 - 900/x^2)' 1.5
 field_near 'press fit: hoop stress of the hub' rows s_tt '49.21875*0.8*(1 + 900/x^2)' 1.5
+
+lesson incline
+near 'incline: normal force' "$(summary incline normal_resultant)" "$(value '49.05*cos(atan2(0, -1)/9)')" 1e-9
+near 'incline: tangent of the slope' "$(summary incline ratio)" 0.36397023426620234 1e-9
+near 'incline: where the weight goes' "$(summary incline foot)" 0.8180148828668988 1e-9
+for limit in 'slides 0.5 10:40 26.565051177' 'tips 5 10:80 63.434948823'; do
+   # shellcheck disable=SC2086 # four words
+   set -- $limit
+   "$atrito" limit "$input/lessons/incline.inp" --set nu="$2" --vary slope="$3" -o "$1" --quiet >"$1.out" 2>"$1.err" || complain "incline $1"
+   for bound in stands falls; do
+      near "incline: it $1, $bound at" "$(sed -n "s/^# stands at.*$bound at \([0-9.]*\).*/\1/p; s/^# $bound at \([0-9.]*\).*/\1/p" "$1/limit.tab")" "$4" 5e-5
+   done
+done
 finish
