@@ -52,4 +52,12 @@ for limit in 'slides 0.5 10:40 26.565051177' 'tips 5 10:80 63.434948823'; do
       near "incline: it $1, $bound at" "$(sed -n "s/^# stands at.*$bound at \([0-9.]*\).*/\1/p; s/^# $bound at \([0-9.]*\).*/\1/p" "$1/limit.tab")" "$4" 5e-5
    done
 done
+
+lesson plate-with-hole
+near 'plate with a hole: stress concentration (Kirsch; 3.03 in a strip of this width)' "$(summary plate-with-hole concentration)" 3.02 0.02
+p=$(value "$(summary plate-with-hole normal_resultant)/10")
+field_near 'plate with a hole: hoop stress round it' plate-with-hole/path.tab s_tt "-$p*(1 + 2*(x*x - y*y))" "$(value "0.03*$p")"
+lesson plate-with-hole --set H=1.5
+near 'a wall near the hole: concentration' "$(summary plate-with-hole concentration)" 2.091 0.001
+near 'a wall near the hole: what lifts off' "$(summary plate-with-hole open_points)" 1 0
 finish
