@@ -60,4 +60,14 @@ field_near 'plate with a hole: hoop stress round it' plate-with-hole/path.tab s_
 lesson plate-with-hole --set H=1.5
 near 'a wall near the hole: concentration' "$(summary plate-with-hole concentration)" 2.091 0.001
 near 'a wall near the hole: what lifts off' "$(summary plate-with-hole open_points)" 1 0
+
+# The share is 1 - 2.5 nu; half-way the stress is that of a moment and, where they slip, of a normal force: s11(y) = slope*(y - middle).
+for nu in 0 0.1 0.3; do
+   lesson two-beams --set nu=$nu
+   near "two beams, nu = $nu: share" "$(summary two-beams share)" "$(value "1 - 2.5*$nu")" 0.003
+   rows two-beams path 1 5
+   field_near "two beams, nu = $nu: lower one" rows s11 "(48 - 120*$nu)*(y - 2.5) - 100*$nu" 1e-6
+   rows two-beams path 6 10
+   field_near "two beams, nu = $nu: upper one" rows s11 "(48 - 120*$nu)*(y - 7.5) + 100*$nu" 1e-6
+done
 finish
