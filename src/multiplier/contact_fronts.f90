@@ -159,7 +159,8 @@ contains
    !> The state that the law gives each row, from that which it was solved with.
    !>
    !> A slipping point that ought to slip the other way sticks first: what it does then the next solve tells. A point that has
-   !> friction again, since it closes, slips at first, as it does now: stuck amid a zone of slip it would bear the shear of all of it.
+   !> friction again, since it closes, slips at first, as it does now: stuck amid a zone of slip it would bear the shear of all
+   !> of it.
    function states_of_law(system, shape, bounds, multipliers, state, before) result(raw)
       class(contact_system_t), intent(in) :: system
       type(bound_qp_t), intent(in) :: shape

@@ -59,7 +59,7 @@ contains
                associate (other => line%average%column(k))
                   if (line%normal(other) == 0) cycle          ! its pressure is known: the same in all solutions
                   form%w(line%normal(other), i) = line%law(j)%nu/form%nu*line%weight(j)*line%average%value(k) &
-                                                         /line%weight(other)
+                                                  /line%weight(other)
                end associate
             end do
          end do
