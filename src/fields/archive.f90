@@ -512,8 +512,23 @@ contains
          if (allocated(text)) deallocate (text)
          if (n /= NOT_ALLOCATED) allocate (character(len=n) :: text)
       end if
-      if (allocated(text)) call pass_text(archive, text)
+      if (.not. allocated(text)) return
+      call pass_text(archive, text)
+      if (archive%is_reading .and. is_ok(archive%status) .and. has_control_characters(text)) then
+         call set_status(archive%status, STATUS_FILE, archive%path//': is damaged: control characters in '//name)
+      end if
    end subroutine exchange_text
+
+   !> What a terminal would obey when it is printed, but line breaks and tabulators.
+   pure logical function has_control_characters(text)
+      character(len=*), intent(in) :: text
+      integer :: i
+
+      has_control_characters = .false.
+      do i = 1, len(text)
+         has_control_characters = has_control_characters .or. (iachar(text(i:i)) < 32 .and. all(iachar(text(i:i)) /= [9, 10]))
+      end do
+   end function has_control_characters
 
    !> A string of fixed length.
    subroutine exchange_word(archive, name, word)

@@ -100,24 +100,27 @@ contains
       type(results_t), intent(in) :: results
       character(len=:), allocatable :: measured, proved
       real(wp) :: nu
+      integer(ip) :: i
 
       associate (known => results%uniqueness)
          if (known%solutions > 1) then
             call add_warning('W-UNIQUE', 'this is not the only solution: the search found '//to_text(known%solutions - 1)//' more')
-            return
          else if (known%index < 0) then
             call add_warning('W-UNIQUE', 'this is not the only solution: its index is -1, so there is another one at least, and'// &
                              ' mostly two; --unique 40 looks for them')
-            return
          end if
+         if (known%solutions > 1 .or. known%index < 0) return
          if (known%up_to_nu >= known%nu .and. known%nu > 0.0_wp) return
-         proved = ''
-         if (known%up_to_nu > 0.0_wp) proved = '; proved up to '//to_text(known%up_to_nu, 3)
       end associate
-      associate (laws => model%interactions(model%pairs%interaction))
-         nu = maxval([pack(laws%nu, laws%friction /= FRICTION_NONE), 0.0_wp])
-      end associate
+      nu = 0.0_wp
+      do i = 1, size(model%pairs, kind=ip)
+         associate (law => model%interactions(model%pairs(i)%interaction))
+            if (law%friction /= FRICTION_NONE) nu = max(nu, law%nu)
+         end associate
+      end do
       if (results%contraction_estimate < 1.0_wp .and. nu < LARGE_FRICTION) return
+      proved = ''
+      if (results%uniqueness%up_to_nu > 0.0_wp) proved = '; proved up to '//to_text(results%uniqueness%up_to_nu, 3)
       measured = ' (estimated contraction of the outer loop '//to_text(results%contraction_estimate, 3)
       if (results%contraction > 0.0_wp) measured = measured//', measured '//to_text(results%contraction, 3)
       if (results%contraction_estimate >= 1.0_wp) then

@@ -29,7 +29,7 @@ module atrito_screen
    integer, parameter :: SCREEN_LINES = 24
    integer, parameter :: CLOSING_LINES = 5          !< of the end, without pictures and field files
    integer, parameter :: ANSWER_LINES = 3           !< the largest displacement and stress, and supports
-   integer, parameter :: LEAST_OF_PAIRS = 2         !< that there are pairs
+   integer, parameter :: LEAST_OF_PAIRS = 5         !< the first of them: before other answers, which are in the listing, too
    integer(ip), parameter :: MOST_STEPS = 200       !< that `check` describes
    integer, parameter :: MOST_OBSERVED = 2          !< lines of what is observed, and one that tells of more
    integer, parameter :: LABELS = 13                !< columns of the label of an item

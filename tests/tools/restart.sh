@@ -197,7 +197,7 @@ expect() {
 
 # without_times: a listing without its times, bytes and factorisations, which are of the run, and the folder of a deck
 without_times() {
-   sed -e '/^atrito /d; /memory/d; /MiB/d; /factorisations/d' -e 's#plain/##; /^8  /,/^9  /{/  [0-9]*\.[0-9]\{4\} /d;}' "$1"
+   sed -e '/^atrito /d; /memory/d; /MiB/d; /factorisations/d' -e 's#plain/##; /^9  /,${/  [0-9]*\.[0-9]\{4\} /d;}' "$1"
 }
 
 # of_the_run: a file without the lines that are of another deck's text, where there is another
