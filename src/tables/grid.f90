@@ -1,6 +1,7 @@
 !> Tables on a page for people: columns as wide as what stands in them; what is too wide for the page goes on below, with the first
 !> columns again.
 module atrito_grid
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use atrito_kinds, only: ip, wp
    use atrito_page, only: page_t, add_blank, add_line, add_paragraph, left, number, text_width
    use atrito_strings, only: append_string, string_t, to_text
@@ -194,8 +195,9 @@ contains
       do k = 1, size(table%columns)
          if (table%columns(k)%kind /= KIND_REAL .or. any(table%columns(k)%name == ['x', 'y'])) cycle
          call fetch_reals(table, table%columns(k), 0_ip, x)
-         least = minloc(x, dim=1)
-         greatest = maxloc(x, dim=1)
+         least = minloc(x, dim=1, mask=.not. ieee_is_nan(x))
+         greatest = maxloc(x, dim=1, mask=.not. ieee_is_nan(x))
+         if (least == 0) cycle                      ! undefined everywhere
          call add_row(grid, table%columns(k)%name//' ['//table%columns(k)%dimension//']'//CELL//text_of(table, k, least)//CELL// &
                       place_of(least)//CELL//text_of(table, k, greatest)//CELL//place_of(greatest))
       end do
@@ -234,7 +236,9 @@ contains
          select case (column%kind)
          case (KIND_REAL)
             call fetch_reals(table, column, row - 1, x)
-            if (abs(x(1)) < column%zero) x = 0.0_wp
+            if (.not. ieee_is_nan(x(1))) then
+               if (abs(x(1)) < column%zero) x = 0.0_wp
+            end if
             text = number(x(1), DIGITS)
          case (KIND_INTEGER)
             call fetch_integers(table, column, row - 1, i)
