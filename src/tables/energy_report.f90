@@ -1,6 +1,7 @@
 !> Strain energy beside half of the work of loads, supports and contact: what is stored in linear bodies is half of what forces do
 !> that grow with their displacements, U = (f.u + q.B u)/2, so a listing can be checked by adding up.
 module atrito_energy_report
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use atrito_kinds, only: ip, wp
    use atrito_model, only: model_t
    use atrito_page, only: page_t, add_entry, number
@@ -35,6 +36,7 @@ contains
 
       found%strain = results%strain_energy
       found%external = 0.5_wp*results%external_work
+      if (.not. are_numbers(results)) return
       parts = abs(found%strain) + abs(found%external)
       do i = 1, merge(pair_count(results), 0_ip, allocated(model%points))
          associate (c => results%contact(i), n => results%contact(i)%n)
@@ -49,6 +51,13 @@ contains
       found%scale = parts + abs(found%friction)
    end function find_energies
 
+   !> Whether the energies are within the range of numbers: forces of 1e200 times displacements may not be.
+   pure logical function are_numbers(results)
+      type(results_t), intent(in) :: results
+
+      are_numbers = ieee_is_finite(results%strain_energy) .and. ieee_is_finite(results%external_work)
+   end function are_numbers
+
    !> A line each, and whether they add up.
    subroutine describe_energies(page, model, results, scales)
       type(page_t), intent(inout) :: page
@@ -60,6 +69,11 @@ contains
       integer :: i
 
       e = find_energies(model, results)
+      if (.not. are_numbers(results)) then
+         call add_energy('strain energy', e%strain)
+         call add_energy('half of the external work', e%external)
+         return
+      end if
       if (e%scale <= ROUND_OFF*scales%force*scales%displacement) e = energies_t()
       call add_energy('strain energy', e%strain)
       call add_energy('half of the external work', e%external)
