@@ -38,6 +38,7 @@ contains
       model%surfaces(1)%name = 'UNDER'
       model%surfaces(2)%name = 'FLOOR'
       model%surfaces(2)%kind = SURFACE_SEGMENTS
+      allocate (model%surfaces(2)%is_arc(0))
       model%interactions(1)%name = 'DRY'
       model%interactions(1)%friction = FRICTION_NONLOCAL
       model%pairs(1)%interaction = 1
