@@ -255,12 +255,16 @@ contains
       logical, intent(in) :: exact
       type(comparison_t), intent(inout) :: comparison
       integer :: kind_a, kind_b
+      integer(ip) :: quantity
       real(wp) :: half_difference, half_allowed
       character(len=:), allocatable :: text, name
       type(rule_t) :: rule
 
       name = a%columns(at_a(1))%s
-      if (has_quantities(a)) name = item_text(a, find_column(a, 'quantity'), at_a(2))
+      quantity = find_column(a, 'quantity')
+      if (quantity > 0) then                        ! before the kind of the table is asked, for each value
+         if (has_quantities(a)) name = item_text(a, quantity, at_a(2))
+      end if
       rule = rule_of(comparison%rules, stem(a), name)
       if (rule%is_left_out) return
       comparison%n_values = comparison%n_values + 1
