@@ -4,7 +4,7 @@
 !> One mistake, one message: whoever refers to a thing whose definition was faulty is passed over in silence. Silence is allowed
 !> only once an error has been reported, so a deck is never accepted with something left out.
 module atrito_build_context
-   use atrito_build_parts, only: open_step_t, inherited_t, replaced_t, numbered_t, block_t, section_cut_t, &
+   use atrito_build_parts, only: drawn_lines_t, open_step_t, inherited_t, replaced_t, numbered_t, block_t, section_cut_t, &
                                  node_finder_t, BLOCK_SIDES, LOOSE_HELD, LOOSE_RELEASED, LOOSE_MOVES
    use atrito_curves, only: curve_list_t, line_list_t
    use atrito_deck, only: deck_t, card_t, token_t, data_line_t, token_text, is_empty_token, line_item, keyword_name, scope_shift, &
@@ -62,10 +62,7 @@ module atrito_build_context
       logical, allocatable :: card_done(:)             !< *NSET and *ELSET cards that are read already
       type(node_elements_t) :: around                  !< elements round each node
       type(section_cut_t), allocatable :: cuts(:)
-      type(token_t), allocatable :: cut_lines(:)       !< of each of the model's cuts its first item
-      integer(ip) :: n_cuts = 0                        !< of the model so far
-      type(token_t), allocatable :: path_lines(:)      !< of each of the model's paths its first item
-      integer(ip) :: n_paths = 0                       !< of the model so far
+      type(drawn_lines_t) :: drawn_cuts = drawn_lines_t('cut'), drawn_paths = drawn_lines_t('path')
       type(face_list_t) :: cut_faces                   !< of both sides of all cuts
       type(refinement_t) :: refinement                 !< how the mesh came from that of the deck, if it is another one
       real(wp), allocatable :: node_thickness(:)       !< *NODAL THICKNESS, 0 where there is none [L]; unallocated: no card

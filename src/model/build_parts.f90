@@ -1,6 +1,7 @@
 !> What a build context is made of: blocks, sections, what is known of nodes and elements by their numbers, the step that is built.
 module atrito_build_parts
    use atrito_block_map, only: block_map_t
+   use atrito_deck, only: token_t
    use atrito_id_map, only: id_map_t
    use atrito_kinds, only: ip, lp, wp
    use atrito_load_lists, only: condition_list_t
@@ -8,7 +9,7 @@ module atrito_build_parts
    use atrito_named_nodes, only: BLOCK_SIDES
    implicit none (type, external)
    private
-   public :: open_step_t, inherited_t, replaced_t, numbered_t, block_t, section_cut_t, node_finder_t, BLOCK_SIDES
+   public :: drawn_lines_t, open_step_t, inherited_t, replaced_t, numbered_t, block_t, section_cut_t, node_finder_t, BLOCK_SIDES
    public :: LOOSE_HELD, LOOSE_RELEASED, LOOSE_MOVES
 
    !> A *BLOCK between the pass that makes its nodes and the one that makes its elements.
@@ -67,12 +68,19 @@ module atrito_build_parts
       type(id_map_t) :: before                         !< the lines whose loads it has ended so far
    end type replaced_t
 
+   !> The lines of *SECTION PRINT, or of *PATH PRINT, that were read so far.
+   type :: drawn_lines_t
+      character(len=4) :: what = ''                    !< cut, path
+      integer(ip) :: n = 0                             !< of the model
+      integer(ip) :: n_before = 0                      !< of them, those of earlier steps
+      type(name_list_t) :: names                       !< of those of the step that is being built
+      type(token_t), allocatable :: items(:)           !< of each of the model its first item
+   end type drawn_lines_t
+
    !> The step that is being built.
    type :: open_step_t
       integer(ip) :: number = 1
       integer(ip) :: first_card = 1, last_card = 0     !< of the deck: its cards are among these (is_of_step)
-      type(name_list_t) :: cut_names                   !< of its *SECTION PRINT so far
-      type(name_list_t) :: path_names                  !< of its *PATH PRINT so far
       integer(ip) :: first_token = 0                   !< of its lines: what stands before it is inherited
       integer(ip) :: line = 0                          !< of the deck, that is being read
       integer(ip) :: amplitude = 0                     !< that the card being read names

@@ -103,7 +103,7 @@ contains
       associate (unit => 10.0_wp**(floor(log10(x)) - 2))
          write (text, '(es9.2)') floor(x/unit)*unit
       end associate
-      read (text, *) rounded_down
+      read (text, '(es9.2)') rounded_down
    end function rounded_down
 
    !> The directions along which a solution moves; points that stick may be taken to go along with most of the others.

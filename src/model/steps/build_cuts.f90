@@ -2,18 +2,16 @@
 module atrito_build_cuts
    use atrito_bodies, only: bodies_t, find_bodies
    use atrito_body_names, only: name_bodies
-   use atrito_build_context, only: build_context_t, place_text
+   use atrito_build_context, only: build_context_t
    use atrito_cross_section, only: find_cross_section
    use atrito_crossings, only: crossing_t, point_at, INSIDE
-   use atrito_deck, only: card_t, count_lines, data_line_t, token_t, line_item
+   use atrito_deck, only: card_t, data_line_t, token_t, line_item
    use atrito_diagnostics, only: report_error, report_note, report_warning
    use atrito_faces, only: list_node_elements
-   use atrito_items, only: get_real, has_option, option_text
+   use atrito_items, only: get_real, has_option
    use atrito_kinds, only: ip, wp
+   use atrito_line_cards, only: elements_to_cross, name_line, note_line, read_line_options
    use atrito_model, only: cut_t, requests_t
-   use atrito_name_list, only: add_name, find_name
-   use atrito_references, only: find_set_option
-   use atrito_sets, only: members_of
    use atrito_strings, only: to_text
    implicit none (type, external)
    private
@@ -33,29 +31,25 @@ contains
       character(len=:), allocatable :: name
       type(token_t) :: place
       type(cut_t) :: cut
-      integer(ip) :: i, j
-      logical :: found, ok
+      integer(ip) :: i
+      logical :: ok
 
       if (has_option(context%deck, card, 'SURFACE')) return
-      call option_text(context%deck, card, 'NAME', name, found, place)
-      if (.not. (card%ok .and. found)) return
-      call find_set_option(context, card, 'ELSET', 'element set', context%model%element_sets, cut%elset, ok)
+      call read_line_options(context, card, name, place, cut%elset, ok)
       if (.not. ok) return
       do i = 1, card%n_lines
          associate (line => context%deck%lines(card%first_line + i - 1))
             if (.not. line%ok) cycle
-            cut%name = name
-            if (card%n_lines > 1) cut%name = name//'-'//to_text(i)
-            j = find_name(context%open%cut_names, cut%name)
-            if (j > 0) then
-               call report_error(context%deck, place, 'E-TWICE', 'cut '//cut%name//' is defined already in this step, in '// &
-                                 place_text(context%deck, context%cut_lines(requests%cuts(j)), place), &
-                                 expected='another NAME=, or all lines in one card', keyword=KEYWORD)
-               return
-            end if
+            call name_line(context, card, i, name, place, context%drawn_cuts, cut%name, ok)
+            if (.not. ok) return
             call read_line(context, line, cut%ends, ok)
-            if (ok) call add_cut(context, cut, line_item(context%deck, line, 1_ip), requests)
          end associate
+         if (.not. ok) cycle
+         call note_line(context, card, i, cut%name, context%drawn_cuts)
+         if (.not. allocated(context%model%cuts)) allocate (context%model%cuts(size(context%drawn_cuts%items)))
+         if (.not. allocated(requests%cuts)) allocate (requests%cuts(0))
+         context%model%cuts(context%drawn_cuts%n) = cut
+         requests%cuts = [requests%cuts, context%drawn_cuts%n]
       end do
    end subroutine read_cut_card
 
@@ -81,24 +75,6 @@ contains
                         expected='x1, y1, x2, y2: two points of a line through a body [L]', keyword=KEYWORD)
    end subroutine read_line
 
-   !> Appends a cut; there is room for one of each line.
-   subroutine add_cut(context, cut, place, requests)
-      type(build_context_t), intent(inout) :: context
-      type(cut_t), intent(in) :: cut
-      type(token_t), intent(in) :: place
-      type(requests_t), intent(inout) :: requests
-
-      if (.not. allocated(context%model%cuts)) then
-         allocate (context%model%cuts(count_lines(context%deck, KEYWORD)), context%cut_lines(count_lines(context%deck, KEYWORD)))
-      end if
-      context%n_cuts = context%n_cuts + 1
-      context%model%cuts(context%n_cuts) = cut
-      context%cut_lines(context%n_cuts) = place
-      call add_name(context%open%cut_names, cut%name)
-      if (.not. allocated(requests%cuts)) allocate (requests%cuts(0))
-      requests%cuts = [requests%cuts, context%n_cuts]
-   end subroutine add_cut
-
    !> Finds where the cuts go through the bodies. The mesh is complete.
    subroutine place_cuts(context)
       type(build_context_t), intent(inout) :: context
@@ -106,7 +82,7 @@ contains
       integer(ip) :: i
 
       if (.not. allocated(context%model%cuts)) return
-      context%model%cuts = context%model%cuts(:context%n_cuts)
+      context%model%cuts = context%model%cuts(:context%drawn_cuts%n)
       call find_bodies(context%model%mesh, bodies)
       call name_bodies(context%model, bodies)
       context%around = list_node_elements(context%model%mesh)   ! bolts may have cut the mesh since it was listed
@@ -120,18 +96,16 @@ contains
       type(bodies_t), intent(in) :: bodies
       integer(ip), intent(in) :: i                         !< place in the model's cuts
       type(crossing_t), allocatable :: crossings(:)
-      logical, allocatable :: wanted(:)
       integer(ip) :: k
 
       associate (model => context%model, cut => context%model%cuts(i))
-         allocate (wanted(model%mesh%n_elements), source=cut%elset == 0)
-         if (cut%elset > 0) wanted(members_of(model%element_sets%sets(cut%elset))) = .true.
-         call find_cross_section(model%mesh, context%around, bodies%of_element, cut%ends, wanted, cut%section, crossings)
+         call find_cross_section(model%mesh, context%around, bodies%of_element, cut%ends, &
+                                 elements_to_cross(model, cut%elset), cut%section, crossings)
          if (.not. any(crossings%is_taken)) then
             call report_miss(context, bodies, i, crossings)
          else if (.not. all(crossings%is_whole .or. .not. crossings%is_taken)) then   ! through what is left forces go, too
             k = findloc(crossings%is_taken .and. .not. crossings%is_whole, .true., dim=1, kind=ip)
-            call report_error(context%deck, context%cut_lines(i), 'E-CROSSING', 'cut '//cut%name//' ends within body '// &
+            call report_error(context%deck, context%drawn_cuts%items(i), 'E-CROSSING', 'cut '//cut%name//' ends within body '// &
                               bodies%list(crossings(k)%body)%name, expected='a line through the whole of '// &
                               span_text(context, bodies, i, crossings(k)), keyword=KEYWORD)
          else
@@ -160,7 +134,7 @@ contains
                    ' and '//point_text(maxval(mesh%x(:, :mesh%n_nodes), dim=2))
          end if
       end associate
-      call report_error(context%deck, context%cut_lines(i), 'E-CROSSING', text, expected=hint, keyword=KEYWORD)
+      call report_error(context%deck, context%drawn_cuts%items(i), 'E-CROSSING', text, expected=hint, keyword=KEYWORD)
    end subroutine report_miss
 
    !> `BODY from (x, y) to (x, y)`.
@@ -192,7 +166,7 @@ contains
       type(crossing_t), intent(in) :: taken(:)
       character(len=:), allocatable :: text
 
-      associate (cut => context%model%cuts(i), name => bodies%list(taken(1)%body)%name)
+      associate (cut => context%model%cuts(i), item => context%drawn_cuts%items(i), name => bodies%list(taken(1)%body)%name)
          if (size(taken) > 1) then
             if (all(taken%body == taken(1)%body)) then
                text = 'cut '//cut%name//' goes through body '//name//' '//to_text(size(taken, kind=ip))//' times'
@@ -200,16 +174,16 @@ contains
                text = 'cut '//cut%name//' goes through bodies at '//to_text(size(taken, kind=ip))//' places, from '//name// &
                       ' to '//bodies%list(taken(size(taken))%body)%name
             end if
-            call report_warning(context%deck, context%cut_lines(i), 'W-CROSSING', text//': n, v and m are those of all together', &
+            call report_warning(context%deck, item, 'W-CROSSING', text//': n, v and m are those of all together', &
                                 expected='a shorter line, or ELSET=, for one of them', keyword=KEYWORD)
          end if
          if (.not. all(taken%is_all_wanted)) then
-            call report_warning(context%deck, context%cut_lines(i), 'W-CROSSING', 'cut '//cut%name//' goes through elements of '// &
+            call report_warning(context%deck, item, 'W-CROSSING', 'cut '//cut%name//' goes through elements of '// &
                                 context%model%element_sets%sets(cut%elset)%name//' and of others: it counts as a whole', &
                                 keyword=KEYWORD)
          end if
          if (any(taken%kind /= INSIDE)) then
-            call report_note(context%deck, context%cut_lines(i), 'N-EDGE', 'cut '//cut%name//' runs along the edge of '// &
+            call report_note(context%deck, item, 'N-EDGE', 'cut '//cut%name//' runs along the edge of '// &
                              bodies%list(taken(findloc(taken%kind /= INSIDE, .true., dim=1))%body)%name// &
                              ': what acts on the edge is told', keyword=KEYWORD)
          end if

@@ -1,16 +1,14 @@
 !> *PATH PRINT: the lines and arcs that a step asks for, and the elements that hold their points.
 module atrito_build_paths
    use atrito_bodies, only: bodies_t, find_bodies
-   use atrito_build_context, only: build_context_t, place_text
-   use atrito_deck, only: card_t, count_lines, data_line_t, token_t, line_item
+   use atrito_build_context, only: build_context_t
+   use atrito_deck, only: card_t, data_line_t, token_t, line_item
    use atrito_diagnostics, only: report_error, report_note
    use atrito_element_places, only: find_nearest, find_places, place_t
-   use atrito_items, only: get_real, option_integer, option_text, option_word, refuse_option
+   use atrito_items, only: get_real, option_integer, option_word, refuse_option
    use atrito_kinds, only: ip, wp
+   use atrito_line_cards, only: elements_to_cross, name_line, note_line, read_line_options
    use atrito_model, only: path_t, requests_t
-   use atrito_name_list, only: add_name, find_name
-   use atrito_references, only: find_set_option
-   use atrito_sets, only: members_of
    use atrito_strings, only: to_text
    implicit none (type, external)
    private
@@ -31,12 +29,10 @@ contains
       character(len=:), allocatable :: name
       type(token_t) :: place
       type(path_t) :: path
-      integer(ip) :: i, j
+      integer(ip) :: i
       logical :: found, ok
 
-      call option_text(context%deck, card, 'NAME', name, found, place)
-      if (.not. (card%ok .and. found)) return
-      call find_set_option(context, card, 'ELSET', 'element set', context%model%element_sets, path%elset, ok)
+      call read_line_options(context, card, name, place, path%elset, ok)
       if (.not. ok) return
       call option_integer(context%deck, card, 'POINTS', WHAT_POINTS, path%n_points, found)
       if (path%n_points < 2 .or. path%n_points > MOST_POINTS) then
@@ -47,18 +43,16 @@ contains
       do i = 1, card%n_lines
          associate (line => context%deck%lines(card%first_line + i - 1))
             if (.not. line%ok) cycle
-            path%name = name
-            if (card%n_lines > 1) path%name = name//'-'//to_text(i)
-            j = find_name(context%open%path_names, path%name)
-            if (j > 0) then
-               call report_error(context%deck, place, 'E-TWICE', 'path '//path%name//' is defined already in this step, in '// &
-                                 place_text(context%deck, context%path_lines(requests%paths(j)), place), &
-                                 expected='another NAME=, or all lines in one card', keyword=KEYWORD)
-               return
-            end if
+            call name_line(context, card, i, name, place, context%drawn_paths, path%name, ok)
+            if (.not. ok) return
             call read_line(context, line, path, ok)
-            if (ok) call add_path(context, path, line_item(context%deck, line, 1_ip), requests)
          end associate
+         if (.not. ok) cycle
+         call note_line(context, card, i, path%name, context%drawn_paths)
+         if (.not. allocated(context%model%paths)) allocate (context%model%paths(size(context%drawn_paths%items)))
+         if (.not. allocated(requests%paths)) allocate (requests%paths(0))
+         context%model%paths(context%drawn_paths%n) = path
+         requests%paths = [requests%paths, context%drawn_paths%n]
       end do
    end subroutine read_path_card
 
@@ -102,24 +96,6 @@ contains
                                       keyword=KEYWORD)
    end subroutine read_line
 
-   !> Appends a path; there is room for one of each line.
-   subroutine add_path(context, path, place, requests)
-      type(build_context_t), intent(inout) :: context
-      type(path_t), intent(in) :: path
-      type(token_t), intent(in) :: place
-      type(requests_t), intent(inout) :: requests
-
-      if (.not. allocated(context%model%paths)) then
-         allocate (context%model%paths(count_lines(context%deck, KEYWORD)), context%path_lines(count_lines(context%deck, KEYWORD)))
-      end if
-      context%n_paths = context%n_paths + 1
-      context%model%paths(context%n_paths) = path
-      context%path_lines(context%n_paths) = place
-      call add_name(context%open%path_names, path%name)
-      if (.not. allocated(requests%paths)) allocate (requests%paths(0))
-      requests%paths = [requests%paths, context%n_paths]
-   end subroutine add_path
-
    !> Finds the elements that hold the points of the paths. The mesh is complete.
    subroutine place_paths(context)
       type(build_context_t), intent(inout) :: context
@@ -127,7 +103,7 @@ contains
       integer(ip) :: i
 
       if (.not. allocated(context%model%paths)) return
-      context%model%paths = context%model%paths(:context%n_paths)
+      context%model%paths = context%model%paths(:context%drawn_paths%n)
       call find_bodies(context%model%mesh, bodies)
       do i = 1, size(context%model%paths, kind=ip)
          call place_path(context, bodies, i)
@@ -147,8 +123,7 @@ contains
       real(wp) :: distance
 
       associate (model => context%model, path => context%model%paths(i))
-         allocate (wanted(model%mesh%n_elements), source=path%elset == 0)
-         if (path%elset > 0) wanted(members_of(model%element_sets%sets(path%elset))) = .true.
+         wanted = elements_to_cross(model, path%elset)
          call lay_points(path, s, x, along)
          call find_places(model%mesh, wanted, x, places)
          call keep_to_body(bodies, places)
@@ -159,12 +134,13 @@ contains
          if (path%elset > 0) text = 'outside of '//model%element_sets%sets(path%elset)%name
          if (size(places) == 0) then
             call find_nearest(model%mesh, wanted, x(:, 1), near, distance)
-            call report_error(context%deck, context%path_lines(i), 'E-PATH', 'path '//path%name//' is '//text// &
+            call report_error(context%deck, context%drawn_paths%items(i), 'E-PATH', 'path '//path%name//' is '//text// &
                               '; its first point is '//to_text(distance, 3)//' from the nearest', &
                               expected='a line or an arc through a body', keyword=KEYWORD)
          else if (n_out > 0) then
-            call report_note(context%deck, context%path_lines(i), 'N-PATH', to_text(n_out)//' of the '//to_text(path%n_points)// &
-                             ' points of path '//path%name//' are '//text//': they have no rows', keyword=KEYWORD)
+            call report_note(context%deck, context%drawn_paths%items(i), 'N-PATH', to_text(n_out)//' of the '// &
+                             to_text(path%n_points)//' points of path '//path%name//' are '//text//': they have no rows', &
+                             keyword=KEYWORD)
          end if
          path%s = s(places%point)
          path%x = x(:, places%point)

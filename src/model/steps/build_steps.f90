@@ -9,7 +9,7 @@ module atrito_build_steps
    use atrito_items, only: find_option, get_real, has_option, option_integer, option_word, refuse_option
    use atrito_kinds, only: ip, wp
    use atrito_model, only: model_t, step_t, increments_t
-   use atrito_name_list, only: name_list_t
+   use atrito_line_cards, only: begin_lines_of_step
    use atrito_strings, only: to_text
    implicit none (type, external)
    private
@@ -230,8 +230,8 @@ contains
 
       context%open%number = number
       context%open%amplitude = 0
-      context%open%cut_names = name_list_t()
-      context%open%path_names = name_list_t()
+      call begin_lines_of_step(context%drawn_cuts)
+      call begin_lines_of_step(context%drawn_paths)
       context%open%first_token = huge(1_ip)
       context%open%first_card = context%step_cards(1, number)
       context%open%last_card = context%step_cards(2, number)
