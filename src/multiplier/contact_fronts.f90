@@ -18,7 +18,8 @@
 !> So a run of m points beside a front that would leave the inner state takes as many more with it, and of a run that would come
 !> back only two thirds do: then the error d falls to what the next term says, and not by half in each solve. Where a front goes on
 !> in the same direction by runs that do not get shorter (its neighbourhood is not as above, or m is one), it goes twice as
-!> far each time. So the number of solves does not grow with the number of points.
+!> far each time. Half of what the law leaves in front of it stays: let go at once, a body that the last stuck points hold would
+!> fly. So the number of solves does not grow with the number of points.
 !>
 !> The friction bound is frozen while more than FEW_CHANGES of the points change, as in the Picard loop, and follows the pressures
 !> then. The states that come out are a start for the steps of the multipliers, which go to the last digit and ask whether they are
@@ -233,7 +234,7 @@ contains
       integer(ip), intent(in) :: edge, side      !< the front is beside that point; direction in which it may go, 1 or -1
       integer(ip), intent(inout) :: new(:)
       type(front_moves_t), intent(inout) :: moves
-      integer(ip) :: from, to, m, taken, i, changing
+      integer(ip) :: from, to, m, taken, ahead, i, changing
 
       to = before(unknown(edge))
       from = before(unknown(edge + side))
@@ -253,6 +254,12 @@ contains
       if (from == FREE) then
          taken = 2*m
          if (2*m >= last_moves%found(edge)) taken = max(taken, 2*last_moves%went(edge))
+         ! never all that holds the body: half of what would be left stays
+         ahead = m
+         do while (is_from(ahead + 1))
+            ahead = ahead + 1
+         end do
+         taken = min(taken, (m + ahead)/2)
       else
          taken = (2*m + 1)/3
       end if

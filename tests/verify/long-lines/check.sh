@@ -63,6 +63,9 @@ does_not_grow left 0.5 0. 1000. '*FRICTION
 .3'
 does_not_grow both 0.4 -0.35 1000. '*FRICTION
 .3'
+# nearly all slips, 0.85 of the 0.9 that friction can take: the last points that hold the layer must not be taken at once
+does_not_grow nearly 0.85 0. 1000. '*FRICTION
+.3'
 does_not_grow soft 0.4 0. 50. '*FRICTION
 .3'
 does_not_grow averaged 0.5 0. 1000. '*FRICTION, NONLOCAL
