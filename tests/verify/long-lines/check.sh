@@ -72,4 +72,10 @@ does_not_grow averaged 0.5 0. 1000. '*FRICTION, NONLOCAL
 .3, 0., 1.'
 does_not_grow sloped 0.5 0. 1000. '*FRICTION
 .3, 1e4'
+# A flat layer pressed on one whose side is a parabola: without friction, the ends of contact are fronts, too.
+layers 1600 0. 0. 3000. '' | sed 's/^\*STEP$/*CLEARANCE, SLAVE=LOW-TOP, MASTER=HIGH-BOTTOM, FUNCTION\n4e-3*(x - 7.5)**2\n*STEP/
+   s/^HIGH-TOP, P, 1.$/HIGH-TOP, P, 0/; s/^\*CLOAD$/*BOUNDARY\nHIGH-TOP, 2, 2, -0.02\nHIGH-LEFT, 1\n*CLOAD/' >parabola.inp
+run 0 parabola.inp parabola --contact sparse --quiet
+below 'parabola: solves' "$(column parabola/iterations.tab inner | wc -l)" 21
+below 'parabola: points less those in contact' $((1600 - $(column parabola/contact.tab status | grep -c '^2$'))) 1300
 finish
