@@ -4,7 +4,7 @@ module atrito_run_report
    use atrito_increments, only: list_increments, has_history, increment_name, ending_text
    use atrito_kinds, only: ip, wp
    use atrito_libraries, only: library_t
-   use atrito_listing, only: list_used_libraries
+   use atrito_solver_report, only: list_used_libraries
    use atrito_messages, only: count_messages, SEVERITY_WARNING, SEVERITY_NOTE
    use atrito_model, only: model_t
    use atrito_page, only: bytes, number, plural

@@ -13,33 +13,32 @@ module atrito_listing
    use atrito_extreme_report, only: describe_extremes
    use atrito_frame_tables, only: build_frame_table, has_frame_rows
    use atrito_grid, only: grid_t, begin_grid, add_row, name_units, put_grid, put_table, CELL
-   use atrito_increments, only: increment_t, list_increments, has_history, increment_name, ending_text, time_text
-   use atrito_libraries, only: library_t, list_libraries
+   use atrito_increments, only: has_history, increment_name, ending_text
    use atrito_model, only: model_t
-   use atrito_results, only: unsettled_t, results_t, history_t, scene_t, balance_t, last_frame, view_frame
+   use atrito_results, only: results_t, history_t, balance_t, last_frame, view_frame
    use atrito_page, only: page_t, begin_page, add_line, add_blank, add_rule, add_heading, add_entry, add_paragraph, left, right, &
                           number, bytes
    use atrito_model_report, only: describe_model
    use atrito_resultant_report, only: describe_resultants
    use atrito_row_tables, only: describe_rows
    use atrito_rigid_report, only: describe_rigid_bodies
-   use atrito_scene_report, only: describe_needs, describe_bodies, describe_pairs
+   use atrito_scene_report, only: describe_needs, describe_pairs
+   use atrito_solver_report, only: describe_solver, describe_increments, describe_iterations
    use atrito_summary, only: quantity_t, scales_t, summarise_pair, pair_quantities, step_quantities, measure_history, pair_count, &
-                             pair_name, closed_word, uniqueness_text
+                             pair_name
    use atrito_patched_text, only: take_ends
    use atrito_table, only: table_t, clear_small, ZERO_SHARE
    use atrito_units, only: unit_names
    use atrito_utf8, only: visible
    implicit none (type, external)
    private
-   public :: write_listing, compose_listing, list_used_libraries, date_text
+   public :: write_listing, compose_listing, date_text
 
    integer, parameter :: WIDTH = 80                 !< columns
    integer, parameter :: MOST_LINES = 200           !< of the deck; of a longer one half as many at each end
    integer, parameter :: DIGITS = 6                 !< of numbers for people
    character(len=22), parameter :: SAID_ELSEWHERE(*) = &
                                    [character(len=22) :: 'error_estimate_percent', 'strain_energy', 'external_work']
-   real(wp), parameter :: LEAST_CONTRACTION = 1.0e-6_wp      !< below it nothing couples pressure and friction but round-off
 
 contains
 
@@ -87,10 +86,10 @@ contains
          call add_heading(page, '2  WHAT THE SCENE NEEDS')
          call describe_needs(page, last%scene)
          call add_heading(page, '3  ORDER, STORAGE AND SOLVER')
-         call add_solver(page, history, last)
+         call describe_solver(page, history, last)
          call add_heading(page, '4  ITERATIONS')
-         if (has_history(model, history)) call add_increments(page, history)
-         call add_iterations(page, last)
+         if (has_history(model, history)) call describe_increments(page, history)
+         call describe_iterations(page, last)
          call add_heading(page, '5  CONTACT')
          call measure_history(model, history, scales, own)
          call add_contact(page, model, history, scales, own)
@@ -107,29 +106,6 @@ contains
          call name_units(model%units, page%lines(i)%s)
       end do
    end subroutine compose_listing
-
-   !> How the bodies were factored, and by which libraries.
-   subroutine add_solver(page, history, results)
-      type(page_t), intent(inout) :: page
-      type(history_t), intent(in) :: history
-      type(results_t), intent(in) :: results        !< the last of it
-      type(library_t), allocatable :: list(:)
-      integer :: i
-
-      call describe_bodies(page, results%scene, factored=.true., some=.false.)
-      if (uses(results%scene, 'skyline') .or. uses(results%scene, 'banded')) then
-         call add_entry(page, 'order', 'reverse Cuthill-McKee, contact nodes last')
-      end if
-      if (uses(results%scene, 'sparse')) then
-         call add_entry(page, 'order of sparse bodies', 'nested dissection, contact nodes last')
-      end if
-      call add_entry(page, 'factorisations', to_text(max(history%factorisations, int(results%factorisations, ip))))
-      call add_entry(page, 'linear solves of the line', to_text(int(results%linear_solves, ip)))
-      call list_used_libraries(results%scene, list)
-      do i = 1, size(list)
-         call add_entry(page, trim(list(i)%name), list(i)%version)
-      end do
-   end subroutine add_solver
 
    !> Messages, pictures, the estimated error and the times.
    subroutine add_end(page, results, pictures)
@@ -155,59 +131,6 @@ contains
 
       text = increment_name(results%step, results%increment, results%time)
    end function frame_name
-
-   !> A row an increment; its iterations are in iterations.tab.
-   subroutine add_increments(page, history)
-      type(page_t), intent(inout) :: page
-      type(history_t), intent(in) :: history
-      type(increment_t), allocatable :: list(:)
-      integer :: i
-
-      list = list_increments(history)
-      call add_line(page, right('step', 8)//right('increment', 11)//right('time', 18)//right('outer iterations', 18)// &
-                    right('residual', 14))
-      do i = 1, size(list)
-         call add_line(page, right(to_text(list(i)%step), 8)//right(to_text(list(i)%increment), 11)// &
-                       right(time_text(list(i)%time), 18)//right(to_text(list(i)%outer), 18)// &
-                       right(number(list(i)%residual, 4), 14))
-      end do
-      call add_blank(page)
-      call add_line(page, '   of the last increment that is printed, '//frame_name(history%frames(last_frame(history)))//':')
-      call add_blank(page)
-   end subroutine add_increments
-
-   !> Compiler and libraries; those that this run did not use are told so.
-   subroutine list_used_libraries(scene, list)
-      type(scene_t), intent(in) :: scene
-      type(library_t), allocatable, intent(out) :: list(:)
-
-      call list_libraries(.true., list, is_by_metis(scene))
-   end subroutine list_used_libraries
-
-   !> Whether any order of elimination is METIS's.
-   pure logical function is_by_metis(scene)
-      type(scene_t), intent(in) :: scene
-      integer :: i
-
-      is_by_metis = .false.
-      if (allocated(scene%order)) is_by_metis = index(scene%order, 'METIS') > 0
-      do i = 1, size(scene%bodies)
-         if (allocated(scene%bodies(i)%order)) is_by_metis = is_by_metis .or. index(scene%bodies(i)%order, 'METIS') > 0
-      end do
-   end function is_by_metis
-
-   !> Whether any body has a solver.
-   pure logical function uses(scene, solver)
-      type(scene_t), intent(in) :: scene
-      character(len=*), intent(in) :: solver       !< skyline, ...
-      integer :: i
-
-      uses = .false.
-      do i = 1, size(scene%bodies)
-         if (.not. allocated(scene%bodies(i)%solver)) cycle
-         uses = uses .or. scene%bodies(i)%solver == solver
-      end do
-   end function uses
 
    subroutine add_title(page, model, history)
       type(page_t), intent(inout) :: page
@@ -324,58 +247,6 @@ contains
       call date_and_time(date=date, time=time)
       text = date(1:4)//'-'//date(5:6)//'-'//date(7:8)//' '//time(1:2)//':'//time(3:4)
    end function date_text
-
-   subroutine add_iterations(page, results)
-      type(page_t), intent(inout) :: page
-      type(results_t), intent(in) :: results
-      character(len=:), allocatable :: unique
-      integer :: i
-
-      call add_entry(page, 'outer iterations', to_text(int(results%outer_iterations, ip)))
-      if (results%contraction > 0.0_wp) call add_entry(page, 'contraction, measured', number(results%contraction, 3))
-      unique = uniqueness_text(results%uniqueness)
-      if (len(unique) > 0) call add_entry(page, 'uniqueness', unique)
-      if (results%contraction_estimate > LEAST_CONTRACTION) then
-         call add_entry(page, 'contraction, estimated', number(results%contraction_estimate, 3) &
-                        //'; from 1 on there may be several solutions')
-      end if
-      if (allocated(results%verdict)) call add_entry(page, 'outcome', results%verdict)
-      if (.not. allocated(results%iterations)) return
-      if (size(results%iterations) == 0) return
-      call add_blank(page)
-      call add_line(page, right('outer', 8)//right('inner', 6)//right('open', 7)//right('stick', 7)// &
-                    right(closed_word(results%scene), 7)//right('d displ.', 11)// &
-                    right('d press.', 11)//right('d frict.', 11)//right('residual', 11))
-      do i = 1, size(results%iterations)
-         associate (row => results%iterations(i))
-            call add_line(page, right(to_text(row%outer), 8)//right(to_text(row%inner), 6)//right(to_text(row%open), 7)// &
-                          right(to_text(row%stick), 7)//right(to_text(row%slip), 7)// &
-                          right(number(row%change_displacement, 4), 11)//right(number(row%change_pressure, 4), 11)// &
-                          right(number(row%change_friction, 4), 11)//right(number(row%residual, 4), 11))
-         end associate
-      end do
-      if (allocated(results%unsettled)) call add_unsettled(page, results%unsettled)
-   end subroutine add_iterations
-
-   !> All points that changed their states in the last outer iterations.
-   subroutine add_unsettled(page, unsettled)
-      type(page_t), intent(inout) :: page
-      type(unsettled_t), intent(in) :: unsettled(:)
-      integer :: i
-
-      if (size(unsettled) == 0) return
-      call add_blank(page)
-      call add_paragraph(page, &
-                         'Points that are unsettled, with their states at the end of the last outer iterations, oldest first: ' &
-                         //'o open, = sticking, + slipping along T, - against it, c closed without friction', 3)
-      call add_line(page, right('pair', 8)//right('point', 7)//right('node', 10)//right('x', 16)//right('y', 16)//'   states')
-      do i = 1, size(unsettled)
-         associate (c => unsettled(i))
-            call add_line(page, right(to_text(c%pair), 8)//right(to_text(c%point), 7)//right(to_text(c%node), 10)// &
-                          right(number(c%x(1), DIGITS), 16)//right(number(c%x(2), DIGITS), 16)//'   '//c%states)
-         end associate
-      end do
-   end subroutine add_unsettled
 
    !> The pairs of each increment whose contact is printed.
    subroutine add_contact(page, model, history, scales, own)
