@@ -20,7 +20,7 @@ module atrito_scene_forecast
 
    integer(lp), parameter :: REAL_BYTES = 8_lp
    !> Code and places for work that are first touched later; of BLAS with large matrices.
-   integer(lp), parameter :: LATER_BYTES = 3600000_lp, MOST_OF_BLAS = 3000000_lp
+   integer(lp), parameter :: LATER_BYTES = 4000000_lp, MOST_OF_BLAS = 3000000_lp
    !> The library of field files, which is loaded when it is wanted; with what it works with, when it writes restart files.
    integer(lp), parameter :: FIELD_LIBRARY = 4500000_lp, RESTART_LIBRARY = 5500000_lp
    !> Measured shares: holes between the factors of fronts; what the bodies leave of themselves in the process, when they have been
