@@ -400,6 +400,7 @@ contains
       options%contact_form = FORMS(place_of_word('--contact', command%contact))
       options%element_errors = command%plot
       options%starts = command%starts
+      options%proof = command%proof /= 'off'
       ! the runs of sweeps, studies and limits stay where they are
       if (command%task == TASK_RUN .and. command%share /= 'none') then
          call distribute_over_ranks(command%share == 'all', options%distribution)

@@ -67,6 +67,7 @@ module atrito_scene_data
       class(scene_system_t), allocatable :: assembled       !< the sparse form, in one matrix or in parts
       logical :: is_assembled = .false.
       logical :: wants_element_errors = .false.             !< of what is printed
+      logical :: wants_proof = .false.                      !< a bound of the error of what is printed
       integer(ip) :: starts = 0                             !< of a search for other solutions
       logical :: is_printed = .true.                        !< what is solved for is printed: it is worth stresses and estimates
       ! Of a history:
@@ -85,6 +86,7 @@ module atrito_scene_data
       integer :: contact_form = CONTACT_AUTO
       logical :: element_errors = .false.                   !< the estimated error is kept element by element
       integer(ip) :: starts = 0                             !< of a search for other solutions; 0: as the deck asks
+      logical :: proof = .false.                            !< a bound of the error is wanted
       integer(lp) :: memory = huge(1_lp)                    !< bytes, of each process; what the machine has counts where it is less
       class(distribution_t), allocatable :: distribution    !< of a scene that it pays off for; not allocated: none
       class(viewer_t), pointer :: viewer => null()          !< not associated: nobody looks
@@ -182,6 +184,7 @@ contains
       data%solver_kind = asked%solver_kind
       data%starts = merge(asked%starts, data%step%controls%starts, asked%starts > 0)
       data%wants_element_errors = asked%element_errors
+      data%wants_proof = asked%proof
       data%viewer => asked%viewer
       ! all bodies in one matrix: none is numbered for a profile of its own
       if (data%contact_form == CONTACT_SPARSE) data%solver_kind = SOLVER_SPARSE

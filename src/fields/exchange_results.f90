@@ -3,7 +3,8 @@ module atrito_exchange_results
    use atrito_archive, only: archive_t, exchange, exchange_vector, exchange_numbers, exchange_word, exchange_length
    use atrito_kinds, only: ip
    use atrito_results, only: results_t, contact_result_t, unsettled_t, balance_t, body_motion_t, rigid_result_t, joint_t, &
-                             cut_force_t, extreme_t, iteration_t, observed_t, body_result_t, pair_scene_t, scene_t, uniqueness_t
+                             cut_force_t, extreme_t, iteration_t, observed_t, body_result_t, pair_scene_t, scene_t, uniqueness_t, &
+                             error_bound_t
    use atrito_strings, only: string_t
    implicit none (type, external)
    private
@@ -37,6 +38,7 @@ contains
       call exchange(archive, 'stress', results%stress)
       call exchange(archive, 'nodal_stress', results%nodal_stress)
       call exchange(archive, 'error_estimate', results%error_estimate)
+      call exchange_bound(archive, results%error_bound)
       call exchange(archive, 'element_error', results%element_error)
       call exchange_iterations(archive, results%iterations)
       call exchange(archive, 'outer_iterations', results%outer_iterations)
@@ -60,6 +62,21 @@ contains
       call exchange_observed(archive, results%observed)
       call exchange_cut(archive, results%cuts)
    end subroutine exchange_results
+
+   subroutine exchange_bound(archive, bound)
+      type(archive_t), intent(inout) :: archive
+      type(error_bound_t), intent(inout) :: bound
+
+      call exchange(archive, 'exists', bound%exists)
+      call exchange(archive, 'is_certified', bound%is_certified)
+      call exchange(archive, 'percent', bound%percent)
+      call exchange(archive, 'norm', bound%norm)
+      call exchange(archive, 'bulk', bound%bulk)
+      call exchange(archive, 'normal', bound%normal)
+      call exchange(archive, 'tangential', bound%tangential)
+      call exchange(archive, 'residual', bound%residual)
+      call exchange_word(archive, 'why_not', bound%why_not)
+   end subroutine exchange_bound
 
    subroutine exchange_uniqueness(archive, uniqueness)
       type(archive_t), intent(inout) :: archive

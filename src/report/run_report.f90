@@ -11,7 +11,7 @@ module atrito_run_report
    use atrito_report, only: report_t
    use atrito_results, only: results_t, history_t, scene_t, balance_t, last_frame
    use atrito_strings, only: string_t, append_string, to_text
-   use atrito_summary, only: body_count, pair_count, pair_name, uniqueness_text
+   use atrito_summary, only: body_count, pair_count, pair_name, error_text, uniqueness_text
    use atrito_system, only: peak_memory
    use atrito_table, only: ZERO_SHARE, abs_is_below
    use atrito_timers, only: phase_time_t, get_phases
@@ -66,7 +66,7 @@ contains
          report%verdict = 'Solved and checked'
          call append_string(report%details, 'Equilibrium to '//number(last%equilibrium_residual, 2) &
                             //' of the largest force; the contact law holds at every point.')
-         call append_string(report%details, 'The estimated error is '//number(last%error_estimate, 3)//' % of the energy norm.')
+         call append_string(report%details, 'Error: '//error_text(last)//'.')
          unique = uniqueness_text(last%uniqueness)
          if (len(unique) > 0) call append_string(report%details, 'Uniqueness: '//unique//'.')
       else if (len(ending) > 0) then

@@ -11,6 +11,7 @@ module atrito_increment
    use atrito_contact_solution, only: contact_solution_t
    use atrito_controls, only: controls_t, METHOD_ANDERSON
    use atrito_displacements, only: contact_forces
+   use atrito_error_bound, only: bound_error
    use atrito_extremes, only: find_extremes
    use atrito_final_check, only: check_equilibrium, check_balance, check_law, equilibrium_t
    use atrito_force_sums, only: sum_forces
@@ -21,6 +22,7 @@ module atrito_increment
    use atrito_ladder, only: RUNGS, is_tried, controls_of_rung, rung_text
    use atrito_linear_limits, only: find_large
    use atrito_mesh, only: is_revolved
+   use atrito_model, only: step_t
    use atrito_number_range, only: explain_range
    use atrito_outer_loop, only: FREE_MOTION
    use atrito_picard_loop, only: is_too_much
@@ -35,7 +37,7 @@ module atrito_increment
    use atrito_solve_condensed, only: solve_condensed, release_condensed
    use atrito_solve_multiplier, only: solve_multiplier
    use atrito_status, only: status_t, is_ok
-   use atrito_step_loads, only: moment_t
+   use atrito_step_loads, only: act_at, moment_t
    use atrito_strings, only: to_text
    use atrito_thermal_loads, only: elastic_energy
    use atrito_timers, only: start_phase, stop_phase
@@ -158,7 +160,22 @@ contains
       end if
       call stop_phase('check')
       call take_rigid_results(data, solution, results)
+      if (data%wants_proof .and. data%is_printed .and. results%converged .and. results%law_holds) &
+         call prove_bound(data, solution, results)
    end subroutine finish_form
+
+   !> The bound of the error, with the loads of the time.
+   subroutine prove_bound(data, solution, results)
+      type(scene_data_t), intent(inout) :: data
+      type(contact_solution_t), intent(in) :: solution
+      type(results_t), intent(inout) :: results
+      type(step_t) :: acting
+
+      call start_phase('prove')
+      call act_at(data%model, data%step, moment_t(results%step_time, results%time), acting)
+      call bound_error(data%model, acting, data, solution, results%u, results%reaction, results%error_bound)
+      call stop_phase('prove')
+   end subroutine prove_bound
 
    !> The solution of one form, with the least of the idle motions.
    subroutine solve_form(data, form, controls, store, results, solution, u, again, status)

@@ -15,7 +15,7 @@ module atrito_listing
    use atrito_grid, only: grid_t, begin_grid, add_row, name_units, put_grid, put_table, CELL
    use atrito_increments, only: has_history, increment_name, ending_text
    use atrito_model, only: model_t
-   use atrito_results, only: results_t, history_t, balance_t, last_frame, view_frame
+   use atrito_results, only: results_t, history_t, balance_t, error_bound_t, last_frame, view_frame
    use atrito_page, only: page_t, begin_page, add_line, add_blank, add_rule, add_heading, add_entry, add_paragraph, left, right, &
                           number, bytes
    use atrito_model_report, only: describe_model
@@ -122,8 +122,26 @@ contains
       end if
       call add_heading(page, '9  ERROR AND TIME')
       call add_entry(page, 'estimated error', number(results%error_estimate, DIGITS)//' % of the energy norm')
+      call add_bound(page, results%error_bound)
       call add_times(page)
    end subroutine add_end
+
+   !> What is proved of the error, for what, and of which parts it is made.
+   subroutine add_bound(page, bound)
+      type(page_t), intent(inout) :: page
+      type(error_bound_t), intent(in) :: bound
+
+      if (bound%exists) then
+         call add_entry(page, 'bound of the error', number(bound%percent, DIGITS)//' % of the energy norm of the displacements')
+         call add_entry(page, '', trim(merge('certified for the friction bound of this run', &
+                                             'not certified                               ', bound%is_certified)))
+         call add_entry(page, 'of its square', 'bodies '//number(bound%bulk, 3)//', normal contact '//number(bound%normal, 3) &
+                        //', friction '//number(bound%tangential, 3))
+         call add_entry(page, 'equilibrium of its stresses', number(bound%residual, 2)//' of the largest force')
+      end if
+      if (len_trim(bound%why_not) > 0) call add_entry(page, trim(merge('not certified', 'no bound     ', bound%exists)), &
+                                                      trim(bound%why_not))
+   end subroutine add_bound
 
    pure function frame_name(results) result(text)
       type(results_t), intent(in) :: results

@@ -19,7 +19,7 @@ module atrito_screen
    use atrito_plot_files, only: plot_folder, told_pictures
    use atrito_plot_files, only: REPORT_NAME
    use atrito_summary, only: pair_summary_t, summarise_pair, states_text, closed_word, body_count, pair_count, pair_name, &
-                             uniqueness_text
+                             error_text, uniqueness_text
    use atrito_table, only: TAB_ENDING, CSV_ENDING
    implicit none (type, external)
    private
@@ -159,7 +159,8 @@ contains
          large = 'equilibrium to '//number(results%equilibrium_residual, 2)//' of the largest force'
          if (.not. (has_forces(results) .or. results%equilibrium_residual > 0.0_wp)) large = 'no forces act'
          call add_item(page, 'checked', large//'; the contact law holds')
-         call add_item(page, 'estimated', 'error of '//number(results%error_estimate, 3)//' % of the energy norm')
+         call add_item(page, trim(merge('error    ', 'estimated', results%error_bound%exists)), error_text(results))
+         if (len_trim(results%error_bound%why_not) > 0) call add_item(page, 'no bound', trim(results%error_bound%why_not))
          unique = uniqueness_text(results%uniqueness)
          if (len(unique) > 0) call add_item(page, 'unique', unique)
          large = large_text(results)

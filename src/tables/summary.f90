@@ -5,13 +5,13 @@ module atrito_summary
    use atrito_page, only: number
    use atrito_strings, only: string_t, append_string, to_text
    use atrito_model, only: model_t
-   use atrito_results, only: results_t, history_t, scene_t, contact_result_t, uniqueness_t, view_frame, &
+   use atrito_results, only: results_t, history_t, scene_t, contact_result_t, error_bound_t, uniqueness_t, view_frame, &
                              POINT_OPEN, POINT_STICK, POINT_SLIP
    use atrito_threads, only: is_shared
    implicit none (type, external)
    private
    public :: pair_summary_t, quantity_t, scales_t
-   public :: summarise_pair, uniqueness_text, pair_quantities, step_quantities, quantity_names, states_text, closed_word
+   public :: summarise_pair, error_text, uniqueness_text, pair_quantities, step_quantities, quantity_names, states_text, closed_word
    public :: measure_history
    public :: pair_count, pair_name, body_count
 
@@ -159,6 +159,7 @@ contains
               quantity_t('strain_energy', 'F L', results%strain_energy, 0.0_wp), &
               quantity_t('external_work', 'F L', results%external_work, 0.0_wp), &
               quantity_t('error_estimate_percent', '-', results%error_estimate, 0.0_wp), &
+              bound_quantities(results%error_bound), &
               unique_quantities(results%uniqueness), &
               large_quantities(results)]
       if (.not. allocated(results%observed)) return
@@ -176,6 +177,34 @@ contains
               quantity_t('large_slip', 'L', results%large_slip%value, 0.0_wp)]
       list = pack(list, list%value > 0.0_wp)
    end function large_quantities
+
+   !> The bound of the error and the estimate, or the estimate alone: one line of some 65 columns.
+   pure function error_text(results) result(text)
+      type(results_t), intent(in) :: results
+      character(len=:), allocatable :: text
+
+      associate (bound => results%error_bound)
+         if (bound%exists) then
+            text = 'at most '//number(bound%percent, 3)//' % in the energy norm ('//trim(merge('certified    ', &
+                   'not certified', bound%is_certified))//'), estimated '//number(results%error_estimate, 2)//' %'
+         else
+            text = 'error of '//number(results%error_estimate, 3)//' % of the energy norm'
+         end if
+      end associate
+   end function error_text
+
+   !> The bound of the error, whether it is certified, and of its square the shares of the bodies and of both laws of contact.
+   pure function bound_quantities(bound) result(list)
+      type(error_bound_t), intent(in) :: bound
+      type(quantity_t), allocatable :: list(:)
+
+      list = [quantity_t('error_bound_percent', '-', bound%percent, 0.0_wp), &
+              counted('error_certified', merge(1_ip, 0_ip, bound%is_certified)), &
+              quantity_t('error_bound_bulk', '-', bound%bulk, 0.0_wp), &
+              quantity_t('error_bound_normal', '-', bound%normal, 0.0_wp), &
+              quantity_t('error_bound_tangential', '-', bound%tangential, 0.0_wp)]
+      list = pack(list, bound%exists)
+   end function bound_quantities
 
    !> What is known of other solutions: with friction what is certified, and the index; of a search what it found.
    pure function unique_quantities(known) result(list)

@@ -35,6 +35,7 @@ module atrito_command_line
       type(string_t), allocatable :: settings(:)    !< NAME=VALUE of --set, in their order
       character(len=7) :: solver = 'auto'           !< one of the words of --solver
       character(len=6) :: contact = 'auto'          !< one of the words of --contact
+      character(len=4) :: proof = 'off'             !< one of the words of --proof
       character(len=4) :: share = 'auto'            !< one of the words of --share
       type(string_t), allocatable :: observe(:)     !< NAME=EXPRESSION of --observe, in their order
       type(string_t), allocatable :: show(:)        !< views of --show, in their order
@@ -309,7 +310,7 @@ contains
          call take_watched(given%value, command%watched, ok)
       case ('--elements')
          call take_elements(given%value, command%elements, ok)
-      case ('--solver', '--contact', '--share', '--format', '--messages', '--progress')
+      case ('--solver', '--contact', '--proof', '--share', '--format', '--messages', '--progress')
          call take_word(name, given%value, command, ok)
       case ('--plot-box')
          call read_box(given%value, command%view%box, ok)
@@ -341,6 +342,8 @@ contains
          command%solver = value
       case ('--contact')
          command%contact = value
+      case ('--proof')
+         command%proof = value
       case ('--share')
          command%share = value
       case ('--format')

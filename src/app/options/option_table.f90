@@ -66,6 +66,8 @@ module atrito_option_table
                                          words='auto skyline banded sparse'), &
                                 option_t('--contact', 'NAME', [Y, Y, N, N, Y, Y, Y], 'form of the contact system', default='auto', &
                                          words='auto dense sparse'), &
+                       option_t('--proof', 'NAME', [Y, N, N, N, Y, Y, N], 'a proved bound of the error', default='off', &
+                                         words='auto on off'), &
             option_t('--share', 'NAME', [Y, N, N, N, N, N, N], 'one scene over the ranks of atrito-mpi: large ones, all, or none', &
                                          default='auto', words='auto all none'), &
                  option_t('--threads', 'N', [Y, Y, N, N, Y, Y, Y], 'cores of a run, or runs of a sweep side by side', default='1', &

@@ -7,7 +7,7 @@ module atrito_results
    private
    public :: results_t, contact_result_t, iteration_t, body_result_t, scene_t, pair_scene_t, balance_t, unsettled_t
    public :: body_motion_t, rigid_result_t, joint_t, cut_force_t, extreme_t, history_t, history_row_t, ending_t, last_frame
-   public :: observed_t, observed_list_t, uniqueness_t, frame_store_t, put_aside, view_frame, has_forces
+   public :: observed_t, observed_list_t, uniqueness_t, error_bound_t, frame_store_t, put_aside, view_frame, has_forces
    public :: POINT_OPEN, POINT_STICK, POINT_SLIP
 
    integer(ip), parameter :: POINT_OPEN = 0, POINT_STICK = 1, POINT_SLIP = 2   !< column status of contact.tab
@@ -173,6 +173,17 @@ module atrito_results
       character(len=64) :: why_not = ''             !< why there is no certificate
    end type uniqueness_t
 
+   !> A bound of the error of displacements and stresses (atrito_error_bound).
+   type :: error_bound_t
+      logical :: exists = .false.
+      logical :: is_certified = .false.             !< proved for the friction bound of the run; else every step but one is
+      real(wp) :: percent = 0.0_wp                  !< the energy norm of the error over that of the displacements, at most [%]
+      real(wp) :: norm = 0.0_wp                     !< the same without that norm, eta [(F L)^(1/2)]
+      real(wp) :: bulk = 0.0_wp, normal = 0.0_wp, tangential = 0.0_wp !< shares of eta^2: bodies, contact, friction
+      real(wp) :: residual = 0.0_wp                 !< of the equilibrium of the stresses that prove it, over the largest force
+      character(len=64) :: why_not = ''             !< why it is not certified, or is not there
+   end type error_bound_t
+
    !> The numbers of an increment.
    type :: frame_numbers_t
       integer(ip) :: step = 1, increment = 1
@@ -181,6 +192,7 @@ module atrito_results
       logical :: converged = .false.
       logical :: law_holds = .false.                !< outcome of the final check
       real(wp) :: error_estimate = 0.0_wp           !< of the stresses, in the energy norm, relative [%]; Zienkiewicz and Zhu
+      type(error_bound_t) :: error_bound
       integer(ip) :: outer_iterations = 0, linear_solves = 0, factorisations = 0
       real(wp) :: contraction = 0.0_wp              !< measured rate of the outer loop; 0 unknown
       real(wp) :: contraction_estimate = 0.0_wp     !< of the Picard map from its matrix; from 1 on there may be several solutions

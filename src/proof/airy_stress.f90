@@ -1,0 +1,331 @@
+!> Stresses in equilibrium within one element, by Airy functions.
+!>
+!> A stress s11 = phi,22, s22 = phi,11, s12 = -phi,12 has no divergence, whatever the function phi; where phi has one gradient on
+!> both sides of a line, tractions are continuous across it. Along a line with the unit tangent t, in whose direction the body lies
+!> on the left, the traction is
+!>
+!>     T_1 = d(phi,2)/ds,     T_2 = -d(phi,1)/ds,                                        (1)
+!>
+!> so that tractions of degree k along the sides of an element are gradients of degree k + 1 there. Tractions in equilibrium, forces
+!> and moments, make the gradient and phi come back to where they began when one goes once round the element: then, and only then,
+!> there is such a phi.
+!>
+!> Inside it is a piecewise polynomial of degree d = k + 2 with one gradient everywhere: on a triangle cut into three from its
+!> centroid (Hsieh, Clough and Tocher), on a convex quadrilateral cut by its diagonals (Fraeijs de Veubeke, Sander). Of degree 3 (k
+!> = 1) it is unique; of degree 4 (k = 2) each of the pieces has one free number, a bubble, which is chosen so that the energy is
+!> least.
+!>
+!> A polynomial of degree d on a triangle is given by its Bernstein coefficients c(a, b, c), a + b + c = d. With corners v1 and v2
+!> on the element's side and the inner point as the third one, those with c = 0 are phi along the side, those with c = 1 follow from
+!> its gradient,
+!>
+!>     c(a, b, 1) = c(a+1, b, 0) + (v3 - v1).g(b)/d,   g: Bernstein coefficients of the gradient along the side;
+!>
+!> the rest from the condition that the gradient is the same on both sides of each inner line: where p v0 + q v2 + r v1 + s v3 = 0
+!> with p + q + r + s = 0 (v0, v2 beside the line from v1 to v3), the coefficients at the corresponding places have the same
+!> relation. So all of them are sums of what is given on the outline, without a system of equations.
+module atrito_airy_stress
+   use atrito_kinds, only: ip, wp
+   use atrito_plane_state, only: COMPONENTS
+   implicit none (type, external)
+   private
+   public :: macro_t, make_macro, outline_of_tractions, side_place, piece_values, MOST_OUTLINE, MOST_UNKNOWNS, &
+             MOST_COEFFICIENTS, MOST_PIECES
+
+   integer(ip), parameter :: MOST_PIECES = 4, MOST_DEGREE = 2
+   !> Numbers of the outline of an element: phi and its gradient at each corner, 2k - 1 at each side; and with the bubbles.
+   integer(ip), parameter :: MOST_OUTLINE = MOST_PIECES*(3 + 3), MOST_UNKNOWNS = MOST_OUTLINE + MOST_PIECES
+   !> Bernstein coefficients of the stress on a piece.
+   integer(ip), parameter :: MOST_COEFFICIENTS = 6
+
+   !> The stress in an element as a sum over the numbers of its outline.
+   !>
+   !> At corner i stand phi, phi,1, phi,2; behind all corners at side i, from corner i to the next one, the k inner Bernstein
+   !> coefficients of the outward derivative along it, and where k = 2 the middle one of phi; then the bubbles.
+   type :: macro_t
+      integer(ip) :: n = 0                          !< corners, sides and pieces
+      integer(ip) :: degree = 0                     !< k, of the stress
+      integer(ip) :: n_outline = 0, n_unknowns = 0
+      integer(ip) :: n_coefficients = 0             !< of a piece
+      real(wp) :: corner(2, MOST_PIECES) = 0.0_wp   !< [L] relative to the first one
+      real(wp) :: centre(2) = 0.0_wp                !< the inner point [L]
+      real(wp) :: area(MOST_PIECES) = 0.0_wp        !< [L^2]
+      !> Bernstein coefficients of s11, s22, s12: (component, coefficient, piece, unknown) [1/L^2 and so on]
+      real(wp) :: stress(COMPONENTS, MOST_COEFFICIENTS, MOST_PIECES, MOST_UNKNOWNS) = 0.0_wp
+   end type macro_t
+
+   !> Exponents of the Bernstein polynomials of degree 1 and 2, in the order of the coefficients.
+   integer(ip), parameter, public :: EXPONENTS(3, MOST_COEFFICIENTS, MOST_DEGREE) = reshape([integer(ip) :: &
+                                                1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, &
+                                                2, 0, 0, 0, 2, 0, 0, 0, 2, 1, 1, 0, 0, 1, 1, 1, 0, 1], &
+                                                [3, MOST_COEFFICIENTS, MOST_DEGREE])
+   integer(ip), parameter :: N_COEFFICIENTS(MOST_DEGREE) = [3_ip, 6_ip]
+
+contains
+
+   !> The first of the numbers of a side among those of the outline.
+   pure integer(ip) function side_place(n, degree, side)
+      integer(ip), intent(in) :: n                  !< corners
+      integer(ip), intent(in) :: degree             !< k
+      integer(ip), intent(in) :: side
+
+      side_place = 3*n + (2*degree - 1)*(side - 1) + 1
+   end function side_place
+
+   !> The stress in a convex element with straight sides.
+   pure subroutine make_macro(corner, degree, macro)
+      real(wp), intent(in) :: corner(:, :)          !< (2, 3 or 4) counter-clockwise [L]
+      integer(ip), intent(in) :: degree             !< k: 1, 2
+      type(macro_t), intent(out) :: macro
+      real(wp) :: along(MOST_UNKNOWNS, 0:MOST_DEGREE + 2, MOST_PIECES)      ! phi on the sides
+      real(wp) :: next(MOST_UNKNOWNS, 0:MOST_DEGREE + 1, MOST_PIECES)       ! the layer of coefficients beside them
+      real(wp) :: inner(MOST_UNKNOWNS, 0:MOST_DEGREE + 2, MOST_PIECES)      ! along the line from a corner to the inner point
+      integer(ip) :: i, n
+
+      n = size(corner, 2, kind=ip)
+      macro%n = n
+      macro%degree = degree
+      macro%n_outline = n*(3 + 2*degree - 1)
+      macro%n_unknowns = macro%n_outline + merge(n, 0_ip, degree == 2)
+      macro%n_coefficients = N_COEFFICIENTS(degree)
+      do i = 1, n
+         macro%corner(:, i) = corner(:, i) - corner(:, 1)
+      end do
+      macro%centre = inner_point(macro%corner(:, :n))
+      do i = 1, n
+         macro%area(i) = 0.5_wp*cross(macro%corner(:, after(i, n)) - macro%corner(:, i), macro%centre - macro%corner(:, i))
+      end do
+      do i = 1, n
+         call take_side(macro, i, along(:, :, i), next(:, :, i))
+      end do
+      call go_inside(macro, next, along, inner)
+      do i = 1, n
+         call differentiate(macro, i, along(:, :, i), next(:, :, i), inner)
+      end do
+   end subroutine make_macro
+
+   !> Bernstein coefficients of phi along a side, and the layer beside them, over the numbers of the outline.
+   pure subroutine take_side(macro, i, along, next)
+      type(macro_t), intent(in) :: macro
+      integer(ip), intent(in) :: i                  !< side
+      real(wp), intent(out) :: along(:, 0:), next(:, 0:)
+      real(wp) :: t(2), normal(2), length, slope(MOST_UNKNOWNS, 2)
+      integer(ip) :: j, k, d, here, there, place
+
+      k = macro%degree
+      d = k + 2
+      here = 3*i - 2
+      there = 3*after(i, macro%n) - 2
+      t = macro%corner(:, after(i, macro%n)) - macro%corner(:, i)
+      length = norm2(t)
+      t = t/length
+      normal = [t(2), -t(1)]
+      place = side_place(macro%n, k, i)
+      along = 0.0_wp
+      along(here, 0) = 1.0_wp
+      along(here, 1) = 1.0_wp
+      along(here + 1:here + 2, 1) = t*(length/d)
+      along(there, d) = 1.0_wp
+      along(there, d - 1) = 1.0_wp
+      along(there + 1:there + 2, d - 1) = -t*(length/d)
+      if (k == 2) along(place + k, 2) = 1.0_wp
+      next = 0.0_wp
+      do j = 0, k + 1
+         slope = 0.0_wp                             ! the gradient's coefficient j: along t and along the normal
+         slope(:, 1) = (along(:, j + 1) - along(:, j))*(d/length)
+         if (j == 0) then
+            slope(here + 1:here + 2, 2) = normal
+         else if (j == k + 1) then
+            slope(there + 1:there + 2, 2) = normal
+         else
+            slope(place + j - 1, 2) = 1.0_wp
+         end if
+         next(:, j) = along(:, j) + (dot_product(macro%centre - macro%corner(:, i), t)*slope(:, 1) &
+                                     + dot_product(macro%centre - macro%corner(:, i), normal)*slope(:, 2))/d
+      end do
+   end subroutine take_side
+
+   !> The coefficients along the inner lines, from the corners to the inner point.
+   pure subroutine go_inside(macro, next, along, inner)
+      type(macro_t), intent(in) :: macro
+      real(wp), intent(in) :: next(:, 0:, :), along(:, 0:, :)
+      real(wp), intent(out) :: inner(:, 0:, :)
+      real(wp) :: beside(MOST_UNKNOWNS, 2), p, q, r, s
+      integer(ip) :: i, m, d, before
+
+      d = macro%degree + 2
+      do i = 1, macro%n
+         inner(:, 0, i) = along(:, 0, i)
+         inner(:, 1, i) = next(:, 0, i)
+      end do
+      do m = 1, d - 1
+         do i = 1, macro%n
+            before = after(i + macro%n - 2, macro%n)
+            if (m == 1) then
+               beside(:, 1) = next(:, macro%degree, before)
+               beside(:, 2) = next(:, 1, i)
+            else if (m == d - 1) then
+               beside(:, 1) = inner(:, d - 1, before)
+               beside(:, 2) = inner(:, d - 1, after(i, macro%n))
+            else                                    ! bubbles
+               beside = 0.0_wp
+               beside(macro%n_outline + before, 1) = 1.0_wp
+               beside(macro%n_outline + i, 2) = 1.0_wp
+            end if
+            call relate(macro%corner(:, before), macro%corner(:, after(i, macro%n)), macro%corner(:, i), macro%centre, p, q, r, s)
+            inner(:, m + 1, i) = -(p*beside(:, 1) + q*beside(:, 2) + r*inner(:, m, i))/s
+         end do
+      end do
+   end subroutine go_inside
+
+   !> p v0 + q v2 + r v1 + s v3 = 0, p + q + r + s = 0, of four points.
+   pure subroutine relate(v0, v2, v1, v3, p, q, r, s)
+      real(wp), intent(in) :: v0(2), v2(2), v1(2), v3(2)
+      real(wp), intent(out) :: p, q, r, s
+
+      ! barycentric coordinates of v3 in the triangle v0 v2 v1, times twice its area
+      p = cross(v2 - v3, v1 - v3)
+      q = cross(v1 - v3, v0 - v3)
+      r = cross(v0 - v3, v2 - v3)
+      s = -(p + q + r)
+   end subroutine relate
+
+   !> Second derivatives on a piece: the stress.
+   pure subroutine differentiate(macro, i, along, next, inner)
+      type(macro_t), intent(inout) :: macro
+      integer(ip), intent(in) :: i                  !< piece
+      real(wp), intent(in) :: along(:, 0:), next(:, 0:), inner(:, 0:, :)
+      real(wp) :: g(2, 3), c(MOST_UNKNOWNS), w
+      integer(ip) :: k, r, s, a(3), d
+
+      d = macro%degree + 2
+      g = gradients_of(macro%corner(:, i), macro%corner(:, after(i, macro%n)), macro%centre, macro%area(i))
+      do k = 1, macro%n_coefficients
+         do r = 1, 3
+            do s = 1, 3
+               a = EXPONENTS(:, k, macro%degree)
+               a(r) = a(r) + 1
+               a(s) = a(s) + 1
+               c = coefficient(a)
+               w = d*(d - 1)
+               macro%stress(1, k, i, :) = macro%stress(1, k, i, :) + w*g(2, r)*g(2, s)*c
+               macro%stress(2, k, i, :) = macro%stress(2, k, i, :) + w*g(1, r)*g(1, s)*c
+               macro%stress(3, k, i, :) = macro%stress(3, k, i, :) - w*g(1, r)*g(2, s)*c
+            end do
+         end do
+      end do
+
+   contains
+
+      !> The coefficient of phi with these exponents.
+      pure function coefficient(exponent) result(c)
+         integer(ip), intent(in) :: exponent(3)
+         real(wp) :: c(MOST_UNKNOWNS)
+
+         if (exponent(3) == 0) then
+            c = along(:, exponent(2))
+         else if (exponent(3) == 1) then
+            c = next(:, exponent(2))
+         else if (exponent(2) == 0) then
+            c = inner(:, exponent(3), i)
+         else if (exponent(1) == 0) then
+            c = inner(:, exponent(3), after(i, macro%n))
+         else
+            c = 0.0_wp
+            c(macro%n_outline + i) = 1.0_wp
+         end if
+      end function coefficient
+
+   end subroutine differentiate
+
+   !> Gradients of the barycentric coordinates of a triangle.
+   pure function gradients_of(a, b, c, area) result(g)
+      real(wp), intent(in) :: a(2), b(2), c(2), area
+      real(wp) :: g(2, 3)
+
+      g(:, 1) = [b(2) - c(2), c(1) - b(1)]
+      g(:, 2) = [c(2) - a(2), a(1) - c(1)]
+      g(:, 3) = [a(2) - b(2), b(1) - a(1)]
+      g = g/(2*area)
+   end function gradients_of
+
+   !> Where the pieces meet: the centroid, or where the diagonals cross.
+   pure function inner_point(v) result(c)
+      real(wp), intent(in) :: v(:, :)               !< (2, 3 or 4)
+      real(wp) :: c(2), s
+
+      if (size(v, 2) == 3) then
+         c = sum(v, dim=2)/3
+      else
+         s = cross(v(:, 2) - v(:, 1), v(:, 4) - v(:, 2))/cross(v(:, 3) - v(:, 1), v(:, 4) - v(:, 2))
+         c = v(:, 1) + s*(v(:, 3) - v(:, 1))
+      end if
+   end function inner_point
+
+   !> The numbers of the outline that tractions along the sides make, (1), with phi and its gradient 0 at the first corner.
+   !>
+   !> closing: what is left of gradient and phi after a turn: 0 where the tractions are in equilibrium.
+   pure subroutine outline_of_tractions(macro, traction, outline, closing)
+      type(macro_t), intent(in) :: macro
+      real(wp), intent(in) :: traction(:, 0:, :)    !< (2, 0:k, sides) Bernstein coefficients, counter-clockwise [F/L]
+      real(wp), intent(out) :: outline(:)           !< (n_outline)
+      real(wp), intent(out) :: closing(3)           !< phi, phi,1, phi,2
+      real(wp) :: g(2, 0:MOST_DEGREE + 1), f(0:MOST_DEGREE + 2), t(2), length
+      integer(ip) :: i, j, k
+
+      k = macro%degree
+      g(:, 0) = 0.0_wp
+      f(0) = 0.0_wp
+      do i = 1, macro%n
+         t = macro%corner(:, after(i, macro%n)) - macro%corner(:, i)
+         length = norm2(t)
+         t = t/length
+         outline(3*i - 2) = f(0)
+         outline(3*i - 1:3*i) = g(:, 0)
+         do j = 0, k
+            g(1, j + 1) = g(1, j) - length/(k + 1)*traction(2, j, i)
+            g(2, j + 1) = g(2, j) + length/(k + 1)*traction(1, j, i)
+         end do
+         do j = 0, k + 1
+            f(j + 1) = f(j) + length/(k + 2)*dot_product(t, g(:, j))
+         end do
+         associate (place => side_place(macro%n, k, i))
+            do j = 1, k
+               outline(place + j - 1) = t(2)*g(1, j) - t(1)*g(2, j)
+            end do
+            if (k == 2) outline(place + k) = f(2)
+         end associate
+         g(:, 0) = g(:, k + 1)
+         f(0) = f(k + 2)
+      end do
+      closing = [f(0), g(:, 0)]
+   end subroutine outline_of_tractions
+
+   !> Bernstein polynomials at a point of a piece.
+   pure function piece_values(degree, lambda) result(b)
+      integer(ip), intent(in) :: degree
+      real(wp), intent(in) :: lambda(3)             !< barycentric coordinates
+      real(wp) :: b(MOST_COEFFICIENTS)
+
+      b = 0.0_wp
+      if (degree == 1) then
+         b(:3) = lambda
+      else
+         b(:3) = lambda**2
+         b(4:6) = 2*[lambda(1)*lambda(2), lambda(2)*lambda(3), lambda(3)*lambda(1)]
+      end if
+   end function piece_values
+
+   pure integer(ip) function after(i, n)
+      integer(ip), intent(in) :: i, n
+
+      after = 1 + mod(i, n)
+   end function after
+
+   pure real(wp) function cross(a, b)
+      real(wp), intent(in) :: a(2), b(2)
+
+      cross = a(1)*b(2) - a(2)*b(1)
+   end function cross
+
+end module atrito_airy_stress

@@ -1,0 +1,152 @@
+!> Tractions of contact that balance the loads of bodies which nothing else holds.
+module atrito_balanced_contact
+   use atrito_contact_tractions, only: segment_forces, segment_t
+   use atrito_dense, only: solve_lu
+   use atrito_kinds, only: ip, wp
+   use atrito_problem, only: problem_t
+   use atrito_row_entries, only: first_motions, modes_at_node
+   implicit none (type, external)
+   private
+   public :: balance, add_segments
+
+   real(wp), parameter :: UNBALANCED = 1.0e-10_wp   !< of the forces on a body: more is no balance
+
+contains
+
+   !> Makes the tractions of contact balance the loads of bodies that can move, by the least change of the pressures: at every end
+   !> of a segment p (1 + sum_m c_m z_m), z_m the approach of the sides there by motion m. The work on the motions is then
+   !> W + G c = 0, G_mn = sum over the ends of their forces times z_m z_n.
+   subroutine balance(problem, segments, why_not)
+      class(problem_t), intent(in) :: problem
+      type(segment_t), intent(inout) :: segments(:)
+      character(len=:), allocatable, intent(inout) :: why_not
+      real(wp), allocatable :: work(:), size_of(:), gram(:, :), change(:)
+      integer(ip), allocatable :: first(:)
+      integer(ip) :: motion(6), n, i, k, l, m, end_of, n_motions
+      real(wp) :: z(6), most
+      integer(ip) :: info
+
+      first = first_motions(problem%fem%bodies)
+      n = first(size(first)) - 1
+      if (n == 0) return
+      call work_on_motions(problem, segments, first, work, size_of)
+      if (all(abs(work) <= UNBALANCED*size_of)) return
+      allocate (gram(n, n), source=0.0_wp)
+      do i = 1, size(segments, kind=ip)
+         do end_of = 1, 2
+            call approach_of(problem, segments(i), end_of, first, n_motions, motion, z)
+            do k = 1, n_motions
+               do l = 1, n_motions
+                  gram(motion(k), motion(l)) = gram(motion(k), motion(l)) + force_at(segments(i), end_of)*z(k)*z(l)
+               end do
+            end do
+         end do
+      end do
+      most = maxval([(gram(m, m), m=1, n)])
+      do m = 1, n                                   ! along the sides a motion has no work: it keeps what it has
+         gram(m, m) = gram(m, m) + 1.0e-12_wp*most
+      end do
+      change = -work
+      call solve_lu(gram, change, info)
+      if (info == 0) then
+         do i = 1, size(segments, kind=ip)
+            do end_of = 1, 2
+               call approach_of(problem, segments(i), end_of, first, n_motions, motion, z)
+               associate (factor => 1 + dot_product(z(:n_motions), change(motion(:n_motions))))
+                  if (.not. factor > 0.0_wp) why_not = 'pressures that balance a body'
+                  segments(i)%p(end_of) = segments(i)%p(end_of)*factor
+               end associate
+            end do
+         end do
+         call work_on_motions(problem, segments, first, work, size_of)
+      end if
+      if (.not. all(abs(work) <= UNBALANCED*size_of)) why_not = 'pressures that balance a body'
+   end subroutine balance
+
+   !> The force of the pressure at one end of a segment, as a hat [F].
+   pure real(wp) function force_at(segment, end_of) result(force)
+      type(segment_t), intent(in) :: segment
+      integer(ip), intent(in) :: end_of
+
+      force = 0.5_wp*segment%length*segment%thickness*segment%p(end_of)
+   end function force_at
+
+   !> The approach of the sides by the motions of both bodies, where the hat of one end has its force: a third of the way.
+   subroutine approach_of(problem, segment, end_of, first, n, motion, z)
+      class(problem_t), intent(in) :: problem
+      type(segment_t), intent(in) :: segment
+      integer(ip), intent(in) :: end_of, first(:)
+      integer(ip), intent(out) :: n, motion(6)
+      real(wp), intent(out) :: z(6)
+      integer(ip) :: side, b, m
+      real(wp) :: at, modes(2, 3), share(2)
+
+      n = 0
+      share = merge(2.0_wp, 1.0_wp, [end_of == 1, end_of == 2])/3
+      do side = 1, 2
+         if (side == 2 .and. segment%master(1) == 0) exit
+         associate (nodes => merge(segment%node, segment%master_node, side == 1), &
+                    places => merge(segment%on_slave, segment%on_master, side == 1))
+            b = problem%fem%bodies%of_node(nodes(1))
+            at = dot_product(share, places)
+            modes = (1 - at)*modes_at_node(problem%fem, b, nodes(1)) + at*modes_at_node(problem%fem, b, nodes(2))
+            do m = first(b), first(b + 1) - 1
+               n = n + 1
+               motion(n) = m
+               z(n) = merge(-1, 1, side == 1)*dot_product(segment%normal, modes(:, m - first(b) + 1))
+            end do
+         end associate
+      end do
+   end subroutine approach_of
+
+   !> The work of loads and tractions of contact on the rigid motions that supports leave, and the size of what it is a sum of.
+   subroutine work_on_motions(problem, segments, first, work, size_of)
+      class(problem_t), intent(in) :: problem
+      type(segment_t), intent(in) :: segments(:)
+      integer(ip), intent(in) :: first(:)
+      real(wp), allocatable, intent(out) :: work(:), size_of(:)
+      real(wp), allocatable :: force(:, :)
+
+      force = problem%f
+      call add_segments(segments, force)
+      call sum_works(force)
+
+   contains
+
+      subroutine sum_works(force)
+         real(wp), intent(in) :: force(:, :)
+         real(wp) :: z(2, 3)
+         integer(ip) :: b, i, m
+
+         allocate (work(first(size(first)) - 1), size_of(first(size(first)) - 1), source=0.0_wp)
+         do b = 1, problem%fem%bodies%n
+            if (first(b + 1) == first(b)) cycle
+            do i = 1, size(problem%fem%bodies%list(b)%nodes, kind=ip)
+               associate (node => problem%fem%bodies%list(b)%nodes(i))
+                  z = modes_at_node(problem%fem, b, node)
+                  do m = first(b), first(b + 1) - 1
+                     work(m) = work(m) + dot_product(z(:, m - first(b) + 1), force(:, node))
+                     size_of(m) = size_of(m) + dot_product(abs(z(:, m - first(b) + 1)), abs(force(:, node)))
+                  end do
+               end associate
+            end do
+         end do
+      end subroutine sum_works
+
+   end subroutine work_on_motions
+
+   !> Adds the forces of the tractions of contact on the nodes of both sides.
+   subroutine add_segments(segments, force)
+      type(segment_t), intent(in) :: segments(:)
+      real(wp), intent(inout) :: force(:, :)        !< (2, n_nodes) [F]
+      real(wp) :: on_slave(2, 2), on_master(2, 2)
+      integer(ip) :: i
+
+      do i = 1, size(segments, kind=ip)
+         call segment_forces(segments(i), on_slave, on_master)
+         force(:, segments(i)%node) = force(:, segments(i)%node) + on_slave
+         if (segments(i)%master(1) > 0) force(:, segments(i)%master_node) = force(:, segments(i)%master_node) + on_master
+      end do
+   end subroutine add_segments
+
+end module atrito_balanced_contact
