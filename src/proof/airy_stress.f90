@@ -29,7 +29,7 @@ module atrito_airy_stress
    use atrito_plane_state, only: COMPONENTS
    implicit none (type, external)
    private
-   public :: macro_t, make_macro, outline_of_tractions, side_place, piece_values, MOST_OUTLINE, MOST_UNKNOWNS, &
+   public :: macro_t, make_macro, outline_of_tractions, go_along, side_place, piece_values, MOST_OUTLINE, MOST_UNKNOWNS, &
              MOST_COEFFICIENTS, MOST_PIECES
 
    integer(ip), parameter :: MOST_PIECES = 4, MOST_DEGREE = 2
@@ -263,43 +263,51 @@ contains
    end function inner_point
 
    !> The numbers of the outline that tractions along the sides make, (1), with phi and its gradient 0 at the first corner.
-   !>
-   !> closing: what is left of gradient and phi after a turn: 0 where the tractions are in equilibrium.
-   pure subroutine outline_of_tractions(macro, traction, outline, closing)
-      type(macro_t), intent(in) :: macro
+   pure subroutine outline_of_tractions(corner, traction, outline)
+      real(wp), intent(in) :: corner(:, :)          !< (2, corners) counter-clockwise [L]
       real(wp), intent(in) :: traction(:, 0:, :)    !< (2, 0:k, sides) Bernstein coefficients, counter-clockwise [F/L]
-      real(wp), intent(out) :: outline(:)           !< (n_outline)
-      real(wp), intent(out) :: closing(3)           !< phi, phi,1, phi,2
-      real(wp) :: g(2, 0:MOST_DEGREE + 1), f(0:MOST_DEGREE + 2), t(2), length
-      integer(ip) :: i, j, k
+      real(wp), intent(out) :: outline(:)           !< as macro_t has them
+      real(wp) :: at_corner(3)
+      integer(ip) :: i, n, k
 
-      k = macro%degree
-      g(:, 0) = 0.0_wp
-      f(0) = 0.0_wp
-      do i = 1, macro%n
-         t = macro%corner(:, after(i, macro%n)) - macro%corner(:, i)
-         length = norm2(t)
-         t = t/length
-         outline(3*i - 2) = f(0)
-         outline(3*i - 1:3*i) = g(:, 0)
-         do j = 0, k
-            g(1, j + 1) = g(1, j) - length/(k + 1)*traction(2, j, i)
-            g(2, j + 1) = g(2, j) + length/(k + 1)*traction(1, j, i)
-         end do
-         do j = 0, k + 1
-            f(j + 1) = f(j) + length/(k + 2)*dot_product(t, g(:, j))
-         end do
-         associate (place => side_place(macro%n, k, i))
-            do j = 1, k
-               outline(place + j - 1) = t(2)*g(1, j) - t(1)*g(2, j)
-            end do
-            if (k == 2) outline(place + k) = f(2)
+      n = size(corner, 2, kind=ip)
+      k = size(traction, 2, kind=ip) - 1
+      at_corner = 0.0_wp
+      do i = 1, n
+         outline(3*i - 2:3*i) = at_corner
+         associate (place => side_place(n, k, i))
+            call go_along(corner(:, after(i, n)) - corner(:, i), traction(:, :, i), at_corner, outline(place:place + 2*k - 2))
          end associate
-         g(:, 0) = g(:, k + 1)
-         f(0) = f(k + 2)
       end do
-      closing = [f(0), g(:, 0)]
    end subroutine outline_of_tractions
+
+   !> phi and its gradient from one end of a side to the other, and the numbers of the side.
+   pure subroutine go_along(side, traction, at_corner, numbers)
+      real(wp), intent(in) :: side(2)               !< from its first end to its last [L]
+      real(wp), intent(in) :: traction(:, 0:)       !< (2, 0:k) Bernstein coefficients
+      real(wp), intent(inout) :: at_corner(3)       !< phi, phi,1, phi,2
+      real(wp), intent(out) :: numbers(:)           !< (2k - 1)
+      real(wp) :: g(2, 0:MOST_DEGREE + 1), f(0:MOST_DEGREE + 2), t(2), length
+      integer(ip) :: j, k
+
+      k = size(traction, 2, kind=ip) - 1
+      length = norm2(side)
+      t = side/length
+      f(0) = at_corner(1)
+      g(:, 0) = at_corner(2:)
+      do j = 0, k
+         g(1, j + 1) = g(1, j) - length/(k + 1)*traction(2, j)
+         g(2, j + 1) = g(2, j) + length/(k + 1)*traction(1, j)
+      end do
+      do j = 0, k + 1
+         f(j + 1) = f(j) + length/(k + 2)*dot_product(t, g(:, j))
+      end do
+      do j = 1, k
+         numbers(j) = t(2)*g(1, j) - t(1)*g(2, j)
+      end do
+      if (k == 2) numbers(k + 1) = f(2)
+      at_corner = [f(k + 2), g(:, k + 1)]
+   end subroutine go_along
 
    !> Bernstein polynomials at a point of a piece.
    pure function piece_values(degree, lambda) result(b)

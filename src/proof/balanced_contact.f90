@@ -139,13 +139,15 @@ contains
    subroutine add_segments(segments, force)
       type(segment_t), intent(in) :: segments(:)
       real(wp), intent(inout) :: force(:, :)        !< (2, n_nodes) [F]
-      real(wp) :: on_slave(2, 2), on_master(2, 2)
+      real(wp) :: on_slave(2, 3), on_master(2, 3)
       integer(ip) :: i
 
       do i = 1, size(segments, kind=ip)
          call segment_forces(segments(i), on_slave, on_master)
-         force(:, segments(i)%node) = force(:, segments(i)%node) + on_slave
-         if (segments(i)%master(1) > 0) force(:, segments(i)%master_node) = force(:, segments(i)%master_node) + on_master
+         associate (slave => segments(i)%node(:segments(i)%n), master => segments(i)%master_node(:segments(i)%n_master))
+            force(:, slave) = force(:, slave) + on_slave(:, :size(slave))
+            force(:, master) = force(:, master) + on_master(:, :size(master))
+         end associate
       end do
    end subroutine add_segments
 

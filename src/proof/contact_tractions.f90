@@ -14,29 +14,28 @@
 !>
 !> The slave's faces are cut where they face nodes of the master (segments), so that all that stands in (2) is linear on a segment.
 module atrito_contact_tractions
-   use atrito_contact_line, only: rest_of
+   use atrito_contact_solution, only: contact_solution_t
    use atrito_face_geometry, only: outward_normal
-   use atrito_faces, only: face_list_t
    use atrito_friction_law, only: FRICTION_NONE, FRICTION_NONLOCAL
-   use atrito_growth, only: make_room
    use atrito_kinds, only: ip, wp
-   use atrito_master, only: master_t, look_along
+   use atrito_master, only: master_t
    use atrito_mesh, only: face_nodes
    use atrito_model, only: model_t, SURFACE_SEGMENTS
    use atrito_mortar_segments, only: segments_t, cut_slave
    use atrito_pairing, only: make_master
    use atrito_pieces, only: cross, normal_at
    use atrito_problem, only: problem_t
-   use atrito_contact_solution, only: contact_solution_t
+   use atrito_shape_functions, only: face_shape_values
    implicit none (type, external)
    private
-   public :: segment_t, list_segments, segment_forces, law_gap, keep_apart, slip_at, overlap_at
+   public :: segment_t, list_segments, segment_forces, traction_at, law_gap, keep_apart
 
    !> A part of a slave's face that faces one face of the master. Arrays of two: at its ends.
    type :: segment_t
       integer(ip) :: pair = 0
       integer(ip) :: slave(2) = 0, master(2) = 0    !< element and face; master 0: rigid
-      integer(ip) :: node(2) = 0, master_node(2) = 0 !< of these faces
+      integer(ip) :: n = 0, n_master = 0            !< nodes of these faces
+      integer(ip) :: node(3) = 0, master_node(3) = 0 !< in the order of face_nodes
       real(wp) :: on_slave(2) = 0.0_wp, on_master(2) = 0.0_wp       !< places on the faces, 0 to 1
       real(wp) :: length = 0.0_wp                   !< on the slave [L]
       real(wp) :: thickness = 0.0_wp                !< [L]
@@ -51,6 +50,9 @@ module atrito_contact_tractions
    end type segment_t
 
    real(wp), parameter :: SAME_DIRECTION = 1.0e-6_wp
+   !> Three Gauss points on [0,1].
+   real(wp), parameter :: GAUSS_PLACES(3) = 0.5_wp + 0.38729833462074168852_wp*[real(wp) :: -1, 0, 1]
+   real(wp), parameter :: GAUSS_WEIGHTS(3) = [real(wp) :: 5, 8, 5]/18
 
 contains
 
@@ -85,10 +87,8 @@ contains
                   call cut_slave(model%mesh, faces, master, cuts)
                   do f = 1, faces%n
                      do k = cuts%first(f), cuts%first(f + 1) - 1
-                        call make_segment(f, cuts%piece(k), 0.5_wp*(1 + [cuts%from(k), cuts%to(k)]), one)
+                        call add_part(f, cuts%piece(k), 0.5_wp*(1 + [cuts%from(k), cuts%to(k)]))
                         if (allocated(why_not)) return
-                        if (.not. any(point(one%node) > 0)) cycle
-                        call add_segment(one)
                      end do
                   end do
                end associate
@@ -100,7 +100,24 @@ contains
 
    contains
 
-      !> A part of face f that faces a piece of the master.
+      !> A part of face f that faces a piece of the master: on a face of three nodes two, where its middle node is in between.
+      subroutine add_part(f, piece, places)
+         integer(ip), intent(in) :: f, piece
+         real(wp), intent(in) :: places(2)
+         real(wp), parameter :: MIDDLE = 0.5_wp, AT_MIDDLE = 1.0e-9_wp
+
+         call make_segment(f, piece, places, one)
+         if (allocated(why_not)) return
+         if (.not. any(point(one%node(:one%n)) > 0)) return
+         if (one%n == 3 .and. places(1) < MIDDLE - AT_MIDDLE .and. places(2) > MIDDLE + AT_MIDDLE) then
+            call make_segment(f, piece, [places(1), MIDDLE], one)
+            call add_segment(one)
+            call make_segment(f, piece, [MIDDLE, places(2)], one)
+         end if
+         call add_segment(one)
+      end subroutine add_part
+
+      !> A part of a face that faces a piece of the master.
       subroutine make_segment(f, piece, places, segment)
          integer(ip), intent(in) :: f, piece
          real(wp), intent(in) :: places(2)
@@ -113,28 +130,25 @@ contains
             segment%pair = i
             segment%slave = [surface%faces%element(f), surface%faces%face(f)]
             associate (nodes => face_nodes(mesh, segment%slave(1), segment%slave(2)))
-               if (size(nodes) > 2) then
-                  why_not = 'contact sides of the second degree'
-                  return
-               end if
-               segment%node = nodes(:2)
+               segment%n = size(nodes, kind=ip)
+               segment%node(:segment%n) = nodes
             end associate
             segment%on_slave = places
-            segment%normal = outward_normal(mesh%x(:, segment%node), 0.0_wp)
+            segment%normal = outward_normal(mesh%x(:, segment%node(:2)), 0.0_wp)
             segment%length = (places(2) - places(1))*norm2(mesh%x(:, segment%node(2)) - mesh%x(:, segment%node(1)))
             segment%thickness = model%sections(model%section_of(segment%slave(1)))%thickness
             if (model%surfaces(pair%master)%kind /= SURFACE_SEGMENTS) then
                associate (faces => model%surfaces(pair%master)%faces)
                   segment%master = [faces%element(piece), faces%face(piece)]
                   associate (nodes => face_nodes(mesh, segment%master(1), segment%master(2)))
-                     segment%master_node = nodes(:2)
-                     if (size(nodes) > 2) why_not = 'contact sides of the second degree'
+                     segment%n_master = size(nodes, kind=ip)
+                     segment%master_node(:segment%n_master) = nodes
                   end associate
                end associate
             end if
             if (abs(dot_product(normal_at(master, piece, 0.5_wp), segment%normal) + 1) > SAME_DIRECTION .and. &
                 .not. pair%gap_is_given) why_not = 'contact sides that are not parallel'
-            do j = 1, 2
+            do j = 1, segment%n
                if (point(segment%node(j)) == 0) cycle
                if (norm2(problem%rows%normal(:, point(segment%node(j))) - segment%normal) > SAME_DIRECTION) then
                   why_not = 'curved contact sides'
@@ -149,13 +163,13 @@ contains
                segment%on_master(j) = min(max(at, 0.0_wp), 1.0_wp)
                segment%gap(j) = distance
             end do
-            if (points%matching .or. pair%gap_is_given) segment%gap = along(problem%rows%gap)
-            segment%p = along(max(solution%p, 0.0_wp))
-            segment%t = along(solution%t)
-            segment%tau = along(solution%tau)
+            if (points%matching .or. pair%gap_is_given) segment%gap = along(segment, problem%rows%gap)
+            segment%p = along(segment, max(solution%p, 0.0_wp))
+            segment%t = along(segment, solution%t)
+            segment%tau = along(segment, solution%tau)
             segment%rest = 0.0_wp
-            if (allocated(problem%line%rest)) segment%rest = along(problem%line%rest)
-            j = maxval(point(segment%node))
+            if (allocated(problem%line%rest)) segment%rest = along(segment, problem%line%rest)
+            j = maxval(point(segment%node(:segment%n)))
             segment%delta = problem%line%delta(j)
             associate (law => problem%line%law(j))
                if (law%kind == FRICTION_NONE) segment%tau = 0.0_wp
@@ -165,18 +179,27 @@ contains
          end associate
       end subroutine make_segment
 
-      !> The values of points at both ends of the segment; 0 at a node without a point.
-      function along(of_points) result(values)
+      !> The values of points at both ends of a segment, linear from node to node; 0 at a node without a point.
+      function along(segment, of_points) result(values)
+         type(segment_t), intent(in) :: segment
          real(wp), intent(in) :: of_points(:)
          real(wp) :: values(2)
-         real(wp) :: at_nodes(2)
+         real(wp) :: at_nodes(3)
          integer(ip) :: j
 
          at_nodes = 0.0_wp
-         do j = 1, 2
-            if (point(one%node(j)) > 0) at_nodes(j) = of_points(point(one%node(j)))
+         do j = 1, segment%n
+            if (point(segment%node(j)) > 0) at_nodes(j) = of_points(point(segment%node(j)))
          end do
-         values = (1 - one%on_slave)*at_nodes(1) + one%on_slave*at_nodes(2)
+         associate (s => segment%on_slave)
+            if (segment%n == 2) then
+               values = (1 - s)*at_nodes(1) + s*at_nodes(2)
+            else if (sum(s) < 1.0_wp) then
+               values = (1 - 2*s)*at_nodes(1) + 2*s*at_nodes(3)
+            else
+               values = (2 - 2*s)*at_nodes(3) + (2*s - 1)*at_nodes(2)
+            end if
+         end associate
       end function along
 
       subroutine add_segment(segment)
@@ -197,25 +220,33 @@ contains
    !> int T N_i ds on both sides: the forces of a segment's tractions on the nodes of the slave's face and of the master's.
    pure subroutine segment_forces(segment, on_slave, on_master)
       type(segment_t), intent(in) :: segment
-      real(wp), intent(out) :: on_slave(2, 2), on_master(2, 2)      !< (component, node) [F]
-      real(wp), parameter :: HALF = 0.28867513459481288225_wp
-      real(wp) :: t, force(2), place
+      real(wp), intent(out) :: on_slave(2, 3), on_master(2, 3)      !< (component, node) [F]
+      real(wp) :: t, force(2)
       integer :: k
 
       on_slave = 0.0_wp
       on_master = 0.0_wp
-      do k = 1, 2                                   ! two Gauss points: linear times linear
-         t = 0.5_wp + merge(-HALF, HALF, k == 1)
-         force = -0.5_wp*segment%length*segment%thickness*(between(segment%p, t)*segment%normal + &
-                                                           between(segment%t, t)*[-segment%normal(2), segment%normal(1)])
-         place = between(segment%on_slave, t)
-         on_slave(:, 1) = on_slave(:, 1) + (1 - place)*force
-         on_slave(:, 2) = on_slave(:, 2) + place*force
-         place = between(segment%on_master, t)
-         on_master(:, 1) = on_master(:, 1) - (1 - place)*force
-         on_master(:, 2) = on_master(:, 2) - place*force
+      do k = 1, 3
+         t = GAUSS_PLACES(k)
+         force = GAUSS_WEIGHTS(k)*segment%length*traction_at(segment, t)
+         associate (n => segment%n, m => segment%n_master)
+            on_slave(:, :n) = on_slave(:, :n) + spread(force, 2, n)* &
+                              spread(face_shape_values(n, 2*between(segment%on_slave, t) - 1), 1, 2)
+            if (m > 0) on_master(:, :m) = on_master(:, :m) - spread(force, 2, m)* &
+                                          spread(face_shape_values(m, 2*between(segment%on_master, t) - 1), 1, 2)
+         end associate
       end do
    end subroutine segment_forces
+
+   !> The traction on the slave times the thickness, -p n - t T [F/L].
+   pure function traction_at(segment, t) result(traction)
+      type(segment_t), intent(in) :: segment
+      real(wp), intent(in) :: t                     !< 0 to 1 along the segment
+      real(wp) :: traction(2)
+
+      traction = -segment%thickness*(between(segment%p, t)*segment%normal + &
+                                     between(segment%t, t)*[-segment%normal(2), segment%normal(1)])
+   end function traction_at
 
    pure real(wp) function between(values, t)
       real(wp), intent(in) :: values(2), t
@@ -223,98 +254,107 @@ contains
       between = (1 - t)*values(1) + t*values(2)
    end function between
 
-   !> u_n - s at both ends of a segment [L].
-   pure function overlap_at(segment, u) result(g)
+   !> u_n - s [L] at a place of a segment.
+   pure real(wp) function overlap_at(segment, u, t) result(g)
       type(segment_t), intent(in) :: segment
       real(wp), intent(in) :: u(:, :)               !< (2, n_nodes) [L]
-      real(wp) :: g(2)
+      real(wp), intent(in) :: t                     !< 0 to 1 along the segment
 
-      g = [dot_product(segment%normal, relative(segment, u, 1)), dot_product(segment%normal, relative(segment, u, 2))] - segment%gap
+      g = dot_product(segment%normal, relative(segment, u, t)) - between(segment%gap, t)
    end function overlap_at
 
-   !> The slip at both ends, from where there is no shear [L].
-   pure function slip_at(segment, u) result(r)
+   !> The slip, from where there is no shear [L].
+   pure real(wp) function slip_at(segment, u, t) result(r)
       type(segment_t), intent(in) :: segment
       real(wp), intent(in) :: u(:, :)
-      real(wp) :: r(2)
-      real(wp) :: along(2)
+      real(wp), intent(in) :: t
 
-      along = [-segment%normal(2), segment%normal(1)]
-      r = [dot_product(along, relative(segment, u, 1)), dot_product(along, relative(segment, u, 2))] - segment%rest
+      r = dot_product([-segment%normal(2), segment%normal(1)], relative(segment, u, t)) - between(segment%rest, t)
    end function slip_at
 
-   !> The displacement of the slave against the master at an end.
-   pure function relative(segment, u, k) result(d)
+   !> The displacement of the slave against the master.
+   pure function relative(segment, u, t) result(d)
       type(segment_t), intent(in) :: segment
       real(wp), intent(in) :: u(:, :)
-      integer, intent(in) :: k
+      real(wp), intent(in) :: t
       real(wp) :: d(2)
 
-      associate (s => segment%on_slave(k), m => segment%on_master(k))
-         d = (1 - s)*u(:, segment%node(1)) + s*u(:, segment%node(2))
-         if (segment%master(1) > 0) d = d - ((1 - m)*u(:, segment%master_node(1)) + m*u(:, segment%master_node(2)))
+      associate (n => segment%n, m => segment%n_master)
+         d = matmul(u(:, segment%node(:n)), face_shape_values(n, 2*between(segment%on_slave, t) - 1))
+         if (m > 0) d = d - matmul(u(:, segment%master_node(:m)), face_shape_values(m, 2*between(segment%on_master, t) - 1))
       end associate
    end function relative
 
    !> (2), twice, of one segment: the part of the normal law and that of friction [F L].
+   !>
+   !> Overlap and slip are polynomials of degree 2 at the most: the segment is cut at their zeros and where friction becomes full.
    subroutine law_gap(segment, u, normal, tangential)
       type(segment_t), intent(in) :: segment
       real(wp), intent(in) :: u(:, :)               !< (2, n_nodes) [L]
       real(wp), intent(out) :: normal, tangential
-      real(wp), parameter :: PLACE = 0.77459666924148337704_wp, WEIGHTS(3) = [5.0_wp, 8.0_wp, 5.0_wp]/18
-      real(wp) :: g(2), r(2), cuts(7), a, b, t, w, slip, full, tau, shear
+      real(wp) :: g(3), r(3), cuts(10), t, w, overlap, slip, full, tau, shear, p
       integer :: k, l, n
 
-      g = overlap_at(segment, u)
-      r = slip_at(segment, u)
+      g = [overlap_at(segment, u, 0.0_wp), overlap_at(segment, u, 0.5_wp), overlap_at(segment, u, 1.0_wp)]
+      r = [slip_at(segment, u, 0.0_wp), slip_at(segment, u, 0.5_wp), slip_at(segment, u, 1.0_wp)]
       n = 2
       cuts(:2) = [0.0_wp, 1.0_wp]
       call cut_at(g)
       call cut_at(r)
-      call cut_at(r - (segment%eps + segment%compliance*segment%tau))
-      call cut_at(r + (segment%eps + segment%compliance*segment%tau))
+      associate (limit => segment%eps + segment%compliance*[segment%tau(1), between(segment%tau, 0.5_wp), segment%tau(2)])
+         call cut_at(r - limit)
+         call cut_at(r + limit)
+      end associate
       call sort(cuts(:n))
       normal = 0.0_wp
       tangential = 0.0_wp
       do k = 1, n - 1
-         a = cuts(k)
-         b = cuts(k + 1)
          do l = 1, 3
-            t = 0.5_wp*(a + b) + 0.5_wp*(b - a)*PLACE*(l - 2)
-            w = 2*(b - a)*WEIGHTS(l)*segment%length*segment%thickness
-            associate (overlap => between(g, t), p => between(segment%p, t))
-               if (segment%delta > 0.0_wp) then
-                  normal = normal + w*(max(overlap, 0.0_wp) - segment%delta*p)**2/(2*segment%delta) + w*p*max(-overlap, 0.0_wp)
-               else
-                  normal = normal - w*p*overlap
-               end if
-            end associate
+            t = cuts(k) + (cuts(k + 1) - cuts(k))*GAUSS_PLACES(l)
+            w = 2*(cuts(k + 1) - cuts(k))*GAUSS_WEIGHTS(l)*segment%length*segment%thickness
+            overlap = value_at(g, t)
+            p = between(segment%p, t)
+            if (segment%delta > 0.0_wp) then
+               normal = normal + w*((max(overlap, 0.0_wp) - segment%delta*p)**2/(2*segment%delta) + p*max(-overlap, 0.0_wp))
+            else
+               normal = normal + w*p*max(-overlap, 0.0_wp)        ! beyond 0 it is round-off
+            end if
             tau = between(segment%tau, t)
             if (.not. tau > 0.0_wp) cycle
-            slip = between(r, t)
+            slip = value_at(r, t)
             shear = between(segment%t, t)
             full = segment%eps + segment%compliance*tau
-            if (full > 0.0_wp) then
-               if (abs(slip) <= full) then
-                  tangential = tangential + w*(slip - full*shear/tau)**2*tau/(2*full)
-               else
-                  tangential = tangential + w*(tau*(abs(slip) - 0.5_wp*full) + 0.5_wp*full*shear**2/tau - shear*slip)
-               end if
+            if (.not. full > 0.0_wp) then
+               tangential = tangential + w*max(tau*abs(slip) - shear*slip, 0.0_wp)
+            else if (abs(slip) <= full) then
+               tangential = tangential + w*(slip - full*shear/tau)**2*tau/(2*full)
             else
-               tangential = tangential + w*max(tau*abs(slip) - shear*slip, 0.0_wp)    ! below 0 it is round-off
+               tangential = tangential + w*max(tau*(abs(slip) - 0.5_wp*full) + 0.5_wp*full*shear**2/tau - shear*slip, 0.0_wp)
             end if
          end do
       end do
 
    contains
 
-      !> Adds the zero of a linear function.
+      !> Adds the zeros of a polynomial, values(2) in the middle: a t^2 + b t + c.
       subroutine cut_at(values)
-         real(wp), intent(in) :: values(2)
+         real(wp), intent(in) :: values(3)
+         real(wp) :: a, b, root, zeros(2)
+         integer :: i
 
-         if (.not. (values(1) < 0.0_wp .neqv. values(2) < 0.0_wp)) return
-         n = n + 1
-         cuts(n) = values(1)/(values(1) - values(2))
+         a = 2*values(1) - 4*values(2) + 2*values(3)
+         b = -3*values(1) + 4*values(2) - values(3)
+         root = b**2 - 4*a*values(1)
+         if (root < 0.0_wp .or. all(values == 0.0_wp)) return
+         root = -0.5_wp*(b + sign(sqrt(root), b))
+         zeros = -1.0_wp
+         if (abs(values(1)) < abs(root)) zeros(1) = values(1)/root
+         if (abs(root) < abs(a)) zeros(2) = root/a
+         do i = 1, 2
+            if (.not. (zeros(i) > 0.0_wp .and. zeros(i) < 1.0_wp)) cycle
+            n = n + 1
+            cuts(n) = zeros(i)
+         end do
       end subroutine cut_at
 
       pure subroutine sort(list)
@@ -334,6 +374,13 @@ contains
 
    end subroutine law_gap
 
+   !> A polynomial of degree 2 from its values at 0, 1/2 and 1.
+   pure real(wp) function value_at(values, t)
+      real(wp), intent(in) :: values(3), t
+
+      value_at = (1 - t)*(1 - 2*t)*values(1) + 4*t*(1 - t)*values(2) + t*(2*t - 1)*values(3)
+   end function value_at
+
    !> Moves nodes of slaves back along the normal, so that nowhere u_n - s is larger than delta p.
    !>
    !> why_not: a support that does not let a node move.
@@ -350,12 +397,12 @@ contains
       allocate (back(size(u, 2)), source=0.0_wp)
       none = ROUND_OFF*maxval(abs(u))
       do i = 1, size(segments, kind=ip)
-         beyond = maxval(overlap_at(segments(i), u) - segments(i)%delta*segments(i)%p)
-         if (beyond > none) back(segments(i)%node) = max(back(segments(i)%node), beyond)
+         beyond = largest_overlap(segments(i), u)
+         if (beyond > none) back(segments(i)%node(:segments(i)%n)) = max(back(segments(i)%node(:segments(i)%n)), beyond)
       end do
       if (all(back == 0.0_wp)) return
       do i = 1, size(segments, kind=ip)
-         do k = 1, 2
+         do k = 1, segments(i)%n
             associate (node => segments(i)%node(k))
                if (.not. back(node) > 0.0_wp) cycle
                if (any(held(:, node) .and. abs(segments(i)%normal) > SAME_DIRECTION)) then
@@ -368,5 +415,20 @@ contains
          end do
       end do
    end subroutine keep_apart
+
+   !> The largest of u_n - s - delta p on a segment [L].
+   pure real(wp) function largest_overlap(segment, u) result(most)
+      type(segment_t), intent(in) :: segment
+      real(wp), intent(in) :: u(:, :)
+      real(wp) :: v(3), bend, t
+
+      v = [overlap_at(segment, u, 0.0_wp), overlap_at(segment, u, 0.5_wp), overlap_at(segment, u, 1.0_wp)]
+      v = v - segment%delta*[segment%p(1), between(segment%p, 0.5_wp), segment%p(2)]
+      most = maxval(v)
+      bend = 4*(v(1) - 2*v(2) + v(3))
+      if (.not. bend < 0.0_wp) return
+      t = -(-3*v(1) + 4*v(2) - v(3))/bend
+      if (t > 0.0_wp .and. t < 1.0_wp) most = max(most, value_at(v, t))
+   end function largest_overlap
 
 end module atrito_contact_tractions

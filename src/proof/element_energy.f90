@@ -18,7 +18,7 @@ module atrito_element_energy
    use atrito_shape_functions, only: shape_gradients, shape_values
    implicit none (type, external)
    private
-   public :: element_energy_t, make_energy, energy_slope, energy_difference, stress_at, MOST_PLACES
+   public :: element_energy_t, make_energy, energy_slope, energy_difference, stress_at, volume_tractions, MOST_PLACES
 
    integer(ip), parameter :: MOST_PLACES = 12       !< of quadrature on a piece
    integer, parameter :: MOST_STEPS = 20            !< of Newton's method
@@ -53,18 +53,28 @@ module atrito_element_energy
 contains
 
    !> All that does not depend on displacements.
-   pure subroutine make_energy(fem, e, degree, energy)
+   pure subroutine make_energy(fem, e, degree, energy, part)
       type(fem_t), intent(in) :: fem
       integer(ip), intent(in) :: e
       integer(ip), intent(in) :: degree             !< k, of the stresses
       type(element_energy_t), intent(inout) :: energy
+      real(wp), intent(in), optional :: part(:, :)  !< (2, 3) of a triangle within the element, less its first node [L]
       real(wp) :: d_matrix(COMPONENTS, COMPONENTS), place(2), xi(2), thickness
       real(wp) :: lambda(3, MOST_PLACES), share(MOST_PLACES)
-      integer(ip) :: n, i, k, n_corners
+      real(wp) :: origin(2)
+      integer(ip) :: n, i, k, n_corners, n_sides
 
       call take_form(fem, e, energy%form_t)
       n_corners = SHAPES(energy%shape)%n_corners
-      call make_macro(energy%x(:, :n_corners), degree, energy%macro)
+      origin = 0.0_wp
+      n_sides = n_corners
+      if (present(part)) then
+         origin = part(:, 1)
+         n_sides = 3
+         call make_macro(part, degree, energy%macro)
+      else
+         call make_macro(energy%x(:, :n_corners), degree, energy%macro)
+      end if
       associate (section => fem%sections(energy%section))
          thickness = section%thickness
          d_matrix = elasticity_matrix(section, energy%state)*thickness
@@ -86,9 +96,9 @@ contains
       do k = 1, energy%n_places
          energy%bernstein(:, k) = piece_values(degree, lambda(:, k))
       end do
-      do i = 1, n_corners
+      do i = 1, n_sides
          do k = 1, energy%n_places
-            place = lambda(1, k)*energy%macro%corner(:, i) + lambda(2, k)*energy%macro%corner(:, 1 + mod(i, n_corners)) &
+            place = origin + lambda(1, k)*energy%macro%corner(:, i) + lambda(2, k)*energy%macro%corner(:, 1 + mod(i, n_sides)) &
                     + lambda(3, k)*energy%macro%centre
             energy%place(:, k, i) = place
             energy%weight(k, i) = share(k)*energy%macro%area(i)/thickness
@@ -187,6 +197,21 @@ contains
       if (size(heating) > 0) s = s + energy%heat*dot_product(heating, energy%value(:size(heating), k, i))
       s(:2) = s(:2) - b*energy%place(:, k, i)
    end function given_stress
+
+   !> Less what the stress of the forces per volume has along a side, the traction (-b_1 x_1 n_1, -b_2 x_2 n_2).
+   pure function volume_tractions(b, from, to, degree) result(traction)
+      real(wp), intent(in) :: b(2)                  !< thickness times force per volume [F/L^2]
+      real(wp), intent(in) :: from(2), to(2)        !< ends, counter-clockwise, less the element's first node [L]
+      integer(ip), intent(in) :: degree
+      real(wp) :: traction(2, 0:degree)
+      real(wp) :: n(2)
+      integer(ip) :: j
+
+      n = [to(2) - from(2), from(1) - to(1)]/norm2(to - from)
+      do j = 0, degree
+         traction(:, j) = b*(from + real(j, wp)/degree*(to - from))*n
+      end do
+   end function volume_tractions
 
    !> g and c of the outline alone, the bubbles where E is least; those need their own part of g.
    pure subroutine energy_slope(energy, u, heating, b, g, g_bubble, c)

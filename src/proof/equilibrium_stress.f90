@@ -5,7 +5,8 @@
 module atrito_equilibrium_stress
    use atrito_airy_stress, only: outline_of_tractions, MOST_OUTLINE, MOST_PIECES
    use atrito_assembly, only: fem_t, form_t, has_form, take_form
-   use atrito_element_energy, only: element_energy_t, energy_difference, energy_slope, make_energy
+   use atrito_cut_elements, only: side_cuts_t, cut_difference, is_cut
+   use atrito_element_energy, only: element_energy_t, energy_difference, energy_slope, make_energy, volume_tractions
    use atrito_element_table, only: CORNERS_OF
    use atrito_incidence, only: list_holders
    use atrito_kinds, only: ip, wp
@@ -22,7 +23,7 @@ module atrito_equilibrium_stress
 contains
 
    !> The squares of the distance, element by element, behind as many sweeps as are worth it.
-   subroutine sum_stresses(fem, sides, known, traction, body, u, degree, share)
+   subroutine sum_stresses(fem, sides, known, traction, body, u, degree, cuts, share)
       type(fem_t), intent(in) :: fem
       type(mesh_sides_t), intent(in) :: sides
       logical, intent(in) :: known(:, :)            !< (2, sides): what sweeps leave as it is
@@ -30,6 +31,7 @@ contains
       real(wp), intent(in) :: body(:, :)            !< (2, n_elements) thickness times force per volume [F/L^2]
       real(wp), intent(in) :: u(:, :)               !< (2, n_nodes) [L]
       integer(ip), intent(in) :: degree             !< k
+      type(side_cuts_t), intent(in) :: cuts         !< sides whose tractions are polynomials by parts
       real(wp), intent(out) :: share(:)             !< (n_elements) [F L]
       type(outlines_t) :: outlines
       integer(ip), allocatable :: first(:), member(:)
@@ -57,9 +59,9 @@ contains
       subroutine go_through(is_last)
          logical, intent(in) :: is_last
          type(element_energy_t) :: energy
-         real(wp) :: of_nodes(18), heating(9), closing(3), g(MOST_OUTLINE), g_bubble(MOST_PIECES), constant
-         real(wp) :: of_sides(2, 0:degree, 4), s_n(2)
-         integer(ip) :: c, i, e, n, m, k, n_heat, j
+         real(wp) :: of_nodes(18), heating(9), g(MOST_OUTLINE), g_bubble(MOST_PIECES), constant
+         real(wp) :: of_sides(2, 0:degree, 4)
+         integer(ip) :: c, i, e, n, m, k, n_heat
 
          n_heat = 0
          do c = 1, n_classes
@@ -78,7 +80,12 @@ contains
                   end if
                end associate
                if (is_last) then
-                  share(e) = energy_difference(energy, of_nodes(:2*n), heating(:n_heat), body(:, e), outlines%a(:m, e))
+                  if (is_cut(cuts, sides, e)) then
+                     share(e) = cut_difference(fem, sides, cuts, e, degree, of_nodes(:2*n), heating(:n_heat), body(:, e), &
+                                               outlines%a(:m, e))
+                  else
+                     share(e) = energy_difference(energy, of_nodes(:2*n), heating(:n_heat), body(:, e), outlines%a(:m, e))
+                  end if
                   cycle
                end if
                if (i == first(c)) outlines%h(:m, :m, c) = energy%outline(:m, :m)
@@ -89,16 +96,12 @@ contains
                      else
                         of_sides(:, :, k) = -traction(:, degree:0:-1, -side)
                      end if
-                     ! less what the stress of the forces per volume has there, (-b_1 x_1 n_1, -b_2 x_2 n_2)
-                     associate (from => at(:, k), to => at(:, 1 + mod(k, energy%macro%n)))
-                        s_n = [to(2) - from(2), from(1) - to(1)]/norm2(to - from)
-                        do j = 0, degree
-                           of_sides(:, j, k) = of_sides(:, j, k) + body(:, e)*(from + real(j, wp)/degree*(to - from))*s_n
-                        end do
-                     end associate
+                     of_sides(:, :, k) = of_sides(:, :, k) + volume_tractions(body(:, e), at(:, k), &
+                                                                              at(:, 1 + mod(k, energy%macro%n)), degree)
                   end associate
                end do
-               call outline_of_tractions(energy%macro, of_sides, outlines%a(:m, e), closing)
+               k = energy%macro%n
+               call outline_of_tractions(energy%macro%corner(:, :k), of_sides(:, :, :k), outlines%a(:m, e))
                call energy_slope(energy, of_nodes(:2*n), heating(:n_heat), body(:, e), g(:m), g_bubble, constant)
                outlines%slope(:m, e) = g(:m) + matmul(energy%outline(:m, :m), outlines%a(:m, e))
                left = left + dot_product(outlines%a(:m, e), outlines%slope(:m, e) + g(:m)) + constant

@@ -18,9 +18,10 @@
 module atrito_error_bound
    use atrito_assembly, only: cached_stiffness, fem_t, stiffness_cache_t
    use atrito_balanced_contact, only: add_segments, balance
+   use atrito_cut_elements, only: add_piece, link_pieces, side_cuts_t
    use atrito_condensed_body, only: condense_body, condensed_body_t, contact_response, expand_body
    use atrito_contact_solution, only: contact_solution_t
-   use atrito_contact_tractions, only: keep_apart, law_gap, list_segments, segment_forces, segment_t
+   use atrito_contact_tractions, only: keep_apart, law_gap, list_segments, segment_forces, segment_t, traction_at
    use atrito_displacements, only: contact_forces
    use atrito_element_energy, only: stress_at
    use atrito_element_table, only: CORNERS_OF, DEGREE_OF, SHAPES
@@ -32,7 +33,7 @@ module atrito_error_bound
    use atrito_problem, only: problem_t
    use atrito_proof_loads, only: proof_loads_t, take_loads
    use atrito_results, only: body_result_t, error_bound_t
-   use atrito_side_tractions, only: equilibrate_sides, side_length
+   use atrito_side_tractions, only: equilibrate_sides, side_length, traction_of
    use atrito_solver_choice, only: SOLVER_SPARSE
    use atrito_status, only: is_ok, status_t
    use atrito_thermal_loads, only: add_thermal_of, elastic_energy
@@ -57,6 +58,7 @@ contains
       real(wp), allocatable, intent(inout), optional :: by_element(:) !< (n_elements) eta^2 of each [F L]
       type(proof_loads_t) :: loads
       type(mesh_sides_t) :: sides
+      type(side_cuts_t) :: cuts
       type(segment_t), allocatable :: segments(:)
       real(wp), allocatable :: kept(:, :), balanced(:, :), force_of_u(:, :), traction(:, :, :), share(:), force(:, :, :)
       logical, allocatable :: known(:, :)
@@ -78,7 +80,7 @@ contains
       if (.not. allocated(why_not)) call keep_apart(segments, problem%held, kept, why_not)
       if (.not. allocated(why_not)) call balance(problem, segments, why_not)
       if (.not. allocated(why_not)) call solve_again(problem, solution, segments, u, balanced, why_not)
-      if (.not. allocated(why_not)) call take_contact(problem%fem, sides, segments, degree, loads, why_not)
+      if (.not. allocated(why_not)) call take_contact(problem%fem, sides, segments, degree, loads, cuts, why_not)
       if (allocated(why_not)) then
          bound%why_not = why_not
          return
@@ -89,7 +91,7 @@ contains
       call estimate_tractions(problem%fem, sides, balanced, known, traction)
       call equilibrate_sides(problem%fem%mesh, sides, force, known, traction, residual)
       allocate (share(problem%fem%mesh%n_elements))
-      call sum_stresses(problem%fem, sides, known, traction, loads%volume, kept, degree, share)
+      call sum_stresses(problem%fem, sides, known, traction, loads%volume, kept, degree, cuts, share)
       bound%normal = 0.0_wp
       bound%tangential = 0.0_wp
       do i = 1, n_segments
@@ -179,42 +181,46 @@ contains
       end do
    end subroutine solve_again
 
-   !> Puts the tractions of contact among the known ones: the linear ones with the same moments on sides that are cut.
-   subroutine take_contact(fem, sides, segments, degree, loads, why_not)
+   !> Puts the tractions of contact among the known ones: polynomials with the same moments on sides that are cut.
+   subroutine take_contact(fem, sides, segments, degree, loads, cuts, why_not)
       type(fem_t), intent(in) :: fem
       type(mesh_sides_t), intent(in) :: sides
       type(segment_t), intent(in) :: segments(:)
       integer(ip), intent(in) :: degree
       type(proof_loads_t), intent(inout) :: loads
+      type(side_cuts_t), intent(out) :: cuts
       character(len=:), allocatable, intent(inout) :: why_not
-      real(wp) :: on_slave(2, 2), on_master(2, 2)
-      integer(ip) :: i, j
+      real(wp) :: on_slave(2, 3), on_master(2, 3), ends(2, 2)
+      real(wp), allocatable :: applied(:, :, :)
+      integer(ip) :: i
 
+      applied = loads%traction
       do i = 1, size(segments, kind=ip)
-         if (any(abs(segments(i)%on_slave - [0, 1]) > 1.0e-9_wp) .or. &
-             (segments(i)%master(1) > 0 .and. any(abs(segments(i)%on_master - [1, 0]) > 1.0e-9_wp))) then
-            why_not = 'contact sides that do not match'
-            return
-         end if
          call segment_forces(segments(i), on_slave, on_master)
-         j = sides%of_element(segments(i)%slave(2), segments(i)%slave(1))
-         call put(j, on_slave)
+         ends(:, 1) = traction_at(segments(i), 0.0_wp)
+         ends(:, 2) = traction_at(segments(i), 1.0_wp)
+         call put(segments(i)%slave, segments(i)%on_slave, 1.0_wp, on_slave)
          if (segments(i)%master(1) == 0) cycle
-         j = sides%of_element(segments(i)%master(2), segments(i)%master(1))
-         call put(j, on_master)
+         associate (share => segments(i)%length/(abs(segments(i)%on_master(2) - segments(i)%on_master(1))* &
+                    side_length(fem%mesh, sides, sides%of_element(segments(i)%master(2), segments(i)%master(1)))))
+            call put(segments(i)%master, segments(i)%on_master, -share, on_master)
+         end associate
       end do
+      call link_pieces(sides%n, cuts)
 
    contains
 
-      subroutine put(side, moments)
-         integer(ip), intent(in) :: side
-         real(wp), intent(in) :: moments(2, 2)
-         real(wp) :: length
+      subroutine put(face, places, factor, moments)
+         integer(ip), intent(in) :: face(2)
+         real(wp), intent(in) :: places(2), factor, moments(2, 3)
+         integer(ip) :: side
 
+         side = sides%of_element(face(2), face(1))
          if (.not. all(loads%known(:, side))) why_not = 'contact along a support'
-         length = side_length(fem%mesh, sides, side)
-         loads%traction(:, 0, side) = loads%traction(:, 0, side) + 2/length*(2*moments(:, 1) - moments(:, 2))
-         loads%traction(:, 1, side) = loads%traction(:, 1, side) + 2/length*(2*moments(:, 2) - moments(:, 1))
+         if (any(applied(:, :, side) /= 0.0_wp)) why_not = 'a load along a contact side'
+         call add_piece(side, places, factor*ends, cuts)
+         loads%traction(:, :, side) = loads%traction(:, :, side) + &
+                                      traction_of(moments(:, :degree + 1), side_length(fem%mesh, sides, side), degree)
       end subroutine put
 
    end subroutine take_contact

@@ -19,7 +19,7 @@ module atrito_side_tractions
    use atrito_mesh_sides, only: mesh_sides_t, chain_t, find_chains
    implicit none (type, external)
    private
-   public :: equilibrate_sides, side_length, moments_of, MOST_CHAINS
+   public :: equilibrate_sides, side_length, traction_of, MOST_CHAINS
 
    integer(ip), parameter :: MOST_CHAINS = 8        !< through one node
 

@@ -17,7 +17,7 @@ module atrito_star_sweeps
    use atrito_side_tractions, only: MOST_CHAINS
    implicit none (type, external)
    private
-   public :: outlines_t, sweep_stars
+   public :: outlines_t, sweep_stars, solve_held
 
    !> Elements by their outlines: E = a'H a + 2 g'a + c of each, elements of one class with one H.
    type :: outlines_t
