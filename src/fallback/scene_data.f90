@@ -68,6 +68,7 @@ module atrito_scene_data
       logical :: is_assembled = .false.
       logical :: wants_element_errors = .false.             !< of what is printed
       logical :: wants_proof = .false.                      !< a bound of the error of what is printed
+      real(wp), allocatable :: exchanged(:, :)              !< (2, n_nodes) for it, while the bodies are factored [L]
       integer(ip) :: starts = 0                             !< of a search for other solutions
       logical :: is_printed = .true.                        !< what is solved for is printed: it is worth stresses and estimates
       ! Of a history:

@@ -6,14 +6,14 @@
 !> point and the numbers of the lines to the corners are where the energy is least. The tractions that all else was found with are
 !> the polynomials with the same moments, so that both make the same phi and gradient at the ends of the side.
 module atrito_cut_elements
-   use atrito_airy_stress, only: go_along, side_place, MOST_OUTLINE, MOST_PIECES
+   use atrito_airy_stress, only: go_along, side_place, MOST_OUTLINE
    use atrito_assembly, only: fem_t
-   use atrito_element_energy, only: element_energy_t, energy_difference, energy_slope, make_energy, volume_tractions
+   use atrito_element_energy, only: element_energy_t, energy_difference, make_energy, volume_tractions
    use atrito_element_table, only: CORNERS_OF
    use atrito_growth, only: make_room
    use atrito_kinds, only: ip, wp
    use atrito_mesh_sides, only: mesh_sides_t
-   use atrito_star_sweeps, only: solve_held
+   use atrito_star_sweeps, only: solve_least
    implicit none (type, external)
    private
    public :: side_cuts_t, add_piece, link_pieces, is_cut, cut_difference
@@ -105,43 +105,41 @@ contains
    !> The least energy by which stresses in equilibrium differ from those of the displacements [F L].
    !>
    !> difference < 0: the element has too many cuts.
-   function cut_difference(fem, sides, cuts, e, degree, u, heating, b, outline) result(difference)
+   function cut_difference(fem, sides, cuts, e, degree, x_given, outline) result(difference)
       type(fem_t), intent(in) :: fem
       type(mesh_sides_t), intent(in) :: sides
       type(side_cuts_t), intent(in) :: cuts
       integer(ip), intent(in) :: e, degree
-      real(wp), intent(in) :: u(:), heating(:), b(2) !< as of energy_difference
+      real(wp), intent(in) :: x_given(:)            !< as of energy_difference; its last two are forces per volume
       real(wp), intent(in) :: outline(:)            !< of the element, uncut
       real(wp) :: difference
       real(wp) :: corner(2, MOST_CORNERS), at_corner(3, MOST_CORNERS), of_side(3, MOST_CORNERS)
       real(wp), allocatable :: matrix(:, :), inner(:)
-      logical, allocatable :: is_held(:)
       type(element_energy_t) :: energy
-      real(wp) :: centre(2), a(MOST_OUTLINE), g(MOST_OUTLINE), g_bubble(MOST_PIECES), constant
+      real(wp) :: centre(2), a(MOST_OUTLINE), g(MOST_OUTLINE), b(2)
       integer(ip) :: n, i, per_side, place(18), m
       real(wp) :: sign_of(18)
 
       per_side = 2*degree - 1
+      b = x_given(size(x_given) - 1:)
       call take_outline()
       difference = -1.0_wp
       if (n > MOST_CORNERS) return
       centre = sum(corner(:, :n), dim=2)/n
       m = 3 + per_side*n
       allocate (matrix(m, m), inner(m), source=0.0_wp)
-      allocate (is_held(m), source=.false.)
       do i = 1, n
          call take_triangle(i)
-         call energy_slope(energy, u, heating, b, g(:energy%macro%n_outline), g_bubble, constant)
-         call add_triangle(energy%macro%n_outline)
+         g(:energy%n) = matmul(energy%g(:energy%n, :energy%n_given), x_given)
+         call add_triangle(energy%n)
       end do
-      call solve_held(m, is_held, matrix, inner)
+      call solve_least(m, matrix, inner)
       difference = 0.0_wp
       do i = 1, n
          call take_triangle(i)
          a(7:9) = inner(:3)
-         where (place(:energy%macro%n_outline) > 0) a(:energy%macro%n_outline) = &
-            sign_of(:energy%macro%n_outline)*inner(max(place(:energy%macro%n_outline), 1))
-         difference = difference + energy_difference(energy, u, heating, b, a(:energy%macro%n_outline))
+         where (place(:energy%n) > 0) a(:energy%n) = sign_of(:energy%n)*inner(max(place(:energy%n), 1))
+         difference = difference + energy_difference(energy, x_given, a(:energy%n))
       end do
 
    contains
@@ -241,10 +239,10 @@ contains
 
          do j = 1, m
             if (place(j) == 0) cycle
-            inner(place(j)) = inner(place(j)) - sign_of(j)*(g(j) + dot_product(energy%outline(:m, j), a(:m)))
+            inner(place(j)) = inner(place(j)) - sign_of(j)*(g(j) + dot_product(energy%h(:m, j), a(:m)))
             do k = 1, m
                if (place(k) == 0) cycle
-               matrix(place(k), place(j)) = matrix(place(k), place(j)) + sign_of(j)*sign_of(k)*energy%outline(k, j)
+               matrix(place(k), place(j)) = matrix(place(k), place(j)) + sign_of(j)*sign_of(k)*energy%h(k, j)
             end do
          end do
       end subroutine add_triangle

@@ -1,16 +1,18 @@
 !> The energy by which a stress in equilibrium differs from the stress of displacements, within one element,
 !>
-!>     E(a) = int (s(a) - s_h) : C^-1 (s(a) - s_h) dV,      s(a) = sum over its numbers a of macro_t + s_b,   s_h = C eps(u),
+!>     E = int (s - s_h) : C^-1 (s - s_h) dV,     s = s(a) + s_b,     s_h = C (eps(u) - alpha T),
 !>
-!> a quadratic function of the numbers a of its outline: E = a'H a + 2 g'a + c. s_b is a simple stress that carries the forces per
-!> volume, s_b,11 = -b_1 x_1, s_b,22 = -b_2 x_2. Stresses are taken times the thickness, forces per length, so that elements of
-!> several thicknesses may lie side by side.
+!> s(a) the sum over the numbers of its outline (macro_t) and s_b a simple stress that carries the forces per volume, s_b,11 = -b_1
+!> x_1, s_b,22 = -b_2 x_2. Stresses are taken times the thickness, forces per length, so that elements of several thicknesses may
+!> lie side by side. By quadrature E is a sum of squares,
 !>
-!> The bubbles of stresses of degree 2 are where E is least for the given outline: -H_bb^-1 (H_bo a_o + g_b), which leaves a
-!> quadratic function of the outline alone.
+!>     E = |R_a a + R_x x|^2,     x = (u, T, b):     slope/2 = H a + G x,    H = R_a' R_a,  G = R_a' R_x,
+!>
+!> the rows being the differences at the points times the roots of their weights and of C^-1 (L' of C^-1 = L L'). Taken as a sum of
+!> squares it loses no digits where both stresses nearly agree. The bubbles of stresses of degree 2 are where E is least: all other
+!> columns are made orthogonal to theirs, and the bubbles are gone.
 module atrito_element_energy
-   use atrito_airy_stress, only: macro_t, make_macro, piece_values, EXPONENTS, MOST_COEFFICIENTS, MOST_OUTLINE, MOST_PIECES, &
-                                 MOST_UNKNOWNS
+   use atrito_airy_stress, only: macro_t, make_macro, piece_values, MOST_COEFFICIENTS, MOST_OUTLINE, MOST_PIECES, MOST_UNKNOWNS
    use atrito_assembly, only: fem_t, form_t, take_form
    use atrito_element_table, only: DEGREE_OF, MOST_NODES, SHAPES
    use atrito_kinds, only: ip, wp
@@ -18,25 +20,22 @@ module atrito_element_energy
    use atrito_shape_functions, only: shape_gradients, shape_values
    implicit none (type, external)
    private
-   public :: element_energy_t, make_energy, energy_slope, energy_difference, stress_at, volume_tractions, MOST_PLACES
+   public :: element_energy_t, make_energy, given_rows, energy_difference, volume_tractions, corner_stresses, MOST_GIVEN
 
    integer(ip), parameter :: MOST_PLACES = 12       !< of quadrature on a piece
+   integer(ip), parameter :: MOST_ROWS = COMPONENTS*MOST_PLACES*MOST_PIECES
+   !> Displacements and temperatures of the nodes, force per volume.
+   integer(ip), parameter :: MOST_GIVEN = 3*MOST_NODES + 2
    integer, parameter :: MOST_STEPS = 20            !< of Newton's method
 
    type, extends(form_t) :: element_energy_t
       type(macro_t) :: macro
-      integer(ip) :: n_places = 0
-      real(wp) :: bernstein(MOST_COEFFICIENTS, MOST_PLACES) = 0.0_wp
-      real(wp) :: weight(MOST_PLACES, MOST_PIECES) = 0.0_wp       !< area over thickness [L]
-      real(wp) :: place(2, MOST_PLACES, MOST_PIECES) = 0.0_wp     !< less the first node [L]
-      real(wp) :: value(MOST_NODES, MOST_PLACES, MOST_PIECES) = 0.0_wp       !< shape functions
-      real(wp) :: field(COMPONENTS, 2*MOST_NODES, MOST_PLACES, MOST_PIECES) = 0.0_wp  !< thickness C B [F/L^2]
-      real(wp) :: heat(COMPONENTS) = 0.0_wp         !< thickness times the stress of one degree [F/L]
-      real(wp) :: compliance(COMPONENTS, COMPONENTS) = 0.0_wp     !< [L^2/F]
-      real(wp) :: h(MOST_UNKNOWNS, MOST_UNKNOWNS) = 0.0_wp
-      real(wp) :: bubble(MOST_PIECES, MOST_OUTLINE) = 0.0_wp      !< -H_bb^-1 H_bo
-      real(wp) :: inverse(MOST_PIECES, MOST_PIECES) = 0.0_wp      !< H_bb^-1
-      real(wp) :: outline(MOST_OUTLINE, MOST_OUTLINE) = 0.0_wp    !< H of the outline, bubbles where E is least
+      integer(ip) :: n = 0                          !< numbers of the outline
+      integer(ip) :: n_rows = 0, n_given = 0        !< n_given: of x; 2 n_nodes displacements, n_nodes temperatures if any, 2 forces
+      real(wp) :: of_outline(MOST_ROWS, MOST_OUTLINE)         !< R_a
+      real(wp) :: of_given(MOST_ROWS, MOST_GIVEN)             !< R_x
+      real(wp) :: h(MOST_OUTLINE, MOST_OUTLINE)               !< H
+      real(wp) :: g(MOST_OUTLINE, MOST_GIVEN)                 !< G
    end type element_energy_t
 
    !> Points on a triangle by barycentric coordinates, exact to degree 2 and to degree 6 (Dunavant).
@@ -52,151 +51,165 @@ module atrito_element_energy
 
 contains
 
-   !> All that does not depend on displacements.
-   pure subroutine make_energy(fem, e, degree, energy, part)
+   !> All that does not depend on displacements: of an element, or of a triangle within one.
+   subroutine make_energy(fem, e, degree, energy, part)
       type(fem_t), intent(in) :: fem
       integer(ip), intent(in) :: e
       integer(ip), intent(in) :: degree             !< k, of the stresses
       type(element_energy_t), intent(inout) :: energy
       real(wp), intent(in), optional :: part(:, :)  !< (2, 3) of a triangle within the element, less its first node [L]
-      real(wp) :: d_matrix(COMPONENTS, COMPONENTS), place(2), xi(2), thickness
-      real(wp) :: lambda(3, MOST_PLACES), share(MOST_PLACES)
-      real(wp) :: origin(2)
-      integer(ip) :: n, i, k, n_corners, n_sides
+      real(wp) :: bubbles(MOST_ROWS, MOST_PIECES), heat(COMPONENTS + 1), elasticity(COMPONENTS, COMPONENTS)
+      real(wp) :: root(COMPONENTS, COMPONENTS), origin(2), place(2), values(MOST_COEFFICIENTS), thickness
+      integer(ip) :: n_nodes, i, k, row, n_bubbles
+      logical :: is_simple
 
       call take_form(fem, e, energy%form_t)
-      n_corners = SHAPES(energy%shape)%n_corners
-      origin = 0.0_wp
-      n_sides = n_corners
+      n_nodes = energy%shape
       if (present(part)) then
          origin = part(:, 1)
-         n_sides = 3
          call make_macro(part, degree, energy%macro)
       else
-         call make_macro(energy%x(:, :n_corners), degree, energy%macro)
+         origin = 0.0_wp
+         call make_macro(energy%x(:, :SHAPES(n_nodes)%n_corners), degree, energy%macro)
       end if
-      associate (section => fem%sections(energy%section))
+      associate (section => fem%sections(energy%section), macro => energy%macro)
          thickness = section%thickness
-         d_matrix = elasticity_matrix(section, energy%state)*thickness
-         energy%compliance = compliance_matrix(section, energy%state)
-         associate (stress => thermal_stresses(section, energy%state))
-            energy%heat = thickness*section%expansion*stress(:COMPONENTS)
-         end associate
-      end associate
-      n = energy%shape
-      if (DEGREE_OF(n) == 1 .and. degree == 1 .and. is_affine(energy%x(:, :n_corners))) then
-         energy%n_places = 3
-         lambda(:, :3) = FEW
-         share(:3) = 1.0_wp/3
-      else
-         energy%n_places = 12
-         lambda = MANY
-         share = WEIGHTS
-      end if
-      do k = 1, energy%n_places
-         energy%bernstein(:, k) = piece_values(degree, lambda(:, k))
-      end do
-      do i = 1, n_sides
-         do k = 1, energy%n_places
-            place = origin + lambda(1, k)*energy%macro%corner(:, i) + lambda(2, k)*energy%macro%corner(:, 1 + mod(i, n_sides)) &
-                    + lambda(3, k)*energy%macro%centre
-            energy%place(:, k, i) = place
-            energy%weight(k, i) = share(k)*energy%macro%area(i)/thickness
-            xi = natural_place(n, energy%x(:, :n), place)
-            call take_field(n, energy%x(:, :n), xi, d_matrix, energy%field(:, :2*n, k, i), energy%value(:n, k, i))
-         end do
-      end do
-      call sum_energy(energy)
-   end subroutine make_energy
-
-   !> H, and what is left of it without the bubbles.
-   pure subroutine sum_energy(energy)
-      type(element_energy_t), intent(inout) :: energy
-      real(wp) :: mass(MOST_COEFFICIENTS, MOST_COEFFICIENTS), sc(COMPONENTS, MOST_COEFFICIENTS)
-      integer(ip) :: i, j, k, l, n, nc
-
-      associate (macro => energy%macro)
-         n = macro%n_unknowns
-         nc = macro%n_coefficients
-         energy%h(:n, :n) = 0.0_wp
-         mass(:nc, :nc) = mass_of(macro%degree)
+         elasticity = thickness*elasticity_matrix(section, energy%state)
+         root = root_of(compliance_matrix(section, energy%state)/thickness)
+         heat = thickness*section%expansion*thermal_stresses(section, energy%state)
+         energy%n = macro%n_outline
+         n_bubbles = macro%n_unknowns - macro%n_outline
+         energy%n_given = 2*n_nodes + 2
+         if (allocated(fem%heating)) energy%n_given = energy%n_given + n_nodes
+         is_simple = DEGREE_OF(n_nodes) == 1 .and. degree == 1 .and. is_affine(energy%x(:, :SHAPES(n_nodes)%n_corners))
+         row = 0
          do i = 1, macro%n
-            do l = 1, n
-               sc(:, :nc) = matmul(energy%compliance, matmul(macro%stress(:, :nc, i, l), mass(:nc, :nc)))
-               sc(:, :nc) = sc(:, :nc)*sum(energy%weight(:energy%n_places, i))
-               do k = 1, l
-                  energy%h(k, l) = energy%h(k, l) + sum(macro%stress(:, :nc, i, k)*sc(:, :nc))
-               end do
+            do k = 1, merge(size(FEW, 2), size(MANY, 2), is_simple)
+               if (is_simple) then
+                  call add_place(FEW(:, k), 1.0_wp/size(FEW, 2))
+               else
+                  call add_place(MANY(:, k), WEIGHTS(k))
+               end if
             end do
          end do
-         do l = 1, n
-            energy%h(l, :l) = energy%h(:l, l)
-         end do
-         k = macro%n_outline
-         energy%outline(:k, :k) = energy%h(:k, :k)
-         if (n == k) return
-         j = n - k
-         energy%inverse = 0.0_wp
-         do i = 1, j
-            energy%inverse(i, i) = 1.0_wp
-         end do
-         call invert_small(energy%h(k + 1:n, k + 1:n), energy%inverse(:j, :j))
-         energy%bubble(:j, :k) = -matmul(energy%inverse(:j, :j), energy%h(k + 1:n, :k))
-         energy%outline(:k, :k) = energy%outline(:k, :k) + matmul(energy%h(:k, k + 1:n), energy%bubble(:j, :k))
       end associate
-   end subroutine sum_energy
+      energy%n_rows = row
+      if (n_bubbles > 0) call leave_bubbles(energy, bubbles(:row, :n_bubbles))
+      associate (n => energy%n, m => energy%n_given, of_outline => energy%of_outline(:row, :energy%n))
+         energy%h(:n, :n) = matmul(transpose(of_outline), of_outline)
+         energy%g(:n, :m) = matmul(transpose(of_outline), energy%of_given(:row, :m))
+      end associate
 
-   !> Inverse of a small positive definite matrix, by Gauss and Jordan.
-   pure subroutine invert_small(matrix, inverse)
-      real(wp), intent(in) :: matrix(:, :)
-      real(wp), intent(inout) :: inverse(:, :)      !< in: the unit matrix
-      real(wp) :: m(size(matrix, 1), size(matrix, 1)), factor
-      integer(ip) :: i, j
+   contains
 
-      m = matrix
-      do i = 1, size(m, 1, kind=ip)
-         factor = 1/m(i, i)
-         m(i, :) = m(i, :)*factor
-         inverse(i, :) = inverse(i, :)*factor
-         do j = 1, size(m, 1, kind=ip)
-            if (j == i) cycle
-            factor = m(j, i)
-            m(j, :) = m(j, :) - factor*m(i, :)
-            inverse(j, :) = inverse(j, :) - factor*inverse(i, :)
-         end do
-      end do
-   end subroutine invert_small
+      !> The rows of a point of piece i.
+      subroutine add_place(lambda, share)
+         real(wp), intent(in) :: lambda(3), share
+         real(wp) :: field(COMPONENTS, 2*MOST_NODES), value(MOST_NODES), of_row(COMPONENTS, COMPONENTS)
+         integer(ip) :: j, l
 
-   !> int B_a B_b over a triangle, over its area: 2 k!^2 (a+b)!/(a! b! (2k+2)!).
-   pure function mass_of(degree) result(mass)
-      integer(ip), intent(in) :: degree
-      real(wp) :: mass(merge(3, 6, degree == 1), merge(3, 6, degree == 1))
-      real(wp), parameter :: FACTORIAL(0:6) = [real(wp) :: 1, 1, 2, 6, 24, 120, 720]
-      integer(ip) :: i, j
-
-      do i = 1, size(mass, 1, kind=ip)
-         do j = 1, size(mass, 1, kind=ip)
-            associate (x => EXPONENTS(:, i, degree), y => EXPONENTS(:, j, degree))
-               mass(i, j) = 2*FACTORIAL(degree)**2*product(FACTORIAL(x + y))/ &
-                            (product(FACTORIAL(x))*product(FACTORIAL(y))*FACTORIAL(2*degree + 2))
+         associate (macro => energy%macro)
+            place = origin + lambda(1)*macro%corner(:, i) + lambda(2)*macro%corner(:, 1 + mod(i, macro%n)) + lambda(3)*macro%centre
+            values = piece_values(degree, lambda)
+            of_row = root*sqrt(share*macro%area(i))
+            associate (x => energy%x(:, :n_nodes))
+               call take_field(n_nodes, x, natural_place(n_nodes, x, place), elasticity, field, value)
             end associate
-         end do
+            do j = 1, macro%n_unknowns
+               associate (s => matmul(of_row, matmul(macro%stress(:, :macro%n_coefficients, i, j), values(:macro%n_coefficients))))
+                  if (j <= energy%n) energy%of_outline(row + 1:row + 3, j) = s
+                  if (j > energy%n) bubbles(row + 1:row + 3, j - energy%n) = s
+               end associate
+            end do
+         end associate
+         energy%of_given(row + 1:row + 3, :2*n_nodes) = -matmul(of_row, field(:, :2*n_nodes))
+         l = 2*n_nodes
+         if (allocated(fem%heating)) then
+            do j = 1, n_nodes
+               energy%of_given(row + 1:row + 3, l + j) = matmul(of_row, heat(:COMPONENTS))*value(j)
+            end do
+            l = l + n_nodes
+         end if
+         energy%of_given(row + 1:row + 3, l + 1) = -of_row(:, 1)*place(1)
+         energy%of_given(row + 1:row + 3, l + 2) = -of_row(:, 2)*place(2)
+         row = row + COMPONENTS
+      end subroutine add_place
+
+   end subroutine make_energy
+
+   !> Makes all columns orthogonal to those of the bubbles (Gram and Schmidt, twice).
+   pure subroutine leave_bubbles(energy, bubbles)
+      type(element_energy_t), intent(inout) :: energy
+      real(wp), intent(inout) :: bubbles(:, :)
+      integer(ip) :: i, j, pass
+
+      do i = 1, size(bubbles, 2, kind=ip)
+         associate (bubble => bubbles(:, i), n => size(bubbles, 1))
+            do pass = 1, 2
+               do j = 1, i - 1
+                  bubble = bubble - dot_product(bubbles(:, j), bubble)*bubbles(:, j)
+               end do
+            end do
+            bubble = bubble/norm2(bubble)
+            do pass = 1, 2
+               do j = 1, energy%n
+                  associate (column => energy%of_outline(:n, j))
+                     column = column - dot_product(bubble, column)*bubble
+                  end associate
+               end do
+               do j = 1, energy%n_given
+                  associate (column => energy%of_given(:n, j))
+                     column = column - dot_product(bubble, column)*bubble
+                  end associate
+               end do
+            end do
+         end associate
       end do
-   end function mass_of
+   end subroutine leave_bubbles
 
-   !> The stress of displacements and of forces per volume at a point of a piece, s_b - s_h [F/L].
-   pure function given_stress(energy, u, heating, b, k, i) result(s)
+   !> L' of a positive definite matrix L L'.
+   pure function root_of(matrix) result(root)
+      real(wp), intent(in) :: matrix(COMPONENTS, COMPONENTS)
+      real(wp) :: root(COMPONENTS, COMPONENTS)
+      integer(ip) :: i, j
+
+      root = 0.0_wp
+      do i = 1, COMPONENTS
+         do j = 1, i - 1
+            root(j, i) = (matrix(j, i) - dot_product(root(:j - 1, j), root(:j - 1, i)))/root(j, j)
+         end do
+         root(i, i) = sqrt(matrix(i, i) - sum(root(:i - 1, i)**2))
+      end do
+   end function root_of
+
+   !> R_x x: the rows without the outline.
+   pure subroutine given_rows(energy, x, rows)
       type(element_energy_t), intent(in) :: energy
-      real(wp), intent(in) :: u(:)                  !< of its nodes, less those of the first one [L]
-      real(wp), intent(in) :: heating(:)            !< of its nodes; size 0: none
-      real(wp), intent(in) :: b(2)                  !< thickness times force per volume [F/L^2]
-      integer(ip), intent(in) :: k, i               !< point, piece
-      real(wp) :: s(COMPONENTS)
+      real(wp), intent(in) :: x(:)                  !< (n_given) displacements less those of the first node [L], temperatures,
+      !< thickness times force per volume [F/L^2]
+      real(wp), intent(out) :: rows(:)              !< (n_rows) [(F L)^(1/2)]
+      integer(ip) :: j
 
-      s = -matmul(energy%field(:, :size(u), k, i), u)
-      if (size(heating) > 0) s = s + energy%heat*dot_product(heating, energy%value(:size(heating), k, i))
-      s(:2) = s(:2) - b*energy%place(:, k, i)
-   end function given_stress
+      rows = 0.0_wp
+      do j = 1, energy%n_given
+         rows = rows + energy%of_given(:energy%n_rows, j)*x(j)
+      end do
+   end subroutine given_rows
+
+   !> E of an outline [F L].
+   pure real(wp) function energy_difference(energy, x, outline) result(difference)
+      type(element_energy_t), intent(in) :: energy
+      real(wp), intent(in) :: x(:)                  !< (n_given)
+      real(wp), intent(in) :: outline(:)            !< (n)
+      real(wp) :: rows(energy%n_rows)
+      integer(ip) :: j
+
+      call given_rows(energy, x, rows)
+      do j = 1, energy%n
+         rows = rows + energy%of_outline(:energy%n_rows, j)*outline(j)
+      end do
+      difference = dot_product(rows, rows)
+   end function energy_difference
 
    !> Less what the stress of the forces per volume has along a side, the traction (-b_1 x_1 n_1, -b_2 x_2 n_2).
    pure function volume_tractions(b, from, to, degree) result(traction)
@@ -213,121 +226,48 @@ contains
       end do
    end function volume_tractions
 
-   !> g and c of the outline alone, the bubbles where E is least; those need their own part of g.
-   pure subroutine energy_slope(energy, u, heating, b, g, g_bubble, c)
-      type(element_energy_t), intent(in) :: energy
-      real(wp), intent(in) :: u(:), heating(:), b(2) !< as given_stress
-      real(wp), intent(out) :: g(:)                 !< (n_outline)
-      real(wp), intent(out) :: g_bubble(MOST_PIECES)
-      real(wp), intent(out) :: c                    !< the rest [F L]
-      real(wp) :: t(COMPONENTS, MOST_COEFFICIENTS), s(COMPONENTS), given(COMPONENTS), all_g(MOST_UNKNOWNS)
-      integer(ip) :: i, k, l, nc
-
-      all_g = 0.0_wp
-      c = 0.0_wp
-      associate (macro => energy%macro)
-         nc = macro%n_coefficients
-         do i = 1, macro%n
-            t = 0.0_wp
-            do k = 1, energy%n_places
-               given = given_stress(energy, u, heating, b, k, i)
-               s = energy%weight(k, i)*matmul(energy%compliance, given)
-               c = c + dot_product(given, s)
-               do l = 1, nc
-                  t(:, l) = t(:, l) + energy%bernstein(l, k)*s
-               end do
-            end do
-            do l = 1, macro%n_unknowns
-               all_g(l) = all_g(l) + sum(macro%stress(:, :nc, i, l)*t(:, :nc))
-            end do
-         end do
-         k = macro%n_outline
-         g = all_g(:k)
-         g_bubble = 0.0_wp
-         l = macro%n_unknowns - k
-         if (l == 0) return
-         g_bubble(:l) = all_g(k + 1:macro%n_unknowns)
-         g = g + matmul(transpose(energy%bubble(:l, :k)), g_bubble(:l))
-         c = c - dot_product(g_bubble(:l), matmul(energy%inverse(:l, :l), g_bubble(:l)))
-      end associate
-   end subroutine energy_slope
-
-   !> E of an outline, by its stresses point by point: no digits are lost where the stresses nearly agree [F L].
-   pure real(wp) function energy_difference(energy, u, heating, b, outline) result(difference)
-      type(element_energy_t), intent(in) :: energy
-      real(wp), intent(in) :: u(:), heating(:), b(2) !< as given_stress
-      real(wp), intent(in) :: outline(:)            !< (n_outline) [F]
-      real(wp) :: coefficient(COMPONENTS, MOST_COEFFICIENTS), s(COMPONENTS)
-      real(wp) :: g(MOST_OUTLINE), g_bubble(MOST_PIECES), c, all_a(MOST_UNKNOWNS)
-      integer(ip) :: i, k, l, n, nc
-
-      associate (macro => energy%macro)
-         n = macro%n_outline
-         nc = macro%n_coefficients
-         all_a(:n) = outline
-         l = macro%n_unknowns - n
-         if (l > 0) then
-            call energy_slope(energy, u, heating, b, g(:n), g_bubble, c)
-            all_a(n + 1:n + l) = matmul(energy%bubble(:l, :n), outline) - matmul(energy%inverse(:l, :l), g_bubble(:l))
-         end if
-         difference = 0.0_wp
-         do i = 1, macro%n
-            coefficient = 0.0_wp
-            do k = 1, macro%n_unknowns
-               coefficient(:, :nc) = coefficient(:, :nc) + all_a(k)*macro%stress(:, :nc, i, k)
-            end do
-            do k = 1, energy%n_places
-               s = given_stress(energy, u, heating, b, k, i) + matmul(coefficient(:, :nc), energy%bernstein(:nc, k))
-               difference = difference + energy%weight(k, i)*dot_product(s, matmul(energy%compliance, s))
-            end do
-         end do
-      end associate
-   end function energy_difference
-
-   !> thickness C eps(u) at a place of an element, temperatures included [F/L].
-   pure function stress_at(fem, e, u, xi) result(s)
+   !> The stresses of displacements at the corners of an element, times the thickness: rows s11, s22, s12 corner by corner, columns
+   !> as x without forces per volume.
+   pure function corner_stresses(fem, form) result(field)
       type(fem_t), intent(in) :: fem
-      integer(ip), intent(in) :: e
-      real(wp), intent(in) :: u(:, :)               !< (2, n_nodes) [L]
-      real(wp), intent(in) :: xi(2)
-      real(wp) :: s(COMPONENTS)
-      real(wp) :: field(COMPONENTS, 2*MOST_NODES), value(MOST_NODES)
-      type(form_t) :: form
-      integer(ip) :: k, n
+      type(form_t), intent(in) :: form
+      real(wp) :: field(COMPONENTS*MOST_PIECES, MOST_GIVEN)
+      real(wp) :: of_u(COMPONENTS, 2*MOST_NODES), value(MOST_NODES), heat(COMPONENTS + 1)
+      integer(ip) :: i, j, n
 
-      call take_form(fem, e, form)
       n = form%shape
-      associate (section => fem%sections(form%section), nodes => fem%mesh%nodes(:n, e))
-         call take_field(n, form%x(:, :n), xi, elasticity_matrix(section, form%state)*section%thickness, field(:, :2*n), value(:n))
-         s = 0.0_wp
-         do k = 2, n
-            s = s + matmul(field(:, 2*k - 1:2*k), u(:, nodes(k)) - u(:, nodes(1)))
+      field = 0.0_wp
+      associate (section => fem%sections(form%section))
+         heat = section%thickness*section%expansion*thermal_stresses(section, form%state)
+         do i = 1, SHAPES(n)%n_corners
+            call take_field(n, form%x(:, :n), SHAPES(n)%place(:, i), &
+                            section%thickness*elasticity_matrix(section, form%state), of_u, value)
+            field(3*i - 2:3*i, :2*n) = of_u(:, :2*n)
+            do j = 1, n
+               field(3*i - 2:3*i, 2*n + j) = -heat(:COMPONENTS)*value(j)
+            end do
          end do
-         if (.not. allocated(fem%heating)) return
-         associate (heat => thermal_stresses(section, form%state))
-            s = s - section%thickness*section%expansion*heat(:COMPONENTS)*dot_product(fem%heating(nodes), value(:n))
-         end associate
       end associate
-   end function stress_at
+   end function corner_stresses
 
    !> The stresses that displacements of the nodes make at a place, and the shape functions there.
-   pure subroutine take_field(n, x, xi, d_matrix, field, value)
+   pure subroutine take_field(n, x, xi, elasticity, field, value)
       integer(ip), intent(in) :: n
-      real(wp), intent(in) :: x(:, :), xi(2), d_matrix(COMPONENTS, COMPONENTS)
+      real(wp), intent(in) :: x(:, :), xi(2), elasticity(COMPONENTS, COMPONENTS)
       real(wp), intent(out) :: field(:, :)          !< (COMPONENTS, 2n)
       real(wp), intent(out) :: value(:)
       real(wp) :: dn(n, 2), j(2, 2), g(n, 2), det
       integer(ip) :: k
 
-      value = shape_values(n, xi)
+      value(:n) = shape_values(n, xi)
       dn = shape_gradients(n, xi)
       j = matmul(x, dn)                             ! dx/dxi
       det = j(1, 1)*j(2, 2) - j(1, 2)*j(2, 1)
       g(:, 1) = (dn(:, 1)*j(2, 2) - dn(:, 2)*j(2, 1))/det
       g(:, 2) = (dn(:, 2)*j(1, 1) - dn(:, 1)*j(1, 2))/det
       do k = 1, n
-         field(:, 2*k - 1) = d_matrix(:, 1)*g(k, 1) + d_matrix(:, 3)*g(k, 2)
-         field(:, 2*k) = d_matrix(:, 2)*g(k, 2) + d_matrix(:, 3)*g(k, 1)
+         field(:, 2*k - 1) = elasticity(:, 1)*g(k, 1) + elasticity(:, 3)*g(k, 2)
+         field(:, 2*k) = elasticity(:, 2)*g(k, 2) + elasticity(:, 3)*g(k, 1)
       end do
    end subroutine take_field
 

@@ -17,25 +17,23 @@
 !> 6. The sum (1), the stresses' part point by point in all elements (atrito_element_energy), the law's exactly (law_gap).
 module atrito_error_bound
    use atrito_assembly, only: cached_stiffness, fem_t, stiffness_cache_t
-   use atrito_balanced_contact, only: add_segments, balance
+   use atrito_balanced_contact, only: balance
    use atrito_cut_elements, only: add_piece, link_pieces, side_cuts_t
-   use atrito_condensed_body, only: condense_body, condensed_body_t, contact_response, expand_body
    use atrito_contact_solution, only: contact_solution_t
    use atrito_contact_tractions, only: keep_apart, law_gap, list_segments, segment_forces, segment_t, traction_at
-   use atrito_displacements, only: contact_forces
-   use atrito_element_energy, only: stress_at
-   use atrito_element_table, only: CORNERS_OF, DEGREE_OF, SHAPES
+   use atrito_element_classes, only: element_classes_t, find_classes, given_of
+   use atrito_element_energy, only: corner_stresses, MOST_GIVEN
+   use atrito_element_table, only: CORNERS_OF, DEGREE_OF, MOST_NODES
    use atrito_equilibrium_stress, only: sum_stresses
+   use atrito_exchanged_tractions, only: exchange
    use atrito_internal_forces, only: internal_forces
    use atrito_kinds, only: ip, wp
-   use atrito_mesh_sides, only: list_sides, mesh_sides_t
+   use atrito_mesh_sides, only: chains_t, list_chains, list_sides, mesh_sides_t
    use atrito_model, only: model_t, step_t
    use atrito_problem, only: problem_t
    use atrito_proof_loads, only: proof_loads_t, take_loads
-   use atrito_results, only: body_result_t, error_bound_t
+   use atrito_results, only: error_bound_t
    use atrito_side_tractions, only: equilibrate_sides, side_length, traction_of
-   use atrito_solver_choice, only: SOLVER_SPARSE
-   use atrito_status, only: is_ok, status_t
    use atrito_thermal_loads, only: add_thermal_of, elastic_energy
    implicit none (type, external)
    private
@@ -47,20 +45,23 @@ module atrito_error_bound
 contains
 
    !> The bound of a converged solution; bound%why_not tells what is missing.
-   subroutine bound_error(model, acting, problem, solution, u, reaction, bound, by_element)
+   subroutine bound_error(model, acting, problem, solution, u, reaction, exchanged, bound, by_element)
       type(model_t), intent(in) :: model
       type(step_t), intent(in) :: acting            !< with the loads of the time
       class(problem_t), intent(in) :: problem
       type(contact_solution_t), intent(in) :: solution
       real(wp), intent(in) :: u(:, :)               !< (2, n_nodes) [L]
       real(wp), intent(in) :: reaction(:, :)        !< (2, n_nodes) [F]
+      real(wp), allocatable, intent(inout) :: exchanged(:, :) !< what exchange_tractions found; not allocated: it is asked now
       type(error_bound_t), intent(out) :: bound
       real(wp), allocatable, intent(inout), optional :: by_element(:) !< (n_elements) eta^2 of each [F L]
       type(proof_loads_t) :: loads
       type(mesh_sides_t) :: sides
       type(side_cuts_t) :: cuts
+      type(chains_t) :: chains
+      type(element_classes_t) :: classes
       type(segment_t), allocatable :: segments(:)
-      real(wp), allocatable :: kept(:, :), balanced(:, :), force_of_u(:, :), traction(:, :, :), share(:), force(:, :, :)
+      real(wp), allocatable :: kept(:, :), force_of_u(:, :), traction(:, :, :), share(:), force(:, :, :)
       logical, allocatable :: known(:, :)
       character(len=:), allocatable :: why_not
       real(wp) :: normal, tangential, energy, residual
@@ -79,7 +80,7 @@ contains
       kept = u
       if (.not. allocated(why_not)) call keep_apart(segments, problem%held, kept, why_not)
       if (.not. allocated(why_not)) call balance(problem, segments, why_not)
-      if (.not. allocated(why_not)) call solve_again(problem, solution, segments, u, balanced, why_not)
+      if (.not. allocated(why_not) .and. .not. allocated(exchanged)) call exchange(problem, solution, segments, exchanged, why_not)
       if (.not. allocated(why_not)) call take_contact(problem%fem, sides, segments, degree, loads, cuts, why_not)
       if (allocated(why_not)) then
          bound%why_not = why_not
@@ -87,11 +88,12 @@ contains
       end if
       known = loads%known
       traction = loads%traction
-      call element_forces(problem%fem, balanced, loads%at_nodes, force)
-      call estimate_tractions(problem%fem, sides, balanced, known, traction)
-      call equilibrate_sides(problem%fem%mesh, sides, force, known, traction, residual)
+      call find_classes(problem%fem, classes)
+      call list_chains(problem%fem%mesh, sides, chains)
+      call take_elements(problem%fem, classes, sides, u + exchanged, loads%at_nodes, known, force, traction)
+      call equilibrate_sides(problem%fem%mesh, sides, chains, force, known, traction, residual)
       allocate (share(problem%fem%mesh%n_elements))
-      call sum_stresses(problem%fem, sides, known, traction, loads%volume, kept, degree, cuts, share)
+      call sum_stresses(problem%fem, classes, sides, chains, known, traction, loads%volume, kept, cuts, share)
       bound%normal = 0.0_wp
       bound%tangential = 0.0_wp
       do i = 1, n_segments
@@ -134,52 +136,6 @@ contains
          if (fem%bodies%n_rigid > 0) why_not = 'rigid bodies'
       end associate
    end subroutine check_hypotheses
-
-   !> The displacements of bodies under these tractions in place of the forces of contact: those of the run, and what the difference
-   !> of both makes.
-   subroutine solve_again(problem, solution, segments, u, balanced, why_not)
-      class(problem_t), intent(in) :: problem
-      type(contact_solution_t), intent(in) :: solution
-      type(segment_t), intent(in) :: segments(:)
-      real(wp), intent(in) :: u(:, :)               !< (2, n_nodes) [L]
-      real(wp), allocatable, intent(out) :: balanced(:, :)
-      character(len=:), allocatable, intent(inout) :: why_not
-      real(wp), allocatable :: force(:, :), change(:, :), x(:, :)
-      type(condensed_body_t) :: body
-      type(body_result_t) :: result
-      type(status_t) :: status
-      integer(ip) :: b, i, dof, k
-
-      balanced = u
-      if (size(segments) == 0) return
-      force = contact_forces(problem%fem, problem%rows, problem%line, solution)
-      call add_segments(segments, force)
-      allocate (change, mold=u)
-      do b = 1, problem%fem%bodies%n
-         associate (list => problem%fem%bodies%list(b))
-            if (list%n_retained == 0) cycle
-            result = body_result_t(solver_kind=SOLVER_SPARSE)
-            call condense_body(problem%fem, b, SOLVER_SPARSE, body, result, status)
-            if (.not. is_ok(status)) then
-               why_not = 'the factor of a body'
-               return
-            end if
-            allocate (x(list%n_retained, 1), source=0.0_wp)
-            do i = 1, size(list%nodes, kind=ip)
-               do dof = 1, 2
-                  k = problem%fem%bodies%equation(dof, list%nodes(i)) - (list%n - list%n_retained)
-                  if (k > 0) x(k, 1) = force(dof, list%nodes(i))
-               end do
-            end do
-            call contact_response(body, x)
-            allocate (body%load(list%n, 1), source=0.0_wp)
-            change(:, list%nodes) = 0.0_wp
-            call expand_body(problem%fem, b, body, x(:, 1), change)
-            balanced(:, list%nodes) = balanced(:, list%nodes) + change(:, list%nodes)
-            deallocate (x)
-         end associate
-      end do
-   end subroutine solve_again
 
    !> Puts the tractions of contact among the known ones: polynomials with the same moments on sides that are cut.
    subroutine take_contact(fem, sides, segments, degree, loads, cuts, why_not)
@@ -225,69 +181,99 @@ contains
 
    end subroutine take_contact
 
-   !> R_E of all elements: the forces of their stresses less those of their loads.
-   subroutine element_forces(fem, u, body_force, force)
+   !> R_E of all elements, the forces of their stresses less those of their loads, and where tractions are not known those of the
+   !> stresses at the corners: the mean of both elements of a side.
+   subroutine take_elements(fem, classes, sides, u, body_force, known, force, traction)
       type(fem_t), intent(in) :: fem
+      type(element_classes_t), intent(in) :: classes
+      type(mesh_sides_t), intent(in) :: sides
       real(wp), intent(in) :: u(:, :)               !< (2, n_nodes) [L]
       real(wp), intent(in) :: body_force(:, :, :)   !< (2, nodes, n_elements) [F]
+      logical, intent(in) :: known(:, :)
       real(wp), allocatable, intent(out) :: force(:, :, :)
-      type(stiffness_cache_t) :: cache
+      real(wp), intent(inout) :: traction(:, 0:, :)
       real(wp), allocatable :: thermal(:, :)
-      integer(ip) :: e, n, k
+      integer(ip) :: c, degree
 
+      degree = size(traction, 2, kind=ip) - 1
       allocate (force, source=-body_force)
       if (allocated(fem%heating)) allocate (thermal(2, fem%mesh%n_nodes), source=0.0_wp)
-      do e = 1, fem%mesh%n_elements
-         call cached_stiffness(fem, e, cache)
+      do c = 1, classes%n
+         call take_class(c)
+      end do
+
+   contains
+
+      subroutine take_class(c)
+         integer(ip), intent(in) :: c
+         type(stiffness_cache_t) :: cache
+         real(wp) :: corner(12, MOST_GIVEN), x(MOST_GIVEN), f(2*MOST_NODES), s(12)
+         integer(ip) :: i, k, n, n_given
+
+         call cached_stiffness(fem, classes%member(classes%first(c)), cache)
+         corner = corner_stresses(fem, cache%form_t)
          n = cache%shape
+         do i = classes%first(c), classes%first(c + 1) - 1
+            associate (e => classes%member(i))
+               call given_of(fem, e, u, x, n_given)
+               f(:2*n) = 0.0_wp
+               do k = 3, 2*n
+                  f(:2*n) = f(:2*n) + cache%k(:2*n, k)*x(k)
+               end do
+               do k = 1, n
+                  force(:, k, e) = force(:, k, e) + f(2*k - 1:2*k)
+               end do
+               if (allocated(thermal)) call take_heat(e, n)
+               s = 0.0_wp
+               do k = 1, n_given
+                  s = s + corner(:, k)*x(k)
+               end do
+               call share_out(e, s)
+            end associate
+         end do
+      end subroutine take_class
+
+      !> Less the forces of the temperatures of an element.
+      subroutine take_heat(e, n)
+         integer(ip), intent(in) :: e, n
+
          associate (nodes => fem%mesh%nodes(:n, e))
-            do k = 2, n
-               associate (of_node => matmul(cache%k(:2*n, 2*k - 1:2*k), u(:, nodes(k)) - u(:, nodes(1))))
-                  force(:, :n, e) = force(:, :n, e) + reshape(of_node, [2_ip, n])
-               end associate
-            end do
-            if (.not. allocated(thermal)) cycle
             call add_thermal_of(fem, [e], thermal)
             force(:, :n, e) = force(:, :n, e) - thermal(:, nodes)
             thermal(:, nodes) = 0.0_wp
          end associate
-      end do
-   end subroutine element_forces
+      end subroutine take_heat
 
-   !> Where tractions are not known, those of the stresses of displacements: the mean of both elements.
-   subroutine estimate_tractions(fem, sides, u, known, traction)
-      type(fem_t), intent(in) :: fem
-      type(mesh_sides_t), intent(in) :: sides
-      real(wp), intent(in) :: u(:, :)
-      logical, intent(in) :: known(:, :)
-      real(wp), intent(inout) :: traction(:, 0:, :)
-      real(wp) :: s(3), n(2), t(2), at_end(2, 2)
-      integer(ip) :: i, j, k, e, face
-      integer :: ends
+      !> The stresses at the corners of an element, as tractions on the first element of its sides.
+      subroutine share_out(e, s)
+         integer(ip), intent(in) :: e
+         real(wp), intent(in) :: s(12)
+         real(wp) :: n(2), ends(2, 2), t(2), weight
+         integer(ip) :: i, j, k, side, corners(2)
 
-      do i = 1, sides%n
-         if (all(known(:, i))) cycle
-         t = fem%mesh%x(:, sides%node(2, i)) - fem%mesh%x(:, sides%node(1, i))
-         n = [t(2), -t(1)]/norm2(t)
-         at_end = 0.0_wp
-         k = 0
-         do j = 1, 2
-            e = sides%element(j, i)
-            if (e == 0) cycle
-            k = k + 1
-            do ends = 1, 2
-               face = findloc(fem%mesh%nodes(:CORNERS_OF(fem%mesh%shape(e)), e), sides%node(ends, i), dim=1, kind=ip)
-               s = stress_at(fem, e, u, SHAPES(fem%mesh%shape(e))%place(:, face))
-               at_end(:, ends) = at_end(:, ends) + [s(1)*n(1) + s(3)*n(2), s(3)*n(1) + s(2)*n(2)]
+         do k = 1, CORNERS_OF(fem%mesh%shape(e))
+            side = abs(sides%of_element(k, e))
+            if (all(known(:, side))) cycle
+            corners = [k, 1 + mod(k, CORNERS_OF(fem%mesh%shape(e)))]
+            if (sides%of_element(k, e) < 0) corners = corners(2:1:-1)
+            t = fem%mesh%x(:, sides%node(2, side)) - fem%mesh%x(:, sides%node(1, side))
+            n = [t(2), -t(1)]/norm2(t)
+            weight = merge(1.0_wp, 0.5_wp, sides%element(2, side) == 0)
+            do i = 1, 2
+               associate (j => 3*corners(i))
+                  ends(:, i) = weight*[s(j - 2)*n(1) + s(j)*n(2), s(j)*n(1) + s(j - 1)*n(2)]
+               end associate
+            end do
+            do j = 0, degree
+               associate (place => real(j, wp)/degree)
+                  where (.not. known(:, side))
+                     traction(:, j, side) = traction(:, j, side) + (1 - place)*ends(:, 1) + place*ends(:, 2)
+                  end where
+               end associate
             end do
          end do
-         at_end = at_end/k
-         do j = 0, size(traction, 2, kind=ip) - 1
-            associate (share => real(j, wp)/(size(traction, 2) - 1))
-               where (.not. known(:, i)) traction(:, j, i) = (1 - share)*at_end(:, 1) + share*at_end(:, 2)
-            end associate
-         end do
-      end do
-   end subroutine estimate_tractions
+      end subroutine share_out
+
+   end subroutine take_elements
 
 end module atrito_error_bound

@@ -6,10 +6,7 @@ module atrito_mesh_sides
    use atrito_mesh, only: mesh_t, face_end, middle_node, side_count
    implicit none (type, external)
    private
-   public :: mesh_sides_t, list_sides, chain_t, find_chains, MOST_AROUND
-
-   !> Elements round a node, at the most.
-   integer(ip), parameter :: MOST_AROUND = 64
+   public :: mesh_sides_t, list_sides, chains_t, list_chains
 
    !> Side i goes from node(1, i) to node(2, i), counter-clockwise round its first element.
    type :: mesh_sides_t
@@ -21,14 +18,16 @@ module atrito_mesh_sides
       type(node_elements_t) :: around               !< elements round each node
    end type mesh_sides_t
 
-   !> Elements that follow one another counter-clockwise round a node, each with its corner there, and the sides between them:
-   !> side(0) lies before the first element, side(n) behind the last one, and they are one where the chain is closed.
-   type :: chain_t
+   !> Chains of elements that follow one another counter-clockwise round a node, each with its corner there, and the sides between
+   !> them: of a chain with m elements m + 1 sides, side 0 before the first element and side m behind the last; these two are one
+   !> where the chain is closed. A node has several chains where the outline goes through it more than once.
+   type :: chains_t
       integer(ip) :: n = 0
-      logical :: is_closed = .false.
-      integer(ip) :: element(MOST_AROUND) = 0, corner(MOST_AROUND) = 0
-      integer(ip) :: side(0:MOST_AROUND) = 0        !< without their sign
-   end type chain_t
+      integer(ip), allocatable :: node(:)           !< (n)
+      integer(ip), allocatable :: first(:)          !< (n + 1) elements of chain i: first(i) .. first(i + 1) - 1
+      integer(ip), allocatable :: element(:), corner(:)
+      integer(ip), allocatable :: side(:)           !< those of chain i begin at first(i) + i - 1
+   end type chains_t
 
 contains
 
@@ -56,66 +55,81 @@ contains
       end do
    end subroutine list_sides
 
-   !> The elements round a node as chains: several where the outline goes through it more than once.
-   subroutine find_chains(mesh, sides, node, chains, n)
+   !> The chains round all corners, in the order of the nodes.
+   subroutine list_chains(mesh, sides, chains)
       type(mesh_t), intent(in) :: mesh
       type(mesh_sides_t), intent(in) :: sides
-      integer(ip), intent(in) :: node
-      type(chain_t), intent(inout) :: chains(:)
-      integer(ip), intent(out) :: n                 !< 0: the node is no corner; or more elements than a chain has room for
-      integer(ip) :: element(MOST_AROUND), corner(MOST_AROUND), m, i, k
-      logical :: is_taken(MOST_AROUND)
+      type(chains_t), intent(out) :: chains
+      integer(ip) :: node, n_elements, n_sides, most
 
-      n = 0
-      m = 0
-      do k = sides%around%first(node), sides%around%first(node + 1) - 1
-         associate (e => sides%around%list(k))
-            i = findloc(mesh%nodes(:side_count(mesh, e), e), node, dim=1, kind=ip)
-            if (i == 0) cycle
-            if (m == MOST_AROUND) return
-            m = m + 1
-            element(m) = e
-            corner(m) = i
-         end associate
+      most = sum(CORNERS_OF(mesh%shape(:mesh%n_elements)))
+      allocate (chains%element(most), chains%corner(most), chains%side(2*most), chains%node(most), chains%first(most + 1))
+      n_elements = 0
+      n_sides = 0
+      do node = 1, mesh%n_nodes
+         call list_round(node)
       end do
-      is_taken(:m) = .false.
-      do k = 1, m                                   ! open chains first: those begin at the outline
-         if (sides%element(2, abs(sides%of_element(corner(k), element(k)))) == 0) call follow(k)
-      end do
-      do k = 1, m
-         if (.not. is_taken(k)) call follow(k)
-      end do
+      chains%first(chains%n + 1) = n_elements + 1
 
    contains
 
-      !> From an element counter-clockwise round the node: across the side that ends at the node.
-      subroutine follow(start)
-         integer(ip), intent(in) :: start
-         integer(ip) :: at, side, next
+      !> The chains round one node: open ones first, which begin at the outline.
+      subroutine list_round(node)
+         integer(ip), intent(in) :: node
+         integer(ip) :: k, e, i, before, pass
 
-         n = n + 1
-         if (n > size(chains)) return
-         associate (chain => chains(n))
-            chain%n = 0
-            at = start
-            chain%side(0) = abs(sides%of_element(corner(at), element(at)))
-            do
-               is_taken(at) = .true.
-               chain%n = chain%n + 1
-               chain%element(chain%n) = element(at)
-               chain%corner(chain%n) = corner(at)
-               side = abs(sides%of_element(1 + mod(corner(at) + side_count(mesh, element(at)) - 2, side_count(mesh, element(at))), &
-                                           element(at)))
-               chain%side(chain%n) = side
-               next = sum(sides%element(:, side)) - element(at)
-               if (sides%element(2, side) == 0) next = 0
-               chain%is_closed = side == chain%side(0)
-               if (next == 0 .or. chain%is_closed) exit
-               at = findloc(element(:m), next, dim=1, kind=ip)
+         before = n_elements
+         do pass = 1, 2
+            do k = sides%around%first(node), sides%around%first(node + 1) - 1
+               e = sides%around%list(k)
+               do i = 1, side_count(mesh, e)
+                  if (mesh%nodes(i, e) == node) exit
+               end do
+               if (i > side_count(mesh, e)) return  ! no corner
+               if (pass == 1) then
+                  if (sides%element(2, abs(sides%of_element(i, e))) /= 0) cycle
+               else if (any(chains%element(before + 1:n_elements) == e)) then
+                  cycle
+               end if
+               call follow(node, e, i)
             end do
-         end associate
+         end do
+      end subroutine list_round
+
+      !> From an element counter-clockwise round the node: across the side that ends there.
+      subroutine follow(node, e_first, corner_first)
+         integer(ip), intent(in) :: node, e_first, corner_first
+         integer(ip) :: e, corner, side, begins_with
+
+         chains%n = chains%n + 1
+         chains%node(chains%n) = node
+         chains%first(chains%n) = n_elements + 1
+         e = e_first
+         corner = corner_first
+         begins_with = abs(sides%of_element(corner, e))
+         call add_side(begins_with)
+         do
+            n_elements = n_elements + 1
+            chains%element(n_elements) = e
+            chains%corner(n_elements) = corner
+            side = abs(sides%of_element(merge(side_count(mesh, e), corner - 1_ip, corner == 1), e))
+            call add_side(side)
+            if (sides%element(2, side) == 0 .or. side == begins_with) exit
+            e = merge(sides%element(2, side), sides%element(1, side), sides%element(1, side) == e)
+            corner = 1
+            do while (mesh%nodes(corner, e) /= node)
+               corner = corner + 1
+            end do
+         end do
       end subroutine follow
 
-   end subroutine find_chains
+      subroutine add_side(side)
+         integer(ip), intent(in) :: side
+
+         n_sides = n_sides + 1
+         chains%side(n_sides) = side
+      end subroutine add_side
+
+   end subroutine list_chains
 
 end module atrito_mesh_sides

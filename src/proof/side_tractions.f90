@@ -16,109 +16,96 @@
 module atrito_side_tractions
    use atrito_kinds, only: ip, wp
    use atrito_mesh, only: mesh_t
-   use atrito_mesh_sides, only: mesh_sides_t, chain_t, find_chains
+   use atrito_mesh_sides, only: mesh_sides_t, chains_t
    implicit none (type, external)
    private
-   public :: equilibrate_sides, side_length, traction_of, MOST_CHAINS
-
-   integer(ip), parameter :: MOST_CHAINS = 8        !< through one node
+   public :: equilibrate_sides, side_length, traction_of
 
 contains
 
    !> Changes the tractions that are not known so that they are in equilibrium with all elements.
    !>
    !> residual: what (1) is off by where all is known, over the largest force.
-   subroutine equilibrate_sides(mesh, sides, force, known, traction, residual)
+   subroutine equilibrate_sides(mesh, sides, chains, force, known, traction, residual)
       type(mesh_t), intent(in) :: mesh
       type(mesh_sides_t), intent(in) :: sides
+      type(chains_t), intent(in) :: chains
       real(wp), intent(in) :: force(:, :, :)        !< (2, nodes, n_elements) R_E [F]
       logical, intent(in) :: known(:, :)            !< (2, sides) by component
       real(wp), intent(inout) :: traction(:, 0:, :) !< (2, 0:k, sides) Bernstein coefficients on the first element [F/L]
       real(wp), intent(out) :: residual
-      real(wp) :: moment(2, 2)
       real(wp), allocatable :: b(:, :, :)           !< (2, ends and middle, sides) moments on the first element
-      integer(ip) :: i, node, n, k
-      type(chain_t) :: chains(MOST_CHAINS)
       real(wp) :: worst
+      integer(ip) :: i, k, n_terms
 
-      allocate (b(2, size(traction, 2) + 1, sides%n))
+      n_terms = size(traction, 2, kind=ip)
+      allocate (b(2, n_terms, sides%n))
       do i = 1, sides%n
          b(:, :, i) = moments_of(traction(:, :, i), side_length(mesh, sides, i))
-         if (sides%middle(i) == 0 .or. size(traction, 2) < 3) cycle
+         if (sides%middle(i) == 0 .or. n_terms < 3) cycle
          associate (e => sides%element(1, i))
             k = findloc(mesh%nodes(:mesh%shape(e), e), sides%middle(i), dim=1, kind=ip)
             where (.not. known(:, i)) b(:, 3, i) = force(:, k, e)
          end associate
       end do
       worst = 0.0_wp
-      do node = 1, mesh%n_nodes
-         call find_chains(mesh, sides, node, chains, n)
-         do k = 1, n
-            call go_round(chains(k))
-         end do
+      do i = 1, chains%n
+         associate (first => chains%first(i), last => chains%first(i + 1) - 1)
+            call go_round(chains%node(i), last - first + 1, chains%element(first:last), chains%corner(first:last), &
+                          chains%side(first + i - 1:last + i))
+         end associate
       end do
       residual = worst/max(maxval(abs(force)), tiny(worst))
       do i = 1, sides%n
-         moment = b(:, :2, i)
-         traction(:, :, i) = traction_of(b(:, :, i), side_length(mesh, sides, i), size(traction, 2, kind=ip) - 1)
+         if (n_terms == 3 .and. sides%middle(i) == 0) then  ! a side of two nodes beside others of three
+            if (.not. all(known(:, i))) then
+               traction(:, ::2, i) = traction_of(b(:, :2, i), side_length(mesh, sides, i), 1_ip)
+               traction(:, 1, i) = 0.5_wp*(traction(:, 0, i) + traction(:, 2, i))
+            end if
+            cycle
+         end if
+         traction(:, :, i) = traction_of(b(:, :, i), side_length(mesh, sides, i), n_terms - 1)
       end do
 
    contains
 
       !> The moments round one node, (2).
-      subroutine go_round(chain)
-         type(chain_t), intent(in) :: chain
-         real(wp) :: run(0:chain%n), b0, weight, sum_w
-         integer(ip) :: j, c, first
+      subroutine go_round(node, n, element, corner, side)
+         integer(ip), intent(in) :: node, n         !< n: elements
+         integer(ip), intent(in) :: element(:), corner(:), side(0:)
+         real(wp) :: run(0:n), sign_of(0:n), weight(0:n), b0
+         integer(ip) :: j, c, first, ends(0:n)
 
-         first = merge(1_ip, 0_ip, chain%is_closed)
+         do j = 0, n
+            ends(j) = merge(1, 2, sides%node(1, side(j)) == node)
+            ! the first element of a side that ends at the node lies before it
+            sign_of(j) = merge(-1, 1, ends(j) == 1)
+            weight(j) = 1/side_length(mesh, sides, side(j))
+         end do
+         first = merge(1, 0, side(0) == side(n))
          do c = 1, 2
             run(0) = 0.0_wp
-            do j = 1, chain%n
-               run(j) = run(j - 1) + force(c, chain%corner(j), chain%element(j))
+            do j = 1, n
+               run(j) = run(j - 1) + force(c, corner(j), element(j))
             end do
-            if (chain%is_closed) worst = max(worst, abs(run(chain%n)))
-            if (.not. chain%is_closed .and. known(c, chain%side(0))) then
-               b0 = on_element_before(chain, 0_ip, c)
-               if (known(c, chain%side(chain%n))) worst = max(worst, abs(on_element_before(chain, chain%n, c) - b0 - run(chain%n)))
-            else if (.not. chain%is_closed .and. known(c, chain%side(chain%n))) then
-               b0 = on_element_before(chain, chain%n, c) - run(chain%n)
+            if (first == 1) worst = max(worst, abs(run(n)))
+            if (first == 0 .and. known(c, side(0))) then
+               b0 = sign_of(0)*b(c, ends(0), side(0))
+               if (known(c, side(n))) worst = max(worst, abs(sign_of(n)*b(c, ends(n), side(n)) - b0 - run(n)))
+            else if (first == 0 .and. known(c, side(n))) then
+               b0 = sign_of(n)*b(c, ends(n), side(n)) - run(n)
             else
                b0 = 0.0_wp
-               sum_w = 0.0_wp
-               do j = first, chain%n
-                  weight = 1/side_length(mesh, sides, chain%side(j))
-                  b0 = b0 + weight*(on_element_before(chain, j, c) - run(j))
-                  sum_w = sum_w + weight
+               do j = first, n
+                  b0 = b0 + weight(j)*(sign_of(j)*b(c, ends(j), side(j)) - run(j))
                end do
-               b0 = b0/sum_w
+               b0 = b0/sum(weight(first:n))
             end if
-            do j = 0, chain%n
-               if (known(c, chain%side(j))) cycle
-               associate (i => chain%side(j))
-                  b(c, merge(1, 2, sides%node(1, i) == node), i) = sign_before(chain, j)*(b0 + run(j))
-               end associate
+            do j = first, n
+               if (.not. known(c, side(j))) b(c, ends(j), side(j)) = sign_of(j)*(b0 + run(j))
             end do
          end do
       end subroutine go_round
-
-      !> The moment at the j-th side of a chain, on the element before it.
-      real(wp) function on_element_before(chain, j, c)
-         type(chain_t), intent(in) :: chain
-         integer(ip), intent(in) :: j, c
-
-         associate (i => chain%side(j))
-            on_element_before = sign_before(chain, j)*b(c, merge(1, 2, sides%node(1, i) == node), i)
-         end associate
-      end function on_element_before
-
-      !> 1 where the element before the j-th side is the first one of the side: the side ends at the node then.
-      real(wp) function sign_before(chain, j)
-         type(chain_t), intent(in) :: chain
-         integer(ip), intent(in) :: j
-
-         sign_before = merge(1.0_wp, -1.0_wp, sides%node(2, chain%side(j)) == node)
-      end function sign_before
 
    end subroutine equilibrate_sides
 

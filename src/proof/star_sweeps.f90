@@ -13,11 +13,10 @@ module atrito_star_sweeps
    use atrito_element_table, only: CORNERS_OF
    use atrito_kinds, only: ip, wp
    use atrito_mesh, only: mesh_t
-   use atrito_mesh_sides, only: mesh_sides_t, chain_t, find_chains, MOST_AROUND
-   use atrito_side_tractions, only: MOST_CHAINS
+   use atrito_mesh_sides, only: mesh_sides_t, chains_t
    implicit none (type, external)
    private
-   public :: outlines_t, sweep_stars, solve_held
+   public :: outlines_t, sweep_stars, solve_least
 
    !> Elements by their outlines: E = a'H a + 2 g'a + c of each, elements of one class with one H.
    type :: outlines_t
@@ -28,75 +27,84 @@ module atrito_star_sweeps
       real(wp), allocatable :: slope(:, :)          !< (numbers, n_elements) H a + g
    end type outlines_t
 
-   integer(ip), parameter :: MOST_OF_STAR = 3 + 3*(MOST_AROUND + 1)
    real(wp), parameter :: ROUND_OFF = 1.0e-11_wp    !< a pivot below this share of its diagonal is none
    real(wp), parameter :: ALONG_AXIS = 1.0e-10_wp
 
 contains
 
    !> One sweep over all corners.
-   subroutine sweep_stars(mesh, sides, known, outlines, gain)
+   subroutine sweep_stars(mesh, sides, chains, known, outlines, gain)
       type(mesh_t), intent(in) :: mesh
       type(mesh_sides_t), intent(in) :: sides
+      type(chains_t), intent(in) :: chains
       logical, intent(in) :: known(:, :)            !< (2, sides)
       type(outlines_t), intent(inout) :: outlines
       real(wp), intent(out) :: gain                 !< what the energy has become less by [F L]
-      type(chain_t) :: chains(MOST_CHAINS)
-      integer(ip) :: node, k, n
+      integer(ip) :: i
 
       gain = 0.0_wp
-      do node = 1, mesh%n_nodes
-         call find_chains(mesh, sides, node, chains, n)
-         do k = 1, n
-            call improve_star(mesh, sides, known, node, chains(k), outlines, gain)
-         end do
+      do i = 1, chains%n
+         associate (first => chains%first(i), last => chains%first(i + 1) - 1)
+            call improve_star(mesh, sides, known, last - first + 1, chains%element(first:last), chains%corner(first:last), &
+                              chains%side(first + i - 1:last + i), outlines, gain)
+         end associate
       end do
    end subroutine sweep_stars
 
    !> The least energy over the numbers of one star.
-   subroutine improve_star(mesh, sides, known, node, chain, outlines, gain)
+   subroutine improve_star(mesh, sides, known, n_elements, element, corner, side, outlines, gain)
       type(mesh_t), intent(in) :: mesh
       type(mesh_sides_t), intent(in) :: sides
       logical, intent(in) :: known(:, :)
-      integer(ip), intent(in) :: node
-      type(chain_t), intent(in) :: chain
+      integer(ip), intent(in) :: n_elements, element(:), corner(:), side(0:) !< a chain
       type(outlines_t), intent(inout) :: outlines
       real(wp), intent(inout) :: gain
-      real(wp) :: matrix(MOST_OF_STAR, MOST_OF_STAR), step(MOST_OF_STAR), slope(MOST_OF_STAR), local(9)
-      logical :: is_held(MOST_OF_STAR)
-      integer(ip) :: n, j, r, s, per_side, at(9), place(9)
-      real(wp) :: sign_of(9)
+      integer(ip) :: n, j, r, s, per_side, m, n_free
+      integer(ip) :: place(9, n_elements)           ! of its numbers among those of the element
+      integer(ip) :: at(9, n_elements)              ! the same among the free ones of the star; 0: held
+      real(wp) :: sign_of(9, n_elements)
+      logical :: is_held(3*n_elements + 6)
+      real(wp) :: matrix(3*n_elements + 6, 3*n_elements + 6), step(3*n_elements + 6), slope(3*n_elements + 6)
+      integer(ip) :: free(3*n_elements + 6)
+      real(wp) :: h_sign
 
       per_side = 2*outlines%degree - 1
-      n = 3 + per_side*(chain%n + merge(0, 1, chain%is_closed))
-      call find_held(n, is_held)
-      if (all(is_held(:n))) return
-      matrix(:n, :n) = 0.0_wp
-      step(:n) = 0.0_wp
-      do j = 1, chain%n
+      m = 3 + 2*per_side
+      n = 3 + per_side*(n_elements + merge(0, 1, side(0) == side(n_elements)))
+      call find_held()
+      n_free = 0
+      do j = 1, n
+         free(j) = 0
+         if (is_held(j)) cycle
+         n_free = n_free + 1
+         free(j) = n_free
+      end do
+      if (n_free == 0) return
+      matrix(:n_free, :n_free) = 0.0_wp
+      step(:n_free) = 0.0_wp
+      do j = 1, n_elements
          call find_places(j)
-         associate (e => chain%element(j), h => outlines%h(:, :, outlines%class_of(chain%element(j))))
-            do s = 1, 3 + 2*per_side
-               step(at(s)) = step(at(s)) - sign_of(s)*outlines%slope(place(s), e)
-               do r = 1, 3 + 2*per_side
-                  matrix(at(r), at(s)) = matrix(at(r), at(s)) + sign_of(r)*sign_of(s)*h(place(r), place(s))
+         associate (h => outlines%h(:, :, outlines%class_of(element(j))), of_element => outlines%slope(:, element(j)))
+            do s = 1, m
+               if (at(s, j) == 0) cycle
+               step(at(s, j)) = step(at(s, j)) - sign_of(s, j)*of_element(place(s, j))
+               do r = 1, m
+                  if (at(r, j) < at(s, j)) cycle    ! the lower triangle
+                  matrix(at(r, j), at(s, j)) = matrix(at(r, j), at(s, j)) + sign_of(r, j)*sign_of(s, j)*h(place(r, j), place(s, j))
                end do
             end do
          end associate
       end do
-      slope(:n) = step(:n)
-      call solve_held(n, is_held, matrix, step)
-      gain = gain + dot_product(slope(:n), step(:n))
-      do j = 1, chain%n
-         call find_places(j)
-         associate (e => chain%element(j), h => outlines%h(:, :, outlines%class_of(chain%element(j))))
-            do s = 1, 3 + 2*per_side
-               local(s) = sign_of(s)*step(at(s))
-               outlines%a(place(s), e) = outlines%a(place(s), e) + local(s)
-            end do
-            do s = 1, 3 + 2*per_side
-               if (local(s) == 0.0_wp) cycle
-               outlines%slope(:, e) = outlines%slope(:, e) + h(:, place(s))*local(s)
+      slope(:n_free) = step(:n_free)
+      call solve_least(n_free, matrix, step)
+      gain = gain + dot_product(slope(:n_free), step(:n_free))
+      do j = 1, n_elements
+         associate (h => outlines%h(:, :, outlines%class_of(element(j))), of_element => outlines%slope(:, element(j)))
+            do s = 1, m
+               if (at(s, j) == 0) cycle
+               h_sign = sign_of(s, j)*step(at(s, j))
+               outlines%a(place(s, j), element(j)) = outlines%a(place(s, j), element(j)) + h_sign
+               of_element = of_element + h(:, place(s, j))*h_sign
             end do
          end associate
       end do
@@ -107,26 +115,31 @@ contains
       !> its normal points the other way, and its coefficients come in the other order.
       subroutine find_places(j)
          integer(ip), intent(in) :: j
-         integer(ip) :: m, c, i, n_corners, side
+         integer(ip) :: l, c, i, n_corners, of_star
          logical :: is_first
 
-         associate (e => chain%element(j), corner => chain%corner(j), k => outlines%degree)
+         associate (e => element(j), k => outlines%degree)
             n_corners = CORNERS_OF(mesh%shape(e))
-            place(:3) = [3*corner - 2, 3*corner - 1, 3*corner]
-            at(:3) = [1_ip, 2_ip, 3_ip]
-            sign_of = 1.0_wp
-            do m = 0, 1
-               i = merge(corner, 1 + mod(corner + n_corners - 2, n_corners), m == 0)     ! the side before the element, behind it
-               side = j - 1 + m
-               if (chain%is_closed .and. side == chain%n) side = 0
+            do l = 1, 3
+               place(l, j) = 3*corner(j) - 3 + l
+               at(l, j) = free(l)
+               sign_of(l, j) = 1.0_wp
+            end do
+            do l = 0, 1                             ! the side before the element, and the one behind it
+               i = corner(j)
+               if (l == 1) i = merge(n_corners, i - 1, i == 1)
+               of_star = j - 1 + l
+               if (of_star == n_elements .and. side(0) == side(n_elements)) of_star = 0
                is_first = sides%of_element(i, e) > 0
                do c = 1, per_side
-                  associate (l => 3 + m*per_side + c)
-                     place(l) = side_place(n_corners, k, i) + c - 1
-                     at(l) = 3 + side*per_side + c
+                  associate (at_l => 3 + l*per_side + c)
+                     place(at_l, j) = side_place(n_corners, k, i) + c - 1
                      if (c <= k .and. .not. is_first) then
-                        at(l) = 3 + side*per_side + k + 1 - c
-                        sign_of(l) = -1.0_wp
+                        at(at_l, j) = free(3 + of_star*per_side + k + 1 - c)
+                        sign_of(at_l, j) = -1.0_wp
+                     else
+                        at(at_l, j) = free(3 + of_star*per_side + c)
+                        sign_of(at_l, j) = 1.0_wp
                      end if
                   end associate
                end do
@@ -135,16 +148,15 @@ contains
       end subroutine find_places
 
       !> Which numbers known tractions hold at 0.
-      subroutine find_held(n, is_held)
-         integer(ip), intent(in) :: n
-         logical, intent(out) :: is_held(:)
+      subroutine find_held()
          real(wp) :: t(2)
          integer(ip) :: j, c, first
          logical :: along(2)
 
          is_held(:n) = .false.
-         do j = 0, (n - 3)/per_side - 1
-            associate (i => chain%side(j))
+         if (side(0) == side(n_elements)) return    ! within a body nothing is known
+         do j = 0, n_elements, n_elements
+            associate (i => side(j))
                if (.not. any(known(:, i))) cycle
                first = 3 + j*per_side
                t = mesh%x(:, sides%node(2, i)) - mesh%x(:, sides%node(1, i))
@@ -154,7 +166,7 @@ contains
                   is_held(first + 1:first + per_side) = .true.
                   cycle
                end if
-               c = findloc(known(:, i), .true., dim=1, kind=ip)
+               c = merge(1, 2, known(1, i))
                ! T_1 goes with phi,2, and T_2 with phi,1
                is_held(merge(3, 2, c == 1)) = .true.
                if (along(3 - c)) then               ! the component of the gradient that is known is the one along the side
@@ -165,47 +177,42 @@ contains
                end if
             end associate
          end do
-         ! a side with known tractions elsewhere holds its other corner alone
       end subroutine find_held
 
    end subroutine improve_star
 
-   !> matrix step = step by Cholesky; numbers that are held, and those without a pivot, stay 0.
-   pure subroutine solve_held(n, is_held, matrix, step)
+   !> matrix step = step by Cholesky, of the lower triangle; numbers without a pivot stay 0.
+   pure subroutine solve_least(n, matrix, step)
       integer(ip), intent(in) :: n
-      logical, intent(inout) :: is_held(:)
       real(wp), intent(inout) :: matrix(:, :), step(:)
-      integer(ip) :: i, j, m, list(n)
-      real(wp) :: pivot, original
+      real(wp) :: original
+      integer(ip) :: i, j, k
 
-      m = 0
-      do i = 1, n
-         if (is_held(i)) then
-            step(i) = 0.0_wp
-            cycle
-         end if
-         original = matrix(i, i)
-         do j = 1, m                                ! row i of the factor, in its lower triangle
-            associate (c => list(j))
-               matrix(i, c) = (matrix(i, c) - dot_product(matrix(i, list(:j - 1)), matrix(c, list(:j - 1))))/matrix(c, c)
-            end associate
+      do j = 1, n
+         original = matrix(j, j)
+         do k = 1, j - 1
+            matrix(j, j) = matrix(j, j) - matrix(j, k)**2
          end do
-         pivot = original - sum(matrix(i, list(:m))**2)
-         if (.not. pivot > ROUND_OFF*original) then
-            is_held(i) = .true.
-            step(i) = 0.0_wp
+         if (.not. matrix(j, j) > ROUND_OFF*original) then
+            matrix(j:n, j) = 0.0_wp
+            step(j) = 0.0_wp
             cycle
          end if
-         matrix(i, i) = sqrt(pivot)
-         m = m + 1
-         list(m) = i
-         step(i) = (step(i) - dot_product(matrix(i, list(:m - 1)), step(list(:m - 1))))/matrix(i, i)
+         matrix(j, j) = sqrt(matrix(j, j))
+         do k = 1, j - 1
+            matrix(j + 1:n, j) = matrix(j + 1:n, j) - matrix(j, k)*matrix(j + 1:n, k)
+         end do
+         matrix(j + 1:n, j) = matrix(j + 1:n, j)/matrix(j, j)
+         step(j) = step(j)/matrix(j, j)
+         step(j + 1:n) = step(j + 1:n) - matrix(j + 1:n, j)*step(j)
       end do
-      do j = m, 1, -1
-         i = list(j)
-         step(i) = step(i)/matrix(i, i)
-         step(list(:j - 1)) = step(list(:j - 1)) - matrix(i, list(:j - 1))*step(i)
+      do j = n, 1, -1
+         if (.not. matrix(j, j) > 0.0_wp) cycle
+         do i = j + 1, n
+            step(j) = step(j) - matrix(i, j)*step(i)
+         end do
+         step(j) = step(j)/matrix(j, j)
       end do
-   end subroutine solve_held
+   end subroutine solve_least
 
 end module atrito_star_sweeps

@@ -12,6 +12,7 @@ module atrito_increment
    use atrito_controls, only: controls_t, METHOD_ANDERSON
    use atrito_displacements, only: contact_forces
    use atrito_error_bound, only: bound_error
+   use atrito_exchanged_tractions, only: exchange_with_factors
    use atrito_extremes, only: find_extremes
    use atrito_final_check, only: check_equilibrium, check_balance, check_law, equilibrium_t
    use atrito_force_sums, only: sum_forces
@@ -173,7 +174,9 @@ contains
 
       call start_phase('prove')
       call act_at(data%model, data%step, moment_t(results%step_time, results%time), acting)
-      call bound_error(data%model, acting, data, solution, results%u, results%reaction, results%error_bound)
+      call bound_error(data%model, acting, data, solution, results%u, results%reaction, data%exchanged, &
+                       results%error_bound)
+      if (allocated(data%exchanged)) deallocate (data%exchanged)
       call stop_phase('prove')
    end subroutine prove_bound
 
@@ -202,6 +205,10 @@ contains
       if (allocated(data%assembled)) call data%assembled%check_solves(status)   ! whatever came of a solve that failed
       solution%form = form
       if (is_ok(status)) call judge_uniqueness(data, solution, results)
+      if (allocated(data%exchanged)) deallocate (data%exchanged)
+      if (data%wants_proof .and. data%is_printed .and. form == CONTACT_DENSE .and. solution%converged) then
+         call exchange_with_factors(data%model, data, solution, store%bodies, data%exchanged)
+      end if
       if (form == CONTACT_DENSE .and. solution%converged .and. .not. data%keeps) call release_condensed(data, store)
       call start_phase('iterate')
       again = may_change

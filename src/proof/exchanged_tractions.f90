@@ -1,0 +1,111 @@
+!> The displacements that bodies have under tractions of contact in place of the forces of contact.
+!>
+!> Forces of contact at nodes are not those of a pressure that the law allows: an isolated closed node has the force of a pressure that is
+!> negative beside it. With q the forces of contact and q^ those of the tractions, the bodies move by K^-1 (q^ - q) besides, which costs a
+!> solution with the factors that are there, and all else is a matter of given loads.
+module atrito_exchanged_tractions
+   use atrito_balanced_contact, only: add_segments, balance
+   use atrito_condensed_body, only: condense_body, condensed_body_t, contact_response, expand_body
+   use atrito_contact_solution, only: contact_solution_t
+   use atrito_contact_tractions, only: list_segments, segment_t
+   use atrito_displacements, only: contact_forces
+   use atrito_kinds, only: ip, wp
+   use atrito_model, only: model_t
+   use atrito_problem, only: problem_t
+   use atrito_results, only: body_result_t
+   use atrito_solver_choice, only: SOLVER_SPARSE
+   use atrito_status, only: is_ok, status_t
+   implicit none (type, external)
+   private
+   public :: exchange, exchange_with_factors
+
+contains
+
+   !> While the factors of the bodies are there. What can not be had is not allocated.
+   subroutine exchange_with_factors(model, problem, solution, bodies, change)
+      type(model_t), intent(in) :: model
+      class(problem_t), intent(in) :: problem
+      type(contact_solution_t), intent(in) :: solution
+      type(condensed_body_t), intent(inout) :: bodies(:)
+      real(wp), allocatable, intent(out) :: change(:, :)
+      type(segment_t), allocatable :: segments(:)
+      character(len=:), allocatable :: why_not
+      integer(ip) :: n
+
+      call list_segments(model, problem, solution, segments, n, why_not)
+      if (allocated(why_not)) return
+      segments = segments(:n)
+      call balance(problem, segments, why_not)
+      if (.not. allocated(why_not)) call exchange(problem, solution, segments, change, why_not, bodies)
+   end subroutine exchange_with_factors
+
+   !> By factors that are there, or that are made now. why_not: a body cannot be factored.
+   subroutine exchange(problem, solution, segments, change, why_not, bodies)
+      class(problem_t), intent(in) :: problem
+      type(contact_solution_t), intent(in) :: solution
+      type(segment_t), intent(in) :: segments(:)
+      real(wp), allocatable, intent(out) :: change(:, :) !< (2, n_nodes) [L]
+      character(len=:), allocatable, intent(inout) :: why_not
+      type(condensed_body_t), intent(inout), optional :: bodies(:)
+      real(wp), allocatable :: force(:, :)
+      type(condensed_body_t) :: body
+      type(body_result_t) :: result
+      type(status_t) :: status
+      integer(ip) :: b
+
+      allocate (change(2, size(problem%held, 2)), source=0.0_wp)
+      if (size(segments) == 0) return
+      force = contact_forces(problem%fem, problem%rows, problem%line, solution)
+      call add_segments(segments, force)
+      do b = 1, problem%fem%bodies%n
+         if (problem%fem%bodies%list(b)%n_retained == 0) cycle
+         if (present(bodies)) then
+            call move_body(b, bodies(b))
+         else
+            result = body_result_t(solver_kind=SOLVER_SPARSE)
+            call condense_body(problem%fem, b, SOLVER_SPARSE, body, result, status)
+            if (.not. is_ok(status)) then
+               why_not = 'the factor of a body'
+               return
+            end if
+            call move_body(b, body)
+         end if
+      end do
+
+   contains
+
+      !> The forces act at the contact dofs alone, so that nothing is reduced: F x there, and the interior from it.
+      subroutine move_body(b, body)
+         integer(ip), intent(in) :: b
+         type(condensed_body_t), intent(inout) :: body
+         real(wp), allocatable :: x(:, :), load(:, :)
+         integer(ip) :: i, dof, k
+
+         associate (list => problem%fem%bodies%list(b))
+            allocate (x(list%n_retained, 1), load(list%n, 1), source=0.0_wp)
+            do i = 1, size(list%nodes, kind=ip)
+               do dof = 1, 2
+                  k = problem%fem%bodies%equation(dof, list%nodes(i)) - (list%n - list%n_retained)
+                  if (k > 0) x(k, 1) = force(dof, list%nodes(i))
+               end do
+            end do
+            call contact_response(body, x)
+            call swap_load(body, load)
+            call expand_body(problem%fem, b, body, x(:, 1), change)
+            call swap_load(body, load)
+         end associate
+      end subroutine move_body
+
+      subroutine swap_load(body, load)
+         type(condensed_body_t), intent(inout) :: body
+         real(wp), allocatable, intent(inout) :: load(:, :)
+         real(wp), allocatable :: own(:, :)
+
+         call move_alloc(body%load, own)
+         call move_alloc(load, body%load)
+         call move_alloc(own, load)
+      end subroutine swap_load
+
+   end subroutine exchange
+
+end module atrito_exchanged_tractions
