@@ -19,7 +19,7 @@ module atrito_dense
    implicit none (type, external)
    private
    public :: solve_cholesky, estimate_condition, solve_lu, sign_of_determinant, eigen_symmetric
-   public :: orthonormalise, add_product, multiply_vector, null_space, least_squares
+   public :: orthonormalise, add_product, transposed_product, multiply_vector, null_space, least_squares
 
    integer(ip), parameter :: NOT_FINITE = -99             !< an info that is none of LAPACK's
    real(wp), parameter :: ROUNDED_PIVOT = 1.0e-12_wp      !< over the largest: its sign may be rounding
@@ -256,6 +256,19 @@ contains
       end if
       x = both(:n)
    end subroutine least_squares
+
+   !> c <- a' b (dgemm).
+   subroutine transposed_product(a, b, c)
+      real(wp), intent(in), contiguous :: a(:, :)        !< (k, m)
+      real(wp), intent(in), contiguous :: b(:, :)        !< (k, n)
+      real(wp), intent(out), contiguous :: c(:, :)       !< (m, n)
+      type(halting_t) :: halting
+
+      call suspend_halting(halting)
+      call dgemm('T', 'N', size(c, 1, kind=ip), size(c, 2, kind=ip), size(a, 1, kind=ip), 1.0_wp, a, leading(a), &
+                 b, leading(b), 0.0_wp, c, leading(c))
+      call restore_halting(halting)
+   end subroutine transposed_product
 
    !> c <- c + a b' (dgemm): 2 m n k operations, at the full rate of the processor for large blocks.
    subroutine add_product(a, b, c)

@@ -195,22 +195,23 @@ contains
       type(macro_t), intent(inout) :: macro
       integer(ip), intent(in) :: i                  !< piece
       real(wp), intent(in) :: along(:, 0:), next(:, 0:), inner(:, 0:, :)
-      real(wp) :: g(2, 3), c(MOST_UNKNOWNS), w
-      integer(ip) :: k, r, s, a(3), d
+      real(wp) :: g(2, 3), c(MOST_UNKNOWNS), of_c(COMPONENTS), w
+      integer(ip) :: j, k, r, s, a(3), d
 
       d = macro%degree + 2
       g = gradients_of(macro%corner(:, i), macro%corner(:, after(i, macro%n)), macro%centre, macro%area(i))
       do k = 1, macro%n_coefficients
          do r = 1, 3
-            do s = 1, 3
+            do s = 1, r
                a = EXPONENTS(:, k, macro%degree)
                a(r) = a(r) + 1
                a(s) = a(s) + 1
                c = coefficient(a)
-               w = d*(d - 1)
-               macro%stress(1, k, i, :) = macro%stress(1, k, i, :) + w*g(2, r)*g(2, s)*c
-               macro%stress(2, k, i, :) = macro%stress(2, k, i, :) + w*g(1, r)*g(1, s)*c
-               macro%stress(3, k, i, :) = macro%stress(3, k, i, :) - w*g(1, r)*g(2, s)*c
+               w = merge(1, 2, r == s)*d*(d - 1)
+               of_c = w*[g(2, r)*g(2, s), g(1, r)*g(1, s), -0.5_wp*(g(1, r)*g(2, s) + g(2, r)*g(1, s))]
+               do j = 1, macro%n_unknowns
+                  macro%stress(:, k, i, j) = macro%stress(:, k, i, j) + of_c*c(j)
+               end do
             end do
          end do
       end do

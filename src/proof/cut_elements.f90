@@ -130,7 +130,7 @@ contains
       allocate (matrix(m, m), inner(m), source=0.0_wp)
       do i = 1, n
          call take_triangle(i)
-         g(:energy%n) = matmul(energy%g(:energy%n, :energy%n_given), x_given)
+         g(:energy%n) = matmul(energy%slopes(:, energy%n + 1:), x_given)
          call add_triangle(energy%n)
       end do
       call solve_least(m, matrix, inner)
@@ -239,10 +239,10 @@ contains
 
          do j = 1, m
             if (place(j) == 0) cycle
-            inner(place(j)) = inner(place(j)) - sign_of(j)*(g(j) + dot_product(energy%h(:m, j), a(:m)))
+            inner(place(j)) = inner(place(j)) - sign_of(j)*(g(j) + dot_product(energy%slopes(:m, j), a(:m)))
             do k = 1, m
                if (place(k) == 0) cycle
-               matrix(place(k), place(j)) = matrix(place(k), place(j)) + sign_of(j)*sign_of(k)*energy%h(k, j)
+               matrix(place(k), place(j)) = matrix(place(k), place(j)) + sign_of(j)*sign_of(k)*energy%slopes(k, j)
             end do
          end do
       end subroutine add_triangle

@@ -12,8 +12,9 @@
 !> squares it loses no digits where both stresses nearly agree. The bubbles of stresses of degree 2 are where E is least: all other
 !> columns are made orthogonal to theirs, and the bubbles are gone.
 module atrito_element_energy
-   use atrito_airy_stress, only: macro_t, make_macro, piece_values, MOST_COEFFICIENTS, MOST_OUTLINE, MOST_PIECES, MOST_UNKNOWNS
+   use atrito_airy_stress, only: macro_t, make_macro, piece_values, MOST_COEFFICIENTS, MOST_PIECES
    use atrito_assembly, only: fem_t, form_t, take_form
+   use atrito_dense, only: transposed_product
    use atrito_element_table, only: DEGREE_OF, MOST_NODES, SHAPES
    use atrito_kinds, only: ip, wp
    use atrito_plane_state, only: COMPONENTS, compliance_matrix, elasticity_matrix, thermal_stresses
@@ -26,28 +27,31 @@ module atrito_element_energy
    integer(ip), parameter :: MOST_ROWS = COMPONENTS*MOST_PLACES*MOST_PIECES
    !> Displacements and temperatures of the nodes, force per volume.
    integer(ip), parameter :: MOST_GIVEN = 3*MOST_NODES + 2
-   integer, parameter :: MOST_STEPS = 20            !< of Newton's method
+   integer(ip), parameter :: MOST_STEPS = 20            !< of Newton's method
 
    type, extends(form_t) :: element_energy_t
       type(macro_t) :: macro
       integer(ip) :: n = 0                          !< numbers of the outline
       integer(ip) :: n_rows = 0, n_given = 0        !< n_given: of x; 2 n_nodes displacements, n_nodes temperatures if any, 2 forces
-      real(wp) :: of_outline(MOST_ROWS, MOST_OUTLINE)         !< R_a
-      real(wp) :: of_given(MOST_ROWS, MOST_GIVEN)             !< R_x
-      real(wp) :: h(MOST_OUTLINE, MOST_OUTLINE)               !< H
-      real(wp) :: g(MOST_OUTLINE, MOST_GIVEN)                 !< G
+      !> R_a, and behind it R_x: all columns have n_rows rows, one after the other.
+      real(wp), allocatable :: rows(:, :)           !< (n_rows, n + n_given)
+      real(wp), allocatable :: slopes(:, :)         !< (n, n + n_given) H, and behind it G
    end type element_energy_t
 
-   !> Points on a triangle by barycentric coordinates, exact to degree 2 and to degree 6 (Dunavant).
+   !> Points on a triangle by barycentric coordinates and their weights, exact to degree 2, 4 and 6 (Dunavant).
    real(wp), parameter :: A = 0.501426509658179_wp, B = 0.249286745170910_wp, C = 0.873821971016996_wp, D = 0.063089014491502_wp
    real(wp), parameter :: P = 0.053145049844817_wp, Q = 0.310352451033784_wp, R = 0.636502499121399_wp
+   real(wp), parameter :: S = 0.108103018168070_wp, T = 0.445948490915965_wp, U = 0.816847572980459_wp, V = 0.091576213509771_wp
    real(wp), parameter :: FEW(3, 3) = reshape([real(wp) :: 4, 1, 1, 1, 4, 1, 1, 1, 4], [3, 3])/6
+   real(wp), parameter :: SOME(3, 6) = reshape([S, T, T, T, S, T, T, T, S, U, V, V, V, U, V, V, V, U], [3, 6])
    real(wp), parameter :: MANY(3, 12) = reshape([A, B, B, B, A, B, B, B, A, C, D, D, D, C, D, D, D, C, &
                                                  P, Q, R, Q, R, P, R, P, Q, P, R, Q, R, Q, P, Q, P, R], [3, 12])
-   real(wp), parameter :: WEIGHTS(12) = [0.116786275726379_wp, 0.116786275726379_wp, 0.116786275726379_wp, &
-                                         0.050844906370207_wp, 0.050844906370207_wp, 0.050844906370207_wp, &
-                                         0.082851075618374_wp, 0.082851075618374_wp, 0.082851075618374_wp, &
-                                         0.082851075618374_wp, 0.082851075618374_wp, 0.082851075618374_wp]
+   real(wp), parameter :: SOME_WEIGHTS(6) = [0.223381589678011_wp, 0.223381589678011_wp, 0.223381589678011_wp, &
+                                             0.109951743655322_wp, 0.109951743655322_wp, 0.109951743655322_wp]
+   real(wp), parameter :: MANY_WEIGHTS(12) = [0.116786275726379_wp, 0.116786275726379_wp, 0.116786275726379_wp, &
+                                              0.050844906370207_wp, 0.050844906370207_wp, 0.050844906370207_wp, &
+                                              0.082851075618374_wp, 0.082851075618374_wp, 0.082851075618374_wp, &
+                                              0.082851075618374_wp, 0.082851075618374_wp, 0.082851075618374_wp]
 
 contains
 
@@ -60,8 +64,7 @@ contains
       real(wp), intent(in), optional :: part(:, :)  !< (2, 3) of a triangle within the element, less its first node [L]
       real(wp) :: bubbles(MOST_ROWS, MOST_PIECES), heat(COMPONENTS + 1), elasticity(COMPONENTS, COMPONENTS)
       real(wp) :: root(COMPONENTS, COMPONENTS), origin(2), place(2), values(MOST_COEFFICIENTS), thickness
-      integer(ip) :: n_nodes, i, k, row, n_bubbles
-      logical :: is_simple
+      integer(ip) :: n_nodes, i, k, row, n_bubbles, rule
 
       call take_form(fem, e, energy%form_t)
       n_nodes = energy%shape
@@ -81,31 +84,42 @@ contains
          n_bubbles = macro%n_unknowns - macro%n_outline
          energy%n_given = 2*n_nodes + 2
          if (allocated(fem%heating)) energy%n_given = energy%n_given + n_nodes
-         is_simple = DEGREE_OF(n_nodes) == 1 .and. degree == 1 .and. is_affine(energy%x(:, :SHAPES(n_nodes)%n_corners))
+         rule = size(MANY, 2)
+         if (DEGREE_OF(n_nodes) == 1 .and. degree == 1) then
+            rule = merge(size(FEW, 2), size(SOME, 2), is_affine(energy%x(:, :SHAPES(n_nodes)%n_corners)))
+         end if
+         call make_rows(macro%n*rule*COMPONENTS)
          row = 0
          do i = 1, macro%n
-            do k = 1, merge(size(FEW, 2), size(MANY, 2), is_simple)
-               if (is_simple) then
-                  call add_place(FEW(:, k), 1.0_wp/size(FEW, 2))
-               else
-                  call add_place(MANY(:, k), WEIGHTS(k))
-               end if
+            do k = 1, rule
+               if (rule == size(FEW, 2)) call add_place(FEW(:, k), 1.0_wp/size(FEW, 2))
+               if (rule == size(SOME, 2)) call add_place(SOME(:, k), SOME_WEIGHTS(k))
+               if (rule == size(MANY, 2)) call add_place(MANY(:, k), MANY_WEIGHTS(k))
             end do
          end do
       end associate
       energy%n_rows = row
-      if (n_bubbles > 0) call leave_bubbles(energy, bubbles(:row, :n_bubbles))
-      associate (n => energy%n, m => energy%n_given, of_outline => energy%of_outline(:row, :energy%n))
-         energy%h(:n, :n) = matmul(transpose(of_outline), of_outline)
-         energy%g(:n, :m) = matmul(transpose(of_outline), energy%of_given(:row, :m))
-      end associate
+      if (n_bubbles > 0) call leave_bubbles(bubbles(:row, :n_bubbles), energy%rows)
+      call transposed_product(energy%rows(:, :energy%n), energy%rows, energy%slopes)
 
    contains
+
+      !> Room for the rows of this kind of element.
+      subroutine make_rows(n_rows)
+         integer(ip), intent(in) :: n_rows
+         logical :: fits
+
+         fits = allocated(energy%rows)
+         if (fits) fits = size(energy%rows, 1) == n_rows .and. size(energy%rows, 2) == energy%n + energy%n_given
+         if (fits) return
+         if (allocated(energy%rows)) deallocate (energy%rows, energy%slopes)
+         allocate (energy%rows(n_rows, energy%n + energy%n_given), energy%slopes(energy%n, energy%n + energy%n_given))
+      end subroutine make_rows
 
       !> The rows of a point of piece i.
       subroutine add_place(lambda, share)
          real(wp), intent(in) :: lambda(3), share
-         real(wp) :: field(COMPONENTS, 2*MOST_NODES), value(MOST_NODES), of_row(COMPONENTS, COMPONENTS)
+         real(wp) :: field(COMPONENTS, 2*MOST_NODES), value(MOST_NODES), of_row(COMPONENTS, COMPONENTS), stress(COMPONENTS)
          integer(ip) :: j, l
 
          associate (macro => energy%macro)
@@ -116,35 +130,42 @@ contains
                call take_field(n_nodes, x, natural_place(n_nodes, x, place), elasticity, field, value)
             end associate
             do j = 1, macro%n_unknowns
-               associate (s => matmul(of_row, matmul(macro%stress(:, :macro%n_coefficients, i, j), values(:macro%n_coefficients))))
-                  if (j <= energy%n) energy%of_outline(row + 1:row + 3, j) = s
-                  if (j > energy%n) bubbles(row + 1:row + 3, j - energy%n) = s
-               end associate
+               stress = 0.0_wp
+               do l = 1, macro%n_coefficients
+                  stress = stress + macro%stress(:, l, i, j)*values(l)
+               end do
+               if (j <= energy%n) then
+                  energy%rows(row + 1:row + 3, j) = times_root(of_row, stress)
+               else
+                  bubbles(row + 1:row + 3, j - energy%n) = times_root(of_row, stress)
+               end if
             end do
          end associate
-         energy%of_given(row + 1:row + 3, :2*n_nodes) = -matmul(of_row, field(:, :2*n_nodes))
-         l = 2*n_nodes
+         do j = 1, 2*n_nodes
+            energy%rows(row + 1:row + 3, energy%n + j) = -times_root(of_row, field(:, j))
+         end do
+         l = energy%n + 2*n_nodes
          if (allocated(fem%heating)) then
             do j = 1, n_nodes
-               energy%of_given(row + 1:row + 3, l + j) = matmul(of_row, heat(:COMPONENTS))*value(j)
+               energy%rows(row + 1:row + 3, l + j) = times_root(of_row, heat(:COMPONENTS))*value(j)
             end do
             l = l + n_nodes
          end if
-         energy%of_given(row + 1:row + 3, l + 1) = -of_row(:, 1)*place(1)
-         energy%of_given(row + 1:row + 3, l + 2) = -of_row(:, 2)*place(2)
+         energy%rows(row + 1:row + 3, l + 1) = -of_row(:, 1)*place(1)
+         energy%rows(row + 1:row + 3, l + 2) = -of_row(:, 2)*place(2)
          row = row + COMPONENTS
       end subroutine add_place
 
    end subroutine make_energy
 
    !> Makes all columns orthogonal to those of the bubbles (Gram and Schmidt, twice).
-   pure subroutine leave_bubbles(energy, bubbles)
-      type(element_energy_t), intent(inout) :: energy
+   pure subroutine leave_bubbles(bubbles, rows)
       real(wp), intent(inout) :: bubbles(:, :)
+      real(wp), intent(inout) :: rows(:, :)
       integer(ip) :: i, j, pass
 
       do i = 1, size(bubbles, 2, kind=ip)
-         associate (bubble => bubbles(:, i), n => size(bubbles, 1))
+         associate (bubble => bubbles(:, i))
             do pass = 1, 2
                do j = 1, i - 1
                   bubble = bubble - dot_product(bubbles(:, j), bubble)*bubbles(:, j)
@@ -152,20 +173,22 @@ contains
             end do
             bubble = bubble/norm2(bubble)
             do pass = 1, 2
-               do j = 1, energy%n
-                  associate (column => energy%of_outline(:n, j))
-                     column = column - dot_product(bubble, column)*bubble
-                  end associate
-               end do
-               do j = 1, energy%n_given
-                  associate (column => energy%of_given(:n, j))
-                     column = column - dot_product(bubble, column)*bubble
-                  end associate
+               do j = 1, size(rows, 2, kind=ip)
+                  rows(:, j) = rows(:, j) - dot_product(bubble, rows(:, j))*bubble
                end do
             end do
          end associate
       end do
    end subroutine leave_bubbles
+
+   !> An upper triangle times a stress.
+   pure function times_root(root, stress) result(product_of)
+      real(wp), intent(in) :: root(COMPONENTS, COMPONENTS), stress(COMPONENTS)
+      real(wp) :: product_of(COMPONENTS)
+
+      product_of = [root(1, 1)*stress(1) + root(1, 2)*stress(2) + root(1, 3)*stress(3), &
+                    root(2, 2)*stress(2) + root(2, 3)*stress(3), root(3, 3)*stress(3)]
+   end function times_root
 
    !> L' of a positive definite matrix L L'.
    pure function root_of(matrix) result(root)
@@ -192,7 +215,7 @@ contains
 
       rows = 0.0_wp
       do j = 1, energy%n_given
-         rows = rows + energy%of_given(:energy%n_rows, j)*x(j)
+         rows = rows + energy%rows(:, energy%n + j)*x(j)
       end do
    end subroutine given_rows
 
@@ -206,7 +229,7 @@ contains
 
       call given_rows(energy, x, rows)
       do j = 1, energy%n
-         rows = rows + energy%of_outline(:energy%n_rows, j)*outline(j)
+         rows = rows + energy%rows(:, j)*outline(j)
       end do
       difference = dot_product(rows, rows)
    end function energy_difference
@@ -256,36 +279,58 @@ contains
       real(wp), intent(in) :: x(:, :), xi(2), elasticity(COMPONENTS, COMPONENTS)
       real(wp), intent(out) :: field(:, :)          !< (COMPONENTS, 2n)
       real(wp), intent(out) :: value(:)
-      real(wp) :: dn(n, 2), j(2, 2), g(n, 2), det
+      real(wp) :: dn(n, 2), j(2, 2), g(2)
       integer(ip) :: k
 
       value(:n) = shape_values(n, xi)
       dn = shape_gradients(n, xi)
-      j = matmul(x, dn)                             ! dx/dxi
-      det = j(1, 1)*j(2, 2) - j(1, 2)*j(2, 1)
-      g(:, 1) = (dn(:, 1)*j(2, 2) - dn(:, 2)*j(2, 1))/det
-      g(:, 2) = (dn(:, 2)*j(1, 1) - dn(:, 1)*j(1, 2))/det
+      j = inverse(jacobian(x, dn))
       do k = 1, n
-         field(:, 2*k - 1) = elasticity(:, 1)*g(k, 1) + elasticity(:, 3)*g(k, 2)
-         field(:, 2*k) = elasticity(:, 2)*g(k, 2) + elasticity(:, 3)*g(k, 1)
+         g = [dn(k, 1)*j(1, 1) + dn(k, 2)*j(2, 1), dn(k, 1)*j(1, 2) + dn(k, 2)*j(2, 2)]
+         field(:, 2*k - 1) = elasticity(:, 1)*g(1) + elasticity(:, 3)*g(2)
+         field(:, 2*k) = elasticity(:, 2)*g(2) + elasticity(:, 3)*g(1)
       end do
    end subroutine take_field
+
+   !> dx/dxi.
+   pure function jacobian(x, dn) result(j)
+      real(wp), intent(in) :: x(:, :), dn(:, :)
+      real(wp) :: j(2, 2)
+      integer(ip) :: k
+
+      j = 0.0_wp
+      do k = 1, size(dn, 1, kind=ip)
+         j(:, 1) = j(:, 1) + x(:, k)*dn(k, 1)
+         j(:, 2) = j(:, 2) + x(:, k)*dn(k, 2)
+      end do
+   end function jacobian
+
+   pure function inverse(m) result(i)
+      real(wp), intent(in) :: m(2, 2)
+      real(wp) :: i(2, 2)
+
+      i = reshape([m(2, 2), -m(2, 1), -m(1, 2), m(1, 1)], [2, 2])/(m(1, 1)*m(2, 2) - m(1, 2)*m(2, 1))
+   end function inverse
 
    !> xi of a place, by Newton's method from the middle.
    pure function natural_place(n, x, place) result(xi)
       integer(ip), intent(in) :: n
       real(wp), intent(in) :: x(:, :), place(2)
       real(wp) :: xi(2)
-      real(wp) :: j(2, 2), r(2), step(2)
-      integer :: i
+      real(wp) :: j(2, 2), r(2), step(2), value(n)
+      integer(ip) :: i, k
 
       xi = merge(1.0_wp/3, 0.0_wp, SHAPES(n)%n_corners == 3)
       do i = 1, MOST_STEPS
-         r = place - matmul(x, shape_values(n, xi))
-         j = matmul(x, shape_gradients(n, xi))
-         step = [j(2, 2)*r(1) - j(1, 2)*r(2), j(1, 1)*r(2) - j(2, 1)*r(1)]/(j(1, 1)*j(2, 2) - j(1, 2)*j(2, 1))
+         value = shape_values(n, xi)
+         r = place
+         do k = 1, n
+            r = r - x(:, k)*value(k)
+         end do
+         j = inverse(jacobian(x, shape_gradients(n, xi)))
+         step = [j(1, 1)*r(1) + j(1, 2)*r(2), j(2, 1)*r(1) + j(2, 2)*r(2)]
          xi = xi + step
-         if (maxval(abs(step)) <= 1.0e-13_wp) exit
+         if (maxval(abs(step)) <= 1.0e-9_wp) exit  ! what is left is its square
       end do
    end function natural_place
 

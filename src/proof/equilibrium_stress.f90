@@ -14,6 +14,7 @@ module atrito_equilibrium_stress
    public :: sum_stresses
 
    integer, parameter :: MOST_SWEEPS = 12
+   real(wp), parameter :: FEW_DIGITS = 1.0e-9_wp
    real(wp), parameter :: LITTLE = 0.1_wp           !< of the energy: a sweep that gained less is the last one
 
 contains
@@ -32,26 +33,28 @@ contains
       real(wp), intent(out) :: share(:)             !< (n_elements) [F L]
       type(outlines_t) :: outlines
       integer(ip) :: degree, most, c
-      real(wp) :: gain, left
+      real(wp) :: gain, left, of_stresses           ! of_stresses: energy of those of the displacements
       integer :: sweep
 
       degree = size(traction, 2, kind=ip) - 1
       outlines%degree = degree
       outlines%class_of = classes%of_element
       most = maxval(CORNERS_OF(fem%mesh%shape(:fem%mesh%n_elements)))*(2*degree + 2)
-      allocate (outlines%h(most, most, classes%n), outlines%a(most, size(share)), outlines%slope(most, size(share)), source=0.0_wp)
+      allocate (outlines%h(most, most, classes%n), outlines%a(most, size(share)), outlines%slope(most, size(share)), &
+                outlines%energy(size(share)), source=0.0_wp)
+      of_stresses = 0.0_wp
       do c = 1, classes%n
          call begin_class(c)
       end do
-      left = sum(share)
+      left = sum(outlines%energy)
       do sweep = 1, MOST_SWEEPS
          call sweep_stars(fem%mesh, sides, chains, known, outlines, gain)
          left = left - gain
          if (.not. gain > LITTLE*left) exit
       end do
-      do c = 1, classes%n
-         call end_class(c)
-      end do
+      share = outlines%energy
+      ! sums of squares point by point where the difference of large numbers would be round-off
+      call go_again(sum(share) <= FEW_DIGITS*of_stresses)
 
    contains
 
@@ -64,7 +67,7 @@ contains
          integer(ip) :: i, n_given, j
 
          call make_energy(fem, classes%member(classes%first(c)), degree, energy)
-         outlines%h(:energy%n, :energy%n, c) = energy%h(:energy%n, :energy%n)
+         outlines%h(:energy%n, :energy%n, c) = energy%slopes(:, :energy%n)
          allocate (rows(energy%n_rows))
          do i = classes%first(c), classes%first(c + 1) - 1
             associate (e => classes%member(i), n => energy%n, corners => energy%macro%n)
@@ -84,37 +87,45 @@ contains
                call outline_of_tractions(energy%macro%corner(:, :corners), of_sides(:, :, :corners), outlines%a(:n, e))
                call given_rows(energy, x(:energy%n_given), rows)
                do j = 1, energy%n_given
-                  outlines%slope(:n, e) = outlines%slope(:n, e) + energy%g(:n, j)*x(j)
+                  outlines%slope(:n, e) = outlines%slope(:n, e) + energy%slopes(:, n + j)*x(j)
                end do
-               share(e) = dot_product(rows, rows) + dot_product(outlines%a(:n, e), outlines%slope(:n, e))
+               outlines%energy(e) = dot_product(rows, rows) + dot_product(outlines%a(:n, e), outlines%slope(:n, e))
+               of_stresses = of_stresses + dot_product(rows, rows)
                do j = 1, n
-                  outlines%slope(:n, e) = outlines%slope(:n, e) + energy%h(:n, j)*outlines%a(j, e)
+                  outlines%slope(:n, e) = outlines%slope(:n, e) + energy%slopes(:, j)*outlines%a(j, e)
                end do
-               share(e) = share(e) + dot_product(outlines%a(:n, e), outlines%slope(:n, e))
+               outlines%energy(e) = outlines%energy(e) + dot_product(outlines%a(:n, e), outlines%slope(:n, e))
             end associate
          end do
       end subroutine begin_class
 
-      !> The energies of the elements of a class.
-      subroutine end_class(c)
-         integer(ip), intent(in) :: c
+      !> The energies of elements that are cut, or of all, by their stresses.
+      subroutine go_again(is_all)
+         logical, intent(in) :: is_all
          type(element_energy_t) :: energy
          real(wp) :: x(MOST_GIVEN)
-         integer(ip) :: i, n_given
+         integer(ip) :: c, i, n_given
+         logical :: is_made
 
-         call make_energy(fem, classes%member(classes%first(c)), degree, energy)
-         do i = classes%first(c), classes%first(c + 1) - 1
-            associate (e => classes%member(i))
-               call given_of(fem, e, u, x, n_given)
-               x(n_given + 1:n_given + 2) = volume(:, e)
-               if (is_cut(cuts, sides, e)) then
-                  share(e) = cut_difference(fem, sides, cuts, e, degree, x(:energy%n_given), outlines%a(:energy%n, e))
-               else
-                  share(e) = energy_difference(energy, x(:energy%n_given), outlines%a(:energy%n, e))
-               end if
-            end associate
+         do c = 1, classes%n
+            is_made = .false.
+            do i = classes%first(c), classes%first(c + 1) - 1
+               associate (e => classes%member(i))
+                  if (.not. (is_all .or. is_cut(cuts, sides, e))) cycle
+                  call given_of(fem, e, u, x, n_given)
+                  x(n_given + 1:n_given + 2) = volume(:, e)
+                  if (is_cut(cuts, sides, e)) then
+                     share(e) = cut_difference(fem, sides, cuts, e, degree, x(:n_given + 2), outlines%a(:, e))
+                  else
+                     if (.not. is_made) call make_energy(fem, e, degree, energy)
+                     is_made = .true.
+                     share(e) = energy_difference(energy, x(:n_given + 2), outlines%a(:energy%n, e))
+                  end if
+               end associate
+            end do
          end do
-      end subroutine end_class
+
+      end subroutine go_again
 
    end subroutine sum_stresses
 

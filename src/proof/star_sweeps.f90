@@ -25,6 +25,7 @@ module atrito_star_sweeps
       real(wp), allocatable :: h(:, :, :)           !< (numbers, numbers, classes) [1/F] and so on
       real(wp), allocatable :: a(:, :)              !< (numbers, n_elements)
       real(wp), allocatable :: slope(:, :)          !< (numbers, n_elements) H a + g
+      real(wp), allocatable :: energy(:)            !< (n_elements) E [F L]
    end type outlines_t
 
    real(wp), parameter :: ROUND_OFF = 1.0e-11_wp    !< a pivot below this share of its diagonal is none
@@ -66,7 +67,7 @@ contains
       logical :: is_held(3*n_elements + 6)
       real(wp) :: matrix(3*n_elements + 6, 3*n_elements + 6), step(3*n_elements + 6), slope(3*n_elements + 6)
       integer(ip) :: free(3*n_elements + 6)
-      real(wp) :: h_sign
+      real(wp) :: h_sign, change
 
       per_side = 2*outlines%degree - 1
       m = 3 + 2*per_side
@@ -100,12 +101,20 @@ contains
       gain = gain + dot_product(slope(:n_free), step(:n_free))
       do j = 1, n_elements
          associate (h => outlines%h(:, :, outlines%class_of(element(j))), of_element => outlines%slope(:, element(j)))
+            change = 0.0_wp                         ! of E: the step times the slopes before and behind it
+            do s = 1, m
+               if (at(s, j) > 0) change = change + sign_of(s, j)*step(at(s, j))*of_element(place(s, j))
+            end do
             do s = 1, m
                if (at(s, j) == 0) cycle
                h_sign = sign_of(s, j)*step(at(s, j))
                outlines%a(place(s, j), element(j)) = outlines%a(place(s, j), element(j)) + h_sign
                of_element = of_element + h(:, place(s, j))*h_sign
             end do
+            do s = 1, m
+               if (at(s, j) > 0) change = change + sign_of(s, j)*step(at(s, j))*of_element(place(s, j))
+            end do
+            outlines%energy(element(j)) = outlines%energy(element(j)) + change
          end associate
       end do
 
