@@ -156,6 +156,7 @@ contains
 
       applied = loads%traction
       do i = 1, size(segments, kind=ip)
+         if (all(segments(i)%p == 0.0_wp .and. segments(i)%t == 0.0_wp)) cycle
          call segment_forces(segments(i), on_slave, on_master)
          ends(:, 1) = traction_at(segments(i), 0.0_wp)
          ends(:, 2) = traction_at(segments(i), 1.0_wp)
@@ -166,7 +167,7 @@ contains
             call put(segments(i)%master, segments(i)%on_master, -share, on_master)
          end associate
       end do
-      call link_pieces(sides%n, cuts)
+      call link_pieces(sides%n, cuts, why_not)
 
    contains
 
