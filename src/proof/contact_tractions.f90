@@ -383,7 +383,10 @@ contains
 
    !> Moves nodes of slaves back along the normal, so that nowhere u_n - s is larger than delta p.
    !>
-   !> why_not: a support that does not let a node move.
+   !> Corners move by the most that a face beside them needs, middle nodes by the mean of theirs: so the motion is linear along a
+   !> face and everywhere enough. Where delta > 0 a node that a support holds stays, since overlaps are then paid for in (2).
+   !>
+   !> why_not: a support that does not let a node move; sides that still overlap, as another pair has moved the master.
    subroutine keep_apart(segments, held, u, why_not)
       type(segment_t), intent(in) :: segments(:)
       logical, intent(in) :: held(:, :)             !< (2, n_nodes)
@@ -398,14 +401,18 @@ contains
       none = ROUND_OFF*maxval(abs(u))
       do i = 1, size(segments, kind=ip)
          beyond = largest_overlap(segments(i), u)
-         if (beyond > none) back(segments(i)%node(:segments(i)%n)) = max(back(segments(i)%node(:segments(i)%n)), beyond)
+         if (beyond > none) back(segments(i)%node(:2)) = max(back(segments(i)%node(:2)), beyond)
       end do
       if (all(back == 0.0_wp)) return
+      do i = 1, size(segments, kind=ip)
+         if (segments(i)%n == 3) back(segments(i)%node(3)) = 0.5_wp*sum(back(segments(i)%node(:2)))
+      end do
       do i = 1, size(segments, kind=ip)
          do k = 1, segments(i)%n
             associate (node => segments(i)%node(k))
                if (.not. back(node) > 0.0_wp) cycle
                if (any(held(:, node) .and. abs(segments(i)%normal) > SAME_DIRECTION)) then
+                  if (segments(i)%delta > 0.0_wp) cycle
                   why_not = 'a support holds a node of a slave that would have to be moved back'
                   return
                end if
@@ -413,6 +420,10 @@ contains
                back(node) = 0.0_wp
             end associate
          end do
+      end do
+      do i = 1, size(segments, kind=ip)
+         if (segments(i)%delta > 0.0_wp) cycle
+         if (largest_overlap(segments(i), u) > 10*none) why_not = 'sides that cannot be moved apart'
       end do
    end subroutine keep_apart
 

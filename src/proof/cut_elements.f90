@@ -62,9 +62,10 @@ contains
    end subroutine add_piece
 
    !> Finds the pieces of each side in their order. A side that one piece covers whole is not cut.
-   subroutine link_pieces(n_sides, cuts)
+   subroutine link_pieces(n_sides, cuts, why_not)
       integer(ip), intent(in) :: n_sides
       type(side_cuts_t), intent(inout) :: cuts
+      character(len=:), allocatable, intent(inout) :: why_not !< pieces of two pairs in one place
       integer(ip) :: i, at, before
 
       allocate (cuts%first(n_sides), cuts%next(cuts%n), source=0_ip)
@@ -82,6 +83,10 @@ contains
          else
             cuts%next(before) = i
          end if
+      end do
+      do i = 1, cuts%n
+         if (cuts%next(i) == 0) cycle
+         if (cuts%to(i) > cuts%from(cuts%next(i)) + SAME_PLACE) why_not = 'a place that two pairs press upon'
       end do
    end subroutine link_pieces
 

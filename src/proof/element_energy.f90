@@ -86,7 +86,8 @@ contains
          if (allocated(fem%heating)) energy%n_given = energy%n_given + n_nodes
          rule = size(MANY, 2)
          if (DEGREE_OF(n_nodes) == 1 .and. degree == 1) then
-            rule = merge(size(FEW, 2), size(SOME, 2), is_affine(energy%x(:, :SHAPES(n_nodes)%n_corners)))
+            rule = merge(size(FEW, 2), size(SOME, 2), is_affine(energy%x(:, :SHAPES(n_nodes)%n_corners)) .and. &
+                         .not. (n_nodes == 4 .and. allocated(fem%heating)))     ! temperatures are bilinear
          end if
          call make_rows(macro%n*rule*COMPONENTS)
          row = 0

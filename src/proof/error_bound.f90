@@ -102,6 +102,10 @@ contains
       call equilibrate_sides(problem%fem%mesh, sides, chains, force, known, traction, residual)
       allocate (share(problem%fem%mesh%n_elements))
       call sum_stresses(problem%fem, classes, sides, chains, known, traction, loads%volume, kept, cuts, share)
+      if (any(share < 0.0_wp)) then
+         bound%why_not = 'a side of an element faces too many others'
+         return
+      end if
       bound%normal = 0.0_wp
       bound%tangential = 0.0_wp
       do i = 1, n_segments
@@ -170,6 +174,7 @@ contains
 
       applied = loads%traction
       do i = 1, size(segments, kind=ip)
+         if (all(segments(i)%p == 0.0_wp .and. segments(i)%t == 0.0_wp)) cycle
          call segment_forces(segments(i), on_slave, on_master)
          ends(:, 1) = traction_at(segments(i), 0.0_wp)
          ends(:, 2) = traction_at(segments(i), 1.0_wp)
@@ -180,21 +185,29 @@ contains
             call put(segments(i)%master, segments(i)%on_master, -share, on_master)
          end associate
       end do
-      call link_pieces(sides%n, cuts)
+      call link_pieces(sides%n, cuts, why_not)
 
    contains
 
       subroutine put(face, places, factor, moments)
          integer(ip), intent(in) :: face(2)
          real(wp), intent(in) :: places(2), factor, moments(2, 3)
+         real(wp) :: linear(2, 0:1)
          integer(ip) :: side
 
          side = sides%of_element(face(2), face(1))
          if (.not. all(loads%known(:, side))) why_not = 'contact along a support'
          if (any(applied(:, :, side) /= 0.0_wp)) why_not = 'a load along a contact side'
          call add_piece(side, places, factor*ends, cuts)
-         loads%traction(:, :, side) = loads%traction(:, :, side) + &
-                                      traction_of(moments(:, :degree + 1), side_length(fem%mesh, sides, side), degree)
+         associate (length => side_length(fem%mesh, sides, side))
+            if (degree == 2 .and. sides%middle(side) == 0) then ! a face of two nodes beside others of three
+               linear = traction_of(moments(:, :2), length, 1_ip)
+               loads%traction(:, :, side) = loads%traction(:, :, side) + &
+                                            reshape([linear(:, 0), 0.5_wp*(linear(:, 0) + linear(:, 1)), linear(:, 1)], [2, 3])
+            else
+               loads%traction(:, :, side) = loads%traction(:, :, side) + traction_of(moments(:, :degree + 1), length, degree)
+            end if
+         end associate
       end subroutine put
 
    end subroutine take_contact

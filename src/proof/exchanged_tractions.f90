@@ -74,21 +74,25 @@ contains
 
    contains
 
-      !> The forces act at the contact dofs alone, so that nothing is reduced: F x there, and the interior from it.
+      !> The forces act at the contact dofs, and at nodes of a master that no point faces: only where there are such is the load
+      !> reduced.
       subroutine move_body(b, body)
          integer(ip), intent(in) :: b
          type(condensed_body_t), intent(inout) :: body
          real(wp), allocatable :: x(:, :), load(:, :)
-         integer(ip) :: i, dof, k
+         integer(ip) :: i, dof
 
          associate (list => problem%fem%bodies%list(b))
-            allocate (x(list%n_retained, 1), load(list%n, 1), source=0.0_wp)
+            allocate (load(list%n, 1), source=0.0_wp)
             do i = 1, size(list%nodes, kind=ip)
                do dof = 1, 2
-                  k = problem%fem%bodies%equation(dof, list%nodes(i)) - (list%n - list%n_retained)
-                  if (k > 0) x(k, 1) = force(dof, list%nodes(i))
+                  associate (k => problem%fem%bodies%equation(dof, list%nodes(i)))
+                     if (k > 0) load(k, 1) = force(dof, list%nodes(i))
+                  end associate
                end do
             end do
+            if (any(load(:list%n - list%n_retained, 1) /= 0.0_wp)) call body%solver%reduce(load)
+            x = load(list%n - list%n_retained + 1:, :)
             call contact_response(body, x)
             call swap_load(body, load)
             call expand_body(problem%fem, b, body, x(:, 1), change)

@@ -42,7 +42,11 @@ contains
       allocate (b(2, n_terms, sides%n))
       do i = 1, sides%n
          b(:, :, i) = moments_of(traction(:, :, i), side_length(mesh, sides, i))
-         if (sides%middle(i) == 0 .or. n_terms < 3) cycle
+         if (n_terms < 3) cycle
+         if (sides%middle(i) == 0) then             ! a side of two nodes beside others of three: linear functions
+            b(:, :2, i) = b(:, :2, i) + 0.5_wp*spread(b(:, 3, i), 2, 2)
+            cycle
+         end if
          associate (e => sides%element(1, i))
             k = findloc(mesh%nodes(:mesh%shape(e), e), sides%middle(i), dim=1, kind=ip)
             where (.not. known(:, i)) b(:, 3, i) = force(:, k, e)
