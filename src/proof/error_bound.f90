@@ -127,9 +127,9 @@ contains
             bound%bulk = 1.0_wp - bound%normal - bound%tangential
          end if
          energy = 0.0_wp
-         force_of_u = kept
-         call internal_forces(problem%fem, kept, force_of_u, energy)
-         energy = elastic_energy(problem%fem, kept, energy)
+         force_of_u = u
+         call internal_forces(problem%fem, u, force_of_u, energy)
+         energy = elastic_energy(problem%fem, u, energy)
          if (energy > 0.0_wp) bound%percent = 100*sqrt(max(eta2, 0.0_wp)/(2*energy))
          bound%is_certified = residual <= max(LEAST_DIGITS*bound%percent/100, 1.0e-12_wp)
          if (.not. bound%is_certified) bound%why_not = 'round-off of the equilibrium'
