@@ -3,7 +3,7 @@
 module atrito_balance_probe
    use atrito_bodies, only: mode_at
    use atrito_body_cache, only: body_cache_t
-   use atrito_certificate, only: certificate_t, prove_balance, BALANCE_IMPOSSIBLE, BALANCE_POSSIBLE
+   use atrito_certificate, only: certificate_t, prove_balance, find_largest_share, BALANCE_IMPOSSIBLE, BALANCE_POSSIBLE
    use atrito_contact_form, only: CONTACT_SPARSE
    use atrito_free_motion, only: free_motion_text
    use atrito_kinds, only: ip, wp
@@ -22,7 +22,7 @@ module atrito_balance_probe
    use atrito_amplitudes, only: load_breakpoints
    implicit none (type, external)
    private
-   public :: probe_balance
+   public :: probe_balance, predict_share
 
 contains
 
@@ -107,6 +107,37 @@ contains
       end subroutine ask_moment
 
    end subroutine probe_balance
+
+   !> Where between two models their balance ends, as a share of the way: known where they differ in the sizes of their loads alone
+   !> and have a single increment.
+   subroutine predict_share(stands, falls, share, found)
+      type(model_t), intent(in), target :: stands, falls
+      real(wp), intent(out) :: share
+      logical, intent(out) :: found
+      type(scene_data_t) :: data(2)
+      type(motion_rows_t) :: motions(2)
+      type(solve_options_t) :: asked
+      type(body_cache_t) :: store
+      type(status_t) :: status
+      integer :: i
+
+      share = 0.0_wp
+      found = size(stands%steps) == 1
+      if (found) found = size(load_breakpoints(stands, 1_ip)) == 1
+      if (.not. found) return
+      asked%contact_form = CONTACT_SPARSE
+      call prepare(stands, store, asked, data(1), status)
+      if (is_ok(status)) call prepare(falls, store, asked, data(2), status)
+      found = is_ok(status)
+      if (.not. found) return
+      do i = 1, 2
+         call build_motion_rows(data(i)%fem, data(i)%rows, data(i)%line, data(i)%f, motions(i))
+      end do
+      found = motions(1)%n == motions(2)%n .and. motions(1)%n_columns == motions(2)%n_columns
+      if (found) found = size(motions(1)%value) == size(motions(2)%value)
+      if (found) found = all(motions(1)%value == motions(2)%value) .and. all(data(1)%line%law%nu == data(2)%line%law%nu)
+      if (found) call find_largest_share(motions(1), data(1)%line, motions(2), share, found)
+   end subroutine predict_share
 
    !> The time, where there is more than one to be asked about.
    pure function moment_text(model, k, time, began) result(text)
