@@ -57,16 +57,18 @@ module atrito_certificate
 contains
 
    !> Judges all groups. IMPOSSIBLE: one of them has a motion that proves it, that of the greatest excess over its loads is given.
-   subroutine prove_balance(rows, line, certificate)
+   subroutine prove_balance(rows, line, certificate, counts)
       type(motion_rows_t), intent(in) :: rows
       type(contact_line_t), intent(in) :: line
       type(certificate_t), intent(out) :: certificate
+      logical, intent(in), optional :: counts(:) !< (line%n) points that may bear forces; left out: all
       type(certificate_t) :: own
       type(balance_groups_t) :: groups
       real(wp) :: worst, part
       integer(ip) :: g
 
       call find_groups(rows, line, groups)
+      if (present(counts)) groups%of_point = merge(groups%of_point, 0_ip, counts)
       allocate (certificate%motion(rows%n_columns), certificate%q(rows%n), source=0.0_wp)
       certificate%verdict = BALANCE_POSSIBLE
       worst = 0.0_wp

@@ -4,7 +4,7 @@
 !> the solution is. Runs hand their factored bodies on, so that those that the parameter leaves as they are are factored once.
 module atrito_stability_limit
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
-   use atrito_balance_probe, only: predict_share, probe_balance
+   use atrito_balance_probe, only: describe_gaps, predict_share, probe_balance
    use atrito_body_cache, only: body_cache_t
    use atrito_clp, only: has_clp, clp_trouble
    use atrito_command_line, only: command_t, output_folder
@@ -14,7 +14,7 @@ module atrito_stability_limit
    use atrito_history, only: solve_history
    use atrito_kinds, only: ip, lp, wp
    use atrito_mesh, only: find_node
-   use atrito_messages, only: clear_messages
+   use atrito_messages, only: add_warning, clear_messages, count_messages
    use atrito_model, only: model_t
    use atrito_observations, only: observations_t
    use atrito_page, only: page_t
@@ -32,7 +32,7 @@ module atrito_stability_limit
    use atrito_stability_search, only: search_t, begin_search, next_step, suggest_root, record_balance, record_solution, &
                                       standing_value, falling_value, balanced_value, STEP_BALANCE, STEP_DONE, STANDS, FALLS, &
                                       UNDECIDED, FOUND_LIMIT, FOUND_INTERVAL, BOTH_STAND, BOTH_FALL
-   use atrito_stability_tables, only: write_stability, compose_stability
+   use atrito_stability_tables, only: write_stability, compose_stability, large_where_it_stands
    use atrito_status, only: status_t, set_status, reword_status, is_ok, STATUS_OK, STATUS_USAGE, &
                             STATUS_NOT_CONVERGED, STATUS_SINGULAR
    use atrito_strings, only: string_t, append_string, to_text
@@ -91,15 +91,33 @@ contains
       if (code /= STATUS_OK) return
       call judge_search(search, limit, status)
       if (is_ok(status)) then
-         call load_value(command, limit%parameter, limit%falls, .true., model, code, n_printed)
+         call load_value(command, limit%parameter, limit%balanced, .true., model, code, n_printed)
+         if (code == STATUS_OK) call describe_gaps(model, limit%gaps)
+         if (code == STATUS_OK) call load_value(command, limit%parameter, limit%falls, .true., model, code, n_printed)
          if (code /= STATUS_OK) return
          call probe_balance(model, answer, excess, status, limit%collapse)
       end if
+      if (is_ok(status)) call warn_of_motions(command, limit)
       if (is_ok(status)) call finish(command, origin, model, limit, seconds_since(began), status)
       if (.not. is_ok(status)) call print_status(status, command%names(1)%s, command%json)
       code = status%code
       if (is_ok(status) .and. .not. limit%is_close) code = STATUS_NOT_CONVERGED
    end subroutine find_limit
+
+   !> Motions that are not small where it stands, as a run warns of them.
+   subroutine warn_of_motions(command, limit)
+      type(command_t), intent(in) :: command
+      type(stability_t), intent(in) :: limit
+      character(len=:), allocatable :: large
+      integer(ip) :: n_printed
+
+      large = large_where_it_stands(limit)
+      if (len(large) == 0) return
+      n_printed = count_messages()
+      call add_warning('W-LARGE', 'where it stands, at '//limit%parameter//' = '//to_text(limit%stands, 10)//': '//large// &
+                       '; the linear theory, in which forces, normals and places are those without loads, does not know the motion')
+      call print_messages(command%quiet, n_printed + 1, command%json)
+   end subroutine warn_of_motions
 
    !> Asks until the search has what it needs: at a value of the parameter whether the loads can be balanced, or what the solution
    !> is. code: of a deck that has errors at a value, and the like; printed.
@@ -244,6 +262,9 @@ contains
          status = status_t()
          if (n > 0) call watch(model, history%frames(n), command%watched, one%displacement, status)
          if (n > 0) call count_work(history, one)
+         one%large = [maxval(history%frames%large_strain%value), maxval(history%frames%large_rotation%value), &
+                      maxval(history%frames%large_slip%value)]
+         one%large = max(one%large, 0.0_wp)
          if (n > 0) then
             if (allocated(history%frames(n)%observed)) one%observed = history%frames(n)%observed%value
          end if
