@@ -55,7 +55,7 @@ nodal_values_t     model/fingerprint.f90 add_nodal_values values source
 element_load_t     model/fingerprint.f90 add_element_loads loads line,source
 amplitude_t        model/fingerprint.f90 add_amplitudes amplitude name
 increments_t       model/fingerprint.f90 add_way way
-controls_t         model/fingerprint.f90 add_way controls is_rung,logs_solves
+controls_t         model/fingerprint.f90 add_way controls is_rung,logs_solves,most_factorisations
 requests_t         model/fingerprint.f90 add_requests requests
 frequencies_t      model/types/model.f90 all_frequencies every
 path_t             model/fingerprint.f90 add_paths path place,s,x,along
