@@ -10,7 +10,8 @@ ROUND_OFF = 1e-9                               # an error below it is told as su
 MADE = "<!-- made by tests/book/run_book --write: change the case, not the page -->"
 NUMBER = re.compile(r"(?<![\w.])[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?(?![\w.])")
 COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9")
-OUTLINE_ONLY = 30000                           # characters of a picture beyond which inner edges are left out
+OUTLINE_ONLY = 20000                           # characters of a picture beyond which inner edges are left out
+LONGEST_DECK = 90                              # lines of a deck that a page shows
 
 
 def read_left_out(book):
@@ -26,7 +27,7 @@ def read_left_out(book):
 
 
 def of_value(number):
-    return f"{number:#.7g}" if number else "0"
+    return f"{number:#.7g}".rstrip(".") if number else "0"
 
 
 def of_error(number, value):
@@ -76,15 +77,16 @@ def run_tables(case, run, outcomes):
         rows.append([value.name, reference(value), *map(of_value, found), of_error(errors[-1], value), *([order(value, errors)] if smooth else []),
                      f"{value.allowed():.2g}" if value.between is None else "inside", verdict(value, found[-1])])
     lines = table(head, rows) + [""]
-    bounds = any(result.bound is not None for result in results)
-    head = ["mesh", "bodies", "elements", "nodes", "estimated error %", *(["bound of the error %"] if bounds else []), "largest true error of the values %",
-            "seconds"]
-    rows = []
-    for level, result in zip(run.refine, results):
-        true = [value.error(result.found[value]) for value in case.of_run(run) if value.tolerance is not None]
-        largest = 100*max(true, default=math.nan)
-        rows.append([f"refine {level}", *(result.counts or ("", "", "")), percent(result.estimate), *([percent(result.bound)] if bounds else []),
-                     percent(largest), f"{result.seconds:.2f}"])
+    columns = [("mesh", [f"refine {level}" for level in run.refine])]
+    if any(result.counts for result in results):
+        columns += [(name, [result.counts[k] if result.counts else "" for result in results]) for k, name in enumerate(("bodies", "elements", "nodes"))]
+    if any(result.estimate is not None for result in results):
+        columns += [("estimated error %", [percent(result.estimate) for result in results])]
+    if any(result.bound is not None for result in results):
+        columns += [("bound of the error %", [percent(result.bound) for result in results])]
+    true = [max((value.error(result.found[value]) for value in case.of_run(run) if value.tolerance is not None), default=math.nan) for result in results]
+    columns += [("largest true error of the values %", [percent(100*number) for number in true]), ("seconds", [f"{result.seconds:.2f}" for result in results])]
+    head, rows = [name for name, _ in columns], zip(*(cells for _, cells in columns))
     return lines + table(head, rows) + [""]
 
 
@@ -94,9 +96,15 @@ def percent(number):
     return "round-off" if number < 100*ROUND_OFF else f"{number:.2g}"
 
 
+def link(case, file):
+    return f"[{file}](../../../tests/book/{case.folder.name}/{file})"
+
+
 def shown_deck(path):
-    text = path.read_text().rstrip("\n")
-    return ["", *(("    " + line).rstrip() for line in text.split("\n")), ""]
+    lines = path.read_text().rstrip("\n").split("\n")
+    if len(lines) > LONGEST_DECK:
+        return ["", f"Its {len(lines)} lines are not shown here.", ""]
+    return ["", *(("    " + line).rstrip() for line in lines), ""]
 
 
 def page(case, outcomes):
@@ -106,9 +114,10 @@ def page(case, outcomes):
         lines += [f"![The mesh of {case.id}, displaced]({case.id}.svg)", ""]
     lines += ["## The problem", "", *case.data.strip().split("\n"), ""]
     for deck in case.decks:
-        link = f"../../../tests/book/{case.folder.name}/{deck}"
-        lines += [f"## The deck [{deck}]({link})"]
-        lines += shown_deck(case.folder/deck)
+        lines += [f"## The deck {link(case, deck)}", *shown_deck(case.folder/deck)]
+        included = re.findall(r"(?im)^\*include, *input=(\S+)", (case.folder/deck).read_text())
+        if included:
+            lines += ["It includes " + " and ".join(link(case, name) for name in included) + ".", ""]
     lines += ["## What it gives", ""]
     for run in case.runs:
         words = " ".join(["atrito", *run.command, run.deck, *run.options])
@@ -215,7 +224,7 @@ def comparable(text):
 
 
 def same_line(old, new):
-    """The same words, and numbers to the digits that rounding leaves alone."""
+    """The same words, and numbers to the digits that rounding leaves alone; of errors, which have few, those below 1e-4 are alike."""
     if NUMBER.sub("#", old) != NUMBER.sub("#", new):
         return False
     return all(near(a, b) for a, b in zip(NUMBER.findall(old), NUMBER.findall(new)))
@@ -224,7 +233,7 @@ def same_line(old, new):
 def near(old, new):
     digits = len(re.sub(r"e.*|\D", "", old).lstrip("0"))
     a, b = float(old), float(new)
-    return abs(a - b) <= (1e-4 if digits > 4 else 0.05)*max(abs(a), abs(b)) or max(abs(a), abs(b)) < 1e-7
+    return abs(a - b) <= 1e-4*max(abs(a), abs(b)) or digits <= 4 and (abs(a - b) <= 0.05*max(abs(a), abs(b)) or max(abs(a), abs(b)) < 1e-4)
 
 
 def picture(path, width=480.0):
