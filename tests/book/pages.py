@@ -111,7 +111,8 @@ def page(case, outcomes):
     """The page of a case."""
     lines = [f"# {case.id} {case.title}", "", MADE, "", f"From {case.origin}: {case.address}", ""]
     if case.picture != "none":
-        lines += [f"![The mesh of {case.id}, displaced]({case.id}.svg)", ""]
+        shows = "mechanism" if case.command else "mesh"
+        lines += [f"![The {shows} of {case.id}, displaced]({case.id}.svg)", ""]
     lines += ["## The problem", "", *case.data.strip().split("\n"), ""]
     for deck in case.decks:
         lines += [f"## The deck {link(case, deck)}", *shown_deck(case.folder/deck)]
@@ -242,8 +243,8 @@ def picture(path, width=480.0):
         raise BookError(f"{path}: no data for the picture")
     bodies = []                                # (title, polylines)
     for line in path.read_text().splitlines():
-        if line.startswith("# block"):
-            bodies.append((line.split(":", 1)[1], [[]]))
+        if line.startswith(("# block", "# a rigid surface")):
+            bodies.append((line, [[]]))
         elif not line.startswith("#") and bodies:
             words = line.split()
             if words:
@@ -264,34 +265,36 @@ def picture(path, width=480.0):
 
 
 def svg(bodies, low, high, unit, scale, inner):
-    """Paths in whole pixels, a body and kind of line each."""
+    """Paths in tenths of pixels, a body and kind of line each."""
     def place(p):
-        return round(10 + unit*(p[0] + scale*p[2] - low[0])), round(10 + unit*(high[1] - p[1] - scale*p[3]))
+        return 10 + unit*(p[0] + scale*p[2] - low[0]), 10 + unit*(high[1] - p[1] - scale*p[3])
     wide, tall = round(20 + unit*(high[0] - low[0])), round(42 + unit*(high[1] - low[1]))
     lines = [f'<svg xmlns="http://www.w3.org/2000/svg" width="{max(wide, 260)}" height="{tall}">',
              f'<rect width="{max(wide, 260)}" height="{tall}" fill="white"/>']
     for title, polylines in bodies:
-        outline = "outline" in title
+        outline = "edges inside" not in title
         if not (outline or inner):
             continue
-        body = int((re.search(r"body (\d+)", title) or [0, 1])[1])
+        body = re.search(r"body (\d+)", title)
         steps = []
         for polyline in polylines:
-            way = simplified([place(p) for p in polyline])
+            way = simplified([place(p) for p in polyline]) if polyline else []
             if len(way) > 1:
-                steps.append("M{},{}".format(*way[0]) + "".join(f"l{b[0] - a[0]},{b[1] - a[1]}" for a, b in zip(way, way[1:])))
-        colour = COLOURS[(body - 1) % len(COLOURS)]
+                steps.append("M" + "L".join(f"{x:.1f},{y:.1f}" for x, y in way))
+        colour = COLOURS[(int(body[1]) - 1) % len(COLOURS)] if body else "#808080"
         lines.append(f'<path fill="none" stroke="{colour}" stroke-width="{1.6 if outline else 0.5}" d="{"".join(steps)}"/>')
     lines.append(f'<text x="10" y="{tall - 8}" font-family="sans-serif" font-size="12">displacements drawn {scale:g} times</text>')
     return "\n".join(lines) + "\n</svg>\n"
 
 
 def simplified(way):
-    """A way in whole pixels without points that lie within a pixel of the straight line between their neighbours."""
-    kept = way[:1]
-    for k in range(1, len(way) - 1):
-        a, b, c = kept[-1], way[k], way[k + 1]
-        across = abs((b[0] - a[0])*(c[1] - a[1]) - (b[1] - a[1])*(c[0] - a[0]))
-        if across > math.hypot(c[0] - a[0], c[1] - a[1]):
-            kept.append(b)
-    return [p for k, p in enumerate(kept + way[-1:]) if k == 0 or p != kept[k - 1]]
+    """A way in pixels without points that lie within half a pixel of the line between those that are left."""
+    if len(way) < 3:
+        return way if way[0] != way[-1] else way[:1]
+    (x, y), (dx, dy) = way[0], (way[-1][0] - way[0][0], way[-1][1] - way[0][1])
+    length = math.hypot(dx, dy)
+    away = [abs((p[0] - x)*dy - (p[1] - y)*dx)/length if length else math.hypot(p[0] - x, p[1] - y) for p in way]
+    k = max(range(len(way)), key=away.__getitem__)
+    if away[k] < 0.5:
+        return [way[0], way[-1]]
+    return simplified(way[:k + 1]) + simplified(way[k:])[1:]
