@@ -1,5 +1,6 @@
 """Cases of the book: what case.toml says, and values out of the tables of a run. README.md has the format."""
 import math
+import re
 import tomllib
 from pathlib import Path
 
@@ -11,7 +12,8 @@ VALUE_KEYS = {"name": str, "reference": float, "second": float, "between": list,
               "column": str, "where": str, "pick": str, "step": int, "increment": int, "factor": float, "uncertainty": str, "tolerance": float,
               "absolute": float, "why": str, "missed": str}
 LEFT_OUT_KEYS = {"name": str, "reference": float, "why": str}
-PICKS = {"only": None, "max": max, "min": min, "sum": math.fsum, "mean": lambda v: math.fsum(v)/len(v), "first": lambda v: v[0], "last": lambda v: v[-1]}
+PICKS = {"only": None, "max": max, "min": min, "sum": math.fsum, "mean": lambda v: math.fsum(v)/len(v), "range": lambda v: max(v) - min(v),
+         "first": lambda v: v[0], "last": lambda v: v[-1]}
 FUNCTIONS = {"abs": abs, "max": max, "min": min, "sqrt": math.sqrt, "hypot": math.hypot, "atan2": math.atan2, "cos": math.cos, "sin": math.sin, "pi": math.pi}
 
 
@@ -129,8 +131,8 @@ class Case:
 
 
 def read_cases(book, wanted=()):
-    """All cases of a folder in the order of their names, or the wanted ones."""
-    cases = [Case(path.parent) for path in sorted(Path(book).glob("*/case.toml"))]
+    """All cases of a folder in the order of their names and numbers, or the wanted ones."""
+    cases = sorted((Case(path.parent) for path in Path(book).glob("*/case.toml")), key=lambda case: [word.zfill(4) for word in re.findall(r"\d+|\D+", case.id)])
     ids = [case.id for case in cases]
     for name in ids:
         if ids.count(name) > 1:
@@ -166,7 +168,9 @@ def number(word):
 
 
 def last_rows(columns, rows, step, increment):
-    """Rows of one step and increment, the last ones unless told."""
+    """Rows of one step and increment, the last ones unless told; of all where the step is 0."""
+    if step == 0:
+        return rows
     for name, told in (("step", step), ("increment", increment)):
         if name in columns and rows:
             k = columns.index(name)

@@ -10,7 +10,8 @@ ROUND_OFF = 1e-9                               # an error below it is told as su
 MADE = "<!-- made by tests/book/run_book --write: change the case, not the page -->"
 NUMBER = re.compile(r"(?<![\w.])[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?(?![\w.])")
 COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9")
-OUTLINE_ONLY = 30000                           # characters of a picture beyond which inner edges are left out
+OUTLINE_ONLY = 20000                           # characters of a picture beyond which inner edges are left out
+LONGEST_DECK = 90                              # lines of a deck that a page shows
 
 
 def read_left_out(book):
@@ -26,7 +27,7 @@ def read_left_out(book):
 
 
 def of_value(number):
-    return f"{number:#.7g}" if number else "0"
+    return f"{number:#.7g}".rstrip(".") if number else "0"
 
 
 def of_error(number, value):
@@ -76,15 +77,16 @@ def run_tables(case, run, outcomes):
         rows.append([value.name, reference(value), *map(of_value, found), of_error(errors[-1], value), *([order(value, errors)] if smooth else []),
                      f"{value.allowed():.2g}" if value.between is None else "inside", verdict(value, found[-1])])
     lines = table(head, rows) + [""]
-    bounds = any(result.bound is not None for result in results)
-    head = ["mesh", "bodies", "elements", "nodes", "estimated error %", *(["bound of the error %"] if bounds else []), "largest true error of the values %",
-            "seconds"]
-    rows = []
-    for level, result in zip(run.refine, results):
-        true = [value.error(result.found[value]) for value in case.of_run(run) if value.tolerance is not None]
-        largest = 100*max(true, default=math.nan)
-        rows.append([f"refine {level}", *(result.counts or ("", "", "")), percent(result.estimate), *([percent(result.bound)] if bounds else []),
-                     percent(largest), f"{result.seconds:.2f}"])
+    columns = [("mesh", [f"refine {level}" for level in run.refine])]
+    if any(result.counts for result in results):
+        columns += [(name, [result.counts[k] if result.counts else "" for result in results]) for k, name in enumerate(("bodies", "elements", "nodes"))]
+    if any(result.estimate is not None for result in results):
+        columns += [("estimated error %", [percent(result.estimate) for result in results])]
+    if any(result.bound is not None for result in results):
+        columns += [("bound of the error %", [percent(result.bound) for result in results])]
+    true = [max((value.error(result.found[value]) for value in case.of_run(run) if value.tolerance is not None), default=math.nan) for result in results]
+    columns += [("largest true error of the values %", [percent(100*number) for number in true]), ("seconds", [f"{result.seconds:.2f}" for result in results])]
+    head, rows = [name for name, _ in columns], zip(*(cells for _, cells in columns))
     return lines + table(head, rows) + [""]
 
 
@@ -94,21 +96,29 @@ def percent(number):
     return "round-off" if number < 100*ROUND_OFF else f"{number:.2g}"
 
 
+def link(case, file):
+    return f"[{file}](../../../tests/book/{case.folder.name}/{file})"
+
+
 def shown_deck(path):
-    text = path.read_text().rstrip("\n")
-    return ["", *(("    " + line).rstrip() for line in text.split("\n")), ""]
+    lines = path.read_text().rstrip("\n").split("\n")
+    if len(lines) > LONGEST_DECK:
+        return ["", f"Its {len(lines)} lines are not shown here.", ""]
+    return ["", *(("    " + line).rstrip() for line in lines), ""]
 
 
 def page(case, outcomes):
     """The page of a case."""
     lines = [f"# {case.id} {case.title}", "", MADE, "", f"From {case.origin}: {case.address}", ""]
     if case.picture != "none":
-        lines += [f"![The mesh of {case.id}, displaced]({case.id}.svg)", ""]
+        shows = "mechanism" if case.command else "mesh"
+        lines += [f"![The {shows} of {case.id}, displaced]({case.id}.svg)", ""]
     lines += ["## The problem", "", *case.data.strip().split("\n"), ""]
     for deck in case.decks:
-        link = f"../../../tests/book/{case.folder.name}/{deck}"
-        lines += [f"## The deck [{deck}]({link})"]
-        lines += shown_deck(case.folder/deck)
+        lines += [f"## The deck {link(case, deck)}", *shown_deck(case.folder/deck)]
+        included = re.findall(r"(?im)^\*include, *input=(\S+)", (case.folder/deck).read_text())
+        if included:
+            lines += ["It includes " + " and ".join(link(case, name) for name in included) + ".", ""]
     lines += ["## What it gives", ""]
     for run in case.runs:
         words = " ".join(["atrito", *run.command, run.deck, *run.options])
@@ -215,7 +225,7 @@ def comparable(text):
 
 
 def same_line(old, new):
-    """The same words, and numbers to the digits that rounding leaves alone."""
+    """The same words, and numbers to the digits that rounding leaves alone; of errors, which have few, those below 1e-4 are alike."""
     if NUMBER.sub("#", old) != NUMBER.sub("#", new):
         return False
     return all(near(a, b) for a, b in zip(NUMBER.findall(old), NUMBER.findall(new)))
@@ -224,7 +234,7 @@ def same_line(old, new):
 def near(old, new):
     digits = len(re.sub(r"e.*|\D", "", old).lstrip("0"))
     a, b = float(old), float(new)
-    return abs(a - b) <= (1e-4 if digits > 4 else 0.05)*max(abs(a), abs(b)) or max(abs(a), abs(b)) < 1e-7
+    return abs(a - b) <= 1e-4*max(abs(a), abs(b)) or digits <= 4 and (abs(a - b) <= 0.05*max(abs(a), abs(b)) or max(abs(a), abs(b)) < 1e-4)
 
 
 def picture(path, width=480.0):
@@ -233,8 +243,8 @@ def picture(path, width=480.0):
         raise BookError(f"{path}: no data for the picture")
     bodies = []                                # (title, polylines)
     for line in path.read_text().splitlines():
-        if line.startswith("# block"):
-            bodies.append((line.split(":", 1)[1], [[]]))
+        if line.startswith(("# block", "# a rigid surface")):
+            bodies.append((line, [[]]))
         elif not line.startswith("#") and bodies:
             words = line.split()
             if words:
@@ -255,34 +265,36 @@ def picture(path, width=480.0):
 
 
 def svg(bodies, low, high, unit, scale, inner):
-    """Paths in whole pixels, a body and kind of line each."""
+    """Paths in tenths of pixels, a body and kind of line each."""
     def place(p):
-        return round(10 + unit*(p[0] + scale*p[2] - low[0])), round(10 + unit*(high[1] - p[1] - scale*p[3]))
+        return 10 + unit*(p[0] + scale*p[2] - low[0]), 10 + unit*(high[1] - p[1] - scale*p[3])
     wide, tall = round(20 + unit*(high[0] - low[0])), round(42 + unit*(high[1] - low[1]))
     lines = [f'<svg xmlns="http://www.w3.org/2000/svg" width="{max(wide, 260)}" height="{tall}">',
              f'<rect width="{max(wide, 260)}" height="{tall}" fill="white"/>']
     for title, polylines in bodies:
-        outline = "outline" in title
+        outline = "edges inside" not in title
         if not (outline or inner):
             continue
-        body = int((re.search(r"body (\d+)", title) or [0, 1])[1])
+        body = re.search(r"body (\d+)", title)
         steps = []
         for polyline in polylines:
-            way = simplified([place(p) for p in polyline])
+            way = simplified([place(p) for p in polyline]) if polyline else []
             if len(way) > 1:
-                steps.append("M{},{}".format(*way[0]) + "".join(f"l{b[0] - a[0]},{b[1] - a[1]}" for a, b in zip(way, way[1:])))
-        colour = COLOURS[(body - 1) % len(COLOURS)]
+                steps.append("M" + "L".join(f"{x:.1f},{y:.1f}" for x, y in way))
+        colour = COLOURS[(int(body[1]) - 1) % len(COLOURS)] if body else "#808080"
         lines.append(f'<path fill="none" stroke="{colour}" stroke-width="{1.6 if outline else 0.5}" d="{"".join(steps)}"/>')
     lines.append(f'<text x="10" y="{tall - 8}" font-family="sans-serif" font-size="12">displacements drawn {scale:g} times</text>')
     return "\n".join(lines) + "\n</svg>\n"
 
 
 def simplified(way):
-    """A way in whole pixels without points that lie within a pixel of the straight line between their neighbours."""
-    kept = way[:1]
-    for k in range(1, len(way) - 1):
-        a, b, c = kept[-1], way[k], way[k + 1]
-        across = abs((b[0] - a[0])*(c[1] - a[1]) - (b[1] - a[1])*(c[0] - a[0]))
-        if across > math.hypot(c[0] - a[0], c[1] - a[1]):
-            kept.append(b)
-    return [p for k, p in enumerate(kept + way[-1:]) if k == 0 or p != kept[k - 1]]
+    """A way in pixels without points that lie within half a pixel of the line between those that are left."""
+    if len(way) < 3:
+        return way if way[0] != way[-1] else way[:1]
+    (x, y), (dx, dy) = way[0], (way[-1][0] - way[0][0], way[-1][1] - way[0][1])
+    length = math.hypot(dx, dy)
+    away = [abs((p[0] - x)*dy - (p[1] - y)*dx)/length if length else math.hypot(p[0] - x, p[1] - y) for p in way]
+    k = max(range(len(way)), key=away.__getitem__)
+    if away[k] < 0.5:
+        return [way[0], way[-1]]
+    return simplified(way[:k + 1]) + simplified(way[k:])[1:]
