@@ -1,5 +1,6 @@
 """The pages of the book: book.md, a page a case, their pictures; and whether those that are there are up to date."""
 import math
+import posixpath
 import re
 import tomllib
 from pathlib import Path
@@ -96,8 +97,14 @@ def percent(number):
     return "round-off" if number < 100*ROUND_OFF else f"{number:.2g}"
 
 
+def shown_path(case, file):
+    """A file of the case by its name, one that stands elsewhere by its path in the repository."""
+    return posixpath.normpath(f"tests/book/{case.folder.name}/{file}") if "/" in file else file
+
+
 def link(case, file):
-    return f"[{file}](../../../tests/book/{case.folder.name}/{file})"
+    path = posixpath.normpath(f"tests/book/{case.folder.name}/{file}")
+    return f"[{shown_path(case, file)}](../../../{path})"
 
 
 def shown_deck(path):
@@ -121,7 +128,7 @@ def page(case, outcomes):
             lines += ["It includes " + " and ".join(link(case, name) for name in included) + ".", ""]
     lines += ["## What it gives", ""]
     for run in case.runs:
-        words = " ".join(["atrito", *run.command, run.deck, *run.options])
+        words = " ".join(["atrito", *run.command, shown_path(case, run.deck), *run.options])
         lines += [f"`{words}` with `--refine` {', '.join(map(str, run.refine))}" +
                   (f", which ends with exit code {run.exit}" if run.exit else "") + ":", "", *run_tables(case, run, outcomes)]
     lines += ["Errors are relative, but where the reference is 0; *allowed* is what the test of the finest mesh takes.", ""]
