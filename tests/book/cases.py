@@ -132,7 +132,7 @@ class Case:
 
 def read_cases(book, wanted=()):
     """All cases of a folder in the order of their names and numbers, or the wanted ones."""
-    cases = sorted((Case(path.parent) for path in Path(book).glob("*/case.toml")), key=lambda case: [word.zfill(4) for word in re.findall(r"\d+|\D+", case.id)])
+    cases = sorted((Case(path.parent) for path in Path(book).glob("*/case.toml")), key=lambda case: [word.zfill(4) if word.isdigit() else word for word in re.findall(r"\d+|\D+", case.id)])
     ids = [case.id for case in cases]
     for name in ids:
         if ids.count(name) > 1:

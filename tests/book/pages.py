@@ -27,14 +27,17 @@ def read_left_out(book):
     return given["case"]
 
 
-def of_value(number):
-    return f"{number:#.7g}".rstrip(".") if number else "0"
+def of_value(number, value=None):
+    """Seven digits; 0 for what is nothing beside what is allowed where the reference is 0."""
+    if number == 0 or value and value.reference == 0 and value.error(number) < value.allowed()/1000:
+        return "0"
+    return f"{number:#.7g}".rstrip(".")
 
 
 def of_error(number, value):
     if value.between is not None:
         return "inside" if number == 0 else f"{number:.1e} of the width outside"
-    if value.absolute is None and number < ROUND_OFF:
+    if number < (ROUND_OFF if value.absolute is None else value.allowed()/1000):
         return "round-off"
     return f"{number:.1e}"
 
@@ -75,8 +78,8 @@ def run_tables(case, run, outcomes):
     for value in case.of_run(run):
         found = [result.found[value] for result in results]
         errors = [value.error(number) for number in found]
-        rows.append([value.name, reference(value), *map(of_value, found), of_error(errors[-1], value), *([order(value, errors)] if smooth else []),
-                     f"{value.allowed():.2g}" if value.between is None else "inside", verdict(value, found[-1])])
+        rows.append([value.name, reference(value), *(of_value(number, value) for number in found), of_error(errors[-1], value),
+                     *([order(value, errors)] if smooth else []), f"{value.allowed():.2g}" if value.between is None else "inside", verdict(value, found[-1])])
     lines = table(head, rows) + [""]
     columns = [("mesh", [f"refine {level}" for level in run.refine])]
     if any(result.counts for result in results):
