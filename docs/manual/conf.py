@@ -32,13 +32,16 @@ html_show_copyright = False
 html_show_sphinx = False
 
 KEYWORDS, MESSAGES, OPTIONS, TABLES = "docs/user/keywords", "docs/user/messages", "docs/user/running", "docs/user/tables"
-GLOSSARY = "docs/labs/glossary"
+GLOSSARY, BOOK = "docs/labs/glossary", "docs/verification/book"
 MESSAGE = re.compile(r"\b[EWN]-[A-Z]+(?:-[A-Z]+)*\b")
 OPTION = re.compile(r"(--[a-z][a-z-]+)")
 
 
 def add_contents(_, docname, source):
-    """Behind each list of the root page a table of contents, under the heading of the list."""
+    """Behind each list of the root page a table of contents, under the heading of the list; in the book one of its pages."""
+    if docname == BOOK:
+        pages = dict.fromkeys(re.findall(r"\]\((book/[\w-]+)\.md\)", source[0]))
+        source[0] += "\n\n```{toctree}\n:hidden:\n\n" + "\n".join(pages) + "\n```\n"
     if docname != root_doc:
         return
     parts = source[0].split("\n## ")
