@@ -4,7 +4,7 @@ Formulas become MathML, which browsers draw without a script. Keywords, options,
 index; where a page names a keyword or a message, it has a link there."""
 import re
 from importlib.util import find_spec
-from os.path import dirname, normpath
+from os.path import dirname, exists, normpath
 
 from docutils import nodes
 from docutils.transforms import Transform
@@ -35,6 +35,14 @@ KEYWORDS, MESSAGES, OPTIONS, TABLES = "docs/user/keywords", "docs/user/messages"
 GLOSSARY, BOOK = "docs/labs/glossary", "docs/verification/book"
 MESSAGE = re.compile(r"\b[EWN]-[A-Z]+(?:-[A-Z]+)*\b")
 OPTION = re.compile(r"(--[a-z][a-z-]+)")
+
+
+def drop_links(app, docname, source):
+    """A link to a page of the sources that is not in the manual is its words alone; a link that leads nowhere is left, and told."""
+    def words(link):
+        page = normpath(f"{dirname(docname)}/{link[2]}")
+        return link[1] if page not in app.env.found_docs and exists(f"{app.srcdir}/{page}.md") else link[0]
+    source[0] = re.sub(r"\[([^\]]*)\]\(([^):#]*)\.md(?:#[^)]*)?\)", words, source[0])
 
 
 def add_contents(_, docname, source):
@@ -152,5 +160,6 @@ def setup(app):
     app.config.html_math_renderer = "mathml"
     app.add_transform(Titles)
     app.add_transform(Index)
+    app.connect("source-read", drop_links)
     app.connect("source-read", add_contents)
     app.connect("doctree-resolved", add_links)
