@@ -62,7 +62,7 @@ def add_contents(_, docname, source):
 
 
 class Titles(Transform):
-    """A link that is called like the file of its page gets the title of the page."""
+    """A link that is called like the file of its page gets the title of the page; a heading has no link to a file."""
 
     default_priority = 400
 
@@ -71,6 +71,9 @@ class Titles(Transform):
             if re.fullmatch(r"[\w./-]+\.md", link.astext()):
                 link["refexplicit"] = False
                 link.clear()
+        for title in self.document.findall(nodes.title):
+            for link in list(title.findall(addnodes.download_reference)):
+                link.replace_self(link.children)
 
 
 class Index(Transform):
