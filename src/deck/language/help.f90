@@ -32,8 +32,8 @@ module atrito_help
       'stands before \*STEP, a step between \*STEP and \*END STEP.', &
       '', &
       'A + marks what is atrito''s own; the rest is read by Abaqus or CalculiX too. What is ignored has no', &
-      'effect, and a note says so. Dimensions are in force F, length L and time T; the units are yours, if', &
-      'they are consistent.']
+      'effect, and a note says so. Items with a dimension are reals; F is force, L length, T time, in units', &
+      'of yours that are consistent.']
 
 contains
 

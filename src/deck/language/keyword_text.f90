@@ -60,11 +60,13 @@ contains
       text = item%doc
       if (size(item%choices) > 0) then
          text = text//': '//choices_text(item%choices)
+      else if (len(item%dimension) > 0) then            ! that is a real
+         text = with_dimension(text, item%dimension)
       else
-         text = text//'; '//with_dimension(trim(WORDS(item%kind)), item%dimension)
+         text = text//'; '//trim(WORDS(item%kind))
       end if
       if (len(item%default) > 0) text = text//'; default '//item%default
-      if (.not. item%required .and. len(item%default) == 0 .and. .not. item%harmless) text = text//'; may be left out'
+      if (.not. item%required .and. len(item%default) == 0 .and. .not. item%harmless) text = text//'; optional'
       if (item%harmless) text = text//'; no effect'
    end function item_meaning
 
