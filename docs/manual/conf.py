@@ -4,7 +4,7 @@ Formulas become MathML, which browsers draw without a script. Keywords, options,
 index; where a page names a keyword or a message, it has a link there."""
 import re
 from importlib.util import find_spec
-from os.path import dirname, normpath
+from os.path import dirname, exists, normpath
 
 from docutils import nodes
 from docutils.transforms import Transform
@@ -32,13 +32,24 @@ html_show_copyright = False
 html_show_sphinx = False
 
 KEYWORDS, MESSAGES, OPTIONS, TABLES = "docs/user/keywords", "docs/user/messages", "docs/user/running", "docs/user/tables"
-GLOSSARY = "docs/labs/glossary"
+GLOSSARY, BOOK = "docs/labs/glossary", "docs/verification/book"
 MESSAGE = re.compile(r"\b[EWN]-[A-Z]+(?:-[A-Z]+)*\b")
 OPTION = re.compile(r"(--[a-z][a-z-]+)")
 
 
+def drop_links(app, docname, source):
+    """A link to a page of the sources that is not in the manual is its words alone; a link that leads nowhere is left, and told."""
+    def words(link):
+        page = normpath(f"{dirname(docname)}/{link[2]}")
+        return link[1] if page not in app.env.found_docs and exists(f"{app.srcdir}/{page}.md") else link[0]
+    source[0] = re.sub(r"\[([^\]]*)\]\(([^):#]*)\.md(?:#[^)]*)?\)", words, source[0])
+
+
 def add_contents(_, docname, source):
-    """Behind each list of the root page a table of contents, under the heading of the list."""
+    """Behind each list of the root page a table of contents, under the heading of the list; in the book one of its pages."""
+    if docname == BOOK:
+        pages = dict.fromkeys(re.findall(r"\]\((book/[\w-]+)\.md\)", source[0]))
+        source[0] += "\n\n```{toctree}\n:hidden:\n\n" + "\n".join(pages) + "\n```\n"
     if docname != root_doc:
         return
     parts = source[0].split("\n## ")
@@ -51,7 +62,7 @@ def add_contents(_, docname, source):
 
 
 class Titles(Transform):
-    """A link that is called like the file of its page gets the title of the page."""
+    """A link that is called like the file of its page gets the title of the page; a heading has no link to a file."""
 
     default_priority = 400
 
@@ -60,6 +71,9 @@ class Titles(Transform):
             if re.fullmatch(r"[\w./-]+\.md", link.astext()):
                 link["refexplicit"] = False
                 link.clear()
+        for title in self.document.findall(nodes.title):
+            for link in list(title.findall(addnodes.download_reference)):
+                link.replace_self(link.children)
 
 
 class Index(Transform):
@@ -153,5 +167,6 @@ def setup(app):
     app.config.html_math_renderer = "mathml"
     app.add_transform(Titles)
     app.add_transform(Index)
+    app.connect("source-read", drop_links)
     app.connect("source-read", add_contents)
     app.connect("doctree-resolved", add_links)
