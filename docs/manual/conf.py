@@ -17,7 +17,7 @@ author = "the atrito authors"
 html_title = "atrito"
 root_doc = "docs/README"
 include_patterns = ["[A-Z]*.md", "docs/**.md", "output/reference/README.md", "tests/tools/hostile/README.md"]
-exclude_patterns = ["build", "src", ".git"]
+exclude_patterns = ["build", "src", ".git", "README.md"]
 extensions = ["myst_parser"]
 myst_enable_extensions = ["dollarmath", "html_image"]
 myst_dmath_double_inline = True
@@ -77,7 +77,7 @@ class Titles(Transform):
 
 
 class Index(Transform):
-    """Entries of the index, and places of messages, options and words in tables."""
+    """Entries of the index, and places of messages in lists, of options and words in tables."""
 
     default_priority = 400
 
@@ -90,13 +90,17 @@ class Index(Transform):
                     self.enter(section, section["ids"][0], title, "keyword")
                 elif docname == TABLES and title.endswith(".tab"):
                     self.enter(section, section["ids"][0], title, "table")
+        for item in list(self.document.findall(nodes.list_item)) if docname == MESSAGES else ():
+            for name in [bold.astext() for bold in item.findall(nodes.strong)]:
+                if MESSAGE.fullmatch(name):
+                    item["ids"].append(name)
+                    self.enter(item, name, name, "message")
         for row in self.document.findall(nodes.row):
             first = row[0].astext()
-            for kind, names in (("message", MESSAGE.findall(first) if docname == MESSAGES else ()),
-                                ("option", OPTION.findall(first)[:1] if docname == OPTIONS else ()),
+            for kind, names in (("option", OPTION.findall(first)[:1] if docname == OPTIONS else ()),
                                 ("word", [first] if docname == GLOSSARY and not isinstance(row.parent, nodes.thead) else ())):
                 for name in names:
-                    place = nodes.make_id(name) if kind != "message" else name
+                    place = nodes.make_id(name)
                     row[0]["ids"].append(place)
                     self.enter(row[0], place, name, kind)
 
