@@ -35,6 +35,7 @@ module atrito_build_model
    use atrito_deck, only: deck_t, count_lines, token_text, line_item, keyword_name
    use atrito_diagnostics, only: report_error
    use atrito_build_context, only: build_context_t, prepare_context, has_errors
+   use atrito_element_trees, only: begin_trees, count_leaves, cut_all, element_trees_t, list_leaves
    use atrito_faces, only: chain_report_t, list_node_elements
    use atrito_found_contact, only: find_contact
    use atrito_kinds, only: ip, lp
@@ -48,7 +49,8 @@ module atrito_build_model
    use atrito_pairing, only: order_slaves, pair_all
    use atrito_plane_state, only: FULL_STATE
    use atrito_points, only: contact_points_t
-   use atrito_refine_model, only: refine_model
+   use atrito_partner_nodes, only: partner_nodes
+   use atrito_refine_model, only: cut_model, refine_model
    use atrito_refined_deck, only: note_free_sides
    use atrito_row_dofs, only: add_rigid_rows
    use atrito_sources, only: keep_sources
@@ -68,14 +70,16 @@ contains
    !> are made in the order of the deck, since they follow from each other.
    !>
    !> With levels > 0 every element is refined into 4**levels, and with a shape all become elements of that shape. The model is
-   !> built without it first: messages name the elements that stand in the deck.
-   subroutine build_model(deck, model, levels, memory, shape, state)
+   !> built without it first: messages name the elements that stand in the deck. With trees their leaves are the elements; empty ones
+   !> are begun, and all elements cut as often as there are levels.
+   subroutine build_model(deck, model, levels, memory, shape, state, trees)
       type(deck_t), intent(in) :: deck                 !< read and checked by read_deck
       type(model_t), intent(out) :: model
       integer(ip), intent(in), optional :: levels      !< of refinement, >= 0; default 0
       integer(lp), intent(in), optional :: memory      !< that the mesh may take [bytes]; default what the machine has
       integer(ip), intent(in), optional :: shape       !< of all elements, place in SHAPES; default 0: as in the deck
       integer(ip), intent(in), optional :: state       !< of all elements with a shape, for its integration; default 0
+      type(element_trees_t), intent(inout), optional :: trees !< how the elements of the deck are cut; left out: by `levels`
       type(message_mark_t) :: mark
       integer(lp) :: limit
       integer(ip) :: depth, kind, own
@@ -92,6 +96,17 @@ contains
       mark = mark_messages()
       call build_once(deck, 0_ip, 0_ip, 0_ip, limit, model)
       if (has_errors()) return
+      if (present(trees)) then
+         if (trees%n == 0) then
+            call begin_trees(model%mesh, partner_nodes(model), trees)
+            call cut_all(depth, trees)
+         end if
+         trees%leaf_of = list_leaves(trees)
+         if (count_leaves(trees) == trees%n_roots) return
+         call forget_messages(mark)
+         call build_once(deck, 0_ip, 0_ip, 0_ip, limit, model, trees)
+         return
+      end if
       if (own > 0) then                                ! only how the same state is integrated may change
          if (any(FULL_STATE(model%mesh%state) /= FULL_STATE(own))) own = 0
       end if
@@ -100,11 +115,12 @@ contains
       call build_once(deck, depth, kind, own, limit, model)
    end subroutine build_model
 
-   subroutine build_once(deck, levels, shape, state, memory, model)
+   subroutine build_once(deck, levels, shape, state, memory, model, trees)
       type(deck_t), intent(in), target :: deck
       integer(ip), intent(in) :: levels, shape, state
       integer(lp), intent(in) :: memory
       type(model_t), intent(out), target :: model
+      type(element_trees_t), intent(inout), optional :: trees
       type(build_context_t) :: context
       type(contact_rules_t) :: rules
       type(chain_report_t), allocatable :: chains(:)
@@ -133,6 +149,7 @@ contains
       call read_temperatures(context)
       call read_node_thickness(context)
       if (levels > 0 .or. shape > 0) call refine_model(levels, shape, context)
+      if (present(trees)) call cut_model(trees, context)
       if (state > 0) model%mesh%state = state
       call build_surfaces(context)
       call build_rigid_bodies(context)
