@@ -9,14 +9,14 @@ module atrito_adaptation
    use atrito_memory, only: available_memory, held_memory
    use atrito_model, only: model_t
    use atrito_model_memory, only: most_nodes
-   use atrito_results, only: results_t
+   use atrito_results, only: history_t, results_t, view_frame
    use atrito_sorting, only: order_key, sorted_places
    use atrito_strings, only: to_text
    use atrito_system, only: processor_seconds
    use atrito_table, only: table_t, add_integers, add_reals, begin_table
    implicit none (type, external)
    private
-   public :: adaptation_t, adapted_mesh_t, begin_adaptation, follow_error, build_adaptation, adaptation_text
+   public :: adaptation_t, adapted_mesh_t, begin_adaptation, follow_error, build_adaptation, adaptation_text, missed_text
 
    real(wp), parameter :: BULK = 0.5_wp              !< of the sum of squares, that of the elements which are cut
    real(wp), parameter :: ALIKE = 1.0e-6_wp          !< errors that differ by less are cut together: symmetric meshes stay so
@@ -62,20 +62,23 @@ contains
       percent = results%error_estimate
    end subroutine fetch_errors
 
-   !> Notes what was found on a mesh, and cuts it for the next one. goes_on: there is to be a next one.
-   subroutine follow_error(model, results, adaptation, goes_on)
+   !> Notes what was found on a mesh, and cuts it for the next one: of a history where the printed increment with the largest error
+   !> has it. goes_on: there is to be a next one.
+   subroutine follow_error(model, history, adaptation, goes_on)
       type(model_t), intent(in) :: model
-      type(results_t), intent(in) :: results
+      type(history_t), intent(in), target :: history !< with frames
       type(adaptation_t), intent(inout) :: adaptation
       logical, intent(out) :: goes_on
       type(adapted_mesh_t) :: mesh
       real(wp), allocatable :: squares(:)
+      type(results_t), pointer :: results
       integer(lp) :: now, rate
 
+      call view_frame(history, maxloc(history%frames%error_estimate, dim=1, kind=ip), results)
       call fetch_errors(results, squares, mesh%percent)
       mesh%n_elements = model%mesh%n_elements
       mesh%n_dofs = results%scene%n_dofs
-      mesh%n_solves = results%linear_solves
+      mesh%n_solves = size(history%iterations, kind=ip)
       call system_clock(now, rate)
       mesh%seconds = [real(now - adaptation%began, wp)/real(rate, wp), processor_seconds() - adaptation%processor]
       adaptation%meshes = [adaptation%meshes, mesh]
@@ -125,7 +128,8 @@ contains
          memory = real(results%scene%memory, wp)*growth**MEMORY_GROWTH
          if (n > PATIENCE) then
             if (meshes(n)%percent > PROGRESS*meshes(n - PATIENCE)%percent) adaptation%why = &
-               'it has not become smaller over the last '//to_text(int(PATIENCE, ip))//' meshes'
+               'over the last '//to_text(int(PATIENCE, ip))// &
+               ' meshes it has not become smaller, as where a single node is held or loaded'
          end if
          if (nodes > real(most_nodes(), wp)) then
             adaptation%why = 'the next mesh would have more than '//to_text(most_nodes())//' nodes'
@@ -164,5 +168,16 @@ contains
                 ' elements; error '//to_text(meshes(1)%percent, 3)//' to '//to_text(meshes(n)%percent, 3)//' %'
       end associate
    end function adaptation_text
+
+   !> Why the run ends with a larger error than it was to have.
+   function missed_text(adaptation) result(text)
+      type(adaptation_t), intent(in) :: adaptation   !< with `why`
+      character(len=:), allocatable :: text
+
+      associate (n => size(adaptation%meshes))
+         text = 'the estimated error is '//to_text(adaptation%meshes(n)%percent, 3)//' %, not '//to_text(adaptation%target, 3)// &
+                ' % as --adapt asks: '//adaptation%why//'; the last mesh is written'
+      end associate
+   end function missed_text
 
 end module atrito_adaptation

@@ -1,11 +1,12 @@
 !> One run: read the deck, build the model, solve, write.
 module atrito_run
    use, intrinsic :: iso_fortran_env, only: output_unit
-   use atrito_adaptation, only: adaptation_t, adaptation_text, begin_adaptation, build_adaptation, follow_error
+   use atrito_adaptation, only: adaptation_t, adaptation_text, begin_adaptation, build_adaptation, follow_error, missed_text
    use atrito_as_run_names, only: as_run_name
    use atrito_body_cache, only: body_cache_t
    use atrito_build_model, only: build_model
    use atrito_build_requests, only: refuse_field_files
+   use atrito_build_trees, only: card_of_trees
    use atrito_command_line, only: command_t, output_folder, TASK_RUN
    use atrito_console, only: print_message, print_messages, print_status, reporter_of
    use atrito_deck, only: deck_t
@@ -16,7 +17,7 @@ module atrito_run
    use atrito_frame_spool, only: begin_frames, end_frames, frame_spool_t
    use atrito_given_options, only: options_of_run
    use atrito_hdf5, only: has_hdf5
-   use atrito_history, only: has_one_increment, solve_history
+   use atrito_history, only: solve_history
    use atrito_kinds, only: ip, wp
    use atrito_mesh, only: signed_area
    use atrito_messages, only: message_t, clear_messages, count_messages, sort_messages, SEVERITY_ERROR
@@ -42,7 +43,7 @@ module atrito_run
    use atrito_solve, only: solve_options_t, CONTACT_AUTO, CONTACT_DENSE, CONTACT_SPARSE, SOLVER_AUTO, SOLVER_SKYLINE, &
                            SOLVER_BANDED, SOLVER_SPARSE
    use atrito_status, only: status_t, set_status, reword_status, is_ok, STATUS_OK, STATUS_USAGE, STATUS_DECK, STATUS_NOT_CONVERGED
-   use atrito_strings, only: string_t, to_text, upper_case
+   use atrito_strings, only: string_t, upper_case
    use atrito_study_errors, only: run_facts_t
    use atrito_system, only: address_space_limit
    use atrito_table, only: table_t
@@ -98,7 +99,7 @@ contains
    contains
 
       subroutine solve_and_write()
-         type(history_t) :: history
+         type(history_t), target :: history
          type(solve_options_t) :: options
 
          options = solve_options(command)
@@ -115,8 +116,7 @@ contains
          associate (n => last_frame(history))
             if (n > 0) call agree_on_outcome(status, history%frames(n), history%ending%is_early)
             if (is_ok(status) .and. allocated(adaptation%why)) call set_status(status, STATUS_NOT_CONVERGED, &
-                              'the estimated error is '//to_text(history%frames(n)%error_estimate, 3)//' %, more than '// &
-                                    to_text(adaptation%target, 3)//' % as --adapt asks: '//adaptation%why//'; this mesh is written')
+                                                                               missed_text(adaptation))
             code = status%code
             if (n == 0 .and. .not. command%quiet) call print_page(show%page, output_unit)
             if (n > 0) then
@@ -134,13 +134,15 @@ contains
 
       !> Whether the error asks for another mesh; the model is that of the next one then.
       logical function has_next_mesh(history) result(has)
-         type(history_t), intent(in) :: history
+         type(history_t), intent(in), target :: history
          type(reporter_t) :: silent
 
          has = adaptation%target > 0.0_wp .and. is_ok(status) .and. last_frame(history) > 0
-         if (has) has = history%frames(1)%converged .and. history%frames(1)%law_holds
-         if (has) call follow_error(model, history%frames(1), adaptation, has)
+         if (has) has = all(history%frames%converged .and. history%frames%law_holds)
+         if (has) call follow_error(model, history, adaptation, has)
          if (.not. has) return
+         call end_frames(frames)
+         call begin_frames(output_folder(command), frames)
          call report_phase(reporter, 'adapt '//adaptation_text(adaptation))
          silent%quiet = .true.
          call forget_inputs()                       ! as before the first
@@ -152,15 +154,15 @@ contains
 
    end subroutine run_deck
 
-   !> --adapt is of one increment. status: STATUS_USAGE.
+   !> --adapt begins anew with each mesh: there is nothing to go on from. status: STATUS_USAGE.
    subroutine check_adaptable(command, model, status)
       type(command_t), intent(in) :: command
       type(model_t), intent(in) :: model
       type(status_t), intent(out) :: status
 
-      if (command%adapt <= 0.0_wp) return
-      if (has_one_increment(model) .and. model%restart_every == 0 .and. .not. allocated(command%restart)) return
-      call set_status(status, STATUS_USAGE, '--adapt: a deck of one increment is expected, without restart')
+      if (command%adapt > 0.0_wp .and. (model%restart_every > 0 .or. allocated(command%restart))) then
+         call set_status(status, STATUS_USAGE, '--adapt: each mesh begins anew, without *RESTART and --restart')
+      end if
    end subroutine check_adaptable
 
    !> The threads of this run, with those of ranks that wait on the same host: not where `ulimit -v` counts what each reserves.
@@ -364,7 +366,7 @@ contains
                             ': the deck has elements of the other plane state')
          end if
       end if
-      if (present(keeps_deck) .and. is_ok(status)) call keep_deck(deck, model, status)
+      if (present(keeps_deck) .and. is_ok(status)) call keep_deck(deck, model, status, adaptation)
       code = status%code
       if (.not. is_ok(status)) call print_status(status, command%names(1)%s, command%json)
    end subroutine load_model
@@ -419,17 +421,24 @@ contains
    end subroutine check_files
 
    !> The deck as it is run, and its digest; its files are protected.
-   subroutine keep_deck(deck, model, status)
+   subroutine keep_deck(deck, model, status, adaptation)
       type(deck_t), intent(inout) :: deck
       type(model_t), intent(inout) :: model
       type(status_t), intent(inout) :: status
+      type(adaptation_t), intent(in), optional :: adaptation !< whose mesh the deck gets
+      logical :: is_cut
       integer(ip) :: i
 
       do i = 1, deck%n_sources
          if (is_ok(status)) call protect_input(deck%sources(i)%identity, status)
       end do
-
-      call take_deck_as_run(deck, model%as_run)
+      is_cut = .false.
+      if (present(adaptation)) is_cut = adaptation%target > 0.0_wp .and. model%n_cut > 0
+      if (is_cut) then
+         call take_deck_as_run(deck, model%as_run, card_of_trees(deck, adaptation%trees))
+      else
+         call take_deck_as_run(deck, model%as_run)
+      end if
       model%provenance%digest = digest_of_texts(model%as_run)
    end subroutine keep_deck
 

@@ -13,7 +13,7 @@ module atrito_element_trees
    use atrito_mesh, only: mesh_t, side_count
    implicit none (type, external)
    private
-   public :: element_trees_t, begin_trees, cut_leaves, cut_all, list_leaves, leaf_corners, is_side_cut, count_leaves
+   public :: element_trees_t, begin_trees, cut_all, cut_cell, cut_leaves, list_leaves, leaf_corners, is_side_cut, count_leaves
    public :: SIDE, MOST_CUTS
 
    integer(ip), parameter :: SIDE = 2_ip**28          !< of an element of the deck, by which places in it are counted
@@ -25,6 +25,7 @@ module atrito_element_trees
    type :: element_trees_t
       integer(ip) :: n = 0                            !< cells; 0: there are no trees
       integer(ip) :: n_roots = 0                      !< elements of the deck
+      integer(ip), allocatable :: root_id(:)          !< their numbers
       integer(ip), allocatable :: first_child(:)      !< 0: a leaf
       integer(ip), allocatable :: root(:)             !< element of the deck
       integer(ip), allocatable :: origin(:, :)        !< (2, cells) first corner, along the sides 1-2 and 1-4 (1-3) of the root
@@ -47,6 +48,7 @@ contains
       integer(ip) :: e, n
 
       trees%n_roots = mesh%n_elements
+      trees%root_id = mesh%element_id(:mesh%n_elements)
       trees%n_vertices = mesh%n_nodes
       allocate (trees%first_edge(mesh%n_nodes), source=0_ip)
       associate (n => mesh%n_elements)
@@ -87,13 +89,13 @@ contains
       integer(ip) :: i, n
 
       do i = 1, size(leaves, kind=ip)
-         call cut_leaf(leaves(i), trees)
+         call cut_cell(leaves(i), trees)
       end do
       do
          n = trees%n
          do i = 1, n
             if (trees%first_child(i) > 0) cycle
-            if (has_to_be_cut(trees, i)) call cut_leaf(i, trees)
+            if (has_to_be_cut(trees, i)) call cut_cell(i, trees)
          end do
          if (trees%n == n) exit
       end do
@@ -144,8 +146,8 @@ contains
       has = has .or. n_cut > n - 2
    end function has_to_be_cut
 
-   !> Four of one; the fourth of a triangle is turned, in the middle.
-   pure subroutine cut_leaf(cell, trees)
+   !> Four of one, whatever is beside it; the fourth of a triangle is turned, in the middle. One that is cut stays as it is.
+   pure subroutine cut_cell(cell, trees)
       integer(ip), intent(in) :: cell
       type(element_trees_t), intent(inout) :: trees
       integer(ip) :: m(4), v(4), o(2), h, n, i, root, centre
@@ -172,7 +174,7 @@ contains
          call add_cell(root, o + [h, h], h, [centre, m(2), v(3), m(3)], trees)
          call add_cell(root, o + [0_ip, h], h, [m(4), centre, m(3), v(4)], trees)
       end if
-   end subroutine cut_leaf
+   end subroutine cut_cell
 
    pure integer(ip) function corner_count(trees, cell) result(n)
       type(element_trees_t), intent(in) :: trees

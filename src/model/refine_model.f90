@@ -1,6 +1,7 @@
 !> --refine and --elements: the mesh of a deck and its sets, refined or made of other elements. Surfaces, loads and supports are
 !> read afterwards and follow them.
 module atrito_refine_model
+   use atrito_build_trees, only: has_cuts
    use atrito_cut_mesh, only: cut_mesh
    use atrito_deck, only: token_t
    use atrito_diagnostics, only: report_deck_error
@@ -33,6 +34,11 @@ contains
       integer(ip) :: pieces
 
       pieces = 2**levels
+      if (has_cuts(context%deck)) then
+         call report_deck_error(context%deck, 'E-REFINE', '--elements is not built for decks with *REFINE', &
+                                expected='the elements of the deck')
+         return
+      end if
       if (shape > 0 .and. any(CORNERS_OF(context%model%mesh%shape) /= CORNERS_OF(max(shape, 1_ip)))) then
          call report_deck_error(context%deck, 'E-REFINE', 'the deck has '// &
                                 trim(merge('quadrilaterals', 'triangles     ', CORNERS_OF(shape) == 3))// &

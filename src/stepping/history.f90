@@ -36,7 +36,7 @@ module atrito_history
    use atrito_strings, only: to_text
    implicit none (type, external)
    private
-   public :: has_one_increment, solve_history
+   public :: solve_history
 
 contains
 
