@@ -18,7 +18,9 @@ module atrito_adaptation
    private
    public :: adaptation_t, adapted_mesh_t, begin_adaptation, follow_error, build_adaptation, adaptation_text, missed_text
 
-   real(wp), parameter :: BULK = 0.5_wp              !< of the sum of squares, that of the elements which are cut
+   real(wp), parameter :: BULK = 0.5_wp              !< of the sum of squares, that of the elements which are cut ...
+   real(wp), parameter :: LEAST_BULK = 0.1_wp        !< ... less where less is enough: cut in four they have some quarter of it left
+   real(wp), parameter :: ENOUGH = 2.0_wp            !< over what has to go of the sum of squares
    real(wp), parameter :: ALIKE = 1.0e-6_wp          !< errors that differ by less are cut together: symmetric meshes stay so
    integer, parameter :: PATIENCE = 4                !< meshes, one after the other, ...
    real(wp), parameter :: PROGRESS = 0.97_wp         !< ... over which the error has to fall by this factor
@@ -84,14 +86,16 @@ contains
       adaptation%meshes = [adaptation%meshes, mesh]
       goes_on = mesh%percent > adaptation%target
       if (.not. goes_on) return
-      call cut_where_errors_are(squares, adaptation%trees)
+      call cut_where_errors_are(squares, min(BULK, max(LEAST_BULK, ENOUGH*(1 - (adaptation%target/mesh%percent)**2))), &
+                                adaptation%trees)
       call look_for_limit(model, results, adaptation)
       goes_on = .not. allocated(adaptation%why)
    end subroutine follow_error
 
    !> Cuts the leaves with the largest errors.
-   pure subroutine cut_where_errors_are(squares, trees)
+   pure subroutine cut_where_errors_are(squares, part, trees)
       real(wp), intent(in) :: squares(:)             !< of the elements of the mesh
+      real(wp), intent(in) :: part                   !< of the sum of squares, that they have together
       type(element_trees_t), intent(inout) :: trees
       real(wp) :: of_leaf(trees%n), total
       integer(ip) :: order(trees%n), e, n
@@ -104,7 +108,7 @@ contains
       total = 0.0_wp
       do n = 1, trees%n
          total = total + of_leaf(order(n))
-         if (total >= BULK*sum(of_leaf)) exit
+         if (total >= part*sum(of_leaf)) exit
       end do
       do while (n < trees%n)
          if (of_leaf(order(n + 1)) < (1 - ALIKE)*of_leaf(order(n))) exit
