@@ -1,7 +1,7 @@
 !> The mesh of the leaves of trees (atrito_element_trees): without hanging nodes, on the map of the elements of the deck.
 !>
-!> A leaf with nodes in the middle of sides becomes pieces: a square with one of them three triangles, with two on opposite sides two
-!> rectangles, on sides that meet three quadrilaterals round its centre; a triangle two triangles.
+!> A quadrilateral leaf with nodes in the middle of sides becomes pieces: three triangles with one of them, two quadrilaterals with two
+!> on opposite sides, three round its centre with two on sides that meet.
 !>
 !> The nodes of a piece are found by their places in the element of the deck, in parts of its side: on a corner, on a side (which it
 !> shares with its neighbour), or inside.
@@ -101,13 +101,12 @@ contains
       integer(ip), intent(out) :: corners(2, 4, MOST_PIECES)
       integer(ip), intent(out) :: sizes(MOST_PIECES) !< corners of each; 0: there are no more
       integer(ip), allocatable :: p(:, :)            ! corners, beginning at the first side that is cut
-      integer(ip) :: m(2), other(2), i, n
+      integer(ip) :: m(2), other(2), i
       logical :: is_cut(4)
 
       p = leaf_corners(trees, leaf)
-      n = size(p, 2, kind=ip)
       is_cut = .false.
-      is_cut(:n) = [(is_side_cut(trees, leaf, i), i=1, n)]
+      if (size(p, 2) == 4) is_cut = [(is_side_cut(trees, leaf, i), i=1, 4)]
       sizes = 0
       corners = 0
       if (.not. any(is_cut)) then
@@ -117,12 +116,9 @@ contains
       i = findloc(is_cut, .true., dim=1, kind=ip)
       if (is_cut(4) .and. is_cut(1)) i = 4           ! of two neighbours the first
       p = cshift(p, i - 1, dim=2)
-      is_cut(:n) = cshift(is_cut(:n), i - 1)
+      is_cut = cshift(is_cut, i - 1)
       m = (p(:, 1) + p(:, 2))/2
-      if (n == 3) then
-         call put(reshape([p(:, 1), m, p(:, 3)], [2, 3]))
-         call put(reshape([m, p(:, 2), p(:, 3)], [2, 3]))
-      else if (is_cut(2)) then
+      if (is_cut(2)) then
          other = (p(:, 2) + p(:, 3))/2
          associate (centre => (p(:, 1) + p(:, 3))/2)
             call put(reshape([m, p(:, 2), other, centre], [2, 4]))

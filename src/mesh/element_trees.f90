@@ -1,36 +1,41 @@
-!> Elements of the deck cut into four where that is asked for, their quarters again, and so on: trees, whose leaves are what the mesh
-!> is made of (atrito_cut_mesh).
+!> Elements of the deck cut where that is asked for, their parts again, and so on: trees, whose leaves are what the mesh is made of
+!> (atrito_cut_mesh).
 !>
-!> A leaf beside a finer one has a node of that in the middle of a side. Leaves are cut besides until none has a side cut twice, a
-!> square at most two such nodes and a triangle one: these get pieces that need no node in the middle of a side. Such pieces are no
-!> leaves, so that they are never cut themselves.
+!> A quadrilateral is cut into four. A leaf beside a finer one has a node of that in the middle of a side: leaves are cut besides until
+!> none has a side cut twice, and none more than two such nodes. It gets pieces then that need no node in the middle of a side, which
+!> are no leaves, so that they are never cut themselves.
+!>
+!> A triangle is cut in two, from its newest vertex to the middle of the side opposite (W. F. Mitchell, ACM Trans. Math. Softw. 15,
+!> 1989), first of its longest; its neighbours are cut until no node lies in the middle of a side.
 !>
 !> Sides that belong together though each has its own nodes (the two of a contact pair that match, ties, equations of two nodes) have
 !> the same corners here, so that they are cut alike.
 module atrito_element_trees
    use atrito_growth, only: make_room, resize
-   use atrito_kinds, only: ip
+   use atrito_kinds, only: ip, wp
    use atrito_mesh, only: mesh_t, side_count
    implicit none (type, external)
    private
-   public :: element_trees_t, begin_trees, cut_all, cut_cell, cut_leaves, list_leaves, leaf_corners, is_side_cut, count_leaves
+   public :: element_trees_t, begin_trees, cut_all, cut_cell, cut_leaves, count_leaves, is_side_cut, leaf_corners, list_leaves
+   public :: part_count
    public :: SIDE, MOST_CUTS
 
    integer(ip), parameter :: SIDE = 2_ip**28          !< of an element of the deck, by which places in it are counted
    integer(ip), parameter :: MOST_CUTS = 22           !< of an element, one after the other: middles of pieces still are whole numbers
-   integer(ip), parameter :: SQUARE(2, 4) = reshape([integer(ip) :: 0, 0, 1, 0, 1, 1, 0, 1], [2, 4])
-   integer(ip), parameter :: TRIANGLE(2, 4) = reshape([integer(ip) :: 0, 0, 1, 0, 0, 1, 0, 0], [2, 4])
+   real(wp), parameter :: ALIKE = 1.0e-9_wp           !< lengths that differ by less, relatively, are the same
+   !> Places of the corners of elements.
+   integer(ip), parameter :: SQUARE(2, 4) = SIDE*reshape([integer(ip) :: 0, 0, 1, 0, 1, 1, 0, 1], [2, 4])
+   integer(ip), parameter :: TRIANGLE(2, 4) = SIDE*reshape([integer(ip) :: 0, 0, 1, 0, 0, 1, 0, 0], [2, 4])
 
-   !> The cells: elements of the deck in their order, then quarters, four by four.
+   !> The cells: elements of the deck in their order, then their parts.
    type :: element_trees_t
       integer(ip) :: n = 0                            !< cells; 0: there are no trees
       integer(ip) :: n_roots = 0                      !< elements of the deck
       integer(ip), allocatable :: root_id(:)          !< their numbers
-      integer(ip), allocatable :: first_child(:)      !< 0: a leaf
+      integer(ip), allocatable :: first_child(:)      !< of four, or two of a triangle; 0: a leaf
       integer(ip), allocatable :: root(:)             !< element of the deck
-      integer(ip), allocatable :: origin(:, :)        !< (2, cells) first corner, along the sides 1-2 and 1-4 (1-3) of the root
-      integer(ip), allocatable :: step(:)             !< its side; negative of a triangle that is turned
-      integer(ip), allocatable :: corner(:, :)        !< (4, cells) vertices; the fourth of a triangle is 0
+      integer(ip), allocatable :: place(:, :, :)      !< (2, 4, cells) of the corners, along the sides 1-2 and 1-4 (1-3) of the root
+      integer(ip), allocatable :: corner(:, :)        !< (4, cells) vertices; of a triangle the newest is the third, and the fourth 0
       integer(ip) :: n_vertices = 0
       integer(ip) :: n_edges = 0
       integer(ip), allocatable :: first_edge(:)       !< of a vertex: to others of greater number; 0: none
@@ -52,37 +57,63 @@ contains
       trees%n_vertices = mesh%n_nodes
       allocate (trees%first_edge(mesh%n_nodes), source=0_ip)
       associate (n => mesh%n_elements)
-         allocate (trees%first_child(n), trees%root(n), trees%step(n), trees%origin(2, n), trees%corner(4, n))
+         allocate (trees%first_child(n), trees%root(n), trees%place(2, 4, n), trees%corner(4, n))
       end associate
       do e = 1, mesh%n_elements
-         n = side_count(mesh, e)
-         if (n == 3) call add_cell(e, [0_ip, 0_ip], SIDE, [partner(mesh%nodes(:3, e)), 0_ip], trees)
-         if (n == 4) call add_cell(e, [0_ip, 0_ip], SIDE, partner(mesh%nodes(:4, e)), trees)
+         if (side_count(mesh, e) == 4) then
+            call add_cell(e, SQUARE, partner(mesh%nodes(:4, e)), trees)
+         else
+            n = longest_side(mesh, partner, e)
+            call add_cell(e, reshape([cshift(TRIANGLE(:, :3), n - 1, dim=2), 0_ip, 0_ip], [2, 4]), &
+                          [cshift(partner(mesh%nodes(:3, e)), n - 1), 0_ip], trees)
+         end if
       end do
    end subroutine begin_trees
 
-   pure subroutine add_cell(root, origin, step, corner, trees)
-      integer(ip), intent(in) :: root, origin(2), step, corner(4)
+   !> The longest side of a triangle; of some as long the one of the least vertices, so that two neighbours agree.
+   pure integer(ip) function longest_side(mesh, partner, e) result(longest)
+      type(mesh_t), intent(in) :: mesh
+      integer(ip), intent(in) :: partner(:), e
+      real(wp) :: length(3)
+      integer(ip) :: ends(2, 3), i
+
+      do i = 1, 3
+         associate (a => mesh%nodes(i, e), b => mesh%nodes(mod(i, 3_ip) + 1, e))
+            length(i) = norm2(mesh%x(:, b) - mesh%x(:, a))
+            ends(:, i) = [min(partner(a), partner(b)), max(partner(a), partner(b))]
+         end associate
+      end do
+      longest = 1
+      do i = 2, 3
+         if (length(i) < (1 - ALIKE)*length(longest)) cycle
+         if (length(i) > (1 + ALIKE)*length(longest) .or. ends(1, i) < ends(1, longest) .or. &
+             (ends(1, i) == ends(1, longest) .and. ends(2, i) < ends(2, longest))) longest = i
+      end do
+   end function longest_side
+
+   pure subroutine add_cell(root, place, corner, trees)
+      integer(ip), intent(in) :: root, place(2, 4), corner(4)
       type(element_trees_t), intent(inout) :: trees
+      integer(ip), allocatable :: longer(:, :, :)
       integer(ip) :: n
 
       n = trees%n + 1
       if (n > size(trees%root)) then
          call resize(trees%first_child, trees%n, 2*n)
          call resize(trees%root, trees%n, 2*n)
-         call resize(trees%step, trees%n, 2*n)
-         call resize(trees%origin, trees%n, 2*n)
          call resize(trees%corner, trees%n, 2*n)
+         allocate (longer(2, 4, 2*n))
+         longer(:, :, :trees%n) = trees%place(:, :, :trees%n)
+         call move_alloc(longer, trees%place)
       end if
       trees%n = n
       trees%first_child(n) = 0
       trees%root(n) = root
-      trees%origin(:, n) = origin
-      trees%step(n) = step
+      trees%place(:, :, n) = place
       trees%corner(:, n) = corner
    end subroutine add_cell
 
-   !> Cuts some leaves, and those that have to be cut with them. Leaves that were cut MOST_CUTS times stay.
+   !> Cuts some leaves into four, and those that have to be cut with them. Leaves that are too small stay.
    pure subroutine cut_leaves(leaves, trees)
       integer(ip), intent(in) :: leaves(:)
       type(element_trees_t), intent(inout) :: trees
@@ -90,6 +121,9 @@ contains
 
       do i = 1, size(leaves, kind=ip)
          call cut_cell(leaves(i), trees)
+         if (corner_count(trees, leaves(i)) == 4 .or. trees%first_child(leaves(i)) == 0) cycle
+         call cut_cell(trees%first_child(leaves(i)), trees)
+         call cut_cell(trees%first_child(leaves(i)) + 1, trees)
       end do
       do
          n = trees%n
@@ -126,7 +160,7 @@ contains
       n = count(trees%first_child(:trees%n) == 0, kind=ip)
    end function count_leaves
 
-   !> Whether a leaf has a side of which a half is cut, or more sides that are cut than its pieces can do with.
+   !> Whether a triangle has a side that is cut; a quadrilateral one of which a half is cut, or more than its pieces can do with.
    pure logical function has_to_be_cut(trees, cell) result(has)
       type(element_trees_t), intent(in) :: trees
       integer(ip), intent(in) :: cell
@@ -143,36 +177,35 @@ contains
          n_cut = n_cut + 1
          has = has .or. middle_of(trees, ends(1), middle) > 0 .or. middle_of(trees, middle, ends(2)) > 0
       end do
-      has = has .or. n_cut > n - 2
+      has = has .or. n_cut > merge(0, 2, n == 3)
    end function has_to_be_cut
 
-   !> Four of one, whatever is beside it; the fourth of a triangle is turned, in the middle. One that is cut stays as it is.
+   !> Four of one, or two of a triangle, whatever is beside it. One that is cut stays as it is.
    pure subroutine cut_cell(cell, trees)
       integer(ip), intent(in) :: cell
       type(element_trees_t), intent(inout) :: trees
-      integer(ip) :: m(4), v(4), o(2), h, n, i, root, centre
+      integer(ip) :: m(5), v(4), p(2, 4), q(2, 5), n, i, root
 
-      if (trees%first_child(cell) > 0 .or. abs(trees%step(cell)) <= SIDE/2**MOST_CUTS) return
+      p = trees%place(:, :, cell)
       n = corner_count(trees, cell)
+      if (trees%first_child(cell) > 0 .or. maxval(abs(p(:, 2:n) - p(:, :n - 1))) <= SIDE/2**MOST_CUTS) return
       v = trees%corner(:, cell)
-      o = trees%origin(:, cell)
-      h = trees%step(cell)/2
       root = trees%root(cell)
-      do i = 1, n
+      do i = 1, merge(1_ip, 4_ip, n == 3)
          call need_middle(v(i), v(mod(i, n) + 1), trees, m(i))
+         q(:, i) = (p(:, i) + p(:, mod(i, n) + 1))/2
       end do
       trees%first_child(cell) = trees%n + 1
       if (n == 3) then
-         call add_cell(root, o, h, [v(1), m(1), m(3), 0_ip], trees)
-         call add_cell(root, o + [h, 0_ip], h, [m(1), v(2), m(2), 0_ip], trees)
-         call add_cell(root, o + [0_ip, h], h, [m(3), m(2), v(3), 0_ip], trees)
-         call add_cell(root, o + [h, h], -h, [m(2), m(3), m(1), 0_ip], trees)
+         call add_cell(root, reshape([p(:, 3), p(:, 1), q(:, 1), 0_ip, 0_ip], [2, 4]), [v(3), v(1), m(1), 0_ip], trees)
+         call add_cell(root, reshape([p(:, 2), p(:, 3), q(:, 1), 0_ip, 0_ip], [2, 4]), [v(2), v(3), m(1), 0_ip], trees)
       else
-         call add_vertex(trees, centre)
-         call add_cell(root, o, h, [v(1), m(1), centre, m(4)], trees)
-         call add_cell(root, o + [h, 0_ip], h, [m(1), v(2), m(2), centre], trees)
-         call add_cell(root, o + [h, h], h, [centre, m(2), v(3), m(3)], trees)
-         call add_cell(root, o + [0_ip, h], h, [m(4), centre, m(3), v(4)], trees)
+         call add_vertex(trees, m(5))
+         q(:, 5) = (p(:, 1) + p(:, 3))/2
+         call add_cell(root, reshape([p(:, 1), q(:, 1), q(:, 5), q(:, 4)], [2, 4]), [v(1), m(1), m(5), m(4)], trees)
+         call add_cell(root, reshape([q(:, 1), p(:, 2), q(:, 2), q(:, 5)], [2, 4]), [m(1), v(2), m(2), m(5)], trees)
+         call add_cell(root, reshape([q(:, 5), q(:, 2), p(:, 3), q(:, 3)], [2, 4]), [m(5), m(2), v(3), m(3)], trees)
+         call add_cell(root, reshape([q(:, 4), q(:, 5), q(:, 3), p(:, 4)], [2, 4]), [m(4), m(5), m(3), v(4)], trees)
       end if
    end subroutine cut_cell
 
@@ -183,16 +216,21 @@ contains
       n = merge(3_ip, 4_ip, trees%corner(4, cell) == 0)
    end function corner_count
 
+   !> Into how many a cell is cut.
+   pure integer(ip) function part_count(trees, cell) result(n)
+      type(element_trees_t), intent(in) :: trees
+      integer(ip), intent(in) :: cell
+
+      n = merge(2_ip, 4_ip, corner_count(trees, cell) == 3)
+   end function part_count
+
    !> Places of the corners of a cell in its root.
    pure function leaf_corners(trees, cell) result(places)
       type(element_trees_t), intent(in) :: trees
       integer(ip), intent(in) :: cell
       integer(ip), allocatable :: places(:, :)        !< (2, 3 or 4)
-      integer(ip) :: n
 
-      n = corner_count(trees, cell)
-      if (n == 3) places = spread(trees%origin(:, cell), 2, 3) + trees%step(cell)*TRIANGLE(:, :3)
-      if (n == 4) places = spread(trees%origin(:, cell), 2, 4) + trees%step(cell)*SQUARE
+      places = trees%place(:, :corner_count(trees, cell), cell)
    end function leaf_corners
 
    !> Whether there is a node in the middle of a side.

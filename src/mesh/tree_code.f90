@@ -1,7 +1,7 @@
 !> Trees as words, for decks: of an element a letter a cell, C where it is cut and L where it is a leaf, each followed by those of its
-!> four children; leaves at the end are left out. CLC is an element that is cut, and its second child, too.
+!> parts; leaves at the end are left out. CLC is an element that is cut, and its second part, too.
 module atrito_tree_code
-   use atrito_element_trees, only: cut_cell, element_trees_t
+   use atrito_element_trees, only: cut_cell, element_trees_t, part_count
    use atrito_growing_text, only: growing_text_t, append_text
    use atrito_kinds, only: ip
    implicit none (type, external)
@@ -33,7 +33,7 @@ contains
             call append_text(text, LEAF)
          else
             call append_text(text, CUT)
-            do k = 0, 3
+            do k = 0, part_count(trees, cell) - 1
                call add(trees%first_child(cell) + k, text)
             end do
          end if
@@ -64,7 +64,7 @@ contains
          if (scan(code(position:position), 'Cc') == 0) return
          call cut_cell(cell, trees)
          if (trees%first_child(cell) == 0) return     ! it cannot be cut further
-         do k = 0, 3
+         do k = 0, part_count(trees, cell) - 1
             call take(trees%first_child(cell) + k, trees, position)
          end do
       end subroutine take
