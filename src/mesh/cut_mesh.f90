@@ -50,13 +50,14 @@ contains
       call place_elements(mesh, pieces, edge_key, inner_key, refinement, fine)
    end subroutine cut_mesh
 
-   !> The pieces of all leaves: by their element of the deck, then row by row from its first side.
+   !> The pieces of all leaves: by their element of the deck, then by their middles row by row from its first side.
    subroutine list_pieces(mesh, trees, pieces)
       type(mesh_t), intent(in) :: mesh
       type(element_trees_t), intent(in) :: trees
       type(pieces_t), intent(out) :: pieces
       integer(ip), allocatable :: leaves(:), order(:)
       integer(lp), allocatable :: key(:)
+      integer(lp) :: middle(2)
       integer(ip) :: corners(2, 4, MOST_PIECES), sizes(MOST_PIECES), i, k, n
 
       leaves = list_leaves(trees)
@@ -72,7 +73,8 @@ contains
             pieces%shape(n) = piece_shape(mesh%shape(pieces%root(n)), sizes(k))
             call fill_places(pieces%shape(n), corners(:, :sizes(k), k), pieces%place(:, :, n))
             associate (place => pieces%place(:, :sizes(k), n))
-               key(n) = ROW*int(minval(place(2, :)), lp) + (12/sizes(k))*sum(int(place(1, :), lp))
+               middle = (12/sizes(k))*sum(int(place, lp), dim=2)/16  ! places are multiples of 32
+               key(n) = ROW*middle(2) + middle(1)
             end associate
          end do
       end do
