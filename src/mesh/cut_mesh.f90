@@ -1,7 +1,7 @@
 !> The mesh of the leaves of trees (atrito_element_trees): without hanging nodes, on the map of the elements of the deck.
 !>
-!> A quadrilateral leaf with nodes in the middle of sides becomes pieces: three triangles with one of them, two quadrilaterals with two
-!> on opposite sides, three round its centre with two on sides that meet.
+!> A quadrilateral leaf with nodes in the middle of sides becomes pieces: three triangles with one of them, two quadrilaterals with
+!> two on opposite sides, three round its centre with two on sides that meet.
 !>
 !> The nodes of a piece are found by their places in the element of the deck, in parts of its side: on a corner, on a side (which it
 !> shares with its neighbour), or inside.

@@ -1,15 +1,15 @@
 !> Elements of the deck cut where that is asked for, their parts again, and so on: trees, whose leaves are what the mesh is made of
 !> (atrito_cut_mesh).
 !>
-!> A quadrilateral is cut into four. A leaf beside a finer one has a node of that in the middle of a side: leaves are cut besides until
-!> none has a side cut twice, and none more than two such nodes. It gets pieces then that need no node in the middle of a side, which
-!> are no leaves, so that they are never cut themselves.
+!> A quadrilateral is cut into four. A leaf beside a finer one has a node of that in the middle of a side: leaves are cut besides
+!> until none has a side cut twice, and none more than two such nodes. It gets pieces then that need no node in the middle of a
+!> side, which are no leaves, so that they are never cut themselves.
 !>
 !> A triangle is cut in two, from its newest vertex to the middle of the side opposite (W. F. Mitchell, ACM Trans. Math. Softw. 15,
 !> 1989), first of its longest; its neighbours are cut until no node lies in the middle of a side.
 !>
-!> Sides that belong together though each has its own nodes (the two of a contact pair that match, ties, equations of two nodes) have
-!> the same corners here, so that they are cut alike.
+!> Sides that belong together though each has its own nodes (the two of a contact pair that match, ties, equations of two nodes)
+!> have the same corners here, so that they are cut alike.
 module atrito_element_trees
    use atrito_growth, only: make_room, resize
    use atrito_kinds, only: ip, wp
@@ -21,7 +21,7 @@ module atrito_element_trees
    public :: SIDE, MOST_CUTS
 
    integer(ip), parameter :: SIDE = 2_ip**28          !< of an element of the deck, by which places in it are counted
-   integer(ip), parameter :: MOST_CUTS = 22           !< of an element, one after the other: middles of pieces still are whole numbers
+   integer(ip), parameter :: MOST_CUTS = 22           !< of an element into four: middles of pieces still are whole numbers
    real(wp), parameter :: ALIKE = 1.0e-9_wp           !< lengths that differ by less, relatively, are the same
    !> Places of the corners of elements.
    integer(ip), parameter :: SQUARE(2, 4) = SIDE*reshape([integer(ip) :: 0, 0, 1, 0, 1, 1, 0, 1], [2, 4])
@@ -34,8 +34,8 @@ module atrito_element_trees
       integer(ip), allocatable :: root_id(:)          !< their numbers
       integer(ip), allocatable :: first_child(:)      !< of four, or two of a triangle; 0: a leaf
       integer(ip), allocatable :: root(:)             !< element of the deck
-      integer(ip), allocatable :: place(:, :, :)      !< (2, 4, cells) of the corners, along the sides 1-2 and 1-4 (1-3) of the root
-      integer(ip), allocatable :: corner(:, :)        !< (4, cells) vertices; of a triangle the newest is the third, and the fourth 0
+      integer(ip), allocatable :: place(:, :, :)      !< (2, 4, cells) of corners, along the sides 1-2 and 1-4 (1-3) of the root
+      integer(ip), allocatable :: corner(:, :)        !< (4, cells) vertices; of triangles the third is the newest, the fourth 0
       integer(ip) :: n_vertices = 0
       integer(ip) :: n_edges = 0
       integer(ip), allocatable :: first_edge(:)       !< of a vertex: to others of greater number; 0: none

@@ -242,9 +242,9 @@ contains
 
    !> The point of an element at s, 0..1 along its side 1-2, and t along 1-4, or 1-3 of a triangle [L].
    !>
-   !> The map of a quadrilateral is a line (or a parabola, of the second degree) in s through points that lie on lines (parabolas) in
-   !> t: through nodes 1 and 4, nodes 2 and 3, and the middles. The differences are formed first, so that a constant coordinate stays
-   !> constant to the last bit.
+   !> The map of a quadrilateral is a line (or a parabola, of the second degree) in s through points that lie on lines (parabolas)
+   !> in t: through nodes 1 and 4, nodes 2 and 3, and the middles. The differences are formed first, so that a constant coordinate
+   !> stays constant to the last bit.
    pure function point_in(mesh, element, place) result(x)
       type(mesh_t), intent(in) :: mesh
       integer(ip), intent(in) :: element

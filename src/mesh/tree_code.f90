@@ -1,5 +1,5 @@
-!> Trees as words, for decks: of an element a letter a cell, C where it is cut and L where it is a leaf, each followed by those of its
-!> parts; leaves at the end are left out. CLC is an element that is cut, and its second part, too.
+!> Trees as words, for decks: of an element a letter a cell, C where it is cut and L where it is a leaf, each followed by those of
+!> its parts; leaves at the end are left out. CLC is an element that is cut, and its second part, too.
 module atrito_tree_code
    use atrito_element_trees, only: cut_cell, element_trees_t, part_count
    use atrito_growing_text, only: growing_text_t, append_text

@@ -70,8 +70,8 @@ contains
    !> are made in the order of the deck, since they follow from each other.
    !>
    !> With levels > 0 every element is refined into 4**levels, and with a shape all become elements of that shape. The model is
-   !> built without it first: messages name the elements that stand in the deck. With trees their leaves are the elements; empty ones
-   !> are begun, and all elements cut as often as there are levels.
+   !> built without it first: messages name the elements that stand in the deck. With trees their leaves are the elements; empty
+   !> ones are begun, and all elements cut as often as there are levels.
    subroutine build_model(deck, model, levels, memory, shape, state, trees)
       type(deck_t), intent(in) :: deck                 !< read and checked by read_deck
       type(model_t), intent(out) :: model

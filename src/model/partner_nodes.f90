@@ -24,10 +24,9 @@ contains
          associate (pair => model%points(i))
             do j = 1, pair%n
                associate (first => pair%first(j), last => pair%first(j + 1) - 1)
-                  if (last == first + 1) then
-                     if (abs(abs(pair%coefficient(first)) - 1) + abs(abs(pair%coefficient(last)) - 1) < FEW) &
-                        call join(pair%entry(first), pair%entry(last), partner)
-                  end if
+                  if (last /= first + 1) cycle
+                  if (any(abs(abs(pair%coefficient(first:last)) - 1) > FEW)) cycle
+                  call join(pair%entry(first), pair%entry(last), partner)
                end associate
             end do
          end associate

@@ -1,5 +1,5 @@
-!> *REFINE: which elements of the deck are cut, and how often. What it says is of the mesh of the deck, whatever --refine and --adapt
-!> do besides.
+!> *REFINE: which elements of the deck are cut, and how often. What it says is of the mesh of the deck, whatever --refine and
+!> --adapt do besides.
 module atrito_build_trees
    use atrito_build_context, only: build_context_t
    use atrito_deck, only: data_line_t, deck_t, keyword_name, line_item, token_t, token_text
