@@ -4,7 +4,7 @@ Formulas become MathML, which browsers draw without a script. Keywords, options,
 index; where a page names a keyword or a message, it has a link there."""
 import re
 from importlib.util import find_spec
-from os.path import dirname, exists, normpath
+from os.path import abspath, dirname, exists, normpath
 
 from docutils import nodes
 from docutils.transforms import Transform
@@ -12,9 +12,11 @@ from docutils.utils.math import MathError, latex2mathml
 from sphinx import addnodes
 from sphinx.util import logging
 
+with open(f"{dirname(abspath(__file__))}/../../CMakeLists.txt", encoding="utf-8") as file:
+    release = re.search(r"project\(atrito VERSION (\S+)", file.read())[1]
 project = "atrito"
 author = "the atrito authors"
-html_title = "atrito"
+html_title = f"atrito {release}"
 root_doc = "docs/README"
 include_patterns = ["[A-Z]*.md", "docs/**.md", "output/reference/README.md", "tests/tools/hostile/README.md"]
 exclude_patterns = ["build", "src", ".git", "README.md"]
