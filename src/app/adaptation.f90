@@ -7,6 +7,7 @@ module atrito_adaptation
    use atrito_element_trees, only: count_leaves, cut_leaves, element_trees_t
    use atrito_kinds, only: ip, lp, wp
    use atrito_memory, only: available_memory, held_memory
+   use atrito_messages, only: message_t, count_messages, get_message, SEVERITY_ERROR
    use atrito_model, only: model_t
    use atrito_model_memory, only: most_nodes
    use atrito_results, only: history_t, results_t, view_frame
@@ -16,7 +17,8 @@ module atrito_adaptation
    use atrito_table, only: table_t, add_integers, add_reals, begin_table
    implicit none (type, external)
    private
-   public :: adaptation_t, adapted_mesh_t, begin_adaptation, follow_error, build_adaptation, adaptation_text, missed_text
+   public :: adaptation_t, adapted_mesh_t, begin_adaptation, follow_error, build_adaptation, adaptation_text, give_up, &
+             missed_text
 
    real(wp), parameter :: BULK = 0.5_wp              !< of the sum of squares, that of the elements which are cut ...
    real(wp), parameter :: LEAST_BULK = 0.1_wp        !< ... less where less is enough: cut in four they have some quarter of it left
@@ -142,6 +144,20 @@ contains
          end if
       end associate
    end subroutine look_for_limit
+
+   !> The next mesh cannot be built: the first error says why.
+   subroutine give_up(adaptation)
+      type(adaptation_t), intent(inout) :: adaptation
+      type(message_t) :: message
+      integer(ip) :: i
+
+      do i = 1, count_messages()
+         message = get_message(i)
+         if (message%severity == SEVERITY_ERROR) exit
+      end do
+      adaptation%why = 'the next mesh is no good'
+      if (i <= count_messages()) adaptation%why = adaptation%why//' ('//message%text//')'
+   end subroutine give_up
 
    !> adapt.tab.
    subroutine build_adaptation(adaptation, table)

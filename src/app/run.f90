@@ -1,7 +1,8 @@
 !> One run: read the deck, build the model, solve, write.
 module atrito_run
    use, intrinsic :: iso_fortran_env, only: output_unit
-   use atrito_adaptation, only: adaptation_t, adaptation_text, begin_adaptation, build_adaptation, follow_error, missed_text
+   use atrito_adaptation, only: adaptation_t, adaptation_text, begin_adaptation, build_adaptation, follow_error, &
+                                give_up, missed_text
    use atrito_as_run_names, only: as_run_name
    use atrito_body_cache, only: body_cache_t
    use atrito_build_model, only: build_model
@@ -12,6 +13,7 @@ module atrito_run
    use atrito_deck, only: deck_t
    use atrito_deck_as_run, only: take_deck_as_run
    use atrito_element_table, only: DEGREE_OF, KINDS, kind_named
+   use atrito_element_trees, only: element_trees_t
    use atrito_files, only: check_folder, check_all_own, check_length, check_own, forget_inputs, is_folder, protect_input
    use atrito_folder_claim, only: folder_claim_t, claim_folder, release_folder
    use atrito_frame_spool, only: begin_frames, end_frames, frame_spool_t
@@ -135,7 +137,10 @@ contains
       !> Whether the error asks for another mesh; the model is that of the next one then.
       logical function has_next_mesh(history) result(has)
          type(history_t), intent(in), target :: history
-         type(reporter_t) :: silent
+         type(element_trees_t) :: before
+         logical :: ok
+
+         before = adaptation%trees
 
          has = adaptation%target > 0.0_wp .and. is_ok(status) .and. last_frame(history) > 0
          if (has) has = all(history%frames%converged .and. history%frames%law_holds)
@@ -144,13 +149,23 @@ contains
          call end_frames(frames)
          call begin_frames(output_folder(command), frames)
          call report_phase(reporter, 'adapt '//adaptation_text(adaptation))
-         silent%quiet = .true.
-         call forget_inputs()                       ! as before the first
-         call clear_messages()                      ! what is said is of the last mesh
-         call load_model(command, silent, model, n_printed, code, only_errors=.true., keeps_deck=.true., adaptation=adaptation)
-         has = code == STATUS_OK
-         if (has) call prepare_observations(command, model, observations, code)
+         call read_next(has)
+         if (has) return
+         call give_up(adaptation)                   ! the tables are those of the mesh before
+         adaptation%trees = before
+         call read_next(ok)
       end function has_next_mesh
+
+      !> The model of the next mesh; what was said of an earlier one is forgotten.
+      subroutine read_next(ok)
+         logical, intent(out) :: ok
+
+         call forget_inputs()
+         call clear_messages()
+         call read_model(command, model, ok, adaptation)
+         if (ok) call prepare_observations(command, model, observations, code)
+         n_printed = count_messages()
+      end subroutine read_next
 
    end subroutine run_deck
 
@@ -343,16 +358,8 @@ contains
       n_printed = 0
       code = STATUS_DECK
       if (is_ok(status) .or. status%code == STATUS_DECK) then
-         call start_phase('mesh')
-         if (command%adapt > 0.0_wp .and. present(adaptation)) then
-            call build_model(deck, model, command%refine, trees=adaptation%trees)
-         else
-            call build_model(deck, model, command%refine, shape=command%shape, state=command%state)
-         end if
+         call build_from(command, deck, model, adaptation)
          if (.not. has_hdf5()) call refuse_field_files(deck)
-         call stop_phase('mesh')
-         call list_parameters(deck, [string_t ::], model%provenance%parameters)
-         call options_of_run(command, model%provenance%options)
          call sort_messages()
          if (present(keeps_deck) .and. count_messages(SEVERITY_ERROR) > 0) call note_older_results(output_folder(command), &
                                                                                                command%names(1)%s, model%provenance)
@@ -372,19 +379,41 @@ contains
    end subroutine load_model
 
    !> The model of a command of which nothing is printed. ok: its deck has no errors.
-   subroutine read_model(command, model, ok)
+   subroutine read_model(command, model, ok, adaptation)
       type(command_t), intent(in) :: command
       type(model_t), intent(out) :: model
       logical, intent(out) :: ok
+      type(adaptation_t), intent(inout), optional :: adaptation !< how elements are cut; the model keeps the deck then
       type(deck_t) :: deck
       type(status_t) :: status
 
       call read_deck(command%names(1)%s, command%settings, deck, status)
       ok = is_ok(status) .and. count_messages(SEVERITY_ERROR) == 0
       if (.not. ok) return
-      call build_model(deck, model, command%refine, shape=command%shape, state=command%state)
+      call build_from(command, deck, model, adaptation)
       ok = count_messages(SEVERITY_ERROR) == 0
+      if (.not. (ok .and. present(adaptation))) return
+      call keep_deck(deck, model, status, adaptation)
+      ok = is_ok(status)
    end subroutine read_model
+
+   !> The model of a deck that was read, and what the tables tell of its parameters and the options.
+   subroutine build_from(command, deck, model, adaptation)
+      type(command_t), intent(in) :: command
+      type(deck_t), intent(inout) :: deck
+      type(model_t), intent(out) :: model
+      type(adaptation_t), intent(inout), optional :: adaptation
+
+      call start_phase('mesh')
+      if (command%adapt > 0.0_wp .and. present(adaptation)) then
+         call build_model(deck, model, command%refine, trees=adaptation%trees)
+      else
+         call build_model(deck, model, command%refine, shape=command%shape, state=command%state)
+      end if
+      call stop_phase('mesh')
+      call list_parameters(deck, [string_t ::], model%provenance%parameters)
+      call options_of_run(command, model%provenance%options)
+   end subroutine build_from
 
    !> Reads the expressions of the deck and of --observe. code: STATUS_DECK or STATUS_USAGE for one that is wrong, which is printed.
    subroutine prepare_observations(command, model, observations, code)
