@@ -46,6 +46,7 @@ module atrito_adaptation
 
 contains
 
+   !> What --adapt asks for, and when it began.
    subroutine begin_adaptation(command, adaptation)
       type(command_t), intent(in) :: command
       type(adaptation_t), intent(out) :: adaptation
@@ -171,7 +172,7 @@ contains
          call add_integers(table, 'mesh', [(i, i=1, n)])
          call add_integers(table, 'elements', meshes%n_elements)
          call add_integers(table, 'dofs', meshes%n_dofs)
-         call add_reals(table, 'error_estimate_percent', '%', meshes%percent, 0.0_wp)
+         call add_reals(table, 'error_percent', '%', meshes%percent, 0.0_wp)
          call add_integers(table, 'linear_solves', meshes%n_solves)
          call add_reals(table, 'total_wall', 's', meshes%seconds(1), 0.0_wp)
          call add_reals(table, 'total_cpu', 's', meshes%seconds(2), 0.0_wp)

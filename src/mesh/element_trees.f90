@@ -186,6 +186,7 @@ contains
       end do
    end subroutine cut_all
 
+   !> The cells that are not cut.
    pure function list_leaves(trees) result(leaves)
       type(element_trees_t), intent(in) :: trees
       integer(ip), allocatable :: leaves(:)
@@ -194,6 +195,7 @@ contains
       leaves = pack([(i, i=1, trees%n)], trees%first_child(:trees%n) == 0)
    end function list_leaves
 
+   !> How many these are.
    pure integer(ip) function count_leaves(trees) result(n)
       type(element_trees_t), intent(in) :: trees
 

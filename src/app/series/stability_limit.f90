@@ -13,6 +13,7 @@ module atrito_stability_limit
    use atrito_frame_spool, only: begin_frames, end_frames, frame_spool_t
    use atrito_history, only: solve_history
    use atrito_kinds, only: ip, lp, wp
+   use atrito_load_model, only: load_model, prepare_observations
    use atrito_mesh, only: find_node
    use atrito_messages, only: clear_messages
    use atrito_model, only: model_t
@@ -24,7 +25,7 @@ module atrito_stability_limit
    use atrito_series_reports, only: begin_series, report_of_limit
    use atrito_series, only: claim_output, find_origin, find_observed, begin_pictures, print_closing, seconds_since
    use atrito_stability_plot, only: write_stability_plots
-   use atrito_run, only: take_threads, load_model, prepare_observations, solve_options, agree_on_outcome
+   use atrito_run, only: take_threads, solve_options, agree_on_outcome
    use atrito_sweep_plan, only: read_range
    use atrito_stability_result, only: stability_t, stability_value_t, CODE_NOT_RUN
    use atrito_stability_search, only: search_t, begin_search, next_step, record_balance, record_solution, standing_value, &
