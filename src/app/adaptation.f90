@@ -18,7 +18,7 @@ module atrito_adaptation
    implicit none (type, external)
    private
    public :: adaptation_t, adapted_mesh_t, begin_adaptation, follow_error, build_adaptation, adaptation_text, give_up, &
-             missed_text
+             mesh_text, missed_text
 
    real(wp), parameter :: BULK = 0.5_wp              !< of the sum of squares, that of the elements which are cut ...
    real(wp), parameter :: LEAST_BULK = 0.1_wp        !< ... less where less is enough: cut in four they have some quarter of it left
@@ -179,12 +179,28 @@ contains
       end associate
    end subroutine build_adaptation
 
+   !> `mesh 4: 392 elements, error 10.3 %`, the last one.
+   function mesh_text(adaptation) result(text)
+      type(adaptation_t), intent(in) :: adaptation
+      character(len=:), allocatable :: text
+
+      associate (n => size(adaptation%meshes), meshes => adaptation%meshes)
+         text = 'mesh '//to_text(int(n, ip))//': '//to_text(meshes(n)%n_elements)//' elements, error '// &
+                to_text(meshes(n)%percent, 3)//' %'
+      end associate
+   end function mesh_text
+
    !> `7 meshes, from 111 to 2350 elements; error 18.6 to 4.9 %`
    function adaptation_text(adaptation) result(text)
       type(adaptation_t), intent(in) :: adaptation
       character(len=:), allocatable :: text
 
       associate (n => size(adaptation%meshes), meshes => adaptation%meshes)
+         if (n < 2) then
+            text = 'the first mesh'
+            if (n == 1) text = text//' has an error of '//to_text(meshes(1)%percent, 3)//' %'
+            return
+         end if
          text = to_text(int(n, ip))//' meshes, from '//to_text(meshes(1)%n_elements)//' to '//to_text(meshes(n)%n_elements)// &
                 ' elements; error '//to_text(meshes(1)%percent, 3)//' to '//to_text(meshes(n)%percent, 3)//' %'
       end associate

@@ -1,7 +1,7 @@
 !> One run: read the deck, build the model, solve, write.
 module atrito_run
    use, intrinsic :: iso_fortran_env, only: output_unit
-   use atrito_adaptation, only: adaptation_t, adaptation_text, begin_adaptation, build_adaptation, missed_text
+   use atrito_adaptation, only: adaptation_t, adaptation_text, begin_adaptation, build_adaptation, mesh_text, missed_text
    use atrito_as_run_names, only: as_run_name
    use atrito_body_cache, only: body_cache_t
    use atrito_command_line, only: command_t, output_folder, TASK_RUN
@@ -93,16 +93,16 @@ contains
          logical :: goes_on
 
          options = solve_options(command)
-         if (allocated(command%show)) then
-            call begin_show(command%show, show)
-            if (size(command%show) > 0) options%viewer => show
-         end if
          do
+            if (allocated(command%show)) then       ! of the last mesh
+               call begin_show(command%show, show)
+               if (size(command%show) > 0) options%viewer => show
+            end if
             call solve_history(model, options, reporter, history, status, store, recorder, observations, frames)
             if (adaptation%target <= 0.0_wp .or. .not. is_ok(status)) exit
             call take_next_mesh(command, history, model, observations, adaptation, n_printed, goes_on)
             if (.not. goes_on) exit
-            call report_phase(reporter, 'adapt '//adaptation_text(adaptation))
+            call report_phase(reporter, 'adapt '//mesh_text(adaptation))
             call end_frames(frames)
             call begin_frames(output_folder(command), frames)
          end do
