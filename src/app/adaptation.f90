@@ -7,6 +7,7 @@ module atrito_adaptation
    use atrito_element_trees, only: count_leaves, cut_leaves, element_trees_t
    use atrito_kinds, only: ip, lp, wp
    use atrito_memory, only: available_memory, held_memory
+   use atrito_messages, only: message_t, count_messages, get_message, SEVERITY_ERROR
    use atrito_model, only: model_t
    use atrito_model_memory, only: most_nodes
    use atrito_results, only: history_t, results_t, view_frame
@@ -16,7 +17,8 @@ module atrito_adaptation
    use atrito_table, only: table_t, add_integers, add_reals, begin_table
    implicit none (type, external)
    private
-   public :: adaptation_t, adapted_mesh_t, begin_adaptation, follow_error, build_adaptation, adaptation_text, missed_text
+   public :: adaptation_t, adapted_mesh_t, begin_adaptation, follow_error, build_adaptation, adaptation_text, give_up, &
+             mesh_text, missed_text
 
    real(wp), parameter :: BULK = 0.5_wp              !< of the sum of squares, that of the elements which are cut ...
    real(wp), parameter :: LEAST_BULK = 0.1_wp        !< ... less where less is enough: cut in four they have some quarter of it left
@@ -44,6 +46,7 @@ module atrito_adaptation
 
 contains
 
+   !> What --adapt asks for, and when it began.
    subroutine begin_adaptation(command, adaptation)
       type(command_t), intent(in) :: command
       type(adaptation_t), intent(out) :: adaptation
@@ -143,6 +146,20 @@ contains
       end associate
    end subroutine look_for_limit
 
+   !> The next mesh cannot be built: the first error says why.
+   subroutine give_up(adaptation)
+      type(adaptation_t), intent(inout) :: adaptation
+      type(message_t) :: message
+      integer(ip) :: i
+
+      do i = 1, count_messages()
+         message = get_message(i)
+         if (message%severity == SEVERITY_ERROR) exit
+      end do
+      adaptation%why = 'the next mesh is no good'
+      if (i <= count_messages()) adaptation%why = adaptation%why//' ('//message%text//')'
+   end subroutine give_up
+
    !> adapt.tab.
    subroutine build_adaptation(adaptation, table)
       type(adaptation_t), intent(in) :: adaptation
@@ -155,12 +172,23 @@ contains
          call add_integers(table, 'mesh', [(i, i=1, n)])
          call add_integers(table, 'elements', meshes%n_elements)
          call add_integers(table, 'dofs', meshes%n_dofs)
-         call add_reals(table, 'error_estimate_percent', '%', meshes%percent, 0.0_wp)
+         call add_reals(table, 'error_percent', '%', meshes%percent, 0.0_wp)
          call add_integers(table, 'linear_solves', meshes%n_solves)
          call add_reals(table, 'total_wall', 's', meshes%seconds(1), 0.0_wp)
          call add_reals(table, 'total_cpu', 's', meshes%seconds(2), 0.0_wp)
       end associate
    end subroutine build_adaptation
+
+   !> `mesh 4: 392 elements, error 10.3 %`, the last one.
+   function mesh_text(adaptation) result(text)
+      type(adaptation_t), intent(in) :: adaptation
+      character(len=:), allocatable :: text
+
+      associate (n => size(adaptation%meshes), meshes => adaptation%meshes)
+         text = 'mesh '//to_text(int(n, ip))//': '//to_text(meshes(n)%n_elements)//' elements, error '// &
+                to_text(meshes(n)%percent, 3)//' %'
+      end associate
+   end function mesh_text
 
    !> `7 meshes, from 111 to 2350 elements; error 18.6 to 4.9 %`
    function adaptation_text(adaptation) result(text)
@@ -168,6 +196,11 @@ contains
       character(len=:), allocatable :: text
 
       associate (n => size(adaptation%meshes), meshes => adaptation%meshes)
+         if (n < 2) then
+            text = 'the first mesh'
+            if (n == 1) text = text//' has an error of '//to_text(meshes(1)%percent, 3)//' %'
+            return
+         end if
          text = to_text(int(n, ip))//' meshes, from '//to_text(meshes(1)%n_elements)//' to '//to_text(meshes(n)%n_elements)// &
                 ' elements; error '//to_text(meshes(1)%percent, 3)//' to '//to_text(meshes(n)%percent, 3)//' %'
       end associate
