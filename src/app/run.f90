@@ -38,7 +38,8 @@ module atrito_run
    use atrito_screen, only: compose_summary
    use atrito_show, only: begin_show, show_t
    use atrito_show_plots, only: draw_shown
-   use atrito_solve, only: solve_options_t, CONTACT_AUTO, CONTACT_DENSE, CONTACT_SPARSE, SOLVER_AUTO, SOLVER_SKYLINE, &
+   use atrito_solve, only: solve_options_t, PROOF_AUTO, PROOF_OFF, PROOF_ON, CONTACT_AUTO, CONTACT_DENSE, CONTACT_SPARSE, &
+                           SOLVER_AUTO, SOLVER_SKYLINE, &
                            SOLVER_BANDED, SOLVER_SPARSE
    use atrito_status, only: status_t, set_status, reword_status, is_ok, STATUS_OK, STATUS_USAGE, STATUS_DECK, STATUS_NOT_CONVERGED
    use atrito_strings, only: string_t, upper_case
@@ -395,12 +396,13 @@ contains
       type(solve_options_t) :: options
       integer, parameter :: KINDS(*) = [SOLVER_AUTO, SOLVER_SKYLINE, SOLVER_BANDED, SOLVER_SPARSE]
       integer, parameter :: FORMS(*) = [CONTACT_AUTO, CONTACT_DENSE, CONTACT_SPARSE]
+      integer, parameter :: PROOFS(*) = [PROOF_AUTO, PROOF_ON, PROOF_OFF]
 
       options%solver_kind = KINDS(place_of_word('--solver', command%solver))
       options%contact_form = FORMS(place_of_word('--contact', command%contact))
       options%element_errors = command%plot
       options%starts = command%starts
-      options%proof = command%proof /= 'off'
+      options%proof = PROOFS(place_of_word('--proof', command%proof))
       ! the runs of sweeps, studies and limits stay where they are
       if (command%task == TASK_RUN .and. command%share /= 'none') then
          call distribute_over_ranks(command%share == 'all', options%distribution)

@@ -32,8 +32,12 @@ module atrito_scene_data
    use atrito_turning_rows, only: balance_rows
    implicit none (type, external)
    private
+   public :: PROOF_AUTO, PROOF_ON, PROOF_OFF
    public :: scene_data_t, solve_options_t, distribution_t, viewer_t, prepare, set_time, assemble, drop_assembled, free_load, &
              reload, check_known_points, forces_at_end
+
+   !> A bound of the error: where it takes less than half of the time, always, never.
+   integer, parameter :: PROOF_AUTO = 1, PROOF_ON = 2, PROOF_OFF = 3
 
    !> How a scene in the sparse form is distributed over several processes. What extends this type assembles the matrix in parts,
    !> one a process, and has each process recover the stresses of its elements; all else is done in this process, which is all there
@@ -67,7 +71,7 @@ module atrito_scene_data
       class(scene_system_t), allocatable :: assembled       !< the sparse form, in one matrix or in parts
       logical :: is_assembled = .false.
       logical :: wants_element_errors = .false.             !< of what is printed
-      logical :: wants_proof = .false.                      !< a bound of the error of what is printed
+      integer :: proof = PROOF_OFF                          !< whether there is a bound of the error of what is printed
       real(wp), allocatable :: exchanged(:, :)              !< (2, n_nodes) for it, while the bodies are factored [L]
       integer(ip) :: starts = 0                             !< of a search for other solutions
       logical :: is_printed = .true.                        !< what is solved for is printed: it is worth stresses and estimates
@@ -87,7 +91,7 @@ module atrito_scene_data
       integer :: contact_form = CONTACT_AUTO
       logical :: element_errors = .false.                   !< the estimated error is kept element by element
       integer(ip) :: starts = 0                             !< of a search for other solutions; 0: as the deck asks
-      logical :: proof = .false.                            !< a bound of the error is wanted
+      integer :: proof = PROOF_OFF                          !< whether a bound of the error is wanted
       integer(lp) :: memory = huge(1_lp)                    !< bytes, of each process; what the machine has counts where it is less
       class(distribution_t), allocatable :: distribution    !< of a scene that it pays off for; not allocated: none
       class(viewer_t), pointer :: viewer => null()          !< not associated: nobody looks
@@ -185,7 +189,7 @@ contains
       data%solver_kind = asked%solver_kind
       data%starts = merge(asked%starts, data%step%controls%starts, asked%starts > 0)
       data%wants_element_errors = asked%element_errors
-      data%wants_proof = asked%proof
+      data%proof = asked%proof
       data%viewer => asked%viewer
       ! all bodies in one matrix: none is numbered for a profile of its own
       if (data%contact_form == CONTACT_SPARSE) data%solver_kind = SOLVER_SPARSE

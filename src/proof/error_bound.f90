@@ -39,13 +39,15 @@ module atrito_error_bound
    private
    public :: bound_error
 
+   integer(ip), parameter :: SMALL_SCENE = 1000     !< different elements that take no time to speak of
+   real(wp), parameter :: MANY = 0.2_wp             !< of the elements
    !> A residual of equilibrium above this share of the bound takes the certificate away.
    real(wp), parameter :: LEAST_DIGITS = 1.0e-3_wp
 
 contains
 
    !> The bound of a converged solution; bound%why_not tells what is missing.
-   subroutine bound_error(model, acting, problem, solution, u, reaction, exchanged, bound, by_element)
+   subroutine bound_error(model, acting, problem, solution, u, reaction, exchanged, if_quick, bound, element_error)
       type(model_t), intent(in) :: model
       type(step_t), intent(in) :: acting            !< with the loads of the time
       class(problem_t), intent(in) :: problem
@@ -53,8 +55,10 @@ contains
       real(wp), intent(in) :: u(:, :)               !< (2, n_nodes) [L]
       real(wp), intent(in) :: reaction(:, :)        !< (2, n_nodes) [F]
       real(wp), allocatable, intent(inout) :: exchanged(:, :) !< what exchange_tractions found; not allocated: it is asked now
+      logical, intent(in) :: if_quick               !< a bound is wanted where it takes less than half of the time of a run
       type(error_bound_t), intent(out) :: bound
-      real(wp), allocatable, intent(inout), optional :: by_element(:) !< (n_elements) eta^2 of each [F L]
+      real(wp), allocatable, intent(inout) :: element_error(:) !< (n_elements) where allocated, the share of each, the root of the sum
+      !< of their squares being the bound [%]
       type(proof_loads_t) :: loads
       type(mesh_sides_t) :: sides
       type(side_cuts_t) :: cuts
@@ -74,6 +78,11 @@ contains
          return
       end if
       segments = segments(:n_segments)
+      call find_classes(problem%fem, classes)
+      if (if_quick .and. takes_long(problem%fem, classes)) then
+         bound%why_not = 'it takes longer than the run: --proof on'
+         return
+      end if
       degree = maxval(DEGREE_OF(problem%fem%mesh%shape(:problem%fem%mesh%n_elements)))
       call list_sides(problem%fem%mesh, sides)
       call take_loads(model, acting, problem%fem, sides, degree, problem%held, reaction, loads, why_not)
@@ -88,7 +97,6 @@ contains
       end if
       known = loads%known
       traction = loads%traction
-      call find_classes(problem%fem, classes)
       call list_chains(problem%fem%mesh, sides, chains)
       call take_elements(problem%fem, classes, sides, u + exchanged, loads%at_nodes, known, force, traction)
       call equilibrate_sides(problem%fem%mesh, sides, chains, force, known, traction, residual)
@@ -126,8 +134,18 @@ contains
          bound%is_certified = residual <= max(LEAST_DIGITS*bound%percent/100, 1.0e-12_wp)
          if (.not. bound%is_certified) bound%why_not = 'round-off of the equilibrium'
       end associate
-      if (present(by_element)) call move_alloc(share, by_element)
+      if (allocated(element_error) .and. energy > 0.0_wp) element_error = 100*sqrt(max(share, 0.0_wp)/(2*energy))
    end subroutine bound_error
+
+   !> Whether a bound takes more than the run does: where many elements are quadrilaterals or of the second degree and no two are equal.
+   pure logical function takes_long(fem, classes)
+      type(fem_t), intent(in) :: fem
+      type(element_classes_t), intent(in) :: classes
+
+      takes_long = .false.
+      if (classes%n <= SMALL_SCENE .or. classes%n <= MANY*fem%mesh%n_elements) return
+      takes_long = any(fem%mesh%shape(:fem%mesh%n_elements) > 3)
+   end function takes_long
 
    !> What nothing can be proved for, whatever the loads are.
    subroutine check_hypotheses(problem, why_not)

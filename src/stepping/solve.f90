@@ -11,7 +11,8 @@ module atrito_solve
    use atrito_number_range, only: is_out_of_range
    use atrito_reporter, only: reporter_t, report_place
    use atrito_results, only: results_t, scene_t
-   use atrito_scene_data, only: scene_data_t, solve_options_t, prepare, assemble, drop_assembled, check_known_points
+   use atrito_scene_data, only: scene_data_t, solve_options_t, PROOF_AUTO, PROOF_OFF, PROOF_ON, prepare, assemble, &
+                                drop_assembled, check_known_points
    use atrito_scene_forecast, only: forecast_memory
    use atrito_scene_survey, only: describe_scene, describe_order, count_fronts, check_scene
    use atrito_solution_warnings, only: warn, idle_text
@@ -23,7 +24,7 @@ module atrito_solve
    use atrito_unsettled_points, only: report_unsettled
    implicit none (type, external)
    private
-   public :: solve_options_t, solve_static, survey_scene, begin_scene, note_method
+   public :: PROOF_AUTO, PROOF_OFF, PROOF_ON, solve_options_t, solve_static, survey_scene, begin_scene, note_method
    public :: SOLVER_AUTO, SOLVER_SKYLINE, SOLVER_BANDED, SOLVER_SPARSE
    public :: CONTACT_AUTO, CONTACT_DENSE, CONTACT_SPARSE
 

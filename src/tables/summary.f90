@@ -200,9 +200,9 @@ contains
 
       list = [quantity_t('error_bound_percent', '-', bound%percent, 0.0_wp), &
               counted('error_certified', merge(1_ip, 0_ip, bound%is_certified)), &
-              quantity_t('error_bound_bulk', '-', bound%bulk, 0.0_wp), &
-              quantity_t('error_bound_normal', '-', bound%normal, 0.0_wp), &
-              quantity_t('error_bound_tangential', '-', bound%tangential, 0.0_wp)]
+              quantity_t('error_bound_bulk', '-', bound%bulk, 1.0_wp), &
+              quantity_t('error_bound_normal', '-', bound%normal, 1.0_wp), &
+              quantity_t('error_bound_tangential', '-', bound%tangential, 1.0_wp)]
       list = pack(list, bound%exists)
    end function bound_quantities
 

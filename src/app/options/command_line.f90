@@ -35,7 +35,7 @@ module atrito_command_line
       type(string_t), allocatable :: settings(:)    !< NAME=VALUE of --set, in their order
       character(len=7) :: solver = 'auto'           !< one of the words of --solver
       character(len=6) :: contact = 'auto'          !< one of the words of --contact
-      character(len=4) :: proof = 'off'             !< one of the words of --proof
+      character(len=4) :: proof = 'auto'            !< one of the words of --proof
       character(len=4) :: share = 'auto'            !< one of the words of --share
       type(string_t), allocatable :: observe(:)     !< NAME=EXPRESSION of --observe, in their order
       type(string_t), allocatable :: show(:)        !< views of --show, in their order

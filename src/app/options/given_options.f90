@@ -21,7 +21,7 @@ contains
       if (command%starts > 0) call add_option('--unique', to_text(command%starts), text)
       if (len_trim(command%element) > 0) call add_option('--elements', trim(command%element), text)
       if (command%solver /= 'auto') call add_option('--solver', trim(command%solver), text)
-      if (command%proof /= 'off') call add_option('--proof', trim(command%proof), text)
+      if (command%proof /= 'auto') call add_option('--proof', trim(command%proof), text)
       if (command%contact /= 'auto') call add_option('--contact', trim(command%contact), text)
       if (allocated(command%observe)) then
          do i = 1, size(command%observe)

@@ -46,7 +46,7 @@ module atrito_contour_fields
                      contour_t(CONTOUR_PLOTS(3), 'stress s22', 's22', 'F/L^2', 2, .true., .false.), &
                      contour_t(CONTOUR_PLOTS(4), 'stress s12', 's12', 'F/L^2', 4, .true., .false.), &
                      contour_t(CONTOUR_PLOTS(5), 'displacement', '|u|', 'L', DISPLACEMENT, .false., .false.), &
-                     contour_t(CONTOUR_PLOTS(6), 'estimated error of the stresses', 'error', '%', ERROR, .false., .true.)]
+                     contour_t(CONTOUR_PLOTS(6), 'error of the stresses', 'error', '%', ERROR, .false., .true.)]
 
    !> A stress whose largest is below this share of the largest of Mises' is none: what rounding left of it would be drawn.
    real(wp), parameter :: NO_STRESS = 1.0e-9_wp

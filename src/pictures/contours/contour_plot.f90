@@ -16,6 +16,7 @@ module atrito_contour_plot
    use atrito_plot_scripts, only: plots_t, put, begin_file, put_terminal, begin_script, put_plot
    use atrito_plot_text, only: range_t, range_text, span, LF, cover, quoted, power_text
    use atrito_plot_view, only: shown_window, warn_of_box
+   use atrito_results, only: results_t
    use atrito_strings, only: string_t, to_text, append_string
    implicit none (type, external)
    private
@@ -201,13 +202,25 @@ contains
                'heading = '//quoted(drawing%heading))
       call put_layout(plots, layout)
       if (field%contour%of_elements) title = title//', share of each element in '// &
-                                             to_text(drawing%results%error_estimate, 3)//' %'
+                                             percent_of(drawing%results)
       call put(plots, 'set label 1 heading."\n'//title//'; '//displacement_text(drawing)// &
                '" at screen 0.5, screen up(height - 20) center noenhanced')
       call put_bar(plots, layout, field, bar)
       if (field%is_shown) call put_extremes(plots, layout, field, bar)
       call put_curves(plots, drawing, layout)
    end subroutine write_script
+
+   !> What the shares of the elements are of: the bound of the error, or the estimate.
+   pure function percent_of(results) result(text)
+      type(results_t), intent(in) :: results
+      character(len=:), allocatable :: text
+
+      if (results%error_bound%exists) then
+         text = 'at most '//to_text(results%error_bound%percent, 3)//' %'
+      else
+         text = to_text(results%error_estimate, 3)//' %'
+      end if
+   end function percent_of
 
    !> Colours, range and marks of the bar.
    subroutine put_bar(plots, layout, field, bar)
