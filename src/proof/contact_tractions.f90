@@ -1,7 +1,8 @@
 !> Contact as the bound of the error sees it: tractions of both sides that the law allows, and what the law lacks of being met.
 !>
 !> Along a slave with straight faces the pressures p_j and shears t_j of the points are taken as linear from node to node: p >= 0,
-!> and |t| <= tau with the bounds tau_j linear, too. With potentials of the law and their conjugates (Fenchel),
+!> and |t| <= tau with the bounds tau_j linear, too. On faces of three nodes all of them are multiplied so that the resultant is that of
+!> the run. With potentials of the law and their conjugates (Fenchel),
 !>
 !>     psi_n(g) = (g+)^2/(2 delta),  psi_n*(p) = delta p^2/2;      psi_t(r) = tau phi_eps(|r|),  psi_t*(t) = eps t^2/(2 tau),
 !(1) >
@@ -166,9 +167,11 @@ contains
                segment%gap(j) = distance
             end do
             if (points%matching .or. pair%gap_is_given) segment%gap = along(segment, problem%rows%gap)
-            segment%p = along(segment, max(solution%p, 0.0_wp))
-            segment%t = along(segment, solution%t)
-            segment%tau = along(segment, solution%tau)
+            associate (share => share_of_face(segment, max(solution%p, 0.0_wp)))
+               segment%p = share*along(segment, max(solution%p, 0.0_wp))
+               segment%t = share*along(segment, solution%t)
+               segment%tau = share*along(segment, solution%tau)
+            end associate
             segment%rest = 0.0_wp
             if (allocated(problem%line%rest)) segment%rest = along(segment, problem%line%rest)
             j = maxval(point(segment%node(:segment%n)))
@@ -180,6 +183,21 @@ contains
             end associate
          end associate
       end subroutine make_segment
+
+      !> By what the stresses of a face of three nodes are multiplied, so that linear from node to node they have the resultant of Simpson's
+      !> rule.
+      real(wp) function share_of_face(segment, p)
+         type(segment_t), intent(in) :: segment
+         real(wp), intent(in) :: p(:)
+         real(wp) :: ends, middle
+
+         share_of_face = 1.0_wp
+         if (segment%n /= 3) return
+         if (any(point(segment%node) == 0)) return
+         ends = sum(p(point(segment%node(:2))))
+         middle = p(point(segment%node(3)))
+         if (ends + middle > 0.0_wp) share_of_face = (2*ends + 8*middle)/(3*ends + 6*middle)
+      end function share_of_face
 
       !> Of the material of an element.
       real(wp) function stiffness_of(e)
