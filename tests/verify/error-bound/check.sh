@@ -18,6 +18,12 @@ for type in CPE4 CPE6; do
    done
 done
 
+# elements of both degrees in one scene
+sed 's/CPE4, ELSET=UPPER/CPE8, ELSET=UPPER/' "$here/column.inp" >column.inp
+run 0 column.inp mixed --proof on --quiet
+near 'mixed: certified' "$(summary mixed error_certified)" 1 0
+below 'mixed' "$(summary mixed error_bound_percent)" 1e-10
+
 # no contact: the true error is sqrt(1 - E_h/E) of the exact energy E, here that of a fine mesh (which is a little low)
 sed 's/CPE4/CPE9/' "$here/clamped.inp" >clamped-fine.inp
 run 0 clamped-fine.inp fine --refine 4 --proof off --quiet
@@ -39,6 +45,9 @@ says 'on the screen' "ex1-0/ex1-plate-on-support.lst" 'certified for the frictio
 sed 's/ELSET=SUPPORT, NX=6/ELSET=SUPPORT, NX=7/' "$ex1" >seven.inp
 for delta in 1e-6 1e-9; do run 0 seven.inp "seven-$delta" --set rho=0 --set delta=$delta --proof on --quiet; done
 bound seven-1e-6 24 45
+sed 's/^\*CONTACT PAIR/&, QUADRATURE=NODAL/' seven.inp >nodal.inp     # with nodes of the support that no node of the plate faces
+run 0 nodal.inp nodal --set rho=0 --proof on --quiet
+bound nodal 24 45
 near 'delta 1e-9' "$(summary seven-1e-9 error_bound_percent)" "$(summary seven-1e-6 error_bound_percent)" 0.7
 
 # a block that contact alone holds; turned, in other units, with other numbers it is the same
