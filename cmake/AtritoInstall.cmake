@@ -26,7 +26,15 @@ endif()
 # The pages of docs/ keep their places relative to each other and to the decks.
 install(DIRECTORY input DESTINATION ${CMAKE_INSTALL_DATADIR}/atrito)
 install(FILES README.md LICENSE CHANGELOG.md CITATION.cff CONTRIBUTING.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
-install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} PATTERN "make-*" EXCLUDE)
+install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} PATTERN "make-*" EXCLUDE PATTERN "manual" EXCLUDE)
+
+# The same pages as one book, HTML and PDF, where `--target manual` has made it.
+find_program(ATRITO_PYTHON python3)
+if(ATRITO_PYTHON)
+   add_custom_target(manual COMMAND ${ATRITO_PYTHON} ${PROJECT_SOURCE_DIR}/docs/manual/make ${PROJECT_BINARY_DIR}/manual USES_TERMINAL VERBATIM)
+endif()
+install(DIRECTORY ${PROJECT_BINARY_DIR}/manual/html DESTINATION ${CMAKE_INSTALL_DOCDIR} OPTIONAL)
+install(FILES ${PROJECT_BINARY_DIR}/manual/atrito.pdf DESTINATION ${CMAKE_INSTALL_DOCDIR} OPTIONAL)
 
 # The laboratory, which runs by Python's standard library (docs/labs/README.md).
 install(PROGRAMS tools/lab/atrito-lab DESTINATION ${CMAKE_INSTALL_BINDIR})

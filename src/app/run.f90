@@ -1,10 +1,12 @@
 !> One run: read the deck, build the model, solve, write.
 module atrito_run
    use, intrinsic :: iso_fortran_env, only: output_unit
+   use atrito_adaptation, only: adaptation_t, adaptation_text, begin_adaptation, build_adaptation, follow_error, missed_text
    use atrito_as_run_names, only: as_run_name
    use atrito_body_cache, only: body_cache_t
    use atrito_build_model, only: build_model
    use atrito_build_requests, only: refuse_field_files
+   use atrito_build_trees, only: card_of_trees
    use atrito_command_line, only: command_t, output_folder, TASK_RUN
    use atrito_console, only: print_message, print_messages, print_status, reporter_of
    use atrito_deck, only: deck_t
@@ -18,12 +20,12 @@ module atrito_run
    use atrito_history, only: solve_history
    use atrito_kinds, only: ip, wp
    use atrito_mesh, only: signed_area
-   use atrito_messages, only: message_t, count_messages, sort_messages, SEVERITY_ERROR
+   use atrito_messages, only: message_t, clear_messages, count_messages, sort_messages, SEVERITY_ERROR
    use atrito_model, only: model_t
    use atrito_observations, only: observations_t, read_observations
    use atrito_older_results, only: note_older_results
    use atrito_option_table, only: place_of_word
-   use atrito_page, only: page_t, print_page
+   use atrito_page, only: page_t, add_above_rule, print_page
    use atrito_parameter_text, only: list_parameters
    use atrito_patched_text, only: digest_of_texts
    use atrito_plane_state, only: FULL_STATE
@@ -45,6 +47,7 @@ module atrito_run
    use atrito_strings, only: string_t, upper_case
    use atrito_study_errors, only: run_facts_t
    use atrito_system, only: address_space_limit
+   use atrito_table, only: table_t
    use atrito_threads, only: lent_threads, set_threads
    use atrito_timers, only: start_phase, stop_phase
    use atrito_write_plots, only: write_plots, plot_names
@@ -67,16 +70,19 @@ contains
       type(restart_recorder_t) :: recorder
       type(frame_spool_t), target :: frames
       type(show_t), target :: show
+      type(adaptation_t) :: adaptation
       type(status_t) :: status
       integer(ip) :: n_printed
 
+      call begin_adaptation(command, adaptation)
       call forget_inputs()
       call take_threads(command)                    ! the other ranks have nothing to do yet
       reporter = reporter_of(command)
-      call load_model(command, reporter, model, n_printed, code, keeps_deck=.true.)
+      call load_model(command, reporter, model, n_printed, code, keeps_deck=.true., adaptation=adaptation)
       if (code == STATUS_OK) call prepare_observations(command, model, observations, code)
       if (code == STATUS_OK) then
-         call check_folder(output_folder(command), status)
+         call check_adaptable(command, model, status)
+         if (is_ok(status)) call check_folder(output_folder(command), status)
          call begin_frames(output_folder(command), frames)
          if (is_ok(status)) call begin_recorder(command, model, recorder, frames, status)
          if (is_ok(status)) call check_files(command, model, status)
@@ -94,7 +100,7 @@ contains
    contains
 
       subroutine solve_and_write()
-         type(history_t) :: history
+         type(history_t), target :: history
          type(solve_options_t) :: options
 
          options = solve_options(command)
@@ -102,16 +108,21 @@ contains
             call begin_show(command%show, show)
             if (size(command%show) > 0) options%viewer => show
          end if
-         call solve_history(model, options, reporter, history, status, store, recorder, observations, frames)
+         do
+            call solve_history(model, options, reporter, history, status, store, recorder, observations, frames)
+            if (.not. has_next_mesh(history)) exit
+         end do
          if (last_frame(history) == 0) call note_older_results(output_folder(command), model%deck_path, model%provenance)
          call print_messages(command%quiet, n_printed + 1, command%json)
          associate (n => last_frame(history))
             if (n > 0) call agree_on_outcome(status, history%frames(n), history%ending%is_early)
+            if (is_ok(status) .and. allocated(adaptation%why)) call set_status(status, STATUS_NOT_CONVERGED, &
+                                                                               missed_text(adaptation))
             code = status%code
             if (n == 0 .and. .not. command%quiet) call print_page(show%page, output_unit)
             if (n > 0) then
                call take_threads(command)           ! the other ranks have nothing more to do
-               call write_run(command, reporter, model, history, show, code)
+               call write_run(command, reporter, model, history, show, adaptation, code)
             end if
             if (.not. is_ok(status)) call print_status(status, model%deck_path, command%json)
             if (n == 0) return
@@ -122,7 +133,38 @@ contains
          end associate
       end subroutine solve_and_write
 
+      !> Whether the error asks for another mesh; the model is that of the next one then.
+      logical function has_next_mesh(history) result(has)
+         type(history_t), intent(in), target :: history
+         type(reporter_t) :: silent
+
+         has = adaptation%target > 0.0_wp .and. is_ok(status) .and. last_frame(history) > 0
+         if (has) has = all(history%frames%converged .and. history%frames%law_holds)
+         if (has) call follow_error(model, history, adaptation, has)
+         if (.not. has) return
+         call end_frames(frames)
+         call begin_frames(output_folder(command), frames)
+         call report_phase(reporter, 'adapt '//adaptation_text(adaptation))
+         silent%quiet = .true.
+         call forget_inputs()                       ! as before the first
+         call clear_messages()                      ! what is said is of the last mesh
+         call load_model(command, silent, model, n_printed, code, only_errors=.true., keeps_deck=.true., adaptation=adaptation)
+         has = code == STATUS_OK
+         if (has) call prepare_observations(command, model, observations, code)
+      end function has_next_mesh
+
    end subroutine run_deck
+
+   !> --adapt begins anew with each mesh: there is nothing to go on from. status: STATUS_USAGE.
+   subroutine check_adaptable(command, model, status)
+      type(command_t), intent(in) :: command
+      type(model_t), intent(in) :: model
+      type(status_t), intent(out) :: status
+
+      if (command%adapt > 0.0_wp .and. (model%restart_every > 0 .or. allocated(command%restart))) then
+         call set_status(status, STATUS_USAGE, '--adapt: each mesh begins anew, without *RESTART and --restart')
+      end if
+   end subroutine check_adaptable
 
    !> The threads of this run, with those of ranks that wait on the same host: not where `ulimit -v` counts what each reserves.
    subroutine take_threads(command)
@@ -221,20 +263,28 @@ contains
       call set_status(status, STATUS_NOT_CONVERGED, text//'; the last iterate is written')
    end subroutine agree_on_outcome
 
-   subroutine write_run(command, reporter, model, history, show, code)
+   subroutine write_run(command, reporter, model, history, show, adaptation, code)
       type(command_t), intent(in) :: command
       type(reporter_t), intent(in) :: reporter
       type(model_t), intent(in) :: model
       type(history_t), intent(in) :: history
       type(show_t), intent(in) :: show              !< what --show has seen
+      type(adaptation_t), intent(in) :: adaptation
       integer, intent(inout) :: code
       type(status_t) :: status
       type(folder_claim_t) :: claim
       type(page_t) :: page
       type(string_t), allocatable :: written(:), pictures(:), drawn(:)
+      type(table_t), allocatable :: shown(:)
       character(len=:), allocatable :: folder
       integer(ip) :: n_printed
+      integer :: n_shown
 
+      n_shown = 0
+      if (allocated(show%tables)) n_shown = size(show%tables)
+      allocate (shown(n_shown + merge(1, 0, adaptation%target > 0.0_wp)))
+      if (n_shown > 0) shown(:n_shown) = show%tables
+      if (size(shown) > n_shown) call build_adaptation(adaptation, shown(n_shown + 1))
       folder = output_folder(command)
       call report_phase(reporter, 'write '//folder)
       n_printed = count_messages()
@@ -243,7 +293,7 @@ contains
       call claim_folder(folder, claim, status, silent=command%json)
       if (is_ok(status)) call check_files(command, model, status)    ! an hour may have passed
       if (is_ok(status)) call write_results(model, history, int(command%digits), folder, written, status, pictures, &
-                                            command%is_csv, show%tables)
+                                            command%is_csv, shown)
       if (.not. is_ok(status)) then
          call release_folder(claim)
          call print_status(status, model%deck_path, command%json)
@@ -253,8 +303,8 @@ contains
       if (command%plot) then
          call report_phase(reporter, 'plot  '//plot_folder(folder))
          call write_plots(model, history, folder, command%view, pictures)
-         if (allocated(show%tables)) then
-            call draw_shown(folder, show%tables, drawn)
+         if (size(shown) > 0) then
+            call draw_shown(folder, shown, drawn)
             pictures = [pictures, drawn]
          end if
       end if
@@ -268,12 +318,13 @@ contains
       end if
       if (command%quiet) return
       call compose_summary(model, history, folder, written, page, pictures)
+      if (adaptation%target > 0.0_wp) call add_above_rule(page, 'adapted', adaptation_text(adaptation))
       call print_page(page, output_unit)
       call print_page(show%page, output_unit)
    end subroutine write_run
 
    !> Reads a deck and builds its model. All messages are printed; errors of the deck give STATUS_DECK.
-   subroutine load_model(command, reporter, model, n_printed, code, only_errors, keeps_deck)
+   subroutine load_model(command, reporter, model, n_printed, code, only_errors, keeps_deck, adaptation)
       type(command_t), intent(in) :: command
       type(reporter_t), intent(in) :: reporter
       type(model_t), intent(out) :: model
@@ -281,6 +332,7 @@ contains
       integer, intent(out) :: code
       logical, intent(in), optional :: only_errors  !< the others of this deck have been printed
       logical, intent(in), optional :: keeps_deck   !< as it is run, in the model; left out: .false.
+      type(adaptation_t), intent(inout), optional :: adaptation !< how the elements of the deck are cut, where they are
       type(deck_t) :: deck
       type(status_t) :: status
       logical :: silent
@@ -293,7 +345,11 @@ contains
       code = STATUS_DECK
       if (is_ok(status) .or. status%code == STATUS_DECK) then
          call start_phase('mesh')
-         call build_model(deck, model, command%refine, shape=command%shape, state=command%state)
+         if (command%adapt > 0.0_wp .and. present(adaptation)) then
+            call build_model(deck, model, command%refine, trees=adaptation%trees)
+         else
+            call build_model(deck, model, command%refine, shape=command%shape, state=command%state)
+         end if
          if (.not. has_hdf5()) call refuse_field_files(deck)
          call stop_phase('mesh')
          call list_parameters(deck, [string_t ::], model%provenance%parameters)
@@ -311,7 +367,7 @@ contains
                             ': the deck has elements of the other plane state')
          end if
       end if
-      if (present(keeps_deck) .and. is_ok(status)) call keep_deck(deck, model, status)
+      if (present(keeps_deck) .and. is_ok(status)) call keep_deck(deck, model, status, adaptation)
       code = status%code
       if (.not. is_ok(status)) call print_status(status, command%names(1)%s, command%json)
    end subroutine load_model
@@ -366,17 +422,24 @@ contains
    end subroutine check_files
 
    !> The deck as it is run, and its digest; its files are protected.
-   subroutine keep_deck(deck, model, status)
+   subroutine keep_deck(deck, model, status, adaptation)
       type(deck_t), intent(inout) :: deck
       type(model_t), intent(inout) :: model
       type(status_t), intent(inout) :: status
+      type(adaptation_t), intent(in), optional :: adaptation !< whose mesh the deck gets
+      logical :: is_cut
       integer(ip) :: i
 
       do i = 1, deck%n_sources
          if (is_ok(status)) call protect_input(deck%sources(i)%identity, status)
       end do
-
-      call take_deck_as_run(deck, model%as_run)
+      is_cut = .false.
+      if (present(adaptation)) is_cut = adaptation%target > 0.0_wp .and. model%n_cut > 0
+      if (is_cut) then
+         call take_deck_as_run(deck, model%as_run, card_of_trees(deck, adaptation%trees))
+      else
+         call take_deck_as_run(deck, model%as_run)
+      end if
       model%provenance%digest = digest_of_texts(model%as_run)
    end subroutine keep_deck
 
@@ -400,11 +463,11 @@ contains
 
       options%solver_kind = KINDS(place_of_word('--solver', command%solver))
       options%contact_form = FORMS(place_of_word('--contact', command%contact))
-      options%element_errors = command%plot
+      options%element_errors = command%plot .or. command%adapt > 0.0_wp
       options%starts = command%starts
       options%proof = PROOFS(place_of_word('--proof', command%proof))
       ! the runs of sweeps, studies and limits stay where they are
-      if (command%task == TASK_RUN .and. command%share /= 'none') then
+      if (command%task == TASK_RUN .and. command%share /= 'none' .and. command%adapt <= 0.0_wp) then
          call distribute_over_ranks(command%share == 'all', options%distribution)
       end if
    end function solve_options

@@ -34,6 +34,7 @@ module atrito_problem
       type(base_loads_t), allocatable :: bases              !< whose sum the loads of each increment of the step are
       type(bound_qp_t), allocatable :: flexibility          !< C and G of the bodies that are factored
       type(contact_solution_t), allocatable :: last         !< of the increment before, to start from
+      logical :: only_from_last = .false.                   !< where that leads nowhere, no other start is tried
    end type problem_t
 
 contains

@@ -2,6 +2,7 @@
 module atrito_deck_as_run
    use atrito_as_run_names, only: as_run_name, mesh_copy_name
    use atrito_deck, only: deck_t, after_byte_order_mark
+   use atrito_edits, only: put_before_steps
    use atrito_kinds, only: ip
    use atrito_own_files, only: DECK_MARK, MESH_MARK
    use atrito_patched_text, only: patched_text_t, named_text_t, append_place, append_words, OWN_WORDS, UNCOUNTED
@@ -16,11 +17,13 @@ contains
 
    !> The deck first, then the meshes of other programs that it includes. The texts of the deck are moved; it is of no use
    !> afterwards.
-   subroutine take_deck_as_run(deck, files)
+   subroutine take_deck_as_run(deck, files, before_steps)
       type(deck_t), intent(inout) :: deck
       type(named_text_t), allocatable, intent(out) :: files(:)
+      character(len=*), intent(in), optional :: before_steps !< cards that are put before the first *STEP
       integer(ip) :: i, n, edit, last
 
+      if (present(before_steps)) call put_before_steps(deck%edits, before_steps)
       n = count(deck%sources(:deck%n_sources)%is_mesh, kind=ip)
       allocate (files(n + 1))
       files(1)%name = as_run_name(deck_name(deck%path))

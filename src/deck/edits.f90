@@ -5,7 +5,7 @@ module atrito_edits
    use atrito_name_list, only: name_list_t, add_name, find_name
    implicit none (type, external)
    private
-   public :: edit_t, edits_t, append_edit, append_known_edit, take_known_edit
+   public :: edit_t, edits_t, append_edit, append_known_edit, put_before_steps, take_known_edit
 
    type :: edit_t
       integer(ip) :: source = 0                      !< which file
@@ -19,6 +19,7 @@ module atrito_edits
       integer(ip) :: n = 0
       type(edit_t), allocatable :: list(:)
       type(growing_text_t) :: words
+      integer(ip) :: before_steps = 0                !< place of the edit, empty at first, before the first *STEP; 0: there is none
       type(name_list_t), private :: known            !< texts that were replaced before: a deck can have one a node
       integer(ip), allocatable, private :: edit_of(:) !< an edit of each
    end type edits_t
@@ -40,6 +41,17 @@ contains
       call append_place(edits, edit_t(source, first, last, from, edits%words%n))
       if (present(is_name)) edits%list(edits%n)%is_name = is_name
    end subroutine append_edit
+
+   !> Puts words before the first *STEP.
+   pure subroutine put_before_steps(edits, words)
+      type(edits_t), intent(inout) :: edits
+      character(len=*), intent(in) :: words
+
+      if (edits%before_steps == 0) return
+      edits%list(edits%before_steps)%from = edits%words%n + 1
+      call append_text(edits%words, words)
+      edits%list(edits%before_steps)%to = edits%words%n
+   end subroutine put_before_steps
 
    !> Appends an edit whose words may serve again for the same text.
    pure subroutine append_known_edit(edits, text, source, first, last, words)

@@ -31,7 +31,7 @@ contains
       type(deck_t), intent(inout) :: deck
       character(len=:), allocatable :: name
       type(token_t) :: place
-      integer(ip) :: i, n_parameters, n_meshes
+      integer(ip) :: i, first, n_parameters, n_meshes
       logical :: found, is_used
 
       if (count_messages(SEVERITY_ERROR) > 0) return
@@ -49,6 +49,13 @@ contains
             if (found) call append_edit(deck%edits, place%source, place%first, place%last, &
                                         mesh_copy_name(deck_name(deck%path), n_meshes), is_name=.true.)
          case default
+            if (deck%cards(i)%name == 'STEP' .and. deck%edits%before_steps == 0) then
+               associate (place => deck%cards(i)%place)
+                  first = index(deck%sources(place%source)%text(:place%first - 1), '*', back=.true.)
+                  call append_edit(deck%edits, place%source, first, first - 1_ip, '')
+               end associate
+               deck%edits%before_steps = deck%edits%n
+            end if
             call note_options(deck, deck%cards(i))
             call note_lines(deck, deck%cards(i))
          end select

@@ -35,24 +35,27 @@ module atrito_ladder
                               rung_t(CONTACT_DENSE, METHOD_ANDERSON, 4_ip, 0.3_wp, .true.), & ! small steps, coarse: 4711/2708
                               rung_t(CONTACT_DENSE, METHOD_PICARD, 10_ip), &       ! the plain loop: 4711/3090, 11/2757
                               rung_t(CONTACT_DENSE, METHOD_PICARD, 10_ip, 0.3_wp)] ! a damped loop: 11/1255, /1881, 4711/2888, /3289
-   integer, parameter :: BRIEF = 2, QUICK = 2              !< of them where a shorter increment may do, and where points are many:
+   integer, parameter :: BRIEF = 2, QUICK = 2              !< of them in brief, and where points are many:
    integer(ip), parameter :: MOST_PATIENT = 400            !< unknown forces
 
 contains
 
-   !> Whether a rung is tried after a first attempt in form `first`.
-   pure logical function is_tried(i, first, asked, m, may_cut)
+   !> Whether a rung is tried after a first attempt in form `first`. With bounded effort none costs more than what it follows: behind
+   !> the sparse form, which was taken because the dense one would cost more, there is none.
+   pure logical function is_tried(i, first, asked, m, may_cut, is_brief)
       integer, intent(in) :: i                             !< of RUNGS
       integer, intent(in) :: first, asked                  !< CONTACT_*; asked: by the user, or CONTACT_AUTO
       integer(ip), intent(in) :: m                         !< unknown forces
       logical, intent(in) :: may_cut                       !< a shorter increment is tried next
+      logical, intent(in) :: is_brief                      !< the effort is bounded
 
       if (RUNGS(i)%form == CONTACT_SPARSE) then
          is_tried = asked == CONTACT_AUTO .and. first == CONTACT_DENSE
       else
          is_tried = asked /= CONTACT_SPARSE .and. can_be_dense(m)
       end if
-      if (may_cut) is_tried = is_tried .and. i <= BRIEF
+      if (may_cut .or. is_brief) is_tried = is_tried .and. i <= BRIEF
+      if (is_brief) is_tried = is_tried .and. first == CONTACT_DENSE
       if (m > MOST_PATIENT) is_tried = is_tried .and. i <= QUICK
    end function is_tried
 

@@ -75,6 +75,8 @@ module atrito_scene_data
       real(wp), allocatable :: exchanged(:, :)              !< (2, n_nodes) for it, while the bodies are factored [L]
       integer(ip) :: starts = 0                             !< of a search for other solutions
       logical :: is_printed = .true.                        !< what is solved for is printed: it is worth stresses and estimates
+      logical :: is_brief = .false.                         !< that no solution was found is an answer: no costly rung is tried
+      integer(ip) :: most_factorisations = huge(1_ip)
       ! Of a history:
       logical :: may_cut = .false.                          !< without a solution a shorter increment is tried
       logical :: asks_for_bases = .false.                   !< the step begins
@@ -92,6 +94,8 @@ module atrito_scene_data
       logical :: element_errors = .false.                   !< the estimated error is kept element by element
       integer(ip) :: starts = 0                             !< of a search for other solutions; 0: as the deck asks
       integer :: proof = PROOF_OFF                          !< whether a bound of the error is wanted
+      logical :: is_brief = .false.                         !< no attempt is made that costs more than the first one
+      integer(ip) :: most_factorisations = huge(1_ip)       !< of the sparse form in an increment, before it is given up
       integer(lp) :: memory = huge(1_lp)                    !< bytes, of each process; what the machine has counts where it is less
       class(distribution_t), allocatable :: distribution    !< of a scene that it pays off for; not allocated: none
       class(viewer_t), pointer :: viewer => null()          !< not associated: nobody looks
@@ -187,6 +191,8 @@ contains
       if (allocated(asked%distribution)) allocate (data%distribution, source=asked%distribution)
       call choose_form(asked, data)
       data%solver_kind = asked%solver_kind
+      data%is_brief = asked%is_brief
+      data%most_factorisations = asked%most_factorisations
       data%starts = merge(asked%starts, data%step%controls%starts, asked%starts > 0)
       data%wants_element_errors = asked%element_errors
       data%proof = asked%proof

@@ -1,4 +1,4 @@
-!> The restart file, docs/user/restart.md: <deck name>.restart.h5 holds all that was found of a history so far, and the state that
+!> The restart file, docs/user/loads.md: <deck name>.restart.h5 holds all that was found of a history so far, and the state that
 !> the next increment begins from. It is written whole under a temporary name and takes the place of the one before in one step of
 !> the file system, so that a run that is killed at any moment leaves the last one that was whole.
 module atrito_restart_file

@@ -1,4 +1,4 @@
-!> The field file, docs/user/fields.md: <deck name>.h5 with the arrays, and <deck name>.xdmf beside it, by which it is opened.
+!> The field file, docs/user/results.md: <deck name>.h5 with the arrays, and <deck name>.xdmf beside it, by which it is opened.
 module atrito_write_fields
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
    use atrito_element_table, only: SHAPES, MOST_NODES

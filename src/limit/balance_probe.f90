@@ -3,8 +3,9 @@
 module atrito_balance_probe
    use atrito_bodies, only: mode_at
    use atrito_body_cache, only: body_cache_t
-   use atrito_certificate, only: certificate_t, prove_balance, BALANCE_IMPOSSIBLE, BALANCE_POSSIBLE
+   use atrito_certificate, only: certificate_t, prove_balance, find_largest_share, BALANCE_IMPOSSIBLE, BALANCE_POSSIBLE
    use atrito_contact_form, only: CONTACT_SPARSE
+   use atrito_contact_rows, only: bodies_of_row
    use atrito_free_motion, only: free_motion_text
    use atrito_kinds, only: ip, wp
    use atrito_mechanism, only: mechanism_t, describe_motion
@@ -22,7 +23,9 @@ module atrito_balance_probe
    use atrito_amplitudes, only: load_breakpoints
    implicit none (type, external)
    private
-   public :: probe_balance
+   public :: probe_balance, predict_share, describe_gaps
+
+   real(wp), parameter :: FAR_APART = 1.0e-3_wp          !< a gap, over the size of the smaller body, that strains do not close
 
 contains
 
@@ -107,6 +110,71 @@ contains
       end subroutine ask_moment
 
    end subroutine probe_balance
+
+   !> Where between two models their balance ends, as a share of the way: known where they differ in the sizes of their loads alone
+   !> and have a single increment.
+   subroutine predict_share(stands, falls, share, found)
+      type(model_t), intent(in), target :: stands, falls
+      real(wp), intent(out) :: share
+      logical, intent(out) :: found
+      type(scene_data_t) :: data(2)
+      type(motion_rows_t) :: motions(2)
+      type(solve_options_t) :: asked
+      type(body_cache_t) :: store
+      type(status_t) :: status
+      integer :: i
+
+      share = 0.0_wp
+      found = size(stands%steps) == 1
+      if (found) found = size(load_breakpoints(stands, 1_ip)) == 1
+      if (.not. found) return
+      asked%contact_form = CONTACT_SPARSE
+      call prepare(stands, store, asked, data(1), status)
+      if (is_ok(status)) call prepare(falls, store, asked, data(2), status)
+      found = is_ok(status)
+      if (.not. found) return
+      do i = 1, 2
+         call build_motion_rows(data(i)%fem, data(i)%rows, data(i)%line, data(i)%f, motions(i))
+      end do
+      found = motions(1)%n == motions(2)%n .and. motions(1)%n_columns == motions(2)%n_columns
+      if (found) found = size(motions(1)%value) == size(motions(2)%value)
+      if (found) found = all(motions(1)%value == motions(2)%value) .and. all(data(1)%line%law%nu == data(2)%line%law%nu)
+      if (found) call find_largest_share(motions(1), data(1)%line, motions(2), share, found)
+   end subroutine predict_share
+
+   !> Whether loads of a single increment that can be balanced can be so without the points that gaps keep apart: the balance knows no
+   !> gaps. Not allocated: they can.
+   subroutine describe_gaps(model, text)
+      type(model_t), intent(in), target :: model
+      character(len=:), allocatable, intent(out) :: text
+      type(scene_data_t) :: data
+      type(motion_rows_t) :: motions
+      type(certificate_t) :: certificate
+      type(solve_options_t) :: asked
+      type(body_cache_t) :: store
+      type(status_t) :: status
+      logical, allocatable :: is_apart(:)
+      integer(ip) :: j, k
+
+      if (size(model%steps) > 1) return
+      asked%contact_form = CONTACT_SPARSE
+      call prepare(model, store, asked, data, status)
+      if (.not. is_ok(status)) return
+      allocate (is_apart(data%line%n), source=.false.)
+      do j = 1, data%rows%n - data%rows%n_bilateral
+         associate (bodies => bodies_of_row(data%rows, j, data%fem%bodies%of_node))
+            do k = 1, size(bodies, kind=ip)
+               if (bodies(k) > 0) is_apart(j) = is_apart(j) .or. data%rows%gap(j) > FAR_APART*data%fem%bodies%list(bodies(k))%size
+            end do
+         end associate
+      end do
+      if (.not. any(is_apart)) return
+      call build_motion_rows(data%fem, data%rows, data%line, data%f, motions)
+      call prove_balance(motions, data%line, certificate, .not. is_apart)
+      if (certificate%verdict == BALANCE_POSSIBLE) return
+      text = 'the balance counts points as touching that are up to '//to_text(maxval(data%rows%gap, mask=is_apart), 3) &
+             //' apart without loads; without them nothing balances the loads, so its limit says little of what stands'
+   end subroutine describe_gaps
 
    !> The time, where there is more than one to be asked about.
    pure function moment_text(model, k, time, began) result(text)

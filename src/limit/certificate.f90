@@ -31,7 +31,7 @@ module atrito_certificate
    use atrito_sparse_rows, only: add_transposed, multiply_rows, transposed_sizes
    implicit none (type, external)
    private
-   public :: certificate_t, prove_balance, motion_excess, friction_work, forces_balance
+   public :: certificate_t, prove_balance, find_largest_share, motion_excess, friction_work, forces_balance
    public :: BALANCE_IMPOSSIBLE, BALANCE_POSSIBLE, BALANCE_UNDECIDED
 
    integer, parameter :: BALANCE_UNDECIDED = 0, BALANCE_POSSIBLE = 1, BALANCE_IMPOSSIBLE = 2
@@ -57,16 +57,18 @@ module atrito_certificate
 contains
 
    !> Judges all groups. IMPOSSIBLE: one of them has a motion that proves it, that of the greatest excess over its loads is given.
-   subroutine prove_balance(rows, line, certificate)
+   subroutine prove_balance(rows, line, certificate, counts)
       type(motion_rows_t), intent(in) :: rows
       type(contact_line_t), intent(in) :: line
       type(certificate_t), intent(out) :: certificate
+      logical, intent(in), optional :: counts(:) !< (line%n) points that may bear forces; left out: all
       type(certificate_t) :: own
       type(balance_groups_t) :: groups
       real(wp) :: worst, part
       integer(ip) :: g
 
       call find_groups(rows, line, groups)
+      if (present(counts)) groups%of_point = merge(groups%of_point, 0_ip, counts)
       allocate (certificate%motion(rows%n_columns), certificate%q(rows%n), source=0.0_wp)
       certificate%verdict = BALANCE_POSSIBLE
       worst = 0.0_wp
@@ -175,6 +177,37 @@ contains
       certificate%motion = clean
       certificate%excess = excess
    end subroutine accept_motion
+
+   !> How far loads can go from those of `rows` towards others: the largest share s of the way with G'q = h + s (h' - h) for some
+   !> forces that the contact can take. One linear programme, that of the balance with s as one more column and without remainders.
+   subroutine find_largest_share(rows, line, other, share, found)
+      type(motion_rows_t), intent(in) :: rows
+      type(contact_line_t), intent(in) :: line
+      type(motion_rows_t), intent(in) :: other   !< h'
+      real(wp), intent(out) :: share             !< 0 to 1
+      logical, intent(out) :: found
+      type(balance_program_t) :: balance
+      type(linear_solution_t) :: solution
+      real(wp) :: scale(rows%n_columns)
+      integer(ip) :: i
+
+      share = 0.0_wp
+      scale = max(maxval(rows%work_size), maxval(other%work_size))
+      call build_balance_program(rows, line, [(.true., i=1, line%n)], [(i, i=1, rows%n_columns)], scale, .false., balance)
+      associate (program => balance%program)
+         program%upper(balance%n_forces + 1:) = 0.0_wp
+         program%row = [program%row, (i, i=1, rows%n_columns)]
+         program%entry = [program%entry, (rows%work - other%work)/scale]
+         program%first = [program%first, size(program%entry, kind=ip) + 1]
+         program%lower = [program%lower, 0.0_wp]
+         program%upper = [program%upper, 1.0_wp]
+         program%objective = [spread(0.0_wp, 1, program%n_columns), -1.0_wp]
+         program%n_columns = program%n_columns + 1
+      end associate
+      call solve_linear_program(balance%program, merge(LP_BY_BARRIER, LP_BY_SIMPLEX, rows%n_columns > MANY_MOTIONS), solution)
+      found = solution%status == LP_OPTIMAL
+      if (found) share = solution%x(balance%program%n_columns)
+   end subroutine find_largest_share
 
    !> The linear programme of the balance of some bodies: forces, and the motion of its duals. Measured on walls of 100 to 1,000
    !> blocks: simplex steps are slow for the sum (most for loads far beyond the limit), interior points for the largest.

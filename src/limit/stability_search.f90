@@ -1,14 +1,14 @@
 !> Where between two values of a parameter a scene ceases to stand: which value is to be looked at next, and what is known so far.
 !>
 !> Two questions can be asked of a value. The balance is cheap: whether any forces that the contact can take balance the loads. A
-!> solution costs a run. The balance narrows the limit from both sides; the last value that can be balanced is then solved, with
-!> some between it and the end that stands, for the curve. Where runs find neither a solution nor a proof, the last value that
-!> stands is looked for by halving; such values narrow neither bound.
+!> solution costs a run. The balance narrows the limit from both sides. Then values from the end that stands on are solved, each next
+!> to the one before: the curve, and the last value that can be balanced. Where runs find neither a solution nor a proof, the last
+!> value that stands is looked for by strides; such values narrow neither bound.
 module atrito_stability_search
    use atrito_kinds, only: wp
    implicit none (type, external)
    private
-   public :: search_t, tried_t, begin_search, next_step, record_balance, record_solution, standing_value, &
+   public :: search_t, tried_t, begin_search, next_step, suggest_root, record_balance, record_solution, standing_value, &
              falling_value, balanced_value, allowed_width
    public :: STEP_BALANCE, STEP_SOLVE, STEP_DONE
    public :: UNKNOWN, STANDS, FALLS, UNDECIDED
@@ -34,6 +34,8 @@ module atrito_stability_search
       integer :: found = 0                          !< once done: FOUND_LIMIT, ...
       type(tried_t), allocatable :: tried(:)        !< in the order in which they were looked at
       real(wp), private :: widths(2) = huge(1.0_wp) !< of the interval before the last two questions of balance
+      real(wp), allocatable, private :: root        !< where the balance is said to end
+      real(wp), private :: stride = 0.0_wp          !< behind the last value that stands; 0: the curve is not there yet
    end type search_t
 
    !> Values of the curve, as shares of the way from the end that stands to the limit.
@@ -42,9 +44,13 @@ module atrito_stability_search
    !> A limit that is zero is found to the tolerance times this share of the larger end.
    real(wp), parameter :: LEAST_SIZE = 1.0e-3_wp
    !> The part of the interval to which the last value that stands is found where runs below the limit find nothing.
-   real(wp), parameter :: UNDECIDED_SHARE = 0.02_wp
+   real(wp), parameter :: UNDECIDED_SHARE = 0.03_wp
+   !> What strides become without a solution, and where they lead to a value that is known.
+   real(wp), parameter :: SHORTER = 0.5_wp, LITTLE_LESS = 0.9_wp
    !> A value beyond the root that the excess predicts is this share of the allowed width away from it.
    real(wp), parameter :: OVERSHOOT = 1.0_wp/3.0_wp
+   !> What is looked at beside undecided values is so many times their range away.
+   real(wp), parameter :: WIDER = 2.0_wp
    !> Of the interval, from the value that can be balanced, where both values about the root can be balanced.
    real(wp), parameter :: NEARER = 0.1_wp
 
@@ -73,7 +79,7 @@ contains
       if (step /= STEP_DONE .or. search%found /= 0) return
       call narrow_balance(search, standing, x, step)
       if (step == STEP_DONE) call follow_curve(x, step)
-      if (step == STEP_DONE) call narrow_solutions(x, step)
+      if (step == STEP_DONE) call narrow_solutions(search, standing, x, step)
       if (step == STEP_SOLVE) then   ! a value between two that can be balanced need not be one itself; where it falls, the limit
          known = known_of(search, x) ! is sought on this side of it
          if (known%balance == UNKNOWN) step = STEP_BALANCE
@@ -84,46 +90,31 @@ contains
 
    contains
 
-      !> The last value that can be balanced, then those of the curve.
+      !> The curve, from the end that stands to the last value that can be balanced. Where one is undecided, the last one shows
+      !> whether those between are worth a run.
       pure subroutine follow_curve(x, step)
          real(wp), intent(out) :: x
          integer, intent(out) :: step
+         type(tried_t) :: one, last
          real(wp) :: start, reach
+         logical :: is_open
          integer :: i
 
          start = search%ends(standing)
-         x = reached_value(search, start, distance_of_fall(search, start))
-         reach = abs(x - start)
+         last = known_of(search, reached_value(search, start, distance_of_fall(search, start)))
+         reach = abs(last%x - start)
+         is_open = .false.
          step = STEP_SOLVE
-         if (is_unsolved(search, x)) return
          do i = 1, size(SHARES)
             x = start + signed(search, standing, SHARES(i)*reach)
-            if (is_unsolved(search, x)) return
+            one = known_of(search, x)
+            is_open = is_open .or. one%solution == UNDECIDED
+            if (is_open .and. last%solution /= STANDS) exit
+            if (one%solution == UNKNOWN) return
          end do
-         step = STEP_DONE
+         x = last%x
+         if (last%solution /= UNKNOWN) step = STEP_DONE
       end subroutine follow_curve
-
-      !> Half way between the last value that stands and the undecided one next to it.
-      pure subroutine narrow_solutions(x, step)
-         real(wp), intent(out) :: x
-         integer, intent(out) :: step
-         real(wp) :: start, stand, fall, next, at
-         integer :: i
-
-         start = search%ends(standing)
-         stand = abs(standing_value(search) - start)
-         fall = distance_of_fall(search, start)
-         next = fall
-         do i = 1, size(search%tried)
-            at = abs(search%tried(i)%x - start)
-            if (search%tried(i)%solution == UNDECIDED .and. at > stand) next = min(next, at)
-         end do
-         step = STEP_DONE
-         x = start + signed(search, standing, 0.5_wp*(stand + next))
-         if (fall - stand <= allowed_width(search)) return
-         if (next < fall .and. next - stand > max(allowed_width(search), UNDECIDED_SHARE*(fall - stand)) &
-             .and. is_unsolved(search, x)) step = STEP_SOLVE
-      end subroutine narrow_solutions
 
    end subroutine next_step
 
@@ -169,7 +160,7 @@ contains
       real(wp), intent(out) :: x
       integer, intent(out) :: step
       type(tried_t) :: known
-      real(wp) :: start, reach, fall, low, high, at, allowed
+      real(wp) :: start, reach, fall, low, high, at, allowed, width
       integer :: i
 
       start = search%ends(standing)
@@ -191,13 +182,42 @@ contains
          call choose_trial(search, start, reach, fall, allowed, at)
       else
          if (max(low - reach, fall - high) <= 0.25_wp*allowed) return
-         at = 0.5_wp*(reach + low)
-         if (fall - high > low - reach) at = 0.5_wp*(high + fall)
+         ! an end that is far away is left alone
+         width = max(WIDER*(high - low), allowed)
+         at = low - min(0.5_wp*(low - reach), width)
+         if (fall - high > low - reach) at = high + min(0.5_wp*(fall - high), width)
       end if
       x = start + signed(search, standing, at)
       known = known_of(search, x)
       if (known%balance == UNKNOWN) step = STEP_BALANCE   ! else: rounding leaves no value between
    end subroutine narrow_balance
+
+   !> Behind the last value that stands, by strides that get longer with each solution, and shorter where there is none: from near by a
+   !> value may have a solution that had none from farther away.
+   pure subroutine narrow_solutions(search, standing, x, step)
+      type(search_t), intent(inout) :: search
+      integer, intent(in) :: standing
+      real(wp), intent(out) :: x
+      integer, intent(out) :: step
+      real(wp) :: start, stand, fall, next
+
+      start = search%ends(standing)
+      stand = abs(standing_value(search) - start)
+      fall = distance_of_fall(search, start)
+      next = next_undecided(search, start, stand, fall)
+      step = STEP_DONE
+      x = start
+      if (fall - stand <= allowed_width(search)) return
+      if (search%stride <= 0.0_wp .and. next < fall) search%stride = 0.5_wp*(next - stand)
+      search%stride = min(search%stride, 0.5_wp*(fall - stand))
+      if (search%stride <= max(allowed_width(search), UNDECIDED_SHARE*(fall - stand))) return
+      step = STEP_SOLVE
+      do
+         x = start + signed(search, standing, stand + search%stride)
+         if (is_unsolved(search, x)) return
+         search%stride = LITTLE_LESS*search%stride
+      end do
+   end subroutine narrow_solutions
 
    !> The next distance from the end that stands: a little on either side of the root that the excess predicts, or half way where
    !> that has not halved the interval lately.
@@ -210,10 +230,11 @@ contains
 
       slow = fall - reach > 0.5_wp*search%widths(1)
       search%widths = [search%widths(2), fall - reach]
-      call predict_root(search, start, fall, root, found)
+      call predict_root(search, start, reach, fall, root, found)
       at = 0.5_wp*(reach + fall)
       if (.not. found) return
       aside = OVERSHOOT*allowed
+      if (allocated(search%root)) aside = OVERSHOOT*width_of([search%root], search)
       if (slow) then                                ! the line is no good from so far, a nearer value makes a better one
          if (root - aside <= reach + 0.1_wp*aside) at = reach + NEARER*(fall - reach)
       else if (root - aside > reach + 0.1_wp*aside) then
@@ -223,15 +244,21 @@ contains
       end if
    end subroutine choose_trial
 
-   !> Where the line through the excess of the two nearest values that fall is zero.
-   pure subroutine predict_root(search, start, fall, root, found)
+   !> Where the balance is said to end; or, where that is not between what stands and what falls, where the line through the excess of
+   !> the two nearest values that fall is zero.
+   pure subroutine predict_root(search, start, reach, fall, root, found)
       type(search_t), intent(in) :: search
-      real(wp), intent(in) :: start, fall
+      real(wp), intent(in) :: start, reach, fall
       real(wp), intent(out) :: root
       logical, intent(out) :: found
       real(wp) :: at, beyond, excess(2)
       integer :: i
 
+      if (allocated(search%root)) then
+         root = abs(search%root - start)
+         found = root >= reach .and. root <= fall
+         if (found) return
+      end if
       beyond = huge(beyond)
       excess = 0.0_wp
       do i = 1, size(search%tried)
@@ -250,6 +277,14 @@ contains
       found = excess(1) > 0.0_wp .and. excess(2) > excess(1)
       if (found) root = fall - excess(1)*(beyond - fall)/(excess(2) - excess(1))
    end subroutine predict_root
+
+   !> Where the balance ends by what else is known of the scene; it is asked about, not believed.
+   pure subroutine suggest_root(search, x)
+      type(search_t), intent(inout) :: search
+      real(wp), intent(in) :: x
+
+      search%root = x
+   end subroutine suggest_root
 
    !> What the balance of the loads at a value was found to be.
    pure subroutine record_balance(search, x, answer, excess)
@@ -273,6 +308,7 @@ contains
 
       call find_or_add(search, x, i)
       search%tried(i)%solution = answer
+      if (answer /= STANDS) search%stride = SHORTER*search%stride
    end subroutine record_solution
 
    !> The value nearest to the limit that has a solution.
@@ -316,6 +352,20 @@ contains
       x = reached_value(search, start, distance_of_fall(search, start))
    end function balanced_value
 
+   !> The distance of the first undecided value behind the last one that stands; that of the fall where there is none.
+   pure real(wp) function next_undecided(search, start, stand, fall) result(next)
+      type(search_t), intent(in) :: search
+      real(wp), intent(in) :: start, stand, fall
+      real(wp) :: at
+      integer :: i
+
+      next = fall
+      do i = 1, size(search%tried)
+         at = abs(search%tried(i)%x - start)
+         if (search%tried(i)%solution == UNDECIDED .and. at > stand) next = min(next, at)
+      end do
+   end function next_undecided
+
    !> How far apart the two may be in the end.
    pure real(wp) function allowed_width(search)
       type(search_t), intent(in) :: search
@@ -324,7 +374,7 @@ contains
    end function allowed_width
 
    pure real(wp) function width_of(interval, search) result(width)
-      real(wp), intent(in) :: interval(2)
+      real(wp), intent(in) :: interval(:)
       type(search_t), intent(in) :: search
 
       width = search%tolerance*max(maxval(abs(interval)), LEAST_SIZE*maxval(abs(search%ends)))

@@ -6,7 +6,7 @@ module atrito_refined_members
    use atrito_triangle_pieces, only: is_piece_on_side
    implicit none (type, external)
    private
-   public :: fine_nodes, fine_elements, is_on_side, edge_value
+   public :: fine_nodes, fine_elements, face_on_side, edge_value
 
 contains
 
@@ -15,16 +15,39 @@ contains
       type(refinement_t), intent(in) :: refinement
       integer(ip), intent(in) :: members(:)
       integer(ip), allocatable :: pieces(:)
-      integer(ip) :: i, k, children
+      integer(ip) :: first(size(members)), last(size(members)), i, k, n
 
-      children = refinement%pieces**2
-      allocate (pieces(children*size(members, kind=ip)))
+      if (allocated(refinement%piece_first)) then
+         first = refinement%piece_first(members)
+         last = refinement%piece_first(members + 1) - 1
+      else
+         first = (members - 1)*refinement%pieces**2 + 1
+         last = members*refinement%pieces**2
+      end if
+      allocate (pieces(sum(last - first + 1)))
+      n = 0
       do i = 1, size(members, kind=ip)
-         pieces((i - 1)*children + 1:i*children) = [((members(i) - 1)*children + k, k=1, children)]
+         do k = first(i), last(i)
+            n = n + 1
+            pieces(n) = k
+         end do
       end do
    end function fine_elements
 
-   !> True when a fine element has part of its parent's face as its own face of that number.
+   !> The face of a fine element that is part of its parent's face of a number; 0: none is.
+   pure integer(ip) function face_on_side(refinement, element, face) result(own)
+      type(refinement_t), intent(in) :: refinement
+      integer(ip), intent(in) :: element             !< place in the fine mesh
+      integer(ip), intent(in) :: face                !< of its parent, 1..4
+
+      if (allocated(refinement%own_face)) then
+         own = refinement%own_face(face, element)
+      else
+         own = merge(face, 0_ip, is_on_side(refinement, element, face))
+      end if
+   end function face_on_side
+
+   !> The same of elements all of which are cut alike, whose pieces stand as they do.
    pure logical function is_on_side(refinement, element, face)
       type(refinement_t), intent(in) :: refinement
       integer(ip), intent(in) :: element             !< place in the fine mesh

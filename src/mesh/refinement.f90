@@ -10,7 +10,8 @@ module atrito_refinement
    use atrito_triangle_pieces, only: piece_of_triangle, piece_nodes, triangle_point
    implicit none (type, external)
    private
-   public :: refinement_t, refine_mesh, count_fine_nodes, drops_centre, is_refined, edge_place, map_element
+   public :: refinement_t, refine_mesh, count_fine_nodes, drops_centre, is_refined, edge_place, map_element, has_centre
+   public :: begin_refinement, place_nodes
 
    !> How a fine mesh came from a coarse one.
    type :: refinement_t
@@ -24,6 +25,12 @@ module atrito_refinement
       integer(ip), allocatable :: inner_first(:)    !< (n_elements + 1): place of an element's first new node inside
       integer(ip), allocatable :: face_edge(:, :)   !< (4, n_elements)
       logical, allocatable :: is_triangle(:)        !< (n_elements)
+      ! Where each coarse element is cut in its own way (atrito_cut_mesh); else not allocated
+      integer(ip), allocatable :: piece_first(:)    !< (n_elements + 1): its first piece
+      integer(ip), allocatable :: own_face(:, :)    !< (4, fine elements): the face of a piece on each face of its parent; 0: none
+      real(wp), allocatable :: edge_t(:)            !< of the new nodes on edges: 0..1 from the edge's first node
+      real(wp), allocatable :: inner_place(:, :)    !< (2, ) of those inside elements: 0..1 along the sides 1-2 and 1-4, or 1-3
+      logical, allocatable :: drops(:)              !< (n_elements) the node in its middle belongs to no piece
    end type refinement_t
 
 contains
@@ -55,68 +62,69 @@ contains
 
       refinement%shape = shape
       refinement%pieces = pieces
+      call begin_refinement(mesh, around, refinement)
+      call number_nodes(mesh, refinement)
+      call place_nodes(mesh, refinement, fine)
+      call place_elements(mesh, refinement, fine)
+   end subroutine refine_mesh
+
+   !> What a refinement says of the coarse mesh: its edges, each once; elements of different order do not share theirs.
+   pure subroutine begin_refinement(mesh, around, refinement)
+      type(mesh_t), intent(in) :: mesh
+      type(node_elements_t), intent(in) :: around   !< elements round each node of mesh
+      type(refinement_t), intent(inout) :: refinement
+      integer(ip) :: e, face, n, other, other_face
+
       refinement%n_nodes = mesh%n_nodes
       refinement%n_elements = mesh%n_elements
       refinement%is_triangle = CORNERS_OF(mesh%shape(:mesh%n_elements)) == 3
-      call list_edges(refinement)
-      call number_nodes(mesh, refinement)
-      call place_nodes(fine)
-      call place_elements(mesh, refinement, fine)
-
-   contains
-
-      !> The edges of all elements, each once; elements of different order do not share theirs.
-      pure subroutine list_edges(refinement)
-         type(refinement_t), intent(inout) :: refinement
-         integer(ip) :: e, face, n, other, other_face
-
-         allocate (refinement%face_edge(MOST_SIDES, mesh%n_elements), source=0_ip)
-         n = MOST_SIDES*mesh%n_elements
-         allocate (refinement%edge_node(3, n), refinement%edge_element(2, n), source=0_ip)
-         n = 0
-         do e = 1, mesh%n_elements
-            do face = 1, side_count(mesh, e)
-               if (refinement%face_edge(face, e) > 0) cycle
-               n = n + 1
-               refinement%face_edge(face, e) = n
-               refinement%edge_node(:, n) = [mesh%nodes(face, e), mesh%nodes(face_end(mesh, e, face), e), &
-                                             middle_node(mesh, e, face)]
-               refinement%edge_element(1, n) = e
-               call find_across(mesh, around, e, face, other, other_face)
-               if (other == 0) cycle
-               refinement%face_edge(other_face, other) = n
-               refinement%edge_element(2, n) = other
-            end do
+      allocate (refinement%face_edge(MOST_SIDES, mesh%n_elements), source=0_ip)
+      n = MOST_SIDES*mesh%n_elements
+      allocate (refinement%edge_node(3, n), refinement%edge_element(2, n), source=0_ip)
+      n = 0
+      do e = 1, mesh%n_elements
+         do face = 1, side_count(mesh, e)
+            if (refinement%face_edge(face, e) > 0) cycle
+            n = n + 1
+            refinement%face_edge(face, e) = n
+            refinement%edge_node(:, n) = [mesh%nodes(face, e), mesh%nodes(face_end(mesh, e, face), e), &
+                                          middle_node(mesh, e, face)]
+            refinement%edge_element(1, n) = e
+            call find_across(mesh, around, e, face, other, other_face)
+            if (other == 0) cycle
+            refinement%face_edge(other_face, other) = n
+            refinement%edge_element(2, n) = other
          end do
-         refinement%n_edges = n
-         refinement%edge_node = refinement%edge_node(:, :n)
-         refinement%edge_element = refinement%edge_element(:, :n)
-      end subroutine list_edges
+      end do
+      refinement%n_edges = n
+      refinement%edge_node = refinement%edge_node(:, :n)
+      refinement%edge_element = refinement%edge_element(:, :n)
+   end subroutine begin_refinement
 
-      !> Coordinates and numbers of the nodes: new numbers follow the greatest.
-      pure subroutine place_nodes(fine)
-         type(mesh_t), intent(inout) :: fine
-         integer(ip), allocatable :: grid(:, :)
-         integer(ip) :: n, e, i, greatest
-         logical :: known
+   !> Coordinates and numbers of the nodes: new numbers follow the greatest.
+   pure subroutine place_nodes(mesh, refinement, fine)
+      type(mesh_t), intent(in) :: mesh
+      type(refinement_t), intent(in) :: refinement
+      type(mesh_t), intent(inout) :: fine
+      integer(ip), allocatable :: grid(:, :)
+      integer(ip) :: n, e, i, greatest
+      logical :: known
 
-         n = refinement%inner_first(mesh%n_elements + 1) - 1
-         fine%n_nodes = n
-         allocate (fine%node_id(n), fine%x(2, n))
-         fine%x(:, :mesh%n_nodes) = mesh%x(:, :mesh%n_nodes)
-         fine%node_id(:mesh%n_nodes) = mesh%node_id(:mesh%n_nodes)
-         greatest = maxval(mesh%node_id(:mesh%n_nodes))
-         fine%node_id(mesh%n_nodes + 1:) = [(greatest + i, i=1, n - mesh%n_nodes)]
-         fine%node_map = mesh%node_map
-         do i = mesh%n_nodes + 1, n
-            call add_id(fine%node_map, fine%node_id(i), i, known)
-         end do
-         do e = 1, mesh%n_elements
-            call map_element(mesh, refinement, e, fine%x, grid)
-         end do
-      end subroutine place_nodes
-
-   end subroutine refine_mesh
+      n = refinement%inner_first(mesh%n_elements + 1) - 1
+      fine%n_nodes = n
+      allocate (fine%node_id(n), fine%x(2, n))
+      fine%x(:, :mesh%n_nodes) = mesh%x(:, :mesh%n_nodes)
+      fine%node_id(:mesh%n_nodes) = mesh%node_id(:mesh%n_nodes)
+      greatest = maxval(mesh%node_id(:mesh%n_nodes))
+      fine%node_id(mesh%n_nodes + 1:) = [(greatest + i, i=1, n - mesh%n_nodes)]
+      fine%node_map = mesh%node_map
+      do i = mesh%n_nodes + 1, n
+         call add_id(fine%node_map, fine%node_id(i), i, known)
+      end do
+      do e = 1, mesh%n_elements
+         call map_element(mesh, refinement, e, fine%x, grid)
+      end do
+   end subroutine place_nodes
 
    !> Shape of the pieces of an element.
    pure integer(ip) function fine_shape(mesh, shape, element)
@@ -188,51 +196,41 @@ contains
       type(refinement_t), intent(in) :: refinement
       integer(ip), intent(in) :: element
 
-      drops_centre = has_centre(mesh, element) .and. is_hollow(fine_shape(mesh, refinement%shape, element), refinement%pieces, &
-                                                               refinement%pieces)
+      if (allocated(refinement%drops)) then
+         drops_centre = refinement%drops(element)
+      else
+         drops_centre = has_centre(mesh, element) .and. is_hollow(fine_shape(mesh, refinement%shape, element), refinement%pieces, &
+                                                                  refinement%pieces)
+      end if
    end function drops_centre
 
    !> Places the new nodes of an element where its isoparametric map takes the points of a uniform grid.
    !>
-   !> With s along side 1-2 and t along side 1-4, both 0..1, the map of a quadrilateral is a line (or a parabola, of the second
-   !> degree) in s through points that lie on lines (parabolas) in t: through nodes 1 and 4, nodes 2 and 3, and the middles. An edge
-   !> is mapped by its own nodes alone, hence alike from both sides. The differences are formed first, so that a constant coordinate
-   !> stays constant to the last bit.
+   !> An edge is mapped by its own nodes alone, hence alike from both sides.
    pure subroutine map_element(mesh, refinement, element, x, grid)
       type(mesh_t), intent(in) :: mesh
       type(refinement_t), intent(in) :: refinement
       integer(ip), intent(in) :: element
       real(wp), intent(inout) :: x(:, :)
       integer(ip), allocatable, intent(inout) :: grid(:, :)   !< room
-      real(wp) :: corners(2, mesh%shape(element)), line(2, 3), s, t
       integer(ip) :: i, j, k, n
 
-      call fill_grid(mesh, refinement, element, grid)
-      n = ubound(grid, 1, kind=ip)
-      corners = element_coordinates(mesh, element)
-      associate (nodes => mesh%nodes(:, element), degree => DEGREE_OF(mesh%shape(element)), &
-                 is_triangle => refinement%is_triangle(element))
+      if (allocated(refinement%inner_place)) then
+         associate (first => refinement%inner_first(1))
+            do k = refinement%inner_first(element), refinement%inner_first(element + 1) - 1
+               x(:, k) = point_in(mesh, element, refinement%inner_place(:, k - first + 1))
+            end do
+         end associate
+      else
+         call fill_grid(mesh, refinement, element, grid)
+         n = ubound(grid, 1, kind=ip)
          do j = 0, n
-            t = real(j, wp)/real(n, wp)
-            if (.not. is_triangle) then
-               line(:, 1) = along(mesh, nodes(1), nodes(4), nodes(8), t)
-               line(:, 2) = along(mesh, nodes(2), nodes(3), nodes(6), t)
-               if (degree > 1) line(:, 3) = parabola(corners(:, 5), corners(:, 7), centre_of(mesh, element), t)
-            end if
-            do i = 0, merge(n - j, n, is_triangle)
+            do i = 0, merge(n - j, n, refinement%is_triangle(element))
                k = grid(i, j)
-               if (k <= mesh%n_nodes) cycle
-               s = real(i, wp)/real(n, wp)
-               if (is_triangle) then
-                  x(:, k) = triangle_point(corners, [s, t])
-               else if (degree > 1) then
-                  x(:, k) = parabola(line(:, 1), line(:, 2), line(:, 3), s)
-               else
-                  x(:, k) = line(:, 1) + s*(line(:, 2) - line(:, 1))
-               end if
+               if (k > mesh%n_nodes) x(:, k) = point_in(mesh, element, [real(i, wp)/real(n, wp), real(j, wp)/real(n, wp)])
             end do
          end do
-      end associate
+      end if
       do i = 1, side_count(mesh, element)
          associate (edge => refinement%face_edge(i, element), node => refinement%edge_node(:, refinement%face_edge(i, element)))
             do k = refinement%edge_first(edge), refinement%edge_first(edge + 1) - 1
@@ -241,6 +239,33 @@ contains
          end associate
       end do
    end subroutine map_element
+
+   !> The point of an element at s, 0..1 along its side 1-2, and t along 1-4, or 1-3 of a triangle [L].
+   !>
+   !> The map of a quadrilateral is a line (or a parabola, of the second degree) in s through points that lie on lines (parabolas)
+   !> in t: through nodes 1 and 4, nodes 2 and 3, and the middles. The differences are formed first, so that a constant coordinate
+   !> stays constant to the last bit.
+   pure function point_in(mesh, element, place) result(x)
+      type(mesh_t), intent(in) :: mesh
+      integer(ip), intent(in) :: element
+      real(wp), intent(in) :: place(2)              !< s, t
+      real(wp) :: x(2), line(2, 3)
+
+      associate (nodes => mesh%nodes(:, element), s => place(1), t => place(2))
+         if (side_count(mesh, element) == 3) then
+            x = triangle_point(element_coordinates(mesh, element), place)
+            return
+         end if
+         line(:, 1) = along(mesh, nodes(1), nodes(4), nodes(8), t)
+         line(:, 2) = along(mesh, nodes(2), nodes(3), nodes(6), t)
+         if (DEGREE_OF(mesh%shape(element)) > 1) then
+            line(:, 3) = parabola(mesh%x(:, nodes(5)), mesh%x(:, nodes(7)), centre_of(mesh, element), t)
+            x = parabola(line(:, 1), line(:, 2), line(:, 3), s)
+         else
+            x = line(:, 1) + s*(line(:, 2) - line(:, 1))
+         end if
+      end associate
+   end function point_in
 
    !> The middle of an element of the second degree [L]; of eight nodes where their shape functions have it.
    pure function centre_of(mesh, element) result(x)
@@ -264,6 +289,10 @@ contains
       integer(ip), intent(in) :: edge, node          !< node: edge_first(edge) .. edge_first(edge + 1) - 1
       integer(ip) :: position, intervals
 
+      if (allocated(refinement%edge_t)) then
+         t = refinement%edge_t(node - refinement%n_nodes)
+         return
+      end if
       intervals = edge_intervals(refinement, edge)
       position = node - refinement%edge_first(edge) + 1
       if (refinement%edge_node(3, edge) > 0 .and. 2*position >= intervals) position = position + 1

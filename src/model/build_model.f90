@@ -23,6 +23,7 @@ module atrito_build_model
    use atrito_build_steps, only: build_steps, open_step
    use atrito_build_sets, only: try_set_card, read_set_card, read_copy_card
    use atrito_build_supports, only: build_supports
+   use atrito_build_trees, only: build_trees, has_cuts
    use atrito_build_ties, only: read_ties, check_ties, build_ties
    use atrito_build_surfaces, only: build_surfaces
    use atrito_check_contact, only: check_surfaces_of_pairs, check_points_of_pairs, note_unused_interactions
@@ -35,6 +36,7 @@ module atrito_build_model
    use atrito_deck, only: deck_t, count_lines, token_text, line_item, keyword_name
    use atrito_diagnostics, only: report_error
    use atrito_build_context, only: build_context_t, prepare_context, has_errors
+   use atrito_element_trees, only: element_trees_t, list_leaves
    use atrito_faces, only: chain_report_t, list_node_elements
    use atrito_found_contact, only: find_contact
    use atrito_kinds, only: ip, lp
@@ -48,7 +50,7 @@ module atrito_build_model
    use atrito_pairing, only: order_slaves, pair_all
    use atrito_plane_state, only: FULL_STATE
    use atrito_points, only: contact_points_t
-   use atrito_refine_model, only: refine_model
+   use atrito_refine_model, only: cut_model, refine_model
    use atrito_refined_deck, only: note_free_sides
    use atrito_row_dofs, only: add_rigid_rows
    use atrito_sources, only: keep_sources
@@ -68,16 +70,19 @@ contains
    !> are made in the order of the deck, since they follow from each other.
    !>
    !> With levels > 0 every element is refined into 4**levels, and with a shape all become elements of that shape. The model is
-   !> built without it first: messages name the elements that stand in the deck.
-   subroutine build_model(deck, model, levels, memory, shape, state)
+   !> built without it first: messages name the elements that stand in the deck. With trees their leaves are the elements; empty
+   !> ones are begun, and all elements cut as often as there are levels.
+   subroutine build_model(deck, model, levels, memory, shape, state, trees)
       type(deck_t), intent(in) :: deck                 !< read and checked by read_deck
       type(model_t), intent(out) :: model
       integer(ip), intent(in), optional :: levels      !< of refinement, >= 0; default 0
       integer(lp), intent(in), optional :: memory      !< that the mesh may take [bytes]; default what the machine has
       integer(ip), intent(in), optional :: shape       !< of all elements, place in SHAPES; default 0: as in the deck
       integer(ip), intent(in), optional :: state       !< of all elements with a shape, for its integration; default 0
+      type(element_trees_t), intent(inout), optional :: trees !< how the elements of the deck are cut; left out: by `levels`
       type(message_mark_t) :: mark
       integer(lp) :: limit
+      type(element_trees_t) :: forest
       integer(ip) :: depth, kind, own
 
       limit = available_memory()
@@ -90,6 +95,13 @@ contains
       if (present(state)) own = state
       if (deck%is_outside) return                      ! an error, and the others would follow from it
       mark = mark_messages()
+      if (present(trees)) then
+         call build_by_trees(deck, depth, limit, model, trees)
+         return
+      else if (has_cuts(deck) .and. kind == 0) then
+         call build_by_trees(deck, depth, limit, model, forest)
+         return
+      end if
       call build_once(deck, 0_ip, 0_ip, 0_ip, limit, model)
       if (has_errors()) return
       if (own > 0) then                                ! only how the same state is integrated may change
@@ -100,12 +112,34 @@ contains
       call build_once(deck, depth, kind, own, limit, model)
    end subroutine build_model
 
-   subroutine build_once(deck, levels, shape, state, memory, model)
+   !> The model whose elements are the leaves of trees.
+   subroutine build_by_trees(deck, levels, memory, model, trees)
+      type(deck_t), intent(in) :: deck
+      integer(ip), intent(in) :: levels                !< of empty trees, besides what the deck cuts
+      integer(lp), intent(in) :: memory
+      type(model_t), intent(out) :: model
+      type(element_trees_t), intent(inout) :: trees
+      type(message_mark_t) :: mark
+
+      if (trees%n == 0) then
+         mark = mark_messages()
+         call build_once(deck, levels, 0_ip, 0_ip, memory, model, trees)
+         if (has_errors()) return
+         trees%leaf_of = list_leaves(trees)
+         if (size(trees%leaf_of) == trees%n_roots) return
+         call forget_messages(mark)
+      end if
+      call build_once(deck, 0_ip, 0_ip, 0_ip, memory, model, trees)
+   end subroutine build_by_trees
+
+   subroutine build_once(deck, levels, shape, state, memory, model, trees)
       type(deck_t), intent(in), target :: deck
       integer(ip), intent(in) :: levels, shape, state
       integer(lp), intent(in) :: memory
       type(model_t), intent(out), target :: model
+      type(element_trees_t), intent(inout), optional :: trees !< empty ones are begun, and change nothing yet
       type(build_context_t) :: context
+      logical :: begins_trees
       type(contact_rules_t) :: rules
       type(chain_report_t), allocatable :: chains(:)
       type(contact_points_t), allocatable :: points(:)
@@ -132,7 +166,13 @@ contains
       call read_curves(context)
       call read_temperatures(context)
       call read_node_thickness(context)
-      if (levels > 0 .or. shape > 0) call refine_model(levels, shape, context)
+      begins_trees = .false.
+      if (present(trees)) then
+         begins_trees = trees%n == 0
+         if (.not. begins_trees) call cut_model(trees, context)
+      else if (levels > 0 .or. shape > 0) then
+         call refine_model(levels, shape, context)
+      end if
       if (state > 0) model%mesh%state = state
       call build_surfaces(context)
       call build_rigid_bodies(context)
@@ -178,6 +218,7 @@ contains
       call warn_of_overlap(model, context)
       call warn_of_loaded_contact(model, context)
       call warn_of_pairs_twice(model, context)
+      if (begins_trees) call build_trees(levels, context, trees)
    end subroutine build_once
 
    !> What acts in each step and what it asks for.

@@ -1,10 +1,13 @@
 !> --refine and --elements: the mesh of a deck and its sets, refined or made of other elements. Surfaces, loads and supports are
 !> read afterwards and follow them.
 module atrito_refine_model
+   use atrito_build_trees, only: has_cuts
+   use atrito_cut_mesh, only: cut_mesh
    use atrito_deck, only: token_t
    use atrito_diagnostics, only: report_deck_error
    use atrito_build_context, only: build_context_t, note_place
    use atrito_element_table, only: CORNERS_OF, DEGREE_OF
+   use atrito_element_trees, only: count_leaves, element_trees_t
    use atrito_faces, only: list_node_elements
    use atrito_kinds, only: ip, lp
    use atrito_mesh, only: mesh_t
@@ -17,7 +20,7 @@ module atrito_refine_model
    use atrito_strings, only: to_text
    implicit none (type, external)
    private
-   public :: refine_model
+   public :: refine_model, cut_model
 
 contains
 
@@ -28,9 +31,14 @@ contains
       integer(ip), intent(in) :: shape                 !< for all elements, place in SHAPES; 0: their own
       type(build_context_t), intent(inout) :: context
       type(mesh_t) :: coarse
-      integer(ip) :: i, pieces
+      integer(ip) :: pieces
 
       pieces = 2**levels
+      if (has_cuts(context%deck)) then
+         call report_deck_error(context%deck, 'E-REFINE', '--elements is not built for decks with *REFINE', &
+                                expected='the elements of the deck')
+         return
+      end if
       if (shape > 0 .and. any(CORNERS_OF(context%model%mesh%shape) /= CORNERS_OF(max(shape, 1_ip)))) then
          call report_deck_error(context%deck, 'E-REFINE', 'the deck has '// &
                                 trim(merge('quadrilaterals', 'triangles     ', CORNERS_OF(shape) == 3))// &
@@ -48,9 +56,30 @@ contains
       if (.not. is_possible(levels, pieces, shape, context)) return
       coarse = context%model%mesh
       call refine_mesh(coarse, context%around, pieces, shape, context%model%mesh, context%refinement)
+      context%model%levels = levels
+      call follow_mesh(coarse, context)
+   end subroutine refine_model
+
+   !> The same by the leaves of trees. The deck has elements with as many nodes as there are roots.
+   subroutine cut_model(trees, context)
+      type(element_trees_t), intent(inout) :: trees
+      type(build_context_t), intent(inout) :: context
+      type(mesh_t) :: coarse
+
+      coarse = context%model%mesh
+      call cut_mesh(coarse, context%around, trees, context%model%mesh, context%refinement)
+      context%model%n_cut = trees%n_roots - count(trees%first_child(:trees%n_roots) == 0, kind=ip)
+      call follow_mesh(coarse, context)
+   end subroutine cut_model
+
+   !> Places on arcs, fields of nodes and the members of sets go from the deck's mesh to the one that has taken its place.
+   subroutine follow_mesh(coarse, context)
+      type(mesh_t), intent(in) :: coarse
+      type(build_context_t), intent(inout) :: context
+      integer(ip) :: i
+
       call place_on_arcs(coarse, context)
       call refine_node_fields(coarse, context)
-      context%model%levels = levels
       do i = 1, set_count(context%model%node_sets)
          associate (set => context%model%node_sets%sets(i))
             call replace_members(set, fine_nodes(coarse, context%refinement, members_of(set)))
@@ -64,7 +93,7 @@ contains
       context%deck_elements = coarse%element_map
       call keep_places(coarse, context%model%mesh, context)
       context%around = list_node_elements(context%model%mesh)
-   end subroutine refine_model
+   end subroutine follow_mesh
 
    !> There are not too many nodes, and there are numbers and memory for them. The numbers of elements are chosen so that they fit.
    logical function is_possible(levels, pieces, shape, context)
@@ -94,14 +123,16 @@ contains
    subroutine keep_places(coarse, fine, context)
       type(mesh_t), intent(in) :: coarse, fine
       type(build_context_t), intent(inout) :: context
-      integer(ip) :: places(coarse%n_elements), e, k, node, children
+      integer(ip) :: places(coarse%n_elements), parent(fine%n_elements), e, k, node
 
       places = context%elements%place(:coarse%n_elements)
-      children = context%refinement%pieces**2
+      do e = 1, coarse%n_elements
+         parent(fine_elements(context%refinement, [e])) = e
+      end do
       call note_place(context%nodes%place, fine%n_nodes, 0_ip)
       context%nodes%place(coarse%n_nodes + 1:) = 0
       do e = fine%n_elements, 1, -1
-         call note_place(context%elements%place, e, places((e - 1)/children + 1))
+         call note_place(context%elements%place, e, places(parent(e)))
          do k = 1, fine%shape(e)
             node = fine%nodes(k, e)
             if (node > coarse%n_nodes) context%nodes%place(node) = context%elements%place(e)

@@ -135,7 +135,7 @@ contains
                           //to_text(loop%distance%pull, 2))
          if (solution%converged) call pull_firmly_again(multipliers, loop, solution)
          if (solution%converged) call look_for_shared(system, rows, shape, multipliers, loop, solution)
-         if (solution%converged .or. is_used_up(outer, controls%max_iterations, multipliers%factorisations, loop)) exit
+         if (solution%converged .or. is_used_up(outer, controls, multipliers%factorisations, loop)) exit
          if (loop%moving > MOST_MOVING) then
             solution%inner%moves = .true.
             solution%inner%motion = multipliers%x(system%n - system%k + 1:) - multipliers%a_old
@@ -161,12 +161,15 @@ contains
    !> and goes on: so often can it be halved and no more.
    !>
    !> A step is cheaper than an iteration of the Picard loop, which solves its QP to the end: OUTERS_A_MAXIT of them count for one.
-   !> Below a limit load states change for ever, and each change is a factorisation: these have a limit of their own.
-   pure logical function is_used_up(outer, max_iterations, factorisations, loop)
-      integer(ip), intent(in) :: outer, max_iterations, factorisations
+   !> Below a limit load states change for ever, and each change is a factorisation: these have a limit of their own, and the caller
+   !> may set another one.
+   pure logical function is_used_up(outer, controls, factorisations, loop)
+      integer(ip), intent(in) :: outer, factorisations
+      type(controls_t), intent(in) :: controls
       type(loop_t), intent(in) :: loop
 
-      is_used_up = outer >= OUTERS_A_MAXIT*max_iterations .or. factorisations > FACTORISATIONS_A_MAXIT*max_iterations
+      is_used_up = outer >= OUTERS_A_MAXIT*controls%max_iterations .or. &
+                   factorisations > min(FACTORISATIONS_A_MAXIT*controls%max_iterations, controls%most_factorisations)
       if (is_used_up) is_used_up = outer - loop%progress%best_outer > outer/4
    end function is_used_up
 

@@ -26,7 +26,7 @@ contains
    !> status: STATUS_SINGULAR with FREE_MOTION, or with a body that is singular by itself.
    !>
    !> The loop keeps the multipliers in the solution where a next increment goes on from them (problem%keeps). What failed from
-   !> there begins anew, but counts amplitudes of motions from the same place.
+   !> there begins anew, but counts amplitudes of motions from the same place; unless no other start is to be tried.
    subroutine solve_multiplier(problem, system, controls, solution, u, status)
       class(problem_t), intent(in) :: problem !< the increment
       class(scene_system_t), intent(inout) :: system        !< of the problem, with its gaps and loads
@@ -35,22 +35,25 @@ contains
       real(wp), allocatable, intent(out) :: u(:, :)         !< displacements without rigid motions, (2, n_nodes) [L]
       type(status_t), intent(out) :: status
       type(contact_solution_t) :: fresh
+      logical :: begins
       type(constraint_rows_t) :: rows
       type(status_t) :: fine
       real(wp), allocatable :: x(:)
 
       call build_constraint_rows(problem%fem, problem%rows, problem%line, .false., rows)
       if (problem%keeps) allocate (fresh%multipliers)
+      begins = .true.
       if (serves_as_start(problem%last, CONTACT_SPARSE)) then
          solution = problem%last
          call solve_by_multipliers(system, rows, problem%line, controls, problem%reporter, solution, x, status)
-         if (.not. (is_ok(status) .and. solution%converged)) then
+         begins = .not. (problem%only_from_last .or. (is_ok(status) .and. solution%converged))
+         if (begins) then
             call report_progress(problem%reporter, 'not from the increment before; from the usual start')
             status = fine
             fresh%state%a = problem%last%state%a
          end if
       end if
-      if (.not. solution%converged) then
+      if (begins) then
          solution = fresh
          call solve_by_multipliers(system, rows, problem%line, controls, problem%reporter, solution, x, status)
       end if

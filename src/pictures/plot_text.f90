@@ -250,7 +250,7 @@ contains
              axis//'tics ('//text(min(3, len(text) + 1):)//')'
       if (n <= most) return
       stride = 1 + int(log10(range%high/range%low)/most, ip)
-      text = text(:index(text, '(') - 1)//to_text(10.0_wp**stride)
+      text = text(:index(text, '(') - 1)//to_text(10.0_wp**ceiling(log10(range%low/1.5_wp)))//', '//to_text(10.0_wp**stride)
    end function log_axis
 
    !> The first number of the series 1, 2, 5, 10, ... that is not less.

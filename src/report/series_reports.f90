@@ -9,7 +9,7 @@ module atrito_series_reports
    use atrito_read_table, only: find_column, item_text
    use atrito_report, only: report_t, page_section_t, begin_section, add_section
    use atrito_stability_result, only: stability_t
-   use atrito_stability_tables, only: limit_text, values_text, undecided_texts
+   use atrito_stability_tables, only: limit_text, values_text, list_remarks
    use atrito_status, only: status_t, is_ok, STATUS_OK
    use atrito_strings, only: string_t, string_list_t, add_string, append_string, take_strings, to_text
    use atrito_study_errors, only: study_t, total_seconds, PROCESSOR
@@ -273,7 +273,7 @@ contains
       real(wp), intent(in) :: seconds(2)            !< wall clock and processor
       type(report_t), intent(inout) :: report       !< begun
       type(page_section_t) :: section
-      type(string_t), allocatable :: undecided(:)
+      type(string_t), allocatable :: labels(:), texts(:)
       character(len=:), allocatable :: text
       integer :: i
 
@@ -282,8 +282,10 @@ contains
       if (.not. report%is_good) report%verdict = 'NOT AS CLOSE AS ASKED. '//report%verdict
       call append_string(report%details, 'It stands at '//limit%parameter//' = '//number(limit%stands, 10)//': solved and checked.')
       call append_string(report%details, 'It falls at '//limit%parameter//' = '//number(limit%falls, 10)//': proved.')
-      undecided = undecided_texts(limit)
-      report%details = [report%details, undecided]
+      call list_remarks(limit, labels, texts)
+      do i = 1, size(texts)
+         call append_string(report%details, labels(i)%s//': '//texts(i)%s)
+      end do
       call add_fact(report%facts, 'stands at '//limit%parameter, number(limit%stands, 10), 'solved and checked')
       call add_fact(report%facts, 'falls at '//limit%parameter, number(limit%falls, 10), 'proved')
       do i = 1, size(limit%values)

@@ -1,10 +1,11 @@
-!> Pictures of the views: the skylines, the outer iterations and the laws, drawn from the tables of --show.
+!> Pictures of the views: the skylines, the outer iterations and the laws, drawn from the tables of --show; and of the error on the
+!> meshes of --adapt.
 module atrito_show_plots
    use atrito_gnuplot, only: draw_written
-   use atrito_kinds, only: ip
+   use atrito_kinds, only: ip, wp
    use atrito_plot_files, only: plot_folder, SHOWN_PLOTS
    use atrito_plot_scripts, only: plots_t, begin_plots, end_plots, put, begin_script, put_table, put_terminal
-   use atrito_plot_text, only: LF
+   use atrito_plot_text, only: range_t, cover, log_axis, LF
    use atrito_status, only: status_t
    use atrito_strings, only: string_t, append_string, to_text
    use atrito_table, only: table_t
@@ -32,8 +33,11 @@ contains
       call begin_plots(plots, plot_folder(folder))
       do i = 1, size(tables)
          if (.not. any(SHOWN_PLOTS == tables(i)%name) .or. tables(i)%n_rows == 0) cycle
+         if (tables(i)%name == 'adapt' .and. tables(i)%n_rows < 2) cycle
          call append_string(names, tables(i)%name)
          select case (tables(i)%name)
+         case ('adapt')
+            call write_adapt_plot(plots, tables(i))
          case ('show-matrix')
             call write_matrix_plot(plots, min(maxval(tables(i)%columns(1)%integers), MOST_BODIES))
          case ('show-picard')
@@ -45,6 +49,38 @@ contains
       call end_plots(plots, status)
       call draw_written(folder, names, status, drawn)
    end subroutine draw_shown
+
+   !> The error against the displacements and against the time.
+   subroutine write_adapt_plot(plots, table)
+      type(plots_t), intent(inout) :: plots
+      type(table_t), intent(in) :: table            !< adapt
+      type(range_t) :: error
+      integer(ip) :: i
+
+      call begin_script(plots, 'adapt', 'the error on the meshes of --adapt, by the displacements and the time', &
+                        'Columns of adapt.tab: 3 dofs, 4 error [%], 6 seconds by the clock')
+      call put_table(plots, 'adapt')
+      call put(plots, LOOKS//LF//'set logscale xy; set format x "%g"; set format y "%g"; unset mxtics; unset mytics')
+      call cover(error, table%columns(4)%reals)
+      call put_terminal(plots, '1000,420')
+      call put(plots, 'set multiplot layout 1,2; set ylabel "estimated error [%]"'//LF//log_axis('y', error, 6_ip))
+      call put_panel('displacements', [(real(table%columns(3)%integers(i), wp), i=1, table%n_rows)], '3')
+      call put_panel('time from the beginning [s]', table%columns(6)%reals, '6')
+      call put(plots, 'unset multiplot')
+
+   contains
+
+      subroutine put_panel(label, values, column)
+         character(len=*), intent(in) :: label, column
+         real(wp), intent(in) :: values(:)
+         type(range_t) :: range
+
+         call cover(range, values)
+         call put(plots, 'set xlabel "'//label//'"; '//log_axis('x', range, 5_ip)//LF//'plot table using '//column// &
+                  ':4 with linespoints lw 1.8 pt 7 ps 0.9*dot lc rgb "#0072B2"')
+      end subroutine put_panel
+
+   end subroutine write_adapt_plot
 
    !> A row of panels a body, the columns of its matrix from their first rows down to the diagonal.
    subroutine write_matrix_plot(plots, n)

@@ -19,6 +19,7 @@ module atrito_history
    use atrito_pressure_warnings, only: warn_of_pressures
    use atrito_recorder, only: recorder_t
    use atrito_reporter, only: reporter_t, report_place, report_progress, PROGRESS_LINE
+   use atrito_restart_state, only: warm_start_t
    use atrito_results, only: ending_t, extreme_t, frame_store_t, history_t, results_t
    use atrito_rigid_bodies, only: hold_the_same
    use atrito_rigid_results, only: leave_mesh_alone
@@ -42,7 +43,7 @@ contains
 
    !> Solves all steps. status: of a run of one increment that of solve_static; of others OK, or why the history ended early, with
    !> STATUS_NOT_CONVERGED, STATUS_SINGULAR, or a status of begin_scene. What converged before is in the history.
-   subroutine solve_history(model, options, reporter, history, status, store, recorder, observer, frames)
+   subroutine solve_history(model, options, reporter, history, status, store, recorder, observer, frames, start)
       type(model_t), intent(in), target :: model
       type(solve_options_t), intent(in) :: options
       type(reporter_t), intent(in) :: reporter
@@ -52,6 +53,7 @@ contains
       class(recorder_t), intent(inout), target, optional :: recorder
       class(observer_t), intent(inout), target, optional :: observer
       class(frame_store_t), intent(inout), target, optional :: frames !< keeps all but the last; has those of recorder%found
+      type(warm_start_t), intent(inout), optional :: start !< of a run of one increment: as solve_static has it
       type(run_t), target :: run
       type(progress_t) :: now
       integer(ip) :: k, first
@@ -62,7 +64,7 @@ contains
          if (observer%is_there) run%observer => observer
       end if
       if (has_one_increment(model) .and. .not. is_recorded(run)) then
-         call solve_only_increment(model, options, reporter, history, status, store)
+         call solve_only_increment(model, options, reporter, history, status, store, start)
          if (associated(run%observer) .and. is_ok(status)) call run%observer%observe(history%frames(1), &
                                                                                      history%rows)
          return
@@ -103,17 +105,18 @@ contains
       end associate
    end function has_one_increment
 
-   subroutine solve_only_increment(model, options, reporter, history, status, store)
+   subroutine solve_only_increment(model, options, reporter, history, status, store, start)
       type(model_t), intent(in), target :: model
       type(solve_options_t), intent(in) :: options
       type(reporter_t), intent(in) :: reporter
       type(history_t), intent(inout) :: history
       type(status_t), intent(out) :: status
       type(body_cache_t), intent(inout) :: store
+      type(warm_start_t), intent(inout), optional :: start
       integer(ip) :: i
 
       allocate (history%frames(1))
-      call solve_static(model, options, reporter, history%frames(1), status, store, history%others)
+      call solve_static(model, options, reporter, history%frames(1), status, store, history%others, start)
       if (.not. is_ok(status)) then
          deallocate (history%frames)
          allocate (history%frames(0))

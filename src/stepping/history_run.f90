@@ -170,7 +170,7 @@ contains
       if (allocated(run%data%released)) state%released = run%data%released
       state%memory = run%memory
       state%last = run%last
-      call put_start(run%data%last, state%start)
+      if (allocated(run%data%last)) call put_start(run%data%last, state%start)
       call take_start(state%start, run%data%last)
       call run%recorder%record(history, state)
    end subroutine record

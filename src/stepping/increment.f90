@@ -67,6 +67,7 @@ contains
 
       controls = data%step%controls
       if (asked_form == CONTACT_AUTO) controls%most_entries = MOST_ENTRIES
+      controls%most_factorisations = data%most_factorisations
       controls%logs_solves = associated(data%viewer)
       call solve_one_form(data, data%contact_form, controls, store, results, solution, status)
       if (results%scene%near_elements .and. .not. is_solved(results, status)) then
@@ -305,7 +306,7 @@ contains
       m = size(data%line%point, kind=ip)
       solves = merge(solution%history%n, 0_ip, data%contact_form == CONTACT_DENSE)
       do i = 1, size(RUNGS)
-         if (.not. is_tried(i, data%contact_form, asked_form, m, data%may_cut)) cycle
+         if (.not. is_tried(i, data%contact_form, asked_form, m, data%may_cut, data%is_brief)) cycle
          if (RUNGS(i)%form == CONTACT_DENSE .and. is_too_much(controls, m, solves)) cycle
          its_controls = controls_of_rung(RUNGS(i), controls)
          call report_progress(data%reporter, 'no solution; the '//contact_form_name(RUNGS(i)%form) &

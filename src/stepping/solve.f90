@@ -10,6 +10,7 @@ module atrito_solve
    use atrito_model, only: model_t, step_t
    use atrito_number_range, only: is_out_of_range
    use atrito_reporter, only: reporter_t, report_place
+   use atrito_restart_state, only: warm_start_t
    use atrito_results, only: results_t, scene_t
    use atrito_scene_data, only: scene_data_t, solve_options_t, PROOF_AUTO, PROOF_OFF, PROOF_ON, prepare, assemble, &
                                 drop_assembled, check_known_points
@@ -22,6 +23,7 @@ module atrito_solve
    use atrito_status, only: status_t, is_ok
    use atrito_timers, only: start_phase, stop_phase
    use atrito_unsettled_points, only: report_unsettled
+   use atrito_warm_start, only: put_start, take_start
    implicit none (type, external)
    private
    public :: PROOF_AUTO, PROOF_OFF, PROOF_ON, solve_options_t, solve_static, survey_scene, begin_scene, note_method
@@ -89,7 +91,10 @@ contains
 
    !> Solves. status: STATUS_SINGULAR (free motion, singular body, dependent points), STATUS_DECK (contradiction of prescribed
    !> displacements and hard contact; too little memory, which is told by a message). results%converged and law_holds tell the rest.
-   subroutine solve_static(model, options, reporter, results, status, store, others)
+   !>
+   !> start: a solution near this one, of other loads, say; what its iteration ended with, once there is a solution. The sparse form
+   !> begins from it.
+   subroutine solve_static(model, options, reporter, results, status, store, others, start)
       type(model_t), intent(in), target :: model
       type(solve_options_t), intent(in) :: options
       type(reporter_t), intent(in) :: reporter
@@ -97,6 +102,7 @@ contains
       type(status_t), intent(out) :: status
       type(body_cache_t), intent(inout) :: store           !< bodies of an earlier run, or none; on return those of this one
       type(results_t), allocatable, intent(out), optional :: others(:) !< other solutions that a search has found
+      type(warm_start_t), intent(inout), optional :: start
       type(scene_data_t) :: data
       type(contact_solution_t) :: solution
       type(force_sense_t) :: sense
@@ -108,7 +114,9 @@ contains
          call report_place(reporter, 'solve', is_phase=.true.)
          data%keeps = associated(data%viewer) .or. data%starts > 0     ! C and G of the bodies, for views and searches
          call note_method(data, model%steps(1:1))
+         if (present(start)) call begin_from(start, data)
          call solve_increment(data, options%contact_form, store, results, solution, status)
+         if (present(start) .and. is_solved(results, status)) call put_start(solution, start)
          if (is_solved(results, status)) call search_solutions(data, store, solution, results, found)
          if (present(others)) call move_alloc(found, others)
          if (data%keeps) call release_condensed(data, store)
@@ -124,6 +132,19 @@ contains
       call watch_forces(data, results, sense)
       call tell_forces(results%scene%pairs, results%contact, sense)
    end subroutine solve_static
+
+   !> Begins from a solution near by where the unknowns are as many.
+   subroutine begin_from(start, data)
+      type(warm_start_t), intent(in) :: start
+      type(scene_data_t), intent(inout) :: data
+
+      if (data%contact_form /= CONTACT_SPARSE) return
+      data%keeps = .true.
+      if (start%form /= CONTACT_SPARSE .or. .not. allocated(start%multipliers)) return
+      if (size(start%state%q) /= size(data%line%point) .or. size(start%multipliers%x) /= data%assembled%n) return
+      call take_start(start, data%last)
+      data%only_from_last = allocated(data%last) .and. data%is_brief
+   end subroutine begin_from
 
    !> Methods that the form of the scene does not have.
    subroutine note_method(data, steps)

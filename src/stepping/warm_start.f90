@@ -13,12 +13,11 @@ module atrito_warm_start
 
 contains
 
-   !> What the next increment starts from; nothing without a solution, or where rows depend on each other.
+   !> What the next increment starts from; nothing where rows depend on each other.
    pure subroutine put_start(solution, start)
-      type(contact_solution_t), allocatable, intent(in) :: solution
+      type(contact_solution_t), intent(in) :: solution
       type(warm_start_t), intent(out) :: start
 
-      if (.not. allocated(solution)) return
       if (allocated(solution%rows) .or. .not. allocated(solution%state%q)) return
       start%form = int(solution%form, ip)
       if (allocated(solution%p)) start%p = solution%p

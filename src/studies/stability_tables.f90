@@ -2,15 +2,16 @@
 module atrito_stability_tables
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
    use atrito_kinds, only: ip, wp
-   use atrito_page, only: page_t, begin_report, add_item, add_files, add_rule, number, plural, add_paragraph
+   use atrito_page, only: page_t, begin_report, add_item, add_remark, add_files, add_rule, number, plural, add_paragraph
    use atrito_stability_result, only: stability_t, stability_value_t, CODE_NOT_RUN
    use atrito_status, only: status_t, STATUS_OK, STATUS_NOT_CONVERGED
    use atrito_strings, only: string_t, append_string, to_text
+   use atrito_summary, only: large_text
    use atrito_table, only: table_t, origin_t, begin_table, add_reals, add_integers, add_words, one_word
    use atrito_table_text, only: write_table_set
    implicit none (type, external)
    private
-   public :: write_stability, compose_stability, limit_text, values_text, undecided_texts
+   public :: write_stability, compose_stability, limit_text, values_text, list_remarks, large_where_it_stands
 
    integer, parameter :: DIGITS = 10
 
@@ -41,6 +42,10 @@ contains
                           size(values, kind=ip))
          call append_string(table%remarks, 'stands at '//to_text(limit%stands, 17)//', can be balanced at ' &
                             //to_text(limit%balanced, 17)//', falls at '//to_text(limit%falls, 17))
+         if (is_undecided(limit)) then
+            call append_string(table%remarks, 'static limit between the last two; neither a solution nor a proof from ' &
+                               //to_text(first_undecided(limit), 17)//' on')
+         end if
          call append_string(table%remarks, 'code: of the run, 4 also without one; -1: the loads can be balanced, no run was made')
          call add_reals(table, 'value', '-', values%value, 0.0_wp)
          call add_integers(table, 'code', int(values%code, ip))
@@ -94,17 +99,17 @@ contains
       real(wp), intent(in) :: seconds(2)               !< wall clock and processor
       type(page_t), intent(out) :: page
       type(string_t), intent(in) :: pictures(:)        !< that were drawn, names without folder and ending
-      type(string_t), allocatable :: texts(:)
+      type(string_t), allocatable :: labels(:), texts(:)
       integer :: i
 
       call begin_report(page, '   limit of '//limit%parameter//' in '//deck)
       call add_rule(page, '-')
       call add_item(page, 'stands at', limit%parameter//' = '//number(limit%stands, DIGITS)//': solved and checked')
       call add_item(page, 'falls at', limit%parameter//' = '//number(limit%falls, DIGITS)//': proved')
-      call add_item(page, 'limit', limit_text(limit))
-      texts = undecided_texts(limit)
+      if (.not. is_undecided(limit)) call add_item(page, 'limit', limit_text(limit))
+      call list_remarks(limit, labels, texts)
       do i = 1, size(texts)
-         call add_item(page, trim(merge('         ', 'undecided', index(texts(i)%s, 'although') == 1)), texts(i)%s)
+         call add_remark(page, labels(i)%s, texts(i)%s)
       end do
       call add_item(page, 'displacement', displacement_text(limit))
       call add_item(page, 'values', values_text(limit))
@@ -130,21 +135,73 @@ contains
       end if
    end function limit_text
 
-   !> Values that narrow neither bound.
-   function undecided_texts(limit) result(texts)
+   !> What the two bounds are where they are not one, and what casts doubt on them.
+   subroutine list_remarks(limit, labels, texts)
       type(stability_t), intent(in) :: limit
-      type(string_t), allocatable :: texts(:)
+      type(string_t), allocatable, intent(out) :: labels(:), texts(:)
+      character(len=:), allocatable :: large
       integer(ip) :: runs, proofs
 
-      allocate (texts(0))
+      allocate (labels(0), texts(0))
       runs = count(limit%values%code == STATUS_NOT_CONVERGED, kind=ip)
       proofs = count(limit%values%excess /= limit%values%excess .and. limit%values%code == CODE_NOT_RUN, kind=ip)
-      if (runs > 0) then
-         call append_string(texts, 'at '//plural(runs, 'value', 'values')//' neither a solution nor a proof was found (exit 3)')
-         call append_string(texts, 'although the loads can be balanced up to '//number(limit%balanced, DIGITS))
+      if (is_undecided(limit)) then
+         call add('static limit', number(0.5_wp*(limit%balanced + limit%falls), DIGITS)//', ' &
+                  //number(0.5_wp*abs(limit%falls - limit%balanced), 2)//' more or less: up to it forces can balance the loads.' &
+                  //' It holds for a flow rule that follows friction (sliding by 1 lifts by nu); with Coulomb''s law less may' &
+                  //' stand')
+         call add('solved up to', number(limit%stands, DIGITS)//', the last value for which a solution with Coulomb''s law was' &
+                  //' found; from '//number(first_undecided(limit), DIGITS)//' on, at '//plural(runs, 'value', 'values')// &
+                  ', neither a solution nor a proof was found (exit 3)')
       end if
-      if (proofs > 0) call append_string(texts, plural(proofs, 'value is', 'values are')//' too near the limit for a proof')
-   end function undecided_texts
+      if (allocated(limit%gaps)) call add('but', limit%gaps)
+      large = large_where_it_stands(limit)
+      if (len(large) > 0) call add('but', 'where it stands '//large//': not small (W-LARGE)')
+      if (proofs > 0) call add('undecided', plural(proofs, 'value is', 'values are')//' too near the limit for a proof')
+
+   contains
+
+      subroutine add(label, text)
+         character(len=*), intent(in) :: label, text
+
+         call append_string(labels, label)
+         call append_string(texts, text)
+      end subroutine add
+
+   end subroutine list_remarks
+
+   !> Whether runs between the bounds found neither a solution nor a proof.
+   pure logical function is_undecided(limit)
+      type(stability_t), intent(in) :: limit
+
+      is_undecided = any(limit%values%code == STATUS_NOT_CONVERGED) .and. .not. limit%is_close
+   end function is_undecided
+
+   !> Of such values the one nearest to where it stands.
+   pure real(wp) function first_undecided(limit) result(x)
+      type(stability_t), intent(in) :: limit
+      integer :: i
+
+      x = limit%falls
+      do i = 1, size(limit%values)
+         associate (one => limit%values(i))
+            if (one%code /= STATUS_NOT_CONVERGED .or. abs(one%value - limit%falls) > abs(limit%stands - limit%falls)) cycle
+            if (abs(one%value - limit%stands) < abs(x - limit%stands)) x = one%value
+         end associate
+      end do
+   end function first_undecided
+
+   !> What is not small at the value that stands; '' where all is.
+   pure function large_where_it_stands(limit) result(text)
+      type(stability_t), intent(in) :: limit
+      character(len=:), allocatable :: text
+      integer :: i
+
+      text = ''
+      do i = 1, size(limit%values)
+         if (abs(limit%values(i)%value - limit%stands) <= 0.0_wp) text = large_text(limit%values(i)%large)
+      end do
+   end function large_where_it_stands
 
    !> What is watched, at the value that stands.
    function displacement_text(limit) result(text)

@@ -11,7 +11,7 @@ module atrito_study_errors
    implicit none (type, external)
    private
    public :: run_facts_t, study_t, study_row_t, study_quantity_t, study_probe_t
-   public :: find_errors, richardson_limit, is_last, total_seconds, phase_seconds, WALL, PROCESSOR
+   public :: find_errors, richardson_limit, is_last, last_uniform, total_seconds, phase_seconds, WALL, PROCESSOR
 
    integer, parameter :: WALL = 1, PROCESSOR = 2     !< clocks
 
@@ -29,8 +29,9 @@ module atrito_study_errors
 
    !> A run of the study.
    type, extends(run_facts_t) :: study_row_t
-      character(len=:), allocatable :: element       !< cpe4, ..., or deck
+      character(len=:), allocatable :: element       !< cpe4, ..., deck, or adapt
       integer(ip) :: level = 0
+      logical :: is_adapted = .false.                !< by --adapt: levels are percents, not sizes
       integer(ip) :: code = 0                        !< exit code of the run
       real(wp), allocatable :: values(:)             !< one a quantity; nan where the run has none
       real(wp) :: estimate = 0.0_wp                  !< error_estimate_percent
@@ -117,6 +118,7 @@ contains
             do k = 1, size(rows)
                quantity%error(k) = abs(rows(k)%values(i) - quantity%reference)/quantity%scale
                if (k == 1) cycle
+               if (rows(k)%is_adapted) cycle
                if (rows(k)%element /= rows(k - 1)%element .or. is_nan(quantity%error(k)) .or. is_nan(quantity%error(k - 1))) cycle
                if (min(quantity%error(k), quantity%error(k - 1)) <= 0.0_wp) cycle
                quantity%order(k) = log(quantity%error(k - 1)/quantity%error(k))/log(2.0_wp)
@@ -157,7 +159,7 @@ contains
       limit = ieee_value(1.0_wp, ieee_quiet_nan)
       order = limit
       associate (rows => study%rows)
-         if (rows(k)%element /= rows(k - 2)%element) return
+         if (rows(k)%element /= rows(k - 2)%element .or. rows(k)%is_adapted) return
          q = [rows(k - 2)%values(i), rows(k - 1)%values(i), rows(k)%values(i)]
       end associate
       if (any(is_nan(q))) return
@@ -173,6 +175,13 @@ contains
       is_last = k == size(rows)
       if (.not. is_last) is_last = rows(k + 1)%element /= rows(k)%element
    end function is_last
+
+   !> The last row of a mesh that is refined everywhere.
+   pure integer function last_uniform(rows) result(k)
+      type(study_row_t), intent(in) :: rows(:)
+
+      k = count(.not. rows%is_adapted)
+   end function last_uniform
 
    !> Richardson's limit of three values at halved sizes; nan where their differences do not shrink with one sign.
    !>

@@ -124,7 +124,7 @@ contains
             if (is_point(study, k, x, y)) call cover(range(1), [column(study, k, x)])
             if (is_point(study, k, x, y)) call cover(range(2), [column(study, k, y)])
          end do
-         call cover(range(2), [0.5_wp*range(2)%low])   ! for the legend
+         call cover(range(2), [0.3_wp*range(2)%low])   ! for the legend
          call put(plots, log_axis('x', range(1), 4_ip)//LF//log_axis('y', range(2), 6_ip)//LF// &
                   'set xlabel "'//trim(X_LABELS(x))//'"; unset label 1'//LF// &
                   'set key '//trim(merge('right', 'left ', x == SIDE .neqv. y == SECONDS))// &

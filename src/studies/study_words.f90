@@ -3,7 +3,7 @@ module atrito_study_words
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
    use atrito_kinds, only: wp, is_nan
    use atrito_strings, only: append_string, to_text
-   use atrito_study_errors, only: study_t, study_probe_t, find_errors, is_last, total_seconds, PROCESSOR
+   use atrito_study_errors, only: study_t, study_probe_t, find_errors, is_last, last_uniform, total_seconds, PROCESSOR
    implicit none (type, external)
    private
    public :: judge_study
@@ -33,6 +33,7 @@ contains
          call describe_probe(study, study%probes(i))
       end do
       call describe_estimate(study)
+      call describe_adapted(study)
       call describe_pressure(study)
    end subroutine judge_study
 
@@ -256,6 +257,7 @@ contains
       associate (rows => study%rows)
          do k = 2, size(rows)
             if (.not. is_last(rows, k) .or. rows(k)%element /= rows(k - 1)%element .or. rows(k)%degree == 0) cycle
+            if (rows(k)%is_adapted) cycle
             if (is_nan(rows(k)%estimate) .or. is_nan(rows(k - 1)%estimate)) cycle
             if (min(rows(k)%estimate, rows(k - 1)%estimate) <= 0.0_wp) cycle
             order = log(rows(k - 1)%estimate/rows(k)%estimate)/log(2.0_wp)
@@ -276,6 +278,40 @@ contains
       call append_string(study%words, found)
    end subroutine describe_estimate
 
+   !> What --adapt needs for the smallest error that it was asked for, and the meshes that are refined everywhere for the same.
+   subroutine describe_adapted(study)
+      type(study_t), intent(inout) :: study
+      character(len=:), allocatable :: text
+      integer :: k, last
+
+      last = size(study%rows)
+      if (last == 0) return
+      if (.not. study%rows(last)%is_adapted .or. is_nan(study%rows(last)%estimate)) return
+      associate (rows => study%rows)
+         text = 'an estimated error of '//to_text(rows(last)%estimate, 3)//' % takes --adapt '//effort(last)
+         do k = 1, last_uniform(rows)
+            if (rows(k)%estimate <= rows(last)%estimate) exit
+         end do
+         if (k > last_uniform(rows)) then
+            text = text//'; the meshes that are refined everywhere do not reach it'
+         else
+            text = text//'; refined everywhere, '//rows(k)%element//', level '//to_text(rows(k)%level)//', of '// &
+                   to_text(rows(k)%estimate, 3)//' %, takes '//effort(k)
+         end if
+      end associate
+      call append_string(study%words, text)
+
+   contains
+
+      function effort(k) result(text)
+         integer, intent(in) :: k
+         character(len=:), allocatable :: text
+
+         text = to_text(study%rows(k)%n_dofs)//' dofs and '//to_text(total_seconds(study%rows(k), PROCESSOR), 2)//' s'
+      end function effort
+
+   end subroutine describe_adapted
+
    !> A largest pressure that grows from level to level, by steps that do not shrink, has no limit.
    subroutine describe_pressure(study)
       type(study_t), intent(inout) :: study
@@ -284,7 +320,7 @@ contains
 
       associate (rows => study%rows)
          do k = 3, size(rows)
-            if (.not. is_last(rows, k) .or. rows(k)%element /= rows(k - 2)%element) cycle
+            if (.not. is_last(rows, k) .or. rows(k)%element /= rows(k - 2)%element .or. rows(k)%is_adapted) cycle
             associate (p => rows(k - 2:k)%pressure)
                if (.not. (p(2) - p(1) > GROWTH*p(2) .and. p(3) - p(2) > GROWTH*p(3) .and. &
                           p(3) - p(2) >= NOT_SHRINKING*(p(2) - p(1)))) cycle

@@ -52,6 +52,8 @@ contains
       call add_entry(page, 'elements', to_text(model%mesh%n_elements)//element_types(model))
       if (model%levels > 0) call add_entry(page, 'refined', plural(model%levels, 'time', 'times')// &
                                            ': each element of the deck is '//to_text(4_ip**model%levels)//' now')
+      if (model%n_cut > 0) call add_entry(page, 'refined', 'where the error is: '//to_text(model%n_cut)// &
+                                          ' elements of the deck are cut')
       call add_entry(page, 'node sets, element sets', &
                      to_text(set_count(model%node_sets))//', '//to_text(set_count(model%element_sets)))
       text = to_text(size(model%surfaces, kind=ip))

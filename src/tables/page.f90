@@ -9,7 +9,7 @@ module atrito_page
    use atrito_utf8, only: visible
    implicit none (type, external)
    private
-   public :: page_t, begin_page, begin_report, add_item, add_above_rule, add_files, add_line, add_rule, add_heading, &
+   public :: page_t, begin_page, begin_report, add_item, add_remark, add_above_rule, add_files, add_line, add_rule, add_heading, &
              add_entry, add_paragraph, add_blank, print_page
    public :: left, right, number, bytes, plural, text_width
 
@@ -53,6 +53,17 @@ contains
 
       call add_line(page, left(left(label, ITEM_WIDTH)//value, page%width))
    end subroutine add_item
+
+   !> An item of as many lines as its words take.
+   pure subroutine add_remark(page, label, text)
+      type(page_t), intent(inout) :: page
+      character(len=*), intent(in) :: label, text
+      integer :: first
+
+      first = page%n + 1
+      call add_paragraph(page, text, ITEM_WIDTH)
+      page%lines(first)%s(:len(label)) = label
+   end subroutine add_remark
 
    !> An item before the rule that ends a report.
    pure subroutine add_above_rule(page, label, value)

@@ -29,11 +29,11 @@ module atrito_plot_files
    character(len=*), parameter :: SYMBOLS_OF = '-symbols'  !< behind the name of a picture: the data of its symbols
    !> What `check --plot` draws.
    character(len=*), parameter :: SCENE_PLOT = 'scene', SET_PLOT = 'sets', GAP_PLOT = 'pairs'
-   !> What a run draws of --show.
-   character(len=11), parameter :: SHOWN_PLOTS(3) = ['show-matrix', 'show-picard', 'show-law   ']
+   !> What a run draws of --adapt and --show.
+   character(len=11), parameter :: SHOWN_PLOTS(4) = ['adapt      ', 'show-matrix', 'show-picard', 'show-law   ']
    !> Whose a picture is: what another command drew into the same folder stays.
    integer, parameter :: PLOTS_OF_RUN = 1, PLOTS_OF_SWEEP = 2, PLOTS_OF_STUDY = 3, PLOTS_OF_LIMIT = 4, PLOTS_OF_CHECK = 5
-   character(len=20), parameter :: PICTURES(24) = [character(len=20) :: &
+   character(len=20), parameter :: PICTURES(25) = [character(len=20) :: &
                   OVERLAY_SUMMARY, STUDY_PLOT, LIMIT_PLOT, MECHANISM_PLOT, SCENE_PLOT, SET_PLOT, GAP_PLOT, SCENE_PLOT//SYMBOLS_OF, &
                                 MESH_PLOT, MESH_PLOT//SYMBOLS_OF, JOINT_PLOT, HISTORY_PLOT, LOOP_PLOT, MOTION_PLOT, TRACTION_PLOT, &
                                                    CONTOUR_PLOTS, SHOWN_PLOTS]

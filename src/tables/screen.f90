@@ -18,8 +18,8 @@ module atrito_screen
                           plural
    use atrito_plot_files, only: plot_folder, told_pictures
    use atrito_plot_files, only: REPORT_NAME
-   use atrito_summary, only: pair_summary_t, summarise_pair, states_text, closed_word, body_count, pair_count, pair_name, &
-                             error_text, uniqueness_text
+   use atrito_summary, only: error_text, large_text, pair_summary_t, summarise_pair, states_text, closed_word, body_count, &
+                             pair_count, pair_name, uniqueness_text
    use atrito_table, only: TAB_ENDING, CSV_ENDING
    implicit none (type, external)
    private
@@ -163,7 +163,7 @@ contains
          if (len_trim(results%error_bound%why_not) > 0) call add_item(page, 'no bound', trim(results%error_bound%why_not))
          unique = uniqueness_text(results%uniqueness)
          if (len(unique) > 0) call add_item(page, 'unique', unique)
-         large = large_text(results)
+         large = large_text([results%large_strain%value, results%large_rotation%value, results%large_slip%value])
          if (len(large) > 0) call add_item(page, 'but', large//': not small (W-LARGE)')
       else
          call add_item(page, 'checked', 'equilibrium to '//number(results%equilibrium_residual, 2)//' of the largest force')
@@ -227,18 +227,6 @@ contains
          text = ', no outer loop'//text
       end if
    end function iteration_text
-
-   !> `strain 0.2, slip 1.5`: what passes the bounds of a linear theory.
-   pure function large_text(results) result(text)
-      type(results_t), intent(in) :: results
-      character(len=:), allocatable :: text
-
-      text = ''
-      if (results%large_strain%value > 0.0_wp) text = text//', strain '//number(results%large_strain%value, 3)
-      if (results%large_rotation%value > 0.0_wp) text = text//', rotation '//number(results%large_rotation%value, 3)
-      if (results%large_slip%value > 0.0_wp) text = text//', slip '//number(results%large_slip%value, 3)
-      text = text(3:)
-   end function large_text
 
    !> How many pairs there is room for: two lines each behind a head of three, and one that tells of more.
    pure integer(ip) function most_pairs(n, room) result(most)

@@ -12,7 +12,7 @@ module atrito_summary
    private
    public :: pair_summary_t, quantity_t, scales_t
    public :: summarise_pair, error_text, uniqueness_text, pair_quantities, step_quantities, quantity_names, states_text, closed_word
-   public :: measure_history
+   public :: large_text, measure_history
    public :: pair_count, pair_name, body_count
 
    !> What the contact tractions of one pair come to.
@@ -205,6 +205,20 @@ contains
               quantity_t('error_bound_tangential', '-', bound%tangential, 1.0_wp)]
       list = pack(list, bound%exists)
    end function bound_quantities
+
+   !> `strain 0.2, slip 1.5`: what passes its bound.
+   pure function large_text(large) result(text)
+      real(wp), intent(in) :: large(3)              !< strain, rotation [1] and slip [L]; 0: within their bounds
+      character(len=:), allocatable :: text
+      character(len=*), parameter :: NAMES(3) = [character(len=8) :: 'strain', 'rotation', 'slip']
+      integer :: i
+
+      text = ''
+      do i = 1, size(large)
+         if (large(i) > 0.0_wp) text = text//', '//trim(NAMES(i))//' '//to_text(large(i), 3)
+      end do
+      text = text(3:)
+   end function large_text
 
    !> What is known of other solutions: with friction what is certified, and the index; of a search what it found.
    pure function unique_quantities(known) result(list)

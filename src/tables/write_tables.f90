@@ -25,8 +25,8 @@ module atrito_write_tables
                                                             'rigid', 'joints', 'sections', 'path', 'ties', 'equations', 'springs', &
                                                                                                              'iterations', 'timing']
 
-   !> Those of --show.
-   character(len=12), parameter :: SHOWN_TABLES(7) = [character(len=12) :: 'show-element', 'show-matrix', 'show-line', &
+   !> Those of --adapt and --show.
+   character(len=12), parameter :: SHOWN_TABLES(8) = [character(len=12) :: 'adapt', 'show-element', 'show-matrix', 'show-line', &
                                                                            'show-motions', 'show-states', 'show-law', 'show-picard']
 
    !> What all tables of a run have in common.

@@ -5,6 +5,8 @@ import textwrap
 
 HEAD = """# Decks and meshes from elsewhere: what agrees
 
+*For whoever has decks of Abaqus, CalculiX, PrePoMax, Mecway or Gmsh. After it you know which run here, and how near the results are.*
+
 Decks of other programs, and ours in their manner, each run as it is, and CalculiX VERSION beside it. `tests/peers` makes this page, and a test
 makes it again where CalculiX and its test decks are installed: where a verdict, a count or a reason is another, the test fails.
 """
@@ -30,6 +32,7 @@ deck; forces of four-node meshes are spread as the functions of the coarse mesh,
 The largest difference of all nodes, and the largest displacement of each program:
 """
 WIDTH = 80
+FEW = 3                                              # names of decks of one reason that are told
 
 
 class Notes:
@@ -83,7 +86,7 @@ def text(rows, meshes, reasons, version_of_ccx):
     lines += [line for mesh in meshes for line in mesh.lines()]
     lines += ["## CalculiX's other test decks", ""] + wrapped("They are not of a plane. What `atrito check` says of them, its first reason:") + [""]
     for reason, names in sorted(reasons.items(), key=lambda item: (-len(item[1]), item[0])):
-        lines += wrapped(f"**{len(names)}** {plain(reason)}: {' '.join(names)}", "- ")
+        lines += wrapped(f"**{len(names)}** {plain(reason)}: {' '.join(names[:FEW])}{' ...' if len(names) > FEW else ''}", "- ")
     return "\n".join(lines) + "\n"
 
 

@@ -40,7 +40,7 @@ slip_memory_t      fields/restart_file.f90 exchange_state memory is_incremental
 run_t              stepping/history_run.f90 record run options,reporter,scene,has_last,observer,sense,idle,n_idle
 run_t              stepping/history_run.f90 resume run reporter,observer,idle,n_idle
 progress_t         stepping/history_run.f90 record now cuts
-model_t            model/fingerprint.f90 * model deck_path,deck_name,heading,units,parameters,instances,levels,node_sets,element_sets,springs,ties,equations,inclined,sources,restart_every,asks_nlgeom,solver_mesh,provenance,as_run,observed
+model_t            model/fingerprint.f90 * model deck_path,deck_name,heading,units,parameters,instances,levels,n_cut,node_sets,element_sets,springs,ties,equations,inclined,sources,restart_every,asks_nlgeom,solver_mesh,provenance,as_run,observed
 mesh_t             model/fingerprint.f90 digest_of_mesh mesh node_map,element_map
 material_t         model/fingerprint.f90 digest_of_materials material name
 section_t          model/fingerprint.f90 digest_of_materials sections elset,is_tapered
@@ -55,7 +55,7 @@ nodal_values_t     model/fingerprint.f90 add_nodal_values values source
 element_load_t     model/fingerprint.f90 add_element_loads loads line,source
 amplitude_t        model/fingerprint.f90 add_amplitudes amplitude name
 increments_t       model/fingerprint.f90 add_way way
-controls_t         model/fingerprint.f90 add_way controls is_rung,logs_solves
+controls_t         model/fingerprint.f90 add_way controls is_rung,logs_solves,most_factorisations
 requests_t         model/fingerprint.f90 add_requests requests
 frequencies_t      model/types/model.f90 all_frequencies every
 path_t             model/fingerprint.f90 add_paths path place,s,x,along

@@ -23,6 +23,7 @@ module atrito_command_line
              TASK_VERSION
 
    real(wp), parameter :: MOST_SCALE = 1.0e30_wp
+   real(wp), parameter :: LEAST_PERCENT = 1.0e-6_wp
    real(wp), parameter :: LEAST_TOLERANCE = 1.0e-8_wp, MOST_TOLERANCE = 0.1_wp   !< the proof is good for 1e-9
 
    !> What the user asks for.
@@ -45,6 +46,7 @@ module atrito_command_line
       integer(ip) :: threads = 1
       integer(ip) :: n_on_host = 1                  !< ranks of the first one's host, itself among them: no option
       integer(ip) :: refine = 0                     !< levels: each element into 4**refine
+      real(wp) :: adapt = 0.0_wp                    !< percent of the error, down to which the mesh follows it; 0: it does not
       integer(ip) :: starts = 0                     !< of a search for other solutions; 0: as the deck asks
       integer(ip) :: shape = 0                      !< nodes of all elements, set by a study; 0: as in the deck
       integer(ip) :: state = 0                      !< and their state
@@ -364,6 +366,8 @@ contains
       select case (name)
       case ('--refine')
          call take_integer(value, 0, MOST_LEVELS, command%refine, ok)
+      case ('--adapt')
+         call take_real(value, LEAST_PERCENT, 100.0_wp, command%adapt, ok)
       case ('--unique')
          call take_integer(value, 1, MOST_STARTS, command%starts, ok)
       case ('--levels')

@@ -18,6 +18,7 @@ contains
       integer :: i
 
       if (command%refine > 0) call add_option('--refine', to_text(command%refine), text)
+      if (command%adapt > 0.0_wp) call add_option('--adapt', exact_text(command%adapt), text)
       if (command%starts > 0) call add_option('--unique', to_text(command%starts), text)
       if (len_trim(command%element) > 0) call add_option('--elements', trim(command%element), text)
       if (command%solver /= 'auto') call add_option('--solver', trim(command%solver), text)

@@ -62,6 +62,9 @@ module atrito_option_table
                                          expected='NAME=EXPRESSION, such as tip=u2(1.0, 0.05) or peak=max(mises, BEAM)'), &
                    option_t('--refine', 'K', [Y, Y, N, N, Y, Y, Y], 'each element into 4, K times; all else follows', default='0', &
                                          expected='a whole number, 0 to 12: each element into 4, so many times'), &
+                                option_t('--adapt', 'P', [Y, N, N, N, N, Y, N], &
+                                         'elements are cut where the error is, until its estimate is at most P percent', &
+                                         expected='a number, 1e-6 to 100: percent of the error in the energy norm'), &
                                 option_t('--solver', 'NAME', [Y, Y, N, N, Y, Y, Y], 'solver of the bodies', default='auto', &
                                          words='auto skyline banded sparse'), &
                                 option_t('--contact', 'NAME', [Y, Y, N, N, Y, Y, Y], 'form of the contact system', default='auto', &

@@ -4,7 +4,7 @@
 !> the solution is. Runs hand their factored bodies on, so that those that the parameter leaves as they are are factored once.
 module atrito_stability_limit
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
-   use atrito_balance_probe, only: probe_balance
+   use atrito_balance_probe, only: describe_gaps, predict_share, probe_balance
    use atrito_body_cache, only: body_cache_t
    use atrito_clp, only: has_clp, clp_trouble
    use atrito_command_line, only: command_t, output_folder
@@ -14,7 +14,7 @@ module atrito_stability_limit
    use atrito_history, only: solve_history
    use atrito_kinds, only: ip, lp, wp
    use atrito_mesh, only: find_node
-   use atrito_messages, only: clear_messages
+   use atrito_messages, only: add_warning, clear_messages, count_messages
    use atrito_model, only: model_t
    use atrito_observations, only: observations_t
    use atrito_page, only: page_t
@@ -23,14 +23,16 @@ module atrito_stability_limit
    use atrito_results, only: history_t, results_t
    use atrito_series_reports, only: begin_series, report_of_limit
    use atrito_series, only: claim_output, find_origin, find_observed, begin_pictures, print_closing, seconds_since
+   use atrito_solve, only: solve_options_t
    use atrito_stability_plot, only: write_stability_plots
+   use atrito_restart_state, only: warm_start_t
    use atrito_run, only: take_threads, load_model, prepare_observations, solve_options, agree_on_outcome
    use atrito_sweep_plan, only: read_range
    use atrito_stability_result, only: stability_t, stability_value_t, CODE_NOT_RUN
-   use atrito_stability_search, only: search_t, begin_search, next_step, record_balance, record_solution, standing_value, &
-                                      falling_value, balanced_value, STEP_BALANCE, STEP_DONE, STANDS, FALLS, &
+   use atrito_stability_search, only: search_t, begin_search, next_step, suggest_root, record_balance, record_solution, &
+                                      standing_value, falling_value, balanced_value, STEP_BALANCE, STEP_DONE, STANDS, FALLS, &
                                       UNDECIDED, FOUND_LIMIT, FOUND_INTERVAL, BOTH_STAND, BOTH_FALL
-   use atrito_stability_tables, only: write_stability, compose_stability
+   use atrito_stability_tables, only: write_stability, compose_stability, large_where_it_stands
    use atrito_status, only: status_t, set_status, reword_status, is_ok, STATUS_OK, STATUS_USAGE, &
                             STATUS_NOT_CONVERGED, STATUS_SINGULAR
    use atrito_strings, only: string_t, append_string, to_text
@@ -40,6 +42,7 @@ module atrito_stability_limit
    public :: run_limit
 
    integer, parameter :: ALL_DIGITS = 17            !< a value as text gives the same value again
+   integer(ip), parameter :: MOST_TIMES = 2_ip, FEW = 200_ip !< factorisations, over the most that a solution took so far
 
 contains
 
@@ -88,15 +91,33 @@ contains
       if (code /= STATUS_OK) return
       call judge_search(search, limit, status)
       if (is_ok(status)) then
-         call load_value(command, limit%parameter, limit%falls, .true., model, code, n_printed)
+         call load_value(command, limit%parameter, limit%balanced, .true., model, code, n_printed)
+         if (code == STATUS_OK) call describe_gaps(model, limit%gaps)
+         if (code == STATUS_OK) call load_value(command, limit%parameter, limit%falls, .true., model, code, n_printed)
          if (code /= STATUS_OK) return
          call probe_balance(model, answer, excess, status, limit%collapse)
       end if
+      if (is_ok(status)) call warn_of_motions(command, limit)
       if (is_ok(status)) call finish(command, origin, model, limit, seconds_since(began), status)
       if (.not. is_ok(status)) call print_status(status, command%names(1)%s, command%json)
       code = status%code
       if (is_ok(status) .and. .not. limit%is_close) code = STATUS_NOT_CONVERGED
    end subroutine find_limit
+
+   !> Motions that are not small where it stands, as a run warns of them.
+   subroutine warn_of_motions(command, limit)
+      type(command_t), intent(in) :: command
+      type(stability_t), intent(in) :: limit
+      character(len=:), allocatable :: large
+      integer(ip) :: n_printed
+
+      large = large_where_it_stands(limit)
+      if (len(large) == 0) return
+      n_printed = count_messages()
+      call add_warning('W-LARGE', 'where it stands, at '//limit%parameter//' = '//to_text(limit%stands, 10)//': '//large// &
+                       '; the linear theory, in which forces, normals and places are those without loads, does not know the motion')
+      call print_messages(command%quiet, n_printed + 1, command%json)
+   end subroutine warn_of_motions
 
    !> Asks until the search has what it needs: at a value of the parameter whether the loads can be balanced, or what the solution
    !> is. code: of a deck that has errors at a value, and the like; printed.
@@ -106,6 +127,7 @@ contains
       type(stability_t), intent(inout) :: limit
       integer, intent(out) :: code
       type(body_cache_t) :: store                   ! factored bodies of earlier solutions
+      type(warm_start_t) :: start                   ! the last one
       type(reporter_t) :: reporter
       type(stability_value_t) :: one
       real(wp) :: x
@@ -120,8 +142,9 @@ contains
          call find_value(limit, x, one)
          if (step == STEP_BALANCE) then
             call ask_balance(command, limit, search, one, code)
+            if (code == STATUS_OK .and. size(search%tried) == 2) call predict_limit(command, limit, search)
          else
-            call ask_solution(command, limit, store, search, one, code)
+            call ask_solution(command, limit, store, start, search, one, code)
          end if
          if (code /= STATUS_OK) exit
          call put_value(one, limit%values)
@@ -170,14 +193,39 @@ contains
       if (verdict == UNDECIDED) one%excess = ieee_value(1.0_wp, ieee_quiet_nan)
    end subroutine ask_balance
 
+   !> Where the balance ends by one linear programme, once both ends are known, where one stands and the other falls.
+   subroutine predict_limit(command, limit, search)
+      type(command_t), intent(in) :: command
+      type(stability_t), intent(in) :: limit
+      type(search_t), intent(inout) :: search
+      type(model_t) :: models(2)                    ! that stands, that falls
+      real(wp) :: ends(2), share
+      integer(ip) :: n_printed
+      integer :: i, code
+      logical :: found
+
+      associate (tried => search%tried)
+         if (count(tried%balance == STANDS) /= 1 .or. count(tried%balance == FALLS) /= 1) return
+         ends = tried%x
+         if (tried(1)%balance == FALLS) ends = ends(2:1:-1)
+      end associate
+      do i = 1, 2
+         call load_value(command, limit%parameter, ends(i), .true., models(i), code, n_printed)
+         if (code /= STATUS_OK) return
+      end do
+      call predict_share(models(1), models(2), share, found)
+      if (found) call suggest_root(search, ends(1) + share*(ends(2) - ends(1)))
+   end subroutine predict_limit
+
    !> What the solution at a value is. A run that ends with 0 or 3 is an answer, any other is a failure: what falls has been proved
    !> before. Of a history 4 is one, too, once something has been solved: it ends at a time that the balance was not asked about
    !> (supports that go, smooth amplitudes), and neither bound is narrowed. The first solution tells what it has to add to the
    !> deck's messages.
-   subroutine ask_solution(command, limit, store, search, one, code)
+   subroutine ask_solution(command, limit, store, start, search, one, code)
       type(command_t), intent(in) :: command
       type(stability_t), intent(in) :: limit
       type(body_cache_t), intent(inout) :: store
+      type(warm_start_t), intent(inout) :: start
       type(search_t), intent(inout) :: search
       type(stability_value_t), intent(inout) :: one
       integer, intent(out) :: code
@@ -187,6 +235,7 @@ contains
       type(history_t) :: history
       type(frame_spool_t) :: frames
       type(reporter_t) :: reporter
+      type(solve_options_t) :: options
       integer(ip) :: n_printed
       integer :: n
 
@@ -196,8 +245,11 @@ contains
       if (code /= STATUS_OK) return
       reporter%quiet = .true.
       call begin_frames(output_folder(command), frames)
-      call solve_history(model, solve_options(command), reporter, history, status, store, observer=observations, &
-                         frames=frames)
+      options = solve_options(command)
+      options%is_brief = .true.
+      n = max(FEW, maxval([0_ip, limit%values%factorisations], mask=[.true., limit%values%code == STATUS_OK]))
+      options%most_factorisations = MOST_TIMES*n
+      call solve_history(model, options, reporter, history, status, store, observer=observations, frames=frames, start=start)
       call end_frames(frames)
       n = size(history%frames)
       if (n > 0) call agree_on_outcome(status, history%frames(n), history%ending%is_early)
@@ -210,6 +262,9 @@ contains
          status = status_t()
          if (n > 0) call watch(model, history%frames(n), command%watched, one%displacement, status)
          if (n > 0) call count_work(history, one)
+         one%large = [maxval(history%frames%large_strain%value), maxval(history%frames%large_rotation%value), &
+                      maxval(history%frames%large_slip%value)]
+         one%large = max(one%large, 0.0_wp)
          if (n > 0) then
             if (allocated(history%frames(n)%observed)) one%observed = history%frames(n)%observed%value
          end if

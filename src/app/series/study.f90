@@ -16,7 +16,7 @@ module atrito_study
    use atrito_series, only: claim_output, find_origin, begin_pictures, print_closing
    use atrito_status, only: status_t, is_ok, STATUS_OK, STATUS_USAGE, STATUS_NOT_CONVERGED, STATUS_INTERNAL
    use atrito_strings, only: string_t, join, to_text
-   use atrito_study_errors, only: study_t
+   use atrito_study_errors, only: last_uniform, study_t
    use atrito_study_plan, only: plan_study
    use atrito_study_plot, only: write_study_plot
    use atrito_study_runs, only: make_timed_run, find_probe, make_command, has_failed, put_row, take_row, PROBES
@@ -129,7 +129,7 @@ contains
    pure integer function probed_row(runs) result(k)
       class(study_runs_t), intent(in) :: runs
 
-      k = size(runs%study%rows) - int(min(COARSER, runs%command%levels - 1_ip))
+      k = last_uniform(runs%study%rows) - int(min(COARSER, runs%command%levels - 1_ip))
    end function probed_row
 
    subroutine begin_task(self, task)

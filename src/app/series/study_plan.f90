@@ -1,7 +1,7 @@
 !> What a study is going to do: its quantities and its runs.
 module atrito_study_plan
    use atrito_command_line, only: command_t
-   use atrito_kinds, only: ip
+   use atrito_kinds, only: ip, wp
    use atrito_numbers, only: read_real, NUMBER_OK
    use atrito_series, only: find_observed
    use atrito_status, only: status_t, set_status, is_ok, STATUS_USAGE
@@ -10,9 +10,10 @@ module atrito_study_plan
    use atrito_summary, only: quantity_names
    implicit none (type, external)
    private
-   public :: plan_study, DECK_ELEMENTS
+   public :: plan_study, percent_of_level, DECK_ELEMENTS
 
    character(len=*), parameter :: DECK_ELEMENTS = 'deck'   !< instead of a kind of element: as in the deck
+   character(len=*), parameter :: ADAPTED = 'adapt'  !< the same, cut where the error is
 
 contains
 
@@ -31,12 +32,22 @@ contains
       if (.not. is_ok(status)) return
       study%elements = command%elements
       if (size(study%elements) == 0) call append_string(study%elements, DECK_ELEMENTS)
+      if (command%adapt > 0.0_wp) call append_string(study%elements, ADAPTED)
       allocate (study%rows(size(study%elements)*command%levels))
       do k = 1, size(study%rows, kind=ip)            ! every element at every level
          study%rows(k)%level = mod(k - 1, command%levels)
          study%rows(k)%element = study%elements((k - 1)/command%levels + 1)%s
+         study%rows(k)%is_adapted = study%rows(k)%element == ADAPTED
       end do
    end subroutine plan_study
+
+   !> The error that --adapt has to reach on a level: that of the command on the last, twice as much on each one before it [%].
+   pure real(wp) function percent_of_level(command, level) result(percent)
+      type(command_t), intent(in) :: command
+      integer(ip), intent(in) :: level
+
+      percent = min(100.0_wp, command%adapt*2.0_wp**(command%levels - 1 - level))
+   end function percent_of_level
 
    !> --reference QUANTITY[=VALUE]; without any the energy and the resultants of the first pair. What is observed is studied in any
    !> case.

@@ -18,7 +18,7 @@ module atrito_study_runs
    use atrito_status, only: status_t, is_ok, STATUS_OK, STATUS_NOT_CONVERGED
    use atrito_strings, only: to_text, upper_case
    use atrito_study_errors, only: run_facts_t, study_t, study_row_t, total_seconds, PROCESSOR
-   use atrito_study_plan, only: DECK_ELEMENTS
+   use atrito_study_plan, only: percent_of_level, DECK_ELEMENTS
    use atrito_summary, only: quantity_t, scales_t, pair_quantities, step_quantities, summarise_pair
    use atrito_sweep_tables, only: sweep_run_t, read_summary, row_of_quantity
    use atrito_timers, only: phase_time_t, reset_timers, get_phases
@@ -186,7 +186,13 @@ contains
       one%plot = .false.
       one%report = .false.
       one%refine = command%refine + row%level
-      if (row%element /= DECK_ELEMENTS) one%element = row%element
+      one%adapt = 0.0_wp
+      if (row%is_adapted) then
+         one%refine = command%refine
+         one%adapt = percent_of_level(command, row%level)
+      else if (row%element /= DECK_ELEMENTS) then
+         one%element = row%element
+      end if
       one%shape = 0                                 ! those of the deck
       one%state = 0
       if (len_trim(one%element) > 0) then

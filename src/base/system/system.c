@@ -1178,7 +1178,7 @@ int64_t atrito_address_space_limit(void) {
  *
  * Left to itself the GNU library takes every large array from the system and gives it back there: the system clears each page
  * anew when it is touched, which took a fifth of the processor time of a large run. In one growing heap a page is cleared once:
- * the page faults of a run are its peak memory, and that is no larger (docs/developer/solvers.md). To be called before the first
+ * the page faults of a run are its peak memory, and that is no larger (docs/developer/multifrontal.md). To be called before the first
  * large array is allocated. */
 enum { HEAP_GROWS_BY = 1048576 };
 

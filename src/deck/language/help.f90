@@ -14,21 +14,26 @@ module atrito_help
    integer, parameter :: WIDTH = 80
    integer, parameter :: LEFT = 24               !< width of the left column
 
-   character(len=96), parameter :: INTRODUCTION(14) = [character(len=96) :: &
-                                                       '# Keywords of a deck', &
-                                                       '', &
-                                 'This page is printed by `atrito help all > docs/user/keywords.md` from the table that the deck', &
-                                                       'reader uses; do not edit it. `atrito help KEYWORD` prints one section.', &
-                                                       '', &
-                                 'A + marks what is atrito''s own; the rest is read by Abaqus or CalculiX too. Dimensions are in', &
-                                                     'force F, length L and time T; the units are yours, if they are consistent.', &
-                                                       '', &
-                                    'A deck is made of lines `*KEYWORD, OPTION=value`, each with its data lines of items between', &
-                                    'commas. `**` begins a comment. A comma at the end of a keyword line continues it. Names are', &
-                                 'without case and have at most 80 characters; "quotes" may stand round them; all digits means a', &
-                                 'number. A real may be written as an integer, an integer not as a real. An empty item takes its', &
-                                                       'default.', &
-                                                       '']
+   !> Where a keyword stands, by LEVEL_*, in the manual.
+   character(len=23), parameter :: PLACES(3) = [character(len=23) :: 'In the model', 'In a step', 'In the model or a step']
+
+   character(len=107), parameter :: INTRODUCTION(16) = [character(len=107) :: &
+      '# Keywords of a deck', &
+      '', &
+      '*A reference for whoever writes a deck. After it you know what a keyword, its options and its lines mean.*', &
+      '', &
+      'This page is printed by `atrito help all > docs/user/keywords.md` from the table of the deck reader;', &
+      'do not edit it. `atrito help KEYWORD` prints one section, `atrito help` what each is for.', &
+      '', &
+      'A deck is made of lines `*KEYWORD, OPTION=value`, each with its data lines of items between commas.', &
+      '`**` begins a comment. A comma at the end of a keyword line continues it. Names are without case', &
+      'and have at most 80 characters; "quotes" may stand round them; all digits means a number. A real', &
+      'may be written as an integer, an integer not as a real. An empty item takes its default. The model', &
+      'stands before \*STEP, a step between \*STEP and \*END STEP.', &
+      '', &
+      'A + marks what is atrito''s own; the rest is read by Abaqus or CalculiX too. What is ignored has no', &
+      'effect, and a note says so. Items with a dimension are reals; F is force, L length, T time, in units', &
+      'of yours that are consistent.']
 
 contains
 
@@ -87,11 +92,6 @@ contains
       do i = 1, size(INTRODUCTION)
          call append_string(lines, trim(INTRODUCTION(i)))
       end do
-      call append_string(lines, '| keyword | where | what |')
-      call append_string(lines, '|---|---|---|')
-      do i = 1, size(table)
-         call append_row(lines, title_of(table(i)), trim(LEVEL_TEXTS(table(i)%level)), table(i)%summary)
-      end do
       do i = 1, size(table)
          call append_heading(lines, table(i))
          call append_keyword(lines, table(i), .true.)
@@ -138,7 +138,7 @@ contains
       character(len=:), allocatable :: text
 
       call append_block(lines, '## '//escaped(title_of(keyword)))
-      text = upper_case(keyword%summary(:1))//keyword%summary(2:)//'. Place: '//trim(LEVEL_TEXTS(keyword%level))
+      text = upper_case(keyword%summary(:1))//keyword%summary(2:)//'. '//trim(PLACES(keyword%level))
       if (len(keyword%parent) > 0) text = text//', behind *'//keyword%parent
       call append_block(lines, escaped(text)//'.')
    end subroutine append_heading
@@ -155,12 +155,8 @@ contains
          if (markdown) call append_string(lines, escaped(keyword%doc))
          if (.not. markdown) call append_wrapped(lines, '  ', keyword%doc)
       end if
-      if (size(keyword%options) > 0 .and. markdown) then
-         call append_block(lines, '| option | meaning | default |')
-         call append_string(lines, '|---|---|---|')
-      else if (size(keyword%options) > 0) then
-         call append_block(lines, 'Options')
-      end if
+      if (size(keyword%options) > 0) call append_block(lines, trim(merge('Options:', 'Options ', markdown)))
+      if (size(keyword%options) > 0 .and. markdown) call append_string(lines, '')
       do i = 1, size(keyword%options)
          call append_option(lines, keyword%options(i), markdown)
       end do
@@ -178,20 +174,18 @@ contains
    subroutine append_option(lines, option, markdown)
       type(string_t), allocatable, intent(inout) :: lines(:)
       type(option_spec_t), intent(in) :: option
-      logical, intent(in) :: markdown                  !< the default has a column of its own
-      character(len=:), allocatable :: text, default
+      logical, intent(in) :: markdown
+      character(len=:), allocatable :: text
 
-      default = option%default
-      if (option%required) default = 'required'
       text = with_dimension(option%doc, option%dimension)
       if (size(option%choices) > 0) text = text//': '//choices_text(option%choices)
-      if (len(option%default) > 0 .and. .not. markdown) text = text//'; default '//option%default
+      if (len(option%default) > 0) text = text//'; default '//option%default
       if (len(option%needs) > 0) text = text//'; goes with '//option%needs
-      if (option%required .and. .not. markdown) text = text//' (required)'
+      if (option%required) text = text//' (required)'
       if (.not. option%built) text = text//' (not built yet)'
-      if (option%harmless) text = text//' (no effect, a note)'
+      if (option%harmless) text = text//trim(merge(' (ignored)          ', ' (no effect, a note)', markdown))
       if (markdown) then
-         call append_string(lines, '| '//escaped(option_text_of(option))//' | '//escaped(text)//' | '//default//' |')
+         call append_string(lines, '- `'//option_text_of(option)//'`: '//escaped(text))
       else
          call append_entry(lines, option_text_of(option), text)
       end if
@@ -211,7 +205,7 @@ contains
       if (markdown) then
          if (form%harmless) title = title//' (no effect)'
          call append_string(lines, escaped(title)//':')
-         call append_string(lines, '`'//form_text(form)//'`')
+         call append_string(lines, '`'//form_text(form, names_only=.true.)//'`')
          call append_string(lines, '')
       else
          if (form%harmless) title = title//', no effect'

@@ -18,16 +18,24 @@ module atrito_keyword_text
 
 contains
 
-   !> The items of a data line: `id, x [L], y [L]`.
-   pure function form_text(form) result(text)
+   !> The items of a data line: `id, x [L], y [L]`; without dimensions and what may be left out: `id, x, y`.
+   pure function form_text(form, names_only) result(text)
       type(form_t), intent(in) :: form
+      logical, intent(in), optional :: names_only
       character(len=:), allocatable :: text
+      logical :: short
       integer :: i
 
+      short = .false.
+      if (present(names_only)) short = names_only
       text = form%word
       do i = 1, size(form%items)
          if (form%items(i)%harmless) cycle
          if (len(text) > 0) text = text//', '
+         if (short) then
+            text = text//form%items(i)%name
+            cycle
+         end if
          text = text//with_dimension(form%items(i)%name, form%items(i)%dimension)
          if (.not. form%items(i)%required) text = text//' (may be left out)'
       end do
@@ -52,11 +60,13 @@ contains
       text = item%doc
       if (size(item%choices) > 0) then
          text = text//': '//choices_text(item%choices)
+      else if (len(item%dimension) > 0) then            ! that is a real
+         text = with_dimension(text, item%dimension)
       else
-         text = text//'; '//with_dimension(trim(WORDS(item%kind)), item%dimension)
+         text = text//'; '//trim(WORDS(item%kind))
       end if
       if (len(item%default) > 0) text = text//'; default '//item%default
-      if (.not. item%required .and. len(item%default) == 0 .and. .not. item%harmless) text = text//'; may be left out'
+      if (.not. item%required .and. len(item%default) == 0 .and. .not. item%harmless) text = text//'; optional'
       if (item%harmless) text = text//'; no effect'
    end function item_meaning
 

@@ -21,7 +21,7 @@ module atrito_build_lines
    use atrito_number_list, only: number_list_t, add_number, add_numbers, numbers_of
    use atrito_numbers, only: read_integer, NUMBER_OK
    use atrito_references, only: get_id, find_one_node, find_nodes
-   use atrito_refined_members, only: fine_elements, is_on_side
+   use atrito_refined_members, only: face_on_side, fine_elements
    use atrito_sets, only: find_set, grow_set, members_of
    use atrito_strings, only: to_text
    use atrito_turned_elements, only: turned_nodes
@@ -332,12 +332,13 @@ contains
       type(build_context_t), intent(in) :: context
       type(face_list_t), intent(inout) :: faces
       integer(ip), allocatable :: pieces(:)
-      integer(ip) :: i, k
+      integer(ip) :: i, k, own
 
       do i = 1, coarse%n
          pieces = fine_elements(context%refinement, coarse%element(i:i))
          do k = 1, size(pieces, kind=ip)
-            if (is_on_side(context%refinement, pieces(k), coarse%face(i))) call add_face(faces, pieces(k), coarse%face(i))
+            own = face_on_side(context%refinement, pieces(k), coarse%face(i))
+            if (own > 0) call add_face(faces, pieces(k), own)
          end do
       end do
    end subroutine put_fine_faces

@@ -19,7 +19,7 @@ module atrito_build_surfaces
    use atrito_numbers, only: read_integer
    use atrito_ranges, only: numbers_among
    use atrito_references, only: find_elements, check_faces
-   use atrito_refined_members, only: fine_elements, is_on_side
+   use atrito_refined_members, only: face_on_side, fine_elements
    use atrito_refinement, only: is_refined
    use atrito_sets, only: set_t, find_set, member_count, members_of
    use atrito_sorting, only: each_once
@@ -99,7 +99,7 @@ contains
       subroutine put_faces(name, face, pieces)
          character(len=*), intent(in) :: name          !< of the surface
          integer(ip), intent(in) :: face, pieces(:)
-         integer(ip) :: k, s
+         integer(ip) :: k, own, s
 
          s = find_name(context%surface_names, name)
          if (s == 0) then
@@ -107,9 +107,10 @@ contains
             s = context%surface_names%n
          end if
          do k = 1, size(pieces, kind=ip)
-            if (.not. is_on_side(context%refinement, pieces(k), face)) cycle
-            if (is_outer_face(context%model%mesh, context%around, pieces(k), face)) call add_face(context%model%surfaces(s)%faces, &
-                                                                                                  pieces(k), face)
+            own = face_on_side(context%refinement, pieces(k), face)
+            if (own == 0) cycle
+            if (is_outer_face(context%model%mesh, context%around, pieces(k), own)) call add_face(context%model%surfaces(s)%faces, &
+                                                                                                 pieces(k), own)
          end do
       end subroutine put_faces
 
@@ -163,7 +164,7 @@ contains
       character(len=:), allocatable :: name, word
       type(number_list_t) :: inside
       integer(ip), allocatable :: elements(:)
-      integer(ip) :: face, i_set, i
+      integer(ip) :: face, own, i_set, i
       integer :: outcome
 
       token = line_item(context%deck, line, 1_ip)
@@ -195,10 +196,11 @@ contains
          return
       end if
       do i = 1, size(elements, kind=ip)
-         if (.not. is_on_side(context%refinement, elements(i), face)) cycle
+         own = face_on_side(context%refinement, elements(i), face)
+         if (own == 0) cycle
          ok = is_cut
-         if (.not. ok) ok = is_outer_face(context%model%mesh, context%around, elements(i), face)
-         if (ok) call add_face(faces, elements(i), face)
+         if (.not. ok) ok = is_outer_face(context%model%mesh, context%around, elements(i), own)
+         if (ok) call add_face(faces, elements(i), own)
          if (.not. ok) call add_number(inside, context%model%mesh%element_id(elements(i)))
       end do
       ok = inside%n == 0

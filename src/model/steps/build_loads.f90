@@ -18,7 +18,7 @@ module atrito_build_loads
    use atrito_propagation, only: is_of_step, removes_all, propagate, list_inherited, apply_condition, set_to_zero, warn_of_replaced
    use atrito_read_load, only: read_face_function, read_face_load, read_direction, read_spin, has_no_rest, magnitude_of
    use atrito_references, only: find_nodes, find_elements, find_surface, check_faces
-   use atrito_refined_members, only: is_on_side
+   use atrito_refined_members, only: face_on_side
    use atrito_refinement, only: is_refined
    use atrito_row_dofs, only: has_no_unknowns, WHAT_DOF, AT_REFERENCE
    use atrito_sources, only: open_source
@@ -276,15 +276,16 @@ contains
       type(condition_t), intent(inout) :: load
       real(wp), intent(in) :: value(3)
       type(number_list_t) :: inside
-      integer(ip) :: i
+      integer(ip) :: face, i
       integer :: outcome
       logical :: ok
 
-      call read_integer(digit, load%face, outcome)
-      call check_faces(context, line_token(context, 2_ip), elements, load%face, 'DLOAD', ok)
+      call read_integer(digit, face, outcome)
+      call check_faces(context, line_token(context, 2_ip), elements, face, 'DLOAD', ok)
       if (.not. ok) return
       do i = 1, size(elements, kind=ip)
-         if (.not. is_on_side(context%refinement, elements(i), load%face)) cycle
+         load%face = face_on_side(context%refinement, elements(i), face)
+         if (load%face == 0) cycle
          call add_load(context, load, elements(i), value)
          if (.not. is_outer_face(context%model%mesh, context%around, elements(i), load%face)) then
             call add_number(inside, context%model%mesh%element_id(elements(i)))

@@ -19,6 +19,7 @@ module atrito_controls
       integer(ip) :: starts = 0                     !< of a search for other solutions; 0: none is looked for
       logical :: is_coarse = .false.                !< bound_qp_t%is_coarse: states that round-off turns to and fro
       real(wp) :: most_entries = huge(1.0_wp)       !< of C to go through, over all linear solves, before it is given up
+      integer(ip) :: most_factorisations = huge(1_ip) !< of the sparse form, before it is given up
       logical :: is_rung = .false.                  !< tried before without a solution: the increment before is no start
       logical :: logs_solves = .false.              !< the states and forces of every linear solve are kept
    end type controls_t

@@ -260,6 +260,7 @@ module atrito_model
       type(instance_t), allocatable :: instances(:)
       type(mesh_t) :: mesh
       integer(ip) :: levels = 0                     !< of --refine: each element of the deck is 4**levels of the mesh
+      integer(ip) :: n_cut = 0                      !< elements of the deck that are cut where the error is
       type(set_list_t) :: node_sets, element_sets
       type(material_t), allocatable :: materials(:)
       type(section_t), allocatable :: sections(:)

@@ -17,6 +17,7 @@ module atrito_stability_result
       real(wp) :: displacement = 0.0_wp             !< that is watched [L]; nan without a run
       integer(ip) :: iterations = 0, solves = 0     !< outer iterations and linear solves of the run
       integer(ip) :: factorisations = 0             !< of bodies
+      real(wp) :: large(3) = 0.0_wp                 !< strain, rotation and slip beyond what a linear theory knows; 0: within
       real(wp), allocatable :: observed(:)          !< not allocated: no run was made
    end type stability_value_t
 
@@ -37,6 +38,7 @@ module atrito_stability_result
       real(wp) :: stands = 0.0_wp, falls = 0.0_wp   !< the limit lies between them
       real(wp) :: balanced = 0.0_wp                 !< nearest to `falls` whose loads can be balanced
       logical :: is_close = .false.                 !< they are as close as the tolerance asks
+      character(len=:), allocatable :: gaps         !< which points count in the balance although they are apart; '': none
       type(stability_value_t), allocatable :: values(:) !< in their order
       type(string_t), allocatable :: observed(:)    !< names of what is
       type(collapse_t) :: collapse                  !< at `falls`

@@ -1,4 +1,4 @@
-# check.sh ATRITO CASE_FOLDER INPUT_FOLDER ERROR_NORMS: prints the tables of docs/verification/convergence.md, and asserts the orders.
+# check.sh ATRITO CASE_FOLDER INPUT_FOLDER ERROR_NORMS: prints the numbers of docs/verification/convergence.md, and asserts the orders.
 . "$(dirname "$0")/../lib.sh"
 errors=$4
 mesh=$here/../mesh.awk

@@ -7,7 +7,7 @@ hertz() {
       END { pi = atan2(0, -1); a = sqrt(4*q*10/(pi*210000/0.91/2)); printf "%.17g", middle/(2*q/(pi*a)) - 1 }' "$1/contact.tab"
 }
 
-# the worked example of docs/user/gmsh.md
+# the worked example of docs/user/meshes.md
 run 0 "$input/gmsh/disk-on-block.inp" disk --digits 17 --quiet
 near "disk: p(0)/p0 - 1" "$(hertz disk)" 0 0.01
 near "disk: the load" "$(summary disk normal_resultant)" 500 1e-6

@@ -1,4 +1,4 @@
-# check.sh ATRITO CASE_FOLDER INPUT_FOLDER ERROR_NORMS: prints the tables of docs/verification/locking.md.
+# check.sh ATRITO CASE_FOLDER INPUT_FOLDER ERROR_NORMS: prints the numbers of docs/verification/locking.md.
 . "$(dirname "$0")/../lib.sh"
 errors=$4
 mesh=$here/../mesh.awk

@@ -1,0 +1,187 @@
+!> --adapt P: the mesh is cut where the error is, and the deck solved again, until the error is at most P percent.
+!>
+!> Of the squares of the elements' errors the largest are taken that make up half of the sum (W. Doerfler, SIAM J. Numer. Anal. 33,
+!> 1996); their leaves are cut (atrito_element_trees).
+module atrito_adaptation
+   use atrito_command_line, only: command_t
+   use atrito_element_trees, only: count_leaves, cut_leaves, element_trees_t
+   use atrito_kinds, only: ip, lp, wp
+   use atrito_memory, only: available_memory, held_memory
+   use atrito_model, only: model_t
+   use atrito_model_memory, only: most_nodes
+   use atrito_results, only: history_t, results_t, view_frame
+   use atrito_sorting, only: order_key, sorted_places
+   use atrito_strings, only: to_text
+   use atrito_system, only: processor_seconds
+   use atrito_table, only: table_t, add_integers, add_reals, begin_table
+   implicit none (type, external)
+   private
+   public :: adaptation_t, adapted_mesh_t, begin_adaptation, follow_error, build_adaptation, adaptation_text, missed_text
+
+   real(wp), parameter :: BULK = 0.5_wp              !< of the sum of squares, that of the elements which are cut ...
+   real(wp), parameter :: LEAST_BULK = 0.1_wp        !< ... less where less is enough: cut in four they have some quarter of it left
+   real(wp), parameter :: ENOUGH = 2.0_wp            !< over what has to go of the sum of squares
+   real(wp), parameter :: ALIKE = 1.0e-6_wp          !< errors that differ by less are cut together: symmetric meshes stay so
+   integer, parameter :: PATIENCE = 4                !< meshes, one after the other, ...
+   real(wp), parameter :: PROGRESS = 0.97_wp         !< ... over which the error has to fall by this factor
+   real(wp), parameter :: MEMORY_GROWTH = 1.2_wp     !< memory goes with this power of the number of nodes, at the most
+
+   !> A mesh that was solved.
+   type :: adapted_mesh_t
+      integer(ip) :: n_elements = 0, n_dofs = 0, n_solves = 0
+      real(wp) :: percent = 0.0_wp                   !< of the error
+      real(wp) :: seconds(2) = 0.0_wp                !< wall clock and processor, from the beginning of the run
+   end type adapted_mesh_t
+
+   type :: adaptation_t
+      real(wp) :: target = 0.0_wp                    !< percent; 0: the mesh stays as it is
+      type(element_trees_t) :: trees
+      type(adapted_mesh_t), allocatable :: meshes(:)
+      character(len=:), allocatable :: why           !< the error is larger than it was to be; not allocated: it is not
+      integer(lp) :: began = 0
+      real(wp) :: processor = 0.0_wp                 !< seconds at the beginning
+   end type adaptation_t
+
+contains
+
+   subroutine begin_adaptation(command, adaptation)
+      type(command_t), intent(in) :: command
+      type(adaptation_t), intent(out) :: adaptation
+
+      adaptation%target = command%adapt
+      allocate (adaptation%meshes(0))
+      call system_clock(adaptation%began)
+      adaptation%processor = processor_seconds()
+   end subroutine begin_adaptation
+
+   !> Whose error is followed, in one place: the square of each element's share, and the error of the whole [%].
+   pure subroutine fetch_errors(results, squares, percent)
+      type(results_t), intent(in) :: results
+      real(wp), allocatable, intent(out) :: squares(:) !< (n_elements)
+      real(wp), intent(out) :: percent
+
+      squares = results%element_error**2
+      percent = results%error_estimate
+   end subroutine fetch_errors
+
+   !> Notes what was found on a mesh, and cuts it for the next one: of a history where the printed increment with the largest error
+   !> has it. goes_on: there is to be a next one.
+   subroutine follow_error(model, history, adaptation, goes_on)
+      type(model_t), intent(in) :: model
+      type(history_t), intent(in), target :: history !< with frames
+      type(adaptation_t), intent(inout) :: adaptation
+      logical, intent(out) :: goes_on
+      type(adapted_mesh_t) :: mesh
+      real(wp), allocatable :: squares(:)
+      type(results_t), pointer :: results
+      integer(lp) :: now, rate
+
+      call view_frame(history, maxloc(history%frames%error_estimate, dim=1, kind=ip), results)
+      call fetch_errors(results, squares, mesh%percent)
+      mesh%n_elements = model%mesh%n_elements
+      mesh%n_dofs = results%scene%n_dofs
+      mesh%n_solves = size(history%iterations, kind=ip)
+      call system_clock(now, rate)
+      mesh%seconds = [real(now - adaptation%began, wp)/real(rate, wp), processor_seconds() - adaptation%processor]
+      adaptation%meshes = [adaptation%meshes, mesh]
+      goes_on = mesh%percent > adaptation%target
+      if (.not. goes_on) return
+      call cut_where_errors_are(squares, min(BULK, max(LEAST_BULK, ENOUGH*(1 - (adaptation%target/mesh%percent)**2))), &
+                                adaptation%trees)
+      call look_for_limit(model, results, adaptation)
+      goes_on = .not. allocated(adaptation%why)
+   end subroutine follow_error
+
+   !> Cuts the leaves with the largest errors.
+   pure subroutine cut_where_errors_are(squares, part, trees)
+      real(wp), intent(in) :: squares(:)             !< of the elements of the mesh
+      real(wp), intent(in) :: part                   !< of the sum of squares, that they have together
+      type(element_trees_t), intent(inout) :: trees
+      real(wp) :: of_leaf(trees%n), total
+      integer(ip) :: order(trees%n), e, n
+
+      of_leaf = 0.0_wp
+      do e = 1, size(squares, kind=ip)
+         of_leaf(trees%leaf_of(e)) = of_leaf(trees%leaf_of(e)) + squares(e)
+      end do
+      order = sorted_places(order_key(-of_leaf))
+      total = 0.0_wp
+      do n = 1, trees%n
+         total = total + of_leaf(order(n))
+         if (total >= part*sum(of_leaf)) exit
+      end do
+      do while (n < trees%n)
+         if (of_leaf(order(n + 1)) < (1 - ALIKE)*of_leaf(order(n))) exit
+         n = n + 1
+      end do
+      call cut_leaves(order(:n), trees)
+   end subroutine cut_where_errors_are
+
+   !> Whether the next mesh is not to be made: why.
+   subroutine look_for_limit(model, results, adaptation)
+      type(model_t), intent(in) :: model
+      type(results_t), intent(in) :: results
+      type(adaptation_t), intent(inout) :: adaptation
+      real(wp) :: growth, nodes, memory
+      integer :: n
+
+      n = size(adaptation%meshes)
+      associate (before => model%mesh%n_elements, after => count_leaves(adaptation%trees), meshes => adaptation%meshes)
+         growth = max(real(after, wp)/real(before, wp), 1.0_wp)
+         nodes = growth*real(model%mesh%n_nodes, wp)
+         memory = real(results%scene%memory, wp)*growth**MEMORY_GROWTH
+         if (n > PATIENCE) then
+            if (meshes(n)%percent > PROGRESS*meshes(n - PATIENCE)%percent) adaptation%why = &
+               'over the last '//to_text(int(PATIENCE, ip))// &
+               ' meshes it has not become smaller, as where a single node is held or loaded'
+         end if
+         if (nodes > real(most_nodes(), wp)) then
+            adaptation%why = 'the next mesh would have more than '//to_text(most_nodes())//' nodes'
+         else if (memory > real(available_memory() + held_memory(), wp)) then
+            adaptation%why = 'the next mesh would need more memory than there is'
+         end if
+      end associate
+   end subroutine look_for_limit
+
+   !> adapt.tab.
+   subroutine build_adaptation(adaptation, table)
+      type(adaptation_t), intent(in) :: adaptation
+      type(table_t), intent(out) :: table
+      integer(ip) :: i, n
+
+      associate (meshes => adaptation%meshes)
+         n = size(meshes, kind=ip)
+         call begin_table(table, 'adapt', 'a row a mesh; seconds from the beginning of the run', n)
+         call add_integers(table, 'mesh', [(i, i=1, n)])
+         call add_integers(table, 'elements', meshes%n_elements)
+         call add_integers(table, 'dofs', meshes%n_dofs)
+         call add_reals(table, 'error_estimate_percent', '%', meshes%percent, 0.0_wp)
+         call add_integers(table, 'linear_solves', meshes%n_solves)
+         call add_reals(table, 'total_wall', 's', meshes%seconds(1), 0.0_wp)
+         call add_reals(table, 'total_cpu', 's', meshes%seconds(2), 0.0_wp)
+      end associate
+   end subroutine build_adaptation
+
+   !> `7 meshes, from 111 to 2350 elements; error 18.6 to 4.9 %`
+   function adaptation_text(adaptation) result(text)
+      type(adaptation_t), intent(in) :: adaptation
+      character(len=:), allocatable :: text
+
+      associate (n => size(adaptation%meshes), meshes => adaptation%meshes)
+         text = to_text(int(n, ip))//' meshes, from '//to_text(meshes(1)%n_elements)//' to '//to_text(meshes(n)%n_elements)// &
+                ' elements; error '//to_text(meshes(1)%percent, 3)//' to '//to_text(meshes(n)%percent, 3)//' %'
+      end associate
+   end function adaptation_text
+
+   !> Why the run ends with a larger error than it was to have.
+   function missed_text(adaptation) result(text)
+      type(adaptation_t), intent(in) :: adaptation   !< with `why`
+      character(len=:), allocatable :: text
+
+      associate (n => size(adaptation%meshes))
+         text = 'the estimated error is '//to_text(adaptation%meshes(n)%percent, 3)//' %, not '//to_text(adaptation%target, 3)// &
+                ' % as --adapt asks: '//adaptation%why//'; the last mesh is written'
+      end associate
+   end function missed_text
+
+end module atrito_adaptation

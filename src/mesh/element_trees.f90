@@ -1,0 +1,297 @@
+!> Elements of the deck cut where that is asked for, their parts again, and so on: trees, whose leaves are what the mesh is made of
+!> (atrito_cut_mesh).
+!>
+!> A quadrilateral is cut into four. A leaf beside a finer one has a node of that in the middle of a side: leaves are cut besides
+!> until none has a side cut twice, and none more than two such nodes. It gets pieces then that need no node in the middle of a
+!> side, which are no leaves, so that they are never cut themselves.
+!>
+!> A triangle is cut in two, from its newest vertex to the middle of the side opposite (W. F. Mitchell, ACM Trans. Math. Softw. 15,
+!> 1989), first of its longest; its neighbours are cut until no node lies in the middle of a side.
+!>
+!> Sides that belong together though each has its own nodes (the two of a contact pair that match, ties, equations of two nodes)
+!> have the same corners here, so that they are cut alike.
+module atrito_element_trees
+   use atrito_growth, only: make_room, resize
+   use atrito_kinds, only: ip, wp
+   use atrito_mesh, only: mesh_t, side_count
+   implicit none (type, external)
+   private
+   public :: element_trees_t, begin_trees, cut_all, cut_cell, cut_leaves, count_leaves, is_side_cut, leaf_corners, list_leaves
+   public :: part_count
+   public :: SIDE, MOST_CUTS
+
+   integer(ip), parameter :: SIDE = 2_ip**28          !< of an element of the deck, by which places in it are counted
+   integer(ip), parameter :: MOST_CUTS = 22           !< of an element into four: middles of pieces still are whole numbers
+   real(wp), parameter :: ALIKE = 1.0e-9_wp           !< lengths that differ by less, relatively, are the same
+   !> Places of the corners of elements.
+   integer(ip), parameter :: SQUARE(2, 4) = SIDE*reshape([integer(ip) :: 0, 0, 1, 0, 1, 1, 0, 1], [2, 4])
+   integer(ip), parameter :: TRIANGLE(2, 4) = SIDE*reshape([integer(ip) :: 0, 0, 1, 0, 0, 1, 0, 0], [2, 4])
+
+   !> The cells: elements of the deck in their order, then their parts.
+   type :: element_trees_t
+      integer(ip) :: n = 0                            !< cells; 0: there are no trees
+      integer(ip) :: n_roots = 0                      !< elements of the deck
+      integer(ip), allocatable :: root_id(:)          !< their numbers
+      integer(ip), allocatable :: first_child(:)      !< of four, or two of a triangle; 0: a leaf
+      integer(ip), allocatable :: root(:)             !< element of the deck
+      integer(ip), allocatable :: place(:, :, :)      !< (2, 4, cells) of corners, along the sides 1-2 and 1-4 (1-3) of the root
+      integer(ip), allocatable :: corner(:, :)        !< (4, cells) vertices; of triangles the third is the newest, the fourth 0
+      integer(ip) :: n_vertices = 0
+      integer(ip) :: n_edges = 0
+      integer(ip), allocatable :: first_edge(:)       !< of a vertex: to others of greater number; 0: none
+      integer(ip), allocatable :: edge_end(:), edge_middle(:), next_edge(:)  !< the other end, the vertex in its middle or 0
+      integer(ip), allocatable :: leaf_of(:)          !< leaf of each element of the present mesh, set where that is made
+   end type element_trees_t
+
+contains
+
+   !> The elements of the deck, none of which is cut.
+   pure subroutine begin_trees(mesh, partner, trees)
+      type(mesh_t), intent(in) :: mesh
+      integer(ip), intent(in) :: partner(:)           !< of each node: itself, or the node with which it is one vertex
+      type(element_trees_t), intent(out) :: trees
+      integer(ip) :: e, n
+
+      trees%n_roots = mesh%n_elements
+      trees%root_id = mesh%element_id(:mesh%n_elements)
+      trees%n_vertices = mesh%n_nodes
+      allocate (trees%first_edge(mesh%n_nodes), source=0_ip)
+      associate (n => mesh%n_elements)
+         allocate (trees%first_child(n), trees%root(n), trees%place(2, 4, n), trees%corner(4, n))
+      end associate
+      do e = 1, mesh%n_elements
+         if (side_count(mesh, e) == 4) then
+            call add_cell(e, SQUARE, partner(mesh%nodes(:4, e)), trees)
+         else
+            n = longest_side(mesh, partner, e)
+            call add_cell(e, reshape([cshift(TRIANGLE(:, :3), n - 1, dim=2), 0_ip, 0_ip], [2, 4]), &
+                          [cshift(partner(mesh%nodes(:3, e)), n - 1), 0_ip], trees)
+         end if
+      end do
+   end subroutine begin_trees
+
+   !> The longest side of a triangle; of some as long the one of the least vertices, so that two neighbours agree.
+   pure integer(ip) function longest_side(mesh, partner, e) result(longest)
+      type(mesh_t), intent(in) :: mesh
+      integer(ip), intent(in) :: partner(:), e
+      real(wp) :: length(3)
+      integer(ip) :: ends(2, 3), i
+
+      do i = 1, 3
+         associate (a => mesh%nodes(i, e), b => mesh%nodes(mod(i, 3_ip) + 1, e))
+            length(i) = norm2(mesh%x(:, b) - mesh%x(:, a))
+            ends(:, i) = [min(partner(a), partner(b)), max(partner(a), partner(b))]
+         end associate
+      end do
+      longest = 1
+      do i = 2, 3
+         if (length(i) < (1 - ALIKE)*length(longest)) cycle
+         if (length(i) > (1 + ALIKE)*length(longest) .or. ends(1, i) < ends(1, longest) .or. &
+             (ends(1, i) == ends(1, longest) .and. ends(2, i) < ends(2, longest))) longest = i
+      end do
+   end function longest_side
+
+   pure subroutine add_cell(root, place, corner, trees)
+      integer(ip), intent(in) :: root, place(2, 4), corner(4)
+      type(element_trees_t), intent(inout) :: trees
+      integer(ip), allocatable :: longer(:, :, :)
+      integer(ip) :: n
+
+      n = trees%n + 1
+      if (n > size(trees%root)) then
+         call resize(trees%first_child, trees%n, 2*n)
+         call resize(trees%root, trees%n, 2*n)
+         call resize(trees%corner, trees%n, 2*n)
+         allocate (longer(2, 4, 2*n))
+         longer(:, :, :trees%n) = trees%place(:, :, :trees%n)
+         call move_alloc(longer, trees%place)
+      end if
+      trees%n = n
+      trees%first_child(n) = 0
+      trees%root(n) = root
+      trees%place(:, :, n) = place
+      trees%corner(:, n) = corner
+   end subroutine add_cell
+
+   !> Cuts some leaves into four, and those that have to be cut with them. Leaves that are too small stay.
+   pure subroutine cut_leaves(leaves, trees)
+      integer(ip), intent(in) :: leaves(:)
+      type(element_trees_t), intent(inout) :: trees
+      integer(ip) :: i, n
+
+      do i = 1, size(leaves, kind=ip)
+         call cut_cell(leaves(i), trees)
+         if (corner_count(trees, leaves(i)) == 4 .or. trees%first_child(leaves(i)) == 0) cycle
+         call cut_cell(trees%first_child(leaves(i)), trees)
+         call cut_cell(trees%first_child(leaves(i)) + 1, trees)
+      end do
+      do
+         n = trees%n
+         do i = 1, n
+            if (trees%first_child(i) > 0) cycle
+            if (has_to_be_cut(trees, i)) call cut_cell(i, trees)
+         end do
+         if (trees%n == n) exit
+      end do
+   end subroutine cut_leaves
+
+   !> Cuts all leaves, so many times.
+   pure subroutine cut_all(times, trees)
+      integer(ip), intent(in) :: times
+      type(element_trees_t), intent(inout) :: trees
+      integer(ip) :: i
+
+      do i = 1, times
+         call cut_leaves(list_leaves(trees), trees)
+      end do
+   end subroutine cut_all
+
+   pure function list_leaves(trees) result(leaves)
+      type(element_trees_t), intent(in) :: trees
+      integer(ip), allocatable :: leaves(:)
+      integer(ip) :: i
+
+      leaves = pack([(i, i=1, trees%n)], trees%first_child(:trees%n) == 0)
+   end function list_leaves
+
+   pure integer(ip) function count_leaves(trees) result(n)
+      type(element_trees_t), intent(in) :: trees
+
+      n = count(trees%first_child(:trees%n) == 0, kind=ip)
+   end function count_leaves
+
+   !> Whether a triangle has a side that is cut; a quadrilateral one of which a half is cut, or more than its pieces can do with.
+   pure logical function has_to_be_cut(trees, cell) result(has)
+      type(element_trees_t), intent(in) :: trees
+      integer(ip), intent(in) :: cell
+      integer(ip) :: i, n, middle, n_cut
+      integer(ip) :: ends(2)
+
+      n = corner_count(trees, cell)
+      n_cut = 0
+      has = .false.
+      do i = 1, n
+         ends = trees%corner([i, mod(i, n) + 1], cell)
+         middle = middle_of(trees, ends(1), ends(2))
+         if (middle == 0) cycle
+         n_cut = n_cut + 1
+         has = has .or. middle_of(trees, ends(1), middle) > 0 .or. middle_of(trees, middle, ends(2)) > 0
+      end do
+      has = has .or. n_cut > merge(0, 2, n == 3)
+   end function has_to_be_cut
+
+   !> Four of one, or two of a triangle, whatever is beside it. One that is cut stays as it is.
+   pure subroutine cut_cell(cell, trees)
+      integer(ip), intent(in) :: cell
+      type(element_trees_t), intent(inout) :: trees
+      integer(ip) :: m(5), v(4), p(2, 4), q(2, 5), n, i, root
+
+      p = trees%place(:, :, cell)
+      n = corner_count(trees, cell)
+      if (trees%first_child(cell) > 0 .or. maxval(abs(p(:, 2:n) - p(:, :n - 1))) <= SIDE/2**MOST_CUTS) return
+      v = trees%corner(:, cell)
+      root = trees%root(cell)
+      do i = 1, merge(1_ip, 4_ip, n == 3)
+         call need_middle(v(i), v(mod(i, n) + 1), trees, m(i))
+         q(:, i) = (p(:, i) + p(:, mod(i, n) + 1))/2
+      end do
+      trees%first_child(cell) = trees%n + 1
+      if (n == 3) then
+         call add_cell(root, reshape([p(:, 3), p(:, 1), q(:, 1), 0_ip, 0_ip], [2, 4]), [v(3), v(1), m(1), 0_ip], trees)
+         call add_cell(root, reshape([p(:, 2), p(:, 3), q(:, 1), 0_ip, 0_ip], [2, 4]), [v(2), v(3), m(1), 0_ip], trees)
+      else
+         call add_vertex(trees, m(5))
+         q(:, 5) = (p(:, 1) + p(:, 3))/2
+         call add_cell(root, reshape([p(:, 1), q(:, 1), q(:, 5), q(:, 4)], [2, 4]), [v(1), m(1), m(5), m(4)], trees)
+         call add_cell(root, reshape([q(:, 1), p(:, 2), q(:, 2), q(:, 5)], [2, 4]), [m(1), v(2), m(2), m(5)], trees)
+         call add_cell(root, reshape([q(:, 5), q(:, 2), p(:, 3), q(:, 3)], [2, 4]), [m(5), m(2), v(3), m(3)], trees)
+         call add_cell(root, reshape([q(:, 4), q(:, 5), q(:, 3), p(:, 4)], [2, 4]), [m(4), m(5), m(3), v(4)], trees)
+      end if
+   end subroutine cut_cell
+
+   pure integer(ip) function corner_count(trees, cell) result(n)
+      type(element_trees_t), intent(in) :: trees
+      integer(ip), intent(in) :: cell
+
+      n = merge(3_ip, 4_ip, trees%corner(4, cell) == 0)
+   end function corner_count
+
+   !> Into how many a cell is cut.
+   pure integer(ip) function part_count(trees, cell) result(n)
+      type(element_trees_t), intent(in) :: trees
+      integer(ip), intent(in) :: cell
+
+      n = merge(2_ip, 4_ip, corner_count(trees, cell) == 3)
+   end function part_count
+
+   !> Places of the corners of a cell in its root.
+   pure function leaf_corners(trees, cell) result(places)
+      type(element_trees_t), intent(in) :: trees
+      integer(ip), intent(in) :: cell
+      integer(ip), allocatable :: places(:, :)        !< (2, 3 or 4)
+
+      places = trees%place(:, :corner_count(trees, cell), cell)
+   end function leaf_corners
+
+   !> Whether there is a node in the middle of a side.
+   pure logical function is_side_cut(trees, cell, side)
+      type(element_trees_t), intent(in) :: trees
+      integer(ip), intent(in) :: cell, side
+
+      is_side_cut = middle_of(trees, trees%corner(side, cell), trees%corner(mod(side, corner_count(trees, cell)) + 1, cell)) > 0
+   end function is_side_cut
+
+   !> The vertex between two; 0: there is none.
+   pure integer(ip) function middle_of(trees, a, b) result(middle)
+      type(element_trees_t), intent(in) :: trees
+      integer(ip), intent(in) :: a, b
+      integer(ip) :: edge
+
+      middle = 0
+      edge = edge_between(trees, a, b)
+      if (edge > 0) middle = trees%edge_middle(edge)
+   end function middle_of
+
+   pure integer(ip) function edge_between(trees, a, b) result(edge)
+      type(element_trees_t), intent(in) :: trees
+      integer(ip), intent(in) :: a, b
+
+      edge = trees%first_edge(min(a, b))
+      do while (edge > 0)
+         if (trees%edge_end(edge) == max(a, b)) return
+         edge = trees%next_edge(edge)
+      end do
+   end function edge_between
+
+   !> The same, made where there is none.
+   pure subroutine need_middle(a, b, trees, middle)
+      integer(ip), intent(in) :: a, b
+      type(element_trees_t), intent(inout) :: trees
+      integer(ip), intent(out) :: middle
+      integer(ip) :: n
+
+      middle = middle_of(trees, a, b)
+      if (middle > 0) return
+      call add_vertex(trees, middle)
+      n = trees%n_edges + 1
+      call make_room(trees%edge_end, trees%n_edges, n)
+      call make_room(trees%edge_middle, trees%n_edges, n)
+      call make_room(trees%next_edge, trees%n_edges, n)
+      trees%n_edges = n
+      trees%edge_end(n) = max(a, b)
+      trees%edge_middle(n) = middle
+      trees%next_edge(n) = trees%first_edge(min(a, b))
+      trees%first_edge(min(a, b)) = n
+   end subroutine need_middle
+
+   pure subroutine add_vertex(trees, vertex)
+      type(element_trees_t), intent(inout) :: trees
+      integer(ip), intent(out) :: vertex
+
+      vertex = trees%n_vertices + 1
+      call make_room(trees%first_edge, trees%n_vertices, vertex)
+      trees%first_edge(vertex) = 0
+      trees%n_vertices = vertex
+   end subroutine add_vertex
+
+end module atrito_element_trees

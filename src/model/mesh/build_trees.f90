@@ -1,0 +1,126 @@
+!> *REFINE: which elements of the deck are cut, and how often. What it says is of the mesh of the deck, whatever --refine and
+!> --adapt do besides.
+module atrito_build_trees
+   use atrito_build_context, only: build_context_t
+   use atrito_deck, only: data_line_t, deck_t, keyword_name, line_item, token_t, token_text
+   use atrito_diagnostics, only: report_error
+   use atrito_element_trees, only: begin_trees, cut_all, cut_leaves, element_trees_t, list_leaves
+   use atrito_growing_text, only: growing_text_t, append_text
+   use atrito_kinds, only: ip
+   use atrito_numbers, only: read_integer, NUMBER_OK
+   use atrito_partner_nodes, only: partner_nodes
+   use atrito_references, only: find_elements
+   use atrito_strings, only: to_text
+   use atrito_tree_code, only: code_of_tree, is_code, take_code
+   implicit none (type, external)
+   private
+   public :: build_trees, card_of_trees, has_cuts
+
+   character(len=*), parameter :: KEYWORD = 'REFINE'
+   integer(ip), parameter :: MOST_TIMES = 12          !< as --refine
+   character(len=1), parameter :: NEW_LINE = achar(10)
+
+contains
+
+   !> Whether a deck cuts elements.
+   pure logical function has_cuts(deck)
+      type(deck_t), intent(in) :: deck
+      integer(ip) :: i
+
+      has_cuts = .false.
+      do i = 1, deck%n_cards
+         if (.not. has_cuts) has_cuts = keyword_name(deck%cards(i)) == KEYWORD
+      end do
+   end function has_cuts
+
+   !> The trees of a deck, and all leaves cut so many times more. The model is that of the deck's mesh.
+   subroutine build_trees(levels, context, trees)
+      integer(ip), intent(in) :: levels
+      type(build_context_t), intent(inout) :: context
+      type(element_trees_t), intent(out) :: trees
+      integer(ip) :: i, k
+
+      call begin_trees(context%model%mesh, partner_nodes(context%model), trees)
+      do i = 1, context%deck%n_cards
+         if (keyword_name(context%deck%cards(i)) /= KEYWORD) cycle
+         do k = context%deck%cards(i)%first_line, context%deck%cards(i)%first_line + context%deck%cards(i)%n_lines - 1
+            if (context%deck%lines(k)%ok) call read_line(context%deck%lines(k), context, trees)
+         end do
+      end do
+      call cut_leaves([integer(ip) ::], trees)        ! what has to be cut with them
+      call cut_all(levels, trees)
+   end subroutine build_trees
+
+   !> Element or set, and a number of times or a word.
+   subroutine read_line(line, context, trees)
+      type(data_line_t), intent(in) :: line
+      type(build_context_t), intent(inout) :: context
+      type(element_trees_t), intent(inout) :: trees
+      character(len=:), allocatable :: word
+      integer(ip), allocatable :: elements(:), leaves(:)
+      logical, allocatable :: is_named(:)
+      type(token_t) :: place
+      integer(ip) :: i, times
+      integer :: outcome
+      logical :: ok
+
+      call find_elements(context, line_item(context%deck, line, 1_ip), elements, ok, KEYWORD)
+      if (.not. ok) return
+      place = line_item(context%deck, line, 2_ip)
+      word = token_text(context%deck, place)
+      if (is_code(word)) then
+         do i = 1, size(elements, kind=ip)
+            call take_code(elements(i), word, trees)
+         end do
+         return
+      end if
+      call read_integer(word, times, outcome)
+      ok = outcome == NUMBER_OK
+      if (ok) ok = times >= 0 .and. times <= MOST_TIMES
+      if (.not. ok) then
+         call report_error(context%deck, place, 'E-VALUE', word//' does not say how elements are cut', expected= &
+                           'how often, 0 to '//to_text(MOST_TIMES)//', or letters C and L as --adapt writes them', keyword=KEYWORD)
+         return
+      end if
+      allocate (is_named(trees%n_roots), source=.false.)
+      is_named(elements) = .true.
+      do i = 1, times
+         leaves = list_leaves(trees)
+         call cut_leaves(pack(leaves, is_named(trees%root(leaves))), trees)
+      end do
+   end subroutine read_line
+
+   !> The card that cuts the elements of a deck in this way.
+   pure function card_of_trees(deck, trees) result(card)
+      type(deck_t), intent(in) :: deck
+      type(element_trees_t), intent(in) :: trees
+      character(len=:), allocatable :: card
+      type(growing_text_t) :: text
+      integer(ip) :: e
+
+      call append_text(text, '*'//KEYWORD//NEW_LINE)
+      do e = 1, trees%n_roots
+         if (trees%first_child(e) > 0) call append_text(text, name_of(trees%root_id(e))//', '//code_of_tree(trees, e)//NEW_LINE)
+      end do
+      card = text%letters(:text%n)
+
+   contains
+
+      !> The number of an element as it stands in the deck, with the instance that it is of.
+      pure function name_of(id) result(name)
+         integer(ip), intent(in) :: id
+         character(len=:), allocatable :: name
+         integer(ip) :: k
+
+         name = to_text(id)
+         if (.not. allocated(deck%scopes)) return
+         do k = 1, ubound(deck%scopes, 1, kind=ip)
+            associate (scope => deck%scopes(k))
+               if (id > scope%shift .and. id <= scope%shift + scope%span) name = scope%name//'.'//to_text(id - scope%shift)
+            end associate
+         end do
+      end function name_of
+
+   end function card_of_trees
+
+end module atrito_build_trees

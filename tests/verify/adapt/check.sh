@@ -1,0 +1,44 @@
+. "$(dirname "$0")/../lib.sh"
+# last FOLDER COLUMN: of its adapt.tab.
+last() {
+   column "$1/adapt.tab" "$2" | tail -1
+}
+# value_of LEVEL ELEMENT COLUMN of study.tab
+value_of() {
+   awk -v level="$1" -v element="$2" -v name="$3" '/^# columns:/ { for (i = 3; i <= NF; i++) c[$i] = i - 2; next }
+      !/^#/ && $1 == level && $2 == element { print $c[name] }' study/study.tab
+}
+# contact patch test
+awk '/^\*STEP/ { print "*REFINE\n4, 2\n13, 1" } { print }' "$here/../patch/patch.inp" >patch.inp
+run 0 patch.inp patch --digits 17 --quiet
+below 'points' 3 "$(grep -vc '^#' patch/contact.tab)"
+all_near 'pressure' patch/contact.tab pressure 100 1e-10
+all_near 's22' patch/stress.tab s22 -100 1e-10
+# example 1: the study has a run of --adapt, and meshes that are refined everywhere
+sed 's/CPE4/CPE3/' "$input/ex1-plate-on-support.inp" >ex1.inp
+"$atrito" study ex1.inp --levels 4 --adapt 8 -o study --digits 15 --quiet || complain 'a study'
+run 0 ex1.inp ex1 --adapt 8 --solver sparse --digits 15 --quiet
+"$atrito" compare ex1 study/adapt_3 --rtol 0 --ignore adapt >/dev/null || complain 'a run and its study: other tables'
+below 'estimate' "$(last ex1 error_estimate_percent)" 8.0000001
+near 'the last mesh is written' "$(summary ex1 error_estimate_percent)" "$(last ex1 error_estimate_percent)" 0
+near 'dofs' "$(value_of 3 adapt dofs)" "$(last ex1 dofs)" 0
+below 'the same everywhere' 8 "$(value_of 2 deck error_estimate_percent)"
+below 'displacements' "$(last ex1 dofs)" "$(value_of 2 deck dofs)"
+below 'error of the energy' "$(value "4.9299e-3 - $(summary ex1 strain_energy)")" \
+   "$(value "0.6*(4.9299e-3 - $(value_of 2 deck strain_energy))")"
+near 'resultant' "$(summary ex1 normal_resultant)" 1.5 1e-11
+near 'reactions' "$(awk '!/^#/ { s += $4 } END { printf "%.17g", s }' ex1/reactions.tab)" 1.5 1e-11
+says 'study' study/study.tab '# an estimated error of'
+# the deck of the last mesh
+cp ex1/ex1.run.inp again.inp
+run 0 again.inp again --solver sparse --digits 15 --quiet
+"$atrito" compare ex1 again --rtol 1e-11 --ignore adapt >/dev/null || complain 'the deck as it was run: other tables'
+# single nodes carry example 2
+run 3 "$input/ex2-two-plates.inp" ex2 --adapt 5 --quiet
+says 'why' ex2.err 'not 5 % as --adapt asks: over the last 4 meshes it has not become smaller'
+grep -q 'NOT CONVERGED' ex2/summary.tab && complain 'the tables of a solution are marked'
+# a history, by its largest error
+run 0 "$input/lessons/block-there-and-back.inp" history --adapt 8.8 --digits 15 --quiet
+near 'largest of the printed increments' "$(awk '!/^#/ && $3 == "error_estimate_percent" && $4 > most { most = $4 }
+   END { print most }' history/summary.tab)" "$(last history error_estimate_percent)" 0
+finish
