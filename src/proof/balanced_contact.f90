@@ -13,9 +13,12 @@ module atrito_balanced_contact
 
 contains
 
-   !> Makes the tractions of contact balance the loads of bodies that can move, by the least change of the pressures: at every end
-   !> of a segment p (1 + sum_m c_m z_m), z_m the approach of the sides there by motion m. The work on the motions is then
-   !> W + G c = 0, G_mn = sum over the ends of their forces times z_m z_n.
+   !> Makes the tractions of contact balance the loads of bodies that can move, by a small change: at every end of a segment
+   !>
+   !>     p (1 + sum_m c_m z_m),     t + (tau - |t|) sum_m c_m y_m,
+   !>
+   !> z_m the approach of the sides there by motion m, y_m the same along the sides. The work on the motions is then W + G c = 0, G_mn =
+   !> sum over the ends of the forces of p times z_m z_n, and those of tau - |t| times y_m y_n.
    subroutine balance(problem, segments, why_not)
       class(problem_t), intent(in) :: problem
       type(segment_t), intent(inout) :: segments(:)
@@ -23,7 +26,7 @@ contains
       real(wp), allocatable :: work(:), size_of(:), gram(:, :), change(:)
       integer(ip), allocatable :: first(:)
       integer(ip) :: motion(6), n, i, k, l, m, end_of, n_motions
-      real(wp) :: z(6), most
+      real(wp) :: z(6, 2), force(2), factor(2), most
       integer(ip) :: info
 
       first = first_motions(problem%fem%bodies)
@@ -35,15 +38,16 @@ contains
       do i = 1, size(segments, kind=ip)
          do end_of = 1, 2
             call approach_of(problem, segments(i), end_of, first, n_motions, motion, z)
+            force = 0.5_wp*segments(i)%length*segments(i)%thickness*[segments(i)%p(end_of), room_of(segments(i), end_of)]
             do k = 1, n_motions
                do l = 1, n_motions
-                  gram(motion(k), motion(l)) = gram(motion(k), motion(l)) + force_at(segments(i), end_of)*z(k)*z(l)
+                  gram(motion(k), motion(l)) = gram(motion(k), motion(l)) + sum(force*z(k, :)*z(l, :))
                end do
             end do
          end do
       end do
       most = maxval([(gram(m, m), m=1, n)])
-      do m = 1, n                                   ! along the sides a motion has no work: it keeps what it has
+      do m = 1, n                                   ! along sides without friction a motion has no work: it keeps what it has
          gram(m, m) = gram(m, m) + 1.0e-12_wp*most
       end do
       change = -work
@@ -52,32 +56,37 @@ contains
          do i = 1, size(segments, kind=ip)
             do end_of = 1, 2
                call approach_of(problem, segments(i), end_of, first, n_motions, motion, z)
-               associate (factor => 1 + dot_product(z(:n_motions), change(motion(:n_motions))))
-                  if (.not. factor > 0.0_wp) why_not = 'pressures that balance a body'
-                  segments(i)%p(end_of) = segments(i)%p(end_of)*factor
+               factor = matmul(change(motion(:n_motions)), z(:n_motions, :))
+               associate (p => segments(i)%p(end_of), room => room_of(segments(i), end_of))
+                  if (p > 0.0_wp .and. .not. factor(1) > -1.0_wp .or. room > 0.0_wp .and. .not. abs(factor(2)) <= 1.0_wp) then
+                     why_not = 'tractions that balance a body'
+                  end if
+                  segments(i)%t(end_of) = segments(i)%t(end_of) + room*factor(2)
+                  p = p*(1 + factor(1))
                end associate
             end do
          end do
          call work_on_motions(problem, segments, first, work, size_of)
       end if
-      if (.not. all(abs(work) <= UNBALANCED*size_of)) why_not = 'pressures that balance a body'
+      if (.not. all(abs(work) <= UNBALANCED*size_of)) why_not = 'tractions that balance a body'
    end subroutine balance
 
-   !> The force of the pressure at one end of a segment, as a hat [F].
-   pure real(wp) function force_at(segment, end_of) result(force)
+   !> What friction may be more at one end of a segment, in either direction [F/L^2].
+   pure real(wp) function room_of(segment, end_of)
       type(segment_t), intent(in) :: segment
       integer(ip), intent(in) :: end_of
 
-      force = 0.5_wp*segment%length*segment%thickness*segment%p(end_of)
-   end function force_at
+      room_of = max(segment%tau(end_of) - abs(segment%t(end_of)), 0.0_wp)
+   end function room_of
 
-   !> The approach of the sides by the motions of both bodies, where the hat of one end has its force: a third of the way.
+   !> The approach of the sides by the motions of both bodies and what they slip by, where the hat of one end has its force: a third of
+   !> the way.
    subroutine approach_of(problem, segment, end_of, first, n, motion, z)
       class(problem_t), intent(in) :: problem
       type(segment_t), intent(in) :: segment
       integer(ip), intent(in) :: end_of, first(:)
       integer(ip), intent(out) :: n, motion(6)
-      real(wp), intent(out) :: z(6)
+      real(wp), intent(out) :: z(6, 2)              !< along the normal, along the side
       integer(ip) :: side, b, m
       real(wp) :: at, modes(2, 3), share(2)
 
@@ -93,7 +102,8 @@ contains
             do m = first(b), first(b + 1) - 1
                n = n + 1
                motion(n) = m
-               z(n) = merge(-1, 1, side == 1)*dot_product(segment%normal, modes(:, m - first(b) + 1))
+               z(n, :) = merge(-1, 1, side == 1)*[dot_product(segment%normal, modes(:, m - first(b) + 1)), &
+                                                  dot_product([-segment%normal(2), segment%normal(1)], modes(:, m - first(b) + 1))]
             end do
          end associate
       end do

@@ -1,7 +1,8 @@
 !> Contact as the bound of the error sees it: tractions of both sides that the law allows, and what the law lacks of being met.
 !>
 !> Along a slave with straight faces the pressures p_j and shears t_j of the points are taken as linear from node to node: p >= 0,
-!> and |t| <= tau with the bounds tau_j linear, too. With potentials of the law and their conjugates (Fenchel),
+!> and |t| <= tau with the bounds tau_j linear, too. On faces of three nodes all of them are multiplied so that the resultant is that of
+!> the run. With potentials of the law and their conjugates (Fenchel),
 !>
 !>     psi_n(g) = (g+)^2/(2 delta),  psi_n*(p) = delta p^2/2;      psi_t(r) = tau phi_eps(|r|),  psi_t*(t) = eps t^2/(2 tau),
 !(1) >
@@ -10,7 +11,7 @@
 !>     gap = int [psi_n(g) + psi_n*(p) - p g] + [psi_t(r) + psi_t*(t) - t r] ds
 !(2) >
 !> are never negative, and 0 where the law is met. Without delta (1) has g <= 0 as a condition: displacements that break it between
-!> points are corrected by moving the slave's nodes back along the normal (`keep_apart`).
+!> points are corrected by moving nodes back along the normal (atrito_sides_apart).
 !>
 !> The slave's faces are cut where they face nodes of the master (segments), so that all that stands in (2) is linear on a segment.
 module atrito_contact_tractions
@@ -28,7 +29,7 @@ module atrito_contact_tractions
    use atrito_shape_functions, only: face_shape_values
    implicit none (type, external)
    private
-   public :: segment_t, list_segments, segment_forces, traction_at, law_gap, keep_apart
+   public :: segment_t, list_segments, segment_forces, traction_at, law_gap, overlap_at, between, value_at, SAME_DIRECTION
 
    !> A part of a slave's face that faces one face of the master. Arrays of two: at its ends.
    type :: segment_t
@@ -47,6 +48,7 @@ module atrito_contact_tractions
       real(wp) :: eps = 0.0_wp                      !< largest slip of a sticking point where it does not depend on tau [L]
       real(wp) :: compliance = 0.0_wp               !< and over tau where it does [L^3/F]
       real(wp) :: rest(2) = 0.0_wp                  !< slip at which there is no shear [L]
+      logical :: master_is_softer = .false.
    end type segment_t
 
    real(wp), parameter :: SAME_DIRECTION = 1.0e-6_wp
@@ -144,6 +146,7 @@ contains
                      segment%n_master = size(nodes, kind=ip)
                      segment%master_node(:segment%n_master) = nodes
                   end associate
+                  segment%master_is_softer = stiffness_of(segment%master(1)) < stiffness_of(segment%slave(1))
                end associate
             end if
             if (abs(dot_product(normal_at(master, piece, 0.5_wp), segment%normal) + 1) > SAME_DIRECTION .and. &
@@ -164,9 +167,11 @@ contains
                segment%gap(j) = distance
             end do
             if (points%matching .or. pair%gap_is_given) segment%gap = along(segment, problem%rows%gap)
-            segment%p = along(segment, max(solution%p, 0.0_wp))
-            segment%t = along(segment, solution%t)
-            segment%tau = along(segment, solution%tau)
+            associate (share => share_of_face(segment, max(solution%p, 0.0_wp)))
+               segment%p = share*along(segment, max(solution%p, 0.0_wp))
+               segment%t = share*along(segment, solution%t)
+               segment%tau = share*along(segment, solution%tau)
+            end associate
             segment%rest = 0.0_wp
             if (allocated(problem%line%rest)) segment%rest = along(segment, problem%line%rest)
             j = maxval(point(segment%node(:segment%n)))
@@ -178,6 +183,30 @@ contains
             end associate
          end associate
       end subroutine make_segment
+
+      !> By what the stresses of a face of three nodes are multiplied, so that linear from node to node they have the resultant of Simpson's
+      !> rule.
+      real(wp) function share_of_face(segment, p)
+         type(segment_t), intent(in) :: segment
+         real(wp), intent(in) :: p(:)
+         real(wp) :: ends, middle
+
+         share_of_face = 1.0_wp
+         if (segment%n /= 3) return
+         if (any(point(segment%node) == 0)) return
+         ends = sum(p(point(segment%node(:2))))
+         middle = p(point(segment%node(3)))
+         if (ends + middle > 0.0_wp) share_of_face = (2*ends + 8*middle)/(3*ends + 6*middle)
+      end function share_of_face
+
+      !> Of the material of an element.
+      real(wp) function stiffness_of(e)
+         integer(ip), intent(in) :: e
+
+         associate (section => problem%fem%sections(problem%fem%section_of(e)))
+            stiffness_of = merge(section%stiffness(1, 1), section%young, section%is_orthotropic)*section%thickness
+         end associate
+      end function stiffness_of
 
       !> The values of points at both ends of a segment, linear from node to node; 0 at a node without a point.
       function along(segment, of_points) result(values)
@@ -380,66 +409,5 @@ contains
 
       value_at = (1 - t)*(1 - 2*t)*values(1) + 4*t*(1 - t)*values(2) + t*(2*t - 1)*values(3)
    end function value_at
-
-   !> Moves nodes of slaves back along the normal, so that nowhere u_n - s is larger than delta p.
-   !>
-   !> Corners move by the most that a face beside them needs, middle nodes by the mean of theirs: so the motion is linear along a
-   !> face and everywhere enough. Where delta > 0 a node that a support holds stays, since overlaps are then paid for in (2).
-   !>
-   !> why_not: a support that does not let a node move; sides that still overlap, as another pair has moved the master.
-   subroutine keep_apart(segments, held, u, why_not)
-      type(segment_t), intent(in) :: segments(:)
-      logical, intent(in) :: held(:, :)             !< (2, n_nodes)
-      real(wp), intent(inout) :: u(:, :)            !< (2, n_nodes) [L]
-      character(len=:), allocatable, intent(inout) :: why_not
-      real(wp), parameter :: ROUND_OFF = 1.0e-13_wp
-      real(wp), allocatable :: back(:)
-      real(wp) :: beyond, none
-      integer(ip) :: i, k
-
-      allocate (back(size(u, 2)), source=0.0_wp)
-      none = ROUND_OFF*maxval(abs(u))
-      do i = 1, size(segments, kind=ip)
-         beyond = largest_overlap(segments(i), u)
-         if (beyond > none) back(segments(i)%node(:2)) = max(back(segments(i)%node(:2)), beyond)
-      end do
-      if (all(back == 0.0_wp)) return
-      do i = 1, size(segments, kind=ip)
-         if (segments(i)%n == 3) back(segments(i)%node(3)) = 0.5_wp*sum(back(segments(i)%node(:2)))
-      end do
-      do i = 1, size(segments, kind=ip)
-         do k = 1, segments(i)%n
-            associate (node => segments(i)%node(k))
-               if (.not. back(node) > 0.0_wp) cycle
-               if (any(held(:, node) .and. abs(segments(i)%normal) > SAME_DIRECTION)) then
-                  if (segments(i)%delta > 0.0_wp) cycle
-                  why_not = 'a support holds a node of a slave that would have to be moved back'
-                  return
-               end if
-               u(:, node) = u(:, node) - back(node)*segments(i)%normal
-               back(node) = 0.0_wp
-            end associate
-         end do
-      end do
-      do i = 1, size(segments, kind=ip)
-         if (segments(i)%delta > 0.0_wp) cycle
-         if (largest_overlap(segments(i), u) > 10*none) why_not = 'sides that cannot be moved apart'
-      end do
-   end subroutine keep_apart
-
-   !> The largest of u_n - s - delta p on a segment [L].
-   pure real(wp) function largest_overlap(segment, u) result(most)
-      type(segment_t), intent(in) :: segment
-      real(wp), intent(in) :: u(:, :)
-      real(wp) :: v(3), bend, t
-
-      v = [overlap_at(segment, u, 0.0_wp), overlap_at(segment, u, 0.5_wp), overlap_at(segment, u, 1.0_wp)]
-      v = v - segment%delta*[segment%p(1), between(segment%p, 0.5_wp), segment%p(2)]
-      most = maxval(v)
-      bend = 4*(v(1) - 2*v(2) + v(3))
-      if (.not. bend < 0.0_wp) return
-      t = -(-3*v(1) + 4*v(2) - v(3))/bend
-      if (t > 0.0_wp .and. t < 1.0_wp) most = max(most, value_at(v, t))
-   end function largest_overlap
 
 end module atrito_contact_tractions

@@ -1,0 +1,91 @@
+. "$(dirname "$0")/../lib.sh"
+ex1=$input/ex1-plate-on-support.inp
+
+# bound NAME LEAST MOST: certified, and between the two
+bound() {
+   near "$1: certified" "$(summary "$1" error_certified)" 1 0
+   below "$1: at most" "$(summary "$1" error_bound_percent)" "$3"
+   below "$1: at least" "$2" "$(summary "$1" error_bound_percent)"
+}
+
+# a uniform stress is found exactly, whether the sides match or not
+for type in CPE4 CPE6; do
+   sed "s/CPE4/$type/" "$here/column.inp" >column.inp
+   for nx in 3 5; do
+      run 0 column.inp "column-$type-$nx" --proof on --set nx=$nx --quiet
+      near "column-$type-$nx: certified" "$(summary "column-$type-$nx" error_certified)" 1 0
+      below "column-$type-$nx" "$(summary "column-$type-$nx" error_bound_percent)" 1e-10
+   done
+done
+
+# elements of both degrees in one scene
+sed 's/CPE4, ELSET=UPPER/CPE8, ELSET=UPPER/' "$here/column.inp" >column.inp
+run 0 column.inp mixed --proof on --quiet
+near 'mixed: certified' "$(summary mixed error_certified)" 1 0
+below 'mixed' "$(summary mixed error_bound_percent)" 1e-10
+
+# no contact: the true error is sqrt(1 - E_h/E) of the exact energy E, here that of a fine mesh (which is a little low)
+sed 's/CPE4/CPE9/' "$here/clamped.inp" >clamped-fine.inp
+run 0 clamped-fine.inp fine --refine 4 --proof off --quiet
+for type in CPE3 CPE4 CPE6 CPE8 CPE9; do
+   sed "s/CPE4/$type/" "$here/clamped.inp" >clamped.inp
+   run 0 clamped.inp "clamped-$type" --proof on --quiet
+   true_error=$(value "100*sqrt($(summary fine strain_energy)/$(summary "clamped-$type" strain_energy) - 1)")
+   bound "clamped-$type" "$true_error" "$(value "1.35*$true_error")"
+done
+
+# example 1, local friction: an independent program found 24.80, 14.81, 9.14
+for refine in 0:24.80 1:14.81 2:9.14; do
+   run 0 "$ex1" "ex1-${refine%:*}" --set rho=0 --refine "${refine%:*}" --proof on --quiet
+   near "ex1, --refine ${refine%:*}" "$(summary "ex1-${refine%:*}" error_bound_percent)" "${refine#*:}" "$(value "0.02*${refine#*:}")"
+done
+says 'on the screen' "ex1-0/ex1-plate-on-support.lst" 'certified for the friction bound of this run'
+
+# sides that do not match: delta is so small that the overlaps between points would cost 30 times the bound, or nearly nothing
+sed 's/ELSET=SUPPORT, NX=6/ELSET=SUPPORT, NX=7/' "$ex1" >seven.inp
+for delta in 1e-6 1e-9; do run 0 seven.inp "seven-$delta" --set rho=0 --set delta=$delta --proof on --quiet; done
+bound seven-1e-6 24 45
+sed 's/^\*CONTACT PAIR/&, QUADRATURE=NODAL/' seven.inp >nodal.inp     # with nodes of the support that no node of the plate faces
+run 0 nodal.inp nodal --set rho=0 --proof on --quiet
+bound nodal 24 45
+near 'delta 1e-9' "$(summary seven-1e-9 error_bound_percent)" "$(summary seven-1e-6 error_bound_percent)" 0.7
+
+# a block that contact alone holds; turned, in other units, with other numbers it is the same
+for type in CPE4 CPE9; do
+   for upper in 3 4; do
+      i=0
+      for way in angle=0 angle=37 length_unit=1000 force_unit=250 reverse=1; do
+         i=$((i + 1))
+         awk -v type=$type -v upper=$upper -v $way -f "$here/blocks.awk" </dev/null >blocks.inp
+         run 0 blocks.inp "blocks-$i" --proof on --digits 15 --quiet
+         near "$type, $upper, $way: certified" "$(summary "blocks-$i" error_certified)" 1 0
+         near "$type, $upper, $way" "$(summary "blocks-$i" error_bound_percent)" "$(summary blocks-1 error_bound_percent)" 1e-7
+      done
+   done
+done
+
+# no_bound NAME REASON: nothing in the tables, the reason on the screen
+no_bound() {
+   grep -q error_bound "$1/summary.tab" && complain "$1: a bound"
+   says "$1" "$1.out" "no bound     $2"
+}
+run 0 "$input/ex2-two-plates.inp" point-support --proof on
+no_bound point-support 'the support at node 1 is a point'
+sed 's/^\*DSLOAD/*CLOAD\n40, 2, -0.1\n*DSLOAD/' "$ex1" >force.inp
+run 0 force.inp force --proof on
+no_bound force 'node 40 carries a force at a point'
+sed 's/CPE4/CPE8/; s/^2., 1.$/&/; s/^0., 1.$/&\nARC, TOP, 1., -2./' "$here/clamped.inp" >arc.inp
+run 0 arc.inp arc --proof on
+no_bound arc 'curved sides'
+sed 's/CPE4/CAX4/; s/1, 2$/2/' "$here/clamped.inp" >ring.inp
+run 0 ring.inp ring --proof on
+no_bound ring 'rings'
+# two pairs on one side, one of them open: its pieces lie over those of the other
+awk -v upper=3 -f "$here/blocks.awk" </dev/null >far.inp
+sed 's/^UPPER-BOTTOM, LOWER-TOP/&\nFAR-BOTTOM, LOWER-TOP/; s/^\*SOLID SECTION, ELSET=LOWER/*SOLID SECTION, ELSET=FAR, MATERIAL=SOFT\n1.\n&/
+   s/^\*MATERIAL, NAME=SOFT/*BLOCK, TYPE=CPE4, ELSET=FAR, NX=5, NY=1\n0.3, 4.\n1.7, 4.\n1.7, 5.\n0.3, 5.\n*BOUNDARY\nFAR-TOP, 1, 2\n&/' far.inp >both.inp
+run 0 far.inp one --proof on --quiet
+run 0 both.inp both --proof on --quiet
+near 'an open pair besides' "$(summary both error_bound_percent)" "$(summary one error_bound_percent)" 1e-6
+
+finish
