@@ -6,7 +6,8 @@ from pathlib import Path
 
 KINDS = ("closed form", "other program", "published", "read off a curve")
 CASE_KEYS = {"id": str, "title": str, "group": str, "origin": str, "address": str, "kind": str, "smooth": bool, "data": str, "note": str,
-             "deck": str, "refine": list, "options": list, "command": str, "exit": int, "picture": str, "run": list, "value": list, "left_out": list}
+             "deck": str, "refine": list, "options": list, "command": str, "exit": int, "picture": str, "run": list, "value": list,
+             "left_out": list}
 RUN_KEYS = {"name": str, "deck": str, "refine": list, "options": list, "command": str, "exit": int}
 VALUE_KEYS = {"name": str, "reference": float, "second": float, "between": list, "run": str, "kind": str, "observe": str, "table": str,
               "column": str, "where": str, "pick": str, "step": int, "increment": int, "factor": float, "uncertainty": str, "tolerance": float,
@@ -14,7 +15,8 @@ VALUE_KEYS = {"name": str, "reference": float, "second": float, "between": list,
 LEFT_OUT_KEYS = {"name": str, "reference": float, "why": str}
 PICKS = {"only": None, "max": max, "min": min, "sum": math.fsum, "mean": lambda v: math.fsum(v)/len(v), "range": lambda v: max(v) - min(v),
          "first": lambda v: v[0], "last": lambda v: v[-1]}
-FUNCTIONS = {"abs": abs, "max": max, "min": min, "sqrt": math.sqrt, "hypot": math.hypot, "atan2": math.atan2, "cos": math.cos, "sin": math.sin, "pi": math.pi}
+FUNCTIONS = {"abs": abs, "max": max, "min": min, "sqrt": math.sqrt, "hypot": math.hypot, "atan2": math.atan2, "cos": math.cos, "sin": math.sin,
+             "pi": math.pi}
 
 
 class BookError(Exception):
@@ -132,7 +134,7 @@ class Case:
 
 def read_cases(book, wanted=()):
     """All cases of a folder in the order of their names and numbers, or the wanted ones."""
-    cases = sorted((Case(path.parent) for path in Path(book).glob("*/case.toml")), key=lambda case: [word.zfill(4) if word.isdigit() else word for word in re.findall(r"\d+|\D+", case.id)])
+    cases = sorted((Case(path.parent) for path in Path(book).glob("*/case.toml")), key=lambda case: re.sub(r"\d+", lambda n: n[0].zfill(4), case.id))
     ids = [case.id for case in cases]
     for name in ids:
         if ids.count(name) > 1:

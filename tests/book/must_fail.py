@@ -17,7 +17,8 @@ PROGRAM = """#!/bin/sh
 while [ $# -gt 0 ]; do case $1 in -o) folder=$2 ;; --refine) level=$2 ;; --bad) exit 3 ;; esac; shift; done
 mkdir -p "$folder" || exit 5
 echo "solved       2 bodies, 112 elements, 398 nodes, 736 free displacements"
-printf '# columns: step pair quantity value increment\\n1 0 book_1 2.%s 1\\n1 0 error_estimate_percent 0.25 1\\n1 0 error_bound_percent 0.75 1\\n' "0$level" >"$folder/summary.tab"
+printf '# columns: step pair quantity value increment\\n1 0 book_1 2.%s 1\\n1 0 error_estimate_percent 0.25 1\\n1 0 error_bound_percent 0.75 1\\n' \\
+   "0$level" >"$folder/summary.tab"
 printf '# columns: step x pressure increment\\n1 0 9 1\\n2 0 3 1\\n2 1 4 1\\n' >"$folder/contact.tab"
 """
 CASE = """id = "X1"
@@ -118,7 +119,8 @@ def main():
         expect("pages without it", book(work, missed, "--check"), 1, "book.md, line")
         page = work/"docs"/"book"/"X1.md"
         text = page.read_text()
-        for old, new in (("2.010000 |", "2.020000 |"), ("made up |", "made |"), ("0.25", "0.28"), ("0.75", "0.71"), ("\n## The references", "\n\n## The references")):
+        for old, new in (("2.010000 |", "2.020000 |"), ("made up |", "made |"), ("0.25", "0.28"), ("0.75", "0.71"),
+                         ("\n## The references", "\n\n## The references")):
             assert old in text
             page.write_text(text.replace(old, new, 1))
             expect(f"a page with {new}", book(work, CASE, "--check"), 1, "X1.md, line")
