@@ -70,6 +70,12 @@ def reference(value):
     return f"{value.reference:.10g}"
 
 
+def allowed(value):
+    if value.between is not None:
+        return "inside"
+    return f"{value.allowed():.2g}" + ("" if value.absolute is None else " absolute")
+
+
 def run_tables(case, run, outcomes):
     """What a run found, value by value and mesh by mesh, and the error that the program itself estimates."""
     results = [outcomes[case, run, level] for level in run.refine]
@@ -80,8 +86,7 @@ def run_tables(case, run, outcomes):
         found = [result.found[value] for result in results]
         errors = [value.error(number) for number in found]
         rows.append([value.name, reference(value), *(of_value(number, value) for number in found), of_error(errors[-1], value),
-                     *([order(value, errors)] if smooth else []), f"{value.allowed():.2g}" if value.between is None else "inside",
-                     verdict(value, found[-1])])
+                     *([order(value, errors)] if smooth else []), allowed(value), verdict(value, found[-1])])
     lines = table(head, rows) + [""]
     columns = [("mesh", [f"refine {level}" for level in run.refine])]
     if any(result.counts for result in results):
@@ -139,7 +144,7 @@ def page(case, outcomes):
         words = " ".join(["atrito", *run.command, shown_path(case, run.deck), *run.options])
         lines += [f"`{words}` with `--refine` {', '.join(map(str, run.refine))}" +
                   (f", which ends with exit code {run.exit}" if run.exit else "") + ":", "", *run_tables(case, run, outcomes)]
-    lines += ["Errors are relative, but where the reference is 0; *allowed* is what the test of the finest mesh takes.", ""]
+    lines += ["Errors are relative, but where *absolute* is said; *allowed* is what the test of the finest mesh takes.", ""]
     if case.note:
         lines += [*case.note.strip().split("\n"), ""]
     lines += ["## The references", ""]
