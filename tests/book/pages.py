@@ -31,7 +31,8 @@ def of_value(number, value=None):
     """Seven digits; 0 for what is nothing beside what is allowed where the reference is 0."""
     if number == 0 or value and value.reference == 0 and value.error(number) < value.allowed()/1000:
         return "0"
-    return f"{number:#.7g}".rstrip(".")
+    rounded = float(f"{number:.7g}")
+    return f"{rounded:.0f}" if rounded.is_integer() and abs(rounded) < 1e6 else f"{number:#.7g}".rstrip(".")
 
 
 def of_error(number, value):
@@ -65,7 +66,7 @@ def order(value, errors):
 
 def reference(value):
     if value.between is not None:
-        return f"{of_value(value.between[0])} to {of_value(value.between[1])}"
+        return f"{value.between[0]:.10g} to {value.between[1]:.10g}"
     return f"{value.reference:.10g}"
 
 
