@@ -10,7 +10,7 @@ module atrito_adaptation
    use atrito_messages, only: message_t, count_messages, get_message, SEVERITY_ERROR
    use atrito_model, only: model_t
    use atrito_model_memory, only: most_nodes
-   use atrito_results, only: history_t, results_t, view_frame
+   use atrito_results, only: frame_numbers_t, history_t, results_t, view_frame
    use atrito_sorting, only: order_key, sorted_places
    use atrito_strings, only: to_text
    use atrito_system, only: processor_seconds
@@ -32,6 +32,7 @@ module atrito_adaptation
    type :: adapted_mesh_t
       integer(ip) :: n_elements = 0, n_dofs = 0, n_solves = 0
       real(wp) :: percent = 0.0_wp                   !< of the error
+      logical :: is_certified = .false.              !< it is at most that
       real(wp) :: seconds(2) = 0.0_wp                !< wall clock and processor, from the beginning of the run
    end type adapted_mesh_t
 
@@ -57,15 +58,24 @@ contains
       adaptation%processor = processor_seconds()
    end subroutine begin_adaptation
 
-   !> Whose error is followed, in one place: the square of each element's share, and the error of the whole [%].
-   pure subroutine fetch_errors(results, squares, percent)
+   !> Whose error is followed, in one place: the square of each element's share, and the error of the whole [%]. It is the bound where
+   !> there is one, as the shares are, else the estimate.
+   pure subroutine fetch_errors(results, squares, mesh)
       type(results_t), intent(in) :: results
       real(wp), allocatable, intent(out) :: squares(:) !< (n_elements)
-      real(wp), intent(out) :: percent
+      type(adapted_mesh_t), intent(inout) :: mesh
 
       squares = results%element_error**2
-      percent = results%error_estimate
+      mesh%percent = error_of(results)
+      mesh%is_certified = results%error_bound%is_certified
    end subroutine fetch_errors
+
+   !> The bound of the error of an increment, or its estimate [%].
+   elemental real(wp) function error_of(frame) result(percent)
+      class(frame_numbers_t), intent(in) :: frame
+
+      percent = merge(frame%error_bound%percent, frame%error_estimate, frame%error_bound%exists)
+   end function error_of
 
    !> Notes what was found on a mesh, and cuts it for the next one: of a history where the printed increment with the largest error
    !> has it. goes_on: there is to be a next one.
@@ -79,8 +89,8 @@ contains
       type(results_t), pointer :: results
       integer(lp) :: now, rate
 
-      call view_frame(history, maxloc(history%frames%error_estimate, dim=1, kind=ip), results)
-      call fetch_errors(results, squares, mesh%percent)
+      call view_frame(history, maxloc(error_of(history%frames), dim=1, kind=ip), results)
+      call fetch_errors(results, squares, mesh)
       mesh%n_elements = model%mesh%n_elements
       mesh%n_dofs = results%scene%n_dofs
       mesh%n_solves = size(history%iterations, kind=ip)
@@ -173,6 +183,7 @@ contains
          call add_integers(table, 'elements', meshes%n_elements)
          call add_integers(table, 'dofs', meshes%n_dofs)
          call add_reals(table, 'error_percent', '%', meshes%percent, 0.0_wp)
+         call add_integers(table, 'certified', merge(1_ip, 0_ip, meshes%is_certified))
          call add_integers(table, 'linear_solves', meshes%n_solves)
          call add_reals(table, 'total_wall', 's', meshes%seconds(1), 0.0_wp)
          call add_reals(table, 'total_cpu', 's', meshes%seconds(2), 0.0_wp)
@@ -186,7 +197,7 @@ contains
 
       associate (n => size(adaptation%meshes), meshes => adaptation%meshes)
          text = 'mesh '//to_text(int(n, ip))//': '//to_text(meshes(n)%n_elements)//' elements, error '// &
-                to_text(meshes(n)%percent, 3)//' %'
+                percent_text(meshes(n))
       end associate
    end function mesh_text
 
@@ -198,13 +209,21 @@ contains
       associate (n => size(adaptation%meshes), meshes => adaptation%meshes)
          if (n < 2) then
             text = 'the first mesh'
-            if (n == 1) text = text//' has an error of '//to_text(meshes(1)%percent, 3)//' %'
+            if (n == 1) text = text//' has an error of '//percent_text(meshes(1))
             return
          end if
          text = to_text(int(n, ip))//' meshes, from '//to_text(meshes(1)%n_elements)//' to '//to_text(meshes(n)%n_elements)// &
-                ' elements; error '//to_text(meshes(1)%percent, 3)//' to '//to_text(meshes(n)%percent, 3)//' %'
+                ' elements; error '//to_text(meshes(1)%percent, 3)//' to '//percent_text(meshes(n))
       end associate
    end function adaptation_text
+
+   !> `at most 4.9 %`, of a bound, or `some 4.9 %`, of an estimate.
+   pure function percent_text(mesh) result(text)
+      type(adapted_mesh_t), intent(in) :: mesh
+      character(len=:), allocatable :: text
+
+      text = trim(merge('at most', 'some   ', mesh%is_certified))//' '//to_text(mesh%percent, 3)//' %'
+   end function percent_text
 
    !> Why the run ends with a larger error than it was to have.
    function missed_text(adaptation) result(text)
@@ -212,7 +231,7 @@ contains
       character(len=:), allocatable :: text
 
       associate (n => size(adaptation%meshes))
-         text = 'the estimated error is '//to_text(adaptation%meshes(n)%percent, 3)//' %, not '//to_text(adaptation%target, 3)// &
+         text = 'the error is '//percent_text(adaptation%meshes(n))//', not '//to_text(adaptation%target, 3)// &
                 ' % as --adapt asks: '//adaptation%why//'; the last mesh is written'
       end associate
    end function missed_text

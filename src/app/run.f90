@@ -315,6 +315,7 @@ contains
       options%element_errors = command%plot .or. command%adapt > 0.0_wp
       options%starts = command%starts
       options%proof = PROOFS(place_of_word('--proof', command%proof))
+      if (command%adapt > 0.0_wp .and. options%proof == PROOF_AUTO) options%proof = PROOF_ON     ! it is what is followed
       ! the runs of sweeps, studies and limits stay where they are
       if (command%task == TASK_RUN .and. command%share /= 'none' .and. command%adapt <= 0.0_wp) then
          call distribute_over_ranks(command%share == 'all', options%distribution)
