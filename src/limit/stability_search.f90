@@ -2,8 +2,8 @@
 !>
 !> Two questions can be asked of a value. The balance is cheap: whether any forces that the contact can take balance the loads. A
 !> solution costs a run. The balance narrows the limit from both sides. Then values from the end that stands on are solved, each
-!> next to the one before: the curve, and the last value that can be balanced. Where runs find neither a solution nor a proof, the last
-!> value that stands is looked for by strides; such values narrow neither bound.
+!> next to the one before: the curve, and the last value that can be balanced. Where runs find neither a solution nor a proof, the
+!> last value that stands is looked for by strides; such values narrow neither bound.
 module atrito_stability_search
    use atrito_kinds, only: wp
    implicit none (type, external)
