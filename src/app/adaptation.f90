@@ -58,8 +58,8 @@ contains
       adaptation%processor = processor_seconds()
    end subroutine begin_adaptation
 
-   !> Whose error is followed, in one place: the square of each element's share, and the error of the whole [%]. It is the bound where
-   !> there is one, as the shares are, else the estimate.
+   !> Whose error is followed, in one place: the square of each element's share, and the error of the whole [%]. It is the bound
+   !> where there is one, as the shares are, else the estimate.
    pure subroutine fetch_errors(results, squares, mesh)
       type(results_t), intent(in) :: results
       real(wp), allocatable, intent(out) :: squares(:) !< (n_elements)

@@ -211,7 +211,7 @@ contains
          call put(segments(i)%slave, segments(i)%on_slave, 1.0_wp, on_slave)
          if (segments(i)%master(1) == 0) cycle
          associate (share => segments(i)%length/(abs(segments(i)%on_master(2) - segments(i)%on_master(1))* &
-                    side_length(fem%mesh, sides, sides%of_element(segments(i)%master(2), segments(i)%master(1)))))
+                                      side_length(fem%mesh, sides, sides%of_element(segments(i)%master(2), segments(i)%master(1)))))
             call put(segments(i)%master, segments(i)%on_master, -share, on_master)
          end associate
       end do

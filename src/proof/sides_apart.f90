@@ -72,7 +72,7 @@ contains
             if (.not. beyond > none) cycle
             is_apart = .false.
             if (.not. raises(segments(i), segments(i)%master_is_softer)) then
-               if (raises(segments(i), .not. segments(i)%master_is_softer)) cycle
+               if (raises(segments(i),.not. segments(i)%master_is_softer)) cycle
                if (segments(i)%delta > 0.0_wp) cycle
                why_not = 'a support keeps contact sides from moving apart'
                return

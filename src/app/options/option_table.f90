@@ -69,7 +69,7 @@ module atrito_option_table
                                          words='auto skyline banded sparse'), &
                                 option_t('--contact', 'NAME', [Y, Y, N, N, Y, Y, Y], 'form of the contact system', default='auto', &
                                          words='auto dense sparse'), &
-                       option_t('--proof', 'NAME', [Y, N, N, N, Y, Y, N], 'a bound of the error that is proved', default='auto', &
+                         option_t('--proof', 'NAME', [Y, N, N, N, Y, Y, N], 'a bound of the error that is proved', default='auto', &
                                          words='auto on off'), &
             option_t('--share', 'NAME', [Y, N, N, N, N, N, N], 'one scene over the ranks of atrito-mpi: large ones, all, or none', &
                                          default='auto', words='auto all none'), &
