@@ -56,9 +56,9 @@ module atrito_airy_stress
 
    !> Exponents of the Bernstein polynomials of degree 1 and 2, in the order of the coefficients.
    integer(ip), parameter, public :: EXPONENTS(3, MOST_COEFFICIENTS, MOST_DEGREE) = reshape([integer(ip) :: &
-                                                1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, &
-                                                2, 0, 0, 0, 2, 0, 0, 0, 2, 1, 1, 0, 0, 1, 1, 1, 0, 1], &
-                                                [3, MOST_COEFFICIENTS, MOST_DEGREE])
+                                                                             1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, &
+                                                                            2, 0, 0, 0, 2, 0, 0, 0, 2, 1, 1, 0, 0, 1, 1, 1, 0, 1], &
+                                                                                            [3, MOST_COEFFICIENTS, MOST_DEGREE])
    integer(ip), parameter :: N_COEFFICIENTS(MOST_DEGREE) = [3_ip, 6_ip]
 
 contains

@@ -17,8 +17,8 @@ contains
    !>
    !>     p (1 + sum_m c_m z_m),     t + (tau - |t|) sum_m c_m y_m,
    !>
-   !> z_m the approach of the sides there by motion m, y_m the same along the sides. The work on the motions is then W + G c = 0, G_mn =
-   !> sum over the ends of the forces of p times z_m z_n, and those of tau - |t| times y_m y_n.
+   !> z_m the approach of the sides there by motion m, y_m the same along the sides. The work on the motions is then W + G c = 0,
+   !> G_mn = sum over the ends of the forces of p times z_m z_n, and those of tau - |t| times y_m y_n.
    subroutine balance(problem, segments, why_not)
       class(problem_t), intent(in) :: problem
       type(segment_t), intent(inout) :: segments(:)
@@ -79,8 +79,8 @@ contains
       room_of = max(segment%tau(end_of) - abs(segment%t(end_of)), 0.0_wp)
    end function room_of
 
-   !> The approach of the sides by the motions of both bodies and what they slip by, where the hat of one end has its force: a third of
-   !> the way.
+   !> The approach of the sides by the motions of both bodies and what they slip by, where the hat of one end has its force: a third
+   !> of the way.
    subroutine approach_of(problem, segment, end_of, first, n, motion, z)
       class(problem_t), intent(in) :: problem
       type(segment_t), intent(in) :: segment

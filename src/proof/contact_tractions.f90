@@ -1,8 +1,8 @@
 !> Contact as the bound of the error sees it: tractions of both sides that the law allows, and what the law lacks of being met.
 !>
 !> Along a slave with straight faces the pressures p_j and shears t_j of the points are taken as linear from node to node: p >= 0,
-!> and |t| <= tau with the bounds tau_j linear, too. On faces of three nodes all of them are multiplied so that the resultant is that of
-!> the run. With potentials of the law and their conjugates (Fenchel),
+!> and |t| <= tau with the bounds tau_j linear, too. On faces of three nodes all of them are multiplied so that the resultant is
+!> that of the run. With potentials of the law and their conjugates (Fenchel),
 !>
 !>     psi_n(g) = (g+)^2/(2 delta),  psi_n*(p) = delta p^2/2;      psi_t(r) = tau phi_eps(|r|),  psi_t*(t) = eps t^2/(2 tau),
 !(1) >
@@ -184,8 +184,8 @@ contains
          end associate
       end subroutine make_segment
 
-      !> By what the stresses of a face of three nodes are multiplied, so that linear from node to node they have the resultant of Simpson's
-      !> rule.
+      !> By what the stresses of a face of three nodes are multiplied, so that linear from node to node they have the resultant of
+      !> Simpson's rule.
       real(wp) function share_of_face(segment, p)
          type(segment_t), intent(in) :: segment
          real(wp), intent(in) :: p(:)

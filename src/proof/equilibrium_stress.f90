@@ -81,7 +81,7 @@ contains
                         of_sides(:, :, j) = -traction(:, degree:0:-1, -side)
                      end if
                      if (any(volume(:, e) /= 0.0_wp)) of_sides(:, :, j) = of_sides(:, :, j) + &
-                                                       volume_tractions(volume(:, e), at(:, j), at(:, 1 + mod(j, corners)), degree)
+                                                        volume_tractions(volume(:, e), at(:, j), at(:, 1 + mod(j, corners)), degree)
                   end associate
                end do
                call outline_of_tractions(energy%macro%corner(:, :corners), of_sides(:, :, :corners), outlines%a(:n, e))

@@ -59,7 +59,7 @@ contains
       real(wp), allocatable, intent(inout) :: exchanged(:, :) !< what exchange_tractions found; not allocated: it is asked now
       logical, intent(in) :: if_quick               !< a bound is wanted where it takes less than half of the time of a run
       type(error_bound_t), intent(out) :: bound
-      real(wp), allocatable, intent(inout) :: element_error(:) !< (n_elements) where allocated, the share of each, the root of the sum
+      real(wp), allocatable, intent(inout) :: element_error(:) !< (n_elements) where allocated, the share of each, root of the sum
       !< of their squares being the bound [%]
       type(proof_loads_t) :: loads
       type(mesh_sides_t) :: sides
@@ -139,7 +139,7 @@ contains
       if (allocated(element_error) .and. energy > 0.0_wp) element_error = 100*sqrt(max(share, 0.0_wp)/(2*energy))
    end subroutine bound_error
 
-   !> Whether a bound takes more than the run does: where many elements are quadrilaterals or of the second degree and no two are equal.
+   !> Whether a bound takes more than the run does: where many elements are quadrilaterals or of second degree and no two are equal.
    pure logical function takes_long(fem, classes)
       type(fem_t), intent(in) :: fem
       type(element_classes_t), intent(in) :: classes
@@ -210,7 +210,7 @@ contains
          call put(segments(i)%slave, segments(i)%on_slave, 1.0_wp, on_slave)
          if (segments(i)%master(1) == 0) cycle
          associate (share => segments(i)%length/(abs(segments(i)%on_master(2) - segments(i)%on_master(1))* &
-                    side_length(fem%mesh, sides, sides%of_element(segments(i)%master(2), segments(i)%master(1)))))
+                                      side_length(fem%mesh, sides, sides%of_element(segments(i)%master(2), segments(i)%master(1)))))
             call put(segments(i)%master, segments(i)%on_master, -share, on_master)
          end associate
       end do

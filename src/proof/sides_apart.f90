@@ -10,8 +10,8 @@ contains
 
    !> Moves nodes back along the normal, so that nowhere u_n - s is larger than delta p.
    !>
-   !> The softer side moves, which costs the least, unless supports hold it. Where delta > 0 and supports hold both, overlaps stay, since
-   !> they are paid for in (2).
+   !> The softer side moves, which costs the least, unless supports hold it. Where delta > 0 and supports hold both, overlaps stay,
+   !> since they are paid for in (2).
    !>
    !> why_not: supports that do not let the sides move apart, or sides that push one another together.
    subroutine keep_apart(segments, held, u, why_not)
@@ -72,7 +72,7 @@ contains
             if (.not. beyond > none) cycle
             is_apart = .false.
             if (.not. raises(segments(i), segments(i)%master_is_softer)) then
-               if (raises(segments(i), .not. segments(i)%master_is_softer)) cycle
+               if (raises(segments(i),.not. segments(i)%master_is_softer)) cycle
                if (segments(i)%delta > 0.0_wp) cycle
                why_not = 'a support holds nodes of contact sides that would have to be moved apart'
                return
