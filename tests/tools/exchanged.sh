@@ -20,6 +20,7 @@ observed_list_t    fields/restart_file.f90 exchange_observed_list list
 cut_force_t        fields/exchange_results.f90 exchange_cut cut
 iteration_t        fields/exchange_results.f90 exchange_iterations list
 uniqueness_t       fields/exchange_results.f90 exchange_uniqueness uniqueness
+error_bound_t      fields/exchange_results.f90 exchange_bound bound
 extreme_t          fields/exchange_results.f90 exchange_extreme extreme
 balance_t          fields/exchange_results.f90 exchange_balance balance
 scene_t            fields/exchange_results.f90 exchange_scene scene
