@@ -201,7 +201,7 @@ contains
       end associate
    end function mesh_text
 
-   !> `7 meshes, from 111 to 2350 elements; error 18.6 to 4.9 %`
+   !> `7 meshes, 111 to 2350 elements; error 18.6 to at most 4.9 %`
    function adaptation_text(adaptation) result(text)
       type(adaptation_t), intent(in) :: adaptation
       character(len=:), allocatable :: text
@@ -212,8 +212,8 @@ contains
             if (n == 1) text = text//' has an error of '//percent_text(meshes(1))
             return
          end if
-         text = to_text(int(n, ip))//' meshes, from '//to_text(meshes(1)%n_elements)//' to '//to_text(meshes(n)%n_elements)// &
-                ' elements; error '//to_text(meshes(1)%percent, 3)//' to '//percent_text(meshes(n))
+         text = to_text(int(n, ip))//' meshes, '//to_text(meshes(1)%n_elements)//' to '// &
+                to_text(meshes(n)%n_elements)//' elements; error '//to_text(meshes(1)%percent, 3)//' to '//percent_text(meshes(n))
       end associate
    end function adaptation_text
 

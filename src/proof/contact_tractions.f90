@@ -4,12 +4,13 @@
 !> and |t| <= tau with the bounds tau_j linear, too. On faces of three nodes all of them are multiplied so that the resultant is
 !> that of the run. With potentials of the law and their conjugates (Fenchel),
 !>
-!>     psi_n(g) = (g+)^2/(2 delta),  psi_n*(p) = delta p^2/2;      psi_t(r) = tau phi_eps(|r|),  psi_t*(t) = eps t^2/(2 tau),
-!(1) >
+!>     psi_n(g) = (g+)^2/(2 delta),        psi_n*(p) = delta p^2/2,
+!>     psi_t(r) = tau phi_eps(|r|),        psi_t*(t) = eps t^2/(2 tau),                                        (1)
+!>
 !> g = u_n - s and r the slip, the brackets of
 !>
-!>     gap = int [psi_n(g) + psi_n*(p) - p g] + [psi_t(r) + psi_t*(t) - t r] ds
-!(2) >
+!>     gap = int [psi_n(g) + psi_n*(p) - p g] + [psi_t(r) + psi_t*(t) - t r] ds                                (2)
+!>
 !> are never negative, and 0 where the law is met. Without delta (1) has g <= 0 as a condition: displacements that break it between
 !> points are corrected by moving nodes back along the normal (atrito_sides_apart).
 !>

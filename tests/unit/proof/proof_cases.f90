@@ -117,7 +117,7 @@ contains
       end do
    end function moments_on
 
-   !> Puts a mesh out of shape: a smooth map that keeps straight lines straight between corners is not needed by those of first degree.
+   !> Puts a mesh out of shape: for elements of first degree, whose sides stay straight.
    subroutine bend_mesh(mesh)
       type(mesh_t), intent(inout) :: mesh
       integer(ip) :: i
