@@ -72,7 +72,6 @@ class Titles(Transform):
         for link in self.document.findall(addnodes.pending_xref):
             if re.fullmatch(r"[\w./-]+\.md", link.astext()):
                 link["refexplicit"] = False
-                link.clear()
         for title in self.document.findall(nodes.title):
             for link in list(title.findall(addnodes.download_reference)):
                 link.replace_self(link.children)

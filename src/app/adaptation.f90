@@ -7,16 +7,18 @@ module atrito_adaptation
    use atrito_element_trees, only: count_leaves, cut_leaves, element_trees_t
    use atrito_kinds, only: ip, lp, wp
    use atrito_memory, only: available_memory, held_memory
+   use atrito_messages, only: message_t, count_messages, get_message, SEVERITY_ERROR
    use atrito_model, only: model_t
    use atrito_model_memory, only: most_nodes
-   use atrito_results, only: history_t, results_t, view_frame
+   use atrito_results, only: frame_numbers_t, history_t, results_t, view_frame
    use atrito_sorting, only: order_key, sorted_places
    use atrito_strings, only: to_text
    use atrito_system, only: processor_seconds
    use atrito_table, only: table_t, add_integers, add_reals, begin_table
    implicit none (type, external)
    private
-   public :: adaptation_t, adapted_mesh_t, begin_adaptation, follow_error, build_adaptation, adaptation_text, missed_text
+   public :: adaptation_t, adapted_mesh_t, begin_adaptation, follow_error, build_adaptation, adaptation_text, give_up, &
+             mesh_text, missed_text
 
    real(wp), parameter :: BULK = 0.5_wp              !< of the sum of squares, that of the elements which are cut ...
    real(wp), parameter :: LEAST_BULK = 0.1_wp        !< ... less where less is enough: cut in four they have some quarter of it left
@@ -30,6 +32,7 @@ module atrito_adaptation
    type :: adapted_mesh_t
       integer(ip) :: n_elements = 0, n_dofs = 0, n_solves = 0
       real(wp) :: percent = 0.0_wp                   !< of the error
+      logical :: is_certified = .false.              !< it is at most that
       real(wp) :: seconds(2) = 0.0_wp                !< wall clock and processor, from the beginning of the run
    end type adapted_mesh_t
 
@@ -44,6 +47,7 @@ module atrito_adaptation
 
 contains
 
+   !> What --adapt asks for, and when it began.
    subroutine begin_adaptation(command, adaptation)
       type(command_t), intent(in) :: command
       type(adaptation_t), intent(out) :: adaptation
@@ -54,15 +58,24 @@ contains
       adaptation%processor = processor_seconds()
    end subroutine begin_adaptation
 
-   !> Whose error is followed, in one place: the square of each element's share, and the error of the whole [%].
-   pure subroutine fetch_errors(results, squares, percent)
+   !> Whose error is followed, in one place: the square of each element's share, and the error of the whole [%]. It is the bound where
+   !> there is one, as the shares are, else the estimate.
+   pure subroutine fetch_errors(results, squares, mesh)
       type(results_t), intent(in) :: results
       real(wp), allocatable, intent(out) :: squares(:) !< (n_elements)
-      real(wp), intent(out) :: percent
+      type(adapted_mesh_t), intent(inout) :: mesh
 
       squares = results%element_error**2
-      percent = results%error_estimate
+      mesh%percent = error_of(results)
+      mesh%is_certified = results%error_bound%is_certified
    end subroutine fetch_errors
+
+   !> The bound of the error of an increment, or its estimate [%].
+   elemental real(wp) function error_of(frame) result(percent)
+      class(frame_numbers_t), intent(in) :: frame
+
+      percent = merge(frame%error_bound%percent, frame%error_estimate, frame%error_bound%exists)
+   end function error_of
 
    !> Notes what was found on a mesh, and cuts it for the next one: of a history where the printed increment with the largest error
    !> has it. goes_on: there is to be a next one.
@@ -76,8 +89,8 @@ contains
       type(results_t), pointer :: results
       integer(lp) :: now, rate
 
-      call view_frame(history, maxloc(history%frames%error_estimate, dim=1, kind=ip), results)
-      call fetch_errors(results, squares, mesh%percent)
+      call view_frame(history, maxloc(error_of(history%frames), dim=1, kind=ip), results)
+      call fetch_errors(results, squares, mesh)
       mesh%n_elements = model%mesh%n_elements
       mesh%n_dofs = results%scene%n_dofs
       mesh%n_solves = size(history%iterations, kind=ip)
@@ -143,6 +156,20 @@ contains
       end associate
    end subroutine look_for_limit
 
+   !> The next mesh cannot be built: the first error says why.
+   subroutine give_up(adaptation)
+      type(adaptation_t), intent(inout) :: adaptation
+      type(message_t) :: message
+      integer(ip) :: i
+
+      do i = 1, count_messages()
+         message = get_message(i)
+         if (message%severity == SEVERITY_ERROR) exit
+      end do
+      adaptation%why = 'the next mesh is no good'
+      if (i <= count_messages()) adaptation%why = adaptation%why//' ('//message%text//')'
+   end subroutine give_up
+
    !> adapt.tab.
    subroutine build_adaptation(adaptation, table)
       type(adaptation_t), intent(in) :: adaptation
@@ -155,12 +182,24 @@ contains
          call add_integers(table, 'mesh', [(i, i=1, n)])
          call add_integers(table, 'elements', meshes%n_elements)
          call add_integers(table, 'dofs', meshes%n_dofs)
-         call add_reals(table, 'error_estimate_percent', '%', meshes%percent, 0.0_wp)
+         call add_reals(table, 'error_percent', '%', meshes%percent, 0.0_wp)
+         call add_integers(table, 'certified', merge(1_ip, 0_ip, meshes%is_certified))
          call add_integers(table, 'linear_solves', meshes%n_solves)
          call add_reals(table, 'total_wall', 's', meshes%seconds(1), 0.0_wp)
          call add_reals(table, 'total_cpu', 's', meshes%seconds(2), 0.0_wp)
       end associate
    end subroutine build_adaptation
+
+   !> `mesh 4: 392 elements, error 10.3 %`, the last one.
+   function mesh_text(adaptation) result(text)
+      type(adaptation_t), intent(in) :: adaptation
+      character(len=:), allocatable :: text
+
+      associate (n => size(adaptation%meshes), meshes => adaptation%meshes)
+         text = 'mesh '//to_text(int(n, ip))//': '//to_text(meshes(n)%n_elements)//' elements, error '// &
+                percent_text(meshes(n))
+      end associate
+   end function mesh_text
 
    !> `7 meshes, from 111 to 2350 elements; error 18.6 to 4.9 %`
    function adaptation_text(adaptation) result(text)
@@ -168,10 +207,23 @@ contains
       character(len=:), allocatable :: text
 
       associate (n => size(adaptation%meshes), meshes => adaptation%meshes)
+         if (n < 2) then
+            text = 'the first mesh'
+            if (n == 1) text = text//' has an error of '//percent_text(meshes(1))
+            return
+         end if
          text = to_text(int(n, ip))//' meshes, from '//to_text(meshes(1)%n_elements)//' to '//to_text(meshes(n)%n_elements)// &
-                ' elements; error '//to_text(meshes(1)%percent, 3)//' to '//to_text(meshes(n)%percent, 3)//' %'
+                ' elements; error '//to_text(meshes(1)%percent, 3)//' to '//percent_text(meshes(n))
       end associate
    end function adaptation_text
+
+   !> `at most 4.9 %`, of a bound, or `some 4.9 %`, of an estimate.
+   pure function percent_text(mesh) result(text)
+      type(adapted_mesh_t), intent(in) :: mesh
+      character(len=:), allocatable :: text
+
+      text = trim(merge('at most', 'some   ', mesh%is_certified))//' '//to_text(mesh%percent, 3)//' %'
+   end function percent_text
 
    !> Why the run ends with a larger error than it was to have.
    function missed_text(adaptation) result(text)
@@ -179,7 +231,7 @@ contains
       character(len=:), allocatable :: text
 
       associate (n => size(adaptation%meshes))
-         text = 'the estimated error is '//to_text(adaptation%meshes(n)%percent, 3)//' %, not '//to_text(adaptation%target, 3)// &
+         text = 'the error is '//percent_text(adaptation%meshes(n))//', not '//to_text(adaptation%target, 3)// &
                 ' % as --adapt asks: '//adaptation%why//'; the last mesh is written'
       end associate
    end function missed_text

@@ -18,6 +18,7 @@ module atrito_driver
    use atrito_folder_claim, only: folder_claim_t, claim_folder, release_folder
    use atrito_keyword_table, only: keyword_table, keyword_names
    use atrito_kinds, only: ip
+   use atrito_load_model, only: load_model, prepare_observations
    use atrito_libraries, only: library_t, add_libraries, version_lines, LOADED
    use atrito_means, only: secure_means
    use atrito_messages, only: message_t, add_warning, clear_messages
@@ -30,7 +31,7 @@ module atrito_driver
    use atrito_reporter, only: reporter_t
    use atrito_results, only: scene_t
    use atrito_observations, only: observations_t
-   use atrito_run, only: run_deck, load_model, prepare_observations, solve_options
+   use atrito_run, only: run_deck, solve_options
    use atrito_solve, only: survey_scene
    use atrito_stability_limit, only: run_limit
    use atrito_status, only: status_t, is_ok, STATUS_OK, STATUS_USAGE, STATUS_FILE, STATUS_INTERNAL

@@ -1,36 +1,26 @@
 !> One run: read the deck, build the model, solve, write.
 module atrito_run
    use, intrinsic :: iso_fortran_env, only: output_unit
-   use atrito_adaptation, only: adaptation_t, adaptation_text, begin_adaptation, build_adaptation, follow_error, missed_text
+   use atrito_adaptation, only: adaptation_t, adaptation_text, begin_adaptation, build_adaptation, mesh_text, missed_text
    use atrito_as_run_names, only: as_run_name
    use atrito_body_cache, only: body_cache_t
-   use atrito_build_model, only: build_model
-   use atrito_build_requests, only: refuse_field_files
-   use atrito_build_trees, only: card_of_trees
    use atrito_command_line, only: command_t, output_folder, TASK_RUN
-   use atrito_console, only: print_message, print_messages, print_status, reporter_of
-   use atrito_deck, only: deck_t
-   use atrito_deck_as_run, only: take_deck_as_run
-   use atrito_element_table, only: DEGREE_OF, KINDS, kind_named
-   use atrito_files, only: check_folder, check_all_own, check_length, check_own, forget_inputs, is_folder, protect_input
+   use atrito_console, only: print_messages, print_status, reporter_of
+   use atrito_element_table, only: DEGREE_OF, KINDS
+   use atrito_files, only: check_folder, check_all_own, check_length, check_own, forget_inputs, is_folder
    use atrito_folder_claim, only: folder_claim_t, claim_folder, release_folder
    use atrito_frame_spool, only: begin_frames, end_frames, frame_spool_t
-   use atrito_given_options, only: options_of_run
-   use atrito_hdf5, only: has_hdf5
    use atrito_history, only: solve_history
    use atrito_kinds, only: ip, wp
+   use atrito_load_model, only: check_adaptable, load_model, prepare_observations, take_next_mesh
    use atrito_mesh, only: signed_area
-   use atrito_messages, only: message_t, clear_messages, count_messages, sort_messages, SEVERITY_ERROR
+   use atrito_messages, only: count_messages
    use atrito_model, only: model_t
-   use atrito_observations, only: observations_t, read_observations
+   use atrito_observations, only: observations_t
    use atrito_older_results, only: note_older_results
    use atrito_option_table, only: place_of_word
    use atrito_page, only: page_t, add_above_rule, print_page
-   use atrito_parameter_text, only: list_parameters
-   use atrito_patched_text, only: digest_of_texts
-   use atrito_plane_state, only: FULL_STATE
    use atrito_plot_files, only: plot_folder, solution_folder, list_plots, PLOTS_OF_RUN
-   use atrito_reader, only: read_deck
    use atrito_report_maker, only: make_run_report
    use atrito_rank_distribution, only: distribute_over_ranks
    use atrito_reporter, only: reporter_t, report_phase
@@ -43,18 +33,17 @@ module atrito_run
    use atrito_solve, only: solve_options_t, PROOF_AUTO, PROOF_OFF, PROOF_ON, CONTACT_AUTO, CONTACT_DENSE, CONTACT_SPARSE, &
                            SOLVER_AUTO, SOLVER_SKYLINE, &
                            SOLVER_BANDED, SOLVER_SPARSE
-   use atrito_status, only: status_t, set_status, reword_status, is_ok, STATUS_OK, STATUS_USAGE, STATUS_DECK, STATUS_NOT_CONVERGED
-   use atrito_strings, only: string_t, upper_case
+   use atrito_status, only: status_t, set_status, reword_status, is_ok, STATUS_OK, STATUS_NOT_CONVERGED
+   use atrito_strings, only: string_t
    use atrito_study_errors, only: run_facts_t
    use atrito_system, only: address_space_limit
    use atrito_table, only: table_t
    use atrito_threads, only: lent_threads, set_threads
-   use atrito_timers, only: start_phase, stop_phase
    use atrito_write_plots, only: write_plots, plot_names
    use atrito_write_results, only: write_results, remove_results, list_files_of_run
    implicit none (type, external)
    private
-   public :: run_deck, take_threads, load_model, read_model, prepare_observations, solve_options, agree_on_outcome
+   public :: run_deck, take_threads, solve_options, agree_on_outcome
 
 contains
 
@@ -102,15 +91,21 @@ contains
       subroutine solve_and_write()
          type(history_t), target :: history
          type(solve_options_t) :: options
+         logical :: goes_on
 
          options = solve_options(command)
-         if (allocated(command%show)) then
-            call begin_show(command%show, show)
-            if (size(command%show) > 0) options%viewer => show
-         end if
          do
+            if (allocated(command%show)) then       ! of the last mesh
+               call begin_show(command%show, show)
+               if (size(command%show) > 0) options%viewer => show
+            end if
             call solve_history(model, options, reporter, history, status, store, recorder, observations, frames)
-            if (.not. has_next_mesh(history)) exit
+            if (adaptation%target <= 0.0_wp .or. .not. is_ok(status)) exit
+            call take_next_mesh(command, history, model, observations, adaptation, n_printed, goes_on)
+            if (.not. goes_on) exit
+            call report_phase(reporter, 'adapt '//mesh_text(adaptation))
+            call end_frames(frames)
+            call begin_frames(output_folder(command), frames)
          end do
          if (last_frame(history) == 0) call note_older_results(output_folder(command), model%deck_path, model%provenance)
          call print_messages(command%quiet, n_printed + 1, command%json)
@@ -133,38 +128,7 @@ contains
          end associate
       end subroutine solve_and_write
 
-      !> Whether the error asks for another mesh; the model is that of the next one then.
-      logical function has_next_mesh(history) result(has)
-         type(history_t), intent(in), target :: history
-         type(reporter_t) :: silent
-
-         has = adaptation%target > 0.0_wp .and. is_ok(status) .and. last_frame(history) > 0
-         if (has) has = all(history%frames%converged .and. history%frames%law_holds)
-         if (has) call follow_error(model, history, adaptation, has)
-         if (.not. has) return
-         call end_frames(frames)
-         call begin_frames(output_folder(command), frames)
-         call report_phase(reporter, 'adapt '//adaptation_text(adaptation))
-         silent%quiet = .true.
-         call forget_inputs()                       ! as before the first
-         call clear_messages()                      ! what is said is of the last mesh
-         call load_model(command, silent, model, n_printed, code, only_errors=.true., keeps_deck=.true., adaptation=adaptation)
-         has = code == STATUS_OK
-         if (has) call prepare_observations(command, model, observations, code)
-      end function has_next_mesh
-
    end subroutine run_deck
-
-   !> --adapt begins anew with each mesh: there is nothing to go on from. status: STATUS_USAGE.
-   subroutine check_adaptable(command, model, status)
-      type(command_t), intent(in) :: command
-      type(model_t), intent(in) :: model
-      type(status_t), intent(out) :: status
-
-      if (command%adapt > 0.0_wp .and. (model%restart_every > 0 .or. allocated(command%restart))) then
-         call set_status(status, STATUS_USAGE, '--adapt: each mesh begins anew, without *RESTART and --restart')
-      end if
-   end subroutine check_adaptable
 
    !> The threads of this run, with those of ranks that wait on the same host: not where `ulimit -v` counts what each reserves.
    subroutine take_threads(command)
@@ -323,89 +287,6 @@ contains
       call print_page(show%page, output_unit)
    end subroutine write_run
 
-   !> Reads a deck and builds its model. All messages are printed; errors of the deck give STATUS_DECK.
-   subroutine load_model(command, reporter, model, n_printed, code, only_errors, keeps_deck, adaptation)
-      type(command_t), intent(in) :: command
-      type(reporter_t), intent(in) :: reporter
-      type(model_t), intent(out) :: model
-      integer(ip), intent(out) :: n_printed         !< messages printed so far
-      integer, intent(out) :: code
-      logical, intent(in), optional :: only_errors  !< the others of this deck have been printed
-      logical, intent(in), optional :: keeps_deck   !< as it is run, in the model; left out: .false.
-      type(adaptation_t), intent(inout), optional :: adaptation !< how the elements of the deck are cut, where they are
-      type(deck_t) :: deck
-      type(status_t) :: status
-      logical :: silent
-
-      call report_phase(reporter, 'read  '//command%names(1)%s)
-      call start_phase('read')
-      call read_deck(command%names(1)%s, command%settings, deck, status)
-      call stop_phase('read')
-      n_printed = 0
-      code = STATUS_DECK
-      if (is_ok(status) .or. status%code == STATUS_DECK) then
-         call start_phase('mesh')
-         if (command%adapt > 0.0_wp .and. present(adaptation)) then
-            call build_model(deck, model, command%refine, trees=adaptation%trees)
-         else
-            call build_model(deck, model, command%refine, shape=command%shape, state=command%state)
-         end if
-         if (.not. has_hdf5()) call refuse_field_files(deck)
-         call stop_phase('mesh')
-         call list_parameters(deck, [string_t ::], model%provenance%parameters)
-         call options_of_run(command, model%provenance%options)
-         call sort_messages()
-         if (present(keeps_deck) .and. count_messages(SEVERITY_ERROR) > 0) call note_older_results(output_folder(command), &
-                                                                                               command%names(1)%s, model%provenance)
-         silent = .false.
-         if (present(only_errors)) silent = only_errors .and. count_messages(SEVERITY_ERROR) == 0
-         if (.not. silent) call print_messages(command%quiet, 1_ip, command%json)
-         n_printed = count_messages()
-         if (count_messages(SEVERITY_ERROR) > 0) return
-         if (is_ok(status) .and. .not. has_state(model, command%element)) then
-            call set_status(status, STATUS_USAGE, '--elements '//trim(command%element)// &
-                            ': the deck has elements of the other plane state')
-         end if
-      end if
-      if (present(keeps_deck) .and. is_ok(status)) call keep_deck(deck, model, status, adaptation)
-      code = status%code
-      if (.not. is_ok(status)) call print_status(status, command%names(1)%s, command%json)
-   end subroutine load_model
-
-   !> The model of a command of which nothing is printed. ok: its deck has no errors.
-   subroutine read_model(command, model, ok)
-      type(command_t), intent(in) :: command
-      type(model_t), intent(out) :: model
-      logical, intent(out) :: ok
-      type(deck_t) :: deck
-      type(status_t) :: status
-
-      call read_deck(command%names(1)%s, command%settings, deck, status)
-      ok = is_ok(status) .and. count_messages(SEVERITY_ERROR) == 0
-      if (.not. ok) return
-      call build_model(deck, model, command%refine, shape=command%shape, state=command%state)
-      ok = count_messages(SEVERITY_ERROR) == 0
-   end subroutine read_model
-
-   !> Reads the expressions of the deck and of --observe. code: STATUS_DECK or STATUS_USAGE for one that is wrong, which is printed.
-   subroutine prepare_observations(command, model, observations, code)
-      type(command_t), intent(in) :: command
-      type(model_t), intent(in) :: model
-      type(observations_t), intent(out) :: observations
-      integer, intent(out) :: code
-      type(message_t) :: error
-      type(string_t), allocatable :: texts(:)
-      logical :: ok
-
-      code = STATUS_OK
-      texts = [string_t ::]
-      if (allocated(command%observe)) texts = command%observe
-      call read_observations(texts, model, observations, ok, error)
-      if (ok) return
-      code = merge(STATUS_DECK, STATUS_USAGE, error%line > 0)
-      call print_message(error, command%json)
-   end subroutine prepare_observations
-
    !> Whether what the run is going to replace or remove is atrito's, and nothing that it has read. status: STATUS_FILE.
    subroutine check_files(command, model, status)
       type(command_t), intent(in) :: command
@@ -421,38 +302,6 @@ contains
       if (is_ok(status)) call check_own(folder//'/'//restart_name(model), status, may_be_read=.true.)
    end subroutine check_files
 
-   !> The deck as it is run, and its digest; its files are protected.
-   subroutine keep_deck(deck, model, status, adaptation)
-      type(deck_t), intent(inout) :: deck
-      type(model_t), intent(inout) :: model
-      type(status_t), intent(inout) :: status
-      type(adaptation_t), intent(in), optional :: adaptation !< whose mesh the deck gets
-      logical :: is_cut
-      integer(ip) :: i
-
-      do i = 1, deck%n_sources
-         if (is_ok(status)) call protect_input(deck%sources(i)%identity, status)
-      end do
-      is_cut = .false.
-      if (present(adaptation)) is_cut = adaptation%target > 0.0_wp .and. model%n_cut > 0
-      if (is_cut) then
-         call take_deck_as_run(deck, model%as_run, card_of_trees(deck, adaptation%trees))
-      else
-         call take_deck_as_run(deck, model%as_run)
-      end if
-      model%provenance%digest = digest_of_texts(model%as_run)
-   end subroutine keep_deck
-
-   !> Whether all elements of the deck have the plane state of a kind; nothing asked is always there.
-   pure logical function has_state(model, element)
-      type(model_t), intent(in) :: model
-      character(len=*), intent(in) :: element       !< name of a kind, or empty
-
-      has_state = .true.
-      if (len_trim(element) > 0) has_state = all(FULL_STATE(model%mesh%state) &
-                                                 == FULL_STATE(KINDS(kind_named(upper_case(trim(element))))%state))
-   end function has_state
-
    !> What the command line asks of the solver: its kind, the form of the contact system, and what else has to be found.
    function solve_options(command) result(options)
       type(command_t), intent(in) :: command
@@ -466,6 +315,7 @@ contains
       options%element_errors = command%plot .or. command%adapt > 0.0_wp
       options%starts = command%starts
       options%proof = PROOFS(place_of_word('--proof', command%proof))
+      if (command%adapt > 0.0_wp .and. options%proof == PROOF_AUTO) options%proof = PROOF_ON     ! it is what is followed
       ! the runs of sweeps, studies and limits stay where they are
       if (command%task == TASK_RUN .and. command%share /= 'none' .and. command%adapt <= 0.0_wp) then
          call distribute_over_ranks(command%share == 'all', options%distribution)

@@ -10,7 +10,7 @@ module atrito_run_request
    use atrito_buffer, only: buffer_t, put, take
    use atrito_rank_services, only: send_to_others, SERVICE_RUNS
    use atrito_rank_tasks, only: rank_tasks_t, rank_times_t, hand_out
-   use atrito_run, only: read_model
+   use atrito_load_model, only: read_model
    use atrito_status, only: status_t, set_status, STATUS_INTERNAL
    use atrito_strings, only: string_t, to_text
    implicit none (type, external)

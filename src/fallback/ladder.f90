@@ -40,8 +40,8 @@ module atrito_ladder
 
 contains
 
-   !> Whether a rung is tried after a first attempt in form `first`. With bounded effort none costs more than what it follows: behind
-   !> the sparse form, which was taken because the dense one would cost more, there is none.
+   !> Whether a rung is tried after a first attempt in form `first`. With bounded effort none costs more than what it follows:
+   !> behind the sparse form, which was taken because the dense one would cost more, there is none.
    pure logical function is_tried(i, first, asked, m, may_cut, is_brief)
       integer, intent(in) :: i                             !< of RUNGS
       integer, intent(in) :: first, asked                  !< CONTACT_*; asked: by the user, or CONTACT_AUTO

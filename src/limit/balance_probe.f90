@@ -142,8 +142,8 @@ contains
       if (found) call find_largest_share(motions(1), data(1)%line, motions(2), share, found)
    end subroutine predict_share
 
-   !> Whether loads of a single increment that can be balanced can be so without the points that gaps keep apart: the balance knows no
-   !> gaps. Not allocated: they can.
+   !> Whether loads of a single increment that can be balanced can be so without the points that gaps keep apart: the balance knows
+   !> no gaps. Not allocated: they can.
    subroutine describe_gaps(model, text)
       type(model_t), intent(in), target :: model
       character(len=:), allocatable, intent(out) :: text
@@ -153,27 +153,28 @@ contains
       type(solve_options_t) :: asked
       type(body_cache_t) :: store
       type(status_t) :: status
-      logical, allocatable :: is_apart(:)
+      logical, allocatable :: touches(:)
       integer(ip) :: j, k
 
       if (size(model%steps) > 1) return
       asked%contact_form = CONTACT_SPARSE
       call prepare(model, store, asked, data, status)
       if (.not. is_ok(status)) return
-      allocate (is_apart(data%line%n), source=.false.)
+      allocate (touches(data%line%n), source=.true.)
       do j = 1, data%rows%n - data%rows%n_bilateral
          associate (bodies => bodies_of_row(data%rows, j, data%fem%bodies%of_node))
             do k = 1, size(bodies, kind=ip)
-               if (bodies(k) > 0) is_apart(j) = is_apart(j) .or. data%rows%gap(j) > FAR_APART*data%fem%bodies%list(bodies(k))%size
+               if (bodies(k) > 0) touches(j) = touches(j) .and. data%rows%gap(j) <= FAR_APART*data%fem%bodies%list(bodies(k))%size
             end do
          end associate
       end do
-      if (.not. any(is_apart)) return
+      if (all(touches)) return
       call build_motion_rows(data%fem, data%rows, data%line, data%f, motions)
-      call prove_balance(motions, data%line, certificate, .not. is_apart)
-      if (certificate%verdict == BALANCE_POSSIBLE) return
-      text = 'the balance counts points as touching that are up to '//to_text(maxval(data%rows%gap, mask=is_apart), 3) &
-             //' apart without loads; without them nothing balances the loads, so its limit says little of what stands'
+      call prove_balance(motions, data%line, certificate, touches)
+      if (certificate%verdict /= BALANCE_POSSIBLE) then
+         text = 'the balance counts points as touching that are up to '//to_text(maxval(data%rows%gap, mask=.not. touches), 3) &
+                //' apart without loads; without them nothing balances the loads, so its limit says little of what stands'
+      end if
    end subroutine describe_gaps
 
    !> The time, where there is more than one to be asked about.

@@ -1,9 +1,9 @@
 !> Where between two values of a parameter a scene ceases to stand: which value is to be looked at next, and what is known so far.
 !>
 !> Two questions can be asked of a value. The balance is cheap: whether any forces that the contact can take balance the loads. A
-!> solution costs a run. The balance narrows the limit from both sides. Then values from the end that stands on are solved, each next
-!> to the one before: the curve, and the last value that can be balanced. Where runs find neither a solution nor a proof, the last
-!> value that stands is looked for by strides; such values narrow neither bound.
+!> solution costs a run. The balance narrows the limit from both sides. Then values from the end that stands on are solved, each
+!> next to the one before: the curve, and the last value that can be balanced. Where runs find neither a solution nor a proof, the
+!> last value that stands is looked for by strides; such values narrow neither bound.
 module atrito_stability_search
    use atrito_kinds, only: wp
    implicit none (type, external)
@@ -192,8 +192,8 @@ contains
       if (known%balance == UNKNOWN) step = STEP_BALANCE   ! else: rounding leaves no value between
    end subroutine narrow_balance
 
-   !> Behind the last value that stands, by strides that get longer with each solution, and shorter where there is none: from near by a
-   !> value may have a solution that had none from farther away.
+   !> Behind the last value that stands, by strides that get shorter where there is no solution: from near by a value may have one
+   !> that had none from farther away.
    pure subroutine narrow_solutions(search, standing, x, step)
       type(search_t), intent(inout) :: search
       integer, intent(in) :: standing
@@ -244,8 +244,8 @@ contains
       end if
    end subroutine choose_trial
 
-   !> Where the balance is said to end; or, where that is not between what stands and what falls, where the line through the excess of
-   !> the two nearest values that fall is zero.
+   !> Where the balance is said to end; or, where that is not between what stands and what falls, where the line through the excess
+   !> of the two nearest values that fall is zero.
    pure subroutine predict_root(search, start, reach, fall, root, found)
       type(search_t), intent(in) :: search
       real(wp), intent(in) :: start, reach, fall

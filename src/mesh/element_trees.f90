@@ -5,6 +5,9 @@
 !> until none has a side cut twice, and none more than two such nodes. It gets pieces then that need no node in the middle of a
 !> side, which are no leaves, so that they are never cut themselves.
 !>
+!> Of a slender quadrilateral no triangle is made that were more slender still: with a node in the middle of a short side it gets
+!> one on the side opposite, too, and is two, and so on from neighbour to neighbour.
+!>
 !> A triangle is cut in two, from its newest vertex to the middle of the side opposite (W. F. Mitchell, ACM Trans. Math. Softw. 15,
 !> 1989), first of its longest; its neighbours are cut until no node lies in the middle of a side.
 !>
@@ -22,6 +25,7 @@ module atrito_element_trees
 
    integer(ip), parameter :: SIDE = 2_ip**28          !< of an element of the deck, by which places in it are counted
    integer(ip), parameter :: MOST_CUTS = 22           !< of an element into four: middles of pieces still are whole numbers
+   real(wp), parameter :: SLENDER = 3.0_wp            !< length over width
    real(wp), parameter :: ALIKE = 1.0e-9_wp           !< lengths that differ by less, relatively, are the same
    !> Places of the corners of elements.
    integer(ip), parameter :: SQUARE(2, 4) = SIDE*reshape([integer(ip) :: 0, 0, 1, 0, 1, 1, 0, 1], [2, 4])
@@ -32,6 +36,7 @@ module atrito_element_trees
       integer(ip) :: n = 0                            !< cells; 0: there are no trees
       integer(ip) :: n_roots = 0                      !< elements of the deck
       integer(ip), allocatable :: root_id(:)          !< their numbers
+      integer(ip), allocatable :: short_side(:)       !< of a slender one: 1 or 2, with the side opposite; else 0
       integer(ip), allocatable :: first_child(:)      !< of four, or two of a triangle; 0: a leaf
       integer(ip), allocatable :: root(:)             !< element of the deck
       integer(ip), allocatable :: place(:, :, :)      !< (2, 4, cells) of corners, along the sides 1-2 and 1-4 (1-3) of the root
@@ -58,9 +63,11 @@ contains
       allocate (trees%first_edge(mesh%n_nodes), source=0_ip)
       associate (n => mesh%n_elements)
          allocate (trees%first_child(n), trees%root(n), trees%place(2, 4, n), trees%corner(4, n))
+         allocate (trees%short_side(n), source=0_ip)
       end associate
       do e = 1, mesh%n_elements
          if (side_count(mesh, e) == 4) then
+            trees%short_side(e) = short_side_of(mesh, e)
             call add_cell(e, SQUARE, partner(mesh%nodes(:4, e)), trees)
          else
             n = longest_side(mesh, partner, e)
@@ -69,6 +76,19 @@ contains
          end if
       end do
    end subroutine begin_trees
+
+   !> Which sides of a slender quadrilateral are the short ones.
+   pure integer(ip) function short_side_of(mesh, e) result(short)
+      type(mesh_t), intent(in) :: mesh
+      integer(ip), intent(in) :: e
+      real(wp) :: length(4)
+      integer(ip) :: i
+
+      length = [(norm2(mesh%x(:, mesh%nodes(mod(i, 4_ip) + 1, e)) - mesh%x(:, mesh%nodes(i, e))), i=1, 4)]
+      short = 0
+      if (length(2) + length(4) > SLENDER*(length(1) + length(3))) short = 1
+      if (length(1) + length(3) > SLENDER*(length(2) + length(4))) short = 2
+   end function short_side_of
 
    !> The longest side of a triangle; of some as long the one of the least vertices, so that two neighbours agree.
    pure integer(ip) function longest_side(mesh, partner, e) result(longest)
@@ -117,7 +137,7 @@ contains
    pure subroutine cut_leaves(leaves, trees)
       integer(ip), intent(in) :: leaves(:)
       type(element_trees_t), intent(inout) :: trees
-      integer(ip) :: i, n
+      integer(ip) :: i, n, n_edges
 
       do i = 1, size(leaves, kind=ip)
          call cut_cell(leaves(i), trees)
@@ -127,13 +147,33 @@ contains
       end do
       do
          n = trees%n
+         n_edges = trees%n_edges
          do i = 1, n
             if (trees%first_child(i) > 0) cycle
-            if (has_to_be_cut(trees, i)) call cut_cell(i, trees)
+            if (has_to_be_cut(trees, i)) then
+               call cut_cell(i, trees)
+            else if (trees%short_side(trees%root(i)) > 0) then
+               call halve_slender(i, trees)
+            end if
          end do
-         if (trees%n == n) exit
+         if (trees%n == n .and. trees%n_edges == n_edges) exit
       end do
    end subroutine cut_leaves
+
+   !> Of a slender leaf with a node in the middle of one of its short sides, and no other, the other short side gets one, too.
+   pure subroutine halve_slender(cell, trees)
+      integer(ip), intent(in) :: cell
+      type(element_trees_t), intent(inout) :: trees
+      logical :: is_cut(4)
+      integer(ip) :: i, middle, short
+
+      is_cut = [(is_side_cut(trees, cell, i), i=1, 4)]
+      short = trees%short_side(trees%root(cell))
+      if (count(is_cut) /= 1 .or. .not. any(is_cut([short, short + 2]))) return
+      do i = short, short + 2, 2
+         call need_middle(trees%corner(i, cell), trees%corner(mod(i, 4_ip) + 1, cell), trees, middle)
+      end do
+   end subroutine halve_slender
 
    !> Cuts all leaves, so many times.
    pure subroutine cut_all(times, trees)
@@ -146,6 +186,7 @@ contains
       end do
    end subroutine cut_all
 
+   !> The cells that are not cut.
    pure function list_leaves(trees) result(leaves)
       type(element_trees_t), intent(in) :: trees
       integer(ip), allocatable :: leaves(:)
@@ -154,6 +195,7 @@ contains
       leaves = pack([(i, i=1, trees%n)], trees%first_child(:trees%n) == 0)
    end function list_leaves
 
+   !> How many these are.
    pure integer(ip) function count_leaves(trees) result(n)
       type(element_trees_t), intent(in) :: trees
 

@@ -139,7 +139,6 @@ contains
       type(model_t), intent(out), target :: model
       type(element_trees_t), intent(inout), optional :: trees !< empty ones are begun, and change nothing yet
       type(build_context_t) :: context
-      logical :: begins_trees
       type(contact_rules_t) :: rules
       type(chain_report_t), allocatable :: chains(:)
       type(contact_points_t), allocatable :: points(:)
@@ -166,12 +165,10 @@ contains
       call read_curves(context)
       call read_temperatures(context)
       call read_node_thickness(context)
-      begins_trees = .false.
-      if (present(trees)) then
-         begins_trees = trees%n == 0
-         if (.not. begins_trees) call cut_model(trees, context)
-      else if (levels > 0 .or. shape > 0) then
-         call refine_model(levels, shape, context)
+      if (.not. present(trees)) then
+         if (levels > 0 .or. shape > 0) call refine_model(levels, shape, context)
+      else if (trees%n > 0) then
+         call cut_model(trees, context)
       end if
       if (state > 0) model%mesh%state = state
       call build_surfaces(context)
@@ -218,7 +215,8 @@ contains
       call warn_of_overlap(model, context)
       call warn_of_loaded_contact(model, context)
       call warn_of_pairs_twice(model, context)
-      if (begins_trees) call build_trees(levels, context, trees)
+      if (.not. present(trees)) return
+      if (trees%n == 0) call build_trees(levels, context, trees)
    end subroutine build_once
 
    !> What acts in each step and what it asks for.

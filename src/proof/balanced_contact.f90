@@ -13,32 +13,59 @@ module atrito_balanced_contact
 
 contains
 
-   !> Makes the tractions of contact balance the loads of bodies that can move, by a small change: at every end of a segment
+   !> Makes the tractions of contact balance the loads of bodies that can move: by the pressures alone where that is enough, else by
+   !> friction, too.
+   !>
+   !> why_not: no such change leaves pressures positive and friction within its bound.
+   subroutine balance(problem, segments, why_not)
+      class(problem_t), intent(in) :: problem
+      type(segment_t), intent(inout) :: segments(:)
+      character(len=:), allocatable, intent(inout) :: why_not
+      real(wp), allocatable :: work(:), size_of(:)
+      type(segment_t), allocatable :: changed(:)
+      integer(ip), allocatable :: first(:)
+      logical :: is_found
+      integer :: attempt
+
+      first = first_motions(problem%fem%bodies)
+      if (first(size(first)) == 1) return
+      call work_on_motions(problem, segments, first, work, size_of)
+      if (all(abs(work) <= UNBALANCED*size_of)) return
+      do attempt = 1, 2
+         changed = segments
+         call change_least(problem, first, work, attempt == 2, changed, is_found)
+         if (is_found) then
+            segments = changed
+            return
+         end if
+      end do
+      why_not = 'tractions that balance a body'
+   end subroutine balance
+
+   !> The least change, at every end of a segment
    !>
    !>     p (1 + sum_m c_m z_m),     t + (tau - |t|) sum_m c_m y_m,
    !>
    !> z_m the approach of the sides there by motion m, y_m the same along the sides. The work on the motions is then W + G c = 0,
    !> G_mn = sum over the ends of the forces of p times z_m z_n, and those of tau - |t| times y_m y_n.
-   subroutine balance(problem, segments, why_not)
+   subroutine change_least(problem, first, work, with_friction, segments, is_found)
       class(problem_t), intent(in) :: problem
+      integer(ip), intent(in) :: first(:)           !< motions of the bodies
+      real(wp), intent(in) :: work(:)               !< W [F L]
+      logical, intent(in) :: with_friction
       type(segment_t), intent(inout) :: segments(:)
-      character(len=:), allocatable, intent(inout) :: why_not
-      real(wp), allocatable :: work(:), size_of(:), gram(:, :), change(:)
-      integer(ip), allocatable :: first(:)
+      logical, intent(out) :: is_found
+      real(wp), allocatable :: gram(:, :), change(:), left(:), size_of(:)
       integer(ip) :: motion(6), n, i, k, l, m, end_of, n_motions
       real(wp) :: z(6, 2), force(2), factor(2), most
       integer(ip) :: info
 
-      first = first_motions(problem%fem%bodies)
-      n = first(size(first)) - 1
-      if (n == 0) return
-      call work_on_motions(problem, segments, first, work, size_of)
-      if (all(abs(work) <= UNBALANCED*size_of)) return
+      n = size(work, kind=ip)
       allocate (gram(n, n), source=0.0_wp)
       do i = 1, size(segments, kind=ip)
          do end_of = 1, 2
             call approach_of(problem, segments(i), end_of, first, n_motions, motion, z)
-            force = 0.5_wp*segments(i)%length*segments(i)%thickness*[segments(i)%p(end_of), room_of(segments(i), end_of)]
+            force = 0.5_wp*segments(i)%length*segments(i)%thickness*[segments(i)%p(end_of), room_at(segments(i), end_of)]
             do k = 1, n_motions
                do l = 1, n_motions
                   gram(motion(k), motion(l)) = gram(motion(k), motion(l)) + sum(force*z(k, :)*z(l, :))
@@ -47,29 +74,39 @@ contains
          end do
       end do
       most = maxval([(gram(m, m), m=1, n)])
-      do m = 1, n                                   ! along sides without friction a motion has no work: it keeps what it has
+      do m = 1, n                                   ! what no traction works on keeps what it has
          gram(m, m) = gram(m, m) + 1.0e-12_wp*most
       end do
       change = -work
       call solve_lu(gram, change, info)
-      if (info == 0) then
-         do i = 1, size(segments, kind=ip)
-            do end_of = 1, 2
-               call approach_of(problem, segments(i), end_of, first, n_motions, motion, z)
-               factor = matmul(change(motion(:n_motions)), z(:n_motions, :))
-               associate (p => segments(i)%p(end_of), room => room_of(segments(i), end_of))
-                  if (p > 0.0_wp .and. .not. factor(1) > -1.0_wp .or. room > 0.0_wp .and. .not. abs(factor(2)) <= 1.0_wp) then
-                     why_not = 'tractions that balance a body'
-                  end if
-                  segments(i)%t(end_of) = segments(i)%t(end_of) + room*factor(2)
-                  p = p*(1 + factor(1))
-               end associate
-            end do
+      is_found = info == 0
+      if (.not. is_found) return
+      do i = 1, size(segments, kind=ip)
+         do end_of = 1, 2
+            call approach_of(problem, segments(i), end_of, first, n_motions, motion, z)
+            factor = matmul(change(motion(:n_motions)), z(:n_motions, :))
+            associate (p => segments(i)%p(end_of), room => room_at(segments(i), end_of))
+               if (p > 0.0_wp .and. .not. factor(1) > -1.0_wp) is_found = .false.
+               if (room > 0.0_wp .and. .not. abs(factor(2)) <= 1.0_wp) is_found = .false.
+               segments(i)%t(end_of) = segments(i)%t(end_of) + room*factor(2)
+               p = p*(1 + factor(1))
+            end associate
          end do
-         call work_on_motions(problem, segments, first, work, size_of)
-      end if
-      if (.not. all(abs(work) <= UNBALANCED*size_of)) why_not = 'tractions that balance a body'
-   end subroutine balance
+      end do
+      call work_on_motions(problem, segments, first, left, size_of)
+      is_found = is_found .and. all(abs(left) <= UNBALANCED*size_of)
+
+   contains
+
+      real(wp) function room_at(segment, end_of)
+         type(segment_t), intent(in) :: segment
+         integer(ip), intent(in) :: end_of
+
+         room_at = 0.0_wp
+         if (with_friction) room_at = room_of(segment, end_of)
+      end function room_at
+
+   end subroutine change_least
 
    !> What friction may be more at one end of a segment, in either direction [F/L^2].
    pure real(wp) function room_of(segment, end_of)

@@ -59,8 +59,8 @@ contains
       real(wp), allocatable, intent(inout) :: exchanged(:, :) !< what exchange_tractions found; not allocated: it is asked now
       logical, intent(in) :: if_quick               !< a bound is wanted where it takes less than half of the time of a run
       type(error_bound_t), intent(out) :: bound
-      real(wp), allocatable, intent(inout) :: element_error(:) !< (n_elements) where allocated, the share of each, root of the sum
-      !< of their squares being the bound [%]
+      real(wp), allocatable, intent(inout) :: element_error(:) !< (n_elements) where allocated: the share of each [%], the root of
+      !< the sum of their squares being eta
       type(proof_loads_t) :: loads
       type(mesh_sides_t) :: sides
       type(side_cuts_t) :: cuts
@@ -139,7 +139,8 @@ contains
       if (allocated(element_error) .and. energy > 0.0_wp) element_error = 100*sqrt(max(share, 0.0_wp)/(2*energy))
    end subroutine bound_error
 
-   !> Whether a bound takes more than the run does: where many elements are quadrilaterals or of second degree and no two are equal.
+   !> Whether a bound takes more than the run does: where many elements are quadrilaterals or of the second degree and no two are
+   !> equal.
    pure logical function takes_long(fem, classes)
       type(fem_t), intent(in) :: fem
       type(element_classes_t), intent(in) :: classes

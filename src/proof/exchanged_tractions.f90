@@ -1,8 +1,8 @@
 !> The displacements that bodies have under tractions of contact in place of the forces of contact.
 !>
 !> Forces of contact at nodes are not those of a pressure that the law allows: an isolated closed node has the force of a pressure
-!> that is negative beside it. With q the forces of contact and q^ those of the tractions, the bodies move by K^-1 (q^ - q)
-!> besides, which costs a solution with the factors that are there, and all else is a matter of given loads.
+!> that is negative beside it. With q the forces of contact and q^ those of the tractions, the bodies move by K^-1 (q^ - q) besides,
+!> which costs a solution with the factors that are there, and all else is a matter of given loads.
 module atrito_exchanged_tractions
    use atrito_balanced_contact, only: add_segments, balance
    use atrito_condensed_body, only: condense_body, condensed_body_t, contact_response, expand_body

@@ -74,7 +74,7 @@ contains
             if (.not. raises(segments(i), segments(i)%master_is_softer)) then
                if (raises(segments(i),.not. segments(i)%master_is_softer)) cycle
                if (segments(i)%delta > 0.0_wp) cycle
-               why_not = 'a support holds nodes of contact sides that would have to be moved apart'
+               why_not = 'a support keeps contact sides from moving apart'
                return
             end if
          end do

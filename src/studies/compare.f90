@@ -3,8 +3,8 @@
 !> A number differs if |a-b| > rtol S + atol, S the largest |value| of its column over all increments; of its quantity and pair in
 !> summary.tab; of its contact pair and step for pressure, shear and slip; of its pair in history.tab; of a family of columns in
 !> bodies.tab, joints.tab, sections.tab and history.tab. A column may have rules of its own
-!> (atrito_compare_rules). Integers and words must be equal; nan equals nan. timing and iterations are left out; the equilibrium
-!> residual must be small in both.
+!> (atrito_compare_rules). Integers and words must be equal; nan equals nan. timing, iterations and adapt are left
+!> out; the equilibrium residual must be small in both.
 module atrito_compare
    use atrito_kinds, only: ip, wp
    use atrito_strings, only: string_t, append_string, to_text, join
@@ -23,7 +23,7 @@ module atrito_compare
    real(wp), parameter :: LARGEST_RESIDUAL = 1.0e-8_wp  !< of the equilibrium; its digits are rounding
    integer, parameter :: MOST_LINES = 20, MOST_KEPT = 1000 !< differences printed, kept; the rest is counted
    !> Tables of times and iterations: their numbers depend on the machine and on the method, not on the solution.
-   character(len=*), parameter :: LEFT_OUT(2) = [character(len=10) :: 'timing', 'iterations']
+   character(len=*), parameter :: LEFT_OUT(3) = [character(len=10) :: 'adapt', 'timing', 'iterations']
 
    !> A comparison while it goes on.
    type :: comparison_t

@@ -160,7 +160,6 @@ contains
          if (.not. (has_forces(results) .or. results%equilibrium_residual > 0.0_wp)) large = 'no forces act'
          call add_item(page, 'checked', large//'; the contact law holds')
          call add_item(page, trim(merge('error    ', 'estimated', results%error_bound%exists)), error_text(results))
-         if (len_trim(results%error_bound%why_not) > 0) call add_item(page, 'no bound', trim(results%error_bound%why_not))
          unique = uniqueness_text(results%uniqueness)
          if (len(unique) > 0) call add_item(page, 'unique', unique)
          large = large_text([results%large_strain%value, results%large_rotation%value, results%large_slip%value])

@@ -188,7 +188,8 @@ contains
             text = 'at most '//number(bound%percent, 3)//' % in the energy norm ('//trim(merge('certified    ', &
                    'not certified', bound%is_certified))//'), estimated '//number(results%error_estimate, 2)//' %'
          else
-            text = 'error of '//number(results%error_estimate, 3)//' % of the energy norm'
+            text = number(results%error_estimate, 3)//' %; no bound: '//trim(bound%why_not)
+            if (len_trim(bound%why_not) == 0) text = 'error of '//number(results%error_estimate, 3)//' % of the energy norm'
          end if
       end associate
    end function error_text

@@ -20,7 +20,7 @@ program limit
    use atrito_numbers, only: read_integer, NUMBER_OK
    use atrito_page, only: page_t, print_page
    use atrito_reporter, only: reporter_t
-   use atrito_run, only: load_model
+   use atrito_load_model, only: load_model
    use atrito_status, only: status_t, is_ok, STATUS_OK, STATUS_USAGE
    use atrito_strings, only: string_t, append_string
    use atrito_threads, only: set_threads

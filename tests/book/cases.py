@@ -48,8 +48,8 @@ class Run:
         self.exit = given.get("exit", default.get("exit", 0))
         if not self.deck:
             raise BookError(f"{where}: deck is missing")
-        if not self.refine or any(type(k) is not int for k in self.refine):
-            raise BookError(f"{where}: refine is a list of whole numbers")
+        if not self.refine or any(type(k) is not int for k in self.refine) or self.refine != sorted(set(self.refine)):
+            raise BookError(f"{where}: refine is a list of whole numbers that grow")
 
 
 class Value:

@@ -31,7 +31,8 @@ def of_value(number, value=None):
     """Seven digits; 0 for what is nothing beside what is allowed where the reference is 0."""
     if number == 0 or value and value.reference == 0 and value.error(number) < value.allowed()/1000:
         return "0"
-    return f"{number:#.7g}".rstrip(".")
+    rounded = float(f"{number:.7g}")
+    return f"{rounded:.0f}" if rounded.is_integer() and abs(rounded) < 1e6 else f"{number:#.7g}".rstrip(".")
 
 
 def of_error(number, value):
@@ -65,8 +66,14 @@ def order(value, errors):
 
 def reference(value):
     if value.between is not None:
-        return f"{of_value(value.between[0])} to {of_value(value.between[1])}"
+        return f"{value.between[0]:.10g} to {value.between[1]:.10g}"
     return f"{value.reference:.10g}"
+
+
+def allowed(value):
+    if value.between is not None:
+        return "inside"
+    return f"{value.allowed():.2g}" + ("" if value.absolute is None else " absolute")
 
 
 def run_tables(case, run, outcomes):
@@ -79,8 +86,7 @@ def run_tables(case, run, outcomes):
         found = [result.found[value] for result in results]
         errors = [value.error(number) for number in found]
         rows.append([value.name, reference(value), *(of_value(number, value) for number in found), of_error(errors[-1], value),
-                     *([order(value, errors)] if smooth else []), f"{value.allowed():.2g}" if value.between is None else "inside",
-                     verdict(value, found[-1])])
+                     *([order(value, errors)] if smooth else []), allowed(value), verdict(value, found[-1])])
     lines = table(head, rows) + [""]
     columns = [("mesh", [f"refine {level}" for level in run.refine])]
     if any(result.counts for result in results):
@@ -138,7 +144,7 @@ def page(case, outcomes):
         words = " ".join(["atrito", *run.command, shown_path(case, run.deck), *run.options])
         lines += [f"`{words}` with `--refine` {', '.join(map(str, run.refine))}" +
                   (f", which ends with exit code {run.exit}" if run.exit else "") + ":", "", *run_tables(case, run, outcomes)]
-    lines += ["Errors are relative, but where the reference is 0; *allowed* is what the test of the finest mesh takes.", ""]
+    lines += ["Errors are relative, but where *absolute* is said; *allowed* is what the test of the finest mesh takes.", ""]
     if case.note:
         lines += [*case.note.strip().split("\n"), ""]
     lines += ["## The references", ""]

@@ -26,14 +26,14 @@ def run(command, folder, limit=120):
     return done.returncode, done.stdout, done.stderr
 
 
-def ccx(program, folder, name, text, elements=None, *, ties_in_part=False):
+def ccx(program, folder, name, text, elements=None, *, ties_in_part=False, limit=120):
     """Displacements that CalculiX finds: a dictionary node -> (u1, u2) a step; of bodies of revolution their elements are wanted.
 
     Of a *TIE it may leave out nodes, which is a failure where it is not known of the deck (ties_in_part)."""
     (folder/f"{name}.inp").write_text(text)
     result = folder/f"{name}.frd"
     result.unlink(missing_ok=True)
-    code, said, _ = run([program, name], folder)
+    code, said, _ = run([program, name], folder, limit)
     errors = [line.strip() for line in said.splitlines() if "*ERROR" in line]
     if code or errors or not result.exists():
         raise Failed(errors[0] if errors else f"exit {code}")

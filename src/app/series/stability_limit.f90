@@ -13,6 +13,7 @@ module atrito_stability_limit
    use atrito_frame_spool, only: begin_frames, end_frames, frame_spool_t
    use atrito_history, only: solve_history
    use atrito_kinds, only: ip, lp, wp
+   use atrito_load_model, only: load_model, prepare_observations
    use atrito_mesh, only: find_node
    use atrito_messages, only: add_warning, clear_messages, count_messages
    use atrito_model, only: model_t
@@ -26,7 +27,7 @@ module atrito_stability_limit
    use atrito_solve, only: solve_options_t
    use atrito_stability_plot, only: write_stability_plots
    use atrito_restart_state, only: warm_start_t
-   use atrito_run, only: take_threads, load_model, prepare_observations, solve_options, agree_on_outcome
+   use atrito_run, only: take_threads, solve_options, agree_on_outcome
    use atrito_sweep_plan, only: read_range
    use atrito_stability_result, only: stability_t, stability_value_t, CODE_NOT_RUN
    use atrito_stability_search, only: search_t, begin_search, next_step, suggest_root, record_balance, record_solution, &

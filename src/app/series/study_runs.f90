@@ -7,6 +7,7 @@ module atrito_study_runs
    use atrito_frame_spool, only: begin_frames, end_frames, frame_spool_t
    use atrito_history, only: solve_history
    use atrito_kinds, only: ip, wp
+   use atrito_load_model, only: load_model, prepare_observations
    use atrito_messages, only: clear_messages
    use atrito_model, only: model_t, interaction_t
    use atrito_observations, only: observations_t
@@ -14,7 +15,7 @@ module atrito_study_runs
    use atrito_buffer, only: buffer_t, put, take
    use atrito_reporter, only: reporter_t
    use atrito_results, only: history_t, results_t
-   use atrito_run, only: run_deck, load_model, prepare_observations, solve_options, agree_on_outcome
+   use atrito_run, only: run_deck, solve_options, agree_on_outcome
    use atrito_status, only: status_t, is_ok, STATUS_OK, STATUS_NOT_CONVERGED
    use atrito_strings, only: to_text, upper_case
    use atrito_study_errors, only: run_facts_t, study_t, study_row_t, total_seconds, PROCESSOR

@@ -18,22 +18,22 @@ module atrito_help
    character(len=23), parameter :: PLACES(3) = [character(len=23) :: 'In the model', 'In a step', 'In the model or a step']
 
    character(len=107), parameter :: INTRODUCTION(16) = [character(len=107) :: &
-      '# Keywords of a deck', &
-      '', &
-      '*A reference for whoever writes a deck. After it you know what a keyword, its options and its lines mean.*', &
-      '', &
-      'This page is printed by `atrito help all > docs/user/keywords.md` from the table of the deck reader;', &
-      'do not edit it. `atrito help KEYWORD` prints one section, `atrito help` what each is for.', &
-      '', &
-      'A deck is made of lines `*KEYWORD, OPTION=value`, each with its data lines of items between commas.', &
-      '`**` begins a comment. A comma at the end of a keyword line continues it. Names are without case', &
-      'and have at most 80 characters; "quotes" may stand round them; all digits means a number. A real', &
-      'may be written as an integer, an integer not as a real. An empty item takes its default. The model', &
-      'stands before \*STEP, a step between \*STEP and \*END STEP.', &
-      '', &
-      'A + marks what is atrito''s own; the rest is read by Abaqus or CalculiX too. What is ignored has no', &
-      'effect, and a note says so. Items with a dimension are reals; F is force, L length, T time, in units', &
-      'of yours that are consistent.']
+                                                        '# Keywords of a deck', &
+                                                        '', &
+                     '*A reference for whoever writes a deck. After it you know what a keyword, its options and its lines mean.*', &
+                                                        '', &
+                           'This page is printed by `atrito help all > docs/user/keywords.md` from the table of the deck reader;', &
+                                      'do not edit it. `atrito help KEYWORD` prints one section, `atrito help` what each is for.', &
+                                                        '', &
+                            'A deck is made of lines `*KEYWORD, OPTION=value`, each with its data lines of items between commas.', &
+                               '`**` begins a comment. A comma at the end of a keyword line continues it. Names are without case', &
+                               'and have at most 80 characters; "quotes" may stand round them; all digits means a number. A real', &
+                             'may be written as an integer, an integer not as a real. An empty item takes its default. The model', &
+                                                        'stands before \*STEP, a step between \*STEP and \*END STEP.', &
+                                                        '', &
+                            'A + marks what is atrito''s own; the rest is read by Abaqus or CalculiX too. What is ignored has no', &
+                           'effect, and a note says so. Items with a dimension are reals; F is force, L length, T time, in units', &
+                                                        'of yours that are consistent.']
 
 contains
 

@@ -7,7 +7,8 @@ module atrito_results
    private
    public :: results_t, contact_result_t, iteration_t, body_result_t, scene_t, pair_scene_t, balance_t, unsettled_t
    public :: body_motion_t, rigid_result_t, joint_t, cut_force_t, extreme_t, history_t, history_row_t, ending_t, last_frame
-   public :: observed_t, observed_list_t, uniqueness_t, error_bound_t, frame_store_t, put_aside, view_frame, has_forces
+   public :: observed_t, observed_list_t, uniqueness_t, error_bound_t, frame_numbers_t, frame_store_t, put_aside, view_frame, &
+             has_forces
    public :: POINT_OPEN, POINT_STICK, POINT_SLIP
 
    integer(ip), parameter :: POINT_OPEN = 0, POINT_STICK = 1, POINT_SLIP = 2   !< column status of contact.tab

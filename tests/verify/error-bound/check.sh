@@ -67,7 +67,7 @@ done
 # no_bound NAME REASON: nothing in the tables, the reason on the screen
 no_bound() {
    grep -q error_bound "$1/summary.tab" && complain "$1: a bound"
-   says "$1" "$1.out" "no bound     $2"
+   says "$1" "$1.out" "no bound: $2"
 }
 run 0 "$input/ex2-two-plates.inp" point-support --proof on
 no_bound point-support 'the support at node 1 is a point'
