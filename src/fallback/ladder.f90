@@ -37,10 +37,12 @@ module atrito_ladder
                               rung_t(CONTACT_DENSE, METHOD_PICARD, 10_ip, 0.3_wp)] ! a damped loop: 11/1255, /1881, 4711/2888, /3289
    integer, parameter :: BRIEF = 2, QUICK = 2              !< of them in brief, and where points are many:
    integer(ip), parameter :: MOST_PATIENT = 400            !< unknown forces
+   integer(ip), parameter :: FEW_FORCES = 50               !< so few that no rung costs anything
 
 contains
 
-   !> Whether a rung is tried after a first attempt in form `first`. With bounded effort none costs more than what it follows:
+   !> Whether a rung is tried after a first attempt in form `first`. With bounded effort none costs more than what it follows, but in
+   !> scenes so small that none costs anything:
    !> behind the sparse form, which was taken because the dense one would cost more, there is none.
    pure logical function is_tried(i, first, asked, m, may_cut, is_brief)
       integer, intent(in) :: i                             !< of RUNGS
@@ -54,8 +56,8 @@ contains
       else
          is_tried = asked /= CONTACT_SPARSE .and. can_be_dense(m)
       end if
-      if (may_cut .or. is_brief) is_tried = is_tried .and. i <= BRIEF
-      if (is_brief) is_tried = is_tried .and. first == CONTACT_DENSE
+      if (may_cut .or. (is_brief .and. m > FEW_FORCES)) is_tried = is_tried .and. i <= BRIEF
+      if (is_brief .and. m > FEW_FORCES) is_tried = is_tried .and. first == CONTACT_DENSE
       if (m > MOST_PATIENT) is_tried = is_tried .and. i <= QUICK
    end function is_tried
 
