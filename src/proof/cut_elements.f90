@@ -18,6 +18,8 @@ module atrito_cut_elements
    private
    public :: side_cuts_t, add_piece, link_pieces, is_cut, cut_difference
 
+   integer(ip), parameter :: MOST_CORNERS = 400     !< of a polygon
+
    !> Pieces of sides with a linear traction each, on the element that is the side's only one; those of a side follow one another.
    type :: side_cuts_t
       integer(ip) :: n = 0
@@ -28,7 +30,15 @@ module atrito_cut_elements
       integer(ip), allocatable :: first(:)          !< (sides) its first piece; 0: it is not cut
    end type side_cuts_t
 
-   integer(ip), parameter :: MOST_CORNERS = 400     !< of a polygon
+   !> An element as a polygon, corner after corner counter-clockwise.
+   type :: polygon_t
+      integer(ip) :: n = 0                          !< more than MOST_CORNERS: it has too many
+      integer(ip) :: degree = 0, per_side = 0       !< k; numbers of a side
+      real(wp) :: corner(2, MOST_CORNERS) = 0.0_wp  !< less the element's first node [L]
+      real(wp) :: at_corner(3, MOST_CORNERS) = 0.0_wp !< phi and its gradient
+      real(wp) :: of_side(3, MOST_CORNERS) = 0.0_wp !< numbers of the side that begins there
+   end type polygon_t
+
    real(wp), parameter :: SAME_PLACE = 1.0e-9_wp    !< along a side
 
 contains
@@ -118,100 +128,34 @@ contains
       real(wp), intent(in) :: x_given(:)            !< as of energy_difference; its last two are forces per volume
       real(wp), intent(in) :: outline(:)            !< of the element, uncut
       real(wp) :: difference
-      real(wp) :: corner(2, MOST_CORNERS), at_corner(3, MOST_CORNERS), of_side(3, MOST_CORNERS)
-      real(wp), allocatable :: matrix(:, :), inner(:)
+      type(polygon_t) :: polygon
       type(element_energy_t) :: energy
-      real(wp) :: centre(2), a(MOST_OUTLINE), g(MOST_OUTLINE), b(2)
-      integer(ip) :: n, i, per_side, place(18), m
-      real(wp) :: sign_of(18)
+      real(wp), allocatable :: matrix(:, :), inner(:)
+      real(wp) :: centre(2), a(MOST_OUTLINE), g(MOST_OUTLINE), sign_of(18)
+      integer(ip) :: i, m, place(18)
 
-      per_side = 2*degree - 1
-      b = x_given(size(x_given) - 1:)
-      call take_outline()
       difference = -1.0_wp
-      if (n > MOST_CORNERS) return
-      centre = sum(corner(:, :n), dim=2)/n
-      m = 3 + per_side*n
+      polygon%degree = degree
+      polygon%per_side = 2*degree - 1
+      call make_polygon(fem, sides, cuts, e, x_given(size(x_given) - 1:), outline, polygon)
+      if (polygon%n > MOST_CORNERS) return
+      centre = sum(polygon%corner(:, :polygon%n), dim=2)/polygon%n
+      m = 3 + polygon%per_side*polygon%n
       allocate (matrix(m, m), inner(m), source=0.0_wp)
-      do i = 1, n
+      do i = 1, polygon%n
          call take_triangle(i)
          g(:energy%n) = matmul(energy%slopes(:, energy%n + 1:), x_given)
          call add_triangle(energy%n)
       end do
       call solve_least(m, matrix, inner)
       difference = 0.0_wp
-      do i = 1, n
+      do i = 1, polygon%n
          call take_triangle(i)
-         a(7:9) = inner(:3)
          where (place(:energy%n) > 0) a(:energy%n) = sign_of(:energy%n)*inner(max(place(:energy%n), 1))
          difference = difference + energy_difference(energy, x_given, a(:energy%n))
       end do
 
    contains
-
-      !> Corners of the polygon with phi and its gradient, and the numbers of its sides.
-      subroutine take_outline()
-         real(wp), parameter :: NOTHING(4) = 0.0_wp
-         integer(ip) :: i, n_corners, piece, c
-         real(wp) :: now(3), at, x(2, 2)
-
-         n = 0
-         n_corners = CORNERS_OF(fem%mesh%shape(e))
-         associate (nodes => fem%mesh%nodes(:n_corners, e), mesh_x => fem%mesh%x)
-            do i = 1, n_corners
-               x(:, 1) = mesh_x(:, nodes(i)) - mesh_x(:, nodes(1))
-               x(:, 2) = mesh_x(:, nodes(1 + mod(i, n_corners))) - mesh_x(:, nodes(1))
-               piece = 0
-               if (sides%of_element(i, e) > 0) piece = cuts%first(sides%of_element(i, e))
-               now = outline(3*i - 2:3*i)
-               if (piece == 0) then
-                  call add_corner(x(:, 1), now)
-                  if (n > MOST_CORNERS) return
-                  c = side_place(n_corners, degree, i)
-                  of_side(:per_side, n) = outline(c:c + per_side - 1)
-                  cycle
-               end if
-               at = 0.0_wp
-               do while (piece > 0)
-                  if (cuts%from(piece) > at + SAME_PLACE) call add_part(x, at, cuts%from(piece), NOTHING, now)
-                  call add_part(x, max(at, cuts%from(piece)), cuts%to(piece), reshape(cuts%traction(:, :, piece), [4]), now)
-                  at = cuts%to(piece)
-                  piece = cuts%next(piece)
-               end do
-               if (at < 1 - SAME_PLACE) call add_part(x, at, 1.0_wp, NOTHING, now)
-               if (n > MOST_CORNERS) return
-            end do
-         end associate
-
-      end subroutine take_outline
-
-      !> A part of a side, between two places, with a linear traction.
-      subroutine add_part(x, from, to, values, now)
-         real(wp), intent(in) :: x(2, 2), from, to, values(4)
-         real(wp), intent(inout) :: now(3)          !< phi and its gradient at its ends
-         real(wp) :: ends(2, 2), linear(2, 0:degree)
-         integer(ip) :: k
-
-         if (to - from <= SAME_PLACE) return
-         ends(:, 1) = x(:, 1) + from*(x(:, 2) - x(:, 1))
-         ends(:, 2) = x(:, 1) + to*(x(:, 2) - x(:, 1))
-         call add_corner(ends(:, 1), now)
-         if (n > MOST_CORNERS) return
-         do k = 0, degree
-            linear(:, k) = (1 - real(k, wp)/degree)*values(:2) + real(k, wp)/degree*values(3:)
-         end do
-         linear = linear + volume_tractions(b, ends(:, 1), ends(:, 2), degree)
-         call go_along(ends(:, 2) - ends(:, 1), linear, now, of_side(:per_side, n))
-      end subroutine add_part
-
-      subroutine add_corner(x, values)
-         real(wp), intent(in) :: x(2), values(3)
-
-         n = n + 1
-         if (n > MOST_CORNERS) return
-         corner(:, n) = x
-         at_corner(:, n) = values
-      end subroutine add_corner
 
       !> Triangle i: its energy, what is known of its outline, and where the rest stands among the inner numbers. The line from
       !> corner i runs to the inner point, so that the triangle before it has it as its second side.
@@ -219,22 +163,24 @@ contains
          integer(ip), intent(in) :: i
          integer(ip) :: j, next, c
 
-         next = 1 + mod(i, n)
-         call make_energy(fem, e, degree, energy, reshape([corner(:, i), corner(:, next), centre], [2, 3]))
+         next = 1 + mod(i, polygon%n)
+         call make_energy(fem, e, degree, energy, reshape([polygon%corner(:, i), polygon%corner(:, next), centre], [2, 3]))
          place = 0
          sign_of = 1.0_wp
          a = 0.0_wp
-         a(:3) = at_corner(:, i)
-         a(4:6) = at_corner(:, next)
+         a(:3) = polygon%at_corner(:, i)
+         a(4:6) = polygon%at_corner(:, next)
          place(7:9) = [1_ip, 2_ip, 3_ip]
-         c = side_place(3_ip, degree, 1_ip)
-         a(c:c + per_side - 1) = of_side(:per_side, i)
-         do j = 1, per_side
-            place(side_place(3_ip, degree, 2_ip) + j - 1) = 3 + per_side*(next - 1) + j
-            c = side_place(3_ip, degree, 3_ip) + j - 1
-            place(c) = 3 + per_side*(i - 1) + merge(degree + 1 - j, j, j <= degree)
-            if (j <= degree) sign_of(c) = -1.0_wp
-         end do
+         associate (per_side => polygon%per_side)
+            c = side_place(3_ip, degree, 1_ip)
+            a(c:c + per_side - 1) = polygon%of_side(:per_side, i)
+            do j = 1, per_side
+               place(side_place(3_ip, degree, 2_ip) + j - 1) = 3 + per_side*(next - 1) + j
+               c = side_place(3_ip, degree, 3_ip) + j - 1
+               place(c) = 3 + per_side*(i - 1) + merge(degree + 1 - j, j, j <= degree)
+               if (j <= degree) sign_of(c) = -1.0_wp
+            end do
+         end associate
       end subroutine take_triangle
 
       !> Adds a triangle to the system for the inner numbers: H over them, and -(H a + g) with what is known.
@@ -253,5 +199,83 @@ contains
       end subroutine add_triangle
 
    end function cut_difference
+
+   !> Corners of an element and of its cuts with phi and its gradient, and the numbers of the sides between them.
+   subroutine make_polygon(fem, sides, cuts, e, b, outline, polygon)
+      type(fem_t), intent(in) :: fem
+      type(mesh_sides_t), intent(in) :: sides
+      type(side_cuts_t), intent(in) :: cuts
+      integer(ip), intent(in) :: e
+      real(wp), intent(in) :: b(2)                  !< thickness times force per volume [F/L^2]
+      real(wp), intent(in) :: outline(:)            !< of the element, uncut
+      type(polygon_t), intent(inout) :: polygon     !< with its degree
+      real(wp), parameter :: NOTHING(2, 2) = 0.0_wp
+      integer(ip) :: i, n_corners, piece, c
+      real(wp) :: now(3), at, x(2, 2)
+
+      n_corners = CORNERS_OF(fem%mesh%shape(e))
+      do i = 1, n_corners
+         associate (nodes => fem%mesh%nodes(:n_corners, e))
+            x(:, 1) = fem%mesh%x(:, nodes(i)) - fem%mesh%x(:, nodes(1))
+            x(:, 2) = fem%mesh%x(:, nodes(1 + mod(i, n_corners))) - fem%mesh%x(:, nodes(1))
+         end associate
+         piece = 0
+         if (sides%of_element(i, e) > 0) piece = cuts%first(sides%of_element(i, e))
+         now = outline(3*i - 2:3*i)
+         if (piece == 0) then
+            call add_corner(x(:, 1), now, polygon)
+            if (polygon%n > MOST_CORNERS) return
+            c = side_place(n_corners, polygon%degree, i)
+            polygon%of_side(:polygon%per_side, polygon%n) = outline(c:c + polygon%per_side - 1)
+            cycle
+         end if
+         at = 0.0_wp
+         do while (piece > 0)
+            if (cuts%from(piece) > at + SAME_PLACE) call add_part(x, [at, cuts%from(piece)], NOTHING, b, now, polygon)
+            call add_part(x, [max(at, cuts%from(piece)), cuts%to(piece)], cuts%traction(:, :, piece), b, now, polygon)
+            at = cuts%to(piece)
+            piece = cuts%next(piece)
+         end do
+         if (at < 1 - SAME_PLACE) call add_part(x, [at, 1.0_wp], NOTHING, b, now, polygon)
+         if (polygon%n > MOST_CORNERS) return
+      end do
+   end subroutine make_polygon
+
+   !> A part of a side with a linear traction.
+   subroutine add_part(x, places, traction, b, now, polygon)
+      real(wp), intent(in) :: x(2, 2)               !< ends of the side [L]
+      real(wp), intent(in) :: places(2)             !< along it, 0 to 1
+      real(wp), intent(in) :: traction(2, 2)        !< (component, end) [F/L]
+      real(wp), intent(in) :: b(2)                  !< thickness times force per volume [F/L^2]
+      real(wp), intent(inout) :: now(3)             !< phi and its gradient, from one end to the other
+      type(polygon_t), intent(inout) :: polygon
+      real(wp) :: ends(2, 2), linear(2, 0:polygon%degree)
+      integer(ip) :: k
+
+      if (places(2) - places(1) <= SAME_PLACE) return
+      do k = 1, 2
+         ends(:, k) = x(:, 1) + places(k)*(x(:, 2) - x(:, 1))
+      end do
+      call add_corner(ends(:, 1), now, polygon)
+      if (polygon%n > MOST_CORNERS) return
+      do k = 0, polygon%degree
+         associate (share => real(k, wp)/polygon%degree)
+            linear(:, k) = (1 - share)*traction(:, 1) + share*traction(:, 2)
+         end associate
+      end do
+      linear = linear + volume_tractions(b, ends(:, 1), ends(:, 2), polygon%degree)
+      call go_along(ends(:, 2) - ends(:, 1), linear, now, polygon%of_side(:polygon%per_side, polygon%n))
+   end subroutine add_part
+
+   pure subroutine add_corner(x, values, polygon)
+      real(wp), intent(in) :: x(2)                  !< [L]
+      real(wp), intent(in) :: values(3)             !< phi and its gradient
+      type(polygon_t), intent(inout) :: polygon
+
+      polygon%n = polygon%n + 1
+      if (polygon%n > MOST_CORNERS) return
+      polygon%corner(:, polygon%n) = x
+      polygon%at_corner(:, polygon%n) = values
+   end subroutine add_corner
 
 end module atrito_cut_elements

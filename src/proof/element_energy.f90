@@ -89,7 +89,7 @@ contains
             rule = merge(size(FEW, 2), size(SOME, 2), is_affine(energy%x(:, :SHAPES(n_nodes)%n_corners)) .and. &
                          .not. (n_nodes == 4 .and. allocated(fem%heating)))     ! temperatures are bilinear
          end if
-         call make_rows(macro%n*rule*COMPONENTS)
+         call make_rows(macro%n*rule*COMPONENTS, energy)
          row = 0
          do i = 1, macro%n
             do k = 1, rule
@@ -104,18 +104,6 @@ contains
       call transposed_product(energy%rows(:, :energy%n), energy%rows, energy%slopes)
 
    contains
-
-      !> Room for the rows of this kind of element.
-      subroutine make_rows(n_rows)
-         integer(ip), intent(in) :: n_rows
-         logical :: fits
-
-         fits = allocated(energy%rows)
-         if (fits) fits = size(energy%rows, 1) == n_rows .and. size(energy%rows, 2) == energy%n + energy%n_given
-         if (fits) return
-         if (allocated(energy%rows)) deallocate (energy%rows, energy%slopes)
-         allocate (energy%rows(n_rows, energy%n + energy%n_given), energy%slopes(energy%n, energy%n + energy%n_given))
-      end subroutine make_rows
 
       !> The rows of a point of piece i.
       subroutine add_place(lambda, share)
@@ -158,6 +146,19 @@ contains
       end subroutine add_place
 
    end subroutine make_energy
+
+   !> Room for the rows of this kind of element.
+   pure subroutine make_rows(n_rows, energy)
+      integer(ip), intent(in) :: n_rows
+      type(element_energy_t), intent(inout) :: energy
+      logical :: fits
+
+      fits = allocated(energy%rows)
+      if (fits) fits = size(energy%rows, 1) == n_rows .and. size(energy%rows, 2) == energy%n + energy%n_given
+      if (fits) return
+      if (allocated(energy%rows)) deallocate (energy%rows, energy%slopes)
+      allocate (energy%rows(n_rows, energy%n + energy%n_given), energy%slopes(energy%n, energy%n + energy%n_given))
+   end subroutine make_rows
 
    !> Makes all columns orthogonal to those of the bubbles (Gram and Schmidt, twice).
    pure subroutine leave_bubbles(bubbles, rows)

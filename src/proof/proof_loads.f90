@@ -78,65 +78,71 @@ contains
       call find_point_supports(fem, sides, held, reaction, loads%known, why_not)
       do i = 1, acting%element_loads%n
          if (allocated(why_not)) return
-         call take_load(i)
+         call take_load(model, acting, i, fem, sides, loads, why_not)
       end do
+   end subroutine take_loads
 
-   contains
+   !> One load on an element.
+   subroutine take_load(model, acting, i, fem, sides, loads, why_not)
+      type(model_t), intent(in) :: model
+      type(step_t), intent(in) :: acting            !< with the loads of the time
+      integer(ip), intent(in) :: i                  !< load
+      type(fem_t), intent(in) :: fem
+      type(mesh_sides_t), intent(in) :: sides
+      type(proof_loads_t), intent(inout) :: loads
+      character(len=:), allocatable, intent(inout) :: why_not
+      integer(ip) :: e, side, j, degree
+      integer(ip), allocatable :: nodes(:)
+      real(wp), allocatable :: fe(:, :)
+      real(wp) :: thickness, n(2), x(2), ends(2, 2), depth
 
-      !> One load on an element.
-      subroutine take_load(i)
-         integer(ip), intent(in) :: i
-         integer(ip) :: e, side, j
-         integer(ip), allocatable :: nodes(:)
-         real(wp), allocatable :: fe(:, :)
-         real(wp) :: thickness, n(2), x(2), ends(2, 2), depth
-
-         associate (of => acting%element_loads, mesh => fem%mesh)
-            e = of%element(i)
-            thickness = fem%sections(fem%section_of(e))%thickness
-            if (is_on_volume(of%kind(i))) then
-               if (of%kind(i) == LOAD_LINEAR .and. any(of%value(:, i) /= 0.0_wp)) then
-                  why_not = 'forces per volume that vary'
-                  return
-               end if
-               loads%volume(:, e) = loads%volume(:, e) + thickness*of%value(:2, i)
-               nodes = mesh%nodes(:mesh%shape(e), e)
-               allocate (fe(2, size(nodes)))
-               call forces_of_load(model, of, i, mesh%x(:, nodes), depth_places(mesh, mesh%state(e), nodes), fe)
-               loads%at_nodes(:, :size(nodes), e) = loads%at_nodes(:, :size(nodes), e) + fe
+      degree = ubound(loads%traction, 2, kind=ip)
+      associate (of => acting%element_loads, mesh => fem%mesh)
+         e = of%element(i)
+         thickness = fem%sections(fem%section_of(e))%thickness
+         if (is_on_volume(of%kind(i))) then
+            if (of%kind(i) == LOAD_LINEAR .and. any(of%value(:, i) /= 0.0_wp)) then
+               why_not = 'forces per volume that vary'
                return
             end if
-            side = sides%of_element(of%face(i), e)
-            nodes = face_nodes(mesh, e, of%face(i))
-            n = outward_normal(mesh%x(:, nodes(:2)), 0.0_wp)
-            do j = 1, 2
-               x = mesh%x(:, nodes(j))
-               select case (of%kind(i))
-               case (LOAD_TRACTION)
-                  ends(:, j) = of%value(:2, i)
-               case (LOAD_HYDROSTATIC)
-                  depth = (x(2) - of%value(2, i))/(of%value(3, i) - of%value(2, i))
-                  ends(:, j) = -of%value(1, i)*max(depth, 0.0_wp)*n
-                  if (depth < 0.0_wp) side = -abs(side)
-               case default
-                  ends(:, j) = -(of%value(1, i) + dot_product(of%value(2:3, i), x))*n
-               end select
-            end do
-            if (side < 0) then
-               if (any(ends /= 0.0_wp)) why_not = 'a water level within a side'
-               side = -side
-            end if
-            if (side == 0) return
-            do j = 0, degree
-               loads%traction(:, j, side) = loads%traction(:, j, side) &
-                                            + thickness*((1 - real(j, wp)/degree)*ends(:, 1) + real(j, wp)/degree*ends(:, 2))
-            end do
-            if (sides%element(2, side) > 0) why_not = 'a load on a side within a body'
-            if (.not. all(loads%known(:, side))) where (.not. loads%known(:, side)) loads%traction(:, 0, side) = 0.0_wp
-         end associate
-      end subroutine take_load
-
-   end subroutine take_loads
+            loads%volume(:, e) = loads%volume(:, e) + thickness*of%value(:2, i)
+            nodes = mesh%nodes(:mesh%shape(e), e)
+            allocate (fe(2, size(nodes)))
+            call forces_of_load(model, of, i, mesh%x(:, nodes), depth_places(mesh, mesh%state(e), nodes), fe)
+            loads%at_nodes(:, :size(nodes), e) = loads%at_nodes(:, :size(nodes), e) + fe
+            return
+         end if
+         side = sides%of_element(of%face(i), e)
+         nodes = face_nodes(mesh, e, of%face(i))
+         n = outward_normal(mesh%x(:, nodes(:2)), 0.0_wp)
+         do j = 1, 2
+            x = mesh%x(:, nodes(j))
+            select case (of%kind(i))
+            case (LOAD_TRACTION)
+               ends(:, j) = of%value(:2, i)
+            case (LOAD_HYDROSTATIC)
+               depth = (x(2) - of%value(2, i))/(of%value(3, i) - of%value(2, i))
+               ends(:, j) = -of%value(1, i)*max(depth, 0.0_wp)*n
+               if (depth < 0.0_wp) side = -abs(side)
+            case default
+               ends(:, j) = -(of%value(1, i) + dot_product(of%value(2:3, i), x))*n
+            end select
+         end do
+         if (side < 0) then
+            if (any(ends /= 0.0_wp)) why_not = 'a water level within a side'
+            side = -side
+         end if
+         if (side == 0) return
+         do j = 0, degree
+            loads%traction(:, j, side) = loads%traction(:, j, side) &
+                                         + thickness*((1 - real(j, wp)/degree)*ends(:, 1) + real(j, wp)/degree*ends(:, 2))
+         end do
+         if (sides%element(2, side) > 0) why_not = 'a load on a side within a body'
+         do j = 0, degree                           ! along a support it is what is looked for
+            where (.not. loads%known(:, side)) loads%traction(:, j, side) = 0.0_wp
+         end do
+      end associate
+   end subroutine take_load
 
    !> Supports of single nodes: the energy of a force at a point of a continuum is infinite, so no bound exists where one holds
    !> anything.
