@@ -183,6 +183,7 @@ contains
       refinement%inner_first(e) = n
    end subroutine number_nodes
 
+   !> Whether an element has a node in its centre.
    pure logical function has_centre(mesh, element)
       type(mesh_t), intent(in) :: mesh
       integer(ip), intent(in) :: element

@@ -16,7 +16,9 @@
 !>
 !> The slave's faces are cut where they face nodes of the master (segments), so that all that stands in (2) is linear on a segment.
 module atrito_contact_tractions
+   use atrito_assembly, only: fem_t
    use atrito_contact_solution, only: contact_solution_t
+   use atrito_element_table, only: DEGREE_OF
    use atrito_face_geometry, only: outward_normal
    use atrito_friction_law, only: FRICTION_NONE, FRICTION_NONLOCAL
    use atrito_kinds, only: ip, wp
@@ -72,7 +74,6 @@ contains
       integer(ip), allocatable :: point(:)          !< (n_nodes) of the pair
       type(master_t) :: master
       type(segments_t) :: cuts
-      type(segment_t) :: one
       integer(ip) :: i, k, f, first
 
       n = 0
@@ -109,131 +110,21 @@ contains
          real(wp), intent(in) :: places(2)
          real(wp), parameter :: MIDDLE = 0.5_wp, AT_MIDDLE = 1.0e-9_wp
 
-         call make_segment(f, piece, places, one)
-         if (allocated(why_not)) return
-         if (.not. any(point(one%node(:one%n)) > 0)) return
-         if (one%n == 3 .and. places(1) < MIDDLE - AT_MIDDLE .and. places(2) > MIDDLE + AT_MIDDLE) then
-            call make_segment(f, piece, [places(1), MIDDLE], one)
-            call add_segment(one)
-            call make_segment(f, piece, [MIDDLE, places(2)], one)
-         end if
-         call add_segment(one)
+         associate (faces => model%surfaces(model%pairs(i)%slave)%faces)
+            if (.not. any(point(face_nodes(model%mesh, faces%element(f), faces%face(f))) > 0)) return
+            if (DEGREE_OF(model%mesh%shape(faces%element(f))) == 2 .and. places(1) < MIDDLE - AT_MIDDLE .and. &
+                places(2) > MIDDLE + AT_MIDDLE) then
+               call add_segment(f, piece, [places(1), MIDDLE])
+               call add_segment(f, piece, [MIDDLE, places(2)])
+            else
+               call add_segment(f, piece, places)
+            end if
+         end associate
       end subroutine add_part
 
-      !> A part of a face that faces a piece of the master.
-      subroutine make_segment(f, piece, places, segment)
+      subroutine add_segment(f, piece, places)
          integer(ip), intent(in) :: f, piece
          real(wp), intent(in) :: places(2)
-         type(segment_t), intent(out) :: segment
-         real(wp) :: x(2), distance, at
-         integer(ip) :: j
-
-         associate (pair => model%pairs(i), points => problem%points(i), mesh => model%mesh, &
-                    surface => model%surfaces(model%pairs(i)%slave))
-            segment%pair = i
-            segment%slave = [surface%faces%element(f), surface%faces%face(f)]
-            associate (nodes => face_nodes(mesh, segment%slave(1), segment%slave(2)))
-               segment%n = size(nodes, kind=ip)
-               segment%node(:segment%n) = nodes
-            end associate
-            segment%on_slave = places
-            segment%normal = outward_normal(mesh%x(:, segment%node(:2)), 0.0_wp)
-            segment%length = (places(2) - places(1))*norm2(mesh%x(:, segment%node(2)) - mesh%x(:, segment%node(1)))
-            segment%thickness = model%sections(model%section_of(segment%slave(1)))%thickness
-            if (model%surfaces(pair%master)%kind /= SURFACE_SEGMENTS) then
-               associate (faces => model%surfaces(pair%master)%faces)
-                  segment%master = [faces%element(piece), faces%face(piece)]
-                  associate (nodes => face_nodes(mesh, segment%master(1), segment%master(2)))
-                     segment%n_master = size(nodes, kind=ip)
-                     segment%master_node(:segment%n_master) = nodes
-                  end associate
-                  segment%master_is_softer = stiffness_of(segment%master(1)) < stiffness_of(segment%slave(1))
-               end associate
-            end if
-            if (abs(dot_product(normal_at(master, piece, 0.5_wp), segment%normal) + 1) > SAME_DIRECTION .and. &
-                .not. pair%gap_is_given) why_not = 'contact sides that are not parallel'
-            do j = 1, segment%n
-               if (point(segment%node(j)) == 0) cycle
-               if (norm2(problem%rows%normal(:, point(segment%node(j))) - segment%normal) > SAME_DIRECTION) then
-                  why_not = 'curved contact sides'
-               end if
-            end do
-            if (allocated(why_not)) return
-            do j = 1, 2
-               x = mesh%x(:, segment%node(1)) + places(j)*(mesh%x(:, segment%node(2)) - mesh%x(:, segment%node(1)))
-               ! where the normal meets the master's piece: x + distance n = a + at d
-               at = cross(x - master%a(:, piece), segment%normal)/cross(master%d(:, piece), segment%normal)
-               distance = dot_product(master%a(:, piece) + at*master%d(:, piece) - x, segment%normal)
-               segment%on_master(j) = min(max(at, 0.0_wp), 1.0_wp)
-               segment%gap(j) = distance
-            end do
-            if (points%matching .or. pair%gap_is_given) segment%gap = along(segment, problem%rows%gap)
-            associate (share => share_of_face(segment, max(solution%p, 0.0_wp)))
-               segment%p = share*along(segment, max(solution%p, 0.0_wp))
-               segment%t = share*along(segment, solution%t)
-               segment%tau = share*along(segment, solution%tau)
-            end associate
-            segment%rest = 0.0_wp
-            if (allocated(problem%line%rest)) segment%rest = along(segment, problem%line%rest)
-            j = maxval(point(segment%node(:segment%n)))
-            segment%delta = problem%line%delta(j)
-            associate (law => problem%line%law(j))
-               if (law%kind == FRICTION_NONE) segment%tau = 0.0_wp
-               if (law%kind == FRICTION_NONLOCAL) segment%eps = law%eps
-               if (law%kind /= FRICTION_NONLOCAL) segment%compliance = law%compliance
-            end associate
-         end associate
-      end subroutine make_segment
-
-      !> By what the stresses of a face of three nodes are multiplied, so that linear from node to node they have the resultant of
-      !> Simpson's rule.
-      real(wp) function share_of_face(segment, p)
-         type(segment_t), intent(in) :: segment
-         real(wp), intent(in) :: p(:)
-         real(wp) :: ends, middle
-
-         share_of_face = 1.0_wp
-         if (segment%n /= 3) return
-         if (any(point(segment%node) == 0)) return
-         ends = sum(p(point(segment%node(:2))))
-         middle = p(point(segment%node(3)))
-         if (ends + middle > 0.0_wp) share_of_face = (2*ends + 8*middle)/(3*ends + 6*middle)
-      end function share_of_face
-
-      !> Of the material of an element.
-      real(wp) function stiffness_of(e)
-         integer(ip), intent(in) :: e
-
-         associate (section => problem%fem%sections(problem%fem%section_of(e)))
-            stiffness_of = merge(section%stiffness(1, 1), section%young, section%is_orthotropic)*section%thickness
-         end associate
-      end function stiffness_of
-
-      !> The values of points at both ends of a segment, linear from node to node; 0 at a node without a point.
-      function along(segment, of_points) result(values)
-         type(segment_t), intent(in) :: segment
-         real(wp), intent(in) :: of_points(:)
-         real(wp) :: values(2)
-         real(wp) :: at_nodes(3)
-         integer(ip) :: j
-
-         at_nodes = 0.0_wp
-         do j = 1, segment%n
-            if (point(segment%node(j)) > 0) at_nodes(j) = of_points(point(segment%node(j)))
-         end do
-         associate (s => segment%on_slave)
-            if (segment%n == 2) then
-               values = (1 - s)*at_nodes(1) + s*at_nodes(2)
-            else if (sum(s) < 1.0_wp) then
-               values = (1 - 2*s)*at_nodes(1) + 2*s*at_nodes(3)
-            else
-               values = (2 - 2*s)*at_nodes(3) + (2*s - 1)*at_nodes(2)
-            end if
-         end associate
-      end function along
-
-      subroutine add_segment(segment)
-         type(segment_t), intent(in) :: segment
          type(segment_t), allocatable :: longer(:)
 
          if (n == size(segments)) then
@@ -242,10 +133,149 @@ contains
             call move_alloc(longer, segments)
          end if
          n = n + 1
-         segments(n) = segment
+         call place_segment(model, i, f, master, piece, places, segments(n))
+         associate (is_given => model%pairs(i)%gap_is_given)
+            call take_stresses(problem, solution, point, problem%points(i)%matching .or. is_given, segments(n), why_not)
+            if (is_given) return
+         end associate
+         if (abs(dot_product(normal_at(master, piece, 0.5_wp), segments(n)%normal) + 1) > SAME_DIRECTION) then
+            why_not = 'contact sides that are not parallel'
+         end if
       end subroutine add_segment
 
    end subroutine list_segments
+
+   !> Where a segment lies: a part of face f of the slave of a pair, which faces a piece of the master.
+   subroutine place_segment(model, i_pair, f, master, piece, places, segment)
+      type(model_t), intent(in) :: model
+      integer(ip), intent(in) :: i_pair, f
+      type(master_t), intent(in) :: master
+      integer(ip), intent(in) :: piece
+      real(wp), intent(in) :: places(2)             !< of its ends on the face, 0 to 1
+      type(segment_t), intent(out) :: segment
+      real(wp) :: x(2), at
+      integer(ip) :: j
+
+      segment%pair = i_pair
+      segment%on_slave = places
+      associate (pair => model%pairs(i_pair), mesh => model%mesh)
+         associate (faces => model%surfaces(pair%slave)%faces)
+            segment%slave = [faces%element(f), faces%face(f)]
+         end associate
+         call take_nodes(face_nodes(mesh, segment%slave(1), segment%slave(2)), segment%n, segment%node)
+         if (model%surfaces(pair%master)%kind /= SURFACE_SEGMENTS) then
+            associate (faces => model%surfaces(pair%master)%faces)
+               segment%master = [faces%element(piece), faces%face(piece)]
+            end associate
+            call take_nodes(face_nodes(mesh, segment%master(1), segment%master(2)), segment%n_master, segment%master_node)
+         end if
+         associate (first => mesh%x(:, segment%node(1)), last => mesh%x(:, segment%node(2)))
+            segment%normal = outward_normal(mesh%x(:, segment%node(:2)), 0.0_wp)
+            segment%length = (places(2) - places(1))*norm2(last - first)
+            segment%thickness = model%sections(model%section_of(segment%slave(1)))%thickness
+            do j = 1, 2
+               x = first + places(j)*(last - first)
+               ! where the normal meets the master's piece: x + distance n = a + at d
+               at = cross(x - master%a(:, piece), segment%normal)/cross(master%d(:, piece), segment%normal)
+               segment%gap(j) = dot_product(master%a(:, piece) + at*master%d(:, piece) - x, segment%normal)
+               segment%on_master(j) = min(max(at, 0.0_wp), 1.0_wp)
+            end do
+         end associate
+      end associate
+   end subroutine place_segment
+
+   pure subroutine take_nodes(nodes, n, node)
+      integer(ip), intent(in) :: nodes(:)
+      integer(ip), intent(out) :: n, node(3)
+
+      n = size(nodes, kind=ip)
+      node = 0
+      node(:n) = nodes
+   end subroutine take_nodes
+
+   !> The stresses of a solution along a segment, its law, and which side gives way.
+   subroutine take_stresses(problem, solution, point, has_gaps, segment, why_not)
+      class(problem_t), intent(in) :: problem
+      type(contact_solution_t), intent(in) :: solution
+      integer(ip), intent(in) :: point(:)           !< (n_nodes) of the pair; 0: none
+      logical, intent(in) :: has_gaps               !< gaps are those of the points, and not those of the mesh
+      type(segment_t), intent(inout) :: segment     !< in its place
+      character(len=:), allocatable, intent(inout) :: why_not
+      real(wp) :: share
+      integer(ip) :: j
+
+      do j = 1, segment%n
+         if (point(segment%node(j)) == 0) cycle
+         if (norm2(problem%rows%normal(:, point(segment%node(j))) - segment%normal) > SAME_DIRECTION) then
+            why_not = 'curved contact sides'
+         end if
+      end do
+      if (has_gaps) segment%gap = along(segment, point, problem%rows%gap)
+      share = share_of_face(segment, point, max(solution%p, 0.0_wp))
+      segment%p = share*along(segment, point, max(solution%p, 0.0_wp))
+      segment%t = share*along(segment, point, solution%t)
+      segment%tau = share*along(segment, point, solution%tau)
+      if (allocated(problem%line%rest)) segment%rest = along(segment, point, problem%line%rest)
+      j = maxval(point(segment%node(:segment%n)))
+      segment%delta = problem%line%delta(j)
+      associate (law => problem%line%law(j))
+         if (law%kind == FRICTION_NONE) segment%tau = 0.0_wp
+         if (law%kind == FRICTION_NONLOCAL) segment%eps = law%eps
+         if (law%kind /= FRICTION_NONLOCAL) segment%compliance = law%compliance
+      end associate
+      if (segment%master(1) > 0) segment%master_is_softer = stiffness_of(problem%fem, segment%master(1)) < &
+                                                            stiffness_of(problem%fem, segment%slave(1))
+   end subroutine take_stresses
+
+   !> By what the stresses of a face of three nodes are multiplied, so that linear from node to node they have the resultant of
+   !> Simpson's rule.
+   pure real(wp) function share_of_face(segment, point, p)
+      type(segment_t), intent(in) :: segment
+      integer(ip), intent(in) :: point(:)
+      real(wp), intent(in) :: p(:)                  !< of all points [F/L^2]
+      real(wp) :: ends, middle
+
+      share_of_face = 1.0_wp
+      if (segment%n /= 3) return
+      if (any(point(segment%node) == 0)) return
+      ends = sum(p(point(segment%node(:2))))
+      middle = p(point(segment%node(3)))
+      if (ends + middle > 0.0_wp) share_of_face = (2*ends + 8*middle)/(3*ends + 6*middle)
+   end function share_of_face
+
+   !> Of the material of an element, times its thickness [F/L].
+   pure real(wp) function stiffness_of(fem, e)
+      type(fem_t), intent(in) :: fem
+      integer(ip), intent(in) :: e
+
+      associate (section => fem%sections(fem%section_of(e)))
+         stiffness_of = merge(section%stiffness(1, 1), section%young, section%is_orthotropic)*section%thickness
+      end associate
+   end function stiffness_of
+
+   !> The values of points at both ends of a segment, linear from node to node; 0 at a node without a point.
+   pure function along(segment, point, of_points) result(values)
+      type(segment_t), intent(in) :: segment
+      integer(ip), intent(in) :: point(:)
+      real(wp), intent(in) :: of_points(:)
+      real(wp) :: values(2)
+      real(wp) :: at_nodes(3)
+      integer(ip) :: j
+
+      at_nodes = 0.0_wp
+      do j = 1, segment%n
+         if (point(segment%node(j)) > 0) at_nodes(j) = of_points(point(segment%node(j)))
+      end do
+      associate (s => segment%on_slave)
+         if (segment%n == 2) then
+            values = (1 - s)*at_nodes(1) + s*at_nodes(2)
+         else if (sum(s) < 1.0_wp) then
+            values = (1 - 2*s)*at_nodes(1) + 2*s*at_nodes(3)
+         else
+            values = (2 - 2*s)*at_nodes(3) + (2*s - 1)*at_nodes(2)
+         end if
+      end associate
+   end function along
 
    !> int T N_i ds on both sides: the forces of a segment's tractions on the nodes of the slave's face and of the master's.
    pure subroutine segment_forces(segment, on_slave, on_master)
@@ -278,6 +308,7 @@ contains
                                      between(segment%t, t)*[-segment%normal(2), segment%normal(1)])
    end function traction_at
 
+   !> A linear function from its values at both ends.
    pure real(wp) function between(values, t)
       real(wp), intent(in) :: values(2), t
 

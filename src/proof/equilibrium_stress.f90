@@ -8,6 +8,7 @@ module atrito_equilibrium_stress
    use atrito_element_table, only: CORNERS_OF
    use atrito_kinds, only: ip, wp
    use atrito_mesh_sides, only: chains_t, mesh_sides_t
+   use atrito_proof_loads, only: proof_loads_t
    use atrito_star_sweeps, only: outlines_t, sweep_stars
    implicit none (type, external)
    private
@@ -20,14 +21,12 @@ module atrito_equilibrium_stress
 contains
 
    !> The squares of the distance, element by element, behind as many sweeps as are worth it.
-   subroutine sum_stresses(fem, classes, sides, chains, known, traction, volume, u, cuts, share)
+   subroutine sum_stresses(fem, classes, sides, chains, loads, u, cuts, share)
       type(fem_t), intent(in) :: fem
       type(element_classes_t), intent(in) :: classes
       type(mesh_sides_t), intent(in) :: sides
       type(chains_t), intent(in) :: chains
-      logical, intent(in) :: known(:, :)            !< (2, sides): what sweeps leave as it is
-      real(wp), intent(in) :: traction(:, 0:, :)    !< (2, 0:k, sides) Bernstein coefficients on the first element [F/L]
-      real(wp), intent(in) :: volume(:, :)          !< (2, n_elements) thickness times force per volume [F/L^2]
+      type(proof_loads_t), intent(in) :: loads      !< with tractions that are in equilibrium; sweeps leave what is known as it is
       real(wp), intent(in) :: u(:, :)               !< (2, n_nodes) [L]
       type(side_cuts_t), intent(in) :: cuts         !< sides whose tractions are polynomials by parts
       real(wp), intent(out) :: share(:)             !< (n_elements) [F L]
@@ -36,7 +35,7 @@ contains
       real(wp) :: gain, left, of_stresses           ! of_stresses: energy of those of the displacements
       integer :: sweep
 
-      degree = size(traction, 2, kind=ip) - 1
+      degree = ubound(loads%traction, 2, kind=ip)
       outlines%degree = degree
       outlines%class_of = classes%of_element
       most = maxval(CORNERS_OF(fem%mesh%shape(:fem%mesh%n_elements)))*(2*degree + 2)
@@ -48,13 +47,13 @@ contains
       end do
       left = sum(outlines%energy)
       do sweep = 1, MOST_SWEEPS
-         call sweep_stars(fem%mesh, sides, chains, known, outlines, gain)
+         call sweep_stars(fem%mesh, sides, chains, loads%known, outlines, gain)
          left = left - gain
          if (.not. gain > LITTLE*left) exit
       end do
       share = outlines%energy
       ! sums of squares point by point where the difference of large numbers would be round-off
-      call go_again(sum(share) <= FEW_DIGITS*of_stresses)
+      call sum_again(fem, classes, sides, cuts, loads, u, outlines, sum(share) <= FEW_DIGITS*of_stresses, share)
 
    contains
 
@@ -72,16 +71,19 @@ contains
          do i = classes%first(c), classes%first(c + 1) - 1
             associate (e => classes%member(i), n => energy%n, corners => energy%macro%n)
                call given_of(fem, e, u, x, n_given)
-               x(n_given + 1:n_given + 2) = volume(:, e)
+               x(n_given + 1:n_given + 2) = loads%volume(:, e)
                do j = 1, corners
                   associate (side => sides%of_element(j, e), at => energy%macro%corner)
                      if (side > 0) then
-                        of_sides(:, :, j) = traction(:, :, side)
+                        of_sides(:, :, j) = loads%traction(:, :, side)
                      else
-                        of_sides(:, :, j) = -traction(:, degree:0:-1, -side)
+                        of_sides(:, :, j) = -loads%traction(:, degree:0:-1, -side)
                      end if
-                     if (any(volume(:, e) /= 0.0_wp)) of_sides(:, :, j) = of_sides(:, :, j) + &
-                                                        volume_tractions(volume(:, e), at(:, j), at(:, 1 + mod(j, corners)), degree)
+                     if (any(loads%volume(:, e) /= 0.0_wp)) then
+                        associate (next => at(:, 1 + mod(j, corners)))
+                           of_sides(:, :, j) = of_sides(:, :, j) + volume_tractions(loads%volume(:, e), at(:, j), next, degree)
+                        end associate
+                     end if
                   end associate
                end do
                call outline_of_tractions(energy%macro%corner(:, :corners), of_sides(:, :, :corners), outlines%a(:n, e))
@@ -99,34 +101,42 @@ contains
          end do
       end subroutine begin_class
 
-      !> The energies of elements that are cut, or of all, by their stresses.
-      subroutine go_again(is_all)
-         logical, intent(in) :: is_all
-         type(element_energy_t) :: energy
-         real(wp) :: x(MOST_GIVEN)
-         integer(ip) :: c, i, n_given
-         logical :: is_made
-
-         do c = 1, classes%n
-            is_made = .false.
-            do i = classes%first(c), classes%first(c + 1) - 1
-               associate (e => classes%member(i))
-                  if (.not. (is_all .or. is_cut(cuts, sides, e))) cycle
-                  call given_of(fem, e, u, x, n_given)
-                  x(n_given + 1:n_given + 2) = volume(:, e)
-                  if (is_cut(cuts, sides, e)) then
-                     share(e) = cut_difference(fem, sides, cuts, e, degree, x(:n_given + 2), outlines%a(:, e))
-                  else
-                     if (.not. is_made) call make_energy(fem, e, degree, energy)
-                     is_made = .true.
-                     share(e) = energy_difference(energy, x(:n_given + 2), outlines%a(:energy%n, e))
-                  end if
-               end associate
-            end do
-         end do
-
-      end subroutine go_again
-
    end subroutine sum_stresses
+
+   !> The energies of elements that are cut, or of all, by their stresses.
+   subroutine sum_again(fem, classes, sides, cuts, loads, u, outlines, is_all, share)
+      type(fem_t), intent(in) :: fem
+      type(element_classes_t), intent(in) :: classes
+      type(mesh_sides_t), intent(in) :: sides
+      type(side_cuts_t), intent(in) :: cuts
+      type(proof_loads_t), intent(in) :: loads
+      real(wp), intent(in) :: u(:, :)               !< (2, n_nodes) [L]
+      type(outlines_t), intent(in) :: outlines
+      logical, intent(in) :: is_all
+      real(wp), intent(inout) :: share(:)           !< (n_elements) [F L]
+      type(element_energy_t) :: energy
+      real(wp) :: x(MOST_GIVEN)
+      integer(ip) :: c, i, n_given
+      logical :: is_made
+
+      do c = 1, classes%n
+         is_made = .false.
+         do i = classes%first(c), classes%first(c + 1) - 1
+            associate (e => classes%member(i))
+               if (.not. (is_all .or. is_cut(cuts, sides, e))) cycle
+               call given_of(fem, e, u, x, n_given)
+               x(n_given + 1:n_given + 2) = loads%volume(:, e)
+               if (is_cut(cuts, sides, e)) then
+                  share(e) = cut_difference(fem, sides, cuts, e, outlines%degree, x(:n_given + 2), outlines%a(:, e))
+               else
+                  if (.not. is_made) call make_energy(fem, e, outlines%degree, energy)
+                  is_made = .true.
+                  share(e) = energy_difference(energy, x(:n_given + 2), outlines%a(:energy%n, e))
+               end if
+            end associate
+         end do
+      end do
+
+   end subroutine sum_again
 
 end module atrito_equilibrium_stress

@@ -33,7 +33,7 @@ module atrito_error_bound
    use atrito_model, only: model_t, step_t
    use atrito_problem, only: problem_t
    use atrito_proof_loads, only: proof_loads_t, take_loads
-   use atrito_results, only: error_bound_t
+   use atrito_results, only: error_bound_t, results_t
    use atrito_sides_apart, only: keep_apart
    use atrito_side_tractions, only: equilibrate_sides, side_length, traction_of
    use atrito_thermal_loads, only: add_thermal_of, elastic_energy
@@ -48,80 +48,86 @@ module atrito_error_bound
 
 contains
 
-   !> The bound of a converged solution; bound%why_not tells what is missing.
-   subroutine bound_error(model, acting, problem, solution, u, reaction, exchanged, if_quick, bound, element_error)
+   !> The bound of a converged solution: results%error_bound, whose why_not tells what is missing.
+   !>
+   !> results%element_error, where it is allocated, becomes the share of each element, eta being the root of the sum of their squares.
+   subroutine bound_error(model, acting, problem, solution, exchanged, if_quick, results)
       type(model_t), intent(in) :: model
       type(step_t), intent(in) :: acting            !< with the loads of the time
       class(problem_t), intent(in) :: problem
       type(contact_solution_t), intent(in) :: solution
-      real(wp), intent(in) :: u(:, :)               !< (2, n_nodes) [L]
-      real(wp), intent(in) :: reaction(:, :)        !< (2, n_nodes) [F]
       real(wp), allocatable, intent(inout) :: exchanged(:, :) !< what exchange_tractions found; not allocated: it is asked now
       logical, intent(in) :: if_quick               !< a bound is wanted where it takes less than half of the time of a run
-      type(error_bound_t), intent(out) :: bound
-      real(wp), allocatable, intent(inout) :: element_error(:) !< (n_elements) where allocated, the share of each, root of the sum
-      !< of their squares being the bound [%]
+      type(results_t), intent(inout) :: results     !< with displacements and reactions
       type(proof_loads_t) :: loads
       type(mesh_sides_t) :: sides
       type(side_cuts_t) :: cuts
       type(chains_t) :: chains
       type(element_classes_t) :: classes
       type(segment_t), allocatable :: segments(:)
-      real(wp), allocatable :: kept(:, :), force_of_u(:, :), traction(:, :, :), share(:), force(:, :, :)
-      logical, allocatable :: known(:, :)
+      real(wp), allocatable :: kept(:, :), share(:), force(:, :, :)
       character(len=:), allocatable :: why_not
-      real(wp) :: normal, tangential, energy, residual
-      integer(ip) :: n_segments, i, degree
+      real(wp) :: residual
+      integer(ip) :: n_segments, degree
 
+      results%error_bound = error_bound_t()
       call check_hypotheses(problem, why_not)
       if (.not. allocated(why_not)) call list_segments(model, problem, solution, segments, n_segments, why_not)
-      if (allocated(why_not)) then
-         bound%why_not = why_not
-         return
-      end if
-      segments = segments(:n_segments)
       call find_classes(problem%fem, classes)
-      if (if_quick .and. takes_long(problem%fem, classes)) then
-         bound%why_not = 'it takes longer than the run: --proof on'
-         return
+      if (.not. allocated(why_not) .and. if_quick .and. takes_long(problem%fem, classes)) then
+         why_not = 'it takes longer than the run: --proof on'
       end if
-      degree = maxval(DEGREE_OF(problem%fem%mesh%shape(:problem%fem%mesh%n_elements)))
-      call list_sides(problem%fem%mesh, sides)
-      call take_loads(model, acting, problem%fem, sides, degree, problem%held, reaction, loads, why_not)
-      kept = u
+      if (.not. allocated(why_not)) then
+         segments = segments(:n_segments)
+         degree = maxval(DEGREE_OF(problem%fem%mesh%shape(:problem%fem%mesh%n_elements)))
+         call list_sides(problem%fem%mesh, sides)
+         call take_loads(model, acting, problem%fem, sides, degree, problem%held, results%reaction, loads, why_not)
+      end if
+      kept = results%u
       if (.not. allocated(why_not)) call keep_apart(segments, problem%held, kept, why_not)
       if (.not. allocated(why_not)) call balance(problem, segments, why_not)
       if (.not. allocated(why_not) .and. .not. allocated(exchanged)) call exchange(problem, solution, segments, exchanged, why_not)
       if (.not. allocated(why_not)) call take_contact(problem%fem, sides, segments, degree, loads, cuts, why_not)
+      if (.not. allocated(why_not)) then
+         call list_chains(problem%fem%mesh, sides, chains)
+         call take_elements(problem%fem, classes, sides, results%u + exchanged, loads, force)
+         call equilibrate_sides(problem%fem%mesh, sides, chains, force, loads%known, loads%traction, residual)
+         allocate (share(problem%fem%mesh%n_elements))
+         call sum_stresses(problem%fem, classes, sides, chains, loads, kept, cuts, share)
+         if (any(share < 0.0_wp)) why_not = 'a side of an element faces too many others'
+      end if
       if (allocated(why_not)) then
-         bound%why_not = why_not
-         return
+         results%error_bound%why_not = why_not
+      else
+         call complete_bound(problem%fem, segments, kept, residual, share, results)
       end if
-      known = loads%known
-      traction = loads%traction
-      call list_chains(problem%fem%mesh, sides, chains)
-      call take_elements(problem%fem, classes, sides, u + exchanged, loads%at_nodes, known, force, traction)
-      call equilibrate_sides(problem%fem%mesh, sides, chains, force, known, traction, residual)
-      allocate (share(problem%fem%mesh%n_elements))
-      call sum_stresses(problem%fem, classes, sides, chains, known, traction, loads%volume, kept, cuts, share)
-      if (any(share < 0.0_wp)) then
-         bound%why_not = 'a side of an element faces too many others'
-         return
-      end if
-      bound%normal = 0.0_wp
-      bound%tangential = 0.0_wp
-      do i = 1, n_segments
-         call law_gap(segments(i), kept, normal, tangential)
-         bound%normal = bound%normal + normal
-         bound%tangential = bound%tangential + tangential
-         associate (e => segments(i)%slave(1))
-            share(e) = share(e) + merge(0.5_wp, 1.0_wp, segments(i)%master(1) > 0)*(normal + tangential)
-         end associate
-         if (segments(i)%master(1) > 0) share(segments(i)%master(1)) = share(segments(i)%master(1)) + 0.5_wp*(normal + tangential)
-      end do
-      bound%exists = .true.
-      bound%residual = residual
-      associate (eta2 => sum(share))
+   end subroutine bound_error
+
+   !> eta from the shares of the elements and what the laws of contact lack, half of it on either side; the norm that it is over.
+   subroutine complete_bound(fem, segments, kept, residual, share, results)
+      type(fem_t), intent(in) :: fem
+      type(segment_t), intent(in) :: segments(:)
+      real(wp), intent(in) :: kept(:, :)            !< (2, n_nodes) displacements that keep the sides apart [L]
+      real(wp), intent(in) :: residual              !< of the equilibrium
+      real(wp), intent(inout) :: share(:)           !< (n_elements) of the stresses; on return with those of contact [F L]
+      type(results_t), intent(inout) :: results
+      real(wp), allocatable :: force_of_u(:, :)
+      real(wp) :: normal, tangential, energy, eta2
+      integer(ip) :: i
+
+      associate (bound => results%error_bound)
+         do i = 1, size(segments, kind=ip)
+            call law_gap(segments(i), kept, normal, tangential)
+            bound%normal = bound%normal + normal
+            bound%tangential = bound%tangential + tangential
+            associate (slave => segments(i)%slave(1), master => segments(i)%master(1))
+               share(slave) = share(slave) + merge(0.5_wp, 1.0_wp, master > 0)*(normal + tangential)
+               if (master > 0) share(master) = share(master) + 0.5_wp*(normal + tangential)
+            end associate
+         end do
+         bound%exists = .true.
+         bound%residual = residual
+         eta2 = sum(share)
          bound%norm = sqrt(max(eta2, 0.0_wp))
          if (eta2 > 0.0_wp) then
             bound%normal = bound%normal/eta2
@@ -129,15 +135,15 @@ contains
             bound%bulk = 1.0_wp - bound%normal - bound%tangential
          end if
          energy = 0.0_wp
-         force_of_u = u
-         call internal_forces(problem%fem, u, force_of_u, energy)
-         energy = elastic_energy(problem%fem, u, energy)
-         if (energy > 0.0_wp) bound%percent = 100*(bound%norm + norm_of_motion(problem%fem, kept - u))/sqrt(2*energy)
+         force_of_u = results%u
+         call internal_forces(fem, results%u, force_of_u, energy)
+         energy = elastic_energy(fem, results%u, energy)
+         if (energy > 0.0_wp) bound%percent = 100*(bound%norm + norm_of_motion(fem, kept - results%u))/sqrt(2*energy)
          bound%is_certified = residual <= max(LEAST_DIGITS*bound%percent/100, 1.0e-12_wp)
          if (.not. bound%is_certified) bound%why_not = 'round-off of the equilibrium'
       end associate
-      if (allocated(element_error) .and. energy > 0.0_wp) element_error = 100*sqrt(max(share, 0.0_wp)/(2*energy))
-   end subroutine bound_error
+      if (allocated(results%element_error) .and. energy > 0.0_wp) results%element_error = 100*sqrt(max(share, 0.0_wp)/(2*energy))
+   end subroutine complete_bound
 
    !> Whether a bound takes more than the run does: where many elements are quadrilaterals or of second degree and no two are equal.
    pure logical function takes_long(fem, classes)
@@ -243,20 +249,17 @@ contains
 
    !> R_E of all elements, the forces of their stresses less those of their loads, and where tractions are not known those of the
    !> stresses at the corners: the mean of both elements of a side.
-   subroutine take_elements(fem, classes, sides, u, body_force, known, force, traction)
+   subroutine take_elements(fem, classes, sides, u, loads, force)
       type(fem_t), intent(in) :: fem
       type(element_classes_t), intent(in) :: classes
       type(mesh_sides_t), intent(in) :: sides
       real(wp), intent(in) :: u(:, :)               !< (2, n_nodes) [L]
-      real(wp), intent(in) :: body_force(:, :, :)   !< (2, nodes, n_elements) [F]
-      logical, intent(in) :: known(:, :)
-      real(wp), allocatable, intent(out) :: force(:, :, :)
-      real(wp), intent(inout) :: traction(:, 0:, :)
+      type(proof_loads_t), intent(inout) :: loads
+      real(wp), allocatable, intent(out) :: force(:, :, :)  !< (2, nodes, n_elements) R_E [F]
       real(wp), allocatable :: thermal(:, :)
-      integer(ip) :: c, degree
+      integer(ip) :: c
 
-      degree = size(traction, 2, kind=ip) - 1
-      allocate (force, source=-body_force)
+      allocate (force, source=-loads%at_nodes)
       if (allocated(fem%heating)) allocate (thermal(2, fem%mesh%n_nodes), source=0.0_wp)
       do c = 1, classes%n
          call take_class(c)
@@ -288,7 +291,7 @@ contains
                do k = 1, n_given
                   s = s + corner(:, k)*x(k)
                end do
-               call share_out(e, s)
+               call share_out(fem, sides, e, s, loads)
             end associate
          end do
       end subroutine take_class
@@ -304,36 +307,40 @@ contains
          end associate
       end subroutine take_heat
 
-      !> The stresses at the corners of an element, as tractions on the first element of its sides.
-      subroutine share_out(e, s)
-         integer(ip), intent(in) :: e
-         real(wp), intent(in) :: s(12)
-         real(wp) :: n(2), ends(2, 2), t(2), weight
-         integer(ip) :: i, j, k, side, corners(2)
-
-         do k = 1, CORNERS_OF(fem%mesh%shape(e))
-            side = abs(sides%of_element(k, e))
-            if (all(known(:, side))) cycle
-            corners = [k, 1 + mod(k, CORNERS_OF(fem%mesh%shape(e)))]
-            if (sides%of_element(k, e) < 0) corners = corners(2:1:-1)
-            t = fem%mesh%x(:, sides%node(2, side)) - fem%mesh%x(:, sides%node(1, side))
-            n = [t(2), -t(1)]/norm2(t)
-            weight = merge(1.0_wp, 0.5_wp, sides%element(2, side) == 0)
-            do i = 1, 2
-               associate (j => 3*corners(i))
-                  ends(:, i) = weight*[s(j - 2)*n(1) + s(j)*n(2), s(j)*n(1) + s(j - 1)*n(2)]
-               end associate
-            end do
-            do j = 0, degree
-               associate (place => real(j, wp)/degree)
-                  where (.not. known(:, side))
-                     traction(:, j, side) = traction(:, j, side) + (1 - place)*ends(:, 1) + place*ends(:, 2)
-                  end where
-               end associate
-            end do
-         end do
-      end subroutine share_out
-
    end subroutine take_elements
+
+   !> The stresses at the corners of an element, as tractions on the first element of its sides.
+   subroutine share_out(fem, sides, e, s, loads)
+      type(fem_t), intent(in) :: fem
+      type(mesh_sides_t), intent(in) :: sides
+      integer(ip), intent(in) :: e
+      real(wp), intent(in) :: s(12)                 !< s11, s22, s12 corner by corner [F/L]
+      type(proof_loads_t), intent(inout) :: loads
+      real(wp) :: n(2), ends(2, 2), t(2), weight
+      integer(ip) :: i, j, k, side, corners(2), degree
+
+      degree = ubound(loads%traction, 2, kind=ip)
+      do k = 1, CORNERS_OF(fem%mesh%shape(e))
+         side = abs(sides%of_element(k, e))
+         if (all(loads%known(:, side))) cycle
+         corners = [k, 1 + mod(k, CORNERS_OF(fem%mesh%shape(e)))]
+         if (sides%of_element(k, e) < 0) corners = corners(2:1:-1)
+         t = fem%mesh%x(:, sides%node(2, side)) - fem%mesh%x(:, sides%node(1, side))
+         n = [t(2), -t(1)]/norm2(t)
+         weight = merge(1.0_wp, 0.5_wp, sides%element(2, side) == 0)
+         do i = 1, 2
+            associate (j => 3*corners(i))
+               ends(:, i) = weight*[s(j - 2)*n(1) + s(j)*n(2), s(j)*n(1) + s(j - 1)*n(2)]
+            end associate
+         end do
+         do j = 0, degree
+            associate (place => real(j, wp)/degree)
+               where (.not. loads%known(:, side))
+                  loads%traction(:, j, side) = loads%traction(:, j, side) + (1 - place)*ends(:, 1) + place*ends(:, 2)
+               end where
+            end associate
+         end do
+      end do
+   end subroutine share_out
 
 end module atrito_error_bound

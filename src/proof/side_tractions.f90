@@ -113,6 +113,7 @@ contains
 
    end subroutine equilibrate_sides
 
+   !> The length of a straight side [L].
    pure real(wp) function side_length(mesh, sides, i)
       type(mesh_t), intent(in) :: mesh
       type(mesh_sides_t), intent(in) :: sides

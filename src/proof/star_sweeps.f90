@@ -67,12 +67,11 @@ contains
       logical :: is_held(3*n_elements + 6)
       real(wp) :: matrix(3*n_elements + 6, 3*n_elements + 6), step(3*n_elements + 6), slope(3*n_elements + 6)
       integer(ip) :: free(3*n_elements + 6)
-      real(wp) :: h_sign, change
 
       per_side = 2*outlines%degree - 1
       m = 3 + 2*per_side
       n = 3 + per_side*(n_elements + merge(0, 1, side(0) == side(n_elements)))
-      call find_held()
+      call find_held(mesh, sides, known, side, outlines%degree, is_held(:n))
       n_free = 0
       do j = 1, n
          free(j) = 0
@@ -100,22 +99,7 @@ contains
       call solve_least(n_free, matrix, step)
       gain = gain + dot_product(slope(:n_free), step(:n_free))
       do j = 1, n_elements
-         associate (h => outlines%h(:, :, outlines%class_of(element(j))), of_element => outlines%slope(:, element(j)))
-            change = 0.0_wp                         ! of E: the step times the slopes before and behind it
-            do s = 1, m
-               if (at(s, j) > 0) change = change + sign_of(s, j)*step(at(s, j))*of_element(place(s, j))
-            end do
-            do s = 1, m
-               if (at(s, j) == 0) cycle
-               h_sign = sign_of(s, j)*step(at(s, j))
-               outlines%a(place(s, j), element(j)) = outlines%a(place(s, j), element(j)) + h_sign
-               of_element = of_element + h(:, place(s, j))*h_sign
-            end do
-            do s = 1, m
-               if (at(s, j) > 0) change = change + sign_of(s, j)*step(at(s, j))*of_element(place(s, j))
-            end do
-            outlines%energy(element(j)) = outlines%energy(element(j)) + change
-         end associate
+         call move_outline(m, place(:, j), at(:, j), sign_of(:, j), step, element(j), outlines)
       end do
 
    contains
@@ -156,39 +140,76 @@ contains
          end associate
       end subroutine find_places
 
-      !> Which numbers known tractions hold at 0.
-      subroutine find_held()
-         real(wp) :: t(2)
-         integer(ip) :: j, c, first
-         logical :: along(2)
-
-         is_held(:n) = .false.
-         if (side(0) == side(n_elements)) return    ! within a body nothing is known
-         do j = 0, n_elements, n_elements
-            associate (i => side(j))
-               if (.not. any(known(:, i))) cycle
-               first = 3 + j*per_side
-               t = mesh%x(:, sides%node(2, i)) - mesh%x(:, sides%node(1, i))
-               along = abs(t) >= (1.0_wp - ALONG_AXIS)*norm2(t)
-               if (all(known(:, i)) .or. .not. any(along)) then
-                  is_held(:3) = .true.
-                  is_held(first + 1:first + per_side) = .true.
-                  cycle
-               end if
-               c = merge(1, 2, known(1, i))
-               ! T_1 goes with phi,2, and T_2 with phi,1
-               is_held(merge(3, 2, c == 1)) = .true.
-               if (along(3 - c)) then               ! the component of the gradient that is known is the one along the side
-                  is_held(1) = .true.
-                  is_held(first + outlines%degree + 1:first + per_side) = .true.
-               else
-                  is_held(first + 1:first + outlines%degree) = .true.
-               end if
-            end associate
-         end do
-      end subroutine find_held
-
    end subroutine improve_star
+
+   !> The step of a star in the numbers of one element. E changes by the step times the slopes before and behind it.
+   subroutine move_outline(m, place, at, sign_of, step, e, outlines)
+      integer(ip), intent(in) :: m                  !< numbers of the star in the element
+      integer(ip), intent(in) :: place(:), at(:)    !< among those of the element, among the free ones of the star; 0: held
+      real(wp), intent(in) :: sign_of(:), step(:)
+      integer(ip), intent(in) :: e
+      type(outlines_t), intent(inout) :: outlines
+      real(wp) :: of_number(9), change
+      integer(ip) :: s
+
+      associate (h => outlines%h(:, :, outlines%class_of(e)), slope => outlines%slope(:, e))
+         change = 0.0_wp
+         do s = 1, m
+            of_number(s) = 0.0_wp
+            if (at(s) > 0) of_number(s) = sign_of(s)*step(at(s))
+            change = change + of_number(s)*slope(place(s))
+         end do
+         do s = 1, m
+            if (at(s) == 0) cycle
+            outlines%a(place(s), e) = outlines%a(place(s), e) + of_number(s)
+            slope = slope + h(:, place(s))*of_number(s)
+         end do
+         do s = 1, m
+            change = change + of_number(s)*slope(place(s))
+         end do
+      end associate
+      outlines%energy(e) = outlines%energy(e) + change
+   end subroutine move_outline
+
+   !> Which numbers known tractions hold at 0.
+   subroutine find_held(mesh, sides, known, side, degree, is_held)
+      type(mesh_t), intent(in) :: mesh
+      type(mesh_sides_t), intent(in) :: sides
+      logical, intent(in) :: known(:, :)
+      integer(ip), intent(in) :: side(0:)           !< of a chain
+      integer(ip), intent(in) :: degree             !< k
+      logical, intent(out) :: is_held(:)
+      real(wp) :: t(2)
+      integer(ip) :: j, c, first, per_side, last
+      logical :: along(2)
+
+      is_held = .false.
+      last = ubound(side, 1, kind=ip)
+      per_side = 2*degree - 1
+      if (side(0) == side(last)) return    ! within a body nothing is known
+      do j = 0, last, last
+         associate (i => side(j))
+            if (.not. any(known(:, i))) cycle
+            first = 3 + j*per_side
+            t = mesh%x(:, sides%node(2, i)) - mesh%x(:, sides%node(1, i))
+            along = abs(t) >= (1.0_wp - ALONG_AXIS)*norm2(t)
+            if (all(known(:, i)) .or. .not. any(along)) then
+               is_held(:3) = .true.
+               is_held(first + 1:first + per_side) = .true.
+               cycle
+            end if
+            c = merge(1, 2, known(1, i))
+            ! T_1 goes with phi,2, and T_2 with phi,1
+            is_held(merge(3, 2, c == 1)) = .true.
+            if (along(3 - c)) then               ! the component of the gradient that is known is the one along the side
+               is_held(1) = .true.
+               is_held(first + degree + 1:first + per_side) = .true.
+            else
+               is_held(first + 1:first + degree) = .true.
+            end if
+         end associate
+      end do
+   end subroutine find_held
 
    !> matrix step = step by Cholesky, of the lower triangle; numbers without a pivot stay 0.
    pure subroutine solve_least(n, matrix, step)

@@ -11,19 +11,17 @@ module atrito_increment
    use atrito_contact_solution, only: contact_solution_t
    use atrito_controls, only: controls_t, METHOD_ANDERSON
    use atrito_displacements, only: contact_forces
-   use atrito_error_bound, only: bound_error
-   use atrito_exchanged_tractions, only: exchange_with_factors
    use atrito_extremes, only: find_extremes
    use atrito_final_check, only: check_equilibrium, check_balance, check_law, equilibrium_t
    use atrito_force_sums, only: sum_forces
    use atrito_joint_sums, only: sum_joints
+   use atrito_increment_bound, only: prepare_bound, prove_bound
    use atrito_increment_uniqueness, only: judge_uniqueness
    use atrito_idle_motions, only: settle_idle_motions, stop_slow_motion
    use atrito_kinds, only: ip, wp
    use atrito_ladder, only: RUNGS, is_tried, controls_of_rung, rung_text
    use atrito_linear_limits, only: find_large
    use atrito_mesh, only: is_revolved
-   use atrito_model, only: step_t
    use atrito_number_range, only: explain_range
    use atrito_outer_loop, only: FREE_MOTION
    use atrito_picard_loop, only: is_too_much
@@ -33,12 +31,12 @@ module atrito_increment
    use atrito_rigid_results, only: take_rigid_results
    use atrito_row_entries, only: first_motions
    use atrito_row_forces, only: share_out_rows, clear_balance, leave_out_sections
-   use atrito_scene_data, only: scene_data_t, assemble, drop_assembled, forces_at_end, PROOF_AUTO, PROOF_ON
+   use atrito_scene_data, only: scene_data_t, assemble, drop_assembled, forces_at_end
    use atrito_section_forces, only: sum_cuts
    use atrito_solve_condensed, only: solve_condensed, release_condensed
    use atrito_solve_multiplier, only: solve_multiplier
    use atrito_status, only: status_t, is_ok
-   use atrito_step_loads, only: act_at, moment_t
+   use atrito_step_loads, only: moment_t
    use atrito_strings, only: to_text
    use atrito_thermal_loads, only: elastic_energy
    use atrito_timers, only: start_phase, stop_phase
@@ -162,33 +160,8 @@ contains
       end if
       call stop_phase('check')
       call take_rigid_results(data, solution, results)
-      if (is_proved(data, results) .and. results%converged .and. results%law_holds) call prove_bound(data, solution, results)
+      call prove_bound(data, solution, results)
    end subroutine finish_form
-
-   !> Whether a solution gets a bound of its error: without being asked for it at the ends of steps alone, since the increments of a
-   !> history that use the same factors take less time than a bound.
-   pure logical function is_proved(data, results)
-      type(scene_data_t), intent(in) :: data
-      type(results_t), intent(in) :: results
-
-      is_proved = data%is_printed .and. .not. data%is_distributed .and. &
-                  (data%proof == PROOF_ON .or. (data%proof == PROOF_AUTO .and. results%ends_step))
-   end function is_proved
-
-   !> The bound of the error, with the loads of the time.
-   subroutine prove_bound(data, solution, results)
-      type(scene_data_t), intent(inout) :: data
-      type(contact_solution_t), intent(in) :: solution
-      type(results_t), intent(inout) :: results
-      type(step_t) :: acting
-
-      call start_phase('prove')
-      call act_at(data%model, data%step, moment_t(results%step_time, results%time), acting)
-      call bound_error(data%model, acting, data, solution, results%u, results%reaction, data%exchanged, data%proof == PROOF_AUTO, &
-                       results%error_bound, results%element_error)
-      if (allocated(data%exchanged)) deallocate (data%exchanged)
-      call stop_phase('prove')
-   end subroutine prove_bound
 
    !> The solution of one form, with the least of the idle motions.
    subroutine solve_form(data, form, controls, store, results, solution, u, again, status)
@@ -215,10 +188,7 @@ contains
       if (allocated(data%assembled)) call data%assembled%check_solves(status)   ! whatever came of a solve that failed
       solution%form = form
       if (is_ok(status)) call judge_uniqueness(data, solution, results)
-      if (allocated(data%exchanged)) deallocate (data%exchanged)
-      if (is_proved(data, results) .and. form == CONTACT_DENSE .and. solution%converged) then
-         call exchange_with_factors(data%model, data, solution, store%bodies, data%exchanged)
-      end if
+      call prepare_bound(data, form, store, solution, results)
       if (form == CONTACT_DENSE .and. solution%converged .and. .not. data%keeps) call release_condensed(data, store)
       call start_phase('iterate')
       again = may_change
