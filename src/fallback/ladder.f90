@@ -41,8 +41,8 @@ module atrito_ladder
 
 contains
 
-   !> Whether a rung is tried after a first attempt in form `first`. With bounded effort none costs more than what it follows, but in
-   !> scenes so small that none costs anything:
+   !> Whether a rung is tried after a first attempt in form `first`. With bounded effort none costs more than what it follows, but
+   !> in scenes so small that none costs anything:
    !> behind the sparse form, which was taken because the dense one would cost more, there is none.
    pure logical function is_tried(i, first, asked, m, may_cut, is_brief)
       integer, intent(in) :: i                             !< of RUNGS

@@ -43,6 +43,8 @@ module atrito_error_bound
 
    integer(ip), parameter :: SMALL_SCENE = 1000     !< different elements that take no time to speak of
    real(wp), parameter :: MANY = 0.2_wp             !< of the elements
+   real(wp), parameter :: LEAST_PERCENT = 1.0e-7_wp !< no bound is below what round-off may be
+   real(wp), parameter :: SHARE_DIGITS = 1.0e-6_wp
    !> A residual of equilibrium above this share of the bound takes the certificate away.
    real(wp), parameter :: LEAST_DIGITS = 1.0e-3_wp
 
@@ -50,7 +52,8 @@ contains
 
    !> The bound of a converged solution: results%error_bound, whose why_not tells what is missing.
    !>
-   !> results%element_error, where it is allocated, becomes the share of each element, eta being the root of the sum of their squares.
+   !> results%element_error, where it is allocated, becomes the share of each element, eta being the root of the sum of their
+   !> squares.
    subroutine bound_error(model, acting, problem, solution, exchanged, if_quick, results)
       type(model_t), intent(in) :: model
       type(step_t), intent(in) :: acting            !< with the loads of the time
@@ -130,20 +133,28 @@ contains
          eta2 = sum(share)
          bound%norm = sqrt(max(eta2, 0.0_wp))
          if (eta2 > 0.0_wp) then
-            bound%normal = bound%normal/eta2
-            bound%tangential = bound%tangential/eta2
+            bound%normal = share_of(bound%normal/eta2)
+            bound%tangential = share_of(bound%tangential/eta2)
             bound%bulk = 1.0_wp - bound%normal - bound%tangential
          end if
          energy = 0.0_wp
          force_of_u = results%u
          call internal_forces(fem, results%u, force_of_u, energy)
          energy = elastic_energy(fem, results%u, energy)
-         if (energy > 0.0_wp) bound%percent = 100*(bound%norm + norm_of_motion(fem, kept - results%u))/sqrt(2*energy)
+         if (energy > 0.0_wp) bound%percent = max(LEAST_PERCENT, &
+                                                  100*(bound%norm + norm_of_motion(fem, kept - results%u))/sqrt(2*energy))
          bound%is_certified = residual <= max(LEAST_DIGITS*bound%percent/100, 1.0e-12_wp)
          if (.not. bound%is_certified) bound%why_not = 'round-off of the equilibrium'
       end associate
       if (allocated(results%element_error) .and. energy > 0.0_wp) results%element_error = 100*sqrt(max(share, 0.0_wp)/(2*energy))
    end subroutine complete_bound
+
+   !> A share with the digits that are worth telling: what is less is round-off of a law that is met.
+   pure real(wp) function share_of(part)
+      real(wp), intent(in) :: part                  !< 0 to 1
+
+      share_of = nint(part/SHARE_DIGITS)*SHARE_DIGITS
+   end function share_of
 
    !> Whether a bound takes more than the run does: where many elements are quadrilaterals or of second degree and no two are equal.
    pure logical function takes_long(fem, classes)

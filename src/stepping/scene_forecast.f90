@@ -6,12 +6,13 @@
 !> next run. Of a scene that is distributed over processes it is asked elsewhere (distribution_t): this one's was then told.
 module atrito_scene_forecast
    use atrito_contact_form, only: CONTACT_SPARSE
-   use atrito_element_table, only: BEST_OF, POINT_COUNT
+   use atrito_element_table, only: BEST_OF, CORNERS_OF, DEGREE_OF, POINT_COUNT
    use atrito_history_forecast, only: field_growth, history_bytes, is_solved_by_increments
    use atrito_kinds, only: ip, lp, wp
    use atrito_model, only: model_t, step_t
    use atrito_results, only: scene_t
-   use atrito_scene_data, only: scene_data_t
+   use atrito_plane_state, only: STATES
+   use atrito_scene_data, only: scene_data_t, PROOF_OFF
    use atrito_solver_choice, only: SOLVER_SPARSE
    use atrito_uniqueness, only: LONGEST
    implicit none (type, external)
@@ -41,7 +42,8 @@ contains
          bytes = scene%memory
          return
       end if
-      recovering = recovery_bytes(model, int(model%mesh%n_nodes, lp), int(model%mesh%n_elements, lp)) + request_bytes(model, data)
+      recovering = max(recovery_bytes(model, int(model%mesh%n_nodes, lp), int(model%mesh%n_elements, lp)), proof_bytes(data)) &
+                   + request_bytes(model, data)
       is_sparse = data%contact_form == CONTACT_SPARSE
       solving = load_bytes(model) + merge(scene%solving, dense_solving_bytes(scene, data%starts > 0), is_sparse)
       if (is_solved_by_increments(model)) then
@@ -140,6 +142,25 @@ contains
       samples = maxval(BEST_OF(model%mesh%shape))
       bytes = NODE_BYTES*nodes + (ELEMENT_BYTES + samples*SAMPLE_BYTES)*elements
    end function recovery_bytes
+
+   !> A bound of the error, with the results that are there by then: of each element the numbers of its outline and their slopes,
+   !> its forces twice, sides and the chains round corners.
+   pure integer(lp) function proof_bytes(data) result(bytes)
+      type(scene_data_t), intent(in) :: data
+      integer(lp), parameter :: NODE_BYTES = 200_lp, SHARE_BYTES = 60_lp
+      integer(lp) :: n_nodes, n_corners, degree
+
+      bytes = 0
+      if (data%proof == PROOF_OFF .or. data%rows%n_bilateral > 0 .or. data%fem%bodies%n_rigid > 0) return
+      associate (mesh => data%fem%mesh)
+         if (any(STATES(mesh%state(:mesh%n_elements))%has_hoop)) return
+         n_nodes = maxval(mesh%shape(:mesh%n_elements))
+         n_corners = maxval(CORNERS_OF(mesh%shape(:mesh%n_elements)))
+         degree = maxval(DEGREE_OF(mesh%shape(:mesh%n_elements)))
+         bytes = NODE_BYTES*mesh%n_nodes + mesh%n_elements*(SHARE_BYTES + 2*REAL_BYTES*n_corners*(2*degree + 2) + &
+                                                            4*REAL_BYTES*n_nodes + n_corners*(58 + 16*(degree + 1)))
+      end associate
+   end function proof_bytes
 
    !> What is asked for of it: stresses at Gauss points, and contact points.
    pure integer(lp) function request_bytes(model, data) result(bytes)

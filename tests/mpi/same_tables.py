@@ -67,7 +67,8 @@ def without_digits(options):
 def arguments(deck, output, over_ranks):
     command = [] if deck.command == 'run' else [deck.command]
     share = ['--share', 'all'] if over_ranks and deck.command == 'run' else []     # small scenes, too
-    return command + [deck.path, '-o', output] + without_digits(deck.options) + ['--digits', '17'] + share
+    proof = ['--proof', 'off'] if deck.command == 'run' else []      # over ranks there is no bound of the error
+    return command + [deck.path, '-o', output] + without_digits(deck.options) + ['--digits', '17'] + share + proof
 
 
 def settings():
