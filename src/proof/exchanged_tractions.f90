@@ -4,7 +4,9 @@
 !> that is negative beside it. With q the forces of contact and q^ those of the tractions, the bodies move by K^-1 (q^ - q)
 !> besides, which costs a solution with the factors that are there, and all else is a matter of given loads.
 module atrito_exchanged_tractions
+   use atrito_assembly, only: fem_t
    use atrito_balanced_contact, only: add_segments, balance
+   use atrito_bodies, only: bodies_t
    use atrito_condensed_body, only: condense_body, condensed_body_t, contact_response, expand_body
    use atrito_contact_solution, only: contact_solution_t
    use atrito_contact_tractions, only: list_segments, segment_t
@@ -48,6 +50,7 @@ contains
       character(len=:), allocatable, intent(inout) :: why_not
       type(condensed_body_t), intent(inout), optional :: bodies(:)
       real(wp), allocatable :: force(:, :)
+      type(fem_t) :: fem
       type(condensed_body_t) :: body
       type(body_result_t) :: result
       type(status_t) :: status
@@ -57,19 +60,21 @@ contains
       if (size(segments) == 0) return
       force = contact_forces(problem%fem, problem%rows, problem%line, solution)
       call add_segments(segments, force)
-      do b = 1, problem%fem%bodies%n
-         if (problem%fem%bodies%list(b)%n_retained == 0) cycle
+      fem = problem%fem
+      do b = 1, fem%bodies%n
+         if (fem%bodies%list(b)%n_retained == 0) cycle
          if (present(bodies)) then
             call move_body(b, bodies(b))
-         else
-            result = body_result_t(solver_kind=SOLVER_SPARSE)
-            call condense_body(problem%fem, b, SOLVER_SPARSE, body, result, status)
-            if (.not. is_ok(status)) then
-               why_not = 'the factor of a body'
-               return
-            end if
-            call move_body(b, body)
+            cycle
          end if
+         fem%bodies%list(b)%n_retained = few_equations(fem%bodies, b)
+         result = body_result_t(solver_kind=SOLVER_SPARSE)
+         call condense_body(fem, b, SOLVER_SPARSE, body, result, status)
+         if (.not. is_ok(status)) then
+            why_not = 'the factor of a body'
+            return
+         end if
+         call move_body(b, body)
       end do
 
    contains
@@ -82,11 +87,11 @@ contains
          real(wp), allocatable :: x(:, :), load(:, :)
          integer(ip) :: i, dof
 
-         associate (list => problem%fem%bodies%list(b))
+         associate (list => fem%bodies%list(b))
             allocate (load(list%n, 1), source=0.0_wp)
             do i = 1, size(list%nodes, kind=ip)
                do dof = 1, 2
-                  associate (k => problem%fem%bodies%equation(dof, list%nodes(i)))
+                  associate (k => fem%bodies%equation(dof, list%nodes(i)))
                      if (k > 0) load(k, 1) = force(dof, list%nodes(i))
                   end associate
                end do
@@ -95,7 +100,7 @@ contains
             x = load(list%n - list%n_retained + 1:, :)
             call contact_response(body, x)
             call swap_load(body, load)
-            call expand_body(problem%fem, b, body, x(:, 1), change)
+            call expand_body(fem, b, body, x(:, 1), change)
             call swap_load(body, load)
          end associate
       end subroutine move_body
@@ -111,5 +116,20 @@ contains
       end subroutine swap_load
 
    end subroutine exchange
+
+   !> Equations of the last few nodes of a body: as many as tell its rigid motions, and none too many, since what is retained makes a
+   !> full matrix.
+   pure integer(ip) function few_equations(bodies, b) result(n)
+      type(bodies_t), intent(in) :: bodies
+      integer(ip), intent(in) :: b
+      integer(ip), parameter :: ENOUGH = 8
+      integer(ip) :: i
+
+      n = 0
+      do i = size(bodies%list(b)%nodes, kind=ip), 1, -1
+         n = n + count(bodies%equation(:, bodies%list(b)%nodes(i)) > 0, kind=ip)
+         if (n >= min(ENOUGH, bodies%list(b)%n_retained)) return
+      end do
+   end function few_equations
 
 end module atrito_exchanged_tractions
