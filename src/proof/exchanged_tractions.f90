@@ -117,8 +117,8 @@ contains
 
    end subroutine exchange
 
-   !> Equations of the last few nodes of a body: as many as tell its rigid motions, and none too many, since what is retained makes a
-   !> full matrix.
+   !> Equations of the last few nodes of a body: as many as show its rigid motions, and not more, since what is retained makes a full
+   !> matrix.
    pure integer(ip) function few_equations(bodies, b) result(n)
       type(bodies_t), intent(in) :: bodies
       integer(ip), intent(in) :: b
