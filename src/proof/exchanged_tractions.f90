@@ -117,7 +117,7 @@ contains
 
    end subroutine exchange
 
-   !> Equations of the last few nodes of a body: as many as show its rigid motions, and not more, since what is retained makes a full
+   !> Equations of the last few nodes of a body: as many as show its rigid motions, not more, since what is retained makes a full
    !> matrix.
    pure integer(ip) function few_equations(bodies, b) result(n)
       type(bodies_t), intent(in) :: bodies
