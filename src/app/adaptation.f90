@@ -183,10 +183,10 @@ contains
          call add_integers(table, 'elements', meshes%n_elements)
          call add_integers(table, 'dofs', meshes%n_dofs)
          call add_reals(table, 'error_percent', '%', meshes%percent, 0.0_wp)
-         call add_integers(table, 'certified', merge(1_ip, 0_ip, meshes%is_certified))
          call add_integers(table, 'linear_solves', meshes%n_solves)
          call add_reals(table, 'total_wall', 's', meshes%seconds(1), 0.0_wp)
          call add_reals(table, 'total_cpu', 's', meshes%seconds(2), 0.0_wp)
+         call add_integers(table, 'certified', merge(1_ip, 0_ip, meshes%is_certified))
       end associate
    end subroutine build_adaptation
 

@@ -147,7 +147,7 @@ contains
    !> its forces twice, sides and the chains round corners.
    pure integer(lp) function proof_bytes(data) result(bytes)
       type(scene_data_t), intent(in) :: data
-      integer(lp), parameter :: NODE_BYTES = 200_lp, SHARE_BYTES = 60_lp
+      integer(lp), parameter :: NODE_BYTES = 200_lp, SHARE_BYTES = 100_lp
       integer(lp) :: n_nodes, n_corners, degree
 
       bytes = 0
@@ -157,7 +157,7 @@ contains
          n_nodes = maxval(mesh%shape(:mesh%n_elements))
          n_corners = maxval(CORNERS_OF(mesh%shape(:mesh%n_elements)))
          degree = maxval(DEGREE_OF(mesh%shape(:mesh%n_elements)))
-         bytes = NODE_BYTES*mesh%n_nodes + mesh%n_elements*(SHARE_BYTES + 2*REAL_BYTES*n_corners*(2*degree + 2) + &
+         bytes = NODE_BYTES*mesh%n_nodes + mesh%n_elements*(degree*SHARE_BYTES + 2*REAL_BYTES*n_corners*(2*degree + 2) + &
                                                             4*REAL_BYTES*n_nodes + n_corners*(58 + 16*(degree + 1)))
       end associate
    end function proof_bytes
