@@ -63,7 +63,7 @@ contains
       call put(plots, LOOKS//LF//'set logscale xy; set format x "%g"; set format y "%g"; unset mxtics; unset mytics')
       call cover(error, table%columns(4)%reals)
       call put_terminal(plots, '1000,420')
-      call put(plots, 'set multiplot layout 1,2; set ylabel "estimated error [%]"'//LF//log_axis('y', error, 6_ip))
+      call put(plots, 'set multiplot layout 1,2; set ylabel "error [%]"'//LF//log_axis('y', error, 6_ip))
       call put_panel('displacements', [(real(table%columns(3)%integers(i), wp), i=1, table%n_rows)], '3')
       call put_panel('time from the beginning [s]', table%columns(6)%reals, '6')
       call put(plots, 'unset multiplot')
