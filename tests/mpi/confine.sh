@@ -21,7 +21,7 @@ ln -s ../others/secret.inc hand/link.inc
 for words in 'hand/a.inp' 'check hand/a.inp' 'sweep hand/a.inp --vary q=1,2,3,4' 'study hand/a.inp --levels 2'; do
    where='-o results'
    [ "${words%% *}" = check ] && where=
-   for n in 1 3; do
+   for n in 2; do
       square hand nodes.inc
       rm -rf results
       by_ranks $n $words --confine hand $where --quiet
