@@ -214,6 +214,7 @@ contains
       type(proof_loads_t), intent(inout) :: loads
       type(side_cuts_t), intent(out) :: cuts
       character(len=:), allocatable, intent(inout) :: why_not
+      real(wp), parameter :: no_extent = 1.0e-9_wp !! of the side's length, below which a piece is a point
       real(wp) :: on_slave(2, 3), on_master(2, 3), ends(2, 2)
       real(wp), allocatable :: applied(:, :, :)
       integer(ip) :: i
@@ -226,6 +227,10 @@ contains
          ends(:, 2) = traction_at(segments(i), 1.0_wp)
          call put(segments(i)%slave, segments(i)%on_slave, 1.0_wp, on_slave)
          if (segments(i)%master(1) == 0) cycle
+         if (abs(segments(i)%on_master(2) - segments(i)%on_master(1)) <= no_extent) then ! its force on the master is a point's
+            why_not = 'contact beyond the end of a master side'
+            cycle
+         end if
          associate (share => segments(i)%length/(abs(segments(i)%on_master(2) - segments(i)%on_master(1))* &
                                       side_length(fem%mesh, sides, sides%of_element(segments(i)%master(2), segments(i)%master(1)))))
             call put(segments(i)%master, segments(i)%on_master, -share, on_master)
