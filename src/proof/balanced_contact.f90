@@ -57,15 +57,22 @@ contains
       logical, intent(out) :: is_found
       real(wp), allocatable :: gram(:, :), change(:), left(:), size_of(:)
       integer(ip) :: motion(6), n, i, k, l, m, end_of, n_motions
-      real(wp) :: z(6, 2), force(2), factor(2), most
+      real(wp) :: z(6, 2), force(2), factor(2), most, unit
       integer(ip) :: info
 
       n = size(work, kind=ip)
       allocate (gram(n, n), source=0.0_wp)
+      unit = 0.0_wp
+      do i = 1, size(segments, kind=ip)
+         unit = max(unit, maxval(segments(i)%p))
+      end do
+      is_found = unit > 0.0_wp
+      if (.not. is_found) return
+      unit = scale(1.0_wp, exponent(unit)) ! [F/L^2], a power of two: G and W of any units are of size 1
       do i = 1, size(segments, kind=ip)
          do end_of = 1, 2
             call approach_of(problem, segments(i), end_of, first, n_motions, motion, z)
-            force = 0.5_wp*segments(i)%length*segments(i)%thickness*[segments(i)%p(end_of), room_at(segments(i), end_of)]
+            force = 0.5_wp*segments(i)%length*segments(i)%thickness*([segments(i)%p(end_of), room_at(segments(i), end_of)]/unit)
             do k = 1, n_motions
                do l = 1, n_motions
                   gram(motion(k), motion(l)) = gram(motion(k), motion(l)) + sum(force*z(k, :)*z(l, :))
@@ -77,7 +84,7 @@ contains
       do m = 1, n                                   ! what no traction works on keeps what it has
          gram(m, m) = gram(m, m) + 1.0e-12_wp*most
       end do
-      change = -work
+      change = -work/unit
       call solve_lu(gram, change, info)
       is_found = info == 0
       if (.not. is_found) return

@@ -45,6 +45,7 @@ module atrito_error_bound
    real(wp), parameter :: MANY = 0.2_wp             !< of the elements
    real(wp), parameter :: LEAST_PERCENT = 1.0e-7_wp !< no bound is below what round-off may be
    real(wp), parameter :: SHARE_DIGITS = 1.0e-6_wp
+   real(wp), parameter :: LARGEST = 1.0e100_wp      !< of displacements and stresses, 1/LARGEST the least: squares stay numbers
    !> A residual of equilibrium above this share of the bound takes the certificate away.
    real(wp), parameter :: LEAST_DIGITS = 1.0e-3_wp
 
@@ -74,7 +75,7 @@ contains
       integer(ip) :: n_segments, degree
 
       results%error_bound = error_bound_t()
-      call check_hypotheses(problem, why_not)
+      call check_hypotheses(problem, results%u, why_not)
       if (.not. allocated(why_not)) call list_segments(model, problem, solution, segments, n_segments, why_not)
       call find_classes(problem%fem, classes)
       if (.not. allocated(why_not) .and. if_quick .and. takes_long(problem%fem, classes)) then
@@ -194,14 +195,20 @@ contains
    end function norm_of_motion
 
    !> What nothing can be proved for, whatever the loads are.
-   subroutine check_hypotheses(problem, why_not)
+   subroutine check_hypotheses(problem, u, why_not)
       class(problem_t), intent(in) :: problem
+      real(wp), intent(in) :: u(:, :)               !< (2, n_nodes) [L]
       character(len=:), allocatable, intent(inout) :: why_not
+      real(wp) :: farthest
 
       associate (fem => problem%fem)
          if (any(fem%sections%thickness <= 0.0_wp)) why_not = 'no thickness'
          if (problem%rows%n_bilateral > 0) why_not = 'ties, equations, springs or inclined supports'
          if (fem%bodies%n_rigid > 0) why_not = 'rigid bodies'
+         farthest = maxval(abs(u))
+         if (farthest > LARGEST .or. (farthest > 0.0_wp .and. farthest < 1/LARGEST)) then
+            why_not = 'displacements whose squares are no numbers of the machine: other units'
+         end if
       end associate
    end subroutine check_hypotheses
 
