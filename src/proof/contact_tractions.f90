@@ -30,6 +30,7 @@ module atrito_contact_tractions
    use atrito_pieces, only: cross, normal_at
    use atrito_problem, only: problem_t
    use atrito_shape_functions, only: face_shape_values
+   use atrito_sorting, only: order_key, sorted_places
    implicit none (type, external)
    private
    public :: segment_t, list_segments, segment_forces, traction_at, law_gap, overlap_at, between, value_at, SAME_DIRECTION
@@ -366,7 +367,7 @@ contains
          call cut_at(r - limit)
          call cut_at(r + limit)
       end associate
-      call sort(cuts(:n))
+      cuts(:n) = cuts(sorted_places(order_key(cuts(:n))))
       normal = 0.0_wp
       tangential = 0.0_wp
       do k = 1, n - 1
@@ -417,21 +418,6 @@ contains
             cuts(n) = zeros(i)
          end do
       end subroutine cut_at
-
-      pure subroutine sort(list)
-         real(wp), intent(inout) :: list(:)
-         integer :: i, j
-         real(wp) :: x
-
-         do i = 2, size(list)
-            x = list(i)
-            do j = i - 1, 1, -1
-               if (list(j) <= x) exit
-               list(j + 1) = list(j)
-            end do
-            list(j + 1) = x
-         end do
-      end subroutine sort
 
    end subroutine law_gap
 

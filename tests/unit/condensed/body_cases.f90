@@ -28,9 +28,10 @@ module body_cases
    use atrito_status, only: status_t, is_ok
    use dense_measures, only: norm_one
    use surface_pairs, only: pair_surfaces
+   use random_arrays, only: random_numbers
    implicit none (type, external)
    private
-   public :: scene_case_t, stacked_blocks, solve_dense, full_matrix, random_line, random_numbers
+   public :: scene_case_t, stacked_blocks, solve_dense, full_matrix, random_line
 
    !> All that the solver knows of a scene of two bodies.
    type :: scene_case_t
@@ -43,18 +44,6 @@ module body_cases
    end type scene_case_t
 
 contains
-
-   !> Uniform in (-1, 1), the same in every run.
-   subroutine random_numbers(state, a)
-      integer(lp), intent(inout) :: state
-      real(wp), intent(out) :: a(:)
-      integer(ip) :: i
-
-      do i = 1, size(a, kind=ip)
-         state = modulo(48271_lp*max(state, 1_lp), 2147483647_lp)
-         a(i) = 2.0_wp*real(state, wp)/2147483647.0_wp - 1.0_wp
-      end do
-   end subroutine random_numbers
 
    !> A block of 4 x 2 elements, free but for what it stands on, on one of n_lower x 2 with a fixed base; E 100 and 300. The law
    !> is the paper's with nu = 0.4, eps = 0.001. Node loads push the top down and a little to the right.

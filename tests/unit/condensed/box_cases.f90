@@ -3,24 +3,12 @@ module box_cases
    use atrito_bound_qp, only: bound_qp_t, box_bounds_t, box_state_t, FREE, AT_LOWER, AT_UPPER, FROZEN
    use atrito_dense, only: least_squares
    use atrito_kinds, only: ip, lp, wp, HUGE_REAL
+   use random_arrays, only: random_numbers
    implicit none (type, external)
    private
-   public :: random_numbers, random_problem, start_state, kkt_residual, enumerate_states, certificate
+   public :: random_problem, start_state, kkt_residual, enumerate_states, certificate
 
 contains
-
-   !> Uniform in (-1, 1), the same in every run (Lehmer's generator, modulus 2^31 - 1). `state` goes on from call to call.
-   subroutine random_numbers(state, a)
-      integer(lp), intent(inout) :: state
-      real(wp), intent(out) :: a(:)
-      integer(ip) :: i
-
-      if (state <= 0) state = 1
-      do i = 1, size(a, kind=ip)
-         state = modulo(48271_lp*state, 2147483647_lp)
-         a(i) = 2.0_wp*real(state, wp)/2147483647.0_wp - 1.0_wp
-      end do
-   end subroutine random_numbers
 
    !> n_normal closing forces, n_shear ones with bounds on both sides, k motions; d = 0 or some part of C.
    subroutine random_problem(seed, n_normal, n_shear, k, d_size, problem, bounds)

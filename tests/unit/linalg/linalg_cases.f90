@@ -7,6 +7,7 @@ module linalg_cases
    use atrito_status, only: status_t, is_ok
    use atrito_linear_solver, only: linear_solver_t
    use dense_measures, only: factor_cholesky, norm_one
+   use random_arrays, only: random_numbers
    implicit none (type, external)
    private
    public :: ORDERS, RATIO_LIMIT, kept_counts, random_matrix, random_symmetric, random_profile, fill_storage, make_storage
@@ -27,19 +28,16 @@ contains
       counts = [0, min(1, n), n/3, n]
    end function kept_counts
 
-   !> Uniform in (-1, 1), the same in every run (Lehmer's generator, modulus 2^31 - 1).
+   !> Uniform in (-1, 1), the same in every run.
    subroutine random_matrix(seed, a)
       integer(ip), intent(in) :: seed
       real(wp), intent(out) :: a(:, :)
       integer(lp) :: state
-      integer(ip) :: i, j
+      integer(ip) :: j
 
       state = 1_lp + modulo(int(seed, lp)*7919_lp, 2147483646_lp)
       do j = 1, size(a, 2)
-         do i = 1, size(a, 1)
-            state = modulo(48271_lp*state, 2147483647_lp)
-            a(i, j) = 2.0_wp*real(state, wp)/2147483647.0_wp - 1.0_wp
-         end do
+         call random_numbers(state, a(:, j))
       end do
    end subroutine random_matrix
 

@@ -4,27 +4,16 @@ module proof_cases
    use atrito_kinds, only: ip, lp, wp
    use atrito_mesh, only: mesh_t
    use atrito_mesh_sides, only: mesh_sides_t
+   use random_arrays, only: random_numbers
    implicit none (type, external)
    private
-   public :: random_numbers, random_element, in_equilibrium, traction_value, moments_on, GAUSS, WEIGHT, bend_mesh, forces_of_sides
+   public :: random_element, in_equilibrium, traction_value, moments_on, GAUSS, WEIGHT, bend_mesh, forces_of_sides
 
    !> Three Gauss points on [0,1].
    real(wp), parameter :: GAUSS(3) = 0.5_wp + 0.38729833462074168852_wp*[real(wp) :: -1, 0, 1]
    real(wp), parameter :: WEIGHT(3) = [real(wp) :: 5, 8, 5]/18
 
 contains
-
-   !> Uniform in (-1, 1), the same in every run.
-   subroutine random_numbers(state, a)
-      integer(lp), intent(inout) :: state
-      real(wp), intent(out) :: a(:)
-      integer(ip) :: i
-
-      do i = 1, size(a, kind=ip)
-         state = modulo(48271_lp*max(state, 1_lp), 2147483647_lp)
-         a(i) = 2.0_wp*real(state, wp)/2147483647.0_wp - 1.0_wp
-      end do
-   end subroutine random_numbers
 
    !> A convex element of no symmetry, its first corner in the origin.
    subroutine random_element(state, n, corner)

@@ -6,7 +6,7 @@ module part_cases
    use atrito_kinds, only: ip, lp, wp
    use atrito_mesh, only: mesh_t, add_block, add_nodes, is_hollow, trim_mesh
    use atrito_plane_state, only: elastic_t
-   use body_cases, only: random_numbers
+   use random_arrays, only: random_numbers
    implicit none (type, external)
    private
    public :: make_blocks
