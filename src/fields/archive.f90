@@ -16,6 +16,7 @@ module atrito_archive
    use atrito_kinds, only: ip, lp, wp
    use atrito_spool, only: spool_t, open_spool, go_to, pass_values
    use atrito_status, only: status_t, set_status, is_ok, STATUS_FILE
+   use atrito_utf8, only: has_controls
    implicit none (type, external)
    private
    public :: archive_t, spool_archive, turn_to, create_archive, open_archive, begin_part, end_part, exchange, exchange_vector, &
@@ -514,21 +515,10 @@ contains
       end if
       if (.not. allocated(text)) return
       call pass_text(archive, text)
-      if (archive%is_reading .and. is_ok(archive%status) .and. has_control_characters(text)) then
+      if (archive%is_reading .and. is_ok(archive%status) .and. (has_controls(text) .or. index(text, achar(13)) > 0)) then
          call set_status(archive%status, STATUS_FILE, archive%path//': is damaged: control characters in '//name)
       end if
    end subroutine exchange_text
-
-   !> What a terminal would obey when it is printed, but line breaks and tabulators.
-   pure logical function has_control_characters(text)
-      character(len=*), intent(in) :: text
-      integer :: i
-
-      has_control_characters = .false.
-      do i = 1, len(text)
-         has_control_characters = has_control_characters .or. (iachar(text(i:i)) < 32 .and. all(iachar(text(i:i)) /= [9, 10]))
-      end do
-   end function has_control_characters
 
    !> A string of fixed length.
    subroutine exchange_word(archive, name, word)
