@@ -142,12 +142,15 @@ contains
          force_of_u = results%u
          call internal_forces(fem, results%u, force_of_u, energy)
          energy = elastic_energy(fem, results%u, energy)
-         if (energy > 0.0_wp) bound%percent = max(LEAST_PERCENT, &
-                                                  100*(bound%norm + norm_of_motion(fem, kept - results%u))/sqrt(2*energy))
+         if (.not. energy > 0.0_wp) then
+            bound = error_bound_t(why_not='no strain that it would be a share of')
+            return
+         end if
+         bound%percent = max(LEAST_PERCENT, 100*(bound%norm + norm_of_motion(fem, kept - results%u))/sqrt(2*energy))
          bound%is_certified = residual <= max(LEAST_DIGITS*bound%percent/100, 1.0e-12_wp)
          if (.not. bound%is_certified) bound%why_not = 'round-off of the equilibrium'
       end associate
-      if (allocated(results%element_error) .and. energy > 0.0_wp) results%element_error = 100*sqrt(max(share, 0.0_wp)/(2*energy))
+      if (allocated(results%element_error)) results%element_error = 100*sqrt(max(share, 0.0_wp)/(2*energy))
    end subroutine complete_bound
 
    !> A share with the digits that are worth telling: what is less is round-off of a law that is met.
@@ -207,7 +210,7 @@ contains
          if (fem%bodies%n_rigid > 0) why_not = 'rigid bodies'
          farthest = maxval(abs(u))
          if (farthest > LARGEST .or. (farthest > 0.0_wp .and. farthest < 1/LARGEST)) then
-            why_not = 'displacements whose squares are no numbers of the machine: other units'
+            why_not = 'displacements above 1e100 or below 1e-100: other units'
          end if
       end associate
    end subroutine check_hypotheses

@@ -80,6 +80,10 @@ no_bound arc 'curved sides'
 sed 's/CPE4/CAX4/; s/1, 2$/2/' "$here/clamped.inp" >ring.inp
 run 0 ring.inp ring --proof on
 no_bound ring 'rings'
+run 0 "$ex1" huge --set q=1e150 --set eps=4e146 --proof on
+no_bound huge 'displacements above 1e100'
+run 0 "$input/lessons/leaning-block.inp" leaning --proof on
+no_bound leaning 'no strain'
 # two pairs on one side, one of them open: its pieces lie over those of the other
 awk -v upper=3 -f "$here/blocks.awk" </dev/null >far.inp
 sed 's/^UPPER-BOTTOM, LOWER-TOP/&\nFAR-BOTTOM, LOWER-TOP/; s/^\*SOLID SECTION, ELSET=LOWER/*SOLID SECTION, ELSET=FAR, MATERIAL=SOFT\n1.\n&/
