@@ -60,10 +60,10 @@ form_of 'dense, predicted' 'another solver' "$plates" --share all --solver skyli
 sed "s/^\*STATIC.*/&\n*CONTROLS, METHOD=PICARD/" "$plates" >picard.inp
 form_of 'dense, the method that is asked for' 'a method of the dense form' picard.inp --share all
 
-# ended from outside
+# ended from outside, seconds before it would write
 sh -c 'echo $$ >id; exec "$@"' sh top/run --ranks 2 "$sources/input/ex1-plate-on-rigid-support.inp" --refine 6 --share all --progress all -o ended >out 2>err &
 run=$!
-await told err '^step '
+await told err '^read '
 kill -TERM "$(cat id)"
 end
 expect_code 143 'SIGTERM of ./run --ranks'
