@@ -5,15 +5,12 @@ module atrito_extremes
    use atrito_kinds, only: ip, wp
    use atrito_mesh, only: mesh_t
    use atrito_points, only: contact_points_t
-   use atrito_results, only: results_t, extreme_t
+   use atrito_results, only: results_t, extreme_t, EXTREME_NAMES
    implicit none (type, external)
    private
-   public :: find_extremes, EXTREME_NAMES
+   public :: find_extremes
 
-   !> The quantities, in the order of extremes.tab; a least one is the largest of its negative.
-   character(len=16), parameter :: EXTREME_NAMES(10) = [character(len=16) :: 'u', 'u1_max', 'u1_min', 'u2_max', 'u2_min', &
-                                                                                  'mises', 's1_max', 's3_min', 'contact_pressure', &
-                                                                                                                    'contact_shear']
+   !> A least one is the largest of its negative.
    logical, parameter :: IS_LEAST(size(EXTREME_NAMES)) = [.false., .false., .true., .false., .true., .false., .false., .true., &
                                                           .false., .false.]
    integer, parameter :: U = 1, MISES = 6, S1 = 7, S3 = 8, PRESSURE = 9, SHEAR = 10

@@ -4,7 +4,6 @@
 !> may be NaN), and text has no control characters. That is asked before anything is used.
 module atrito_check_found
    use atrito_element_table, only: POINT_COUNT
-   use atrito_extremes, only: EXTREME_NAMES
    use atrito_iteration, only: iteration_t
    use atrito_kinds, only: ip, wp
    use atrito_mesh, only: find_element, find_node
@@ -12,7 +11,7 @@ module atrito_check_found
    use atrito_record_checks, only: require, is_finite, is_any_infinite, is_list, is_text, is_plain, is_same_time
    use atrito_restart_state, only: restart_state_t
    use atrito_results, only: body_motion_t, contact_result_t, extreme_t, history_t, observed_list_t, observed_t, results_t, &
-                             scene_t, view_frame, POINT_OPEN, POINT_SLIP
+                             scene_t, view_frame, EXTREME_NAMES, POINT_OPEN, POINT_SLIP
    use atrito_scene_data, only: scene_data_t
    use atrito_strings, only: string_t, to_text
    implicit none (type, external)

@@ -9,7 +9,7 @@ module atrito_results
    public :: body_motion_t, rigid_result_t, joint_t, cut_force_t, extreme_t, history_t, history_row_t, ending_t, last_frame
    public :: observed_t, observed_list_t, uniqueness_t, error_bound_t, frame_numbers_t, frame_store_t, put_aside, view_frame, &
              has_forces
-   public :: POINT_OPEN, POINT_STICK, POINT_SLIP
+   public :: POINT_OPEN, POINT_STICK, POINT_SLIP, EXTREME_NAMES
 
    integer(ip), parameter :: POINT_OPEN = 0, POINT_STICK = 1, POINT_SLIP = 2   !< column status of contact.tab
 
@@ -157,6 +157,11 @@ module atrito_results
       logical :: is_node = .false.                  !< id is that of a node
       character(len=16) :: quantity = ''            !< in extremes.tab; '': none of it
    end type extreme_t
+
+   !> What extremes.tab has, in its order.
+   character(len=16), parameter :: EXTREME_NAMES(10) = [character(len=16) :: 'u', 'u1_max', 'u1_min', 'u2_max', 'u2_min', &
+                                                                                  'mises', 's1_max', 's3_min', 'contact_pressure', &
+                                                                                                                    'contact_shear']
 
    !> A quantity that the user asked for by --observe.
    type :: observed_t
