@@ -38,9 +38,9 @@ warm_start_t       stepping/warm_start.f90 put_start start
 warm_start_t       stepping/warm_start.f90 take_start start
 contact_solution_t stepping/warm_start.f90 put_start solution factor,inner,converged,verdict,factorisations,body_motion,body_force,has_settled
 slip_memory_t      fields/restart_file.f90 exchange_state memory is_incremental
-run_t              stepping/history_run.f90 record run options,reporter,scene,has_last,observer,sense,idle,n_idle
-run_t              stepping/history_run.f90 resume run reporter,observer,idle,n_idle
-progress_t         stepping/history_run.f90 record now cuts
+run_t              analysis/history_run.f90 record run options,reporter,scene,has_last,observer,sense,idle,n_idle
+run_t              analysis/history_run.f90 resume run reporter,observer,idle,n_idle
+progress_t         analysis/history_run.f90 record now cuts
 model_t            model/fingerprint.f90 * model deck_path,deck_name,heading,units,parameters,instances,levels,n_cut,node_sets,element_sets,springs,ties,equations,inclined,sources,restart_every,asks_nlgeom,solver_mesh,provenance,as_run,observed
 mesh_t             model/fingerprint.f90 digest_of_mesh mesh node_map,element_map
 material_t         model/fingerprint.f90 digest_of_materials material name
@@ -84,6 +84,6 @@ must_find() { # must_find FILE SED-COMMAND TEXT
 must_find model/types/results.f90 's/^      logical :: law_holds = .*/&\n      real(wp), allocatable :: wear(:), worn(:)/' 'frame_numbers_t: worn'
 must_find fields/exchange_results.f90 '/contact%slip_increment/d' 'contact_result_t: slip_increment'
 must_find model/types/results.f90 's/^      type(scene_t) :: scene/&\n      type(ending_t) :: ending/' 'ending_t has no rule'
-must_find stepping/history_run.f90 '/run%condition = state%condition/d' 'run_t: condition'
+must_find analysis/history_run.f90 '/run%condition = state%condition/d' 'run_t: condition'
 must_find model/types/model.f90 's/^   type :: pair_t$/   type :: couple_t/' 'there is no type pair_t'
 finish
