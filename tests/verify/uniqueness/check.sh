@@ -7,8 +7,10 @@ forces() {
 }
 
 # one triangle: off the floor, stuck, slipping
-run 0 "$lessons/three-solutions.inp" three --digits 17
+run 0 "$lessons/three-solutions.inp" three --digits 17 --observe 'n=solutions_found + index' --observe 'sure=unique_up_to_nu'
 near 'solutions' "$(summary three solutions_found)" 3 0
+near 'solutions that are observed, and the index' "$(summary three n)" 4 0
+near 'what is certified, observed' "$(summary three sure)" "$(summary three unique_up_to_nu)" 0
 near 'their indices' "$(value "$(summary three index) + $(summary three/solution-2 index) + $(summary three/solution-3 index)")" 1 0
 near 'off the floor, u1' "$(column three/nodes.tab u1 | head -1)" -9.2943967e-5 1e-12
 near 'off the floor, u2' "$(column three/nodes.tab u2 | head -1)" 9.4528315e-6 1e-13
