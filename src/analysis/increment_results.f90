@@ -1,5 +1,5 @@
-!> From the solution of an increment to its results: displacements, reactions, contact fields, energies and balances, the final check
-!> of equilibrium, and where it is printed sums by joint, stresses and their error.
+!> From the solution of an increment to its results: displacements, reactions, contact fields, energies and balances, the final
+!> check of equilibrium, and where it is printed sums by joint, stresses and their error.
 module atrito_increment_results
    use atrito_body_sums, only: sum_bodies
    use atrito_body_motions, only: add_rigid_motions
