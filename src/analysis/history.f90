@@ -11,7 +11,8 @@ module atrito_history
    use atrito_history_rows, only: row_of_pair
    use atrito_force_sense, only: tell_forces, watch_forces
    use atrito_history_run, only: run_t, is_recorded, is_resumed, resume, record
-   use atrito_increment, only: complete_results, is_solved, solve_increment
+   use atrito_increment, only: is_solved, solve_increment
+   use atrito_increment_results, only: complete_results
    use atrito_increment_length, only: cut_increment, is_longer_than_least, lengthen, next_time, progress_t
    use atrito_kinds, only: ip, wp
    use atrito_model, only: all_frequencies, is_due, model_t, requests_t
@@ -20,7 +21,7 @@ module atrito_history
    use atrito_recorder, only: recorder_t
    use atrito_reporter, only: reporter_t, report_place, report_progress, PROGRESS_LINE
    use atrito_restart_state, only: warm_start_t
-   use atrito_results, only: ending_t, extreme_t, frame_store_t, history_t, results_t
+   use atrito_results, only: ending_t, extreme_t, history_t, results_t
    use atrito_rigid_bodies, only: hold_the_same
    use atrito_rigid_results, only: leave_mesh_alone
    use atrito_rigid_steps, only: begin_motions_from, released_forces
@@ -43,7 +44,7 @@ contains
 
    !> Solves all steps. status: of a run of one increment that of solve_static; of others OK, or why the history ended early, with
    !> STATUS_NOT_CONVERGED, STATUS_SINGULAR, or a status of begin_scene. What converged before is in the history.
-   subroutine solve_history(model, options, reporter, history, status, store, recorder, observer, frames, start)
+   subroutine solve_history(model, options, reporter, history, status, store, recorder, observer, start)
       type(model_t), intent(in), target :: model
       type(solve_options_t), intent(in) :: options
       type(reporter_t), intent(in) :: reporter
@@ -52,7 +53,6 @@ contains
       type(body_cache_t), intent(inout) :: store     !< bodies of an earlier run, or none; on return those of this one
       class(recorder_t), intent(inout), target, optional :: recorder
       class(observer_t), intent(inout), target, optional :: observer
-      class(frame_store_t), intent(inout), target, optional :: frames !< keeps all but the last; has those of recorder%found
       type(warm_start_t), intent(inout), optional :: start !< of a run of one increment: as solve_static has it
       type(run_t), target :: run
       type(progress_t) :: now
@@ -70,7 +70,7 @@ contains
          return
       end if
       allocate (history%frames(0))
-      if (present(frames)) history%store => frames
+      history%store => options%frames                ! has the frames of recorder%found
       run%options = options
       run%reporter = reporter
       first = 1

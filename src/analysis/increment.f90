@@ -2,49 +2,35 @@
 !> it finds no solution.
 module atrito_increment
    use atrito_body_cache, only: body_cache_t
-   use atrito_body_sums, only: sum_bodies
-   use atrito_body_motions, only: add_rigid_motions, body_text, find_moved_body, how_it_moves
+   use atrito_body_motions, only: body_text, find_moved_body, how_it_moves
    use atrito_condensed_body, only: check_held
    use atrito_contact_form, only: contact_form_name, CONTACT_AUTO, CONTACT_DENSE, CONTACT_SPARSE
-   use atrito_contact_rows, only: bodies_of_row
-   use atrito_contact_scales, only: usual_growth, force_round_off, NONE_OF_HAD
+   use atrito_contact_scales, only: usual_growth
    use atrito_contact_solution, only: contact_solution_t
    use atrito_controls, only: controls_t, METHOD_ANDERSON
-   use atrito_displacements, only: contact_forces
-   use atrito_extremes, only: find_extremes
-   use atrito_final_check, only: check_equilibrium, check_balance, check_law, equilibrium_t
-   use atrito_force_sums, only: sum_forces
-   use atrito_joint_sums, only: sum_joints
+   use atrito_final_check, only: check_law
    use atrito_increment_bound, only: prepare_bound, prove_bound
+   use atrito_increment_results, only: begin_early, clear_what_is_left, complete_results, recover
    use atrito_increment_uniqueness, only: judge_uniqueness
    use atrito_idle_motions, only: settle_idle_motions, stop_slow_motion
    use atrito_kinds, only: ip, wp
    use atrito_ladder, only: RUNGS, is_tried, controls_of_rung, rung_text
-   use atrito_linear_limits, only: find_large
-   use atrito_mesh, only: is_revolved
    use atrito_number_range, only: explain_range
    use atrito_outer_loop, only: FREE_MOTION
    use atrito_picard_loop, only: is_too_much
-   use atrito_recovery, only: recover_contact, recover_stress, estimate_error
    use atrito_reporter, only: report_progress
-   use atrito_results, only: results_t, has_forces
+   use atrito_results, only: results_t
    use atrito_rigid_results, only: take_rigid_results
-   use atrito_row_entries, only: first_motions
-   use atrito_row_forces, only: share_out_rows, clear_balance, leave_out_sections
    use atrito_scene_data, only: scene_data_t, assemble, drop_assembled, forces_at_end
-   use atrito_section_forces, only: sum_cuts
    use atrito_solve_condensed, only: solve_condensed, release_condensed
    use atrito_solve_multiplier, only: solve_multiplier
    use atrito_status, only: status_t, is_ok
    use atrito_step_loads, only: moment_t
-   use atrito_strings, only: to_text
-   use atrito_thermal_loads, only: elastic_energy
    use atrito_timers, only: start_phase, stop_phase
    use atrito_verdict, only: judge_balance
-   use atrito_weak_forces, only: contact_sizes_t
    implicit none (type, external)
    private
-   public :: solve_increment, begin_results, finish_form, complete_results, is_solved
+   public :: solve_increment, begin_results, finish_form, is_solved
 
    !> Entries of C to go through where either form may be taken: with 400 unknown forces 900 linear solves, with 100 15,000.
    real(wp), parameter :: MOST_ENTRIES = 1.5e8_wp
@@ -226,37 +212,6 @@ contains
       if (allocated(u) .and. .not. data%keeps) call drop_assembled(data)   ! the stresses want the memory of the factors
    end subroutine solve_assembled
 
-   !> Where nothing acts on a body any more, what is left of its displacements and of the forces on it is round-off of what it had.
-   pure subroutine clear_what_is_left(data, solution, u)
-      type(scene_data_t), intent(in) :: data
-      type(contact_solution_t), intent(inout) :: solution
-      real(wp), intent(inout) :: u(:, :)                    !< without rigid motions, (2, n_nodes) [L]
-      logical :: is_still(data%fem%bodies%n)
-      integer(ip) :: first(data%fem%bodies%n + 1), b, i, j
-
-      first = first_motions(data%fem%bodies)
-      do b = 1, data%fem%bodies%n
-         associate (nodes => data%fem%bodies%list(b)%nodes, a => solution%state%a(first(b):first(b + 1) - 1))
-            is_still(b) = maxval(abs(u(:, nodes))) + sum(abs(a)) <= NONE_OF_HAD*data%had%motion(b) .and. &
-                          all(data%f(:, nodes) == 0.0_wp)
-            if (is_still(b)) then
-               u(:, nodes) = 0.0_wp
-               a = 0.0_wp
-            end if
-         end associate
-      end do
-      do i = 1, size(data%line%point, kind=ip)
-         j = data%line%point(i)
-         associate (of_row => bodies_of_row(data%rows, j, data%fem%bodies%of_node))
-            if (.not. all(is_still(pack(of_row, of_row > 0)))) cycle
-            if (abs(solution%state%q(i)) > NONE_OF_HAD*maxval(data%had%force(pack(of_row, of_row > 0)))) cycle
-         end associate
-         solution%state%q(i) = 0.0_wp
-         if (data%line%normal(j) == i) solution%p(j) = 0.0_wp
-         if (data%line%tangential(j) == i) solution%t(j) = 0.0_wp
-      end do
-   end subroutine clear_what_is_left
-
    !> One rung after the other. What is found counts when it converges and its law holds; else all is as it was.
    subroutine climb(data, asked_form, controls, store, results, solution)
       type(scene_data_t), intent(inout) :: data
@@ -360,143 +315,5 @@ contains
       call forces_at_end(data, moment_t(results%step_time, results%time), f_end)
       call judge_balance(data, f_end, results%scene%pairs, verdict, again, status)
    end subroutine judge
-
-   !> What is worth its time where it is printed: sums by joint, stresses and their error, the largest of all, the limits of
-   !> a linear theory.
-   subroutine complete_results(data, results)
-      type(scene_data_t), intent(inout) :: data
-      type(results_t), intent(inout) :: results
-      real(wp) :: strain_bound
-
-      call start_phase('recover')
-      if (data%is_distributed) call data%distribution%begin_fields(data%fem, results%u, data%wants_element_errors)
-      call sum_joints(data%fem%bodies%of_node, data%points, results%contact, results%joints)
-      call recover_stress(data%step%requests, data%fem, results)
-      call stop_phase('recover')
-      call start_phase('estimate')
-      if (data%is_distributed) then
-         call data%distribution%end_fields(data%fem, results, strain_bound)
-      else
-         call estimate_error(data%fem, results, strain_bound, data%wants_element_errors)
-      end if
-      if (.not. (has_forces(results) .or. allocated(data%thermal))) call clear_stresses(results)
-      call find_large(data%model, data%fem, strain_bound, results)
-      call find_extremes(data%model%mesh, data%fem%bodies%of_node, data%points, results)
-      call stop_phase('estimate')
-   end subroutine complete_results
-
-   !> Without forces stresses are round-off of displacements.
-   pure subroutine clear_stresses(results)
-      type(results_t), intent(inout) :: results
-
-      if (allocated(results%stress)) results%stress = 0.0_wp
-      if (allocated(results%nodal_stress)) results%nodal_stress = 0.0_wp
-      if (allocated(results%element_error)) results%element_error = 0.0_wp
-      results%error_estimate = 0.0_wp
-   end subroutine clear_stresses
-
-   !> Where there are several processes the others begin with the fields, while this one checks the equilibrium.
-   subroutine begin_early(data, solution, u)
-      type(scene_data_t), intent(inout) :: data
-      type(contact_solution_t), intent(in) :: solution
-      real(wp), intent(in) :: u(:, :)                       !< without rigid motions, (2, n_nodes) [L]
-      real(wp), allocatable :: total(:, :)
-
-      if (.not. data%is_distributed) return
-      total = u
-      call add_rigid_motions(data%fem, solution%state%a, total)
-      call data%distribution%begin_fields(data%fem, total, data%wants_element_errors)
-   end subroutine begin_early
-
-   !> Displacements, reactions, contact fields, energies and balances.
-   subroutine recover(data, solution, u, results)
-      type(scene_data_t), intent(in) :: data
-      type(contact_solution_t), intent(inout) :: solution
-      real(wp), allocatable, intent(inout) :: u(:, :)      !< without rigid motions, (2, n_nodes) [L]; moved to the results
-      type(results_t), intent(inout) :: results
-      real(wp), allocatable :: contact(:, :)
-      type(equilibrium_t) :: equilibrium
-      real(wp) :: imbalance, others(3)
-
-      contact = contact_forces(data%fem, data%rows, data%line, solution)
-      call move_alloc(u, results%u)
-      allocate (results%reaction, mold=results%u)
-      call check_equilibrium(data%fem, results%u, data%f, contact, data%held, results%reaction, equilibrium, &
-                             sizes_at_points(data, solution), data%thermal)
-      imbalance = check_balance(data%fem, data%f, contact, data%rows, data%had)
-      results%strain_energy = elastic_energy(data%fem, results%u, equilibrium%energy)
-      if (allocated(data%step%requests%cuts)) then          ! rigid motions would cost digits
-         call sum_cuts(data, moment_t(results%step_time, results%time), results%u, results%reaction - contact, results%cuts)
-      end if
-      call add_rigid_motions(data%fem, solution%state%a, results%u)
-      results%converged = solution%converged
-      results%law_holds = equilibrium%holds .and. imbalance <= 1.0e-8_wp
-      if (results%law_holds .and. .not. equilibrium%has_forces) then   ! bodies that move without strain
-         results%reaction = 0.0_wp
-         results%strain_energy = 0.0_wp
-         equilibrium%residual = 0.0_wp
-      end if
-      associate (force => max(equilibrium%largest_force, force_round_off(data%had)/NONE_OF_HAD))
-         if (force > 0.0_wp) results%equilibrium_residual = equilibrium%residual/force
-      end associate
-      if (.not. results%law_holds) results%verdict = 'the bodies are not in equilibrium: residual ' &
-                                                     //to_text(results%equilibrium_residual, 3)//', imbalance ' &
-                                                     //to_text(imbalance, 3)
-      if (.not. solution%converged) results%verdict = solution%verdict
-      others = 0.0_wp
-      results%prescribed = data%held
-      if (data%rows%n_bilateral > 0) call share_out_rows(data, solution, contact, results, others)
-      call sum_forces(data%fem%mesh%x, results%u, data%f, results%reaction, contact, results%balance, results%external_work)
-      call leave_out_sections(data, results%reaction, contact, results%balance)
-      results%balance%is_revolved = is_revolved(data%fem%mesh)
-      results%balance%rows = others(:2)
-      results%balance%rows_moment = others(3)
-      results%balance%rigid = results%balance%rigid - others(:2)
-      results%balance%rigid_moment = results%balance%rigid_moment - others(3)
-      if (data%rows%n_bilateral > 0) call clear_balance(results%balance)
-      ! with the contact forces less those of bilateral rows that are supports
-      if (data%step%requests%bodies) call sum_bodies(data%fem, results%u, data%f, results%reaction, contact, results%bodies)
-      call recover_contact(data%line, data%rows, data%points, solution, results%u, results%contact)
-      allocate (results%iterations(0))
-      if (solution%history%n > 0) results%iterations = solution%history%records(:solution%history%n)
-      results%outer_iterations = solution%history%outer
-      results%linear_solves = max(solution%history%n, 1_ip)
-      results%contraction = solution%contraction
-      call measure_sizes(data, contact, results, solution)
-   end subroutine recover
-
-   !> The largest displacement of each body, and the largest force at a node of it.
-   pure subroutine measure_sizes(data, contact, results, solution)
-      type(scene_data_t), intent(in) :: data
-      real(wp), intent(in) :: contact(:, :)                 !< (2, n_nodes) [F]
-      type(results_t), intent(in) :: results
-      type(contact_solution_t), intent(inout) :: solution
-      integer(ip) :: b
-
-      solution%body_motion = [(0.0_wp, b=1, data%fem%bodies%n)]
-      solution%body_force = solution%body_motion
-      do b = 1, data%fem%bodies%n
-         associate (nodes => data%fem%bodies%list(b)%nodes)
-            solution%body_motion(b) = maxval(abs(results%u(:, nodes)))
-            solution%body_force(b) = max(maxval(abs(data%f(:, nodes))), maxval(abs(contact(:, nodes))), &
-                                         maxval(abs(results%reaction(:, nodes))))
-         end associate
-      end do
-   end subroutine measure_sizes
-
-   !> The forces at the contact points and their pairs, and the rigid motions of the bodies.
-   pure function sizes_at_points(data, solution) result(sizes)
-      type(scene_data_t), intent(in) :: data
-      type(contact_solution_t), intent(in) :: solution
-      type(contact_sizes_t) :: sizes
-      integer(ip) :: first(data%fem%bodies%n + 1), b
-
-      sizes%force = data%line%weight*hypot(solution%p, solution%t)
-      sizes%pair = data%line%pair
-      sizes%rows = data%rows
-      sizes%had = data%had
-      first = first_motions(data%fem%bodies)
-      sizes%motion = [(sum(abs(solution%state%a(first(b):first(b + 1) - 1))), b=1, data%fem%bodies%n)]
-   end function sizes_at_points
 
 end module atrito_increment

@@ -1,7 +1,7 @@
 !> Who looks at each increment that is solved, while all that was found of it is at hand: what --observe means is not known here.
 module atrito_observer
    use atrito_history_lists, only: add_observed
-   use atrito_increment, only: complete_results
+   use atrito_increment_results, only: complete_results
    use atrito_results, only: history_row_t, observed_list_t, results_t
    use atrito_rigid_results, only: leave_mesh_alone
    use atrito_scene_data, only: scene_data_t

@@ -94,12 +94,13 @@ contains
          logical :: goes_on
 
          options = solve_options(command)
+         options%frames => frames
          do
             if (allocated(command%show)) then       ! of the last mesh
                call begin_show(command%show, show)
                if (size(command%show) > 0) options%viewer => show
             end if
-            call solve_history(model, options, reporter, history, status, store, recorder, observations, frames)
+            call solve_history(model, options, reporter, history, status, store, recorder, observations)
             if (adaptation%target <= 0.0_wp .or. .not. is_ok(status)) exit
             call take_next_mesh(command, history, model, observations, adaptation, n_printed, goes_on)
             if (.not. goes_on) exit

@@ -10,6 +10,7 @@
 !> C and G are the same for all loads: a history makes them once. C is a full matrix of m^2 numbers, since every point of a body
 !> moves with every other; F B' costs n^2 operations for each row that a body has.
 module atrito_contact_problem
+   use atrito_incidence, only: list_holders
    use atrito_kinds, only: ip, lp, wp, EPS_MACH
    use atrito_assembly, only: fem_t
    use atrito_average, only: add_identity_rows
@@ -301,7 +302,7 @@ contains
       integer(ip), intent(in) :: before, n           !< the contact dofs of the body are the columns before + 1 .. before + n of B
       real(wp), intent(inout), contiguous :: c(:, :)
       real(wp), allocatable :: forces(:, :)
-      integer(ip), allocatable :: order(:)
+      integer(ip), allocatable :: order(:), starts(:)
       integer(ip) :: first(b%n), j, k, place(b%n)
 
       if (n == 0) return
@@ -312,7 +313,7 @@ contains
          end do
       end do
       ! rows of this body alone, in the order of their first dof
-      order = places_in_order(first, n)
+      call list_holders(n, reshape(merge(first, 0_ip, first <= n), [1_ip, b%n]), starts, order)
       place = 0
       place(order) = [(j, j=1, size(order, kind=ip))]
       allocate (forces(n, size(order)), source=0.0_wp)
@@ -325,29 +326,5 @@ contains
       end do
       call add_flexibilities(condensed, forces, first(order), order, c)
    end subroutine add_flexibility
-
-   !> The places of the values from 1 to n, in ascending order of the values.
-   !>
-   !> A counting sort: next(v) is the place of the next value v. Values beyond n have no place.
-   pure function places_in_order(value, n) result(order)
-      integer(ip), intent(in) :: value(:), n
-      integer(ip), allocatable :: order(:)
-      integer(ip) :: next(n + 1), i, v
-
-      next = 0
-      do i = 1, size(value, kind=ip)
-         if (value(i) <= n) next(value(i) + 1) = next(value(i) + 1) + 1
-      end do
-      next(1) = 1
-      do v = 1, n
-         next(v + 1) = next(v + 1) + next(v)
-      end do
-      allocate (order(next(n + 1) - 1))
-      do i = 1, size(value, kind=ip)
-         if (value(i) > n) cycle
-         order(next(value(i))) = i
-         next(value(i)) = next(value(i)) + 1
-      end do
-   end function places_in_order
 
 end module atrito_contact_problem

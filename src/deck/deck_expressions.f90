@@ -3,7 +3,8 @@ module atrito_deck_expressions
    use atrito_kinds, only: ip, wp
    use atrito_deck, only: deck_t, token_t, token_text, reading_order
    use atrito_diagnostics, only: report_error
-   use atrito_expressions, only: expression_fault_t, evaluate_expression, next_name, reserved_names
+   use atrito_expression_names, only: next_name, reserved_names
+   use atrito_expressions, only: expression_fault_t, evaluate_expression
    use atrito_growth, only: make_room
    use atrito_name_list, only: find_name
    use atrito_sorting, only: each_once

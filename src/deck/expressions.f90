@@ -12,13 +12,13 @@ module atrito_expressions
    use atrito_arithmetic, only: add_safely, multiply_safely, divide_safely, raise_safely, exponential_safely, ARITHMETIC_OK, &
                                 ARITHMETIC_OVERFLOW, ARITHMETIC_ZERO_DIVISION
    use atrito_expression_calls, only: call_t, read_call, has_argument_of
-   use atrito_expression_names, only: is_name, is_function, is_reserved_name, reserved_names, DIGITS, LETTERS
+   use atrito_expression_names, only: end_of_name, end_of_number, is_function, DIGITS, LETTERS
    use atrito_name_list, only: name_list_t, add_name, find_name
    use atrito_numbers, only: read_real, NUMBER_OK, NUMBER_TOO_LARGE
    use atrito_strings, only: string_t, same_name, lower_case
    implicit none (type, external)
    private
-   public :: expression_fault_t, evaluate_expression, list_calls, next_name, is_reserved_name, is_name, reserved_names
+   public :: expression_fault_t, evaluate_expression, list_calls
 
    !> What is wrong with an expression, and where.
    type :: expression_fault_t
@@ -217,51 +217,6 @@ contains
          call fail(parser, parser%position, parser%position + len(symbol) - 1, "'"//symbol//"' is not expected here")
       end if
    end subroutine take_primary
-
-   !> The last character of the number that begins at `first`.
-   pure integer function end_of_number(text, first) result(last)
-      character(len=*), intent(in) :: text
-      integer, intent(in) :: first
-
-      last = first
-      do while (last < len(text))
-         associate (symbol => text(last + 1:last + 1), before => text(last:last))
-            if (scan(symbol, DIGITS//LETTERS//'._') == 0) then
-               ! the sign of an exponent; hexadecimal and names are refused by read_real
-               if (scan(symbol, '+-') == 0 .or. scan(before, 'eEdD') == 0) exit
-            end if
-         end associate
-         last = last + 1
-      end do
-   end function end_of_number
-
-   !> The last character of the name that begins at `first`.
-   pure integer function end_of_name(text, first) result(last)
-      character(len=*), intent(in) :: text
-      integer, intent(in) :: first
-
-      last = first                                    ! letter by letter: a text may have a million names
-      do while (last < len(text))
-         if (scan(text(last + 1:last + 1), LETTERS//DIGITS//'_') == 0) return
-         last = last + 1
-      end do
-   end function end_of_name
-
-   !> The next name of a sound expression behind `last`; first > len(text) when there is none. The e of 1e5 is no name.
-   pure subroutine next_name(text, last, first)
-      character(len=*), intent(in) :: text
-      integer, intent(inout) :: last                   !< 0: of the whole expression the first; then that of the name
-      integer, intent(out) :: first
-
-      do first = last + 1, len(text)
-         if (first <= last) cycle
-         if (scan(text(first:first), LETTERS) == 1) then
-            last = end_of_name(text, first)
-            return
-         end if
-         if (scan(text(first:first), DIGITS//'.') == 1) last = end_of_number(text, first)
-      end do
-   end subroutine next_name
 
    pure subroutine take_number(parser, value)
       type(parser_t), intent(inout) :: parser

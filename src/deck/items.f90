@@ -6,7 +6,7 @@ module atrito_items
                           reading_order
    use atrito_diagnostics, only: report_error
    use atrito_deck_expressions, only: evaluate_at, has_own_degree, report_later, index_of_parameter
-   use atrito_expressions, only: is_name, is_reserved_name
+   use atrito_expression_names, only: is_name, is_reserved_name
    use atrito_numbers, only: read_real, read_integer, NUMBER_OK, NUMBER_TOO_LARGE, NUMBER_NOT_INTEGER
    use atrito_strings, only: same_name, to_text, upper_case
    implicit none (type, external)

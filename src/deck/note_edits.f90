@@ -9,7 +9,7 @@ module atrito_note_edits
    use atrito_deck, only: count_lines, deck_t, card_t, token_t, data_line_t, token_text, is_empty_token, KEYWORD_UNKNOWN
    use atrito_deck_expressions, only: evaluate_at, index_of_parameter
    use atrito_edits, only: append_edit, append_known_edit, take_known_edit
-   use atrito_expressions, only: next_name
+   use atrito_expression_names, only: next_name
    use atrito_items, only: has_option, option_text
    use atrito_keyword, only: KIND_NAME, KIND_REAL, KIND_INTEGER, KIND_ID, KIND_ID_OR_NAME, KIND_REAL_OR_NAME, KIND_TEXT
    use atrito_kinds, only: ip, wp

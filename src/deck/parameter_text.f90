@@ -2,7 +2,7 @@
 module atrito_parameter_text
    use atrito_deck, only: deck_t, token_text
    use atrito_deck_expressions, only: index_of_parameter
-   use atrito_expressions, only: next_name
+   use atrito_expression_names, only: next_name
    use atrito_growing_text, only: growing_text_t, append_text, take_text
    use atrito_kinds, only: ip
    use atrito_numbers, only: exact_text

@@ -3,7 +3,8 @@ module atrito_parameters
    use atrito_kinds, only: ip, wp
    use atrito_deck, only: deck_t, token_t, parameter_t, append_parameter, part_of, reading_order, token_text
    use atrito_diagnostics, only: report_error
-   use atrito_expressions, only: expression_fault_t, evaluate_expression, is_name, is_reserved_name
+   use atrito_expression_names, only: is_name, is_reserved_name
+   use atrito_expressions, only: expression_fault_t, evaluate_expression
    use atrito_deck_expressions, only: evaluate_at, has_own_degree, report_fault, collect_known, put_before, index_of_parameter, &
                                       is_known_at
    use atrito_items, only: LONGEST_NAME

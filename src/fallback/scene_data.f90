@@ -18,7 +18,7 @@ module atrito_scene_data
    use atrito_model, only: model_t, nodal_values_t, step_t
    use atrito_nodal_loads, only: nodal_loads
    use atrito_problem, only: problem_t, free_load
-   use atrito_results, only: results_t, scene_t, uniqueness_t
+   use atrito_results, only: frame_store_t, results_t, scene_t, uniqueness_t
    use atrito_rigid_bodies, only: add_rigid_loads, has_moving_surfaces, set_rigid_motions
    use atrito_scene_builder, only: build_scene, build_bodies, list_held
    use atrito_scene_system, only: scene_system_t, set_scene_gaps, set_scene_load
@@ -99,6 +99,7 @@ module atrito_scene_data
       integer(lp) :: memory = huge(1_lp)                    !< bytes, of each process; what the machine has counts where it is less
       class(distribution_t), allocatable :: distribution    !< of a scene that it pays off for; not allocated: none
       class(viewer_t), pointer :: viewer => null()          !< not associated: nobody looks
+      class(frame_store_t), pointer :: frames => null()     !< takes all printed increments but the last; not associated: none does
    end type solve_options_t
 
    abstract interface

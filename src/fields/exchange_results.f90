@@ -1,6 +1,7 @@
 !> What of the results goes into an archive, or comes out of it (atrito_archive): all of an increment, bit by bit.
 module atrito_exchange_results
-   use atrito_archive, only: archive_t, exchange, exchange_vector, exchange_numbers, exchange_word, exchange_length
+   use atrito_archive, only: archive_t
+   use atrito_exchange, only: exchange, exchange_length, exchange_numbers, exchange_vector, exchange_word
    use atrito_kinds, only: ip
    use atrito_results, only: results_t, contact_result_t, unsettled_t, balance_t, body_motion_t, rigid_result_t, joint_t, &
                              cut_force_t, extreme_t, iteration_t, observed_t, body_result_t, pair_scene_t, scene_t, uniqueness_t, &

@@ -2,8 +2,8 @@
 !> the next increment begins from. It is written whole under a temporary name and takes the place of the one before in one step of
 !> the file system, so that a run that is killed at any moment leaves the last one that was whole.
 module atrito_restart_file
-   use atrito_archive, only: archive_t, create_archive, open_archive, begin_part, end_part, exchange, exchange_numbers, &
-                             exchange_vector, exchange_length, demand, is_sound, close_archive
+   use atrito_archive, only: archive_t, create_archive, open_archive, begin_part, end_part, demand, is_sound, close_archive
+   use atrito_exchange, only: exchange, exchange_length, exchange_numbers, exchange_vector
    use atrito_exchange_results, only: exchange_results, exchange_iterations
    use atrito_files, only: file_set_t, begin_files, file_exists, judge_file, reserve_file, commit_over, discard_files
    use atrito_fingerprint, only: fingerprint_t, find_difference

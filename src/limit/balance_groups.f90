@@ -4,11 +4,12 @@
 !> averaged together belong together, since the pressure of one raises the friction of the other.
 module atrito_balance_groups
    use atrito_contact_line, only: contact_line_t
+   use atrito_joined_sets, only: find_lowest, join_sets
    use atrito_kinds, only: ip
    use atrito_motion_rows, only: motion_rows_t
    implicit none (type, external)
    private
-   public :: balance_groups_t, find_groups, join, root
+   public :: balance_groups_t, find_groups
 
    type :: balance_groups_t
       integer(ip) :: n = 0
@@ -27,23 +28,24 @@ contains
 
       parent = [(i, i=1, rows%n_columns + line%n)]
       do i = 2, rows%n_columns
-         if (rows%body(i) == rows%body(i - 1)) call join(parent, i, i - 1)
+         if (rows%body(i) == rows%body(i - 1)) call join_sets(parent, i, i - 1)
       end do
       do i = 1, rows%n
          do e = rows%first(i), rows%first(i + 1) - 1
-            call join(parent, rows%n_columns + line%point(i), rows%column(e))
+            call join_sets(parent, rows%n_columns + line%point(i), rows%column(e))
          end do
       end do
       do j = 1, line%n
          if (line%tangential(j) == 0 .or. line%law(j)%nu <= 0) cycle
          do e = line%average%first(j), line%average%first(j + 1) - 1
-            if (line%average%value(e) > 0) call join(parent, rows%n_columns + line%average%column(e), rows%n_columns + j)
+            if (line%average%value(e) > 0) call join_sets(parent, rows%n_columns + line%average%column(e), rows%n_columns + j)
          end do
       end do
       allocate (groups%of_motion(rows%n_columns), groups%of_point(line%n))
       number = 0
       do i = 1, rows%n_columns + line%n
-         e = root(parent, i)
+         e = i
+         call find_lowest(parent, e)
          if (i <= rows%n_columns .and. number(e) == 0) then
             groups%n = groups%n + 1
             number(e) = groups%n
@@ -52,28 +54,5 @@ contains
          if (i > rows%n_columns) groups%of_point(i - rows%n_columns) = number(e)
       end do
    end subroutine find_groups
-
-   !> The sets of a and b become one: each member has a parent, the least of a set is its own.
-   pure subroutine join(parent, a, b)
-      integer(ip), intent(inout) :: parent(:)
-      integer(ip), intent(in) :: a, b
-      integer(ip) :: ra, rb
-
-      ra = root(parent, a)
-      rb = root(parent, b)
-      parent(max(ra, rb)) = min(ra, rb)
-      parent(a) = min(ra, rb)
-      parent(b) = min(ra, rb)
-   end subroutine join
-
-   !> The least member of the set of a.
-   pure integer(ip) function root(parent, a) result(r)
-      integer(ip), intent(in) :: parent(:), a
-
-      r = a
-      do while (parent(r) /= r)
-         r = parent(r)
-      end do
-   end function root
 
 end module atrito_balance_groups

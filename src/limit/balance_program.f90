@@ -9,15 +9,25 @@
 !> A bilateral row has two columns, one for either sign. A point whose friction depends on its own pressure alone has two columns,
 !> the edges of its cone; others have one for the pressure, two for the friction, and a row for the bound. Columns are scaled to a
 !> largest entry of one.
+!>
+!> A block on a slope, two points j = 1, 2 with friction of their own pressures, three motions i of the block (two translations, a
+!> rotation): three rows, four columns of forces, six of remainders y+_i, y-_i that cost one each. The column of an edge is
+!>
+!>     (N_j + s nu T_j)/S,   s = -1 or 1:     x of it is the normal force, s nu x the friction
+!>
+!> so every force within the cone of a point is one sum of its two edges with x >= 0, and no row says |q_t| <= nu q_n. With nu below
+!> the tangent of the slope no such forces have the sum of the weight; the least sum of remainders is what is missing along the
+!> slope, and the duals of the three rows are the sliding motion.
 module atrito_balance_program
    use atrito_contact_line, only: contact_line_t, pressure_of
    use atrito_growth, only: resize
+   use atrito_incidence, only: list_holders
    use atrito_kinds, only: ip, wp, HUGE_REAL
    use atrito_linear_program, only: linear_program_t
    use atrito_motion_rows, only: motion_rows_t
    implicit none (type, external)
    private
-   public :: balance_program_t, build_balance_program, forces_of_columns, motion_of_duals
+   public :: balance_program_t, build_balance_program, forces_of_columns
 
    type :: balance_program_t
       type(linear_program_t) :: program
@@ -49,7 +59,7 @@ module atrito_balance_program
 contains
 
    !> The programme of the motions with a row, and of the points that touch them.
-   pure subroutine build_balance_program(rows, line, wanted, row_of_motion, scale, least_largest, balance)
+   subroutine build_balance_program(rows, line, wanted, row_of_motion, scale, least_largest, balance)
       type(motion_rows_t), intent(in) :: rows
       type(contact_line_t), intent(in) :: line
       logical, intent(in) :: wanted(:)           !< (line%n) points that take part
@@ -155,7 +165,7 @@ contains
    end function depends_on_itself
 
    !> The columns of all points, the friction first: it sets the scales of the rows of its bounds.
-   pure subroutine add_contact_columns(rows, line, wanted, row_of_motion, scale, kinds, columns)
+   subroutine add_contact_columns(rows, line, wanted, row_of_motion, scale, kinds, columns)
       type(motion_rows_t), intent(in) :: rows
       type(contact_line_t), intent(in) :: line
       logical, intent(in) :: wanted(:)
@@ -235,36 +245,25 @@ contains
 
    end subroutine add_contact_columns
 
-   !> Whose friction bounds the pressure of a point adds to, and how much.
-   pure subroutine list_users(line, kinds, first, user, pressed)
+   !> Whose friction bounds the pressure of a point adds to, and how much: the entries of W by columns.
+   subroutine list_users(line, kinds, first, user, pressed)
       type(contact_line_t), intent(in) :: line
       type(point_kinds_t), intent(in) :: kinds
       integer(ip), allocatable, intent(out) :: first(:), user(:)
       real(wp), allocatable, intent(out) :: pressed(:) !< w_j nu_j W_jk [L^2]
-      integer(ip) :: next(line%n + 1), j, e, k
+      integer(ip) :: column(1, line%average%first(line%n + 1) - 1), row(size(column)), j
+      integer(ip), allocatable :: entry(:)
 
-      next = 0
+      column = 0
       do j = 1, line%n
-         if (kinds%bound(j) == 0) cycle
-         do e = line%average%first(j), line%average%first(j + 1) - 1
-            next(line%average%column(e) + 1) = next(line%average%column(e) + 1) + 1
-         end do
+         associate (from => line%average%first(j), to => line%average%first(j + 1) - 1)
+            row(from:to) = j
+            if (kinds%bound(j) > 0) column(1, from:to) = line%average%column(from:to)
+         end associate
       end do
-      next(1) = 1
-      do k = 1, line%n
-         next(k + 1) = next(k + 1) + next(k)
-      end do
-      first = next
-      allocate (user(next(line%n + 1) - 1), pressed(next(line%n + 1) - 1))
-      do j = 1, line%n
-         if (kinds%bound(j) == 0) cycle
-         do e = line%average%first(j), line%average%first(j + 1) - 1
-            k = line%average%column(e)
-            user(next(k)) = j
-            pressed(next(k)) = line%weight(j)*line%law(j)%nu*line%average%value(e)
-            next(k) = next(k) + 1
-         end do
-      end do
+      call list_holders(line%n, column, first, entry)
+      user = row(entry)
+      pressed = line%weight(user)*line%law(user)%nu*line%average%value(entry)
    end subroutine list_users
 
    !> The columns of what is left unbalanced, at a cost each, or below one column that alone has a cost.
@@ -397,14 +396,5 @@ contains
          end do
       end do
    end subroutine forces_of_columns
-
-   !> Sets the motions of the programme from the duals of its rows; [1/F], of any length that suits.
-   pure subroutine motion_of_duals(balance, dual, v)
-      type(balance_program_t), intent(in) :: balance
-      real(wp), intent(in) :: dual(:)            !< (rows)
-      real(wp), intent(inout) :: v(:)            !< (k)
-
-      v(balance%motion) = dual(:balance%n_motions)/balance%size
-   end subroutine motion_of_duals
 
 end module atrito_balance_program

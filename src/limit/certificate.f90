@@ -21,7 +21,7 @@
 !> is believed where G'q - h is round-off of the forces on each motion and on each body (forces_balance).
 module atrito_certificate
    use atrito_balance_groups, only: balance_groups_t, find_groups
-   use atrito_balance_program, only: balance_program_t, build_balance_program, forces_of_columns, motion_of_duals
+   use atrito_balance_program, only: balance_program_t, build_balance_program, forces_of_columns
    use atrito_clp, only: solve_linear_program
    use atrito_contact_line, only: contact_line_t, pressure_of, friction_bound
    use atrito_kinds, only: ip, wp
@@ -240,7 +240,7 @@ contains
       v = 0.0_wp
       if (outcome /= LP_OPTIMAL) return
       call forces_of_columns(balance, solution%x, q)
-      call motion_of_duals(balance, solution%dual, v)
+      v(balance%motion) = solution%dual(:balance%n_motions)/balance%size   ! of any length that suits
    end subroutine solve_balance
 
    !> The sizes of the forces on each motion of a group, and on its body [F].

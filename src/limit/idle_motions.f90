@@ -8,7 +8,6 @@
 !> goes back.
 module atrito_idle_motions
    use atrito_assembly, only: fem_t
-   use atrito_balance_groups, only: join, root
    use atrito_bodies, only: simplest_motion
    use atrito_bound_qp, only: FREE, AT_LOWER, AT_UPPER, FROZEN
    use atrito_contact_line, only: friction_bound, rest_of
@@ -17,6 +16,7 @@ module atrito_idle_motions
    use atrito_dense, only: eigen_symmetric, least_squares
    use atrito_friction_law, only: FRICTION_NONE
    use atrito_incidence, only: list_holders
+   use atrito_joined_sets, only: find_lowest, join_sets
    use atrito_kinds, only: ip, wp
    use atrito_load_digits, only: place_doubt, is_within_digits, take_out
    use atrito_motion_rows, only: motion_rows_t, build_motion_rows
@@ -242,10 +242,14 @@ contains
       do i = 1, rows%n
          if (.not. holds(i)) cycle
          do e = rows%first(i) + 1, rows%first(i + 1) - 1
-            call join(group, rows%column(e - 1), rows%column(e))
+            call join_sets(group, rows%column(e - 1), rows%column(e))
          end do
       end do
-      group = [(root(group, i), i=1, rows%n_columns)]
+      do i = 1, rows%n_columns
+         e = i
+         call find_lowest(group, e)
+         group(i) = e
+      end do
    end subroutine join_motions
 
    pure integer(ip) function largest_group(group) result(n)
@@ -260,6 +264,11 @@ contains
    end function largest_group
 
    !> The null space of the rows that hold, group by group.
+   !>
+   !> v is idle when G_i v = 0 for all rows i that hold, so when v'A v = 0 with A = sum_i G_i'G_i, which is positive semidefinite:
+   !> the idle motions of a group are the eigenvectors of its A whose eigenvalue is zero. A row has entries in one group alone, so a
+   !> group with g motions takes g^3 operations whatever there is beside it. Eigenvalues are squares of what the rows see of a
+   !> motion of length one, which is why NULL_MOTION, beside the largest, is a part of 1e-7 in lengths.
    subroutine find_idle(rows, holds, group, idle)
       type(motion_rows_t), intent(in) :: rows
       logical, intent(in) :: holds(:)               !< (m)
@@ -344,6 +353,14 @@ contains
    end subroutine measure_motions
 
    !> Least squares over the idle motions, V' M V s = -V' off, and the same within the conditions of the rows that do not hold.
+   !>
+   !> The sum over the nodes of the squares of their displacements since the increment before, with the motions V s added, is
+   !>
+   !>     |u + Z a + Z V s - u'|^2 = s'V'M V s + 2 s'V'off + what does not depend on s,     M = Z'Z,   off = Z'(u + Z a - u')
+   !>
+   !> M has a block of order 3 a body (measure_motions). With V'M V = Q diag(l) Q' the columns of W = V Q diag(l)^-1/2 are as many
+   !> motions with W'M W = 1, and of s over these the sum is |s + W'off|^2 but for a constant: the least is at s = -W'off, and the
+   !> least under conditions is the point nearest to that one (within_conditions), in the plain sense of the distance.
    subroutine take_least(fem, rows, idle, off, metric, largest, solution, way)
       type(fem_t), intent(in) :: fem
       type(motion_rows_t), intent(in) :: rows
@@ -393,6 +410,9 @@ contains
    end function has_moved
 
    !> After a long way the rows that take a force are off by its rounding: the least rigid motions that put them right.
+   !>
+   !> A row that holds says G_i a + row_i(u) = D_i q_i (gap, rest slip and value are in row_i); what it is off by then is EPS_MACH
+   !> times the way or so. The least b with G b = off, in the sense of least squares, is taken off the motions.
    subroutine close_rows(data, rows, holds, u, solution)
       type(scene_data_t), intent(in) :: data
       type(motion_rows_t), intent(in) :: rows
@@ -452,6 +472,16 @@ contains
    !> The point s nearest to the wanted one at which no row that is at a bound would have to leave it: r + A s <= 0 at the lower
    !> bound, >= 0 at the upper one. By Hildreth's method: projections onto one condition after the other, each with a multiplier >=
    !> 0.
+   !>
+   !> To minimise |s - s0|^2/2 under a_i's <= b_i is to find s = s0 - sum_i m_i a_i with m_i >= 0, which is 0 where a_i's < b_i.
+   !> One condition alone is met by the step
+   !>
+   !>     c = max(-m_i, (a_i's - b_i)/|a_i|^2),     m_i <- m_i + c,     s <- s - c a_i
+   !>
+   !> which goes onto the plane a_i's = b_i from outside, and from inside back towards it as far as earlier steps had gone away from
+   !> s0. Sweep after sweep that is coordinate ascent on the dual problem: its value rises with each step, and s converges, linearly
+   !> in the end (C. Hildreth, Naval Research Logistics Quarterly 4 (1957) 79-85). s = 0, the displacements as found, meets all
+   !> conditions, so there always is such a point.
    pure function within_conditions(rows, basis, wanted, solution) result(s)
       type(motion_rows_t), intent(in) :: rows
       real(wp), intent(in) :: basis(:, :), wanted(:)

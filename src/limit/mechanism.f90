@@ -117,6 +117,12 @@ contains
    end subroutine describe_motion
 
    !> v less the least motion that closes what is lifted, where no closed point slides that did not before, and where much remains.
+   !>
+   !> K are the rows of G at closed points: all normal ones, N_j v being how fast the lift opens them, and those tangential ones
+   !> along which nothing slides. The least l with K l = K v (of least squares, where dependent rows contradict each other by
+   !> round-off) takes all of that out: K (v - l) = 0, and v - l is the projection of v on the motions with this property. A block
+   !> that slides down a slope of friction nu keeps its T v and loses N v = -nu |T v|. Of a wedge nothing remains, since its faces
+   !> cannot slide without opening; then v stays.
    subroutine remove_lift(line, motions, closed, rate, v)
       type(contact_line_t), intent(in) :: line
       type(motion_rows_t), intent(in) :: motions

@@ -4,6 +4,25 @@
 !> solution costs a run. The balance narrows the limit from both sides. Then values from the end that stands on are solved, each
 !> next to the one before: the curve, and the last value that can be balanced. Where runs find neither a solution nor a proof, the
 !> last value that stands is looked for by strides; such values narrow neither bound.
+!>
+!> Why the balance may be bracketed. The loads that contact can take are a convex set (atrito_certificate), and most parameters
+!> enter the loads linearly, so on the way from an end that can be balanced to one that cannot there is one value x* where that
+!> changes. Of the values looked at, `reach` is the farthest from the standing end that can be balanced, `fall` the nearest to it
+!> that falls: x* lies between. Where a parameter enters otherwise (an angle, a friction coefficient) a value between two that can
+!> be balanced need not be so itself, which is why each is asked before it is solved.
+!>
+!> How it is narrowed. A value that falls comes with its excess, the share of the loads that a mechanism works beyond what friction
+!> takes. As long as the mechanism is the same its excess is nearly a straight line over x, so the line through the two nearest
+!> values that fall is zero near x*. The next value is not that zero but a third of the allowed width on either side of it, first
+!> the one that should stand, then the one that should fall: two questions that come out as predicted leave an interval of two
+!> thirds of the allowed width. Where two questions have not halved the interval the mechanism changes on the way, and a value
+!> nearer to the standing end, or half way, is asked (choose_trial).
+!>
+!>     0          reach   x*    fall                beyond      distance from the end that stands
+!>     |------------|-----.------|---------------------|
+!>     stands     stands         falls, excess e1      falls, excess e2 > e1
+!>
+!> The zero of the line is at fall - e1 (beyond - fall)/(e2 - e1).
 module atrito_stability_search
    use atrito_kinds, only: wp
    implicit none (type, external)

@@ -25,6 +25,7 @@
 !> In the new numbers no two neighbours are more than 3 apart (5 and 2 are numbers 1 and 4); in the old ones 1 and 6 are 5 apart.
 module atrito_ordering
    use atrito_incidence, only: list_holders
+   use atrito_joined_sets, only: find_lowest, join_sets
    use atrito_kinds, only: ip, lp
    implicit none (type, external)
    private
@@ -94,9 +95,7 @@ contains
 
    !> Numbers the connected components of a mesh from 1 in the order of their lowest nodes, without its graph.
    !>
-   !> Sets of nodes are joined element by element. Each set is a tree whose root is its lowest node, and each node knows its parent;
-   !> two sets are joined by making the lower of the two roots the parent of the other one. To find a root one goes up, and each
-   !> node on the way is hung to its grandparent, which halves the way for those who come later: the time is as good as linear.
+   !> Sets of nodes are joined element by element, in a time that is as good as linear.
    pure subroutine mesh_components(n, elements, component, n_components)
       integer(ip), intent(in) :: n               !< nodes
       integer(ip), intent(in) :: elements(:, :)  !< (nodes per element, elements): 1..n, 0 beyond the count
@@ -126,17 +125,6 @@ contains
          end if
       end do
    end subroutine mesh_components
-
-   !> Goes up to the lowest node of a set, and halves the way for those who come later.
-   pure subroutine find_lowest(parent, node)
-      integer(ip), intent(inout) :: parent(:)
-      integer(ip), intent(inout) :: node
-
-      do while (parent(node) /= node)
-         parent(node) = parent(parent(node))
-         node = parent(node)
-      end do
-   end subroutine find_lowest
 
    !> Reverse Cuthill-McKee numbering that ends with given nodes.
    !>

@@ -7,7 +7,7 @@ module atrito_refine_model
    use atrito_diagnostics, only: report_deck_error
    use atrito_build_context, only: build_context_t, note_place
    use atrito_element_table, only: CORNERS_OF, DEGREE_OF
-   use atrito_element_trees, only: count_leaves, element_trees_t
+   use atrito_element_trees, only: element_trees_t
    use atrito_faces, only: list_node_elements
    use atrito_kinds, only: ip, lp
    use atrito_mesh, only: mesh_t

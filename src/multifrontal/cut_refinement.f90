@@ -101,6 +101,11 @@ contains
    end subroutine leave_out
 
    !> Moves elements of a set to the other side of its cut.
+   !>
+   !> Some passes, until one saves nothing. A pass moves each element once at most, the best first, and notes after which move most
+   !> nodes had been saved; what was moved after that is moved back. So it gets out of a dent that costs up to PATIENCE moves, and
+   !> ends where it began at the worst. The balance is kept by taking from the heavier side where both have an element of the same
+   !> gain, and nothing from a side that has queue%least elements left.
    subroutine refine_cut(element, sides)
       integer(ip), intent(in) :: element(:)      !< of the set, with their sides
       type(sides_of_cut_t), intent(inout) :: sides
@@ -118,6 +123,8 @@ contains
       end do
    end subroutine refine_cut
 
+   !> Counts the elements of a set round each of its nodes, on either side: two counts in one number, the upper one times MANY, so
+   !> that a node is looked up once. Nodes that are left out keep their negative number.
    subroutine count_sides(element, sides)
       integer(ip), intent(in) :: element(:)
       type(sides_of_cut_t), intent(inout) :: sides
@@ -140,6 +147,8 @@ contains
       end do
    end subroutine count_sides
 
+   !> One pass: the elements at the cut wait in the queue by their gains, are moved one after the other, and put those round them
+   !> into the queue anew.
    subroutine move_elements(element, sides, queue, saved)
       integer(ip), intent(in) :: element(:)
       type(sides_of_cut_t), intent(inout) :: sides
@@ -174,6 +183,7 @@ contains
       sides%moved(moves(:n_moves)) = .false.
    end subroutine move_elements
 
+   !> Whether a corner of the element has elements of both sides round it.
    pure logical function is_at_cut(sides, e)
       type(sides_of_cut_t), intent(in) :: sides
       integer(ip), intent(in) :: e
@@ -206,6 +216,7 @@ contains
       end do
    end function gain_of
 
+   !> The element of the highest gain, of the heavier side where both have one; 0: none may go.
    subroutine take_best(queue, e)
       type(queue_t), intent(in) :: queue
       integer(ip), intent(out) :: e
@@ -220,6 +231,9 @@ contains
       end do
    end subroutine take_best
 
+   !> Moves an element to the other side, for good in this pass, and finds the gains of those round its corners anew. Those round a
+   !> corner with more than two elements on the new side and more than one on the old gain what they did: its part in their gains is
+   !> zero before and after.
    subroutine move(e, sides, queue)
       integer(ip), intent(in) :: e
       type(sides_of_cut_t), intent(inout) :: sides
@@ -244,6 +258,7 @@ contains
       end do
    end subroutine move
 
+   !> The elements of a side round a node, from its two counts in one number.
    pure integer(ip) function count_of(side, packed)
       integer(ip), intent(in) :: side, packed
 
@@ -251,6 +266,7 @@ contains
       if (side == UPPER_SIDE) count_of = packed/MANY
    end function count_of
 
+   !> Changes the side of an element, and the counts of its corners.
    pure subroutine turn(e, sides, weight)
       integer(ip), intent(in) :: e
       type(sides_of_cut_t), intent(inout) :: sides
@@ -268,6 +284,7 @@ contains
       end do
    end subroutine turn
 
+   !> Puts an element first in the list of its gain and side. Lists are linked both ways, so that any member can leave.
    pure subroutine put(e, sides, queue)
       integer(ip), intent(in) :: e
       type(sides_of_cut_t), intent(inout) :: sides

@@ -5,6 +5,15 @@
 !>     for each element: its matrix, its equations, the position of each of them in the front (0: prescribed)
 !>
 !> The border of a supernode are the equations of its ancestors that its subtree couples to, in the order of their positions.
+!>
+!> Supernodes are written children first. The border of p is the union of the borders of its children and of the equations of its
+!> elements, without its own pivots; after p the borders of its children are of no use to anybody. So borders live on a stack: when
+!> p comes, those of its children are the top ones, in their order, and its own takes their place. Its height is at most the sum of
+!> the borders along one way from the root to a leaf, with those of the children beside it: what a walk through the tree has open.
+!>
+!> A union is built by marks (`at`, one number an equation): what is not marked yet is new, is sorted by itself, since it is little,
+!> and merged into the sorted rest. Marks are taken off by going through the border again, so the time is that of the entries
+!> written, not of all equations.
 module atrito_front_records
    use atrito_element_store, only: element_store_t
    use atrito_elimination, only: elimination_t

@@ -106,6 +106,10 @@ contains
    end subroutine append_variable
 
    !> Where each variable element is assembled. What the children of such fronts, and of those above them, leave is kept.
+   !>
+   !> A front varies when one of its elements does or one of its children. Fronts stand behind their children, so one pass finds
+   !> them all. The update of a child is given back as soon as its parents are factored; below a front that varies it is needed
+   !> again with the next factorisation, and the number of parents it waits for is set beyond reach.
    subroutine find_variable_fronts(matrix)
       type(variable_matrix_t), intent(inout) :: matrix
       logical :: varies(matrix%fronts%n_classes)
@@ -148,7 +152,12 @@ contains
       if (matrix%class_of(v) > 0) matrix%is_due(matrix%class_of(v)) = .true.
    end subroutine set_variable_element
 
-   !> Factors what has changed. status: STATUS_SINGULAR when a pivot is not positive (matrix%failed), STATUS_INTERNAL when the
+   !> Factors what has changed.
+   !>
+   !> A front is due when one of its elements has another matrix or one of its children was due: those on the ways from the changed
+   !> elements to the root, and no other.
+   !>
+   !> status: STATUS_SINGULAR when a pivot is not positive (matrix%failed), STATUS_INTERNAL when the
    !> memory does not suffice.
    subroutine factor_variable_matrix(matrix, status)
       type(variable_matrix_t), intent(inout) :: matrix
@@ -195,17 +204,9 @@ contains
    subroutine solve_variable_matrix(matrix, x)
       type(variable_matrix_t), intent(in) :: matrix
       real(wp), intent(inout) :: x(:)              !< (n)
-      real(wp) :: by_position(matrix%n)
-      integer(ip) :: i
 
-      do i = 1, matrix%n
-         by_position(matrix%elimination%position(i)) = x(i)
-      end do
-      call forward(matrix%fronts, by_position)
-      call backward(matrix%fronts, by_position)
-      do i = 1, matrix%n
-         x(i) = by_position(matrix%elimination%position(i))
-      end do
+      call reduce_variable(matrix, x)
+      call expand_variable(matrix, x)
    end subroutine solve_variable_matrix
 
    !> What the last factorisation leaves of the matrix at the kept unknowns, their Schur complement: the lower triangle by columns,

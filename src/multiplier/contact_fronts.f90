@@ -27,13 +27,13 @@
 module atrito_contact_fronts
    use atrito_bound_qp, only: bound_qp_t, box_bounds_t, box_state_t, FREE, AT_LOWER, AT_UPPER, FROZEN
    use atrito_sparse_rows, only: multiply_rows
-   use atrito_contact_line, only: contact_line_t, last_of_pair, pairs_of_unknowns, set_friction_bounds
+   use atrito_contact_line, only: contact_line_t, last_of_pair, set_friction_bounds
    use atrito_contact_solution, only: contact_solution_t, bound_of_state, relative_residual
    use atrito_contact_system, only: contact_system_t
    use atrito_kinds, only: ip, wp
    use atrito_multiplier_step, only: residual_of, provide_factor, rho_of, largest_of_pairs
    use atrito_multipliers, only: multiplier_t
-   use atrito_solve_history, only: solve_history_t, record_solve
+   use atrito_solve_history, only: record_solve
    use atrito_status, only: status_t, is_ok
    implicit none (type, external)
    private

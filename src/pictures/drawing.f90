@@ -4,7 +4,7 @@
 module atrito_drawing
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use atrito_kinds, only: ip, wp
-   use atrito_mesh, only: mesh_t, face_end, middle_node
+   use atrito_mesh, only: face_end, middle_node
    use atrito_mesh_lines, only: mesh_lines_t, collect_lines, rigid_places, LINE_INNER
    use atrito_model, only: model_t, SURFACE_SEGMENTS
    use atrito_number_text, only: trimmed_real

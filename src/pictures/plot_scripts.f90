@@ -4,7 +4,7 @@
 !> Scripts and data of a command's pictures appear together or not at all.
 module atrito_plot_scripts
    use atrito_files, only: file_set_t, text_file_t, begin_files, open_text, put_line, close_text, end_files
-   use atrito_kinds, only: ip, wp
+   use atrito_kinds, only: ip
    use atrito_plot_files, only: check_scripts, open_data, picture_endings
    use atrito_plot_text, only: range_t, padded, range_text, engineering_exponent, power_text, LF
    use atrito_read_table, only: table_path

@@ -15,6 +15,7 @@
 !> Two rows a, b are independent on d where |a| and the part of b across a are more than INDEPENDENT of the whole rows.
 module atrito_constraint_rows
    use atrito_incidence, only: list_holders
+   use atrito_joined_sets, only: find_lowest, join_sets
    use atrito_kinds, only: ip, lp, wp
    use atrito_sparse_rows, only: sparse_rows_t
    implicit none (type, external)
@@ -189,14 +190,14 @@ contains
    end subroutine spread_row
 
    !> A common root for all points that shared dofs lead to: of each dof the first point that has it is kept, and every
-   !> other one that comes is joined with it, the larger root becoming a child of the smaller.
+   !> other one that comes is joined with it.
    subroutine join_points(rows, rows_of, waits, root)
       type(constraint_rows_t), intent(in) :: rows
       integer(ip), intent(in) :: rows_of(:, :)      !< (MOST_OF_POINT, points) of each; 0: none
       logical, intent(in) :: waits(:)               !< (points) that may depend on others
       integer(ip), allocatable, intent(out) :: root(:) !< (points) first point that each is joined with
       integer(ip), allocatable :: holder(:), dofs(:)
-      integer(ip) :: j, k, a, b
+      integer(ip) :: j, k
 
       root = [(j, j=1, size(waits, kind=ip))]
       allocate (holder(rows%n_columns), source=0_ip)
@@ -207,25 +208,15 @@ contains
             if (holder(dofs(k)) == 0) then
                holder(dofs(k)) = j
             else
-               a = root_of(root, holder(dofs(k)))
-               b = root_of(root, j)
-               root(max(a, b)) = min(a, b)
+               call join_sets(root, holder(dofs(k)), j)
             end if
          end do
       end do
       do j = 1, size(root, kind=ip)
-         root(j) = root_of(root, j)
+         k = j
+         call find_lowest(root, k)
+         root(j) = k
       end do
    end subroutine join_points
-
-   !> The root of a point: the first of all points that are joined with it.
-   pure integer(ip) function root_of(root, j)
-      integer(ip), intent(in) :: root(:), j         !< (points); point
-
-      root_of = j
-      do while (root(root_of) /= root_of)
-         root_of = root(root_of)
-      end do
-   end function root_of
 
 end module atrito_constraint_rows

@@ -6,7 +6,7 @@ module atrito_proof_loads
    use atrito_kinds, only: ip, wp
    use atrito_mesh, only: depth_places, face_nodes
    use atrito_mesh_sides, only: mesh_sides_t
-   use atrito_model, only: model_t, step_t, LOAD_BODY, LOAD_HYDROSTATIC, LOAD_LINEAR, LOAD_TRACTION, is_on_volume
+   use atrito_model, only: model_t, step_t, LOAD_HYDROSTATIC, LOAD_LINEAR, LOAD_TRACTION, is_on_volume
    use atrito_nodal_loads, only: forces_of_load
    use atrito_plane_state, only: IS_TAPERED, STATES
    use atrito_strings, only: to_text

@@ -8,7 +8,7 @@ module atrito_show
    use atrito_kinds, only: ip
    use atrito_mesh, only: find_element
    use atrito_numbers, only: read_integer, NUMBER_OK
-   use atrito_page, only: page_t, begin_page, add_heading, add_line
+   use atrito_page, only: page_t, begin_page
    use atrito_plane_state, only: STATES
    use atrito_results, only: results_t
    use atrito_scene_data, only: scene_data_t, viewer_t

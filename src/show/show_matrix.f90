@@ -2,7 +2,7 @@
 module atrito_show_matrix
    use atrito_assembly, only: body_profile, fem_t
    use atrito_bodies, only: element_equations
-   use atrito_kinds, only: ip, lp, wp
+   use atrito_kinds, only: ip
    use atrito_page, only: page_t, add_blank, add_heading, add_line, bytes, left, right
    use atrito_profile, only: profile_t, add_to_profile, banded_bytes, banded_flops, begin_profile, close_profile, half_bandwidth, &
                              largest_height, profile_length, skyline_bytes, skyline_flops

@@ -2,7 +2,7 @@
 !> difference, and it is what a reader wants to know first of tables that differ.
 module atrito_compare_heads
    use atrito_page, only: page_t, add_line
-   use atrito_read_table, only: table_file_t, HEAD_NAMES
+   use atrito_read_table, only: table_file_t
    use atrito_strings, only: string_t, append_string
    implicit none (type, external)
    private

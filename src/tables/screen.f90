@@ -2,7 +2,7 @@
 module atrito_screen
    use atrito_controls, only: METHOD_NAME
    use atrito_kinds, only: ip, wp
-   use atrito_strings, only: string_t, to_text
+   use atrito_strings, only: string_t, ends_with, to_text
    use atrito_messages, only: count_messages, SEVERITY_WARNING, SEVERITY_NOTE
    use atrito_system, only: peak_memory
    use atrito_timers, only: phase_time_t, get_phases
@@ -378,12 +378,6 @@ contains
       end do
       call add_item(page, 'and tables', tables)
    end subroutine add_closing
-
-   pure logical function ends_with(name, ending)
-      character(len=*), intent(in) :: name, ending
-
-      ends_with = index(name, ending, back=.true.) == max(1, len(name) - len(ending) + 1)
-   end function ends_with
 
    !> Seconds to the millisecond.
    pure function seconds(time) result(text)

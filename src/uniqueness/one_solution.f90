@@ -24,7 +24,7 @@
 module atrito_one_solution
    use atrito_certificate_search, only: forms_t, every_load_forms, given_way_forms, certified_factor
    use atrito_friction_form, only: friction_form_t
-   use atrito_kinds, only: ip, wp
+   use atrito_kinds, only: wp
    implicit none (type, external)
    private
    public :: certify_every_load, certify_way

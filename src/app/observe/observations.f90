@@ -2,7 +2,8 @@
 module atrito_observations
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
    use atrito_expression_calls, only: call_t
-   use atrito_expressions, only: evaluate_expression, expression_fault_t, is_name, list_calls
+   use atrito_expression_names, only: is_name
+   use atrito_expressions, only: evaluate_expression, expression_fault_t, list_calls
    use atrito_kinds, only: ip, is_nan, wp
    use atrito_mesh, only: mesh_t
    use atrito_messages, only: add_warning, message_t, SEVERITY_ERROR

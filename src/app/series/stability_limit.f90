@@ -234,7 +234,7 @@ contains
       type(observations_t) :: observations
       type(status_t) :: status
       type(history_t) :: history
-      type(frame_spool_t) :: frames
+      type(frame_spool_t), target :: frames
       type(reporter_t) :: reporter
       type(solve_options_t) :: options
       integer(ip) :: n_printed
@@ -247,10 +247,11 @@ contains
       reporter%quiet = .true.
       call begin_frames(output_folder(command), frames)
       options = solve_options(command)
+      options%frames => frames
       options%is_brief = .true.
       n = max(FEW, maxval([0_ip, limit%values%factorisations], mask=[.true., limit%values%code == STATUS_OK]))
       options%most_factorisations = MOST_TIMES*n
-      call solve_history(model, options, reporter, history, status, store, observer=observations, frames=frames, start=start)
+      call solve_history(model, options, reporter, history, status, store, observer=observations, start=start)
       call end_frames(frames)
       n = size(history%frames)
       if (n > 0) call agree_on_outcome(status, history%frames(n), history%ending%is_early)

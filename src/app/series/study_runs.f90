@@ -16,6 +16,7 @@ module atrito_study_runs
    use atrito_reporter, only: reporter_t
    use atrito_results, only: history_t, results_t
    use atrito_run, only: run_deck, solve_options, agree_on_outcome
+   use atrito_solve, only: solve_options_t
    use atrito_status, only: status_t, is_ok, STATUS_OK, STATUS_NOT_CONVERGED
    use atrito_strings, only: to_text, upper_case
    use atrito_study_errors, only: run_facts_t, study_t, study_row_t, total_seconds, PROCESSOR
@@ -78,7 +79,8 @@ contains
       type(body_cache_t) :: store
       type(model_t) :: model
       type(history_t) :: history
-      type(frame_spool_t) :: frames
+      type(frame_spool_t), target :: frames
+      type(solve_options_t) :: options
       type(observations_t) :: observations
       type(reporter_t) :: reporter
       type(status_t) :: status
@@ -94,7 +96,9 @@ contains
       if (code == STATUS_OK) then
          call scale_laws(model%interactions, merge(0.5_wp, 1.0_wp, kind == 1), merge(1.0_wp, 0.5_wp, kind == 1))
          call begin_frames(output_folder(command), frames)
-         call solve_history(model, solve_options(one), reporter, history, status, store, observer=observations, frames=frames)
+         options = solve_options(one)
+         options%frames => frames
+         call solve_history(model, options, reporter, history, status, store, observer=observations)
          associate (n => size(history%frames))
             if (n > 0) call agree_on_outcome(status, history%frames(n), history%ending%is_early)
             if (is_ok(status)) call find_values(history%frames(n), study, values)

@@ -9,14 +9,13 @@ module atrito_load_symbols
    use atrito_face_geometry, only: outward_normal
    use atrito_id_map, only: id_map_t, add_id, find_id
    use atrito_kinds, only: ip, wp
-   use atrito_load_resultants, only: force_t, load_resultants
+   use atrito_load_resultants, only: force_t, is_section_node, load_resultants
    use atrito_mesh, only: mesh_t, side_count, face_nodes
    use atrito_model, only: nodal_values_t, LOAD_BODY, LOAD_LINEAR, is_on_volume, LOAD_TRACTION, LOAD_HYDROSTATIC
    use atrito_shape_functions, only: face_shape_values
    use atrito_strings, only: to_text
    use atrito_symbols, only: symbols_t, begin_block, put_stroke, put_arrow, put_point, thinned, thinned_nodes, &
-                             find_outward, end_value, load_factor, place_of_node, is_section_node, arrow_at, ARROW_LOOKS, &
-                             put_path, SLANT
+                             find_outward, end_value, load_factor, place_of_node, arrow_at, ARROW_LOOKS, put_path, SLANT
    implicit none (type, external)
    private
    public :: put_loads, force_text

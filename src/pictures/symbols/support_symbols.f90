@@ -6,11 +6,12 @@ module atrito_support_symbols
    use atrito_bilateral_rows, only: ROW_SUPPORT
    use atrito_drawing, only: largest_length
    use atrito_kinds, only: ip, wp
+   use atrito_load_resultants, only: is_section_node
    use atrito_mesh, only: is_revolved
    use atrito_model, only: nodal_values_t
    use atrito_strings, only: append_string, to_text
    use atrito_symbols, only: symbols_t, begin_block, put_stroke, put_arrow, thinned_nodes, places_of, &
-                             find_outward, end_value, is_section_node, arrow_at, ARROW_LOOKS
+                             find_outward, end_value, arrow_at, ARROW_LOOKS
    implicit none (type, external)
    private
    public :: put_supports

@@ -3,7 +3,7 @@ module atrito_surface_symbols
    use atrito_kinds, only: ip, wp
    use atrito_mesh, only: face_end, middle_node
    use atrito_mesh_lines, only: rigid_places
-   use atrito_model, only: model_t, surface_t, SURFACE_SEGMENTS
+   use atrito_model, only: model_t, SURFACE_SEGMENTS
    use atrito_plot_text, only: range_t, span
    use atrito_strings, only: to_text
    use atrito_symbols, only: symbols_t, begin_block, put_stroke, thinned

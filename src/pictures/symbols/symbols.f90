@@ -20,7 +20,7 @@ module atrito_symbols
    private
    public :: symbols_t, begin_symbols, end_symbols, begin_block, put_stroke, put_path, put_arrow, put_point, put_text, widen
    public :: thinned, thinned_nodes, places_of, find_outward, end_value, load_factor, place_of_node
-   public :: is_section_node, arrow_at
+   public :: arrow_at
    public :: ARROW_LOOKS, SLANT
 
    integer, parameter :: DIGITS = 7
@@ -308,15 +308,6 @@ contains
          place = 0.5_wp*(minval(points, dim=2) + maxval(points, dim=2))
       end associate
    end function place_of_node
-
-   !> Whether a node stands for a pre-tension section: where it is says nothing.
-   pure logical function is_section_node(model, node) result(is_so)
-      type(model_t), intent(in) :: model
-      integer(ip), intent(in) :: node
-
-      is_so = .false.
-      if (allocated(model%rigid_bodies)) is_so = any(model%rigid_bodies%node == node .and. model%rigid_bodies%is_section)
-   end function is_section_node
 
    !> An arrow at a place: its tip is there where it pushes on the body, else it begins there.
    pure subroutine arrow_at(place, share, outward, longest, from, arrow)
