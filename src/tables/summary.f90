@@ -11,7 +11,8 @@ module atrito_summary
    implicit none (type, external)
    private
    public :: pair_summary_t, quantity_t, scales_t
-   public :: summarise_pair, error_text, uniqueness_text, pair_quantities, step_quantities, quantity_names, states_text, closed_word
+   public :: summarise_pair, error_text, uniqueness_text, states_text, closed_word
+   public :: pair_quantities, step_quantities, all_step_quantities, quantity_names
    public :: large_text, measure_history
    public :: pair_count, pair_name, body_count
 
@@ -262,15 +263,26 @@ contains
       end if
    end function uniqueness_text
 
+   !> All rows that a step may have, those that few have included; without values.
+   pure function all_step_quantities() result(list)
+      type(quantity_t), allocatable :: list(:)
+      type(results_t) :: full
+
+      full%error_bound%exists = .true.
+      full%uniqueness = uniqueness_t(nu=1.0_wp, index=1_ip, solutions=1_ip)
+      full%large_strain%value = 1.0_wp
+      full%large_rotation%value = 1.0_wp
+      full%large_slip%value = 1.0_wp
+      list = step_quantities(full)
+   end function all_step_quantities
+
    !> Every quantity that summary.tab can have.
    pure function quantity_names() result(names)
       type(string_t), allocatable :: names(:)
       type(quantity_t), allocatable :: list(:)
-      type(results_t) :: full
       integer :: i
 
-      full%uniqueness = uniqueness_t(nu=1.0_wp, index=1_ip, solutions=1_ip)
-      list = [pair_quantities(pair_summary_t(), scales_t()), step_quantities(full)]
+      list = [pair_quantities(pair_summary_t(), scales_t()), all_step_quantities()]
       allocate (names(0))
       do i = 1, size(list)
          call append_string(names, trim(list(i)%name))

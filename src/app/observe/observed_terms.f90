@@ -5,7 +5,8 @@ module atrito_observed_terms
    use atrito_kinds, only: ip, is_nan, wp
    use atrito_place_fields, only: place_field, place_values_t, FIRST_STRAIN, FIRST_STRESS, PLACE_FIELDS
    use atrito_results, only: contact_result_t, history_row_t, results_t
-   use atrito_summary, only: pair_quantities, pair_summary_t, quantity_t, scales_t, step_quantities, summarise_pair
+   use atrito_summary, only: all_step_quantities, pair_quantities, pair_summary_t, quantity_t, scales_t, step_quantities, &
+                             summarise_pair
    implicit none (type, external)
    private
    public :: term_t, value_of_term, pair_quantity_list, step_quantity_list, is_of_strain, is_of_stress
@@ -65,12 +66,25 @@ contains
       case (TERM_ZONE)
          value = zone_value(term, results%contact(term%pair), rows)
       case (TERM_STEP)
-         list = step_quantities(results)
-         value = list(term%field)%value
+         value = step_value(term%field, step_quantities(results))
       case default
          value = results%time
       end select
    end function value_of_term
+
+   !> A row of the step; nan where it has none, as a bound of the error that was not proved.
+   pure real(wp) function step_value(field, list) result(value)
+      integer, intent(in) :: field                   !< place in step_quantity_list
+      type(quantity_t), intent(in) :: list(:)        !< of the step
+      type(quantity_t), allocatable :: all(:)
+      integer :: i
+
+      value = ieee_value(1.0_wp, ieee_quiet_nan)
+      all = step_quantity_list()
+      do i = 1, size(list)
+         if (list(i)%name == all(field)%name) value = list(i)%value
+      end do
+   end function step_value
 
    !> One of ZONE_FIELDS. Without contact an extent is 0, and nothing else is defined.
    pure real(wp) function zone_value(term, contact, rows) result(value)
@@ -197,7 +211,7 @@ contains
    pure function step_quantity_list() result(list)
       type(quantity_t), allocatable :: list(:)
 
-      list = step_quantities(results_t())
+      list = all_step_quantities()
    end function step_quantity_list
 
 end module atrito_observed_terms
