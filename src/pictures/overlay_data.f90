@@ -108,9 +108,7 @@ contains
                overlay%pairs(k)%name = comment_of(table%text, 'pair '//to_text(k))
             end do
             call read_table(table_path(run%path, 'summary'), table, status)
-            if (.not. is_ok(status)) cycle
-            if (size(overlay%quantities) == 0) overlay%quantities = [QUANTITIES, observed_quantities(table)]
-            call take_quantities(table, overlay%quantities, run)
+            if (is_ok(status)) call take_quantities(table, overlay%quantities, run)
          end associate
       end do
    end subroutine read_runs
@@ -189,12 +187,14 @@ contains
       end do
    end function observed_quantities
 
+   !> The first run says what there is to take.
    subroutine take_quantities(table, list, run)
       type(table_file_t), intent(in) :: table       !< summary
-      type(quantity_t), intent(in) :: list(:)
+      type(quantity_t), allocatable, intent(inout) :: list(:)
       type(overlay_run_t), intent(inout) :: run
       integer(ip) :: c_pair, c_name, c_value, row, pair, i
 
+      if (size(list) == 0) list = [QUANTITIES, observed_quantities(table)]
       c_pair = find_column(table, 'pair')
       c_name = find_column(table, 'quantity')
       c_value = find_column(table, 'value')
