@@ -137,7 +137,7 @@ contains
       call start_phase('check')
       call check_law(data%rows, data%line, max(controls%tolerance, solution%residual), results, data%fem%bodies%of_node, &
                      [(usual_growth(data%fem%bodies%list(b)%n, results%scene%bodies(b)%digits_lost), b=1, data%fem%bodies%n)], &
-                     data%had, solution%inner%condition)
+                     data%had, solution%inner%condition, solution%round_off)
       if (results%converged .and. .not. results%law_holds .and. data%line%n > 0) then
          call move_alloc(results%verdict, verdict)
          again = .false.

@@ -44,6 +44,7 @@ module atrito_solve_condensed
    use atrito_contact_solution, only: contact_solution_t, serves_as_start, asks_no_force, let_rest
    use atrito_controls, only: controls_t, METHOD_ANDERSON
    use atrito_displacements, only: contact_forces, elastic_displacements
+   use atrito_free_set, only: row_round_off
    use atrito_kinds, only: ip, wp
    use atrito_outer_loop, only: solve_contact_line, continue_contact_line
    use atrito_problem, only: problem_t, free_load
@@ -79,7 +80,7 @@ contains
       type(status_t), intent(out) :: status
       type(bound_qp_t), allocatable :: qp
       type(constraint_rows_t) :: b
-      integer(ip) :: factorisations
+      integer(ip) :: factorisations, i
 
       call condense_bodies(problem, store, scene%bodies, factorisations, status)
       solution%factorisations = factorisations
@@ -99,6 +100,7 @@ contains
       call solve_line(problem, controls, qp, b, solution, status)
       call stop_phase('iterate')
       if (.not. is_ok(status)) call explain_failure(problem, qp, solution, status)
+      if (allocated(solution%p)) solution%round_off = [(row_round_off(qp, solution%state, i), i=1, qp%m)]
       call move_alloc(qp, problem%flexibility)
       if (allocated(solution%p)) call expand_solution(problem, controls, store, scene, solution, u)
       solution%factorisations = factorisations

@@ -8,13 +8,16 @@
 !>     1e-9 (largest relative motion of the pair) + growth EPS_MACH (displacement of the body),
 !>
 !> and a gap besides below the round-off of the coordinates that it is a difference of (measure_places). Of a history
-!> the largest so far counts (had_t): what is left when loads go is round-off of that.
+!> the largest so far counts (had_t): what is left when loads go is round-off of that. Where the solver knows the terms
+!> that gaps and slips are differences of, their round-off counts, too (add_round_off).
 module atrito_contact_scales
+   use atrito_contact_line, only: contact_line_t
    use atrito_contact_rows, only: contact_rows_t, row_value
    use atrito_kinds, only: ip, wp, EPS_MACH
    implicit none (type, external)
    private
-   public :: contact_scales_t, had_t, measure_places, printed_as_none, usual_growth, widen, had_motion, had_force, force_round_off
+   public :: contact_scales_t, had_t, measure_places, printed_as_none, usual_growth, widen, had_motion, had_force, &
+             force_round_off, add_round_off
 
    !> The largest that a history has had so far, body by body: what is left of it when loads go is round-off of that, however little
    !> else there is.
@@ -117,5 +120,25 @@ contains
       scales%slip = PLACE_TOLERANCE*motion + uncertainty
       scales%gap = scales%slip + ROUND_OFFS*EPS_MACH*far
    end subroutine measure_places
+
+   !> Adds to them what the solver knows of its gaps and slips: differences of terms, each of which may be far larger than the
+   !> displacements, as the sag of a slender bar by its load alone is that its bed takes back.
+   pure subroutine add_round_off(line, round_off, first, last, scales)
+      type(contact_line_t), intent(in) :: line
+      real(wp), intent(in) :: round_off(:)       !< (unknowns) [L]
+      integer(ip), intent(in) :: first, last     !< points of the pair
+      type(contact_scales_t), intent(inout) :: scales
+      real(wp) :: of_gap, of_slip
+      integer(ip) :: j
+
+      of_gap = 0.0_wp
+      of_slip = 0.0_wp
+      do j = first, last
+         if (line%normal(j) > 0) of_gap = max(of_gap, round_off(line%normal(j)))
+         if (line%tangential(j) > 0) of_slip = max(of_slip, round_off(line%tangential(j)))
+      end do
+      scales%gap = scales%gap + of_gap
+      scales%slip = scales%slip + of_slip
+   end subroutine add_round_off
 
 end module atrito_contact_scales

@@ -6,8 +6,8 @@ module atrito_final_check
    use atrito_bodies, only: body_t, mode_at
    use atrito_contact_line, only: contact_line_t, last_of_pair, rest_of, slip_noise, friction_bound
    use atrito_contact_rows, only: contact_rows_t, row_value, bodies_of_row
-   use atrito_contact_scales, only: contact_scales_t, had_t, measure_places, printed_as_none, usual_growth, had_motion, &
-                                    had_force, force_round_off, NONE_OF_HAD
+   use atrito_contact_scales, only: contact_scales_t, had_t, measure_places, add_round_off, printed_as_none, usual_growth, &
+                                    had_motion, had_force, force_round_off, NONE_OF_HAD
    use atrito_friction_law, only: friction_stress, sticking_slip, FRICTION_NONE
    use atrito_internal_forces, only: internal_forces, internal_force_sizes
    use atrito_kinds, only: ip, wp, EPS_MACH
@@ -238,7 +238,7 @@ contains
 
    !> Signs, complementarity, friction bound and direction at every point, with the final displacements. Sets results%law_holds
    !> and, where a converged solution breaks it, the verdict.
-   subroutine check_law(rows, line, tolerance, results, of_node, growth, had, condition)
+   subroutine check_law(rows, line, tolerance, results, of_node, growth, had, condition, round_off)
       type(contact_rows_t), intent(in) :: rows
       type(contact_line_t), intent(in) :: line
       real(wp), intent(in) :: tolerance          !< that the outer loop stopped at
@@ -247,6 +247,7 @@ contains
       real(wp), intent(in), optional :: growth(:) !< (bodies) of round-off in the displacements; without it that of small bodies
       type(had_t), intent(in), optional :: had   !< of the increments before
       real(wp), intent(in), optional :: condition !< of the equations of the contact line
+      real(wp), intent(in), optional :: round_off(:) !< (unknowns) of gaps and slips, where the solver knows it [L]
       real(wp), allocatable :: uncertain(:)
       real(wp) :: p(line%n), gap(line%n), slip(line%n), t(line%n), tau(line%n), far
       type(contact_scales_t) :: scales
@@ -276,6 +277,7 @@ contains
             last = last_of_pair(line, j)
             far = maxval([(max(abs(point_x(results, k, 1_ip)), abs(point_x(results, k, 2_ip))), k=j, last)])
             call measure_places(rows, results%u, uncertain, j, last, maxval(line%delta(j:last)*p(j:last)), far, scales)
+            if (present(round_off)) call add_round_off(line, round_off, j, last, scales)
             scales%friction = maxval(tau(j:last))
          end if
          wrong = ''
