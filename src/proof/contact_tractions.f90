@@ -1,8 +1,8 @@
 !> Contact as the bound of the error sees it: tractions of both sides that the law allows, and what the law lacks of being met.
 !>
 !> Along a slave with straight faces the pressures p_j and shears t_j of the points are taken as linear from node to node: p >= 0,
-!> and |t| <= tau with the bounds tau_j linear, too. On faces of three nodes all of them are multiplied so that the resultant is
-!> that of the run. With potentials of the law and their conjugates (Fenchel),
+!> and |t| <= tau with the bounds tau_j linear, too. All of a pair are multiplied so that resultant and moment are those of the run.
+!> With potentials of the law and their conjugates (Fenchel),
 !>
 !>     psi_n(g) = (g+)^2/(2 delta),        psi_n*(p) = delta p^2/2,
 !>     psi_t(r) = tau phi_eps(|r|),        psi_t*(t) = eps t^2/(2 tau),                                        (1)
@@ -234,7 +234,6 @@ contains
       logical, intent(in) :: has_gaps               !< gaps are those of the points, and not those of the mesh
       type(segment_t), intent(inout) :: segment     !< in its place
       character(len=:), allocatable, intent(inout) :: why_not
-      real(wp) :: share
       integer(ip) :: j
 
       do j = 1, segment%n
@@ -244,10 +243,9 @@ contains
          end if
       end do
       if (has_gaps) segment%gap = along(segment, point, problem%rows%gap)
-      share = share_of_face(segment, point, max(solution%p, 0.0_wp))
-      segment%p = share*along(segment, point, max(solution%p, 0.0_wp))
-      segment%t = share*along(segment, point, solution%t)
-      segment%tau = share*along(segment, point, solution%tau)
+      segment%p = along(segment, point, max(solution%p, 0.0_wp))
+      segment%t = along(segment, point, solution%t)
+      segment%tau = along(segment, point, solution%tau)
       if (allocated(problem%line%rest)) segment%rest = along(segment, point, problem%line%rest)
       j = maxval(point(segment%node(:segment%n)))
       segment%delta = problem%line%delta(j)
@@ -338,22 +336,6 @@ contains
       end function along_pair
 
    end subroutine keep_resultant
-
-   !> By what the stresses of a face of three nodes are multiplied, so that linear from node to node they have the resultant of
-   !> Simpson's rule.
-   pure real(wp) function share_of_face(segment, point, p)
-      type(segment_t), intent(in) :: segment
-      integer(ip), intent(in) :: point(:)
-      real(wp), intent(in) :: p(:)                  !< of all points [F/L^2]
-      real(wp) :: ends, middle
-
-      share_of_face = 1.0_wp
-      if (segment%n /= 3) return
-      if (any(point(segment%node) == 0)) return
-      ends = sum(p(point(segment%node(:2))))
-      middle = p(point(segment%node(3)))
-      if (ends + middle > 0.0_wp) share_of_face = (2*ends + 8*middle)/(3*ends + 6*middle)
-   end function share_of_face
 
    !> Of the material of an element, times its thickness [F/L].
    pure real(wp) function stiffness_of(fem, e)

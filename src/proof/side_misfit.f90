@@ -19,8 +19,10 @@ module atrito_side_misfit
    private
    public :: add_misfit
 
-   integer, parameter :: MOST_SWEEPS = 100
-   real(wp), parameter :: LITTLE = 1.0e-3_wp        !< of the largest motion: a sweep that moves less is the last one
+   integer, parameter :: SWEEPS = 20, MOST_ROUNDS = 100
+   real(wp), parameter :: WORTH = 0.005_wp          !< of the bound's square: sweeps that gain less are the last ones
+   real(wp), parameter :: SETTLED = 1.0e-8_wp       !< of the largest motion
+   real(wp), parameter :: BEYOND = 1.5_wp           !< corners without contact move by so many times what is in balance
    real(wp), parameter :: ROUND_OFF = 1.0e-13_wp    !< of the displacements
 
 contains
@@ -38,44 +40,74 @@ contains
       type(place_t), allocatable :: places(:)
       integer(ip), allocatable :: at(:, :)          !< (2, parts) places at the ends of each part
       real(wp), allocatable :: w(:, :)
-      real(wp) :: lack(2), jump(2, 2), none, energy
-      integer(ip) :: i, k, n
-      logical :: overlaps
+      real(wp), allocatable :: of_elements(:)
+      real(wp) :: none, before, bulk, gain
+      integer(ip) :: round
+      logical :: overlaps, is_settled
 
       of_law = 0.0_wp
       if (size(segments) == 0) return
       none = ROUND_OFF*maxval(abs(u))
+      bulk = sum(share)
       call list_places(fem, held, segments, u, strip, places, at)
       allocate (w(2, strip%n), source=0.0_wp)
-      call descend(segments, strip, places, none, w)
-      do i = 1, strip%n_triangles
-         energy = strip_energy(strip, i, w)
-         share(strip%element(i)) = share(strip%element(i)) + energy
-         of_law(1) = of_law(1) + energy
+      allocate (of_elements(size(share)))
+      call sum_terms(overlaps)
+      gain = sum(of_law)                            ! it cannot be more
+      is_settled = .false.
+      do round = 1, MOST_ROUNDS
+         if (is_settled .or. .not. (overlaps .or. gain > WORTH*(bulk + sum(of_law)))) exit
+         before = sum(of_law)
+         call descend(segments, strip, places, none, w, is_settled)
+         call sum_terms(overlaps)
+         gain = abs(before - sum(of_law))
       end do
-      n = 0
-      do i = 1, size(segments, kind=ip)
-         do k = 1, part_count(segments(i))
-            n = n + 1
-            jump = reshape([jump_at(segments(i), places(at(1, n)), w), jump_at(segments(i), places(at(2, n)), w)], [2, 2])
-            call lack_of_part(segments(i), u, part_ends(segments(i), k), jump, none, lack, overlaps)
-            if (overlaps) why_not = 'a support keeps contact sides from moving apart'
-            of_law(2:) = of_law(2:) + lack
-            associate (slave => segments(i)%slave(1), master => segments(i)%master(1))
-               share(slave) = share(slave) + merge(0.5_wp, 1.0_wp, master > 0)*sum(lack)
-               if (master > 0) share(master) = share(master) + 0.5_wp*sum(lack)
-            end associate
+      if (overlaps) why_not = 'a support keeps contact sides from moving apart'
+      share = share + of_elements
+
+   contains
+
+      !> All terms, and as shares of the elements, those of the laws half on either side.
+      subroutine sum_terms(overlaps)
+         logical, intent(out) :: overlaps
+         integer(ip) :: i, k, n
+         real(wp) :: lack(2), jump(2, 2), energy
+         logical :: of_part
+
+         of_law = 0.0_wp
+         of_elements = 0.0_wp
+         do i = 1, strip%n_triangles
+            energy = strip_energy(strip, i, w)
+            of_elements(strip%element(i)) = of_elements(strip%element(i)) + energy
+            of_law(1) = of_law(1) + energy
          end do
-      end do
+         overlaps = .false.
+         n = 0
+         do i = 1, size(segments, kind=ip)
+            do k = 1, part_count(segments(i))
+               n = n + 1
+               jump = reshape([jump_at(segments(i), places(at(1, n)), w), jump_at(segments(i), places(at(2, n)), w)], [2, 2])
+               call lack_of_part(segments(i), u, part_ends(segments(i), k), jump, none, lack, of_part)
+               overlaps = overlaps .or. of_part
+               of_law(2:) = of_law(2:) + lack
+               associate (slave => segments(i)%slave(1), master => segments(i)%master(1))
+                  of_elements(slave) = of_elements(slave) + merge(0.5_wp, 1.0_wp, master > 0)*sum(lack)
+                  if (master > 0) of_elements(master) = of_elements(master) + 0.5_wp*sum(lack)
+               end associate
+            end do
+         end do
+      end subroutine sum_terms
+
    end subroutine add_misfit
 
-   !> w of little ||w||^2/2 + the laws of the places, by sweeps over all corners, there and back.
-   subroutine descend(segments, strip, places, none, w)
+   !> Less of ||w||^2/2 + the laws of the places, by a few sweeps over all corners, there and back.
+   subroutine descend(segments, strip, places, none, w, is_settled)
       type(segment_t), intent(in) :: segments(:)
       type(strip_t), intent(in) :: strip
       type(place_t), intent(in) :: places(:)
       real(wp), intent(in) :: none                  !< no motion to speak of [L]
       real(wp), intent(inout) :: w(:, :)            !< (2, n) [L]
+      logical, intent(out) :: is_settled            !< nothing moves any more
       integer(ip), allocatable :: count_of(:)       ! places of a corner
       integer(ip), allocatable :: crowd(:)          ! places with a corner that has others, too
       integer(ip) :: i, sweep
@@ -87,7 +119,7 @@ contains
       end do
       count_of(0) = 0
       crowd = pack([(i, i=1, size(places, kind=ip))], [(any(count_of(places(i)%vertex) > 1), i=1, size(places, kind=ip))])
-      do sweep = 1, MOST_SWEEPS
+      do sweep = 1, SWEEPS
          change = 0.0_wp
          do i = 1, size(places, kind=ip)
             call part_place(segments(places(i)%segment), strip, places(i), count_of, w, change)
@@ -112,7 +144,8 @@ contains
          do i = strip%n, 1, -1
             if (count_of(i) == 0) call move_vertex(strip, i, w, change)
          end do
-         if (change <= max(LITTLE*sqrt(maxval(w(1, :)**2 + w(2, :)**2)), none)) exit
+         is_settled = change <= max(SETTLED*sqrt(maxval(w(1, :)**2 + w(2, :)**2)), none)
+         if (is_settled) exit
       end do
    end subroutine descend
 
@@ -140,7 +173,7 @@ contains
       real(wp) :: motion(2)
 
       if (.not. any(strip%is_free(:, i))) return
-      motion = balanced_motion(strip%own(:, :, i), force_on(strip, i, w), strip%is_free(:, i))
+      motion = BEYOND*balanced_motion(strip%own(:, :, i), force_on(strip, i, w), strip%is_free(:, i))
       w(:, i) = w(:, i) + motion
       change = max(change, norm2(motion))
    end subroutine move_vertex

@@ -15,6 +15,7 @@ module atrito_strip_mesh
    public :: strip_t, make_strip, strip_energy
 
    integer, parameter :: LAYERS = 3                 !< of elements behind a contact side
+   real(wp), parameter :: CORE = 0.6_wp             !< size of a ring, as a share of its element
    integer(lp), parameter :: PLACES = 2_lp**30      !< a place along a face, 0 to 1, in steps of this
 
    type :: strip_t
@@ -68,46 +69,73 @@ contains
 
    contains
 
-      !> The triangles of an element.
+      !> The triangles of an element: from its middle, and of one with faces of contact those between its outline and a ring within,
+      !> too.
       subroutine cut_element(e)
          integer(ip), intent(in) :: e
-         integer(ip) :: k, centre, last, at, first_corner, n
-         real(wp) :: middle(2), t
-         logical :: is_free(2)
+         integer(ip), allocatable :: outline(:)
+         real(wp) :: middle(2)
+         integer(ip) :: i, next, centre, n, first
 
-         n = CORNERS_OF(fem%mesh%shape(e))
-         middle = sum(fem%mesh%x(:, fem%mesh%nodes(:n, e)), dim=2)/n
+         associate (nodes => fem%mesh%nodes(:CORNERS_OF(fem%mesh%shape(e)), e))
+            middle = sum(fem%mesh%x(:, nodes), dim=2)/size(nodes)
+         end associate
+         call take_outline(e, outline, n)
          call add_vertex(strip, middle, [.true., .true.], centre)
+         first = centre
+         if (first_of(e) > 0) then
+            do i = 1, n
+               call add_vertex(strip, middle + CORE*(strip%x(:, outline(i)) - middle), [.true., .true.], next)
+            end do
+         end if
+         do i = 1, n
+            next = 1 + mod(i, n)
+            if (first_of(e) > 0) then
+               call add_triangle(strip, [outline(i), outline(next), first + i], e)
+               call add_triangle(strip, [outline(next), first + next, first + i], e)
+               call add_triangle(strip, [first + i, first + next, centre], e)
+            else
+               call add_triangle(strip, [outline(i), outline(next), centre], e)
+            end if
+         end do
+      end subroutine cut_element
+
+      !> Corners and places along the outline of an element, counter-clockwise.
+      subroutine take_outline(e, outline, n)
+         integer(ip), intent(in) :: e
+         integer(ip), allocatable, intent(inout) :: outline(:)
+         integer(ip), intent(out) :: n
+         integer(ip) :: k, at
+         real(wp) :: t
+
+         n = 0
          at = first_of(e)
-         do k = 1, n
+         do k = 1, CORNERS_OF(fem%mesh%shape(e))
             associate (from => fem%mesh%nodes(k, e), to => fem%mesh%nodes(face_end(fem%mesh, e, k), e))
-               call take_node(from, first_corner)
-               last = first_corner
+               call make_room(outline, n, n + 1)
+               n = n + 1
+               call take_node(from, outline(n))
                do while (at > 0 .and. at <= size(order))
                   associate (i => order(at))
                      if (element(i) /= e .or. face(i) /= k) exit
                      t = place(i)
-                     if (nint(t*PLACES, lp) <= 1) then
-                        vertex(i) = first_corner
-                     else if (nint(t*PLACES, lp) >= PLACES - 1) then
+                     if (nint(t*PLACES, lp) >= PLACES - 1) then
                         call take_node(to, vertex(i))
                      else
-                        if (.not. is_same(at)) then
-                           is_free = .not. (held(:, from) .and. held(:, to))
-                           call add_vertex(strip, (1 - t)*fem%mesh%x(:, from) + t*fem%mesh%x(:, to), is_free, vertex(i))
-                           call add_triangle(strip, [last, vertex(i), centre], e)
-                           last = vertex(i)
+                        if (nint(t*PLACES, lp) > 1 .and. .not. is_same(at)) then
+                           call make_room(outline, n, n + 1)
+                           n = n + 1
+                           call add_vertex(strip, (1 - t)*fem%mesh%x(:, from) + t*fem%mesh%x(:, to), &
+                                           .not. (held(:, from) .and. held(:, to)), outline(n))
                         end if
-                        vertex(i) = last
+                        vertex(i) = outline(n)
                      end if
                   end associate
                   at = at + 1
                end do
-               call take_node(to, first_corner)
-               call add_triangle(strip, [last, first_corner, centre], e)
             end associate
          end do
-      end subroutine cut_element
+      end subroutine take_outline
 
       !> Whether the point before is in the same place, to a few digits less than those of PLACES.
       pure logical function is_same(at)
