@@ -1,8 +1,8 @@
 !> Contact as the bound of the error sees it: tractions of both sides that the law allows, and what the law lacks of being met.
 !>
 !> Along a slave with straight faces the pressures p_j and shears t_j of the points are taken as linear from node to node: p >= 0,
-!> and |t| <= tau with the bounds tau_j linear, too. On faces of three nodes all of them are multiplied so that the resultant is
-!> that of the run. With potentials of the law and their conjugates (Fenchel),
+!> and |t| <= tau with the bounds tau_j linear, too. All of a pair are multiplied so that resultant and moment are those of the run.
+!> With potentials of the law and their conjugates (Fenchel),
 !>
 !>     psi_n(g) = (g+)^2/(2 delta),        psi_n*(p) = delta p^2/2,
 !>     psi_t(r) = tau phi_eps(|r|),        psi_t*(t) = eps t^2/(2 tau),                                        (1)
@@ -17,6 +17,7 @@
 !> The slave's faces are cut where they face nodes of the master (segments), so that all that stands in (2) is linear on a segment.
 module atrito_contact_tractions
    use atrito_assembly, only: fem_t
+   use atrito_contact_rows, only: contact_rows_t
    use atrito_contact_solution, only: contact_solution_t
    use atrito_element_table, only: DEGREE_OF
    use atrito_face_geometry, only: outward_normal
@@ -30,10 +31,9 @@ module atrito_contact_tractions
    use atrito_pieces, only: cross, normal_at
    use atrito_problem, only: problem_t
    use atrito_shape_functions, only: face_shape_values
-   use atrito_sorting, only: order_key, sorted_places
    implicit none (type, external)
    private
-   public :: segment_t, list_segments, segment_forces, traction_at, law_gap, overlap_at, between, value_at, SAME_DIRECTION
+   public :: segment_t, list_segments, segment_forces, traction_at, overlap_at, slip_at, between, SAME_DIRECTION
 
    !> A part of a slave's face that faces one face of the master. Arrays of two: at its ends.
    type :: segment_t
@@ -73,22 +73,30 @@ contains
       integer(ip), intent(out) :: n
       character(len=:), allocatable, intent(inout) :: why_not
       integer(ip), allocatable :: point(:)          !< (n_nodes) of the pair
+      logical, allocatable :: is_slave(:)           !< (n_nodes)
       type(master_t) :: master
       type(segments_t) :: cuts
-      integer(ip) :: i, k, f, first
+      integer(ip) :: i, k, f, first, before
 
       n = 0
       first = 0
       allocate (segments(0))
       allocate (point(size(problem%held, 2)), source=0_ip)
+      allocate (is_slave(size(point)))
       do i = 1, size(problem%points, kind=ip)
          associate (pair => model%pairs(i), points => problem%points(i))
+            before = n
             if (points%n > 0) then
                do k = 1, points%n
                   point(points%node(k)) = first + k
                end do
                call make_master(model, pair%master, master)
                associate (faces => model%surfaces(pair%slave)%faces)
+                  is_slave = .false.
+                  do f = 1, faces%n
+                     is_slave(face_nodes(model%mesh, faces%element(f), faces%face(f))) = .true.
+                  end do
+                  call name_nodes_between(problem%rows, first, points%n, is_slave, point)
                   call cut_slave(model%mesh, faces, master, cuts)
                   do f = 1, faces%n
                      do k = cuts%first(f), cuts%first(f + 1) - 1
@@ -97,7 +105,8 @@ contains
                      end do
                   end do
                end associate
-               point(points%node(:points%n)) = 0
+               point = 0
+               call keep_resultant(problem, solution, first, points%n, is_slave, segments(before + 1:n))
             end if
             first = first + points%n
          end associate
@@ -145,6 +154,29 @@ contains
       end subroutine add_segment
 
    end subroutine list_segments
+
+   !> Nodes of a slave that have no point of their own have the stresses of the one that stands most for them: at the end of a master.
+   pure subroutine name_nodes_between(rows, first, n_points, is_slave, point)
+      type(contact_rows_t), intent(in) :: rows
+      integer(ip), intent(in) :: first, n_points    !< points first + 1 .. first + n_points
+      logical, intent(in) :: is_slave(:)            !< (n_nodes)
+      integer(ip), intent(inout) :: point(:)        !< (n_nodes)
+      real(wp) :: most(size(point))
+      logical :: is_named(size(point))
+      integer(ip) :: j, l
+
+      is_named = point > 0
+      most = 0.0_wp
+      do j = first + 1, first + n_points
+         do l = rows%first(j), rows%first(j + 1) - 1
+            associate (node => rows%node(l), share => rows%coefficient(l))
+               if (is_named(node) .or. .not. (is_slave(node) .and. share > most(node))) cycle
+               most(node) = share
+               point(node) = j
+            end associate
+         end do
+      end do
+   end subroutine name_nodes_between
 
    !> Where a segment lies: a part of face f of the slave of a pair, which faces a piece of the master.
    subroutine place_segment(model, i_pair, f, master, piece, places, segment)
@@ -202,7 +234,6 @@ contains
       logical, intent(in) :: has_gaps               !< gaps are those of the points, and not those of the mesh
       type(segment_t), intent(inout) :: segment     !< in its place
       character(len=:), allocatable, intent(inout) :: why_not
-      real(wp) :: share
       integer(ip) :: j
 
       do j = 1, segment%n
@@ -212,10 +243,9 @@ contains
          end if
       end do
       if (has_gaps) segment%gap = along(segment, point, problem%rows%gap)
-      share = share_of_face(segment, point, max(solution%p, 0.0_wp))
-      segment%p = share*along(segment, point, max(solution%p, 0.0_wp))
-      segment%t = share*along(segment, point, solution%t)
-      segment%tau = share*along(segment, point, solution%tau)
+      segment%p = along(segment, point, max(solution%p, 0.0_wp))
+      segment%t = along(segment, point, solution%t)
+      segment%tau = along(segment, point, solution%tau)
       if (allocated(problem%line%rest)) segment%rest = along(segment, point, problem%line%rest)
       j = maxval(point(segment%node(:segment%n)))
       segment%delta = problem%line%delta(j)
@@ -228,21 +258,84 @@ contains
                                                             stiffness_of(problem%fem, segment%slave(1))
    end subroutine take_stresses
 
-   !> By what the stresses of a face of three nodes are multiplied, so that linear from node to node they have the resultant of
-   !> Simpson's rule.
-   pure real(wp) function share_of_face(segment, point, p)
-      type(segment_t), intent(in) :: segment
-      integer(ip), intent(in) :: point(:)
-      real(wp), intent(in) :: p(:)                  !< of all points [F/L^2]
-      real(wp) :: ends, middle
+   !> Multiplies the stresses of a pair by a function that is linear along it, so that the pressures have the resultant and the moment
+   !> of those of the run: what a body far from its contact feels of them is the same.
+   subroutine keep_resultant(problem, solution, first, n_points, is_slave, segments)
+      class(problem_t), intent(in) :: problem
+      type(contact_solution_t), intent(in) :: solution
+      integer(ip), intent(in) :: first, n_points    !< points first + 1 .. first + n_points
+      logical, intent(in) :: is_slave(:)            !< (n_nodes)
+      type(segment_t), intent(inout) :: segments(:) !< of the pair
+      real(wp), parameter :: LEAST_FACTOR = 0.2_wp, SMALL = 1.0e-6_wp
+      real(wp) :: work(2), gram(2, 2), c(2), z, z_of_force, force, low, high, det, factor(2)
+      integer(ip) :: i, j, l
+      integer :: attempt
 
-      share_of_face = 1.0_wp
-      if (segment%n /= 3) return
-      if (any(point(segment%node) == 0)) return
-      ends = sum(p(point(segment%node(:2))))
-      middle = p(point(segment%node(3)))
-      if (ends + middle > 0.0_wp) share_of_face = (2*ends + 8*middle)/(3*ends + 6*middle)
-   end function share_of_face
+      if (size(segments) == 0) return
+      low = huge(low)
+      high = -huge(high)
+      do i = 1, size(segments, kind=ip)
+         low = min(low, place_at(segments(i), 0.0_wp), place_at(segments(i), 1.0_wp))
+         high = max(high, place_at(segments(i), 0.0_wp), place_at(segments(i), 1.0_wp))
+      end do
+      work = 0.0_wp
+      gram = 0.0_wp
+      do j = first + 1, first + n_points
+         force = problem%line%weight(j)*max(solution%p(j), 0.0_wp)
+         do l = problem%rows%first(j), problem%rows%first(j + 1) - 1
+            if (.not. is_slave(problem%rows%node(l))) cycle
+            z = (along_pair(problem%fem%mesh%x(:, problem%rows%node(l))) - low)/(high - low)
+            work = work + force*problem%rows%coefficient(l)*[1.0_wp, z]
+         end do
+      end do
+      do i = 1, size(segments, kind=ip)
+         do j = 1, 2
+            force = 0.5_wp*segments(i)%length*segments(i)%thickness*segments(i)%p(j)
+            z_of_force = (place_at(segments(i), real(j, wp)/3) - low)/(high - low)
+            z = (place_at(segments(i), j - 1.0_wp) - low)/(high - low)
+            work = work - force*[1.0_wp, z_of_force]
+            gram(:, 1) = gram(:, 1) + force*[1.0_wp, z_of_force]
+            gram(:, 2) = gram(:, 2) + force*z*[1.0_wp, z_of_force]
+         end do
+      end do
+      det = gram(1, 1)*gram(2, 2) - gram(1, 2)*gram(2, 1)
+      do attempt = 1, 2
+         if (attempt == 1) then
+            if (.not. det > SMALL*gram(1, 1)**2) cycle
+            c = [gram(2, 2)*work(1) - gram(1, 2)*work(2), gram(1, 1)*work(2) - gram(2, 1)*work(1)]/det
+         else
+            if (.not. gram(1, 1) > 0.0_wp) return
+            c = [work(1)/gram(1, 1), 0.0_wp]
+         end if
+         factor = 1 + [c(1), c(1) + c(2)]
+         if (all(factor > LEAST_FACTOR .and. factor < 1/LEAST_FACTOR)) exit
+         if (attempt == 2) return
+      end do
+      do i = 1, size(segments, kind=ip)
+         factor = 1 + c(1) + c(2)*([place_at(segments(i), 0.0_wp), place_at(segments(i), 1.0_wp)] - low)/(high - low)
+         segments(i)%p = factor*segments(i)%p
+         segments(i)%t = factor*segments(i)%t
+         segments(i)%tau = factor*segments(i)%tau
+      end do
+
+   contains
+
+      real(wp) function place_at(segment, t)
+         type(segment_t), intent(in) :: segment
+         real(wp), intent(in) :: t
+
+         associate (x => problem%fem%mesh%x(:, segment%node(:2)), s => between(segment%on_slave, t))
+            place_at = along_pair((1 - s)*x(:, 1) + s*x(:, 2))
+         end associate
+      end function place_at
+
+      pure real(wp) function along_pair(x)
+         real(wp), intent(in) :: x(2)
+
+         along_pair = x(2)*segments(1)%normal(1) - x(1)*segments(1)%normal(2)
+      end function along_pair
+
+   end subroutine keep_resultant
 
    !> Of the material of an element, times its thickness [F/L].
    pure real(wp) function stiffness_of(fem, e)
@@ -346,86 +439,5 @@ contains
          if (m > 0) d = d - matmul(u(:, segment%master_node(:m)), face_shape_values(m, 2*between(segment%on_master, t) - 1))
       end associate
    end function relative
-
-   !> (2), twice, of one segment: the part of the normal law and that of friction [F L].
-   !>
-   !> Overlap and slip are polynomials of degree 2 at the most: the segment is cut at their zeros and where friction becomes full.
-   subroutine law_gap(segment, u, normal, tangential)
-      type(segment_t), intent(in) :: segment
-      real(wp), intent(in) :: u(:, :)               !< (2, n_nodes) [L]
-      real(wp), intent(out) :: normal, tangential
-      real(wp) :: g(3), r(3), cuts(10), t, w, overlap, slip, full, tau, shear, p
-      integer :: k, l, n
-
-      g = [overlap_at(segment, u, 0.0_wp), overlap_at(segment, u, 0.5_wp), overlap_at(segment, u, 1.0_wp)]
-      r = [slip_at(segment, u, 0.0_wp), slip_at(segment, u, 0.5_wp), slip_at(segment, u, 1.0_wp)]
-      n = 2
-      cuts(:2) = [0.0_wp, 1.0_wp]
-      call cut_at(g)
-      call cut_at(r)
-      associate (limit => segment%eps + segment%compliance*[segment%tau(1), between(segment%tau, 0.5_wp), segment%tau(2)])
-         call cut_at(r - limit)
-         call cut_at(r + limit)
-      end associate
-      cuts(:n) = cuts(sorted_places(order_key(cuts(:n))))
-      normal = 0.0_wp
-      tangential = 0.0_wp
-      do k = 1, n - 1
-         do l = 1, 3
-            t = cuts(k) + (cuts(k + 1) - cuts(k))*GAUSS_PLACES(l)
-            w = 2*(cuts(k + 1) - cuts(k))*GAUSS_WEIGHTS(l)*segment%length*segment%thickness
-            overlap = value_at(g, t)
-            p = between(segment%p, t)
-            if (segment%delta > 0.0_wp) then
-               normal = normal + w*((max(overlap, 0.0_wp) - segment%delta*p)**2/(2*segment%delta) + p*max(-overlap, 0.0_wp))
-            else
-               normal = normal + w*p*max(-overlap, 0.0_wp)        ! beyond 0 it is round-off
-            end if
-            tau = between(segment%tau, t)
-            if (.not. tau > 0.0_wp) cycle
-            slip = value_at(r, t)
-            shear = between(segment%t, t)
-            full = segment%eps + segment%compliance*tau
-            if (.not. full > 0.0_wp) then
-               tangential = tangential + w*max(tau*abs(slip) - shear*slip, 0.0_wp)
-            else if (abs(slip) <= full) then
-               tangential = tangential + w*(slip - full*shear/tau)**2*tau/(2*full)
-            else
-               tangential = tangential + w*max(tau*(abs(slip) - 0.5_wp*full) + 0.5_wp*full*shear**2/tau - shear*slip, 0.0_wp)
-            end if
-         end do
-      end do
-
-   contains
-
-      !> Adds the zeros of a polynomial, values(2) in the middle: a t^2 + b t + c.
-      subroutine cut_at(values)
-         real(wp), intent(in) :: values(3)
-         real(wp) :: a, b, root, zeros(2)
-         integer :: i
-
-         a = 2*values(1) - 4*values(2) + 2*values(3)
-         b = -3*values(1) + 4*values(2) - values(3)
-         root = b**2 - 4*a*values(1)
-         if (root < 0.0_wp .or. all(values == 0.0_wp)) return
-         root = -0.5_wp*(b + sign(sqrt(root), b))
-         zeros = -1.0_wp
-         if (abs(values(1)) < abs(root)) zeros(1) = values(1)/root
-         if (abs(root) < abs(a)) zeros(2) = root/a
-         do i = 1, 2
-            if (.not. (zeros(i) > 0.0_wp .and. zeros(i) < 1.0_wp)) cycle
-            n = n + 1
-            cuts(n) = zeros(i)
-         end do
-      end subroutine cut_at
-
-   end subroutine law_gap
-
-   !> A polynomial of degree 2 from its values at 0, 1/2 and 1.
-   pure real(wp) function value_at(values, t)
-      real(wp), intent(in) :: values(3), t
-
-      value_at = (1 - t)*(1 - 2*t)*values(1) + 4*t*(1 - t)*values(2) + t*(2*t - 1)*values(3)
-   end function value_at
 
 end module atrito_contact_tractions

@@ -1,10 +1,14 @@
 !> Elements along whose sides the traction is a polynomial by parts: where contact sides do not match, or their pressure has a bend.
 !>
-!> Such a side is cut, and the element is a polygon with corners of 180 degrees there. It is cut from its inner point into
-!> triangles, one a side, and each of these into three: of these stresses every traction in equilibrium can be carried (of the
-!> triangles by themselves not). Airy's function is known along the outline from the tractions; phi with its gradient at the inner
-!> point and the numbers of the lines to the corners are where the energy is least. The tractions that all else was found with are
-!> the polynomials with the same moments, so that both make the same phi and gradient at the ends of the side.
+!> Such a side is cut, and the element is a polygon with corners of 180 degrees there. Between its outline and a ring, which is the
+!> outline made smaller towards an inner point, it is cut into quadrilaterals, one a side, and within the ring into triangles from
+!> the inner point; quadrilaterals are cut in four by their diagonals, triangles in three: of these stresses every traction in
+!> equilibrium can be carried (of the quadrilaterals and triangles by themselves not). The ring gives room for a stress that is
+!> large near a part of the side alone. Its corners are spread along it more evenly than those of the outline, so that no cell is
+!> thin. Airy's function is known along the outline from the tractions; all numbers inside are where the energy is least. The
+!> tractions that the first equilibrium was found with are the polynomials with the same moments, so that both make the same phi
+!> and gradient at the ends of the side. What an element that is cut says of its energy to the sweeps over the corners
+!> (atrito_star_sweeps) is the least energy over the outline, H and slope.
 module atrito_cut_elements
    use atrito_airy_stress, only: go_along, side_place, MOST_OUTLINE
    use atrito_assembly, only: fem_t
@@ -19,6 +23,7 @@ module atrito_cut_elements
    public :: side_cuts_t, add_piece, link_pieces, is_cut, cut_difference
 
    integer(ip), parameter :: MOST_CORNERS = 400     !< of a polygon
+   real(wp), parameter :: CORE = 2.0_wp/3         !< size of the ring round the inner point, as a share of the element
 
    !> Pieces of sides with a linear traction each, on the element that is the side's only one; those of a side follow one another.
    type :: side_cuts_t
@@ -37,6 +42,9 @@ module atrito_cut_elements
       real(wp) :: corner(2, MOST_CORNERS) = 0.0_wp  !< less the element's first node [L]
       real(wp) :: at_corner(3, MOST_CORNERS) = 0.0_wp !< phi and its gradient
       real(wp) :: of_side(3, MOST_CORNERS) = 0.0_wp !< numbers of the side that begins there
+      real(wp) :: ring(2, MOST_CORNERS) = 0.0_wp    !< corners of the ring, before it is made smaller [L]
+      integer(ip) :: of_corner(MOST_CORNERS) = 0    !< corner of the element; 0: a cut
+      integer(ip) :: at_side(MOST_CORNERS) = 0      !< first of the side's numbers among those of the element; 0: a part of one
    end type polygon_t
 
    real(wp), parameter :: SAME_PLACE = 1.0e-9_wp    !< along a side
@@ -120,85 +128,158 @@ contains
    !> The least energy by which stresses in equilibrium differ from those of the displacements [F L].
    !>
    !> difference < 0: the element has too many cuts.
-   function cut_difference(fem, sides, cuts, e, degree, x_given, outline) result(difference)
+   subroutine cut_difference(fem, sides, cuts, e, x_given, outline, difference, h, slope)
       type(fem_t), intent(in) :: fem
       type(mesh_sides_t), intent(in) :: sides
       type(side_cuts_t), intent(in) :: cuts
-      integer(ip), intent(in) :: e, degree
+      integer(ip), intent(in) :: e
       real(wp), intent(in) :: x_given(:)            !< as of energy_difference; its last two are forces per volume
-      real(wp), intent(in) :: outline(:)            !< of the element, uncut
-      real(wp) :: difference
+      real(wp), intent(in) :: outline(:)            !< (n) of the element, uncut
+      real(wp), intent(out) :: difference
+      !> Half of the derivatives of the difference by the outline, without the numbers of sides that are cut.
+      real(wp), intent(out), optional :: h(:, :)    !< (n, n)
+      real(wp), intent(out), optional :: slope(:)   !< (n)
       type(polygon_t) :: polygon
-      type(element_energy_t) :: energy
+      type(element_energy_t), allocatable :: energy(:, :)
       real(wp), allocatable :: matrix(:, :), inner(:)
-      real(wp) :: centre(2), a(MOST_OUTLINE), g(MOST_OUTLINE), sign_of(18)
-      integer(ip) :: i, m, place(18)
+      real(wp) :: centre(2), a(MOST_OUTLINE), g(MOST_OUTLINE), sign_of(MOST_OUTLINE)
+      integer(ip) :: i, j, m, n, next, degree, place(MOST_OUTLINE)
 
       difference = -1.0_wp
+      n = size(outline, kind=ip)
+      degree = n/(2*CORNERS_OF(fem%mesh%shape(e))) - 1
       polygon%degree = degree
       polygon%per_side = 2*degree - 1
       call make_polygon(fem, sides, cuts, e, x_given(size(x_given) - 1:), outline, polygon)
       if (polygon%n > MOST_CORNERS) return
-      centre = sum(polygon%corner(:, :polygon%n), dim=2)/polygon%n
-      m = 3 + polygon%per_side*polygon%n
-      allocate (matrix(m, m), inner(m), source=0.0_wp)
+      associate (nodes => fem%mesh%nodes(:CORNERS_OF(fem%mesh%shape(e)), e))
+         centre = sum(fem%mesh%x(:, nodes), dim=2)/size(nodes) - fem%mesh%x(:, nodes(1))
+      end associate
+      m = 3 + 3*polygon%n + 3*polygon%per_side*polygon%n
+      allocate (matrix(m + n, m + n), inner(m + n), source=0.0_wp)
+      allocate (energy(0:1, polygon%n))
       do i = 1, polygon%n
-         call take_triangle(i)
-         g(:energy%n) = matmul(energy%slopes(:, energy%n + 1:), x_given)
-         call add_triangle(energy%n)
+         next = 1 + mod(i, polygon%n)
+         do j = 0, 1
+            if (j == 0) then
+               call make_energy(fem, e, degree, energy(j, i), reshape([corner_at(0_ip, i), corner_at(0_ip, next), &
+                                                                       corner_at(1_ip, next), corner_at(1_ip, i)], [2, 4]))
+            else
+               call make_energy(fem, e, degree, energy(j, i), reshape([corner_at(1_ip, i), corner_at(1_ip, next), centre], [2, 3]))
+            end if
+            call take_outline(j, i)
+            g(:energy(j, i)%n) = matmul(energy(j, i)%slopes(:, energy(j, i)%n + 1:), x_given)
+            call add_cell(energy(j, i)%n, energy(j, i)%slopes)
+         end do
       end do
-      call solve_least(m, matrix, inner)
+      call solve_least(m, matrix, inner, n)
+      if (present(h)) then
+         do j = 1, n
+            h(j:, j) = matrix(m + j:, m + j)
+            h(j, j:) = matrix(m + j:, m + j)
+         end do
+         slope = -inner(m + 1:)
+      end if
+      inner(m + 1:) = 0.0_wp
       difference = 0.0_wp
       do i = 1, polygon%n
-         call take_triangle(i)
-         where (place(:energy%n) > 0) a(:energy%n) = sign_of(:energy%n)*inner(max(place(:energy%n), 1))
-         difference = difference + energy_difference(energy, x_given, a(:energy%n))
+         next = 1 + mod(i, polygon%n)
+         do j = 0, 1
+            call take_outline(j, i)
+            associate (n_cell => energy(j, i)%n)
+               where (place(:n_cell) > 0) a(:n_cell) = a(:n_cell) + sign_of(:n_cell)*inner(max(place(:n_cell), 1))
+               difference = difference + energy_difference(energy(j, i), x_given, a(:n_cell))
+            end associate
+         end do
       end do
 
    contains
 
-      !> Triangle i: its energy, what is known of its outline, and where the rest stands among the inner numbers. The line from
-      !> corner i runs to the inner point, so that the triangle before it has it as its second side.
-      subroutine take_triangle(i)
-         integer(ip), intent(in) :: i
-         integer(ip) :: j, next, c
+      !> A corner of the outline (0) or of the ring (1).
+      function corner_at(ring, i) result(x)
+         integer(ip), intent(in) :: ring, i
+         real(wp) :: x(2)
 
-         next = 1 + mod(i, polygon%n)
-         call make_energy(fem, e, degree, energy, reshape([polygon%corner(:, i), polygon%corner(:, next), centre], [2, 3]))
+         x = polygon%corner(:, i)
+         if (ring == 1) x = centre + CORE*(polygon%ring(:, i) - centre)
+      end function corner_at
+
+      !> The outline of the cell behind side i of the outline (j = 0) or of the ring (1): what is known of it, and where its numbers
+      !> stand among the inner ones; behind these, m, come those of the element's outline.
+      subroutine take_outline(j, i)
+         integer(ip), intent(in) :: j, i
+         integer(ip) :: corners, k, c
+
+         corners = energy(j, i)%macro%n
          place = 0
          sign_of = 1.0_wp
          a = 0.0_wp
-         a(:3) = polygon%at_corner(:, i)
-         a(4:6) = polygon%at_corner(:, next)
-         place(7:9) = [1_ip, 2_ip, 3_ip]
-         associate (per_side => polygon%per_side)
-            c = side_place(3_ip, degree, 1_ip)
-            a(c:c + per_side - 1) = polygon%of_side(:per_side, i)
-            do j = 1, per_side
-               place(side_place(3_ip, degree, 2_ip) + j - 1) = 3 + per_side*(next - 1) + j
-               c = side_place(3_ip, degree, 3_ip) + j - 1
-               place(c) = 3 + per_side*(i - 1) + merge(degree + 1 - j, j, j <= degree)
-               if (j <= degree) sign_of(c) = -1.0_wp
+         if (j == 0) then
+            a(:3) = polygon%at_corner(:, i)
+            a(4:6) = polygon%at_corner(:, next)
+            if (polygon%of_corner(i) > 0) place(1:3) = m + 3*polygon%of_corner(i) - [2_ip, 1_ip, 0_ip]
+            if (polygon%of_corner(next) > 0) place(4:6) = m + 3*polygon%of_corner(next) - [2_ip, 1_ip, 0_ip]
+            do k = 1, polygon%per_side
+               c = side_place(corners, degree, 1_ip) + k - 1
+               a(c) = polygon%of_side(k, i)
+               if (polygon%at_side(i) > 0) place(c) = m + polygon%at_side(i) + k - 1
             end do
-         end associate
-      end subroutine take_triangle
+         else
+            place(1:3) = at_ring(j, i)
+            place(4:6) = at_ring(j, next)
+         end if
+         if (corners == 4) place(10:12) = at_ring(j + 1, i)
+         place(7:9) = at_ring(j + 1, next)
+         if (j > 0) call take_line(corners, 1_ip, (1 + j)*polygon%n + i, .true.)
+         call take_line(corners, 2_ip, j*polygon%n + next, .true.)
+         if (corners == 4) call take_line(corners, 3_ip, 2*polygon%n + i, .false.)
+         call take_line(corners, corners, j*polygon%n + i, .false.)
+      end subroutine take_outline
 
-      !> Adds a triangle to the system for the inner numbers: H over them, and -(H a + g) with what is known.
-      subroutine add_triangle(m)
-         integer(ip), intent(in) :: m
+      !> Places of phi and its gradient at a corner of the ring (1), or at the inner point, which stands behind them (2).
+      function at_ring(ring, i) result(places)
+         integer(ip), intent(in) :: ring, i
+         integer(ip) :: places(3)
+
+         places = [1_ip, 2_ip, 3_ip] + 3*merge(i - 1, polygon%n, ring == 1)
+      end function at_ring
+
+      !> The numbers of an inner line, of which a side of the cell goes the same way or the other one. Lines: from the
+      !> outline to the ring, from there to the inner point, and along the ring.
+      subroutine take_line(corners, side, line, is_same_way)
+         integer(ip), intent(in) :: corners, side, line
+         logical, intent(in) :: is_same_way
+         integer(ip) :: k, c, first
+
+         first = 3 + 3*polygon%n + polygon%per_side*(line - 1)
+         do k = 1, polygon%per_side
+            c = side_place(corners, degree, side) + k - 1
+            if (is_same_way .or. k > degree) then
+               place(c) = first + k
+            else
+               place(c) = first + degree + 1 - k
+               sign_of(c) = -1.0_wp
+            end if
+         end do
+      end subroutine take_line
+
+      !> Adds a cell to the system: H, and -(H a + g) with what is known.
+      subroutine add_cell(n_cell, slopes)
+         integer(ip), intent(in) :: n_cell
+         real(wp), intent(in) :: slopes(:, :)
          integer(ip) :: j, k
 
-         do j = 1, m
+         do j = 1, n_cell
             if (place(j) == 0) cycle
-            inner(place(j)) = inner(place(j)) - sign_of(j)*(g(j) + dot_product(energy%slopes(:m, j), a(:m)))
-            do k = 1, m
+            inner(place(j)) = inner(place(j)) - sign_of(j)*(g(j) + dot_product(slopes(:n_cell, j), a(:n_cell)))
+            do k = 1, n_cell
                if (place(k) == 0) cycle
-               matrix(place(k), place(j)) = matrix(place(k), place(j)) + sign_of(j)*sign_of(k)*energy%slopes(k, j)
+               matrix(place(k), place(j)) = matrix(place(k), place(j)) + sign_of(j)*sign_of(k)*slopes(k, j)
             end do
          end do
-      end subroutine add_triangle
+      end subroutine add_cell
 
-   end function cut_difference
+   end subroutine cut_difference
 
    !> Corners of an element and of its cuts with phi and its gradient, and the numbers of the sides between them.
    subroutine make_polygon(fem, sides, cuts, e, b, outline, polygon)
@@ -210,7 +291,7 @@ contains
       real(wp), intent(in) :: outline(:)            !< of the element, uncut
       type(polygon_t), intent(inout) :: polygon     !< with its degree
       real(wp), parameter :: NOTHING(2, 2) = 0.0_wp
-      integer(ip) :: i, n_corners, piece, c
+      integer(ip) :: i, j, n_corners, piece, c, first
       real(wp) :: now(3), at, x(2, 2)
 
       n_corners = CORNERS_OF(fem%mesh%shape(e))
@@ -225,11 +306,15 @@ contains
          if (piece == 0) then
             call add_corner(x(:, 1), now, polygon)
             if (polygon%n > MOST_CORNERS) return
+            polygon%of_corner(polygon%n) = i
             c = side_place(n_corners, polygon%degree, i)
+            polygon%at_side(polygon%n) = c
             polygon%of_side(:polygon%per_side, polygon%n) = outline(c:c + polygon%per_side - 1)
             cycle
          end if
          at = 0.0_wp
+         first = polygon%n + 1
+         if (first <= MOST_CORNERS) polygon%of_corner(first) = i
          do while (piece > 0)
             if (cuts%from(piece) > at + SAME_PLACE) call add_part(x, [at, cuts%from(piece)], NOTHING, b, now, polygon)
             call add_part(x, [max(at, cuts%from(piece)), cuts%to(piece)], cuts%traction(:, :, piece), b, now, polygon)
@@ -238,6 +323,10 @@ contains
          end do
          if (at < 1 - SAME_PLACE) call add_part(x, [at, 1.0_wp], NOTHING, b, now, polygon)
          if (polygon%n > MOST_CORNERS) return
+         do j = first + 1, polygon%n              ! half of the way to where all parts would be equal
+            at = real(j - first, wp)/(polygon%n + 1 - first)
+            polygon%ring(:, j) = 0.5_wp*(polygon%corner(:, j) + (1 - at)*x(:, 1) + at*x(:, 2))
+         end do
       end do
    end subroutine make_polygon
 
@@ -275,6 +364,7 @@ contains
       polygon%n = polygon%n + 1
       if (polygon%n > MOST_CORNERS) return
       polygon%corner(:, polygon%n) = x
+      polygon%ring(:, polygon%n) = x
       polygon%at_corner(:, polygon%n) = values
    end subroutine add_corner
 

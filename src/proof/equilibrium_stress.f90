@@ -31,6 +31,7 @@ contains
       type(side_cuts_t), intent(in) :: cuts         !< sides whose tractions are polynomials by parts
       real(wp), intent(out) :: share(:)             !< (n_elements) [F L]
       type(outlines_t) :: outlines
+      integer(ip), allocatable :: cut(:)            ! elements
       integer(ip) :: degree, most, c
       real(wp) :: gain, left, of_stresses           ! of_stresses: energy of those of the displacements
       integer :: sweep
@@ -38,12 +39,16 @@ contains
       degree = ubound(loads%traction, 2, kind=ip)
       outlines%degree = degree
       outlines%class_of = classes%of_element
-      most = maxval(CORNERS_OF(fem%mesh%shape(:fem%mesh%n_elements)))*(2*degree + 2)
-      allocate (outlines%h(most, most, classes%n), outlines%a(most, size(share)), outlines%slope(most, size(share)), &
+      most = maxval(outline_size(fem%mesh%shape(:fem%mesh%n_elements), degree))
+      cut = pack([(c, c=1, fem%mesh%n_elements)], [(is_cut(cuts, sides, c), c=1, fem%mesh%n_elements)])
+      allocate (outlines%h(most, most, classes%n + size(cut)), outlines%a(most, size(share)), outlines%slope(most, size(share)), &
                 outlines%energy(size(share)), source=0.0_wp)
       of_stresses = 0.0_wp
       do c = 1, classes%n
          call begin_class(c)
+      end do
+      do c = 1, size(cut, kind=ip)
+         call begin_cut(cut(c), classes%n + c)
       end do
       left = sum(outlines%energy)
       do sweep = 1, MOST_SWEEPS
@@ -101,7 +106,30 @@ contains
          end do
       end subroutine begin_class
 
+      !> An element that is cut has an energy of its own, and so a class.
+      subroutine begin_cut(e, class)
+         integer(ip), intent(in) :: e, class
+         real(wp) :: x(MOST_GIVEN)
+         integer(ip) :: n_given
+
+         associate (n => outline_size(fem%mesh%shape(e), degree))
+            call given_of(fem, e, u, x, n_given)
+            x(n_given + 1:n_given + 2) = loads%volume(:, e)
+            outlines%class_of(e) = class
+            call cut_difference(fem, sides, cuts, e, x(:n_given + 2), outlines%a(:n, e), outlines%energy(e), &
+                                outlines%h(:n, :n, class), outlines%slope(:n, e))
+         end associate
+      end subroutine begin_cut
+
    end subroutine sum_stresses
+
+   !> Numbers of the outline of an element.
+   pure elemental integer(ip) function outline_size(shape, degree)
+      integer(ip), intent(in) :: shape
+      integer(ip), intent(in) :: degree             !< k
+
+      outline_size = CORNERS_OF(shape)*(2*degree + 2)
+   end function outline_size
 
    !> The energies of elements that are cut, or of all, by their stresses.
    subroutine sum_again(fem, classes, sides, cuts, loads, u, outlines, is_all, share)
@@ -127,7 +155,8 @@ contains
                call given_of(fem, e, u, x, n_given)
                x(n_given + 1:n_given + 2) = loads%volume(:, e)
                if (is_cut(cuts, sides, e)) then
-                  share(e) = cut_difference(fem, sides, cuts, e, outlines%degree, x(:n_given + 2), outlines%a(:, e))
+                  call cut_difference(fem, sides, cuts, e, x(:n_given + 2), &
+                                      outlines%a(:outline_size(fem%mesh%shape(e), outlines%degree), e), share(e))
                else
                   if (.not. is_made) call make_energy(fem, e, outlines%degree, energy)
                   is_made = .true.

@@ -1,29 +1,28 @@
 !> A proved bound of the error in the energy norm (docs/theory/proof.md).
 !>
 !> With the friction bound tau of the run the contact problem has one solution u, of least energy, with the stress s. For
-!> displacements u^ that keep the supports and the sides apart, and a stress s^ in equilibrium with the loads and with tractions
-!> that the laws allow,
+!> the displacements u_h of the run, which keep the supports, a stress s^ in equilibrium with the loads and with tractions p^, t^
+!> that the laws allow, and any displacements w that are 0 at supports,
 !>
-!>     ||u^ - u||^2 + ||s^ - s||^2 <= eta^2 = ||s^ - C eps(u^)||^2 + 2 gap(u^; p^, t^)                                  (1)
+!>     ||u_h - u||^2 <= eta^2 = ||s^ - C eps(u_h)||^2 + ||w||^2 + 2 int rho_n + rho_t                                       (1)
 !>
 !> (Prager and Synge, for contact with friction), norms of the energy. No constant, no assumption on the mesh. The steps:
 !>
-!> 1. u^: the displacements of the run, nodes moved back where sides overlap between points (`keep_apart`). What they are moved by,
-!> in the energy norm, is added to eta: that bounds the error of the run's own displacements.
-!> 2. p^, t^: from point to point as those of the run, linear; balanced with the loads of bodies that nothing else holds
+!> 1. p^, t^: from point to point as those of the run, linear; balanced with the loads of bodies that nothing else holds
 !> (`balance`).
-!> 3. One more solution with these tractions in place of the forces of contact, by which all that follows is a matter of loads.
-!> 4. Tractions along all sides in equilibrium with every element (atrito_side_tractions).
-!> 5. A stress in every element (atrito_airy_stress), bettered by sweeps over the corners (atrito_star_sweeps).
-!> 6. The sum (1), the stresses' part point by point in all elements (atrito_element_energy), the law's exactly (law_gap).
+!> 2. One more solution with these tractions in place of the forces of contact, by which all that follows is a matter of loads.
+!> 3. Tractions along all sides in equilibrium with every element (atrito_side_tractions).
+!> 4. A stress in every element (atrito_airy_stress), bettered by sweeps over the corners (atrito_star_sweeps).
+!> 5. w, by which the sides are moved to where the laws are met as well as it is worth, and rho, what they still lack
+!> (`add_misfit`).
 module atrito_error_bound
    use atrito_assembly, only: cached_stiffness, fem_t, stiffness_cache_t
    use atrito_balanced_contact, only: balance
    use atrito_cut_elements, only: add_piece, link_pieces, side_cuts_t
    use atrito_contact_solution, only: contact_solution_t
-   use atrito_contact_tractions, only: law_gap, list_segments, segment_forces, segment_t, traction_at
+   use atrito_contact_tractions, only: list_segments, segment_forces, segment_t, traction_at
    use atrito_element_classes, only: element_classes_t, find_classes, given_of
-   use atrito_element_energy, only: corner_stresses, element_energy_t, given_rows, make_energy, MOST_GIVEN
+   use atrito_element_energy, only: corner_stresses, MOST_GIVEN
    use atrito_element_table, only: CORNERS_OF, DEGREE_OF, MOST_NODES
    use atrito_equilibrium_stress, only: sum_stresses
    use atrito_exchanged_tractions, only: exchange
@@ -34,7 +33,7 @@ module atrito_error_bound
    use atrito_problem, only: problem_t
    use atrito_proof_loads, only: proof_loads_t, take_loads
    use atrito_results, only: error_bound_t, results_t
-   use atrito_sides_apart, only: keep_apart
+   use atrito_side_misfit, only: add_misfit
    use atrito_side_tractions, only: equilibrate_sides, side_length, traction_of
    use atrito_thermal_loads, only: add_thermal_of, elastic_energy
    implicit none (type, external)
@@ -69,9 +68,9 @@ contains
       type(chains_t) :: chains
       type(element_classes_t) :: classes
       type(segment_t), allocatable :: segments(:)
-      real(wp), allocatable :: kept(:, :), share(:), force(:, :, :)
+      real(wp), allocatable :: share(:), force(:, :, :)
       character(len=:), allocatable :: why_not
-      real(wp) :: residual
+      real(wp) :: residual, of_law(3)
       integer(ip) :: n_segments, degree
 
       results%error_bound = error_bound_t()
@@ -87,8 +86,6 @@ contains
          call list_sides(problem%fem%mesh, sides)
          call take_loads(model, acting, problem%fem, sides, degree, problem%held, results%reaction, loads, why_not)
       end if
-      kept = results%u
-      if (.not. allocated(why_not)) call keep_apart(segments, problem%held, kept, why_not)
       if (.not. allocated(why_not)) call balance(problem, segments, why_not)
       if (.not. allocated(why_not) .and. .not. allocated(exchanged)) call exchange(problem, solution, segments, exchanged, why_not)
       if (.not. allocated(why_not)) call take_contact(problem%fem, sides, segments, degree, loads, cuts, why_not)
@@ -97,45 +94,35 @@ contains
          call take_elements(problem%fem, classes, sides, results%u + exchanged, loads, force)
          call equilibrate_sides(problem%fem%mesh, sides, chains, force, loads%known, loads%traction, residual)
          allocate (share(problem%fem%mesh%n_elements))
-         call sum_stresses(problem%fem, classes, sides, chains, loads, kept, cuts, share)
+         call sum_stresses(problem%fem, classes, sides, chains, loads, results%u, cuts, share)
          if (any(share < 0.0_wp)) why_not = 'a side of an element faces too many others'
       end if
+      if (.not. allocated(why_not)) call add_misfit(problem%fem, problem%held, segments, results%u, share, of_law, why_not)
       if (allocated(why_not)) then
          results%error_bound%why_not = why_not
       else
-         call complete_bound(problem%fem, segments, kept, residual, share, results)
+         call complete_bound(problem%fem, residual, share, of_law, results)
       end if
    end subroutine bound_error
 
-   !> eta from the shares of the elements and what the laws of contact lack, half of it on either side; the norm that it is over.
-   subroutine complete_bound(fem, segments, kept, residual, share, results)
+   !> eta from the shares of the elements, and the norm that it is over.
+   subroutine complete_bound(fem, residual, share, of_law, results)
       type(fem_t), intent(in) :: fem
-      type(segment_t), intent(in) :: segments(:)
-      real(wp), intent(in) :: kept(:, :)            !< (2, n_nodes) displacements that keep the sides apart [L]
       real(wp), intent(in) :: residual              !< of the equilibrium
-      real(wp), intent(inout) :: share(:)           !< (n_elements) of the stresses; on return with those of contact [F L]
+      real(wp), intent(in) :: share(:)              !< (n_elements) [F L]
+      real(wp), intent(in) :: of_law(3)             !< in them: the misfit of the sides, the normal law, friction [F L]
       type(results_t), intent(inout) :: results
       real(wp), allocatable :: force_of_u(:, :)
-      real(wp) :: normal, tangential, energy, eta2
-      integer(ip) :: i
+      real(wp) :: energy, eta2
 
       associate (bound => results%error_bound)
-         do i = 1, size(segments, kind=ip)
-            call law_gap(segments(i), kept, normal, tangential)
-            bound%normal = bound%normal + normal
-            bound%tangential = bound%tangential + tangential
-            associate (slave => segments(i)%slave(1), master => segments(i)%master(1))
-               share(slave) = share(slave) + merge(0.5_wp, 1.0_wp, master > 0)*(normal + tangential)
-               if (master > 0) share(master) = share(master) + 0.5_wp*(normal + tangential)
-            end associate
-         end do
          bound%exists = .true.
          bound%residual = residual
          eta2 = sum(share)
          bound%norm = sqrt(max(eta2, 0.0_wp))
          if (eta2 > 0.0_wp) then
-            bound%normal = share_of(bound%normal/eta2)
-            bound%tangential = share_of(bound%tangential/eta2)
+            bound%normal = share_of((of_law(1) + of_law(2))/eta2)
+            bound%tangential = share_of(of_law(3)/eta2)
             bound%bulk = 1.0_wp - bound%normal - bound%tangential
          end if
          energy = 0.0_wp
@@ -146,7 +133,7 @@ contains
             bound = error_bound_t(why_not='no strain that it would be a share of')
             return
          end if
-         bound%percent = max(LEAST_PERCENT, 100*(bound%norm + norm_of_motion(fem, kept - results%u))/sqrt(2*energy))
+         bound%percent = max(LEAST_PERCENT, 100*bound%norm/sqrt(2*energy))
          bound%is_certified = residual <= max(LEAST_DIGITS*bound%percent/100, 1.0e-12_wp)
          if (.not. bound%is_certified) bound%why_not = 'round-off of the equilibrium'
       end associate
@@ -169,33 +156,6 @@ contains
       if (classes%n <= SMALL_SCENE .or. classes%n <= MANY*fem%mesh%n_elements) return
       takes_long = any(fem%mesh%shape(:fem%mesh%n_elements) > 3)
    end function takes_long
-
-   !> The energy norm of what nodes were moved by, integrated as eta is.
-   real(wp) function norm_of_motion(fem, motion) result(norm)
-      type(fem_t), intent(in) :: fem
-      real(wp), intent(in) :: motion(:, :)          !< (2, n_nodes) [L]
-      type(element_energy_t) :: energy
-      real(wp) :: x(MOST_GIVEN)
-      real(wp), allocatable :: rows(:)
-      integer(ip) :: e, k
-
-      norm = 0.0_wp
-      do e = 1, fem%mesh%n_elements
-         associate (nodes => fem%mesh%nodes(:fem%mesh%shape(e), e))
-            if (all(motion(:, nodes) == 0.0_wp)) cycle
-            call make_energy(fem, e, 1_ip, energy)      ! no bubbles
-            x = 0.0_wp
-            do k = 1, size(nodes, kind=ip)
-               x(2*k - 1:2*k) = motion(:, nodes(k)) - motion(:, nodes(1))
-            end do
-            allocate (rows(energy%n_rows))
-            call given_rows(energy, x(:energy%n_given), rows)
-            norm = norm + dot_product(rows, rows)
-            deallocate (rows)
-         end associate
-      end do
-      norm = sqrt(norm)
-   end function norm_of_motion
 
    !> What nothing can be proved for, whatever the loads are.
    subroutine check_hypotheses(problem, u, why_not)

@@ -212,29 +212,40 @@ contains
    end subroutine find_held
 
    !> matrix step = step by Cholesky, of the lower triangle; numbers without a pivot stay 0.
-   pure subroutine solve_least(n, matrix, step)
+   !>
+   !> n_more: so many numbers behind them stay 0, too; their part of the matrix, and of step, becomes what is left without the first
+   !> ones: x'S x/2 - r'x is the least that the whole has.
+   pure subroutine solve_least(n, matrix, step, n_more)
       integer(ip), intent(in) :: n
       real(wp), intent(inout) :: matrix(:, :), step(:)
+      integer(ip), intent(in), optional :: n_more
       real(wp) :: original
-      integer(ip) :: i, j, k
+      integer(ip) :: i, j, k, last
 
+      last = n
+      if (present(n_more)) last = n + n_more
       do j = 1, n
          original = matrix(j, j)
          do k = 1, j - 1
             matrix(j, j) = matrix(j, j) - matrix(j, k)**2
          end do
          if (.not. matrix(j, j) > ROUND_OFF*original) then
-            matrix(j:n, j) = 0.0_wp
+            matrix(j:last, j) = 0.0_wp
             step(j) = 0.0_wp
             cycle
          end if
          matrix(j, j) = sqrt(matrix(j, j))
          do k = 1, j - 1
-            matrix(j + 1:n, j) = matrix(j + 1:n, j) - matrix(j, k)*matrix(j + 1:n, k)
+            matrix(j + 1:last, j) = matrix(j + 1:last, j) - matrix(j, k)*matrix(j + 1:last, k)
          end do
-         matrix(j + 1:n, j) = matrix(j + 1:n, j)/matrix(j, j)
+         matrix(j + 1:last, j) = matrix(j + 1:last, j)/matrix(j, j)
          step(j) = step(j)/matrix(j, j)
-         step(j + 1:n) = step(j + 1:n) - matrix(j + 1:n, j)*step(j)
+         step(j + 1:last) = step(j + 1:last) - matrix(j + 1:last, j)*step(j)
+      end do
+      do j = n + 1, last
+         do k = 1, n
+            matrix(j:last, j) = matrix(j:last, j) - matrix(j, k)*matrix(j:last, k)
+         end do
       end do
       do j = n, 1, -1
          if (.not. matrix(j, j) > 0.0_wp) cycle

@@ -1,5 +1,6 @@
 !> Elements, tractions and small meshes for the tests of the bound of the error.
 module proof_cases
+   use atrito_contact_tractions, only: segment_t
    use atrito_dense, only: solve_lu
    use atrito_kinds, only: ip, lp, wp
    use atrito_mesh, only: mesh_t
@@ -7,7 +8,8 @@ module proof_cases
    use random_arrays, only: random_numbers
    implicit none (type, external)
    private
-   public :: random_element, in_equilibrium, traction_value, moments_on, GAUSS, WEIGHT, bend_mesh, forces_of_sides
+   public :: random_element, in_equilibrium, traction_value, moments_on, GAUSS, WEIGHT, bend_mesh, forces_of_sides, &
+             random_segment
 
    !> Three Gauss points on [0,1].
    real(wp), parameter :: GAUSS(3) = 0.5_wp + 0.38729833462074168852_wp*[real(wp) :: -1, 0, 1]
@@ -144,5 +146,33 @@ contains
          end do
       end do
    end subroutine forces_of_sides
+
+   !> A segment whose nodes 1 to 3 are the slave's and lie above, 4 to 6 the master's; the normal points down.
+   subroutine random_segment(state, which, segment)
+      integer(lp), intent(inout) :: state
+      integer(ip), intent(in) :: which
+      type(segment_t), intent(out) :: segment
+      real(wp) :: r(12)
+
+      call random_numbers(state, r)
+      segment%n = 2 + mod(which, 2)
+      segment%n_master = 2 + mod(which/2, 2)
+      segment%node = [1_ip, 2_ip, 3_ip]
+      segment%master_node = [4_ip, 5_ip, 6_ip]
+      segment%master = 1
+      segment%on_slave = [0.1_wp, 0.9_wp]
+      segment%on_master = [0.8_wp, 0.3_wp]
+      segment%length = 0.7_wp
+      segment%thickness = 1.3_wp
+      segment%normal = [0.0_wp, -1.0_wp]
+      segment%p = abs(r(:2))
+      segment%tau = abs(r(3:4))
+      segment%t = r(5:6)*segment%tau
+      segment%gap = 0.2_wp*r(7:8)
+      segment%rest = 0.1_wp*r(9:10)
+      segment%delta = merge(0.0_wp, 0.3_wp, mod(which, 3) == 0)
+      if (mod(which, 4) == 1) segment%eps = 0.2_wp
+      if (mod(which, 4) == 2) segment%compliance = 0.3_wp
+   end subroutine random_segment
 
 end module proof_cases

@@ -84,12 +84,12 @@ run 0 "$ex1" huge --set q=1e150 --set eps=4e146 --proof on
 no_bound huge 'displacements above 1e100'
 run 0 "$input/lessons/leaning-block.inp" leaning --proof on
 no_bound leaning 'no strain'
-# two pairs on one side, one of them open: its pieces lie over those of the other
+# two pairs on one side, one of them open: its pieces lie over those of the other, and cut the triangles of w once more
 awk -v upper=3 -f "$here/blocks.awk" </dev/null >far.inp
 sed 's/^UPPER-BOTTOM, LOWER-TOP/&\nFAR-BOTTOM, LOWER-TOP/; s/^\*SOLID SECTION, ELSET=LOWER/*SOLID SECTION, ELSET=FAR, MATERIAL=SOFT\n1.\n&/
    s/^\*MATERIAL, NAME=SOFT/*BLOCK, TYPE=CPE4, ELSET=FAR, NX=5, NY=1\n0.3, 4.\n1.7, 4.\n1.7, 5.\n0.3, 5.\n*BOUNDARY\nFAR-TOP, 1, 2\n&/' far.inp >both.inp
 run 0 far.inp one --proof on --quiet
 run 0 both.inp both --proof on --quiet
-near 'an open pair besides' "$(summary both error_bound_percent)" "$(summary one error_bound_percent)" 1e-6
+near 'an open pair besides' "$(summary both error_bound_percent)" "$(summary one error_bound_percent)" 0.05
 
 finish

@@ -1,0 +1,289 @@
+!> Triangles along contact sides, finer than the elements, for displacements that make up for a misfit of the sides.
+!>
+!> Elements near the sides are cut from their middles into triangles, sides of contact besides at every place where the other side
+!> has a node. Displacements are linear on each triangle, 0 at supports and where the strip ends: beyond it nothing moves.
+module atrito_strip_mesh
+   use atrito_assembly, only: fem_t
+   use atrito_element_table, only: CORNERS_OF
+   use atrito_growth, only: make_room, resize
+   use atrito_kinds, only: ip, lp, wp
+   use atrito_mesh, only: face_end
+   use atrito_plane_state, only: COMPONENTS, elasticity_matrix
+   use atrito_sorting, only: sorted_places
+   implicit none (type, external)
+   private
+   public :: strip_t, make_strip, strip_energy
+
+   integer, parameter :: LAYERS = 3                 !< of elements behind a contact side
+   real(wp), parameter :: CORE = 0.6_wp             !< size of a ring, as a share of its element
+   integer(lp), parameter :: PLACES = 2_lp**30      !< a place along a face, 0 to 1, in steps of this
+
+   type :: strip_t
+      integer(ip) :: n = 0, n_triangles = 0
+      real(wp), allocatable :: x(:, :)              !< (2, n) [L]
+      logical, allocatable :: is_free(:, :)         !< (2, n)
+      integer(ip), allocatable :: corner(:, :)      !< (3, n_triangles)
+      integer(ip), allocatable :: element(:)        !< (n_triangles)
+      real(wp), allocatable :: stiffness(:, :, :)   !< (6, 6, n_triangles) [F/L]
+      real(wp), allocatable :: own(:, :, :)         !< (2, 2, n) stiffness of a corner
+      integer(ip), allocatable :: first(:)          !< (n + 1) other corners of the triangles round corner i: first(i) ..
+      integer(ip), allocatable :: other(:)          !< first(i + 1) - 1, some more than once
+      real(wp), allocatable :: coupling(:, :, :)    !< (2, 2, ..) stiffness towards them
+   end type strip_t
+
+contains
+
+   !> The strip behind some faces.
+   subroutine make_strip(fem, held, element, face, place, strip, vertex)
+      type(fem_t), intent(in) :: fem
+      logical, intent(in) :: held(:, :)             !< (2, n_nodes)
+      integer(ip), intent(in) :: element(:), face(:) !< (m)
+      real(wp), intent(in) :: place(:)              !< (m) along the face, 0 to 1
+      type(strip_t), intent(out) :: strip
+      integer(ip), intent(out) :: vertex(:)         !< (m) the corner of triangles there
+      integer(ip), allocatable :: of_node(:), order(:), first_of(:)
+      logical, allocatable :: is_inside(:)          !< (n_elements) of the strip
+      integer(lp), allocatable :: key(:)
+      integer(ip) :: e
+
+      key = (4_lp*element + face)*(2*PLACES) + nint(place*PLACES, lp)
+      order = sorted_places(key)
+      call choose_elements(fem, element, face, is_inside)
+      allocate (of_node(fem%mesh%n_nodes), source=0_ip)
+      allocate (first_of(fem%mesh%n_elements), source=0_ip)
+      do e = size(order, kind=ip), 1, -1
+         first_of(element(order(e))) = e
+      end do
+      call make_room(strip%element, 0_ip, 64_ip)
+      allocate (strip%x(2, 0), strip%is_free(2, 0), strip%corner(3, 0))
+      do e = 1, fem%mesh%n_elements
+         if (is_inside(e)) call cut_element(e)
+      end do
+      do e = 1, fem%mesh%n_elements                 ! where the strip ends
+         if (is_inside(e)) cycle
+         associate (nodes => fem%mesh%nodes(:CORNERS_OF(fem%mesh%shape(e)), e))
+            strip%is_free(:, pack(of_node(nodes), of_node(nodes) > 0)) = .false.
+         end associate
+      end do
+      call add_stiffness(fem, strip)
+
+   contains
+
+      !> The triangles of an element: from its middle, and of one with faces of contact those between its outline and a ring within,
+      !> too.
+      subroutine cut_element(e)
+         integer(ip), intent(in) :: e
+         integer(ip), allocatable :: outline(:)
+         real(wp) :: middle(2)
+         integer(ip) :: i, next, centre, n, first
+
+         associate (nodes => fem%mesh%nodes(:CORNERS_OF(fem%mesh%shape(e)), e))
+            middle = sum(fem%mesh%x(:, nodes), dim=2)/size(nodes)
+         end associate
+         call take_outline(e, outline, n)
+         call add_vertex(strip, middle, [.true., .true.], centre)
+         first = centre
+         if (first_of(e) > 0) then
+            do i = 1, n
+               call add_vertex(strip, middle + CORE*(strip%x(:, outline(i)) - middle), [.true., .true.], next)
+            end do
+         end if
+         do i = 1, n
+            next = 1 + mod(i, n)
+            if (first_of(e) > 0) then
+               call add_triangle(strip, [outline(i), outline(next), first + i], e)
+               call add_triangle(strip, [outline(next), first + next, first + i], e)
+               call add_triangle(strip, [first + i, first + next, centre], e)
+            else
+               call add_triangle(strip, [outline(i), outline(next), centre], e)
+            end if
+         end do
+      end subroutine cut_element
+
+      !> Corners and places along the outline of an element, counter-clockwise.
+      subroutine take_outline(e, outline, n)
+         integer(ip), intent(in) :: e
+         integer(ip), allocatable, intent(inout) :: outline(:)
+         integer(ip), intent(out) :: n
+         integer(ip) :: k, at
+         real(wp) :: t
+
+         n = 0
+         at = first_of(e)
+         do k = 1, CORNERS_OF(fem%mesh%shape(e))
+            associate (from => fem%mesh%nodes(k, e), to => fem%mesh%nodes(face_end(fem%mesh, e, k), e))
+               call make_room(outline, n, n + 1)
+               n = n + 1
+               call take_node(from, outline(n))
+               do while (at > 0 .and. at <= size(order))
+                  associate (i => order(at))
+                     if (element(i) /= e .or. face(i) /= k) exit
+                     t = place(i)
+                     if (nint(t*PLACES, lp) >= PLACES - 1) then
+                        call take_node(to, vertex(i))
+                     else
+                        if (nint(t*PLACES, lp) > 1 .and. .not. is_same(at)) then
+                           call make_room(outline, n, n + 1)
+                           n = n + 1
+                           call add_vertex(strip, (1 - t)*fem%mesh%x(:, from) + t*fem%mesh%x(:, to), &
+                                           .not. (held(:, from) .and. held(:, to)), outline(n))
+                        end if
+                        vertex(i) = outline(n)
+                     end if
+                  end associate
+                  at = at + 1
+               end do
+            end associate
+         end do
+      end subroutine take_outline
+
+      !> Whether the point before is in the same place, to a few digits less than those of PLACES.
+      pure logical function is_same(at)
+         integer(ip), intent(in) :: at
+
+         is_same = .false.
+         if (at == 1) return
+         is_same = key(order(at)) - key(order(at - 1)) <= 1 .and. element(order(at)) == element(order(at - 1)) .and. &
+                   face(order(at)) == face(order(at - 1)) .and. nint(place(order(at - 1))*PLACES, lp) > 1
+      end function is_same
+
+      subroutine take_node(node, at)
+         integer(ip), intent(in) :: node
+         integer(ip), intent(out) :: at
+
+         if (of_node(node) == 0) call add_vertex(strip, fem%mesh%x(:, node),.not. held(:, node), of_node(node))
+         at = of_node(node)
+      end subroutine take_node
+
+   end subroutine make_strip
+
+   !> Elements that are no farther from the faces than the layers of the strip.
+   subroutine choose_elements(fem, element, face, is_inside)
+      type(fem_t), intent(in) :: fem
+      integer(ip), intent(in) :: element(:), face(:)
+      logical, allocatable, intent(out) :: is_inside(:)
+      logical, allocatable :: is_reached(:)
+      integer(ip) :: i, e
+      integer :: layer
+
+      allocate (is_inside(fem%mesh%n_elements), is_reached(fem%mesh%n_nodes), source=.false.)
+      do i = 1, size(element, kind=ip)
+         is_reached(fem%mesh%nodes([face(i), face_end(fem%mesh, element(i), face(i))], element(i))) = .true.
+      end do
+      do layer = 1, LAYERS
+         do e = 1, fem%mesh%n_elements
+            associate (nodes => fem%mesh%nodes(:CORNERS_OF(fem%mesh%shape(e)), e))
+               if (.not. is_inside(e)) is_inside(e) = any(is_reached(nodes))
+            end associate
+         end do
+         do e = 1, fem%mesh%n_elements
+            if (is_inside(e)) is_reached(fem%mesh%nodes(:CORNERS_OF(fem%mesh%shape(e)), e)) = .true.
+         end do
+      end do
+   end subroutine choose_elements
+
+   subroutine add_vertex(strip, x, is_free, vertex)
+      type(strip_t), intent(inout) :: strip
+      real(wp), intent(in) :: x(2)
+      logical, intent(in) :: is_free(2)
+      integer(ip), intent(out) :: vertex
+      logical, allocatable :: more(:, :)
+
+      if (strip%n == size(strip%x, 2)) then
+         call resize(strip%x, strip%n, 2*strip%n + 64)
+         allocate (more(2, 2*strip%n + 64))
+         more(:, :strip%n) = strip%is_free
+         call move_alloc(more, strip%is_free)
+      end if
+      strip%n = strip%n + 1
+      vertex = strip%n
+      strip%x(:, vertex) = x
+      strip%is_free(:, vertex) = is_free
+   end subroutine add_vertex
+
+   subroutine add_triangle(strip, corner, e)
+      type(strip_t), intent(inout) :: strip
+      integer(ip), intent(in) :: corner(3), e
+
+      if (strip%n_triangles == size(strip%corner, 2)) then
+         call resize(strip%corner, strip%n_triangles, 2*strip%n_triangles + 64)
+      end if
+      call make_room(strip%element, strip%n_triangles, strip%n_triangles + 1)
+      strip%n_triangles = strip%n_triangles + 1
+      strip%corner(:, strip%n_triangles) = corner
+      strip%element(strip%n_triangles) = e
+   end subroutine add_triangle
+
+   !> The stiffness of all triangles, and as rows of their corners.
+   subroutine add_stiffness(fem, strip)
+      type(fem_t), intent(in) :: fem
+      type(strip_t), intent(inout) :: strip
+      integer(ip) :: i, j, k, at
+      integer(ip), allocatable :: next(:)
+
+      allocate (strip%stiffness(6, 6, strip%n_triangles))
+      allocate (strip%own(2, 2, strip%n), source=0.0_wp)
+      allocate (strip%first(strip%n + 1), source=0_ip)
+      do i = 1, strip%n_triangles
+         strip%stiffness(:, :, i) = triangle_stiffness(fem, strip%element(i), strip%x(:, strip%corner(:, i)))
+         strip%first(strip%corner(:, i) + 1) = strip%first(strip%corner(:, i) + 1) + 2
+      end do
+      strip%first(1) = 1
+      do i = 1, strip%n
+         strip%first(i + 1) = strip%first(i) + strip%first(i + 1)
+      end do
+      next = strip%first
+      allocate (strip%other(6*strip%n_triangles), strip%coupling(2, 2, 6*strip%n_triangles))
+      do i = 1, strip%n_triangles
+         do j = 1, 3
+            associate (mine => strip%corner(j, i))
+               do k = 1, 3
+                  associate (block => strip%stiffness(2*j - 1:2*j, 2*k - 1:2*k, i))
+                     if (k == j) then
+                        strip%own(:, :, mine) = strip%own(:, :, mine) + block
+                     else
+                        at = next(mine)
+                        next(mine) = at + 1
+                        strip%other(at) = strip%corner(k, i)
+                        strip%coupling(:, :, at) = block
+                     end if
+                  end associate
+               end do
+            end associate
+         end do
+      end do
+   end subroutine add_stiffness
+
+   pure function triangle_stiffness(fem, e, x) result(k)
+      type(fem_t), intent(in) :: fem
+      integer(ip), intent(in) :: e
+      real(wp), intent(in) :: x(2, 3)
+      real(wp) :: k(6, 6)
+      real(wp) :: b(COMPONENTS, 6), twice_area, g(2)
+      integer(ip) :: i
+      integer(ip), parameter :: NEXT(4) = [2, 3, 1, 2]
+
+      twice_area = (x(1, 2) - x(1, 1))*(x(2, 3) - x(2, 1)) - (x(1, 3) - x(1, 1))*(x(2, 2) - x(2, 1))
+      b = 0.0_wp
+      do i = 1, 3
+         g = [x(2, NEXT(i)) - x(2, NEXT(i + 1)), x(1, NEXT(i + 1)) - x(1, NEXT(i))]/twice_area
+         b(:, 2*i - 1) = [g(1), 0.0_wp, g(2)]
+         b(:, 2*i) = [0.0_wp, g(2), g(1)]
+      end do
+      associate (section => fem%sections(fem%section_of(e)))
+         k = 0.5_wp*abs(twice_area)*section%thickness*matmul(transpose(b), matmul(elasticity_matrix(section, fem%mesh%state(e)), b))
+      end associate
+   end function triangle_stiffness
+
+   !> int eps(w) : C eps(w) of a triangle [F L].
+   pure real(wp) function strip_energy(strip, i, w) result(energy)
+      type(strip_t), intent(in) :: strip
+      integer(ip), intent(in) :: i
+      real(wp), intent(in) :: w(:, :)               !< (2, n) [L]
+      real(wp) :: v(6)
+
+      v = reshape(w(:, strip%corner(:, i)), [6])
+      energy = dot_product(v, matmul(strip%stiffness(:, :, i), v))
+   end function strip_energy
+
+end module atrito_strip_mesh
