@@ -49,9 +49,7 @@ contains
       end do
    end subroutine keep_apart
 
-   !> One pair.
-   !>
-   !> Corners move, and middle nodes by the mean of theirs, so that the motion is linear along a face; where an overlap v
+   !> One pair. Corners move, and middle nodes by the mean of theirs, so that the motion is linear along a face; where an overlap v
    !> at the place s of a face is left, its corners move by v (1 - s) and v s over (1 - s)^2 + s^2 more, the least that is enough.
    subroutine part_pair(segments, held, none, u, back, has_moved, why_not)
       type(segment_t), intent(in) :: segments(:)
