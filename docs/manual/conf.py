@@ -37,6 +37,7 @@ KEYWORDS, MESSAGES, OPTIONS, TABLES = "docs/user/keywords", "docs/user/messages"
 GLOSSARY, BOOK = "docs/labs/glossary", "docs/verification/book"
 MESSAGE = re.compile(r"\b[EWN]-[A-Z]+(?:-[A-Z]+)*\b")
 OPTION = re.compile(r"(--[a-z][a-z-]+)")
+ACCENT = re.compile(r"<munderover>\s*(<mi>[^<]*</mi>)\s*((?:(?!</?munderover>).)*?)(<mo stretchy=\"false\">[ˆˉ˜˙]</mo>)\s*</munderover>", re.S)
 
 
 def drop_links(app, docname, source):
@@ -152,11 +153,13 @@ def draw_formula(translator, node):
     """A formula as MathML, with its number at the right."""
     is_display = isinstance(node, nodes.math_block)
     text, *number = re.split(r"\\tag\{(.*?)\}", node.astext().rstrip())
+    text = re.sub(r"(\\t?frac)(\d)(\d)", r"\1{\2}{\3}", text)  # which docutils takes for 12 over what follows
     try:
         formula = latex2mathml.tex2mathml(text, as_block=is_display)
     except MathError as error:
         logging.getLogger(__name__).warning("%s: %s", error, text, location=node)
         formula = ""
+    formula = ACCENT.sub(r"<msub><mover>\1\3</mover>\2</msub>", formula)
     formula = re.sub(r"<mo[^>]*>([/|])</mo>", r'<mo lspace="0" rspace="0" stretchy="false">\1</mo>', formula)
     number = f"<span>({number[0]})</span>" if number else ""
     translator.body.append(f'<div class="formula"><div>{formula}</div>{number}</div>' if is_display else formula)

@@ -19,7 +19,8 @@ module atrito_points
    use atrito_mesh, only: mesh_t
    implicit none (type, external)
    private
-   public :: contact_points_t, sliding_t, terms_t, allocate_points, add_point, add_entries, add_term, drop_points
+   public :: contact_points_t, sliding_t, terms_t, allocate_points, add_point, add_entries, add_term, drop_points, &
+             insert_point
 
    !> A motion in which both sides of a pair slide along themselves (atrito_sliding_motions).
    type :: sliding_t
@@ -141,10 +142,42 @@ contains
    pure subroutine drop_points(nodes, points)
       integer(ip), intent(in) :: nodes(:)           !< 0: none
       type(contact_points_t), intent(inout) :: points
-      integer(ip), allocatable :: list(:), entries(:)
+      integer(ip) :: i
+
+      call take_points(pack([(i, i=1, points%n)], [(.not. any(nodes == points%node(i)), i=1, points%n)]), points)
+   end subroutine drop_points
+
+   !> Puts a point behind those that lie before it along the slave.
+   pure subroutine insert_point(one, points)
+      type(contact_points_t), intent(in) :: one      !< n = 1
+      type(contact_points_t), intent(inout) :: points
+      integer(ip) :: before, i
+
+      associate (n => points%n, last => points%first(points%n + 1) - 1)
+         points%entry = [points%entry(:last), one%entry(:one%first(2) - 1)]
+         points%coefficient = [points%coefficient(:last), one%coefficient(:one%first(2) - 1)]
+         points%first = [points%first(:n + 1), last + one%first(2)]
+         points%node = [points%node(:n), one%node]
+         points%x = reshape([points%x(:, :n), one%x], [2_ip, n + 1])
+         points%s = [points%s(:n), one%s]
+         points%normal = reshape([points%normal(:, :n), one%normal], [2_ip, n + 1])
+         points%length = [points%length(:n), one%length]
+         points%weight = [points%weight(:n), one%weight]
+         points%gap = [points%gap(:n), one%gap]
+         if (allocated(points%doubt)) points%doubt = [points%doubt(:n), one%doubt]
+         before = count(points%s(:n) <= one%s(1), kind=ip)
+      end associate
+      points%n = points%n + 1
+      call take_points([[(i, i=1, before)], points%n, [(i, i=before + 1, points%n - 1)]], points)
+   end subroutine insert_point
+
+   !> Keeps the points of a list, in its order.
+   pure subroutine take_points(list, points)
+      integer(ip), intent(in) :: list(:)
+      type(contact_points_t), intent(inout) :: points
+      integer(ip), allocatable :: entries(:)
       integer(ip) :: i, k
 
-      list = pack([(i, i=1, points%n)], [(.not. any(nodes == points%node(i)), i=1, points%n)])
       entries = [((k, k=points%first(list(i)), points%first(list(i) + 1) - 1), i=1, size(list, kind=ip))]
       points%entry = points%entry(entries)
       points%coefficient = points%coefficient(entries)
@@ -161,6 +194,7 @@ contains
       points%length = points%length(list)
       points%weight = points%weight(list)
       points%gap = points%gap(list)
-   end subroutine drop_points
+      if (allocated(points%doubt)) points%doubt = points%doubt(list)
+   end subroutine take_points
 
 end module atrito_points

@@ -1,15 +1,21 @@
 !> What it means that no solution was found: there is none, and why; or there may be one, and the last iterate is what there is.
 module atrito_verdict
+   use atrito_body_cache, only: body_cache_t
    use atrito_certificate, only: certificate_t, prove_balance, BALANCE_IMPOSSIBLE, BALANCE_POSSIBLE
    use atrito_clp, only: clp_trouble
+   use atrito_contact_form, only: CONTACT_SPARSE
+   use atrito_contact_problem, only: set_known_points
+   use atrito_end_points, only: add_end_points
    use atrito_free_motion, only: free_motion_text
    use atrito_kinds, only: wp
    use atrito_load_digits, only: is_within_digits, take_out
    use atrito_mechanism, only: mechanism_t, describe_motion
+   use atrito_model, only: model_t
    use atrito_motion_rows, only: motion_rows_t, build_motion_rows
    use atrito_results, only: pair_scene_t
-   use atrito_scene_data, only: scene_data_t
-   use atrito_status, only: status_t, set_status, STATUS_SINGULAR
+   use atrito_scene_data, only: prepare, scene_data_t, solve_options_t
+   use atrito_status, only: is_ok, status_t, set_status, STATUS_SINGULAR
+   use atrito_strings, only: to_text
    implicit none (type, external)
    private
    public :: judge_balance
@@ -28,6 +34,7 @@ contains
       type(motion_rows_t) :: motions, motions_at_end
       type(certificate_t) :: certificate
       type(mechanism_t) :: mechanism
+      character(len=:), allocatable :: ends
       logical :: is_doubtful
 
       call build_motion_rows(data%fem, data%rows, data%line, data%f, motions)
@@ -43,15 +50,50 @@ contains
          end associate
          return
       end if
-      if (certificate%verdict == BALANCE_IMPOSSIBLE .and. .not. is_doubtful) then
+      if (certificate%verdict == BALANCE_IMPOSSIBLE) call look_at_ends(data, ends)
+      if (certificate%verdict == BALANCE_IMPOSSIBLE .and. .not. (is_doubtful .or. allocated(ends))) then
          call build_motion_rows(data%fem, data%rows, data%line, f_end, motions_at_end)
          call describe_motion(data%fem, data%rows, data%line, motions, certificate, mechanism, motions_at_end%work)
          call set_status(status, STATUS_SINGULAR, free_motion_text(data%fem, data%held, data%rows, data%line, pairs, mechanism))
          return
       end if
       if (.not. allocated(verdict)) verdict = 'no solution was found'
-      verdict = verdict//'; '//knowledge(certificate)
+      if (allocated(ends)) then
+         verdict = verdict//'; '//ends
+      else
+         verdict = verdict//'; '//knowledge(certificate)
+      end if
    end subroutine judge_balance
+
+   !> Whether loads that the points cannot take may be taken by forces at ends of masters, where the slave's nodes beside them leave
+   !> no point (atrito_end_points): a text, not allocated where they are not. The motion proves nothing of the bodies then.
+   subroutine look_at_ends(data, text)
+      type(scene_data_t), intent(in) :: data
+      character(len=:), allocatable, intent(out) :: text
+      type(model_t), target :: model
+      type(scene_data_t) :: longer
+      type(body_cache_t) :: store
+      type(solve_options_t) :: asked
+      type(motion_rows_t) :: motions
+      type(certificate_t) :: certificate
+      type(status_t) :: status
+      real(wp), allocatable :: places(:, :)
+
+      if (all(data%model%points%n == 0)) return
+      model = data%model
+      call add_end_points(model, places)
+      if (size(places) == 0) return
+      asked%contact_form = CONTACT_SPARSE              ! no body is numbered for a profile
+      call prepare(model, store, asked, longer, status, data%step)
+      if (.not. is_ok(status)) return
+      longer%f = data%f
+      call set_known_points(longer%rows, data%value, longer%line)
+      call build_motion_rows(longer%fem, longer%rows, longer%line, longer%f, motions)
+      call prove_balance(motions, longer%line, certificate)
+      if (certificate%verdict == BALANCE_IMPOSSIBLE) return
+      text = 'no forces at the points of this mesh balance the loads, but forces at the ends of masters between nodes of the '// &
+             'slave may, as at ('//to_text(places(1, 1), 6)//', '//to_text(places(2, 1), 6)//'): it takes a node of the slave there'
+   end subroutine look_at_ends
 
    function knowledge(certificate) result(text)
       type(certificate_t), intent(in) :: certificate

@@ -6,7 +6,7 @@ module atrito_refined_members
    use atrito_triangle_pieces, only: is_piece_on_side
    implicit none (type, external)
    private
-   public :: fine_nodes, fine_elements, face_on_side, edge_value
+   public :: fine_nodes, add_nodes_between, fine_elements, face_on_side, edge_value
 
 contains
 
@@ -108,6 +108,31 @@ contains
          fine(k) = i
       end do
    end function fine_nodes
+
+   !> Adds to nodes of the fine mesh what it has on an edge all of whose nodes are there, and inside an element all of whose are.
+   pure subroutine add_nodes_between(fine, refinement, nodes)
+      type(mesh_t), intent(in) :: fine
+      type(refinement_t), intent(in) :: refinement
+      integer(ip), allocatable, intent(inout) :: nodes(:)
+      logical, allocatable :: chosen(:)
+      integer(ip), allocatable :: inner(:)
+      integer(ip) :: e, i, n
+
+      allocate (chosen(fine%n_nodes), source=.false.)
+      chosen(nodes) = .true.
+      do i = 1, refinement%n_edges
+         n = merge(3_ip, 2_ip, refinement%edge_node(3, i) > 0)
+         if (all(chosen(refinement%edge_node(:n, i)))) chosen(refinement%edge_first(i):refinement%edge_first(i + 1) - 1) = .true.
+      end do
+      do e = 1, refinement%n_elements
+         if (.not. all(chosen(refinement%edge_node(:2, refinement%face_edge(1, e))))) cycle
+         inner = [fine%nodes(:, fine_elements(refinement, [e]))]
+         inner = pack(inner, inner > 0)
+         if (all(chosen(inner) .or. inner > refinement%n_nodes)) chosen(inner) = .true.
+      end do
+      chosen(nodes) = .false.
+      nodes = [nodes, pack([(i, i=1, fine%n_nodes)], chosen)]
+   end subroutine add_nodes_between
 
    !> Value between the nodes of an edge: first, last[, middle].
    pure real(wp) function edge_value(values, t) result(value)

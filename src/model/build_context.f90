@@ -84,6 +84,7 @@ module atrito_build_context
       logical :: pairs_undetermined = .false.                !< a *CONTACT PAIR could not be understood
       logical :: rigid_undetermined = .false.                !< a *RIGID BODY names another surface than it should
       integer(ip), allocatable :: loose_held(:, :)     !< (3, n_nodes) LOOSE_*: supports of nodes of no element; third: rotations
+      logical, allocatable :: held_singly(:, :)        !< refined: (2, nodes of the deck) supported by a line of one node
       integer(ip), allocatable :: dof_entry(:, :)      !< (3, n_nodes): place in open%supports; 0: free; third: rotations
       real(wp), allocatable :: axes(:, :, :)           !< (2, dof, n_nodes) local axes; 0: along x and y; not allocated: nowhere
    end type build_context_t

@@ -1,11 +1,12 @@
 !> What the tables of several runs have in common: which of them can be drawn over one another, and over which ranges.
 module atrito_overlay_data
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
    use atrito_kinds, only: ip, wp
    use atrito_status, only: status_t, is_ok
    use atrito_read_table, only: table_file_t, read_table, table_path, find_column, item_text
    use atrito_plot_text, only: range_t, cover
-   use atrito_strings, only: to_text
+   use atrito_strings, only: string_t, to_text
+   use atrito_summary, only: quantity_names
    implicit none (type, external)
    private
    public :: overlay_t, overlay_run_t, overlay_pair_t, read_runs, is_logarithmic, field_t, FIELDS, QUANTITIES, LONGEST_LABEL
@@ -28,10 +29,11 @@ module atrito_overlay_data
                                             field_t('gap', 'gap', 'L', 7)]
    !> A row of summary.tab that is drawn against a parameter.
    type :: quantity_t
-      character(len=22) :: name
-      character(len=16) :: label
+      character(len=32) :: name
+      character(len=32) :: label
       character(len=5) :: dimension
    end type quantity_t
+   integer, parameter :: MOST_OBSERVED = 4           !< panels of what is observed
    type(quantity_t), parameter :: QUANTITIES(4) = [quantity_t('normal_resultant', 'normal resultant', 'F'), &
                                                    quantity_t('effective_area_percent', 'effective area', '%'), &
                                                    quantity_t('max_pressure', 'max. pressure', 'F/L^2'), &
@@ -46,7 +48,7 @@ module atrito_overlay_data
       logical :: has_tables = .false.              !< contact.tab can be read
       logical :: not_converged = .false.
       integer(ip) :: step = 1, increment = 1       !< the last of contact.tab, which is drawn
-      real(wp), allocatable :: quantity(:, :)      !< (size(QUANTITIES), pairs): of summary.tab; not allocated: there is none
+      real(wp), allocatable :: quantity(:, :)      !< (size(overlay_t%quantities), pairs): of summary.tab; not allocated: there is none
    end type overlay_run_t
 
    !> A contact pair over all runs.
@@ -66,6 +68,7 @@ module atrito_overlay_data
       character(len=:), allocatable :: parameter   !< its name, as it can be drawn
       type(overlay_run_t), allocatable :: runs(:)
       type(overlay_pair_t), allocatable :: pairs(:)
+      type(quantity_t), allocatable :: quantities(:) !< QUANTITIES, and what is observed, which is of no pair
       logical :: is_csv = .false.                  !< the tables are comma-separated values
    end type overlay_t
 
@@ -90,7 +93,7 @@ contains
       integer(ip) :: k
       integer :: i
 
-      allocate (overlay%pairs(0))
+      allocate (overlay%pairs(0), overlay%quantities(0))
       overlay%title = ''
       do i = 1, size(overlay%runs)
          associate (run => overlay%runs(i))
@@ -105,7 +108,7 @@ contains
                overlay%pairs(k)%name = comment_of(table%text, 'pair '//to_text(k))
             end do
             call read_table(table_path(run%path, 'summary'), table, status)
-            if (is_ok(status)) call take_quantities(table, run)
+            if (is_ok(status)) call take_quantities(table, overlay%quantities, run)
          end associate
       end do
    end subroutine read_runs
@@ -159,23 +162,51 @@ contains
       pairs%most_points = max(pairs%most_points, n_points)
    end subroutine cover_run
 
-   subroutine take_quantities(table, run)
-      type(table_file_t), intent(in) :: table
-      type(overlay_run_t), intent(inout) :: run
-      integer(ip) :: c_pair, c_name, c_value, row, pair
+   !> What a run was asked to observe, the first ones: quantities that not every summary has.
+   function observed_quantities(table) result(list)
+      type(table_file_t), intent(in) :: table       !< summary
+      type(quantity_t), allocatable :: list(:)
+      type(string_t), allocatable :: known(:)
+      character(len=len(list%name)) :: name, label
+      integer(ip) :: c_name, row
       integer :: i
 
+      allocate (list(0))
+      known = quantity_names()
+      c_name = find_column(table, 'quantity')
+      if (c_name == 0) return
+      do row = 1, table%n_rows
+         name = item_text(table, c_name, row)
+         if (any([(known(i)%s == name, i=1, size(known))]) .or. any(list%name == name)) cycle
+         label = name
+         do i = 1, len_trim(label)
+            if (label(i:i) == '_') label(i:i) = ' '
+         end do
+         list = [list, quantity_t(name, label, '')]
+         if (size(list) == MOST_OBSERVED) return
+      end do
+   end function observed_quantities
+
+   !> The first run says what there is to take.
+   subroutine take_quantities(table, list, run)
+      type(table_file_t), intent(in) :: table       !< summary
+      type(quantity_t), allocatable, intent(inout) :: list(:)
+      type(overlay_run_t), intent(inout) :: run
+      integer(ip) :: c_pair, c_name, c_value, row, pair, i
+
+      if (size(list) == 0) list = [QUANTITIES, observed_quantities(table)]
       c_pair = find_column(table, 'pair')
       c_name = find_column(table, 'quantity')
       c_value = find_column(table, 'value')
       if (min(c_pair, c_name, c_value) == 0 .or. table%n_rows == 0) return
-      allocate (run%quantity(size(QUANTITIES), max(0_ip, maxval(nint(table%value(c_pair, :), ip)))), source=0.0_wp)
+      allocate (run%quantity(size(list), max(0_ip, maxval(nint(table%value(c_pair, :), ip)))), source=0.0_wp)
+      run%quantity(size(QUANTITIES) + 1:, :) = ieee_value(1.0_wp, ieee_quiet_nan)
       do row = 1, table%n_rows
          pair = nint(table%value(c_pair, row), ip)
-         if (pair < 1) cycle
-         do i = 1, size(QUANTITIES)
-            if (item_text(table, c_name, row) == QUANTITIES(i)%name) run%quantity(i, pair) = table%value(c_value, row)
-         end do
+         i = findloc(list%name == item_text(table, c_name, row), .true., dim=1, kind=ip)
+         if (i == 0) cycle
+         if (pair > 0) run%quantity(i, pair) = table%value(c_value, row)
+         if (pair == 0) run%quantity(i, :) = table%value(c_value, row)
       end do
    end subroutine take_quantities
 

@@ -3,6 +3,7 @@
 !>
 !> As with the pictures of a run, a failure is a warning, W-PLOT.
 module atrito_overlay_plots
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use atrito_contact_plot, only: put_contact_columns, pair_legend
    use atrito_gnuplot, only: draw_written
    use atrito_kinds, only: ip, wp
@@ -260,8 +261,10 @@ contains
       type(plots_t), intent(inout) :: plots
       type(overlay_t), intent(in) :: overlay
       type(overlay_t) :: sorted
-      character(len=:), allocatable :: heading
+      character(len=:), allocatable :: heading, observed
+      integer(ip), allocatable :: shown(:)
       integer(ip) :: i, n
+      integer :: k
       logical :: doubt
 
       sorted = overlay
@@ -269,11 +272,18 @@ contains
       call write_quantities(plots, sorted)
       associate (runs => sorted%runs, is_one => size(overlay%pairs) == 1)
          doubt = any(runs%not_converged)
+         shown = [(i, i=1, size(overlay%quantities, kind=ip))]
          n = size(QUANTITIES, kind=ip)
-         if (.not. any([(any(abs(runs(i)%quantity(n, :)) > 0.0_wp), i=1, size(runs))])) n = n - 1   ! no shear
+         if (.not. any([(any(abs(runs(i)%quantity(n, :)) > 0.0_wp), i=1, size(runs))])) shown = pack(shown, shown /= n)   ! no shear
+         observed = ''
+         do i = n + 1, size(overlay%quantities, kind=ip)
+            if (.not. any([(any(ieee_is_finite(runs(k)%quantity(i, :))), k=1, size(runs))])) shown = pack(shown, shown /= i)
+            observed = observed//', '//to_text(column_of(i))//' '//trim(overlay%quantities(i)%name)
+         end do
          call begin_script(plots, OVERLAY_SUMMARY, 'quantities of several runs against the parameter that varies', &
                            'Columns of overlay-summary.dat: 1 parameter, 2 normal resultant [F], 3 effective area [%],'//LF// &
-                           '# 4 largest pressure [F/L^2], 5 largest shear [F/L^2], 6 is 1 if not converged; a block a pair')
+                           '# 4 largest pressure [F/L^2], 5 largest shear [F/L^2], 6 is 1 if not converged'//observed// &
+                           '; a block a pair')
          call put(plots, 'pairs = '//to_text(size(overlay%pairs, kind=ip))//LF//'array name[pairs]')
          do i = 1, size(overlay%pairs, kind=ip)
             call put(plots, 'name['//to_text(i)//'] = '//quoted(pair_legend(i, overlay%pairs(i)%name)))
@@ -281,13 +291,13 @@ contains
          heading = quoted(overlay%title)
          if (is_one) heading = heading//'."\n".'//quoted(cleaned(pair_line(1_ip, overlay%pairs(1)%name), LONGEST_TITLE))
          call put(plots, 'heading = '//heading)
-         call put_frame(plots, n, parameter_range(runs%value), quoted(overlay%parameter))
+         call put_frame(plots, size(shown, kind=ip), parameter_range(runs%value), quoted(overlay%parameter))
          call put_parameter_axis(plots, runs%value)
          if (is_one .and. .not. doubt) call put(plots, 'right = 0.95')   ! no legend
          call put_terminal(plots, '1000,height')
          call put(plots, 'set multiplot title heading noenhanced'//LF//colour_styles(' lw 1.8 pt 7 ps 0.9*dot'))
-         do i = 1, n
-            call put_quantity(plots, i, runs,.not. is_one, doubt)
+         do i = 1, size(shown, kind=ip)
+            call put_quantity(plots, i, shown(i), sorted,.not. is_one, doubt)
          end do
       end associate
       call put(plots, 'unset multiplot')
@@ -341,17 +351,22 @@ contains
       integer(ip) :: pair
       integer :: i, j
 
+      line = ''
+      do i = size(QUANTITIES) + 1, size(overlay%quantities)
+         line = line//'  '//trim(overlay%quantities(i)%name)
+      end do
       call begin_data(plots, OVERLAY_SUMMARY, 'a block a pair; columns: '//overlay%parameter//'  normal_resultant [F]  '// &
-                      'effective_area_percent  max_pressure [F/L^2]  max_abs_shear [F/L^2]  1 if not converged')
+                      'effective_area_percent  max_pressure [F/L^2]  max_abs_shear [F/L^2]  1 if not converged'//line)
       do pair = 1, size(overlay%pairs, kind=ip)
          call put(plots, '# pair '//to_text(pair))
          do i = 1, size(overlay%runs)
             if (pair > size(overlay%runs(i)%quantity, 2)) cycle
             line = trimmed_real(overlay%runs(i)%value, 12)
-            do j = 1, size(QUANTITIES)
+            do j = 1, size(overlay%quantities)
                line = line//' '//trimmed_real(overlay%runs(i)%quantity(j, pair), 12)
+               if (j == size(QUANTITIES)) line = line//merge(' 1', ' 0', overlay%runs(i)%not_converged)
             end do
-            call put(plots, line//merge(' 1', ' 0', overlay%runs(i)%not_converged))
+            call put(plots, line)
          end do
          call put(plots, LF)
       end do
@@ -372,34 +387,45 @@ contains
       end if
    end function parameter_range
 
-   subroutine put_quantity(plots, place, runs, has_pairs, has_doubt)
+   !> The column of a quantity in overlay-summary.dat.
+   pure integer(ip) function column_of(place)
+      integer(ip), intent(in) :: place              !< in overlay_t%quantities
+
+      column_of = place + merge(1_ip, 2_ip, place <= size(QUANTITIES))
+   end function column_of
+
+   subroutine put_quantity(plots, panel, place, overlay, has_pairs, has_doubt)
       type(plots_t), intent(inout) :: plots
-      integer(ip), intent(in) :: place              !< of the panel, and in QUANTITIES
-      type(overlay_run_t), intent(in) :: runs(:)
+      integer(ip), intent(in) :: panel, place       !< place: in overlay%quantities
+      type(overlay_t), intent(in) :: overlay
       logical, intent(in) :: has_pairs, has_doubt   !< several; a run did not converge
       character(len=:), allocatable :: line, column
       type(range_t) :: range
       real(wp) :: room
+      logical :: is_steep
       integer :: i
 
-      do i = 1, size(runs)
-         call cover(range, runs(i)%quantity(place, :))
-      end do
+      associate (runs => overlay%runs)
+         do i = 1, size(runs)
+            call cover(range, runs(i)%quantity(place, :))
+         end do
+         is_steep = is_logarithmic([(runs(i)%quantity(place, :), i=1, size(runs))])
+      end associate
       room = LEAST_SPAN*max(abs(range%low), abs(range%high))
       if (range%low <= range%high .and. span(range) < room) range = range_t(range%low - room, range%high + room)
       call put(plots, 'unset logscale y; set format y "%h"')    ! of the panel before
-      call put_panel(plots, place, trim(QUANTITIES(place)%label), trim(QUANTITIES(place)%dimension), range)
-      if (is_logarithmic([(runs(i)%quantity(place, :), i=1, size(runs))])) then
+      call put_panel(plots, panel, trim(overlay%quantities(place)%label), trim(overlay%quantities(place)%dimension), range)
+      if (is_steep) then
          call put(plots, 'set yrange ['//to_text(range%low/1.5_wp, 6)//'/unit:'//to_text(range%high*1.5_wp, 6)// &
                   '/unit]'//LF//'set logscale y; set format y "10^{%T}"')
       end if
-      column = to_text(place + 1)
+      column = to_text(column_of(place))
       line = 'plot for [i=1:pairs] "overlay-summary.dat" index i-1 using 1:($'//column// &
              '/unit) with linespoints ls (i-1)%'//to_text(N_COLOURS)//'+1'
-      if (place == 1 .and. has_pairs) line = line//' title name[i] noenhanced'
+      if (panel == 1 .and. has_pairs) line = line//' title name[i] noenhanced'
       if (has_doubt) line = line//', "overlay-summary.dat" using 1:($6 > 0 ? $'//column//'/unit : NaN) with points pt 6 lw 1.5 '// &
                             'ps 2*dot lc rgb "black"'
-      if (place == 1 .and. has_doubt) line = line//' title "not converged"'
+      if (panel == 1 .and. has_doubt) line = line//' title "not converged"'
       call put(plots, line)
    end subroutine put_quantity
 

@@ -162,16 +162,18 @@ contains
       character(len=*), intent(in) :: name, dimension
       type(range_t), intent(in) :: range            !< of the values
       type(range_t) :: window
-      character(len=:), allocatable :: i
+      character(len=:), allocatable :: i, unit
       integer(ip) :: power
 
       i = to_text(place)
       window = padded(range)
       power = engineering_exponent(range)
+      unit = trim(power_text(power)//dimension)
+      if (len(unit) > 0) unit = ' ['//unit//']'
       call put(plots, 'set rmargin at screen right; set tmargin at screen top('//i//'); set bmargin at screen bottom('//i//')'// &
                LF//'set key noautotitle at screen right + 0.015, screen top('//i// &
                ') left top Left reverse samplen 2.5 spacing 1.15'//LF// &
-               'set label 1 "'//name//' ['//power_text(power)//dimension//']" at screen 0.03, screen middle('//i// &
+               'set label 1 "'//name//unit//'" at screen 0.03, screen middle('//i// &
                ') center rotate by 90'//LF// &
                'if ('//i//' == panels) { set format x x_format; set xlabel axis_label noenhanced } '// &
                'else { set format x ""; unset xlabel }'//LF//'unit = 1e'//to_text(power)//LF// &

@@ -22,14 +22,15 @@ module atrito_report_numbers
                                                                    'largest contact pressure', 'largest contact shear']
 
    !> Quantities of a step that come first.
-   character(len=*), parameter :: NUMBERS(4) = [character(len=22) :: 'strain_energy', 'external_work', &
-                                                                                   'error_estimate_percent', 'equilibrium_residual']
+   character(len=*), parameter :: NUMBERS(5) = [character(len=22) :: 'strain_energy', 'external_work', &
+                                                            'error_bound_percent', 'error_estimate_percent', 'equilibrium_residual']
    character(len=*), parameter :: NUMBER_WORDS(size(NUMBERS)) = [character(len=40) :: &
                                                                  'strain energy', 'external work', &
+                                                                 'largest error of the energy norm', &
                                                                  'estimated error of the energy norm', &
                                                                  'equilibrium residual over largest force']
-   character(len=*), parameter :: NUMBER_UNITS(size(NUMBERS)) = [character(len=6) :: '[F L]', '[F L]', '%', '']
-   integer, parameter :: NUMBER_DIGITS(size(NUMBERS)) = [6, 6, 3, 2]
+   character(len=*), parameter :: NUMBER_UNITS(size(NUMBERS)) = [character(len=6) :: '[F L]', '[F L]', '%', '%', '']
+   integer, parameter :: NUMBER_DIGITS(size(NUMBERS)) = [6, 6, 3, 3, 2]
 
    !> Rows of summary that belong together: a pair in an increment, or, with pair 0, an increment.
    type :: group_t

@@ -12,7 +12,7 @@ module atrito_summary
    private
    public :: pair_summary_t, quantity_t, scales_t
    public :: summarise_pair, error_text, uniqueness_text, pair_quantities, step_quantities, quantity_names, states_text, closed_word
-   public :: large_text, measure_history
+   public :: all_step_quantities, large_text, measure_history
    public :: pair_count, pair_name, body_count
 
    !> What the contact tractions of one pair come to.
@@ -266,16 +266,27 @@ contains
    pure function quantity_names() result(names)
       type(string_t), allocatable :: names(:)
       type(quantity_t), allocatable :: list(:)
-      type(results_t) :: full
       integer :: i
 
-      full%uniqueness = uniqueness_t(nu=1.0_wp, index=1_ip, solutions=1_ip)
-      list = [pair_quantities(pair_summary_t(), scales_t()), step_quantities(full)]
+      list = [pair_quantities(pair_summary_t(), scales_t()), all_step_quantities()]
       allocate (names(0))
       do i = 1, size(list)
          call append_string(names, trim(list(i)%name))
       end do
    end function quantity_names
+
+   !> Every quantity that a step can have there, without values.
+   pure function all_step_quantities() result(list)
+      type(quantity_t), allocatable :: list(:)
+      type(results_t) :: full
+
+      full%uniqueness = uniqueness_t(nu=1.0_wp, index=1_ip, solutions=1_ip)
+      full%error_bound%exists = .true.
+      full%large_strain%value = 1.0_wp
+      full%large_rotation%value = 1.0_wp
+      full%large_slip%value = 1.0_wp
+      list = step_quantities(full)
+   end function all_step_quantities
 
    pure function counted(name, value)
       character(len=*), intent(in) :: name

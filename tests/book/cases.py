@@ -210,11 +210,11 @@ def find_value(case, value, folder):
 
 
 def find_summary(folder, quantity):
-    """The last row of a quantity of the step in summary.tab, or None."""
+    """A quantity of the step at the end of the run, from summary.tab, or None."""
     try:
         columns, rows = read_table(Path(folder)/"summary.tab")
     except BookError:
         return None
-    at, value = columns.index("quantity"), columns.index("value")
-    found = [row[value] for row in rows if row[at] == quantity]
-    return found[-1] if found else None
+    at, value, step, increment = (columns.index(name) for name in ("quantity", "value", "step", "increment"))
+    end = (rows[-1][step], rows[-1][increment])
+    return next((row[value] for row in rows if row[at] == quantity and (row[step], row[increment]) == end), None)

@@ -129,7 +129,16 @@ def main():
         for old, new, code, words in FAULTS:
             assert old in CASE
             expect(f"{new} for {old}", book(work, CASE.replace(old, new)), code, words)
-    print(f"{len(FAULTS) + 6} faults, {failed} not noticed")
+        (work/"summary.tab").write_text("# columns: step pair quantity value increment\n1 0 error_bound_percent 10 1\n2 0 linear_solves 1 9\n")
+        bound = run_book.cases.find_summary(work, "error_bound_percent")
+        expect("a bound of another step", (bound, ""), None)
+        (work/"input").mkdir()
+        (work/"input"/"a.inp").write_text("*HEADING\n")
+        (work/"gallery.toml").write_text('[[deck]]\nsection = "S"\ndeck = "input/b.inp"\npage = "p.md"\ntext = "t"\n')
+        said = run_book.gallery.check(work, work, [], work)
+        for words in ("has not input/a.inp", "there is no input/b.inp", "figures/gallery/b.svg is not there", "gallery.md: run_book"):
+            expect("a gallery", (1, "\n".join(said)), 1, words)
+    print(f"{len(FAULTS) + 11} faults, {failed} not noticed")
     return 1 if failed else 0
 
 

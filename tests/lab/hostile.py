@@ -173,7 +173,7 @@ def options(head: str) -> Callable[[Made], None]:
     """A head of summary.tab with options for the run that is made again."""
     def make(made: Made) -> None:
         made.write()
-        for name in made.sheet.tables:
+        for name in {"summary", *made.sheet.tables}:
             made.table(name).write_text(f"# options: {head}\n# parameters: {head.replace('=', ' = ')} (--set)\n" + made.table(name).read_text())
     return make
 
@@ -247,6 +247,7 @@ wild_options = options("--refine 9 --set F=1e300 --plot --restart /etc/passwd -o
 shell_options = options("--set F=1;touch pwned --solver $(id)")
 
 # what they try has no effect on the points, for the answers are right
+LEFT_OUT = (link_to_folder, deep)
 HARMLESS = (link_to_folder, bytes_in_names, deep, heading, shell_options)
 KINDS: list[Callable[[Made], None]] = [
     html, html_end, formula, formulas, shell, control, turned, nested, long_number, not_numbers, slow_pattern, link_to_secret, link_of_folder,

@@ -11,6 +11,7 @@ import csv
 import json
 import os
 import re
+import resource
 import subprocess
 import sys
 import tempfile
@@ -42,6 +43,18 @@ def lab(words: list[str]) -> subprocess.CompletedProcess[str]:
     return subprocess.run([str(TOP/"tools"/"lab"/"atrito-lab"), *words], capture_output=True, text=True, check=False)
 
 
+def clock() -> tuple[float, float]:
+    """Seconds by the clock, and of processor that all programs took that were run."""
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return time.monotonic(), used.ru_utime + used.ru_stime
+
+
+def since(start: tuple[float, float]) -> str:
+    """What has gone by, in words."""
+    seconds, processor = (now - then for now, then in zip(clock(), start))
+    return f"{seconds:.1f} s ({processor:.1f} s of processor)"
+
+
 def make_class(sheet: Sheet, count: int, folder: Path) -> dict[str, tuple[str, Expected]]:
     """Make the hand-ins, and a list of the class; what is expected of each number."""
     # a small class, of continuous integration, takes the reference runs from the making of it
@@ -63,9 +76,9 @@ def try_class(sheet: Sheet, count: int, folder: Path) -> None:
     """Mark a made-up class, and look at points and reason of every item."""
     expected = make_class(sheet, count, folder)
     correct(sheet, expected, folder/"marks")
-    start = time.monotonic()
+    start = clock()
     done = lab(["mark", str(sheet.folder), str(folder/"hand-ins"), "-o", str(folder/"marks"), "--class", str(folder/"class.csv")])
-    seconds = time.monotonic() - start
+    taken = since(start)
     if done.returncode:
         fail(f"{sheet.name}: exit {done.returncode}: {done.stderr}")
         return
@@ -81,7 +94,7 @@ def try_class(sheet: Sheet, count: int, folder: Path) -> None:
         if abs(float(rows[number][f"{sheet.name} (of {sheet.points:g})"]) - results["score"]) > 1e-4:
             fail(f"{number}: marks.csv has other points than results.json")
     look_for_alike(sheet, expected, (folder/"marks"/"lecturer.html").read_text())
-    print(f"{sheet.name}: {count} hand-ins marked in {seconds:.1f} s")
+    print(f"{sheet.name}: {count} hand-ins marked in {taken}")
 
 
 def correct(sheet: Sheet, expected: dict[str, tuple[str, Expected]], marks: Path) -> None:
@@ -149,9 +162,9 @@ def try_hostile(sheet: Sheet, folder: Path) -> None:
     with (folder/"class.csv").open("w", newline="") as file:
         csv.writer(file).writerows([["number", "name"], *[[number, (hostile.FORMULA, hostile.EVIL)[place % 2]] for place, number in enumerate(numbers)]])
     before, elsewhere = tree(folder), set(os.listdir(tempfile.gettempdir()))
-    start = time.monotonic()
+    start = clock()
     done = lab(["mark", str(sheet.folder), str(folder/"hand-ins"), "-o", str(folder/"marks"), "--class", str(folder/"class.csv"), "--seconds", "3"])
-    seconds = time.monotonic() - start
+    taken = since(start)
     if done.returncode:
         fail(f"hostile: exit {done.returncode}: {done.stderr[-2000:]}")
         return
@@ -169,9 +182,11 @@ def try_hostile(sheet: Sheet, folder: Path) -> None:
         if "not marked" in results["extra_data"]["kinds"].values():
             fail(f"hostile: {number} ({kind.__name__}) was not marked: {results['tests'][0]['output']}")
         is_full = results["score"] == sheet.points
+        if kind in hostile.LEFT_OUT and "read" not in results["output"]:
+            fail(f"hostile: {number} ({kind.__name__}) is not told what was left out: {results['output']}")
         if is_full != (kind in (right, *hostile.HARMLESS)):
             fail(f"hostile: {number} ({kind.__name__}) has {results['score']} points")
-    print(f"{sheet.name}: {len(hostile.KINDS)} hostile hand-ins marked in {seconds:.1f} s")
+    print(f"{sheet.name}: {len(hostile.KINDS)} hostile hand-ins marked in {taken}")
 
 
 def look_at(path: Path) -> None:

@@ -9,12 +9,12 @@ module atrito_observations
    use atrito_messages, only: add_warning, message_t, SEVERITY_ERROR
    use atrito_model, only: model_t, observed_line_t
    use atrito_observed_names, only: field_names, find_term, observable_names
-   use atrito_observed_terms, only: is_of_strain, is_of_stress, step_quantity_list, term_t, value_of_term, TERM_STEP
+   use atrito_observed_terms, only: is_of_strain, is_of_stress, term_t, value_of_term, TERM_STEP
    use atrito_observer, only: observer_t
    use atrito_place_fields, only: nodal_strains
    use atrito_results, only: history_row_t, observed_t, results_t
    use atrito_strings, only: nearest_names, same_name, string_t, to_text
-   use atrito_summary, only: quantity_t
+   use atrito_summary, only: all_step_quantities, quantity_t
    implicit none (type, external)
    private
    public :: observations_t, read_observations, observation_names
@@ -228,7 +228,7 @@ contains
       integer :: i
 
       wants_stress = .false.
-      list = step_quantity_list()
+      list = all_step_quantities()
       do i = 1, size(terms)
          associate (term => terms(i))
             wants_stress = wants_stress .or. is_of_stress(term)

@@ -8,11 +8,11 @@ module atrito_observed_names
    use atrito_numbers, only: read_integer, NUMBER_OK
    use atrito_observed_arguments, only: complain_of_count, find_nodes, put_place
    use atrito_place_fields, only: IS_POLAR
-   use atrito_observed_terms, only: pair_quantity_list, step_quantity_list, term_t, FIRST_FORCE, NODAL_FIELDS, &
+   use atrito_observed_terms, only: pair_quantity_list, term_t, FIRST_FORCE, NODAL_FIELDS, &
                                     POINT_FIELDS, TAKE_LARGEST, TAKE_LEAST, TAKE_MEAN, TAKE_ONE, TAKE_SUM, TERM_PAIR, &
                                     TERM_POINTS, TERM_STEP, TERM_TIME, TERM_ZONE, ZONE_FIELDS
    use atrito_strings, only: string_t, append_string, lower_case, same_name, to_text
-   use atrito_summary, only: quantity_t
+   use atrito_summary, only: all_step_quantities, quantity_t
    implicit none (type, external)
    private
    public :: find_term, field_names, observable_names
@@ -62,7 +62,7 @@ contains
       type(message_t), intent(inout) :: fault
       integer :: i
 
-      term%field = index_of(step_quantity_list(), name)
+      term%field = index_of(all_step_quantities(), name)
       term%kind = merge(TERM_STEP, TERM_TIME, term%field > 0)
       if (term%field == 0 .and. name /= TIME_NAME) then
          fault%length = len(call%name, kind=ip)
@@ -239,7 +239,7 @@ contains
       integer :: i
 
       names = field_names()
-      list = [pair_quantity_list(), step_quantity_list()]
+      list = [pair_quantity_list(), all_step_quantities()]
       do i = 1, size(list)
          call append_string(names, trim(list(i)%name))
       end do

@@ -5,10 +5,11 @@ module atrito_observed_terms
    use atrito_kinds, only: ip, is_nan, wp
    use atrito_place_fields, only: place_field, place_values_t, FIRST_STRAIN, FIRST_STRESS, PLACE_FIELDS
    use atrito_results, only: contact_result_t, history_row_t, results_t
-   use atrito_summary, only: pair_quantities, pair_summary_t, quantity_t, scales_t, step_quantities, summarise_pair
+   use atrito_summary, only: all_step_quantities, pair_quantities, pair_summary_t, quantity_t, scales_t, step_quantities, &
+                             summarise_pair
    implicit none (type, external)
    private
-   public :: term_t, value_of_term, pair_quantity_list, step_quantity_list, is_of_strain, is_of_stress
+   public :: term_t, value_of_term, pair_quantity_list, is_of_strain, is_of_stress
    public :: TERM_NODES, TERM_POINTS, TERM_PAIR, TERM_ZONE, TERM_STEP, TERM_TIME
    public :: TAKE_ONE, TAKE_SUM, TAKE_MEAN, TAKE_LEAST, TAKE_LARGEST
    public :: NODAL_FIELDS, POINT_FIELDS, ZONE_FIELDS, FIRST_FORCE
@@ -65,12 +66,25 @@ contains
       case (TERM_ZONE)
          value = zone_value(term, results%contact(term%pair), rows)
       case (TERM_STEP)
-         list = step_quantities(results)
-         value = list(term%field)%value
+         value = step_value(term%field, results)
       case default
          value = results%time
       end select
    end function value_of_term
+
+   !> One of all_step_quantities; nan where the step has it not, as what a search finds without a search.
+   pure real(wp) function step_value(field, results) result(value)
+      integer, intent(in) :: field                   !< place among all
+      type(results_t), intent(in) :: results
+      type(quantity_t), allocatable :: list(:), all_of_them(:)
+      integer :: i
+
+      value = ieee_value(1.0_wp, ieee_quiet_nan)
+      list = step_quantities(results)
+      all_of_them = all_step_quantities()
+      i = findloc(list%name, all_of_them(field)%name, dim=1)
+      if (i > 0) value = list(i)%value
+   end function step_value
 
    !> One of ZONE_FIELDS. Without contact an extent is 0, and nothing else is defined.
    pure real(wp) function zone_value(term, contact, rows) result(value)
@@ -192,12 +206,5 @@ contains
 
       list = pair_quantities(pair_summary_t(), scales_t())
    end function pair_quantity_list
-
-   !> The same of a step.
-   pure function step_quantity_list() result(list)
-      type(quantity_t), allocatable :: list(:)
-
-      list = step_quantities(results_t())
-   end function step_quantity_list
 
 end module atrito_observed_terms

@@ -12,6 +12,7 @@ module atrito_stability_limit
    use atrito_folder_claim, only: folder_claim_t, release_folder
    use atrito_frame_spool, only: begin_frames, end_frames, frame_spool_t
    use atrito_history, only: solve_history
+   use atrito_end_points, only: add_end_points
    use atrito_kinds, only: ip, lp, wp
    use atrito_load_model, only: load_model, prepare_observations
    use atrito_mesh, only: find_node
@@ -328,6 +329,7 @@ contains
       call append_string(one%settings, parameter//'='//to_text(x, ALL_DIGITS))
       call clear_messages()
       call load_model(one, reporter, model, n_printed, code, only_errors)
+      if (code == STATUS_OK) call add_end_points(model)
    end subroutine load_value
 
    subroutine print_failure(command, parameter, x, status)

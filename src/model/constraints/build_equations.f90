@@ -12,6 +12,7 @@ module atrito_build_equations
    use atrito_refinement, only: is_refined
    use atrito_row_dofs, only: check_row_dof, check_row_nodes, row_terms, row_weight, TERMS_A_DOF, WHAT_DOF
    use atrito_refined_deck, only: order_like
+   use atrito_refined_members, only: add_nodes_between
    use atrito_strings, only: to_text
    implicit none (type, external)
    private
@@ -167,16 +168,27 @@ contains
       end do
    end subroutine read_term_line
 
-   !> On a refined mesh the nodes of sets are put into the order of those of the first.
+   !> On a refined mesh the nodes of sets are put into the order of those of the first. Where all of a set move as one node that is
+   !> no member of it, what is new between members and that node belongs to the set, too.
    subroutine order_sets(context, place, terms, ok)
       type(build_context_t), intent(in) :: context
       type(token_t), intent(in) :: place
       type(term_t), intent(inout) :: terms(:)
       logical, intent(out) :: ok
+      integer(ip), allocatable :: nodes(:)
       integer(ip) :: i
 
       ok = .true.
-      if (.not. is_refined(context%refinement)) return
+      if (.not. is_refined(context%refinement) .or. size(terms(1)%nodes) == 1) return
+      if (all([(size(terms(i)%nodes), i=2, size(terms, kind=ip))] == 1)) then
+         do i = 2, size(terms, kind=ip)
+            if (.not. is_idle_at(terms(i)%nodes(1), terms, context)) cycle
+            nodes = [terms(i)%nodes(1), terms(1)%nodes]
+            call add_nodes_between(context%model%mesh, context%refinement, nodes)
+            terms(1)%nodes = nodes(2:)
+         end do
+         return
+      end if
       do i = 2, size(terms, kind=ip)
          if (size(terms(i)%nodes) == 1 .or. size(terms(i)%nodes) /= size(terms(1)%nodes)) cycle
          if (ok) call order_like(context%refinement, terms(1)%nodes, terms(i)%nodes, ok)
@@ -220,6 +232,23 @@ contains
          end do
       end associate
    end subroutine add_equations
+
+   !> Whether an equation with a node in the place of its first one asks for nothing.
+   logical function is_idle_at(node, terms, context)
+      integer(ip), intent(in) :: node
+      type(term_t), intent(in) :: terms(:)             !< all but the first of one node each
+      type(build_context_t), intent(in) :: context
+      integer(ip) :: i, nodes(TERMS_A_DOF, size(terms))
+      real(wp) :: vectors(2, TERMS_A_DOF, size(terms))
+
+      is_idle_at = .false.
+      if (any(terms%dof == ROTATION_DOF)) return
+      do i = 1, size(terms, kind=ip)
+         call row_terms(context, merge(node, terms(i)%nodes(1), i == 1), terms(i)%dof, 1.0_wp, nodes(:, i), vectors(:, :, i))
+         vectors(:, :, i) = terms(i)%coefficient*vectors(:, :, i)
+      end do
+      is_idle_at = is_empty([nodes], reshape(vectors, [2_ip, size(nodes, kind=ip)]))
+   end function is_idle_at
 
    pure logical function is_empty(nodes, vectors)
       integer(ip), intent(in) :: nodes(:)

@@ -12,6 +12,8 @@ module atrito_build_rigid_bodies
    use atrito_model, only: model_t, rigid_body_name, rigid_body_t, SURFACE_SEGMENTS
    use atrito_number_list, only: number_list_t, add_numbers, numbers_of
    use atrito_references, only: find_elements, find_nodes, find_surface, in_no_element
+   use atrito_refined_members, only: add_nodes_between
+   use atrito_refinement, only: is_refined
    use atrito_sorting, only: each_once
    use atrito_strings, only: to_text
    implicit none (type, external)
@@ -162,6 +164,7 @@ contains
       end do
       nodes = each_once(numbers_of(found_nodes))
       nodes = pack(nodes,.not. in_no_element(context, nodes))
+      if (is_refined(context%refinement)) call add_nodes_between(context%model%mesh, context%refinement, nodes)
       if (.not. ok .or. .not. allocated(name) .or. size(nodes) > 0) return
       ok = .false.
       call report_error(context%deck, card%place, 'E-NODE', 'no node of '//name//' belongs to an element', &

@@ -144,6 +144,11 @@ contains
                               numbered)
             end do
             call prescribe_edges(context, numbered)
+            if (numbered%n == 0) cycle
+            if (.not. allocated(context%held_singly)) then
+               allocate (context%held_singly(PLANE_DOFS, context%refinement%n_nodes), source=.false.)
+            end if
+            context%held_singly = context%held_singly .or. numbered%line > 0
          end associate
       end do
    end subroutine read_cards

@@ -3,11 +3,13 @@ module atrito_local_axes
    use atrito_build_context, only: build_context_t, ids_text
    use atrito_coordinates, only: get_reals
    use atrito_deck, only: card_t, token_t, line_item, keyword_name
-   use atrito_diagnostics, only: report_error
+   use atrito_diagnostics, only: report_error, report_note
    use atrito_items, only: get_real, option_text, option_word
    use atrito_kinds, only: ip, wp
    use atrito_motion, only: moved, turned
    use atrito_references, only: find_nodes
+   use atrito_refinement, only: is_refined
+   use atrito_strings, only: to_text
    implicit none (type, external)
    private
    public :: read_local_axes, dof_direction, has_local_axes
@@ -27,7 +29,37 @@ contains
          if (.not. allocated(context%axes)) allocate (context%axes(2, 2, context%model%mesh%n_nodes), source=0.0_wp)
          call read_transform_card(context%deck%cards(i), context)
       end do
+      if (is_refined(context%refinement) .and. allocated(context%axes)) call fill_edges(context)
    end subroutine read_local_axes
+
+   !> What a finer mesh has between nodes of several sets takes their axes where these are the same; where not that is told.
+   subroutine fill_edges(context)
+      type(build_context_t), intent(inout) :: context
+      integer(ip) :: edge, i, k, n
+      logical :: told
+
+      told = .false.
+      associate (fine => context%refinement, axes => context%axes)
+         do edge = 1, fine%n_edges
+            n = merge(3_ip, 2_ip, fine%edge_node(3, edge) > 0)
+            associate (nodes => fine%edge_node(:n, edge), first => fine%edge_first(edge), last => fine%edge_first(edge + 1) - 1)
+               if (any([(.not. has_local_axes(context, nodes(k)), k=1, n)])) cycle
+               if (any([(has_local_axes(context, k), k=first, last)])) cycle
+               if (all([(abs(axes(:, :, nodes(k)) - axes(:, :, nodes(1))) <= SAME_AXIS, k=2, n)])) then
+                  axes(:, :, first:last) = spread(axes(:, :, nodes(1)), 3, last - first + 1)
+               else if (fine%edge_element(2, edge) == 0 .and. .not. told) then
+                  told = .true.
+                  i = findloc(context%deck%cards(:context%deck%n_cards)%name, 'TRANSFORM', dim=1, kind=ip)
+                  associate (id => context%model%mesh%node_id(nodes(:2)))
+                     call report_note(context%deck, context%deck%cards(i)%place, 'N-REFINE', 'the finer mesh has nodes between '// &
+                                      to_text(id(1))//' and '//to_text(id(2))//', whose axes are different, and they have none', &
+                                      keyword='TRANSFORM')
+                  end associate
+               end if
+            end associate
+         end do
+      end associate
+   end subroutine fill_edges
 
    subroutine read_transform_card(card, context)
       type(card_t), intent(in) :: card

@@ -4,9 +4,11 @@
 !> that it is. The places of the new nodes in the block's unit square are those of a refined mesh whose coordinates they are: there
 !> every element is a rectangle, and the map of the element is exact.
 !>
-!> Equations: those that a deck gives node by node along a side have none at the nodes between; of those between two sets the nodes
-!> are put into corresponding orders, since the new nodes of a set stand edge by edge, and edges run either way.
+!> Equations and supports: those that a deck gives node by node along a side may have none at the nodes between, which is told; of
+!> equations between two sets the nodes are put into corresponding orders, since the new nodes of a set stand edge by edge, and edges
+!> run either way.
 module atrito_refined_deck
+   use atrito_bilateral_rows, only: ROW_EQUATION
    use atrito_block_map, only: map_point, has_arcs
    use atrito_build_context, only: build_context_t
    use atrito_diagnostics, only: report_error, report_note
@@ -23,6 +25,8 @@ module atrito_refined_deck
    real(wp), parameter :: SAME_PLACE = 1.0e-5_wp
 
    integer(ip), parameter :: PLANE_DOFS = 2
+   !> What a dof of a node is: the first of an equation, another one, supported by a line of one node, supported by a set.
+   integer(ip), parameter :: FIRST = 1, OTHER = 2, SINGLE = 3, SET = 4
 
 contains
 
@@ -118,35 +122,71 @@ contains
                         keyword='BLOCK')
    end subroutine report_other_curve
 
-   !> Reports the first such side, at the first *EQUATION.
+   !> Reports the first edge of the outline whose nodes all have equations or supports in a dof, and whose new nodes have none. Ends
+   !> that sets support with nothing else between them are two sides, and those that single lines support stand under several cards.
    subroutine note_free_sides(context)
       type(build_context_t), intent(in) :: context
-      logical, allocatable :: has_equation(:, :)       ! (n_nodes, dof) of first terms
+      logical, allocatable :: has(:, :, :)             ! (dof, n_nodes, FIRST | OTHER | SINGLE | SET)
+      logical :: holds(SET)
       integer(ip) :: dof, edge, i, n
+      character(len=8) :: keyword
 
-      if (.not. is_refined(context%refinement) .or. context%model%equations%n == 0) return
-      allocate (has_equation(context%model%mesh%n_nodes, PLANE_DOFS), source=.false.)
-      associate (equations => context%model%equations, fine => context%refinement)
-         do i = 1, equations%n
-            if (equations%dof(i) <= PLANE_DOFS) has_equation(equations%node(i), equations%dof(i)) = .true.
-         end do
+      if (.not. is_refined(context%refinement)) return
+      if (context%model%equations%n == 0 .and. .not. allocated(context%held_singly)) return
+      call list_joined(context, has)
+      associate (fine => context%refinement)
          do edge = 1, fine%n_edges
             if (fine%edge_element(2, edge) > 0) cycle  ! inside
             n = merge(3_ip, 2_ip, fine%edge_node(3, edge) > 0)
             do dof = 1, PLANE_DOFS
-               if (.not. all(has_equation(fine%edge_node(:n, edge), dof))) cycle
-               if (any(has_equation(fine%edge_first(edge):fine%edge_first(edge + 1) - 1, dof))) cycle
-               i = findloc(context%deck%cards(:context%deck%n_cards)%name, 'EQUATION', dim=1, kind=ip)
-               associate (id => context%model%mesh%node_id(fine%edge_node(:2, edge)))
-                  call report_note(context%deck, context%deck%cards(i)%place, 'N-REFINE', 'the finer mesh has nodes between '// &
-                                   'those with equations, as between '//to_text(id(1))//' and '//to_text(id(2))//', and they '// &
-                                   'have none; where equations name sets they have', keyword='EQUATION')
+               associate (nodes => fine%edge_node(:n, edge))
+                  if (.not. all(any(has(dof, nodes, :), dim=2))) cycle
+                  if (any(has(dof, fine%edge_first(edge):fine%edge_first(edge + 1) - 1, :))) cycle
+                  holds = any(has(dof, nodes, :), dim=1)
+                  if (.not. merge(holds(FIRST), holds(SINGLE) .and. any(holds([FIRST, OTHER, SET])), &
+                                  all(any(has(dof, nodes, FIRST:OTHER), dim=2)))) cycle
+                  keyword = merge('EQUATION', 'BOUNDARY', any(holds(FIRST:OTHER)))
+                  i = findloc(context%deck%cards(:context%deck%n_cards)%name, keyword, dim=1, kind=ip)
+                  associate (id => context%model%mesh%node_id(nodes(:2)))
+                     call report_note(context%deck, context%deck%cards(i)%place, 'N-REFINE', 'the finer mesh has nodes between '// &
+                                      'those with equations or supports, as between '//to_text(id(1))//' and '//to_text(id(2))// &
+                                      ', and they have none; where one set has all of a side they have', keyword=keyword)
+                  end associate
+                  return
                end associate
-               return
             end do
          end do
       end associate
    end subroutine note_free_sides
+
+   !> Which dofs of nodes are the first of equations, are others of them, are supported by lines of one node, and by others.
+   subroutine list_joined(context, has)
+      type(build_context_t), intent(in) :: context
+      logical, allocatable, intent(out) :: has(:, :, :) !< (2, n_nodes, SET)
+      integer(ip) :: i, k
+
+      allocate (has(PLANE_DOFS, context%model%mesh%n_nodes, SET), source=.false.)
+      associate (rows => context%model%bilateral, n => context%model%mesh%n_nodes, equations => context%model%equations)
+         do i = 1, rows%n
+            if (rows%kind(i) /= ROW_EQUATION) cycle
+            do k = rows%first(i), rows%first(i + 1) - 1
+               if (rows%node(k) <= n) has(:, rows%node(k), OTHER) = has(:, rows%node(k), OTHER) .or. abs(rows%vector(:, k)) > 0.0_wp
+            end do
+         end do
+         do i = 1, equations%n
+            if (equations%dof(i) <= PLANE_DOFS) has(equations%dof(i), equations%node(i), FIRST) = .true.
+         end do
+      end associate
+      if (allocated(context%held_singly)) has(:, :context%refinement%n_nodes, SINGLE) = context%held_singly
+      do i = 1, size(context%model%steps, kind=ip)
+         associate (held => context%model%steps(i)%prescribed)
+            do k = 1, held%n
+               if (held%dof(k) <= PLANE_DOFS) has(held%dof(k), held%node(k), SET) = .true.
+            end do
+         end associate
+      end do
+      has(:, :, SET) = has(:, :, SET) .and. .not. has(:, :, SINGLE)
+   end subroutine list_joined
 
    !> Puts the nodes of `other` into the order of those of `set`: the nodes of the deck correspond as they stand, new ones between
    !> two of them to those between their partners. ok: .false. where there are none.

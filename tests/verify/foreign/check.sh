@@ -53,6 +53,8 @@ near 'style: pressed' "$(of prepomax-style 1 normal_resultant)" 10 1e-8
 awk '/^\*NODE PRINT|^\*EL PRINT/ { exit } { print }' "$decks/mecway-bar.inp" >components.inp
 cp components.inp whole.inp
 printf '*NODE PRINT\nU1, RF2, U3, COOR1\n*EL PRINT, POSITION=CENTROIDAL\nS11, E11, S23\n*END STEP\n' >>components.inp
+sed -i -e 's/^\*STEP/&, INCF=9, THERMAL NETWORK/' -e 's/^\*SURFACE,/& TRIM=YES,/' -e 's/^\*SOLID SECTION,/& REF NODE=1,/' \
+   -e 's/^\*[CD]LOAD/&, SECTOR=2/' components.inp
 printf '*NODE PRINT\nU, RF\n*EL PRINT\nS\n*END STEP\n' >>whole.inp
 runs components components.inp
 run 0 whole.inp whole --digits 12
@@ -62,4 +64,7 @@ done
 says 'components: told' components.err 'variable U1 of *NODE PRINT is written with all components of U'
 says 'components: not in the plane' components.err 'variable U3 of *NODE PRINT is not written'
 says 'components: where' components.err 'POSITION=CENTROIDAL of *EL PRINT has no effect: stress.tab has the integration points'
+for option in INCF THERMAL\ NETWORK TRIM REF\ NODE SECTOR; do
+   says "components: $option" components.err "option $option of "
+done
 finish

@@ -208,13 +208,16 @@ U
 END
 run 0 push.inp push --digits 17 --quiet --observe 'n2=normal_resultant(2)' --observe 'p1=max_pressure(MID-BOTTOM)' \
    --observe 'most=max(pressure,1)' --observe 'least=min(shear, TOP-BOTTOM)' --observe 'uniform=mean(pressure,1)*2' \
-   --observe 'wide=max(u2,LOW)' --observe 'load=rf2(TOP-TOP)' --observe 'vm=max(mises,TOP)' --observe 'opening=max(gap,1)+1'
+   --observe 'wide=max(u2,LOW)' --observe 'load=rf2(TOP-TOP)' --observe 'vm=max(mises,TOP)' --observe 'opening=max(gap,1)+1' \
+   --observe 'searched=solutions_found' --observe 'bound=error_bound_percent'
 near 'a quantity of pair 2' "$(value_of push n2)" "$(awk '$2 == 2 && $3 == "normal_resultant" { print $4 }' push/summary.tab)" 0
 near 'a quantity of pair 1' "$(value_of push p1)" "$(awk '$2 == 1 && $3 == "max_pressure" { print $4 }' push/summary.tab)" 0
 near 'largest pressure' "$(value_of push most)" "$(value_of push p1)" 0
 near 'least shear' "$(value_of push least)" "$(awk '!/^#/ && $2 == 2 { if (n++ == 0 || $10 < m) m = $10 } END { printf "%.17g", m }' push/contact.tab)" 0
 near 'mean pressure' "$(value_of push uniform)" "$(awk '$2 == 1 && $3 == "normal_resultant" { print $4 }' push/summary.tab)" 1e-12
 near 'reaction and resultant' "$(value_of push load)" "$(value "-($(value_of push n2))")" 1e-9
+near 'a bound of the error' "$(value_of push bound)" "$(summary push error_bound_percent | tail -1)" 0
+[ "$(value_of push searched)" = nan ] || complain 'solutions are counted without a search'
 [ "$(column push/history.tab n2)" = "$(awk '!/^#/ && $4 == 2 { print $5; print $5 }' push/history.tab)" ] ||
    complain 'a column of history.tab beside that of the pair'
 [ "$(column push/history.tab p1 | tail -1)" = "$(value_of push p1)" ] || complain 'history.tab and summary.tab'

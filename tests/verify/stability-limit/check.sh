@@ -195,4 +195,15 @@ absent wrong
 limit 2 wrong "$here/slope.inp" --vary E=0:1
 says 'a deck with errors at an end' wrong.err 'E = 0 is not positive'
 absent wrong
+# a stack over the edge of a table whose nodes stand inside the edges, of the blocks above and, exchanged, of those below: the
+# harmonic sum, which no point at a node has; a run finds no solution where the edge would hold, and proves nothing there
+stack="$here/../../book/S4-stacks/stack.inp"
+sed 's/^B\([1-4]\)-BOTTOM, B\([2-5]\)-TOP/B\2-TOP, B\1-BOTTOM/' "$stack" >exchanged.inp
+limit 0 off "$stack" --vary f=0.5:1.2 --set off=0.05
+between off 1 1e-6
+limit 0 exchanged exchanged.inp --vary f=0.5:1.2 --set off=0.3
+between exchanged 1 1e-6
+run 3 "$stack" off-run --set off=0.05 --set f=0.99 --quiet
+says 'at the edges' off-run/stack.lst 'forces at the ends of masters'
+run 4 "$stack" off-run-falls --set off=0.05 --set f=1.01 --quiet
 finish

@@ -7,8 +7,13 @@ forces() {
 }
 
 # one triangle: off the floor, stuck, slipping
-run 0 "$lessons/three-solutions.inp" three --digits 17
+run 0 "$lessons/three-solutions.inp" three --digits 17 --observe 'n=solutions_found + index' --observe 'sure=unique_up_to_nu'
 near 'solutions' "$(summary three solutions_found)" 3 0
+near 'solutions that are observed, and the index' "$(summary three n)" 4 0
+near 'what is certified, observed' "$(summary three sure)" "$(summary three unique_up_to_nu)" 0
+for folder in three three/solution-2 three/solution-3; do
+   below 'what is left of the balance' "$(summary $folder equilibrium_residual)" 1e-8
+done
 near 'their indices' "$(value "$(summary three index) + $(summary three/solution-2 index) + $(summary three/solution-3 index)")" 1 0
 near 'off the floor, u1' "$(column three/nodes.tab u1 | head -1)" -9.2943967e-5 1e-12
 near 'off the floor, u2' "$(column three/nodes.tab u2 | head -1)" 9.4528315e-6 1e-13
@@ -35,6 +40,8 @@ says 'one solution' three.out 'exactly one solution for every load up to nu = 0.
 grep -q W-UNIQUE three.err && complain 'a warning though one solution is certified'
 near 'found' "$(summary three solutions_found)" 1 0
 below 'certified' "$(summary three unique_up_to_nu)" 0.66333
+run 0 "$lessons/three-solutions.inp" beyond --set nu=0.66
+says 'beyond what is certified' beyond.out 'not proved beyond nu = 0.654; 40 starts find no other solution'
 run 0 "$lessons/three-solutions.inp" sparse --set nu=0.65 --contact sparse
 says 'sparse' sparse.out 'not proved: no search either, the sparse form has no matrix'
 grep -Eq 'unique_up_to_nu|solutions_found|index' sparse/summary.tab && complain 'the sparse form certifies'
@@ -105,6 +112,11 @@ sed 's/^rho = .*/rho = 0.1/' "$input/ex1-plate-on-support.inp" >nonlocal.inp
 run 0 nonlocal.inp nonlocal --refine 1 --quiet
 below 'nonlocal: certified' "$(summary nonlocal unique_up_to_nu)" 1.073
 below 'nonlocal: not far below' 1.03 "$(summary nonlocal unique_up_to_nu)"
+# with a radius of its own the law is certified to the same on finer meshes, 25 and 49 points
+for level in 2 3; do
+   run 0 nonlocal.inp finer-$level --quiet --proof off --refine $level
+done
+near 'nonlocal, finer' "$(value "$(summary finer-3 unique_up_to_nu)/$(summary finer-2 unique_up_to_nu)")" 1 0.01
 
 # friction alone holds it
 run 0 "$lessons/block-on-floor.inp" pushed

@@ -178,7 +178,7 @@ def _judge_table(case: Case, name: str) -> TableState:
         other = digest and digest != made.heads.get("digest")
         how = "comes from another deck than the one handed in" if other else "was changed by hand, or is made up"
         return TableState(table, "other deck" if other else "edited",
-                          f"The table {name} {how}: when the deck is run again, {count} of {total} numbers differ. {first}.")
+                          f"The table {name} {how}: when the deck is run again, {count} of {total} numbers differ, first the {first}.")
     if case.values_kind == "neighbour":
         return TableState(table, "neighbour", case.values_reason)
     return TableState(table, "right", f"The deck gives the table {name}.")

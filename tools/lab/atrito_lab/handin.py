@@ -81,9 +81,11 @@ def _copy_tree(source: Path, copy: Path, hand_in: HandIn) -> list[Path]:
                 hand_in.notes.append(f"There are more than {FILES} files; the others were not read.")
                 return found
             path = folder/name
-            if os.path.isdir(source/path) and not os.path.islink(source/path):
-                if len(path.parts) < DEPTH:
-                    waiting.append(path)
+            is_link = os.path.islink(source/path)
+            if os.path.isdir(source/path) and not is_link and len(path.parts) < DEPTH:
+                waiting.append(path)
+            elif os.path.isdir(source/path):
+                hand_in.notes.append(f"The folder {shown(name)} is {'a link' if is_link else 'too deep'}; it was not read.")
             elif _counts(name) and _copy_file(source/path, copy/path, hand_in):
                 found.append(path)
     return found
