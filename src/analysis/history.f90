@@ -3,6 +3,21 @@
 !> What was factored serves as long as the same dofs are held; an increment changes what acts (atrito_step_loads) and the rest slips
 !> of friction (atrito_slip_memory), and starts from the one before. One that fails is cut. A run of one increment is solve_static
 !> and nothing else.
+!>
+!>     solve_history
+!>       resume                     behind a recorded increment, where there is one: its state, rows and frames
+!>       begin_step                 k = 1: bodies, points, rows; later: the same ones, unless other dofs are held
+!>       go_through_step            until the time of the step is over
+!>         try_increment            loads of the time reached, solve_increment, the search for other solutions
+!>         keep_increment           solved: rest slips, a row a pair, iterations, what is observed, the frame where it is printed
+!>         record                   what the next one begins from, to whoever keeps it (a restart file)
+!>         cut_increment            not solved: a shorter one from the same state, down to the least length
+!>       end_early                  not even so: the last increment that was solved is printed
+!>       finish                     lists to their lengths; warnings, of the worst of all frames
+!>
+!> What the next increment needs of the one before is in run_t: the contact line as it was left (data%last), the memory of slip
+!> (memory), the sizes of all motions and forces so far (data%had), which say what is round-off where little acts, and the results
+!> (last). An increment that fails changes none of it, which is why it may simply be tried again over a shorter time.
 module atrito_history
    use atrito_body_cache, only: body_cache_t, release_bodies
    use atrito_contact_scales, only: had_t, widen
@@ -232,6 +247,7 @@ contains
       end associate
    end subroutine go_through_step
 
+   !> Solves from the state that is left to a time of the step, and keeps nothing.
    subroutine try_increment(k, increment, to, store, run, results, solution, status)
       integer(ip), intent(in) :: k, increment
       real(wp), intent(in) :: to                     !< time of the step

@@ -1,5 +1,20 @@
 !> One increment: from what acts to displacements, contact and its checks. The form of the contact system, and what is tried where
 !> it finds no solution.
+!>
+!>     solve_increment
+!>       solve_one_form             in the form that the scene has, dense or sparse
+!>         solve_form               the contact system: solve_condensed, or assemble and solve_multiplier
+!>           judge_outcome          no solution: can there be one? A proof that there is none ends the run (exit 4)
+!>           settle_idle_motions    a solution: of those that differ by motions which nothing determines, the least
+!>         finish_form              results, then the final check; a check that fails is judged as no solution is
+!>       solve_without_near         not solved, and elements that nearly equal were taken as equal: again, each by itself
+!>       climb                      not solved: the rungs of the ladder, one after the other, until one finds a solution
+!>
+!> A solution counts where the outer loop has converged and the final check, which knows nothing of how it was found, holds
+!> (is_solved). All attempts begin from the same results (begin_results), so an attempt that fails leaves no trace but its time.
+!>
+!> Two steps can find that the loads hang on the last digits of the deck: a roller that would turn for a moment that only rounding
+!> makes. Then these digits are taken out of the loads and the form is solved again, MOST_CHANGES times at most (`again`).
 module atrito_increment
    use atrito_body_cache, only: body_cache_t
    use atrito_body_motions, only: body_text, find_moved_body, how_it_moves

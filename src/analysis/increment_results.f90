@@ -110,6 +110,11 @@ contains
    end subroutine begin_early
 
    !> Displacements, reactions, contact fields, energies and balances.
+   !>
+   !> Equilibrium, and all that is a product with the stiffness, is asked of the displacements without the rigid motions of the
+   !> bodies: K Z = 0, and K times a motion that is large beside the strains would be round-off as large as the forces. They are
+   !> added behind that. Reactions are K u - f + B'q where dofs are held. The forces of ties, equations and springs are in B'q, too;
+   !> share_out_rows and clear_balance count them as what they are: between bodies, or of a body with the ground.
    subroutine recover(data, solution, u, results)
       type(scene_data_t), intent(in) :: data
       type(contact_solution_t), intent(inout) :: solution

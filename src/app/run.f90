@@ -1,4 +1,19 @@
 !> One run: read the deck, build the model, solve, write.
+!>
+!>     run_deck
+!>       load_model                 the deck becomes cards and a model; all errors of the deck are told here, exit 2
+!>       prepare_observations       what *OBSERVE and --observe mean in this model
+!>       check_folder, check_files  what could not be written, or would replace what is not ours, is told before an hour of solving
+!>       solve_history              the solution; with --adapt as often as take_next_mesh has a finer mesh to solve on
+!>       agree_on_outcome           results that are not converged, or that the final check refuses, make exit 3
+!>       write_run                  in a folder that no other run may write into meanwhile:
+!>         write_results            tables, listing, fields, which appear together
+!>         write_plots, draw_shown  pictures, and make_run_report the page: a failure there is a warning
+!>         write_others             other solutions that were found, each in a folder of its own
+!>         compose_summary          the screen
+!>
+!> A run without a last increment (no equilibrium, a contradiction in the deck) writes nothing; older tables stay, and a note says
+!> so.
 module atrito_run
    use, intrinsic :: iso_fortran_env, only: output_unit
    use atrito_adaptation, only: adaptation_t, adaptation_text, begin_adaptation, build_adaptation, mesh_text, missed_text

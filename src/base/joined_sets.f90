@@ -28,7 +28,7 @@ contains
    !> The lowest number of a set.
    pure subroutine find_lowest(parent, number)
       integer(ip), intent(inout) :: parent(:)        !< (n)
-      integer(ip), intent(inout) :: number           !< in: a member; out: the lowest
+      integer(ip), intent(inout) :: number           !< a member; on return the lowest
 
       do while (parent(number) /= number)
          parent(number) = parent(parent(number))

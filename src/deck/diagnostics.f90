@@ -65,25 +65,23 @@ contains
    end subroutine report_outside
 
    !> As report_error, a warning.
-   subroutine report_warning(deck, token, id, text, expected, known, keyword)
+   subroutine report_warning(deck, token, id, text, expected, keyword)
       type(deck_t), intent(in) :: deck
       type(token_t), intent(in) :: token
       character(len=*), intent(in) :: id, text
       character(len=*), intent(in), optional :: expected, keyword
-      type(string_t), intent(in), optional :: known(:)
 
-      call report(deck, token, SEVERITY_WARNING, id, text, expected, known, keyword)
+      call report(deck, token, SEVERITY_WARNING, id, text, expected, keyword=keyword)
    end subroutine report_warning
 
    !> As report_error, a note.
-   subroutine report_note(deck, token, id, text, expected, known, keyword)
+   subroutine report_note(deck, token, id, text, expected, keyword)
       type(deck_t), intent(in) :: deck
       type(token_t), intent(in) :: token
       character(len=*), intent(in) :: id, text
       character(len=*), intent(in), optional :: expected, keyword
-      type(string_t), intent(in), optional :: known(:)
 
-      call report(deck, token, SEVERITY_NOTE, id, text, expected, known, keyword)
+      call report(deck, token, SEVERITY_NOTE, id, text, expected, keyword=keyword)
    end subroutine report_note
 
    !> Reports an error of a file as a whole, without a line.

@@ -174,6 +174,12 @@ contains
 
    !> From the model to bodies, points, laws and loads, and the form of the contact system. status: STATUS_DECK, which is told by a
    !> message, when the averages need more memory than there is.
+   !>
+   !> The form is chosen first, since it decides how equations are numbered: body by body for a profile, or all for one sparse
+   !> matrix. Numberings of an earlier run serve again where the same dofs are held. Points are put right while they can be: where
+   !> rounding of coordinates alone keeps a body from sliding along its supports, and where supports hold what a row would ask for.
+   !> Rows and the contact line follow, with the values and loads at the end of the step; set_time changes these for an increment,
+   !> and nothing else.
    subroutine prepare(model, store, asked, data, status, step)
       type(model_t), intent(in), target :: model
       type(body_cache_t), intent(in) :: store

@@ -60,7 +60,7 @@ contains
 
    !> Reads a file. status: STATUS_FILE when it cannot be read or is damaged; STATUS_DECK when it belongs to another program, to
    !> another deck or to another version of it. Whether what it holds can be of the deck is asked by who uses it (check_found and
-   !> check_start in solve/).
+   !> check_start in stepping/).
    subroutine read_restart(path, fingerprint, history, state, status, frames)
       character(len=*), intent(in) :: path
       type(fingerprint_t), intent(in) :: fingerprint    !< of the deck and the options

@@ -96,7 +96,16 @@ contains
       if (SHAPES(shape)%n_corners /= n_corners) piece_shape = n_corners*SHAPES(shape)%degree
    end function piece_shape
 
-   !> The corners of a leaf's pieces.
+   !> The corners of a leaf's pieces: as it is, or with a node m (and o) in the middle of sides that a neighbour has cut.
+   !>
+   !>     4-----------3      4-----o-----3      4-----------3
+   !>     | \       / |      |     |     |      | \         |
+   !>     |   \   /   |      |     |     |      |   \ c-----o
+   !>     |     \/    |      |     |     |      |     |     |
+   !>     1-----m-----2      1-----m-----2      1-----m-----2
+   !>
+   !> The leaf is turned first so that its side 1 is cut, of two that meet the one that comes first. Trees are cut so that no side
+   !> has two nodes in its middle and no leaf more than two such sides.
    subroutine cut_leaf(trees, leaf, corners, sizes)
       type(element_trees_t), intent(in) :: trees
       integer(ip), intent(in) :: leaf
@@ -199,6 +208,9 @@ contains
    end function along_side
 
    !> Where a place of an element is kept: edge and key on it, or edge 0 and the key inside; node: of the deck, or 0.
+   !>
+   !> A place on an edge is told by how far it is from the first node of the edge, whichever of the two elements asks, so both find
+   !> the same node without comparing coordinates. Places are whole numbers (parts of a side of SIDE), and so are all middles.
    pure subroutine sort_place(mesh, refinement, e, place, edge, key, node)
       type(mesh_t), intent(in) :: mesh
       type(refinement_t), intent(in) :: refinement

@@ -132,6 +132,16 @@ contains
       call build_once(deck, 0_ip, 0_ip, 0_ip, memory, model, trees)
    end subroutine build_by_trees
 
+   !> Builds the model once, subject by subject. What stands later may refer to what stands before:
+   !>
+   !>     nodes, elements, sets     in the order of the deck; finer elements take their place before anything else names any
+   !>     surfaces, rigid bodies    bolts (*PRE-TENSION SECTION) cut the mesh in two along a surface
+   !>     materials, contact        names of pairs, laws, what changes gaps
+   !>     steps                     supports, loads and requests of one step after the other: each inherits from the one before
+   !>     rows                      equations, springs and bolts, for a node that is held in all steps is the ground of a spring
+   !>     ties, pairs               contact that is found, nodes that are moved onto their masters; with an error so far none
+   !>     points                    of all pairs, over places that do not change any more
+   !>     cuts, paths               through the mesh as it has become
    subroutine build_once(deck, levels, shape, state, memory, model, trees)
       type(deck_t), intent(in), target :: deck
       integer(ip), intent(in) :: levels, shape, state

@@ -1,4 +1,4 @@
-!> Where a history stands after a converged increment: all that the next one begins from. stepping/ fills it and goes on from it,
+!> Where a history stands after a converged increment: all that the next one begins from. analysis/ fills it and goes on from it,
 !> fields/ keeps it in a restart file.
 module atrito_restart_state
    use atrito_bound_qp, only: box_bounds_t, box_state_t

@@ -161,6 +161,11 @@ contains
    end subroutine make_rows
 
    !> Makes all columns orthogonal to those of the bubbles (Gram and Schmidt, twice).
+   !>
+   !> A bubble is an Airy function that is 0 with its gradient all along the outline, so no other element sees its number: for any
+   !> a and x it is the one for which E is least. |R_a a + R_x x + B b|^2 is least over b where B'(R_a a + R_x x + B b) = 0, and
+   !> then is |P R_a a + P R_x x|^2, P being the projection on what is orthogonal to the columns of B. One pass of Gram and Schmidt
+   !> leaves a part of eps times the quotient of the lengths, the second one takes that, too.
    pure subroutine leave_bubbles(bubbles, rows)
       real(wp), intent(inout) :: bubbles(:, :)
       real(wp), intent(inout) :: rows(:, :)

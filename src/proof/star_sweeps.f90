@@ -53,6 +53,15 @@ contains
    end subroutine sweep_stars
 
    !> The least energy over the numbers of one star.
+   !>
+   !> With y the free numbers of the star, placed into those of its elements by P_e (zeros and signs), the sum of the energies is
+   !> sum_e (a_e + P_e y)'H_e (a_e + P_e y) + 2 g_e'(a_e + P_e y) + c_e. It is least at
+   !>
+   !>     (sum_e P_e'H_e P_e) y = -sum_e P_e'(H_e a_e + g_e)
+   !>
+   !> and is less there by y' times the right-hand side. H_e a_e + g_e (slope) is kept for each element and moved with it, so a star
+   !> costs the product of some small matrices, whatever the mesh. The order of the system is 3 + (2k - 1) times the sides that meet
+   !> at the corner, 15 with k = 2 in a grid of quadrilaterals.
    subroutine improve_star(mesh, sides, known, n_elements, element, corner, side, outlines, gain)
       type(mesh_t), intent(in) :: mesh
       type(mesh_sides_t), intent(in) :: sides

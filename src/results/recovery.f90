@@ -69,6 +69,14 @@ contains
 
    !> Gap and slip of a point: of an active one from its law, of a free one from its row, or from the displacements where these tell
    !> more, and without friction, where there is no unknown.
+   !>
+   !>             closed, or sticking     open, or slipping
+   !>     gap     -delta p                -r, the residual of its row in the QP
+   !>     slip    s0 + D q, its law       s0 + D q + r, s0 being the rest slip
+   !>
+   !> The law gives all digits of what the displacements have only as a difference: a gap of 1e-12 between sides that have moved by
+   !> 1 is lost in u, and exact as delta p. In the sparse form r is what the last step left, and where idle motions were taken out
+   !> (has_settled) r has the rounding of the way: then the row is asked of the displacements.
    pure subroutine place_of_point(line, rows, solution, u, j, gap, slip)
       type(contact_line_t), intent(in) :: line
       type(contact_rows_t), intent(in) :: rows
@@ -108,6 +116,7 @@ contains
       takes_displacements = solution%has_settled .or. solution%form == CONTACT_SPARSE
    end function takes_displacements
 
+   !> Open without pressure; sticking where there is friction that is below its bound.
    pure integer(ip) function status_of(line, solution, j, pressure) result(status)
       type(contact_line_t), intent(in) :: line
       type(contact_solution_t), intent(in) :: solution

@@ -1,4 +1,4 @@
-!> What the solver found: filled by solve/, read by output/. No text layout here.
+!> What the solver found: filled by results/ and analysis/, read by tables/, fields/ and pictures/. No text layout here.
 module atrito_results
    use atrito_kinds, only: ip, lp, wp
    use atrito_iteration, only: iteration_t
