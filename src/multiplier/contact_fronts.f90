@@ -1,9 +1,10 @@
-!> Long contact lines: where stick ends and slip begins, and where contact ends, before the steps of the multipliers.
+!> Many points: which of them are open, stick and slip, before the steps of the multipliers; on long contact lines, where stick ends
+!> and slip begins, and where contact ends.
 !>
 !> Newton's method with a line search (atrito_multiplier_step) falls in every step and always ends, but its step goes as far as a
-!> few points change: a front between stick and slip moves by a few points a solve, however fine the mesh is. On a long line the
-!> fronts are found first, by a primal and dual active set: solve with the states held, let the law say of each point whether it
-!> would be in another state,
+!> few points change: a front between stick and slip moves by a few points a solve, however fine the mesh is, and a wall of a
+!> thousand blocks takes a hundred. With many points the states are found first, by a primal and dual active set: solve with the
+!> states held, let the law say of each point whether it would be in another state,
 !>
 !>     closed -> open    p < 0             stick -> slip    |t| > tau
 !>     open -> closed    u_n > s           slip -> stick    the slip goes against its friction
@@ -22,22 +23,24 @@
 !> fly. So the number of solves does not grow with the number of points.
 !>
 !> The friction bound is frozen while more than FEW_CHANGES of the points change, as in the Picard loop, and follows the pressures
-!> then. The states that come out are a start for the steps of the multipliers, which go to the last digit and ask whether they are
-!> right. Where the states do not come to rest in MOST_SOLVES (bodies that nothing holds while all slips, say), they begin without.
+!> then. A row that has changed TO_AND_FRO times changes in every other solve alone, and its neighbour in the ones between: so
+!> states that follow each other in a circle come out of it. What is found is a start for the steps of the multipliers, which go to
+!> the last digit and ask whether the states are right. They take it, too, where the last few do not come to rest; where more than
+!> NEAR of the points still change after MOST_SOLVES (bodies that nothing holds while all slips, say), they begin without.
 module atrito_contact_fronts
    use atrito_bound_qp, only: bound_qp_t, box_bounds_t, box_state_t, FREE, AT_LOWER, AT_UPPER, FROZEN
    use atrito_sparse_rows, only: multiply_rows
-   use atrito_contact_line, only: contact_line_t, last_of_pair, set_friction_bounds
+   use atrito_contact_line, only: contact_line_t, pairs_of_unknowns, set_friction_bounds
    use atrito_contact_solution, only: contact_solution_t, bound_of_state, relative_residual
    use atrito_contact_system, only: contact_system_t
    use atrito_kinds, only: ip, wp
    use atrito_multiplier_step, only: residual_of, provide_factor, rho_of, largest_of_pairs
    use atrito_multipliers, only: multiplier_t
-   use atrito_solve_history, only: record_solve
-   use atrito_status, only: status_t, is_ok
+   use atrito_solve_history, only: solve_history_t, record_solve
+   use atrito_status, only: status_t, is_ok, STATUS_SINGULAR
    implicit none (type, external)
    private
-   public :: find_fronts, has_long_pair, move_fronts, front_moves_t
+   public :: find_fronts, has_many_points, move_fronts, front_moves_t
 
    !> What the fronts did in the last step, at each point of the line; 0 where no front passed.
    type :: front_moves_t
@@ -45,31 +48,27 @@ module atrito_contact_fronts
       integer(ip), allocatable :: went(:)        !< (points) length of what the front took of it, and beyond
    end type front_moves_t
 
-   integer(ip), parameter :: LONG_PAIR = 100_ip    !< points of a pair from which on fronts are worth it
+   integer(ip), parameter :: MANY_POINTS = 100_ip  !< for which it is worth it
    integer(ip), parameter :: MOST_SOLVES = 30_ip
+   integer(ip), parameter :: MOST_IN_VAIN = 10_ip  !< of them, since fewer points changed than ever before
+   integer(ip), parameter :: TO_AND_FRO = 3_ip
+   real(wp), parameter :: NEAR = 0.05_wp           !< of the points may still change in a start
    integer(ip), parameter :: LOOKS_AHEAD = 8_ip    !< points that do not change, before those that do are looked for no more
-   real(wp), parameter :: FEW_CHANGES = 0.01_wp    !< of the points: the friction bound may follow
+   real(wp), parameter :: FEW_CHANGES = 0.1_wp     !< of the points: the friction bound may follow
    real(wp), parameter :: BOUND_FOUND = 1.0e-3_wp  !< distance of the bound from that of the pressures, relative
    real(wp), parameter :: NO_EXCESS = 1.0e-10_wp   !< of the largest force of the pair
 
 contains
 
-   !> Whether a pair has so many points that its fronts are worth following.
-   pure logical function has_long_pair(line)
+   !> Whether there are so many points that it is worth to change the states of all at once.
+   pure logical function has_many_points(line)
       type(contact_line_t), intent(in) :: line
-      integer(ip) :: first, last
 
-      has_long_pair = .false.
-      first = 1
-      do while (first <= line%n - line%n_bilateral)
-         last = last_of_pair(line, first)
-         has_long_pair = has_long_pair .or. last - first + 1 >= LONG_PAIR
-         first = last + 1
-      end do
-   end function has_long_pair
+      has_many_points = line%n - line%n_bilateral >= MANY_POINTS
+   end function has_many_points
 
-   !> States, friction bound, forces and displacements near a solution. found: whether the states came to rest; else the
-   !> displacements and forces are as they were. status: that of system%factor.
+   !> States, friction bound, forces and displacements near a solution. found: whether the states came to rest, or nearly; else all
+   !> is as it was, as it is where a matrix of states that were tried is singular. status: that of system%factor but for that.
    subroutine find_fronts(system, shape, line, multipliers, solution, found, status)
       class(contact_system_t), intent(inout) :: system !< A, B, loads, flexibilities
       type(bound_qp_t), intent(in) :: shape   !< numbers of unknowns and weights
@@ -81,7 +80,8 @@ contains
       type(multiplier_t) :: kept
       type(contact_solution_t) :: begun
       type(front_moves_t) :: normal, tangential
-      integer(ip) :: before(system%rows%n), raw(system%rows%n), solves, changes
+      integer(ip) :: before(system%rows%n), raw(system%rows%n), turns(system%rows%n)
+      integer(ip) :: solves, changes, least, since, i ! least changes of a solve, solves since then
       real(wp) :: noise(system%rows%n)
       logical :: follows
 
@@ -91,10 +91,17 @@ contains
       follows = .true.
       call multiply_rows(system%rows, multipliers%x, multipliers%e, noise)
       multipliers%e = multipliers%e + system%g0
+      turns = 0
+      least = huge(least)
+      since = 0
       do solves = 1, MOST_SOLVES
          before = solution%state%state
          call solve_with_states(system, solution%bounds, multipliers, solution%state, status)
-         if (.not. is_ok(status)) exit
+         if (.not. is_ok(status)) then
+            if (status%code == STATUS_SINGULAR) status = status_t()
+            multipliers%generation = -1                ! there is no factor
+            exit
+         end if
          call record_solve(solution%history, shape, solution%bounds, solution%state)
          if (follows) solution%tau = bound_of_state(line, solution)
          call set_friction_bounds(line, shape, solution%tau, solution%bounds, solution%state)
@@ -105,9 +112,14 @@ contains
          solution%state%state = raw
          call move_fronts(line, line%normal, before, raw, solution%state%state, normal)
          call move_fronts(line, line%tangential, before, raw, solution%state%state, tangential)
+         where (turns >= TO_AND_FRO .and. mod([(i, i=1, system%rows%n)] + solves, 2_ip) == 0) solution%state%state = before
+         where (solution%state%state /= before) turns = turns + 1
          ! the proximal terms stand at what is found
          multipliers%q_old = min(max(solution%state%q, solution%bounds%lower), solution%bounds%upper)
          multipliers%a_old = multipliers%x(system%n - system%k + 1:)
+         since = merge(0_ip, since + 1_ip, changes < least)
+         least = min(least, changes)
+         if ((since >= MOST_IN_VAIN .or. solves == MOST_SOLVES) .and. changes <= NEAR*line%n) found = .true.
          if (found) return
       end do
       multipliers%x = kept%x

@@ -18,7 +18,8 @@
 !>
 !> What makes it fast or ends it, each in the procedure of its name:
 !>
-!>     next_bound           Anderson's mixing once a step has changed no state; Picard's bound before
+!>     find_fronts          with many points, states near a solution before the first step
+!>     next_start           Anderson's mixing of forces and bound once a step has changed no state; Picard's bound before
 !>     choose_steps         less rho where forces come slowly; where states still change after MANY_STEPS, rho as large as the
 !>                          flexibility and a share of the way to Picard's bound, point by point (go_part_of_the_way)
 !>     judge                kappa falls where a body goes on moving, so that it gets where something holds it; when the pull on it
@@ -35,8 +36,8 @@ module atrito_multiplier_loop
    use atrito_accelerator, only: anderson_t
    use atrito_bound_qp, only: bound_qp_t, box_state_t, FREE, AT_LOWER, AT_UPPER, FROZEN
    use atrito_constraint_rows, only: constraint_rows_t
-   use atrito_sparse_rows, only: multiply_rows
-   use atrito_contact_fronts, only: find_fronts, has_long_pair
+   use atrito_sparse_rows, only: multiply_rows, add_transposed
+   use atrito_contact_fronts, only: find_fronts, front_moves_t, has_many_points, move_fronts
    use atrito_contact_line, only: contact_line_t, pressure_of, shear_force_of, normal_bounds, set_friction_bounds, &
                                   last_contact_pair, pairs_of_unknowns, tangential_of
    use atrito_contact_solution, only: contact_solution_t, asks_no_force, let_rest, FREE_MOTION, bound_of_state
@@ -46,10 +47,10 @@ module atrito_multiplier_loop
    use atrito_undetermined_motions, only: settle_undetermined_motions
    use atrito_kinds, only: ip, wp, HUGE_REAL
    use atrito_multiplier_distance, only: distance_t, measure_distance, measure_bodies, forces_that_are_none, NO_FORCE_AFTER
-   use atrito_multiplier_pace, only: loop_t, follow_drift, choose_steps, pull_firmly_again, next_bound, LEAST_KAPPA, USUAL_KAPPA, &
+   use atrito_multiplier_pace, only: loop_t, follow_drift, choose_steps, pull_firmly_again, next_start, LEAST_KAPPA, USUAL_KAPPA, &
                                      NO_LOAD, LITTLE_LEFT, STALE_DISTANCE
    use atrito_multiplier_step, only: begin_multipliers, close_all, start_closed, take_multiplier_step, refine_step, accept_step, &
-                                     take_least_forces, clear_round_off, largest_of_pairs
+                                     take_least_forces, clear_round_off, largest_of_pairs, residual_of, set_forces
    use atrito_loop_progress, only: note_residual, report_step
    use atrito_reporter, only: reporter_t
    use atrito_solve_history, only: begin_outer, end_outer
@@ -68,6 +69,7 @@ module atrito_multiplier_loop
    real(wp), parameter :: MOVES_SLOWLY = 1.0e-7_wp    !< the same where the forces have come to rest
    real(wp), parameter :: STEADY_PULL = 0.8_wp        !< of that of the step before
    real(wp), parameter :: SMALL_PULL = 1.0e-3_wp      !< a pull that may become weaker
+   real(wp), parameter :: CONTRACTS = 0.2_wp          !< change of the forces over the last one, below which it tells the next one
    integer(ip), parameter :: MOST_MOVING = 5_ip
 
 contains
@@ -93,7 +95,7 @@ contains
       type(multiplier_t) :: multipliers
       type(loop_t) :: loop
       type(anderson_t) :: anderson
-      real(wp) :: tau(line%n), image(line%n), of_body(system%n_bodies)
+      real(wp) :: tau(line%n), image(line%n), begun(system%rows%n), of_body(system%n_bodies)
       integer(ip) :: outer
       logical :: found
 
@@ -106,17 +108,18 @@ contains
          return
       end if
       if (has_multipliers(before)) then
-         call start_from(before, shape, line, multipliers, solution)
+         call start_from(before, system, shape, line, multipliers, solution)
       else
          call close_all(solution%bounds, solution%state)
       end if
       found = .false.
-      if (has_long_pair(line)) call start_at_fronts(system, shape, line, reporter, multipliers, solution, found, status)
+      if (has_many_points(line)) call start_at_fronts(system, shape, line, reporter, multipliers, solution, found, status)
       if (.not. (found .or. has_multipliers(before))) then
          call start_closed(system, solution%bounds, multipliers, solution%state, status)
       end if
       if (.not. is_ok(status)) return
       tau = solution%tau
+      anderson%least = -HUGE_REAL
       outer = 0
       do
          outer = outer + 1
@@ -142,11 +145,12 @@ contains
             call set_status(status, STATUS_SINGULAR, FREE_MOTION)
             return
          end if
+         begun = multipliers%q_old
          call follow_drift(system, solution%bounds, multipliers, loop, solution%state)
          ! the step is taken over: q_o, a_o, how far the next one may go, and its friction bound
          call accept_step(system, solution%state, multipliers)
          call choose_steps(outer, solution%state, multipliers, loop)
-         call next_bound(image, loop, anderson, tau)
+         call next_start(solution%bounds, begun, image, loop, anderson, multipliers, tau)
       end do
       if (solution%converged) then
          call measure_bodies(system, solution%state%q, of_body)
@@ -154,7 +158,19 @@ contains
       end if
       call finish(system, line, shape, loop%distance, before%state, multipliers, solution)
       if (solution%converged) x = multipliers%x
-      if (allocated(before%multipliers)) solution%multipliers = multipliers
+      if (allocated(before%multipliers)) then
+         multipliers%were = solution%state%state
+         multipliers%went = multipliers%x
+         multipliers%grew = solution%state%q
+         multipliers%bound_grew = solution%tau
+         if (has_multipliers(before)) then
+            multipliers%were = before%state%state
+            multipliers%went = multipliers%x - before%multipliers%x
+            multipliers%grew = solution%state%q - before%state%q
+            multipliers%bound_grew = solution%tau - before%tau
+         end if
+         solution%multipliers = multipliers
+      end if
    end subroutine solve_by_multipliers
 
    !> Whether the steps are used up that MAXIT allows. A loop whose distance was halved in the last quarter of them is on its way,
@@ -173,7 +189,7 @@ contains
       if (is_used_up) is_used_up = outer - loop%progress%best_outer > outer/4
    end function is_used_up
 
-   !> The fronts of long pairs, as one outer iteration of the history.
+   !> States of many points at once, as one outer iteration of the history.
    !>
    !> With a weak pull: what friction holds needs none, and a strong one would keep fronts from their places.
    subroutine start_at_fronts(system, shape, line, reporter, multipliers, solution, found, status)
@@ -204,17 +220,20 @@ contains
       if (has_multipliers) has_multipliers = allocated(solution%multipliers%x)
    end function has_multipliers
 
-   !> Forces, displacements, states and friction bound of the increment before; the factor is its, too.
+   !> Forces, displacements, states and friction bound of the increment before, and what they changed by in it where the load goes on
+   !> in that way; the factor is its, too.
    !>
    !> What belongs to the way there begins anew: the sizes of the steps, and the counts. The largest force of each pair stays known,
    !> since of a pair that is unloaded now nothing else may be left to compare round-off with.
-   subroutine start_from(before, shape, line, multipliers, solution)
+   subroutine start_from(before, system, shape, line, multipliers, solution)
       type(contact_solution_t), intent(in) :: before
+      class(contact_system_t), intent(in) :: system
       type(bound_qp_t), intent(in) :: shape
       type(contact_line_t), intent(in) :: line
       type(multiplier_t), intent(inout) :: multipliers
       type(contact_solution_t), intent(inout) :: solution
       type(multiplier_t) :: fresh
+      real(wp) :: rate
 
       multipliers = before%multipliers
       if (allocated(multipliers%before)) deallocate (multipliers%before)
@@ -227,8 +246,56 @@ contains
       multipliers%solves = 0
       solution%state = before%state
       solution%tau = before%tau
+      rate = rate_of_load(system, multipliers)
+      if (rate > 0.0_wp) then
+         multipliers%x = multipliers%x + rate*multipliers%went
+         multipliers%a_old = multipliers%x(size(multipliers%x) - shape%k + 1:)
+         solution%tau = max(solution%tau + rate*multipliers%bound_grew, 0.0_wp)
+      end if
       call set_friction_bounds(line, shape, solution%tau, solution%bounds, solution%state)
+      if (rate > 0.0_wp) then
+         multipliers%q_old = multipliers%q_old + rate*multipliers%grew
+         call set_forces(system, solution%bounds, multipliers, solution%state)
+         if (rate > 0.5_wp .and. has_many_points(line)) call go_on_with_fronts()
+      end if
+
+   contains
+
+      !> Fronts go on by as many points as in the increment before, where they leave contact or stick.
+      subroutine go_on_with_fronts()
+         type(front_moves_t) :: normal, tangential
+         integer(ip) :: moved(shape%m)
+
+         moved = before%state%state
+         call move_fronts(line, line%normal, multipliers%were, before%state%state, moved, normal)
+         call move_fronts(line, line%tangential, multipliers%were, before%state%state, moved, tangential)
+         where (before%state%state == FREE .and. moved /= FREE) solution%state%state = moved
+      end subroutine go_on_with_fronts
+
    end subroutine start_from
+
+   !> How much of the last increment the load grows by once more; 0 where it goes another way, or before the second one.
+   !>
+   !> What the increment changed, A dx + B'dq, is the load that it added; what its end lacks of the load now is r. The rate is that of
+   !> the least |r - rate (A dx + B'dq)|, if next to nothing is left.
+   real(wp) function rate_of_load(system, multipliers) result(rate)
+      class(contact_system_t), intent(in) :: system
+      type(multiplier_t), intent(in) :: multipliers
+      real(wp), parameter :: is_left = 0.1_wp
+      real(wp) :: residual(system%n), added(system%n), unit
+
+      rate = 0.0_wp
+      if (.not. allocated(multipliers%went)) return
+      call system%multiply(multipliers%went, added)
+      call add_transposed(system%rows, 1.0_wp, multipliers%grew, added)
+      call residual_of(system, multipliers, multipliers%q_old, residual)
+      associate (r => residual(:system%n - system%k), d => added(:system%n - system%k))
+         unit = maxval([abs(d), 0.0_wp])
+         if (unit <= 0.0_wp) return
+         rate = dot_product(r/unit, d/unit)/norm2(d/unit)**2
+         if (.not. (rate > 0.0_wp .and. norm2(r/unit - rate*(d/unit)) <= is_left*norm2(r/unit))) rate = 0.0_wp
+      end associate
+   end function rate_of_load
 
    !> What a step has found: stresses, Picard's bound, how far it is from a solution.
    !>
@@ -382,8 +449,11 @@ contains
       type(contact_solution_t), intent(inout) :: solution
       real(wp) :: whole
 
+      ! of the forces a step is off by no more than what the next one would change: as much less as this one is than the last
+      whole = loop%distance%forces
+      if (loop%standing > 0 .and. .not. multipliers%changed .and. whole < CONTRACTS*loop%change) whole = whole*(whole/loop%change)
+      whole = max(whole, loop%distance%bound)
       ! a pull below NO_LOAD of the forces on its body is none
-      whole = max(loop%distance%forces, loop%distance%bound)
       if (loop%distance%pull > NO_LOAD) whole = max(whole, loop%distance%pull)
       solution%converged = multipliers%settled .and. whole <= tolerance
       call note_residual(loop%progress, outer, whole)

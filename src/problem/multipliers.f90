@@ -23,6 +23,8 @@ module atrito_multipliers
       real(wp), allocatable :: noise(:)          !< (m) what round-off of e may do to a force [F]
       real(wp), allocatable :: q_old(:)          !< (m) [F]
       real(wp), allocatable :: a_old(:)          !< (k) [L]
+      real(wp), allocatable :: went(:), grew(:), bound_grew(:) !< from the increment before: x [L], q [F] and tau [F/L^2]
+      integer(ip), allocatable :: were(:)        !< (m) states in the increment before
       real(wp), allocatable :: hold(:)           !< (k) [F/L] sum of G_ij^2/c_i over the rows of the body
       integer(ip), allocatable :: pair(:)        !< (m) contact pair of each row
       real(wp), allocatable :: before(:)         !< (n_pairs) largest force in the increment before, 0 where there is none [F]

@@ -1,10 +1,13 @@
 !> Tractions of contact that balance the loads of bodies which nothing else holds.
 module atrito_balanced_contact
    use atrito_contact_tractions, only: segment_forces, segment_t
-   use atrito_dense, only: solve_lu
    use atrito_kinds, only: ip, wp
+   use atrito_ordering, only: build_graph, graph_t, order_contact_last
    use atrito_problem, only: problem_t
+   use atrito_profile, only: add_to_profile, begin_profile, close_profile, profile_t
    use atrito_row_entries, only: first_motions, modes_at_node
+   use atrito_skyline, only: skyline_t
+   use atrito_status, only: is_ok, status_t
    implicit none (type, external)
    private
    public :: balance, add_segments
@@ -47,7 +50,8 @@ contains
    !>     p (1 + sum_m c_m z_m),     t + (tau - |t|) sum_m c_m y_m,
    !>
    !> z_m the approach of the sides there by motion m, y_m the same along the sides. The work on the motions is then W + G c = 0,
-   !> G_mn = sum over the ends of the forces of p times z_m z_n, and those of tau - |t| times y_m y_n.
+   !> G_mn = sum over the ends of the forces of p times z_m z_n, and those of tau - |t| times y_m y_n: motions of bodies that touch, so
+   !> that their numbers are those of a mesh whose elements are the segments.
    subroutine change_least(problem, first, work, with_friction, segments, is_found)
       class(problem_t), intent(in) :: problem
       integer(ip), intent(in) :: first(:)           !< motions of the bodies
@@ -55,13 +59,15 @@ contains
       logical, intent(in) :: with_friction
       type(segment_t), intent(inout) :: segments(:)
       logical, intent(out) :: is_found
-      real(wp), allocatable :: gram(:, :), change(:), left(:), size_of(:)
-      integer(ip) :: motion(6), n, i, k, l, m, end_of, n_motions
-      real(wp) :: z(6, 2), force(2), factor(2), most, unit
-      integer(ip) :: info
+      type(skyline_t) :: gram
+      type(profile_t) :: profile
+      type(status_t) :: status
+      real(wp), allocatable :: change(:), left(:), size_of(:), solved(:, :)
+      integer(ip), allocatable :: number(:)
+      integer(ip) :: motion(6), n, i, k, m, end_of, n_motions
+      real(wp) :: z(6, 2), force(2), factor(2), most, unit, part(6, 6)
 
       n = size(work, kind=ip)
-      allocate (gram(n, n), source=0.0_wp)
       unit = 0.0_wp
       do i = 1, size(segments, kind=ip)
          unit = max(unit, maxval(segments(i)%p))
@@ -69,25 +75,33 @@ contains
       is_found = unit > 0.0_wp
       if (.not. is_found) return
       unit = scale(1.0_wp, exponent(unit)) ! [F/L^2], a power of two: G and W of any units are of size 1
+      call number_motions(problem, segments, first, number, profile)
+      call gram%create(profile, status)
+      is_found = is_ok(status)
+      if (.not. is_found) return
+      allocate (solved(n, 1), source=0.0_wp)        ! at first the diagonal
       do i = 1, size(segments, kind=ip)
          do end_of = 1, 2
             call approach_of(problem, segments(i), end_of, first, n_motions, motion, z)
             force = 0.5_wp*segments(i)%length*segments(i)%thickness*([segments(i)%p(end_of), room_at(segments(i), end_of)]/unit)
             do k = 1, n_motions
-               do l = 1, n_motions
-                  gram(motion(k), motion(l)) = gram(motion(k), motion(l)) + sum(force*z(k, :)*z(l, :))
-               end do
+               part(:n_motions, k) = matmul(z(:n_motions, :), force*z(k, :))
+               solved(number(motion(k)), 1) = solved(number(motion(k)), 1) + part(k, k)
             end do
+            call gram%add(number(motion(:n_motions)), part(:n_motions, :n_motions))
          end do
       end do
-      most = maxval([(gram(m, m), m=1, n)])
+      most = maxval(solved)
       do m = 1, n                                   ! what no traction works on keeps what it has
-         gram(m, m) = gram(m, m) + 1.0e-12_wp*most
+         call gram%add([m], reshape([1.0e-12_wp*most], [1, 1]))
       end do
-      change = -work/unit
-      call solve_lu(gram, change, info)
-      is_found = info == 0
+      call gram%factor(status)
+      is_found = is_ok(status)
       if (.not. is_found) return
+      solved(number, 1) = -work/unit
+      call gram%reduce(solved)
+      call gram%expand(solved)
+      change = solved(number, 1)
       do i = 1, size(segments, kind=ip)
          do end_of = 1, 2
             call approach_of(problem, segments(i), end_of, first, n_motions, motion, z)
@@ -114,6 +128,33 @@ contains
       end function room_at
 
    end subroutine change_least
+
+   !> Numbers of the motions in which those of bodies that touch are near each other, and the profile of G in these numbers.
+   subroutine number_motions(problem, segments, first, number, profile)
+      class(problem_t), intent(in) :: problem
+      type(segment_t), intent(in) :: segments(:)
+      integer(ip), intent(in) :: first(:)
+      integer(ip), allocatable, intent(out) :: number(:)
+      type(profile_t), intent(out) :: profile
+      type(graph_t) :: graph
+      integer(ip) :: together(6, size(segments)), order(first(size(first)) - 1), i, n
+      real(wp) :: z(6, 2)
+
+      together = 0
+      do i = 1, size(segments, kind=ip)
+         call approach_of(problem, segments(i), 1, first, n, together(:, i), z)
+         together(n + 1:, i) = 0
+      end do
+      call build_graph(size(order, kind=ip), together, graph)
+      call order_contact_last(graph, [integer(ip) ::], order)
+      allocate (number(size(order)))
+      number(order) = [(i, i=1, size(order, kind=ip))]
+      call begin_profile(profile, size(order, kind=ip), 0_ip)
+      do i = 1, size(segments, kind=ip)
+         call add_to_profile(profile, number(pack(together(:, i), together(:, i) > 0)))
+      end do
+      call close_profile(profile)
+   end subroutine number_motions
 
    !> What friction may be more at one end of a segment, in either direction [F/L^2].
    pure real(wp) function room_of(segment, end_of)

@@ -117,10 +117,12 @@ contains
       call require(wrong, min(multipliers%r, multipliers%kappa) >= 0.0_wp, 'multipliers')
       associate (m => size(data%line%point, kind=ip), k => scene%n_rigid)
          call require(wrong, may_be(multipliers%e, m) .and. may_be(multipliers%noise, m) .and. may_be(multipliers%q_old, m) .and. &
-                      may_be(multipliers%stiffness, m), 'multipliers')
+                      may_be(multipliers%stiffness, m) .and. may_be(multipliers%grew, m), 'multipliers')
          call require(wrong, may_be(multipliers%a_old, k) .and. may_be(multipliers%hold, k) .and. may_be(multipliers%pull, k), &
                       'multipliers')
-         call require(wrong, may_be(multipliers%x, scene%n_dofs + k), 'multipliers')
+         call require(wrong, may_be(multipliers%x, scene%n_dofs + k) .and. may_be(multipliers%went, scene%n_dofs + k) .and. &
+                      may_be(multipliers%bound_grew, data%line%n), 'multipliers')
+         if (allocated(multipliers%were)) call require(wrong, size(multipliers%were) == m, 'multipliers')
          if (allocated(wrong) .or. .not. allocated(multipliers%pair)) return
          call require(wrong, is_list(multipliers%pair, m), 'pair')
          if (allocated(wrong)) return
