@@ -4,7 +4,7 @@ module atrito_increment_uniqueness
    use atrito_results, only: results_t
    use atrito_scene_data, only: scene_data_t
    use atrito_timers, only: start_phase, stop_phase
-   use atrito_uniqueness, only: certify_line, judge_solution
+   use atrito_uniqueness, only: certify_line, judge_contraction, judge_solution
    implicit none (type, external)
    private
    public :: judge_uniqueness
@@ -26,11 +26,12 @@ contains
       else
          if (.not. allocated(data%certificate)) then
             allocate (data%certificate)
-            call certify_line(data%flexibility, data%line, data%starts > 0, data%certificate)
+            call certify_line(data%flexibility, data%line, data%starts > 0, data%certificate%known)
          end if
-         results%uniqueness = data%certificate
-         call judge_solution(data%flexibility, data%line, solution, data%is_printed, results%uniqueness, &
-                             results%contraction_estimate)
+         results%uniqueness = data%certificate%known
+         call judge_solution(data%flexibility, data%line, solution, data%is_last, data%certificate, results%uniqueness)
+         if (data%is_printed) call judge_contraction(data%flexibility, data%line, solution, data%certificate, &
+                                                     results%contraction_estimate)
       end if
       call stop_phase('unique')
    end subroutine judge_uniqueness
