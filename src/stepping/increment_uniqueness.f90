@@ -1,6 +1,8 @@
 !> What is known of other solutions of an increment, from the matrices of its contact line.
 module atrito_increment_uniqueness
+   use atrito_contact_form, only: can_be_dense
    use atrito_contact_solution, only: contact_solution_t
+   use atrito_kinds, only: ip
    use atrito_results, only: results_t
    use atrito_scene_data, only: scene_data_t
    use atrito_timers, only: start_phase, stop_phase
@@ -22,7 +24,10 @@ contains
       call start_phase('unique')
       if (.not. allocated(data%flexibility)) then
          results%uniqueness%nu = maxval(data%line%law%nu)
-         results%uniqueness%why_not = 'the sparse form has no matrix of the line'
+         associate (why_not => results%uniqueness%why_not)
+            why_not = 'the sparse form has no matrix of the line'
+            if (can_be_dense(size(data%line%point, kind=ip))) why_not = 'the sparse form has no matrix, --contact dense has'
+         end associate
       else
          if (.not. allocated(data%certificate)) then
             allocate (data%certificate)
