@@ -265,6 +265,7 @@ contains
       results%time = run%began + to
       results%ends_step = to >= run%data%step%increments%period
       run%data%is_printed = is_wanted(run%data%step%requests, increment, results%ends_step)
+      run%data%is_last = results%ends_step .and. k == size(run%data%model%steps)
       if (run%reporter%form == PROGRESS_LINE) run%data%reporter = run%reporter
       nullify (run%data%before)
       if (run%has_last) run%data%before => run%last%u

@@ -1,10 +1,12 @@
 !> What is known of other solutions of an increment, from the matrices of its contact line.
 module atrito_increment_uniqueness
+   use atrito_contact_form, only: can_be_dense
    use atrito_contact_solution, only: contact_solution_t
+   use atrito_kinds, only: ip
    use atrito_results, only: results_t
    use atrito_scene_data, only: scene_data_t
    use atrito_timers, only: start_phase, stop_phase
-   use atrito_uniqueness, only: certify_line, judge_solution
+   use atrito_uniqueness, only: certify_line, judge_contraction, judge_solution
    implicit none (type, external)
    private
    public :: judge_uniqueness
@@ -22,15 +24,19 @@ contains
       call start_phase('unique')
       if (.not. allocated(data%flexibility)) then
          results%uniqueness%nu = maxval(data%line%law%nu)
-         results%uniqueness%why_not = 'the sparse form has no matrix of the line'
+         associate (why_not => results%uniqueness%why_not)
+            why_not = 'the sparse form has no matrix of the line'
+            if (can_be_dense(size(data%line%point, kind=ip))) why_not = 'the sparse form has no matrix, --contact dense has'
+         end associate
       else
          if (.not. allocated(data%certificate)) then
             allocate (data%certificate)
-            call certify_line(data%flexibility, data%line, data%starts > 0, data%certificate)
+            call certify_line(data%flexibility, data%line, data%starts > 0, data%certificate%known)
          end if
-         results%uniqueness = data%certificate
-         call judge_solution(data%flexibility, data%line, solution, data%is_printed, results%uniqueness, &
-                             results%contraction_estimate)
+         results%uniqueness = data%certificate%known
+         call judge_solution(data%flexibility, data%line, solution, data%is_last, data%certificate, results%uniqueness)
+         if (data%is_printed) call judge_contraction(data%flexibility, data%line, solution, data%certificate, &
+                                                     results%contraction_estimate)
       end if
       call stop_phase('unique')
    end subroutine judge_uniqueness

@@ -34,7 +34,6 @@ contains
       type(results_t), allocatable :: list(:)
       type(had_t) :: had
       real(wp), allocatable :: u(:, :)
-      real(wp) :: unused
       type(status_t) :: status
       integer(ip) :: i, n
 
@@ -56,7 +55,7 @@ contains
          associate (other => list(n + 1))
             call begin_results(results, other)
             other%uniqueness = results%uniqueness
-            call judge_solution(data%flexibility, data%line, found(i), .false., other%uniqueness, unused)
+            call judge_solution(data%flexibility, data%line, found(i), .false., data%certificate, other%uniqueness)
             found(i)%form = CONTACT_DENSE
             call expand_solution(data, data%step%controls, store, other%scene, found(i), u)
             call finish_form(data, data%step%controls, found(i), u, other, status)

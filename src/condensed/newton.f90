@@ -107,14 +107,18 @@ contains
 
    !> The matrix of a step from a state, scaled: where no state changes, what the equations are there. Without friction its
    !> determinant is positive.
-   pure subroutine jacobian_of_state(problem, line, solution, jacobian)
+   pure subroutine jacobian_of_state(problem, line, solution, jacobian, slips)
       type(bound_qp_t), intent(in) :: problem !< the QP: C, G, g0, h
       type(contact_line_t), intent(in) :: line !< points, laws, average S_rho
       type(contact_solution_t), intent(in) :: solution !< with states, forces and tau
       real(wp), allocatable, intent(out) :: jacobian(:, :)
+      logical, allocatable, intent(out) :: slips(:) !< which of the first rows are of slipping forces
       real(wp), allocatable :: rhs(:)
+      integer(ip), allocatable :: active(:)
 
-      call build_system(problem, line, solution, active_unknowns(problem, solution), jacobian, rhs)
+      active = active_unknowns(problem, solution)
+      call build_system(problem, line, solution, active, jacobian, rhs)
+      slips = solution%state%state(active) /= FREE
    end subroutine jacobian_of_state
 
    !> d tau_j / d q of the active unknowns: nu W_jk / w_k of the pressures.

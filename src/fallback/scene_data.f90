@@ -14,11 +14,12 @@ module atrito_scene_data
    use atrito_controls, only: METHOD_ANDERSON
    use atrito_held_points, only: straighten_held_points
    use atrito_kinds, only: ip, lp, wp
+   use atrito_line_certificate, only: line_certificate_t
    use atrito_memory, only: available_memory
    use atrito_model, only: model_t, nodal_values_t, step_t
    use atrito_nodal_loads, only: nodal_loads
    use atrito_problem, only: problem_t, free_load
-   use atrito_results, only: frame_store_t, results_t, scene_t, uniqueness_t
+   use atrito_results, only: frame_store_t, results_t, scene_t
    use atrito_rigid_bodies, only: add_rigid_loads, has_moving_surfaces, set_rigid_motions
    use atrito_scene_builder, only: build_scene, build_bodies, list_held
    use atrito_scene_system, only: scene_system_t, set_scene_gaps, set_scene_load
@@ -75,6 +76,7 @@ module atrito_scene_data
       real(wp), allocatable :: exchanged(:, :)              !< (2, n_nodes) for it, while the bodies are factored [L]
       integer(ip) :: starts = 0                             !< of a search for other solutions
       logical :: is_printed = .true.                        !< what is solved for is printed: it is worth stresses and estimates
+      logical :: is_last = .true.                           !< nothing comes after it
       logical :: is_brief = .false.                         !< that no solution was found is an answer: no costly rung is tried
       integer(ip) :: most_factorisations = huge(1_ip)
       ! Of a history:
@@ -82,7 +84,7 @@ module atrito_scene_data
       logical :: asks_for_bases = .false.                   !< the step begins
       real(wp), allocatable :: released(:, :)               !< (2, n_nodes) of supports that the step does not have; they fade [F]
       type(had_t) :: had                                    !< the largest so far
-      type(uniqueness_t), allocatable :: certificate        !< of the flexibility that is there
+      type(line_certificate_t), allocatable :: certificate  !< of the flexibility that is there
       real(wp), pointer :: before(:, :) => null()           !< (2, n_nodes) displacements of the increment before [L]
       class(viewer_t), pointer :: viewer => null()          !< not associated: nobody looks
    end type scene_data_t

@@ -22,17 +22,41 @@ module atrito_state_index
 contains
 
    !> 1 or -1; 0 where a point stands on the edge of its state, or the matrix is singular but for rounding.
-   integer(ip) function index_of_solution(problem, line, solution) result(index_of)
+   integer(ip) function index_of_solution(problem, line, solution, is_known) result(index_of)
       type(bound_qp_t), intent(in) :: problem     !< C and G
       type(contact_line_t), intent(in) :: line    !< points, laws, average S_rho
       type(contact_solution_t), intent(in) :: solution !< that has converged
+      logical, intent(in) :: is_known             !< a certificate says that the determinant is positive
       real(wp), allocatable :: jacobian(:, :)
+      logical, allocatable :: slips(:)
 
       index_of = 0
       if (.not. is_inside(problem, line, solution)) return
-      call jacobian_of_state(problem, line, solution, jacobian)
+      index_of = 1
+      if (is_known) return
+      call jacobian_of_state(problem, line, solution, jacobian, slips)
+      call eliminate(slips, jacobian)
       index_of = sign_of_determinant(jacobian)
    end function index_of_solution
+
+   !> Takes slipping forces out of the matrix: their rows q -+ w tau = 0 have few entries, and a positive one on the diagonal.
+   pure subroutine eliminate(slips, matrix)
+      logical, intent(in) :: slips(:)             !< of the first rows
+      real(wp), allocatable, intent(inout) :: matrix(:, :)
+      integer(ip), allocatable :: left(:)
+      integer(ip) :: i, j, n
+
+      n = size(matrix, 1, kind=ip)
+      do i = 1, size(slips, kind=ip)
+         if (.not. slips(i)) cycle
+         do j = 1, n
+            if (j == i .or. abs(matrix(i, j)) <= 0.0_wp) cycle
+            matrix(:, j) = matrix(:, j) - matrix(:, i)*(matrix(i, j)/matrix(i, i))
+         end do
+      end do
+      left = [pack([(i, i=1, size(slips, kind=ip))], .not. slips), (i, i=size(slips, kind=ip) + 1, n)]
+      matrix = matrix(left, left)
+   end subroutine eliminate
 
    !> Whether no point is near another state: closed ones have pressure, open ones a gap, sticking ones friction left, slipping ones
    !> slip.

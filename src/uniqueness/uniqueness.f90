@@ -15,12 +15,13 @@ module atrito_uniqueness
    use atrito_friction_form, only: friction_form_t, build_form
    use atrito_friction_law, only: FRICTION_NONE
    use atrito_kinds, only: ip, wp
+   use atrito_line_certificate, only: line_certificate_t
    use atrito_one_solution, only: certify_every_load, certify_way
    use atrito_results, only: uniqueness_t
    use atrito_state_index, only: index_of_solution
    implicit none (type, external)
    private
-   public :: certify_line, judge_solution, is_certified, LONGEST
+   public :: certify_line, judge_solution, judge_contraction, is_certified, LONGEST
 
    integer(ip), parameter :: LONGEST = 400        !< unknown forces of a line that is certified without being asked to
 
@@ -51,33 +52,71 @@ contains
       uniqueness%why_not = why_not
    end subroutine certify_line
 
-   !> Adds what is proved of a solution that no certificate makes the only one, and the estimate of the contraction.
+   !> Adds what is proved of a solution that no certificate makes the only one.
    !>
    !> For bodies that move along the contact, and where points depend on each other, the index proves nothing, as the certificates.
-   subroutine judge_solution(problem, line, solution, in_full, uniqueness, contraction)
+   !> With exact stick, where one solution at most moves a certain way, no state that slips that way is singular for smaller
+   !> coefficients, and its index is 1.
+   subroutine judge_solution(problem, line, solution, is_last, certificate, uniqueness)
       type(bound_qp_t), intent(in) :: problem     !< C and G
       type(contact_line_t), intent(in) :: line    !< points, laws, average S_rho
       type(contact_solution_t), intent(in) :: solution !< converged or not
-      logical, intent(in) :: in_full              !< else the index alone
+      logical, intent(in) :: is_last              !< its own way is asked for; else the first one that was found serves
+      type(line_certificate_t), intent(inout) :: certificate
       type(uniqueness_t), intent(inout) :: uniqueness  !< of certify_line
-      real(wp), intent(out) :: contraction        !< estimate; 0 where it says nothing new
+      logical :: is_along
+
+      if (is_certified(uniqueness)) uniqueness%index = 1
+      if (is_certified(uniqueness) .or. .not. solution%converged .or. len_trim(uniqueness%why_not) > 0) return
+      is_along = .false.
+      if (.not. has_elastic_stick(line)) then
+         if (is_last .or. .not. allocated(certificate%way)) call keep_way(problem, line, way_of(problem, solution), certificate)
+         if (is_last) uniqueness%same_way_up_to_nu = certificate%way_up_to_nu
+         associate (slip => slip_of(problem, solution), way => certificate%way)
+            is_along = certificate%way_up_to_nu >= uniqueness%nu .and. all(slip*way >= 0.0_wp)
+         end associate
+      end if
+      uniqueness%index = index_of_solution(problem, line, solution, is_along)
+   end subroutine judge_solution
+
+   !> The certificate of a way, if it is not that which is there.
+   subroutine keep_way(problem, line, way, certificate)
+      type(bound_qp_t), intent(in) :: problem
+      type(contact_line_t), intent(in) :: line
+      real(wp), intent(in) :: way(:)
+      type(line_certificate_t), intent(inout) :: certificate
       type(friction_form_t) :: form
       character(len=:), allocatable :: why_not
-      real(wp) :: nu
+
+      if (allocated(certificate%way)) then
+         if (all(certificate%way*way > 0.0_wp)) return
+      end if
+      certificate%way = way
+      call build_form(problem, line, form, why_not)
+      call certify_way(form, way, certificate%way_up_to_nu)
+      certificate%way_up_to_nu = rounded_down(certificate%way_up_to_nu)
+   end subroutine keep_way
+
+   !> The estimate of the contraction; 0 where it says nothing new. It is made again where states or laws have changed.
+   subroutine judge_contraction(problem, line, solution, certificate, contraction)
+      type(bound_qp_t), intent(in) :: problem     !< C and G
+      type(contact_line_t), intent(in) :: line    !< points, laws, average S_rho
+      type(contact_solution_t), intent(in) :: solution !< converged or not
+      type(line_certificate_t), intent(inout) :: certificate
+      real(wp), intent(out) :: contraction
+      logical :: is_new
 
       contraction = 0.0_wp
-      if (is_certified(uniqueness)) then
-         uniqueness%index = 1
-         return
-      end if
-      if (in_full) contraction = estimate_contraction(problem, line, solution%bounds%d, solution%state%state)
-      if (.not. solution%converged .or. len_trim(uniqueness%why_not) > 0) return
-      uniqueness%index = index_of_solution(problem, line, solution)
-      if (.not. in_full .or. has_elastic_stick(line)) return
-      call build_form(problem, line, form, why_not)
-      call certify_way(form, way_of(problem, solution), nu)
-      uniqueness%same_way_up_to_nu = rounded_down(nu)
-   end subroutine judge_solution
+      if (is_certified(certificate%known)) return
+      associate (state => solution%state%state, d => solution%bounds%d)
+         is_new = .not. allocated(certificate%state)
+         if (.not. is_new) is_new = any(certificate%state /= state) .or. any(abs(certificate%compliance - d) > 0.0_wp)
+         if (is_new) certificate%contraction = estimate_contraction(problem, line, d, state)
+         certificate%state = state
+         certificate%compliance = d
+      end associate
+      contraction = certificate%contraction
+   end subroutine judge_contraction
 
    !> Whether there is one solution alone, as far as is proved.
    pure logical function is_certified(uniqueness)
@@ -112,13 +151,22 @@ contains
       type(contact_solution_t), intent(in) :: solution
       real(wp) :: direction(problem%m - problem%n_normal)
 
-      associate (state => solution%state%state(problem%n_normal + 1:), r => solution%state%r(problem%n_normal + 1:))
-         direction = 0.0_wp
-         where (state == AT_UPPER) direction = 1.0_wp
-         where (state == AT_LOWER) direction = -1.0_wp
+      direction = slip_of(problem, solution)
+      associate (r => solution%state%r(problem%n_normal + 1:))
          where (solution%bounds%upper(problem%n_normal + 1:) <= 0.0_wp) direction = sign(1.0_wp, r)
          where (abs(direction) <= 0.0_wp) direction = merge(1.0_wp, -1.0_wp, sum(direction) >= 0.0_wp)
       end associate
    end function way_of
+
+   !> 1 or -1 of tangential unknowns that slip against friction, 0 of the others.
+   pure function slip_of(problem, solution) result(direction)
+      type(bound_qp_t), intent(in) :: problem
+      type(contact_solution_t), intent(in) :: solution
+      real(wp) :: direction(problem%m - problem%n_normal)
+
+      associate (state => solution%state%state(problem%n_normal + 1:))
+         direction = merge(1.0_wp, 0.0_wp, state == AT_UPPER) - merge(1.0_wp, 0.0_wp, state == AT_LOWER)
+      end associate
+   end function slip_of
 
 end module atrito_uniqueness
