@@ -6,6 +6,7 @@ module atrito_increment_bound
    use atrito_error_bound, only: bound_error
    use atrito_exchanged_tractions, only: exchange_with_factors
    use atrito_model, only: step_t
+   use atrito_reporter, only: report_progress
    use atrito_results, only: results_t
    use atrito_scene_data, only: scene_data_t, PROOF_AUTO, PROOF_ON
    use atrito_step_loads, only: act_at, moment_t
@@ -38,6 +39,7 @@ contains
 
       if (.not. (is_wanted(data, results) .and. results%converged .and. results%law_holds)) return
       call start_phase('prove')
+      call report_progress(data%reporter, 'bound of the error')
       call act_at(data%model, data%step, moment_t(results%step_time, results%time), acting)
       call bound_error(data%model, acting, data, solution, data%exchanged, data%proof == PROOF_AUTO, results)
       if (allocated(data%exchanged)) deallocate (data%exchanged)

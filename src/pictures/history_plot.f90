@@ -139,7 +139,8 @@ contains
       call put_titles(plots, model, history, 'with the largest forces')
       call put_frame(plots, merge(4_ip, 3_ip, friction), range_of([0.0_wp, history%rows%time]), '"time"')
       call put(plots, 'height = 145 + 230*panels; top(i) = 1 - (85.0 + (i - 1)*230)/height   # room for the steps'//LF// &
-               'right = '//merge('0.80', '0.95', many .or. shows_bound(model, history%rows)))
+               'right = '//right_edge(history, shown_pairs(history%rows, by_slip=.false.), many, &
+                                      shows_bound(model, history%rows)))
       call put_terminal(plots, '1000,height')
       call put_styles(plots, history%rows)
       call put(plots, 'set multiplot title heading."\n".pair_line noenhanced')
@@ -268,6 +269,26 @@ contains
       text = ' title '//quoted(pair_legend(pair, pair_name(results, pair)))//' noenhanced'
    end function legend_of
 
+   !> Where the panels end, as a share of the width: what is left has room for the legend.
+   pure function right_edge(history, pairs, has_names, has_bound) result(text)
+      type(history_t), intent(in) :: history
+      integer(ip), intent(in) :: pairs(:)           !< that are drawn
+      logical, intent(in) :: has_names, has_bound   !< the legend has their names, or the bound of the shear alone
+      character(len=:), allocatable :: text
+      real(wp) :: right
+      integer :: i
+
+      right = merge(0.80_wp, 0.95_wp, has_names .or. has_bound)
+      if (has_names) then
+         associate (last => history%frames(last_frame(history)))
+            do i = 1, size(pairs)
+               right = min(right, 0.93_wp - 0.0105_wp*len(pair_legend(pairs(i), pair_name(last, pairs(i)))))
+            end do
+         end associate
+      end if
+      text = to_text(right, 3)
+   end function right_edge
+
    !> Writes loop.dat, with a block a pair that is drawn, and loop.gp.
    subroutine write_loop_plot(plots, model, history)
       type(plots_t), intent(inout) :: plots
@@ -292,7 +313,8 @@ contains
                         '5 time; a block a pair')
       call put_titles(plots, model, history, 'that slip most')
       call put_frame(plots, 1_ip, range_t(wide%low/10.0_wp**power, wide%high/10.0_wp**power), '""')
-      call put(plots, 'height = 620; bottom(i) = 70.0/height'//LF//'right = '//merge('0.95', '0.80', is_one)//LF// &
+      call put(plots, 'height = 620; bottom(i) = 70.0/height'//LF//'right = '// &
+               right_edge(history, pairs, .not. is_one, .false.)//LF// &
                'slip_unit = 1e'//to_text(power))
       call put_terminal(plots, '1000,height')
       call put_styles(plots, history%rows)

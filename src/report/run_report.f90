@@ -13,13 +13,14 @@ module atrito_run_report
    use atrito_strings, only: string_t, append_string, to_text
    use atrito_summary, only: body_count, pair_count, pair_name, error_text, uniqueness_text
    use atrito_system, only: peak_memory
-   use atrito_table, only: ZERO_SHARE, abs_is_below
+   use atrito_table, only: abs_is_below
    use atrito_timers, only: phase_time_t, get_phases
    implicit none (type, external)
    private
    public :: report_of_run
 
    integer, parameter :: DIGITS = 6
+   real(wp), parameter :: NOTHING = 1.0e-9_wp         !< of all forces: less is nothing to people
 
 contains
 
@@ -123,7 +124,7 @@ contains
       real(wp) :: shown(2), least
       integer :: i
 
-      least = 100*ZERO_SHARE*max(maxval(abs(balance%applied)), maxval(abs(balance%reactions)))
+      least = NOTHING*max(maxval(abs(balance%applied)), maxval(abs(balance%reactions)))
       shown = force
       do i = 1, 2
          if (abs_is_below(shown(i), least)) shown(i) = 0.0_wp

@@ -41,6 +41,9 @@ grep -q 'largest displacement</dt><dd>[0-9.e-]*.\[L\]' plate/report.html || comp
 says 'screen' plate.out 'report       plate/report.html'
 says 'progress' plate.err 'report plate/report.html'
 [ -e plate/plots/mesh.gp ] || complain '--report draws no pictures'
+# beside the force of a bolt the digits of a sum are nothing
+"$atrito" "$input/lessons/bolted-lap.inp" -o lap --report --quiet || complain 'a bolted lap'
+grep -q 'support reactions, sum</dt><dd>-1000, 0[^0-9.]' lap/report.html || complain 'round-off is told as a force'
 # every table of the folder stands in the page
 for table in plate/*.tab; do
    name=$(basename "$table" .tab)
