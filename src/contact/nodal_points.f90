@@ -42,6 +42,8 @@ module atrito_nodal_points
    real(wp), parameter :: ROUND_OFFS = 8.0_wp
    !> Sides match when their nodes are this close, in parts of an edge.
    real(wp), parameter :: MATCH_TOLERANCE = 1.0e-6_wp
+   !> A face whose node sees the master hangs over its end where this part of the face does, too.
+   real(wp), parameter :: INSIDE = 1.0e-3_wp
    !> Nodes of the slave that lie farther apart than so many times those of the master have others between them.
    real(wp), parameter :: NEIGHBOURS = 1.25_wp
    !> A kink of the master is felt by a point this near to it, in parts of its length; below this cosine sides hardly face each
@@ -81,6 +83,7 @@ contains
       call place_points(mesh, thickness, slave, used, master%grain, points, curvature, mixed)
       call look_for_master(master_faces, points)
       if (.not. master%rigid) points%matching = are_matching(mesh, slave, master, points)
+      if (points%matching .and. points%n > 0) points%matching = .not. any([(hangs_over(i), i=1, slave%n)])
       call mix_rows(mixed, points)
       call drop_points(common_ends(mesh, slave, master_faces), points)
 
@@ -102,6 +105,25 @@ contains
             sees = sees .or. node_finds(mesh, slave, i, rule, k, master)
          end do
       end function sees_master
+
+      !> A face that is left out sees the master with a part of it, not only at a node where both sides have one: they do not match.
+      pure logical function hangs_over(i)
+         integer(ip), intent(in) :: i                  !< face of the slave
+         type(nodal_rule_t) :: rule
+         type(sight_t) :: sight
+         real(wp) :: inwards(2)
+         integer(ip) :: k
+
+         hangs_over = .false.
+         if (used(i)) return
+         rule = nodal_rule(mesh, slave%element(i), slave%face(i))
+         do k = 1, rule%n, rule%n - 1
+            if (.not. node_finds(mesh, slave, i, rule, k, master)) cycle
+            inwards = mesh%x(:, rule%node(rule%n + 1 - k)) - mesh%x(:, rule%node(k))
+            sight = look_along(mesh%x(:, rule%node(k)) + INSIDE*inwards, rule%normal(:, k), rule%s(rule%n), master)
+            hangs_over = hangs_over .or. sight%piece > 0
+         end do
+      end function hangs_over
 
       !> Initial distances, and the master's shape functions where each point faces it: the row u_j - sum phi_k(t) u_k. A
       !> distance that is round-off of the coordinates is none: displacements may be smaller than that. A point at a corner

@@ -92,4 +92,10 @@ run 0 far.inp one --proof on --quiet
 run 0 both.inp both --proof on --quiet
 near 'an open pair besides' "$(summary both error_bound_percent)" "$(summary one error_bound_percent)" 0.05
 
+# a block over the end of the one below: as at the end, where it reaches beyond by what the search for the master lets pass, or by a
+# little more, where nodes still face nodes but one is beyond
+for reach in 2 2.0000004 2.0000009; do run 0 "$here/over.inp" "over-$reach" --set reach=$reach --proof on; done
+no_bound over-2.0000004 'contact beyond the end of a master side'
+near 'over the end' "$(summary over-2.0000004 strain_energy)" "$(summary over-2 strain_energy)" 1e-6
+near 'a little farther' "$(summary over-2.0000009 strain_energy)" "$(summary over-2 strain_energy)" 1e-6
 finish
