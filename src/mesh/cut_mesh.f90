@@ -46,6 +46,7 @@ contains
       call list_pieces(mesh, trees, pieces)
       trees%leaf_of = pieces%leaf(:pieces%n)
       call number_nodes(mesh, pieces, refinement, edge_key, inner_key)
+      call straighten(mesh, pieces, inner_key, refinement)
       call place_nodes(mesh, refinement, fine)
       call place_elements(mesh, pieces, edge_key, inner_key, refinement, fine)
    end subroutine cut_mesh
@@ -301,6 +302,74 @@ contains
       refinement%inner_place(1, :) = real(mod(inner_key, ROW), wp)/SIDE
       refinement%inner_place(2, :) = real(inner_key/ROW, wp)/SIDE
    end subroutine number_nodes
+
+   !> Middles of inner sides that run aslant through an element with straight sides go to the middles of their chords; the map makes
+   !> such lines curved, x = c_0 + c_1 s + c_2 t + c_3 s t, and bounds of the error ask for straight ones.
+   subroutine straighten(mesh, pieces, inner_key, refinement)
+      type(mesh_t), intent(in) :: mesh
+      type(pieces_t), intent(in) :: pieces
+      integer(lp), intent(in) :: inner_key(:)
+      type(refinement_t), intent(inout) :: refinement
+      integer(ip) :: i, k, n, edge, node, at
+      integer(lp) :: key
+      real(wp) :: ends(2, 2)
+
+      do i = 1, pieces%n
+         if (SHAPES(pieces%shape(i))%degree == 1) cycle
+         if (refinement%is_triangle(pieces%root(i))) cycle
+         if (.not. is_bilinear(mesh, pieces%root(i))) cycle
+         n = SHAPES(pieces%shape(i))%n_corners
+         do k = 1, n
+            ends = real(pieces%place(:, [k, mod(k, n) + 1], i), wp)/SIDE
+            if (any(ends(:, 1) == ends(:, 2))) cycle
+            call sort_place(mesh, refinement, pieces%root(i), pieces%place(:, n + k, i), edge, key, node)
+            if (node > 0 .or. edge > 0) cycle
+            associate (first => refinement%inner_first(pieces%root(i)), last => refinement%inner_first(pieces%root(i) + 1) - 1, &
+                       before => refinement%inner_first(1) - 1)
+               at = first - 1 + first_at_least(inner_key(first - before:last - before), key) - before
+            end associate
+            refinement%inner_place(:, at) = chord_middle(mesh%x(:, mesh%nodes(:4, pieces%root(i))), ends)
+         end do
+      end do
+   end subroutine straighten
+
+   !> Whether middles of sides and the centre are where the corners alone would have them.
+   pure logical function is_bilinear(mesh, e)
+      type(mesh_t), intent(in) :: mesh
+      integer(ip), intent(in) :: e
+      real(wp), parameter :: STRAIGHT = 1.0e-10_wp   !< of an element's size
+      real(wp) :: x(2, MOST_NODES), off
+      integer(ip) :: k
+
+      x(:, :mesh%shape(e)) = mesh%x(:, mesh%nodes(:mesh%shape(e), e))
+      off = 0.0_wp
+      do k = 1, min(4_ip, mesh%shape(e) - 4)
+         off = max(off, norm2(x(:, 4 + k) - 0.5_wp*(x(:, k) + x(:, mod(k, 4) + 1))))
+      end do
+      if (has_centre(mesh, e)) off = max(off, norm2(x(:, mesh%shape(e)) - 0.25_wp*sum(x(:, :4), dim=2)))
+      is_bilinear = off <= STRAIGHT*norm2(x(:, 3) - x(:, 1))
+   end function is_bilinear
+
+   !> The place of the middle between two places of an element, by Newton's method from the middle of the places.
+   pure function chord_middle(x, ends) result(place)
+      real(wp), intent(in) :: x(:, :)                !< (2, 4) corners [L]
+      real(wp), intent(in) :: ends(2, 2)             !< places, 0 to 1
+      real(wp) :: place(2)
+      real(wp) :: a(2), b(2), c(2), r(2), j(2, 2)
+      integer :: i
+
+      a = x(:, 2) - x(:, 1)
+      b = x(:, 4) - x(:, 1)
+      c = x(:, 1) - x(:, 2) + x(:, 3) - x(:, 4)
+      place = 0.5_wp*sum(ends, dim=2)
+      do i = 1, 6
+         r = 0.5_wp*(a*sum(ends(1, :)) + b*sum(ends(2, :)) + c*sum(ends(1, :)*ends(2, :))) &
+             - a*place(1) - b*place(2) - c*place(1)*place(2)
+         j(:, 1) = a + c*place(2)
+         j(:, 2) = b + c*place(1)
+         place = place + [j(2, 2)*r(1) - j(1, 2)*r(2), j(1, 1)*r(2) - j(2, 1)*r(1)]/(j(1, 1)*j(2, 2) - j(1, 2)*j(2, 1))
+      end do
+   end function chord_middle
 
    !> Appends keys in rising order, each once.
    subroutine append_keys(keys, list, n)

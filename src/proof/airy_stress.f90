@@ -264,10 +264,14 @@ contains
    end function inner_point
 
    !> The numbers of the outline that tractions along the sides make, (1), with phi and its gradient 0 at the first corner.
-   pure subroutine outline_of_tractions(corner, traction, outline)
+   !>
+   !> open: what phi, over the longest way from the first corner, and its gradient lack of being 0 again once round, a force; 0 of
+   !> tractions that balance.
+   pure subroutine outline_of_tractions(corner, traction, outline, open)
       real(wp), intent(in) :: corner(:, :)          !< (2, corners) counter-clockwise [L]
       real(wp), intent(in) :: traction(:, 0:, :)    !< (2, 0:k, sides) Bernstein coefficients, counter-clockwise [F/L]
       real(wp), intent(out) :: outline(:)           !< as macro_t has them
+      real(wp), intent(out), optional :: open       !< [F]
       real(wp) :: at_corner(3)
       integer(ip) :: i, n, k
 
@@ -280,6 +284,7 @@ contains
             call go_along(corner(:, after(i, n)) - corner(:, i), traction(:, :, i), at_corner, outline(place:place + 2*k - 2))
          end associate
       end do
+      if (present(open)) open = max(maxval(abs(at_corner(2:))), abs(at_corner(1))/maxval(norm2(corner, dim=1)))
    end subroutine outline_of_tractions
 
    !> phi and its gradient from one end of a side to the other, and the numbers of the side.

@@ -1,7 +1,9 @@
 !> Tractions of contact that balance the loads of bodies which nothing else holds.
 module atrito_balanced_contact
-   use atrito_contact_tractions, only: segment_forces, segment_t
+   use atrito_contact_solution, only: contact_solution_t
+   use atrito_contact_tractions, only: list_segments, segment_forces, segment_t
    use atrito_kinds, only: ip, wp
+   use atrito_model, only: model_t
    use atrito_ordering, only: build_graph, graph_t, order_contact_last
    use atrito_problem, only: problem_t
    use atrito_profile, only: add_to_profile, begin_profile, close_profile, profile_t
@@ -10,11 +12,32 @@ module atrito_balanced_contact
    use atrito_status, only: is_ok, status_t
    implicit none (type, external)
    private
-   public :: balance, add_segments
+   public :: balanced_segments, add_segments
 
    real(wp), parameter :: UNBALANCED = 1.0e-10_wp   !< of the forces on a body: more is no balance
 
 contains
+
+   !> The segments of all pairs with tractions that have the resultants of the run, pair by pair, and balance the loads of bodies
+   !> that can move; if that is not to be had, with those of the points as they are.
+   subroutine balanced_segments(model, problem, solution, segments, why_not)
+      type(model_t), intent(in) :: model
+      class(problem_t), intent(in) :: problem
+      type(contact_solution_t), intent(in) :: solution
+      type(segment_t), allocatable, intent(out) :: segments(:)
+      character(len=:), allocatable, intent(out) :: why_not
+      integer(ip) :: n
+      integer :: attempt
+
+      do attempt = 1, 2
+         call list_segments(model, problem, solution, attempt == 1, segments, n, why_not)
+         if (allocated(why_not)) return
+         segments = segments(:n)
+         call balance(problem, segments, why_not)
+         if (.not. allocated(why_not) .or. attempt == 2) return
+         deallocate (why_not)
+      end do
+   end subroutine balanced_segments
 
    !> Makes the tractions of contact balance the loads of bodies that can move: by the pressures alone where that is enough, else by
    !> friction, too.

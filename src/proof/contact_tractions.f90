@@ -65,10 +65,11 @@ contains
    !> The segments of all pairs, with the stresses of a solution.
    !>
    !> why_not: what (2) cannot be had for, in words; not allocated: nothing.
-   subroutine list_segments(model, problem, solution, segments, n, why_not)
+   subroutine list_segments(model, problem, solution, keeps, segments, n, why_not)
       type(model_t), intent(in) :: model
       class(problem_t), intent(in) :: problem
       type(contact_solution_t), intent(in) :: solution
+      logical, intent(in) :: keeps                  !< the resultants of the pairs
       type(segment_t), allocatable, intent(out) :: segments(:)
       integer(ip), intent(out) :: n
       character(len=:), allocatable, intent(inout) :: why_not
@@ -106,7 +107,7 @@ contains
                   end do
                end associate
                point = 0
-               call keep_resultant(problem, solution, first, points%n, is_slave, segments(before + 1:n))
+               if (keeps) call keep_resultant(problem, solution, first, points%n, is_slave, segments(before + 1:n))
             end if
             first = first + points%n
          end associate
@@ -317,6 +318,7 @@ contains
          segments(i)%t = factor*segments(i)%t
          segments(i)%tau = factor*segments(i)%tau
       end do
+      call keep_shear(sum(problem%line%weight(first + 1:first + n_points)*solution%t(first + 1:first + n_points)), segments)
 
    contains
 
@@ -336,6 +338,29 @@ contains
       end function along_pair
 
    end subroutine keep_resultant
+
+   !> Changes shears in proportion to the room that is left below tau, so that they have a resultant; where there is not that much room
+   !> they stay.
+   pure subroutine keep_shear(resultant, segments)
+      real(wp), intent(in) :: resultant             !< [F]
+      type(segment_t), intent(inout) :: segments(:)
+      real(wp) :: missing, room, share
+      integer(ip) :: i
+
+      missing = resultant
+      room = 0.0_wp
+      do i = 1, size(segments, kind=ip)
+         associate (area => 0.5_wp*segments(i)%length*segments(i)%thickness)
+            missing = missing - area*sum(segments(i)%t)
+            room = room + area*sum(segments(i)%tau - abs(segments(i)%t))
+         end associate
+      end do
+      if (.not. abs(missing) < room) return
+      share = missing/room
+      do i = 1, size(segments, kind=ip)
+         segments(i)%t = segments(i)%t + share*(segments(i)%tau - abs(segments(i)%t))
+      end do
+   end subroutine keep_shear
 
    !> Of the material of an element, times its thickness [F/L].
    pure real(wp) function stiffness_of(fem, e)

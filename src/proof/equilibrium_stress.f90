@@ -21,7 +21,7 @@ module atrito_equilibrium_stress
 contains
 
    !> The squares of the distance, element by element, behind as many sweeps as are worth it.
-   subroutine sum_stresses(fem, classes, sides, chains, loads, u, cuts, share)
+   subroutine sum_stresses(fem, classes, sides, chains, loads, u, cuts, share, residual)
       type(fem_t), intent(in) :: fem
       type(element_classes_t), intent(in) :: classes
       type(mesh_sides_t), intent(in) :: sides
@@ -30,10 +30,12 @@ contains
       real(wp), intent(in) :: u(:, :)               !< (2, n_nodes) [L]
       type(side_cuts_t), intent(in) :: cuts         !< sides whose tractions are polynomials by parts
       real(wp), intent(out) :: share(:)             !< (n_elements) [F L]
+      real(wp), intent(inout) :: residual           !< of the equilibrium; not less than what outlines are open by, over the largest force
       type(outlines_t) :: outlines
       integer(ip), allocatable :: cut(:)            ! elements
       integer(ip) :: degree, most, c
-      real(wp) :: gain, left, of_stresses           ! of_stresses: energy of those of the displacements
+      real(wp) :: gain, left, open, most_open, largest
+      real(wp) :: of_stresses                       ! energy of those of the displacements
       integer :: sweep
 
       degree = ubound(loads%traction, 2, kind=ip)
@@ -44,9 +46,12 @@ contains
       allocate (outlines%h(most, most, classes%n + size(cut)), outlines%a(most, size(share)), outlines%slope(most, size(share)), &
                 outlines%energy(size(share)), source=0.0_wp)
       of_stresses = 0.0_wp
+      most_open = 0.0_wp
+      largest = 0.0_wp
       do c = 1, classes%n
          call begin_class(c)
       end do
+      residual = max(residual, most_open/max(largest, tiny(open)))
       do c = 1, size(cut, kind=ip)
          call begin_cut(cut(c), classes%n + c)
       end do
@@ -91,7 +96,9 @@ contains
                      end if
                   end associate
                end do
-               call outline_of_tractions(energy%macro%corner(:, :corners), of_sides(:, :, :corners), outlines%a(:n, e))
+               call outline_of_tractions(energy%macro%corner(:, :corners), of_sides(:, :, :corners), outlines%a(:n, e), open)
+               most_open = max(most_open, open)
+               largest = max(largest, maxval(abs(outlines%a(2:3*corners:3, e))), maxval(abs(outlines%a(3:3*corners:3, e))))
                call given_rows(energy, x(:energy%n_given), rows)
                do j = 1, energy%n_given
                   outlines%slope(:n, e) = outlines%slope(:n, e) + energy%slopes(:, n + j)*x(j)

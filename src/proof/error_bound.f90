@@ -9,7 +9,7 @@
 !> (Prager and Synge, for contact with friction), norms of the energy. No constant, no assumption on the mesh. The steps:
 !>
 !> 1. p^, t^: from point to point as those of the run, linear; balanced with the loads of bodies that nothing else holds
-!> (`balance`).
+!> (`balanced_segments`).
 !> 2. One more solution with these tractions in place of the forces of contact, by which all that follows is a matter of loads.
 !> 3. Tractions along all sides in equilibrium with every element (atrito_side_tractions).
 !> 4. A stress in every element (atrito_airy_stress), bettered by sweeps over the corners (atrito_star_sweeps).
@@ -17,10 +17,10 @@
 !> (`add_misfit`).
 module atrito_error_bound
    use atrito_assembly, only: cached_stiffness, fem_t, stiffness_cache_t
-   use atrito_balanced_contact, only: balance
+   use atrito_balanced_contact, only: balanced_segments
    use atrito_cut_elements, only: add_piece, link_pieces, side_cuts_t
    use atrito_contact_solution, only: contact_solution_t
-   use atrito_contact_tractions, only: list_segments, segment_forces, segment_t, traction_at
+   use atrito_contact_tractions, only: segment_forces, segment_t, traction_at
    use atrito_element_classes, only: element_classes_t, find_classes, given_of
    use atrito_element_energy, only: corner_stresses, MOST_GIVEN
    use atrito_element_table, only: CORNERS_OF, DEGREE_OF, MOST_NODES
@@ -71,22 +71,20 @@ contains
       real(wp), allocatable :: share(:), force(:, :, :)
       character(len=:), allocatable :: why_not
       real(wp) :: residual, of_law(3)
-      integer(ip) :: n_segments, degree
+      integer(ip) :: degree
 
       results%error_bound = error_bound_t()
       call check_hypotheses(problem, results%u, why_not)
-      if (.not. allocated(why_not)) call list_segments(model, problem, solution, segments, n_segments, why_not)
+      if (.not. allocated(why_not)) call balanced_segments(model, problem, solution, segments, why_not)
       call find_classes(problem%fem, classes)
       if (.not. allocated(why_not) .and. if_quick .and. takes_long(problem%fem, classes)) then
          why_not = 'it takes longer than the run: --proof on'
       end if
       if (.not. allocated(why_not)) then
-         segments = segments(:n_segments)
          degree = maxval(DEGREE_OF(problem%fem%mesh%shape(:problem%fem%mesh%n_elements)))
          call list_sides(problem%fem%mesh, sides)
          call take_loads(model, acting, problem%fem, sides, degree, problem%held, results%reaction, loads, why_not)
       end if
-      if (.not. allocated(why_not)) call balance(problem, segments, why_not)
       if (.not. allocated(why_not) .and. .not. allocated(exchanged)) call exchange(problem, solution, segments, exchanged, why_not)
       if (.not. allocated(why_not)) call take_contact(problem%fem, sides, segments, degree, loads, cuts, why_not)
       if (.not. allocated(why_not)) then
@@ -94,7 +92,7 @@ contains
          call take_elements(problem%fem, classes, sides, results%u + exchanged, loads, force)
          call equilibrate_sides(problem%fem%mesh, sides, chains, force, loads%known, loads%traction, residual)
          allocate (share(problem%fem%mesh%n_elements))
-         call sum_stresses(problem%fem, classes, sides, chains, loads, results%u, cuts, share)
+         call sum_stresses(problem%fem, classes, sides, chains, loads, results%u, cuts, share, residual)
          if (any(share < 0.0_wp)) why_not = 'a side of an element faces too many others'
       end if
       if (.not. allocated(why_not)) call add_misfit(problem%fem, problem%held, segments, results%u, share, of_law, why_not)

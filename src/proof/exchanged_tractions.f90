@@ -5,11 +5,11 @@
 !> besides, which costs a solution with the factors that are there, and all else is a matter of given loads.
 module atrito_exchanged_tractions
    use atrito_assembly, only: fem_t
-   use atrito_balanced_contact, only: add_segments, balance
+   use atrito_balanced_contact, only: add_segments, balanced_segments
    use atrito_bodies, only: bodies_t
    use atrito_condensed_body, only: condense_body, condensed_body_t, contact_response, expand_body
    use atrito_contact_solution, only: contact_solution_t
-   use atrito_contact_tractions, only: list_segments, segment_t
+   use atrito_contact_tractions, only: segment_t
    use atrito_displacements, only: contact_forces
    use atrito_kinds, only: ip, wp
    use atrito_model, only: model_t
@@ -32,12 +32,8 @@ contains
       real(wp), allocatable, intent(out) :: change(:, :)
       type(segment_t), allocatable :: segments(:)
       character(len=:), allocatable :: why_not
-      integer(ip) :: n
 
-      call list_segments(model, problem, solution, segments, n, why_not)
-      if (allocated(why_not)) return
-      segments = segments(:n)
-      call balance(problem, segments, why_not)
+      call balanced_segments(model, problem, solution, segments, why_not)
       if (.not. allocated(why_not)) call exchange(problem, solution, segments, change, why_not, bodies)
    end subroutine exchange_with_factors
 

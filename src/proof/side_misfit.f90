@@ -10,16 +10,17 @@
 module atrito_side_misfit
    use atrito_assembly, only: fem_t
    use atrito_contact_tractions, only: segment_t, SAME_DIRECTION
-   use atrito_kinds, only: ip, wp
+   use atrito_kinds, only: ip, lp, wp
    use atrito_law_lack, only: axis_of, balanced_jump, lack_of_part, traction_of_law
    use atrito_misfit_places, only: jump_at, list_places, part_count, part_ends, place_t
-   use atrito_sorting, only: each_once
+   use atrito_sorting, only: each_once, sorted_places
    use atrito_strip_mesh, only: strip_energy, strip_t
    implicit none (type, external)
    private
    public :: add_misfit
 
    integer, parameter :: SWEEPS = 20, MOST_ROUNDS = 100
+   integer, parameter :: EACH = 4                   !< sweep that moves corners with several places, too
    real(wp), parameter :: WORTH = 0.005_wp          !< of the bound's square: sweeps that gain less are the last ones
    real(wp), parameter :: SETTLED = 1.0e-8_wp       !< of the largest motion
    real(wp), parameter :: BEYOND = 1.5_wp           !< corners without contact move by so many times what is in balance
@@ -109,8 +110,8 @@ contains
       real(wp), intent(inout) :: w(:, :)            !< (2, n) [L]
       logical, intent(out) :: is_settled            !< nothing moves any more
       integer(ip), allocatable :: count_of(:)       ! places of a corner
-      integer(ip), allocatable :: crowd(:)          ! places with a corner that has others, too
-      integer(ip) :: i, sweep
+      integer(ip), allocatable :: crowd(:), first(:) ! places with a corner that has others, too, those that are connected together
+      integer(ip) :: i, j, sweep
       real(wp) :: change
 
       allocate (count_of(0:strip%n), source=0_ip)
@@ -118,7 +119,7 @@ contains
          count_of(places(i)%vertex) = count_of(places(i)%vertex) + 1
       end do
       count_of(0) = 0
-      crowd = pack([(i, i=1, size(places, kind=ip))], [(any(count_of(places(i)%vertex) > 1), i=1, size(places, kind=ip))])
+      call list_crowds(places, count_of, crowd, first)
       do sweep = 1, SWEEPS
          change = 0.0_wp
          do i = 1, size(places, kind=ip)
@@ -129,13 +130,17 @@ contains
                call move_both(strip, places(i)%vertex, w, change)
             end if
          end do
-         do i = 1, size(crowd, kind=ip)
-            associate (place => places(crowd(i)))
-               call move_crowd(segments, strip, places(crowd), place%vertex(:1), w, change)
-               if (place%vertex(2) == 0) cycle
-               call move_crowd(segments, strip, places(crowd), place%vertex(2:), w, change)
-               call move_crowd(segments, strip, places(crowd), place%vertex, w, change)
-               call move_crowd(segments, strip, places(crowd), neighbours_of(places(crowd), place%vertex), w, change)
+         do i = 1, merge(size(first, kind=ip) - 1, 0_ip, mod(sweep, EACH) == 1)
+            associate (together => places(crowd(first(i):first(i + 1) - 1)))
+               do j = 1, size(together, kind=ip)
+                  associate (vertex => together(j)%vertex)
+                     call move_crowd(segments, strip, together, j, vertex(:1), w, change)
+                     if (vertex(2) == 0) cycle
+                     call move_crowd(segments, strip, together, j, vertex(2:), w, change)
+                     call move_crowd(segments, strip, together, j, vertex, w, change)
+                     call move_crowd(segments, strip, together, j, neighbours_of(together, vertex), w, change)
+                  end associate
+               end do
             end associate
          end do
          do i = 1, strip%n
@@ -212,6 +217,39 @@ contains
       change = max(change, norm2(motion))
    end subroutine move_both
 
+   !> Places with a corner that has more than one, those that corners connect one after the other.
+   subroutine list_crowds(places, count_of, crowd, first)
+      type(place_t), intent(in) :: places(:)
+      integer(ip), intent(in) :: count_of(0:)       !< places of a corner
+      integer(ip), allocatable, intent(out) :: crowd(:)
+      integer(ip), allocatable, intent(out) :: first(:) !< (crowds + 1)
+      integer(ip) :: group(0:ubound(count_of, 1)), i, low
+      logical :: is_settled
+
+      crowd = pack([(i, i=1, size(places, kind=ip))], [(any(count_of(places(i)%vertex) > 1), i=1, size(places, kind=ip))])
+      group = [(i, i=0, ubound(group, 1, kind=ip))]
+      do
+         is_settled = .true.
+         do i = 1, size(crowd, kind=ip)
+            associate (vertex => pack(places(crowd(i))%vertex, places(crowd(i))%vertex > 0))
+               low = minval(group(vertex))
+               if (all(group(vertex) == low)) cycle
+               is_settled = .false.
+               group(vertex) = low
+            end associate
+         end do
+         if (is_settled) exit
+      end do
+      crowd = crowd(sorted_places([(int(group(places(crowd(i))%vertex(1)), lp), i=1, size(crowd, kind=ip))]))
+      first = [integer(ip) ::]
+      do i = 1, size(crowd, kind=ip)
+         low = 0
+         if (i > 1) low = group(places(crowd(i - 1))%vertex(1))
+         if (group(places(crowd(i))%vertex(1)) /= low) first = [first, i]
+      end do
+      first = [first, size(crowd, kind=ip) + 1_ip]
+   end subroutine list_crowds
+
    !> Corners of all places that two corners have, each once.
    pure function neighbours_of(places, vertex) result(corners)
       type(place_t), intent(in) :: places(:)
@@ -226,52 +264,50 @@ contains
       corners = each_once(pack(corners, corners > 0))
    end function neighbours_of
 
-   !> Corners together that have several places: along the normal and along T of each of these to where all their laws and the
-   !> triangles are in balance, by bisection.
-   subroutine move_crowd(segments, strip, places, vertex, w, change)
+   !> Corners together that have several places: along the normal and along T of one of these to where all laws and the triangles are
+   !> in balance, by bisection.
+   subroutine move_crowd(segments, strip, places, i, vertex, w, change)
       type(segment_t), intent(in) :: segments(:)
       type(strip_t), intent(in) :: strip
       type(place_t), intent(in) :: places(:)        !< those of the corners are among them
+      integer(ip), intent(in) :: i                  !< place that says where the normal is
       integer(ip), intent(in) :: vertex(:)
       real(wp), intent(inout) :: w(:, :), change
-      integer, parameter :: MOST_STEPS = 120
+      integer, parameter :: MOST_STEPS = 50
       real(wp) :: direction(2), k, force, low, high, x
-      integer(ip) :: i, j, d, l
+      integer(ip) :: j, d, l
       integer :: step
 
-      do i = 1, size(places, kind=ip)
-         if (all(places(i)%vertex(1) /= vertex) .and. all(places(i)%vertex(2) /= vertex)) cycle
-         do d = 1, 2
-            direction = axis_of(segments(places(i)%segment), d)
-            k = 0.0_wp
-            force = 0.0_wp
-            do j = 1, size(vertex, kind=ip)
-               if (.not. all(strip%is_free(:, vertex(j)) .or. abs(direction) <= SAME_DIRECTION)) exit
-               force = force + dot_product(direction, force_on(strip, vertex(j), w))
-               k = k + dot_product(direction, matmul(strip%own(:, :, vertex(j)), direction))
-               do l = strip%first(vertex(j)), strip%first(vertex(j) + 1) - 1
-                  if (.not. any(strip%other(l) == vertex)) cycle
-                  k = k + dot_product(direction, matmul(strip%coupling(:, :, l), direction))
-               end do
+      do d = 1, 2
+         direction = axis_of(segments(places(i)%segment), d)
+         k = 0.0_wp
+         force = 0.0_wp
+         do j = 1, size(vertex, kind=ip)
+            if (.not. all(strip%is_free(:, vertex(j)) .or. abs(direction) <= SAME_DIRECTION)) exit
+            force = force + dot_product(direction, force_on(strip, vertex(j), w))
+            k = k + dot_product(direction, matmul(strip%own(:, :, vertex(j)), direction))
+            do l = strip%first(vertex(j)), strip%first(vertex(j) + 1) - 1
+               if (.not. any(strip%other(l) == vertex)) cycle
+               k = k + dot_product(direction, matmul(strip%coupling(:, :, l), direction))
             end do
-            if (j <= size(vertex)) cycle
-            low = 0.0_wp
-            high = 0.0_wp
-            x = maxval(abs(places%law(1)%y), mask=places%weight > 0.0_wp) + maxval(abs(w)) + abs(force)/k
-            if (pull_at(0.0_wp) > 0.0_wp) high = x
-            if (pull_at(0.0_wp) < 0.0_wp) low = -x
-            do step = 1, MOST_STEPS
-               x = 0.5_wp*(low + high)
-               if (.not. (x > low .and. x < high)) exit
-               if (pull_at(x) > 0.0_wp) low = x
-               if (.not. pull_at(x) > 0.0_wp) high = x
-            end do
-            x = merge(high, low, abs(pull_at(high)) <= abs(pull_at(low)))
-            do j = 1, size(vertex, kind=ip)
-               where (strip%is_free(:, vertex(j))) w(:, vertex(j)) = w(:, vertex(j)) + x*direction
-            end do
-            change = max(change, abs(x))
          end do
+         if (j <= size(vertex)) cycle
+         low = 0.0_wp
+         high = 0.0_wp
+         x = maxval(abs(places%law(1)%y), mask=places%weight > 0.0_wp) + maxval(abs(w)) + abs(force)/k
+         if (pull_at(0.0_wp) > 0.0_wp) high = x
+         if (pull_at(0.0_wp) < 0.0_wp) low = -x
+         do step = 1, MOST_STEPS
+            x = 0.5_wp*(low + high)
+            if (.not. (x > low .and. x < high)) exit
+            if (pull_at(x) > 0.0_wp) low = x
+            if (.not. pull_at(x) > 0.0_wp) high = x
+         end do
+         x = merge(high, low, abs(pull_at(high)) <= abs(pull_at(low)))
+         do j = 1, size(vertex, kind=ip)
+            where (strip%is_free(:, vertex(j))) w(:, vertex(j)) = w(:, vertex(j)) + x*direction
+         end do
+         change = max(change, abs(x))
       end do
 
    contains
