@@ -3,13 +3,10 @@
 !>
 !> A motion v of the bodies is idle where no row that takes a force sees it: N v = 0 at closed points, T v = 0 at those that stick,
 !> b v = 0 in bilateral rows. Bodies are joined by such rows into groups, and the idle motions of a group are the null space of its
-!> rows. From the displacements u that were found, and u' of the increment before, the sum over all nodes of (u + V s - u')^2 is
-!> made least, V being the idle motions, under the conditions that no point that is open closes beyond its gap and none that slips
-!> goes back.
+!> rows. Which of them are added to the displacements is asked in atrito_least_motions.
 module atrito_idle_motions
-   use atrito_assembly, only: fem_t
    use atrito_bodies, only: simplest_motion
-   use atrito_bound_qp, only: FREE, AT_LOWER, AT_UPPER, FROZEN
+   use atrito_bound_qp, only: FREE, AT_LOWER, FROZEN
    use atrito_contact_line, only: friction_bound, rest_of
    use atrito_contact_rows, only: row_value
    use atrito_contact_solution, only: contact_solution_t
@@ -18,9 +15,9 @@ module atrito_idle_motions
    use atrito_incidence, only: list_holders
    use atrito_joined_sets, only: find_lowest, join_sets
    use atrito_kinds, only: ip, wp
+   use atrito_least_motions, only: measure_motions, take_least
    use atrito_load_digits, only: place_doubt, is_within_digits, take_out
    use atrito_motion_rows, only: motion_rows_t, build_motion_rows
-   use atrito_row_entries, only: first_motions, modes_at_node
    use atrito_scene_data, only: scene_data_t
    use atrito_sparse_rows, only: multiply_rows
    implicit none (type, external)
@@ -30,11 +27,6 @@ module atrito_idle_motions
    integer(ip), parameter :: MOST_MOTIONS = 300_ip  !< of a group: its null space takes their cube of operations
    real(wp), parameter :: NULL_MOTION = 1.0e-14_wp  !< square of what rows see of an idle motion, over that of the others
    real(wp), parameter :: MOST_ENTRIES = 1.0e6_wp   !< of the rows that are closed again
-   integer(ip), parameter :: MOST_SWEEPS = 1000_ip
-   real(wp), parameter :: SEEN = 1.0e-20_wp         !< square of what a row sees of the motions, of the largest
-   real(wp), parameter :: NO_WAY = 1.0e-12_wp       !< of the displacements: it is rounding that is not least
-   real(wp), parameter :: BACK = 1.0e-13_wp         !< what rounding leaves of a way and the way back
-   real(wp), parameter :: SETTLED = 1.0e-14_wp
    real(wp), parameter :: NO_FORCE = 1.0e-13_wp     !< of the largest force on bodies that touch: round-off
    real(wp), parameter :: DOUBTS = 5.0_wp           !< of a normal, which a force may be off by, over the largest one
    real(wp), parameter :: MOST_DOUBT = 1.0e-9_wp    !< that balances leave
@@ -322,80 +314,6 @@ contains
       end do
    end subroutine add_row
 
-   !> Of the displacements since the increment before, the sums over the nodes of each body with its motions: Z'(u + Z a - u') and
-   !> Z'Z.
-   pure subroutine measure_motions(fem, u, before, a, off, metric)
-      type(fem_t), intent(in) :: fem
-      real(wp), intent(in) :: u(:, :)
-      real(wp), pointer, intent(in) :: before(:, :)
-      real(wp), intent(in) :: a(:)                  !< (k)
-      real(wp), allocatable, intent(out) :: off(:)  !< (k) [L]
-      real(wp), allocatable, intent(out) :: metric(:, :, :) !< (3, 3, bodies)
-      real(wp) :: z(2, 3), moved(2)
-      integer(ip) :: first(fem%bodies%n + 1), b, i
-
-      allocate (off(size(a)), metric(3, 3, fem%bodies%n), source=0.0_wp)
-      first = first_motions(fem%bodies)
-      do b = 1, fem%bodies%n
-         associate (nodes => fem%bodies%list(b)%nodes, n => first(b + 1) - first(b), own_a => a(first(b):first(b + 1) - 1), &
-                    own_off => off(first(b):first(b + 1) - 1))
-            do i = 1, merge(size(nodes, kind=ip), 0_ip, n > 0)
-               z = modes_at_node(fem, b, nodes(i))
-               moved = u(:, nodes(i)) + matmul(z(:, :n), own_a)
-               if (associated(before)) then
-                  if (nodes(i) <= size(before, 2)) moved = moved - before(:, nodes(i))
-               end if
-               own_off = own_off + matmul(moved, z(:, :n))
-               metric(:, :, b) = metric(:, :, b) + matmul(transpose(z), z)
-            end do
-         end associate
-      end do
-   end subroutine measure_motions
-
-   !> Least squares over the idle motions, V' M V s = -V' off, and the same within the conditions of the rows that do not hold.
-   !>
-   !> The sum over the nodes of the squares of their displacements since the increment before, with the motions V s added, is
-   !>
-   !>     |u + Z a + Z V s - u'|^2 = s'V'M V s + 2 s'V'off + what does not depend on s,     M = Z'Z,   off = Z'(u + Z a - u')
-   !>
-   !> M has a block of order 3 a body (measure_motions). With V'M V = Q diag(l) Q' the columns of W = V Q diag(l)^-1/2 are as many
-   !> motions with W'M W = 1, and of s over these the sum is |s + W'off|^2 but for a constant: the least is at s = -W'off, and the
-   !> least under conditions is the point nearest to that one (within_conditions), in the plain sense of the distance.
-   subroutine take_least(fem, rows, idle, off, metric, largest, solution, way)
-      type(fem_t), intent(in) :: fem
-      type(motion_rows_t), intent(in) :: rows
-      real(wp), intent(in) :: idle(:, :)            !< (k, motions)
-      real(wp), intent(in) :: off(:)                !< (k) [L]
-      real(wp), intent(in) :: metric(:, :, :)
-      real(wp), intent(in) :: largest               !< displacement [L]
-      type(contact_solution_t), intent(inout) :: solution
-      real(wp), intent(out) :: way(:)               !< (k) that the bodies went [L]; 0 where they did not
-      real(wp) :: basis(size(idle, 1), size(idle, 2)), gram(size(idle, 2), size(idle, 2)), values(size(idle, 2))
-      real(wp) :: rate(rows%n)
-      integer(ip) :: j, info
-
-      way = 0.0_wp
-      gram = matmul(transpose(idle), times_metric(fem, metric, idle))
-      call eigen_symmetric(gram, values, info)
-      if (info /= 0) return
-      basis = matmul(idle, gram)
-      do j = 1, size(values, kind=ip)
-         basis(:, j) = basis(:, j)/sqrt(max(values(j), tiny(1.0_wp)))
-      end do
-      way = matmul(basis, within_conditions(rows, basis, -matmul(off, basis), solution))
-      if (maxval(abs(way)) <= NO_WAY*max(maxval(abs(solution%state%a)), largest)) then
-         way = 0.0_wp
-         return
-      end if
-      where (abs(way) <= NO_WAY*maxval(abs(way))) way = 0.0_wp
-      ! a body that comes back to where it was is there
-      way = merge(way, -solution%state%a, abs(solution%state%a + way) > BACK*abs(way))
-      solution%state%a = solution%state%a + way
-      call multiply_rows(rows, way, rate)
-      where (solution%state%state /= FREE) solution%state%r = solution%state%r + rate
-      solution%has_settled = .true.
-   end subroutine take_least
-
    !> Whether a row is one of a group of bodies of which some have gone a way.
    pure logical function has_moved(rows, group, way, i)
       type(motion_rows_t), intent(in) :: rows
@@ -454,64 +372,5 @@ contains
          end if
       end associate
    end function row_of
-
-   pure function times_metric(fem, metric, v) result(product)
-      type(fem_t), intent(in) :: fem
-      real(wp), intent(in) :: metric(:, :, :), v(:, :)
-      real(wp) :: product(size(v, 1), size(v, 2))
-      integer(ip) :: first(fem%bodies%n + 1), b
-
-      first = first_motions(fem%bodies)
-      do b = 1, fem%bodies%n
-         associate (n => first(b + 1) - first(b), at => first(b))
-            product(at:at + n - 1, :) = matmul(metric(:n, :n, b), v(at:at + n - 1, :))
-         end associate
-      end do
-   end function times_metric
-
-   !> The point s nearest to the wanted one at which no row that is at a bound would have to leave it: r + A s <= 0 at the lower
-   !> bound, >= 0 at the upper one. By Hildreth's method: projections onto one condition after the other, each with a multiplier >=
-   !> 0.
-   !>
-   !> To minimise |s - s0|^2/2 under a_i's <= b_i is to find s = s0 - sum_i m_i a_i with m_i >= 0, which is 0 where a_i's < b_i.
-   !> One condition alone is met by the step
-   !>
-   !>     c = max(-m_i, (a_i's - b_i)/|a_i|^2),     m_i <- m_i + c,     s <- s - c a_i
-   !>
-   !> which goes onto the plane a_i's = b_i from outside, and from inside back towards it as far as earlier steps had gone away from
-   !> s0. Sweep after sweep that is coordinate ascent on the dual problem: its value rises with each step, and s converges, linearly
-   !> in the end (C. Hildreth, Naval Research Logistics Quarterly 4 (1957) 79-85). s = 0, the displacements as found, meets all
-   !> conditions, so there always is such a point.
-   pure function within_conditions(rows, basis, wanted, solution) result(s)
-      type(motion_rows_t), intent(in) :: rows
-      real(wp), intent(in) :: basis(:, :), wanted(:)
-      type(contact_solution_t), intent(in) :: solution
-      real(wp) :: s(size(wanted)), a(size(wanted), rows%n), bound(rows%n), multiplier(rows%n), size_of(rows%n), step, most
-      integer(ip) :: i, j, sweep
-
-      do j = 1, size(wanted, kind=ip)
-         call multiply_rows(rows, basis(:, j), a(j, :))
-      end do
-      bound = max(-solution%state%r, 0.0_wp)
-      where (solution%state%state == AT_UPPER) bound = max(solution%state%r, 0.0_wp)
-      do i = 1, rows%n
-         if (solution%state%state(i) == AT_UPPER) a(:, i) = -a(:, i)
-         size_of(i) = sum(a(:, i)**2)
-         if (all(solution%state%state(i) /= [AT_LOWER, AT_UPPER])) size_of(i) = 0.0_wp
-      end do
-      s = wanted
-      multiplier = 0.0_wp
-      do sweep = 1, MOST_SWEEPS
-         most = 0.0_wp
-         do i = 1, rows%n
-            if (size_of(i) <= SEEN*maxval(size_of)) cycle
-            step = max(-multiplier(i), (dot_product(a(:, i), s) - bound(i))/size_of(i))
-            multiplier(i) = multiplier(i) + step
-            s = s - step*a(:, i)
-            most = max(most, abs(step)*sqrt(size_of(i)))
-         end do
-         if (most <= SETTLED*norm2(wanted)) exit
-      end do
-   end function within_conditions
 
 end module atrito_idle_motions
