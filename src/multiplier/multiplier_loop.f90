@@ -69,7 +69,6 @@ module atrito_multiplier_loop
    real(wp), parameter :: MOVES_SLOWLY = 1.0e-7_wp    !< the same where the forces have come to rest
    real(wp), parameter :: STEADY_PULL = 0.8_wp        !< of that of the step before
    real(wp), parameter :: SMALL_PULL = 1.0e-3_wp      !< a pull that may become weaker
-   real(wp), parameter :: CONTRACTS = 0.2_wp          !< change of the forces over the last one, below which it tells the next one
    integer(ip), parameter :: MOST_MOVING = 5_ip
 
 contains
@@ -449,11 +448,8 @@ contains
       type(contact_solution_t), intent(inout) :: solution
       real(wp) :: whole
 
-      ! of the forces a step is off by no more than what the next one would change: as much less as this one is than the last
-      whole = loop%distance%forces
-      if (loop%standing > 0 .and. .not. multipliers%changed .and. whole < CONTRACTS*loop%change) whole = whole*(whole/loop%change)
-      whole = max(whole, loop%distance%bound)
       ! a pull below NO_LOAD of the forces on its body is none
+      whole = max(loop%distance%forces, loop%distance%bound)
       if (loop%distance%pull > NO_LOAD) whole = max(whole, loop%distance%pull)
       solution%converged = multipliers%settled .and. whole <= tolerance
       call note_residual(loop%progress, outer, whole)

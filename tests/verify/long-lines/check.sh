@@ -72,6 +72,15 @@ does_not_grow averaged 0.5 0. 1000. '*FRICTION, NONLOCAL
 .3, 0., 1.'
 does_not_grow sloped 0.5 0. 1000. '*FRICTION
 .3, 1e4'
+# Loads that grow by a tenth ten times: an increment begins where the last two point to. The answer is that of one increment.
+layers 200 0.5 0. 1000. '*FRICTION
+.3' | sed 's/^\*STATIC$/*STATIC\n0.1, 1./' >growing.inp
+run 0 growing.inp growing --contact sparse --quiet
+below 'growing: solves of ten increments' "$(column growing/iterations.tab inner | wc -l)" 41
+for run in growing left-200; do awk '!/^#/ { print $8, $10 }' $run/contact.tab >$run.stresses; done
+paste growing.stresses left-200.stresses | awk '{ for (i = 1; i <= 2; i++) { d = $i - $(i + 2); if (d < 0) d = -d; if (d > most) most = d } }
+   END { printf "growing: largest difference of pressures and shears %.1e\n", most; exit !(NR > 200 && most < 1e-7) }' ||
+   complain 'growing: another answer than that of one increment'
 # A flat layer pressed on one whose side is a parabola: without friction, the ends of contact are fronts, too.
 layers 1600 0. 0. 3000. '' | sed 's/^\*STEP$/*CLEARANCE, SLAVE=LOW-TOP, MASTER=HIGH-BOTTOM, FUNCTION\n4e-3*(x - 7.5)**2\n*STEP/
    s/^HIGH-TOP, P, 1.$/HIGH-TOP, P, 0/; s/^\*CLOAD$/*BOUNDARY\nHIGH-TOP, 2, 2, -0.02\nHIGH-LEFT, 1\n*CLOAD/' >parabola.inp

@@ -48,4 +48,8 @@ for factor in 0.45 0.6; do
    wall "firm-30-$factor.inp" 6 9 5 "$factor"
    run 0 "firm-30-$factor.inp" "firm-30-$factor" --contact sparse --quiet
 done
+# Many points change their states at once: the number of solves is not that of blocks that open.
+wall many.inp 10 19 0.6 0.2
+run 0 many.inp many --contact sparse --quiet
+below 'many: linear solves' "$(column many/iterations.tab inner | wc -l)" 70
 finish
