@@ -48,7 +48,7 @@ module atrito_overlay_data
       logical :: has_tables = .false.              !< contact.tab can be read
       logical :: not_converged = .false.
       integer(ip) :: step = 1, increment = 1       !< the last of contact.tab, which is drawn
-      real(wp), allocatable :: quantity(:, :)      !< (size(overlay_t%quantities), pairs): of summary.tab; not allocated: there is none
+      real(wp), allocatable :: quantity(:, :)      !< (quantities of overlay_t, pairs): of summary.tab; not allocated: none
    end type overlay_run_t
 
    !> A contact pair over all runs.

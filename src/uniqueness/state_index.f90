@@ -54,7 +54,7 @@ contains
             matrix(:, j) = matrix(:, j) - matrix(:, i)*(matrix(i, j)/matrix(i, i))
          end do
       end do
-      left = [pack([(i, i=1, size(slips, kind=ip))], .not. slips), (i, i=size(slips, kind=ip) + 1, n)]
+      left = [pack([(i, i=1, size(slips, kind=ip))],.not. slips), (i, i=size(slips, kind=ip) + 1, n)]
       matrix = matrix(left, left)
    end subroutine eliminate
 

@@ -226,7 +226,7 @@ contains
       integer(ip) :: i, j, n
 
       n = line%n
-      sticks = state == STICK .or. (state == OPEN .and..not. line%average%is_identity)
+      sticks = state == STICK .or. (state == OPEN .and. .not. line%average%is_identity)
       active = [pack([(i, i=1, n)], is_closed(state)), pack([(n + i, i=1, n)], sticks)]
       a = flexibility(problem, line)
       b = bound_matrix(line, factor)
