@@ -369,7 +369,6 @@ contains
       real(wp) :: strain_bound
 
       call start_phase('recover')
-      call report_progress(data%reporter, 'stresses and their error')
       if (data%is_distributed) call data%distribution%begin_fields(data%fem, results%u, data%wants_element_errors)
       call sum_joints(data%fem%bodies%of_node, data%points, results%contact, results%joints)
       call recover_stress(data%step%requests, data%fem, results)
