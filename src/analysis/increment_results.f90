@@ -15,7 +15,6 @@ module atrito_increment_results
    use atrito_linear_limits, only: find_large
    use atrito_mesh, only: is_revolved
    use atrito_recovery, only: recover_contact, recover_stress, estimate_error
-   use atrito_reporter, only: report_progress
    use atrito_results, only: results_t, has_forces
    use atrito_row_entries, only: first_motions
    use atrito_row_forces, only: share_out_rows, clear_balance, leave_out_sections
@@ -71,7 +70,6 @@ contains
       real(wp) :: strain_bound
 
       call start_phase('recover')
-      call report_progress(data%reporter, 'stresses and their error')
       if (data%is_distributed) call data%distribution%begin_fields(data%fem, results%u, data%wants_element_errors)
       call sum_joints(data%fem%bodies%of_node, data%points, results%contact, results%joints)
       call recover_stress(data%step%requests, data%fem, results)

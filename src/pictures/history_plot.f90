@@ -314,7 +314,7 @@ contains
       call put_titles(plots, model, history, 'that slip most')
       call put_frame(plots, 1_ip, range_t(wide%low/10.0_wp**power, wide%high/10.0_wp**power), '""')
       call put(plots, 'height = 620; bottom(i) = 70.0/height'//LF//'right = '// &
-               right_edge(history, pairs, .not. is_one, .false.)//LF// &
+               right_edge(history, pairs, size(pairs) > 1, .false.)//LF// &
                'slip_unit = 1e'//to_text(power))
       call put_terminal(plots, '1000,height')
       call put_styles(plots, history%rows)

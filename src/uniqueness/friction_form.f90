@@ -43,7 +43,7 @@ contains
          do k = 1, problem%k
             if (maxval([0.0_wp, abs(problem%g(n + 1:, k))]) > NONE_ALONG*maxval(abs(problem%g(:, k)))) then
                why_not = 'a body is held along the contact by friction alone'
-               if (line%n_bilateral > 0) why_not = 'a body is held along the contact by friction and joints'
+               if (line%n_bilateral > 0) why_not = 'friction and joints hold a body along the contact'
                return
             end if
          end do
