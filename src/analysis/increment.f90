@@ -87,7 +87,8 @@ contains
    end function is_solved
 
    !> Solves again with the stiffness of each element: where a body is as slender as the digits of its nodes are few, taking near
-   !> elements as equal says nothing of it, and refinement does not converge.
+   !> elements as equal says nothing of it, and refinement does not converge. It does not begin from the increment before, which stays
+   !> what was found last.
    subroutine solve_without_near(data, controls, store, results, solution, status)
       type(scene_data_t), intent(inout) :: data
       type(controls_t), intent(in) :: controls
@@ -96,6 +97,7 @@ contains
       type(contact_solution_t), intent(out) :: solution
       type(status_t), intent(out) :: status
       type(results_t) :: again
+      type(contact_solution_t), allocatable :: last
 
       call report_progress(data%reporter, 'not solved; each element with its own last digits')
       call begin_results(results, again)
@@ -104,8 +106,9 @@ contains
       data%fem%grain = 0.0_wp
       call drop_assembled(data)
       if (allocated(data%flexibility)) deallocate (data%flexibility)
-      if (allocated(data%last)) deallocate (data%last)
+      call move_alloc(data%last, last)
       call solve_one_form(data, data%contact_form, controls, store, results, solution, status)
+      call move_alloc(last, data%last)
    end subroutine solve_without_near
 
    !> Solves by one form of the contact system, and checks what it found. Without a solution it is judged whether there can be one:

@@ -14,7 +14,7 @@ module atrito_dual_preconditioner
    use atrito_free_set_factor, only: free_set_factor_t, relation_t, relate_sets, apply_inverse
    implicit none (type, external)
    private
-   public :: complement_t, free_system_t, find_complement, solve_with_kept, scaled_product
+   public :: complement_t, free_system_t, find_complement, refine_complement, solve_with_kept, scaled_product
 
    !> The equations of a free set, scaled: M q - G a = rhs, G' q = load.
    type :: free_system_t
@@ -46,6 +46,7 @@ module atrito_dual_preconditioner
    real(wp), parameter :: FALSE_END = 1.0e-11_wp    !< of the terms of the true residual: the steps did not go where they said
    real(wp), parameter :: LEAST_CURVATURE = 1.0e-13_wp !< of M; below it points depend on each other, which a factor tells
    real(wp), parameter :: WEAKLY_HELD = 1.0e-6_wp   !< a motion that the free set hardly holds asks for a factor of its own
+   real(wp), parameter :: SEES = 1.0e-6_wp, SEES_NONE = 1.0e-13_wp !< of a motion, of its size: a row; round-off
 
    !> Forces and motions of the system so far, and the residual of their rows.
    type :: approximation_t
@@ -149,6 +150,32 @@ contains
          call eigen_symmetric(vectors, complement%values, info)
       end associate
    end subroutine find_complement
+
+   !> Motions that are held weakly may be held well, but by rows that are far softer than others of their bodies: a stiff body on a
+   !> soft one, with supports aslant. S has the digits of the stiff rows. So such motions N get a complement of their own,
+   !> (G N)' M^-1 (G N), without what round-off leaves of the stiff rows in G N, and a scale of its own. Where no row sees more of
+   !> them than SEES they are held weakly, or not at all, and stay as they are.
+   subroutine refine_complement(g, y, complement)
+      real(wp), intent(in) :: g(:, :), y(:, :)   !< (n, k)
+      type(complement_t), intent(inout) :: complement
+      type(complement_t) :: own
+      integer(ip), allocatable :: weak(:)
+      real(wp), allocatable :: n(:, :), seen(:, :), size_of(:, :)
+      integer(ip) :: j
+
+      weak = pack([(j, j=1, size(complement%values, kind=ip))], complement%values <= WEAKLY_HELD)
+      if (size(weak) == 0) return
+      n = complement%vectors(:, weak)*spread(complement%scale, 2, size(weak))
+      seen = matmul(g, n)
+      size_of = spread(sum(abs(g), dim=2), 2, size(weak))*spread(maxval(abs(n), dim=1), 1, size(g, 1))
+      if (all(abs(seen) <= SEES*size_of)) return
+      where (abs(seen) <= SEES_NONE*size_of) seen = 0.0_wp
+      call find_complement(seen, matmul(y, n), own)
+      complement%vectors = complement%vectors*spread(complement%scale, 2, size(complement%scale))
+      complement%scale = 1.0_wp
+      complement%vectors(:, weak) = matmul(n, own%vectors*spread(own%scale, 2, size(weak)))
+      complement%values(weak) = own%values
+   end subroutine refine_complement
 
    !> P^-1 G and the inverse of G' P^-1 G, where the set holds all motions.
    !>

@@ -30,8 +30,8 @@ module atrito_free_set
    use atrito_kinds, only: ip, wp
    use atrito_dense, only: solve_cholesky
    use atrito_dense_blocks, only: multiply_symmetric
-   use atrito_dual_preconditioner, only: complement_t, free_system_t, find_complement, solve_with_kept, &
-                                         scaled_product
+   use atrito_dual_preconditioner, only: complement_t, free_system_t, find_complement, refine_complement, &
+                                         solve_with_kept, scaled_product
    use atrito_free_set_factor, only: free_set_factor_t, factor_free_set, is_worth_keeping
    use atrito_status, only: status_t, set_status, STATUS_SINGULAR
    implicit none (type, external)
@@ -128,6 +128,7 @@ contains
          y = gs
          call solve_cholesky(factor, y)
          call find_complement(gs, y, complement)
+         call refine_complement(gs, y, complement)
          ! the forces without motions, then the motions that make them balance
          x = rhs
          call solve_cholesky(factor, x)

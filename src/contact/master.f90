@@ -16,7 +16,8 @@
 !>
 !> of two circles that is the line between their centres, of a curve on a straight side the normal of that side, and it
 !> does not depend on which of them is the slave. Of two straight sides it is the slave's normal, without a jump from
-!> the one case to the other (`straight`).
+!> the one case to the other (`straight`); but where the slave ends and stands on the master at an angle, on a corner of its
+!> body, it is the master's (TILTED in atrito_slave_faces).
 module atrito_master
    use atrito_element_table, only: DEGREE_OF
    use atrito_faces, only: face_list_t
@@ -29,8 +30,8 @@ module atrito_master
    use atrito_smooth_normals, only: smooth_surface
    implicit none (type, external)
    private
-   public :: master_t, sight_t, master_of_faces, master_of_segments, turn_master, smooth_normal, share_of_master, kink_near, &
-             look_along, look_at_end, nearest_end
+   public :: master_t, sight_t, master_of_faces, master_of_segments, turn_master, smooth_normal, share_of_master, is_straight, &
+             kink_near, look_along, look_at_end, nearest_end
 
    !> Faces of elements, or rigid segments and arcs.
    type, extends(pieces_t) :: master_t
@@ -207,6 +208,14 @@ contains
       both = slave_curvature + ((1 - t)*master%curvature(1, i) + t*master%curvature(2, i))
       share = slave_curvature/(both + max(master%straight - 0.1_wp*both, 0.0_wp))
    end function share_of_master
+
+   !> Whether a piece has no curvature, beside those of curves.
+   pure logical function is_straight(master, i)
+      type(master_t), intent(in) :: master
+      integer(ip), intent(in) :: i                  !< piece
+
+      is_straight = all(master%curvature(:, i) <= master%straight)
+   end function is_straight
 
    !> How far a place of a piece is a kink of the master, 0..1: the next piece, which is another side, begins within
    !> `reach` of it. It falls linearly with the distance a from the end, kink (1 - a/reach), so that a point that moves

@@ -39,15 +39,15 @@ module atrito_mortar_points
    use atrito_id_map, only: id_map_t
    use atrito_incidence, only: list_holders
    use atrito_kinds, only: ip, lp, wp, EPS_MACH
-   use atrito_master, only: master_t, smooth_normal, share_of_master
+   use atrito_master, only: master_t, smooth_normal, share_of_master, is_straight
    use atrito_mesh, only: mesh_t, face_nodes, is_revolved, depth_places
    use atrito_mortar_segments, only: segments_t, slave_face_t, cut_slave, join_curves, take_face, place_on_face, direction_at
    use atrito_plane_state, only: depth_at
-   use atrito_pieces, only: cross_piece, place_at
+   use atrito_pieces, only: cross_piece, place_at, normal_at
    use atrito_points, only: contact_points_t, terms_t, allocate_points, add_point, add_entries, add_term, drop_points
    use atrito_shape_functions, only: face_shape_values, gauss_rule
    use atrito_revolved_faces, only: is_at_axis, hats
-   use atrito_slave_faces, only: nodal_rule_t, nodal_rule, common_ends, sine, clear_small_component, CORNER
+   use atrito_slave_faces, only: nodal_rule_t, nodal_rule, common_ends, sine, clear_small_component, CORNER, TILTED
    use atrito_sorting, only: sorted_places
    use atrito_smooth_normals, only: common_normal
    implicit none (type, external)
@@ -127,8 +127,7 @@ contains
             face%state = mesh%state(slave%element(i))
             face%thickness = thickness(slave%element(i))
             face%places(:face%n) = depth_places(mesh, face%state, face%node(:face%n))
-            face%is_corner(:2) = [is_corner_before(mesh, slave, segments, i), &
-                                  is_corner_before(mesh, slave, segments, mod(i, slave%n) + 1)]
+            face%is_corner(:2) = [is_corner_at(1_ip), is_corner_at(2_ip)]
             call integrate_face(master_faces, integrals)
             call add_face(mesh, face, rule, s, integrals, rows, points)
          end if
@@ -141,6 +140,31 @@ contains
       call finish_points(mesh, rows, points)
 
    contains
+
+      !> Whether face i has a corner at one of its ends, where the normal is the master's, whatever the slopes: it meets another
+      !> face that sees the master at an angle, the mean of both normals being that of neither, or it is straight, has no
+      !> other beside it, and is TILTED against a straight master.
+      pure logical function is_corner_at(end)
+         integer(ip), intent(in) :: end                !< 1 or 2
+         integer(ip) :: k, m, beside(2)
+
+         k = modulo(i + 2*end - 4, slave%n) + 1        ! the face before or behind; of a ring the last one is before the first
+         beside(:2) = 0
+         if (segments%first(k + 1) > segments%first(k)) then
+            associate (nodes => face_nodes(mesh, slave%element(k), slave%face(k)))
+               beside = nodes(:2)
+            end associate
+         end if
+         associate (own => segments%direction(:, end, i))
+            if (beside(3 - end) == face%node(end)) then
+               is_corner_at = sine(own, segments%direction(:, 3 - end, k)) > CORNER
+            else
+               m = segments%piece(merge(segments%first(i), segments%first(i + 1) - 1, end == 1))
+               is_corner_at = .not. segments%curvature(i) > 0.0_wp .and. is_straight(master, m)
+               if (is_corner_at) is_corner_at = sine(own, -normal_at(master, m, 0.5_wp)) > TILTED
+            end if
+         end associate
+      end function is_corner_at
 
       !> The integrals over the segments of a face: N_GAUSS points on each, t = ((1 - g) from + (1 + g) to)/2, exact to
       !> degree five, and both ends for the least gap. A face that is covered whole gets its dual functions at the end,
@@ -173,26 +197,6 @@ contains
       end subroutine integrate_face
 
    end subroutine pair_by_mortar
-
-   !> Face i and the one before it (of the first face the last one, as on a ring) meet at a corner, and both see the
-   !> master: the normal there is the master's, whatever the slopes, since the mean of both faces' normals would be that
-   !> of neither.
-   pure logical function is_corner_before(mesh, slave, segments, i) result(is_corner)
-      type(mesh_t), intent(in) :: mesh
-      type(face_list_t), intent(in) :: slave        !< one chain, ordered
-      type(segments_t), intent(in) :: segments
-      integer(ip), intent(in) :: i                  !< face of the slave
-      integer(ip) :: k
-
-      k = i - 1
-      if (i == 1) k = slave%n
-      is_corner = segments%first(i + 1) > segments%first(i) .and. segments%first(k + 1) > segments%first(k)
-      if (.not. is_corner) return
-      associate (nodes => face_nodes(mesh, slave%element(i), slave%face(i)), &
-                 before => face_nodes(mesh, slave%element(k), slave%face(k)))
-         is_corner = before(2) == nodes(1) .and. sine(segments%direction(:, 2, k), segments%direction(:, 1, i)) > CORNER
-      end associate
-   end function is_corner_before
 
    !> Adds what a place x(t) of the slave is worth to the integrals, with ds = weight |dx/dt| and the depth h there:
    !>

@@ -22,15 +22,15 @@ module atrito_nodal_points
    use atrito_kinds, only: ip, lp, wp, EPS_MACH
    use atrito_mesh, only: mesh_t, face_nodes
    use atrito_faces, only: face_list_t
-   use atrito_master, only: master_t, sight_t, smooth_normal, share_of_master, kink_near, look_along, look_at_end, &
-                            nearest_end
+   use atrito_master, only: master_t, sight_t, smooth_normal, share_of_master, is_straight, kink_near, look_along, &
+                            look_at_end, nearest_end
    use atrito_piece_tree, only: is_far_off
    use atrito_pieces, only: place_at
    use atrito_plane_state, only: depth_at, IS_TAPERED, STATES
    use atrito_points, only: contact_points_t, terms_t, allocate_points, add_point, add_entries, drop_points
    use atrito_revolved_faces, only: revolved_face_t, revolve_face, note_mixed, mix_rows
    use atrito_shape_functions, only: face_shape_values
-   use atrito_slave_faces, only: nodal_rule_t, nodal_rule, common_ends, turn_at, sine, clear_small_component, CORNER
+   use atrito_slave_faces, only: nodal_rule_t, nodal_rule, common_ends, turn_at, sine, clear_small_component, CORNER, TILTED
    use atrito_smooth_normals, only: smooth_surface, common_normal
    implicit none (type, external)
    private
@@ -49,8 +49,8 @@ module atrito_nodal_points
    !> A kink of the master is felt by a point this near to it, in parts of its length; below this cosine sides hardly face each
    !> other.
    real(wp), parameter :: NEAR_KINK = 0.05_wp, ASLANT = 0.1_wp
-   !> The curvature of a corner, whose radius is nothing.
-   real(wp), parameter :: AT_CORNER = huge(1.0_wp)
+   !> The curvature of a corner, whose radius is nothing; and of the straight end of a slave, which may stand on its master.
+   real(wp), parameter :: AT_CORNER = huge(1.0_wp), AT_END = -1.0_wp
 
 contains
 
@@ -200,7 +200,7 @@ contains
 
    !> One point a slave node; weights and normals of the faces that share it are summed: l_j = sum l_a, w_j = sum l_a
    !> h_a, and the normal is that of sum l_a n_a. The curvature of a point is the mean of its faces', weighted by l_a,
-   !> and AT_CORNER where they meet at a corner.
+   !> AT_CORNER where they meet at a corner, and AT_END where a straight face has no other beside it.
    pure subroutine place_points(mesh, thickness, slave, used, grain, points, curvature, mixed)
       type(mesh_t), intent(in) :: mesh
       real(wp), intent(in) :: thickness(:)          !< of each element [L]
@@ -216,11 +216,12 @@ contains
       type(revolved_face_t) :: face
       logical :: is_corner(size(points%s))
       real(wp) :: s
-      integer(ip) :: i, j, k, of_node(3)
+      integer(ip) :: n_ends(size(points%s)), i, j, k, of_node(3)
 
       call smooth_surface(mesh, slave, ends, of_face, bend, grain)
       allocate (curvature(size(points%s)), source=0.0_wp)
       is_corner = .false.
+      n_ends = 0
       s = 0.0_wp
       do i = 1, slave%n
          rule = nodal_rule(mesh, slave%element(i), slave%face(i))
@@ -232,6 +233,7 @@ contains
             of_node(k) = j
             if (points%length(j) > 0.0_wp) is_corner(j) = sine(points%normal(:, j)/norm2(points%normal(:, j)), &
                                                                rule%normal(:, k)) > CORNER
+            if (k == 1 .or. k == rule%n) n_ends(j) = n_ends(j) + 1
             points%length(j) = points%length(j) + rule%weight(k)
             curvature(j) = curvature(j) + rule%weight(k)*of_face(i)
             if (face%n > 0) then
@@ -247,6 +249,7 @@ contains
          s = s + rule%s(rule%n)
       end do
       curvature(:points%n) = merge(AT_CORNER, curvature(:points%n)/points%length(:points%n), is_corner(:points%n))
+      where (n_ends(:points%n) == 1 .and. .not. curvature(:points%n) > 0.0_wp) curvature(:points%n) = AT_END
       do i = 1, points%n
          points%normal(:, i) = points%normal(:, i)/norm2(points%normal(:, i))
          call clear_small_component(points%x(:, i), points%length(i), points%normal(:, i))
@@ -257,7 +260,8 @@ contains
    !> with the curvatures of both sides (share_of_master). f fades out where the master has a kink within NEAR_KINK of
    !> the point's length, since the normal beyond it is another one, and where the sides hardly face each other
    !> (ASLANT): the normal is the slave's there. A corner of the slave, whose curvature is without bound, takes the
-   !> master's normal and looks along it once more, since the mean normal of its faces may lead far away.
+   !> master's normal and looks along it once more, since the mean normal of its faces may lead far away; so does a
+   !> straight end that is TILTED against a straight master, on which it stands.
    pure subroutine turn_to_common_normal(master, curvature, x, length, sight, normal, gap)
       type(master_t), intent(in) :: master
       real(wp), intent(in) :: curvature             !< of the slave [1/L]
@@ -266,13 +270,17 @@ contains
       real(wp), intent(inout) :: normal(2)          !< in: of the slave; out: of both sides
       real(wp), intent(inout) :: gap                !< [L]
       real(wp) :: n(2), of_master(2), share
+      logical :: is_corner
       type(sight_t) :: again
 
       of_master = smooth_normal(master, sight%piece, sight%t)
-      share = share_of_master(master, sight%piece, sight%t, curvature)*min(-dot_product(normal, of_master)/ASLANT, 1.0_wp) &
+      is_corner = curvature >= AT_CORNER
+      if (curvature <= AT_END) is_corner = is_straight(master, sight%piece) .and. sine(normal, -of_master) > TILTED
+      share = share_of_master(master, sight%piece, sight%t, merge(AT_CORNER, max(curvature, 0.0_wp), is_corner)) &
+              *min(-dot_product(normal, of_master)/ASLANT, 1.0_wp) &
               *(1 - kink_near(master, sight%piece, sight%t, NEAR_KINK*length))
       n = common_normal(normal, of_master, share)
-      if (curvature >= AT_CORNER) then
+      if (is_corner) then
          again = look_along(x, n, 2*length, master)
          if (again%piece > 0) sight = again
       else if (.not. share > 0.0_wp) then

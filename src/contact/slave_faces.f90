@@ -27,6 +27,8 @@ module atrito_slave_faces
 
    !> From this sine on two faces meet at a corner, and do not stand for a curve.
    real(wp), parameter, public :: CORNER = 0.8_wp
+   !> From this sine on the straight end of a slave does not lie on its master but stands on it, at a corner of its body.
+   real(wp), parameter, public :: TILTED = 0.01_wp
 
 contains
 

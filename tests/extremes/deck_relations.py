@@ -4,6 +4,7 @@ A deck is a list of cards; *BLOCK becomes nodes and elements first. Each relatio
 """
 
 import math
+import re
 
 import numpy as np
 
@@ -54,10 +55,11 @@ class Deck:
 
     def largest_load(self):
         """The order of the forces of the loads at nodes."""
-        loads = [abs(float(row[2])) for _, _, data in self.each('CLOAD') for row in data]
+        size_of = lambda word: abs(float(re.match(r'[(]*([^ )*]+)', word).group(1)))
+        loads = [size_of(row[2]) for _, _, data in self.each('CLOAD') for row in data]
         places = [[float(word) for word in row[1:3]] for _, _, data in self.each('NODE') for row in data]
         size = max(max(x) - min(x) for x in zip(*places))
-        return max(loads + [abs(float(row[2]))*size for _, _, data in self.each('DSLOAD') for row in data], default=0.0)
+        return max(loads + [size_of(row[2])*size for _, _, data in self.each('DSLOAD') for row in data], default=0.0)
 
     def has_friction(self):
         return any(float(data[0][0]) != 0 for _, _, data in self.each('FRICTION'))
@@ -105,7 +107,10 @@ def geometry(scene):
 def times(row, columns, factor):
     for i in columns:
         if i < len(row) and row[i] != '':
-            row[i] = repr(float(row[i])*factor)
+            try:
+                row[i] = repr(float(row[i])*factor)
+            except ValueError:  # an expression
+                row[i] = f'({factor!r})*({row[i]})'
 
 
 # -- turned and mirrored --------------------------------------------------------------------------------------------------------
@@ -128,6 +133,21 @@ def move_places(deck, q):
         for row in data:
             if row[1] == 'GRAV':
                 row[3:5] = [repr(float(v)) for v in q @ [float(row[3]), float(row[4])]]
+    for _, options, data in deck.each('DSLOAD'):
+        for row in data:
+            if row[1] == 'TRVEC':
+                row[3:5] = [repr(float(v)) for v in q @ [float(row[3]), float(row[4])]]
+            if 'FUNCTION' in options:
+                in_place(row, 2, *(f'(({float(q[0, i])!r})*X + ({float(q[1, i])!r})*Y)' for i in range(2)))
+
+
+def in_place(row, column, x, y):
+    """An expression of places: x and y for its X and Y."""
+    row[column] = re.sub(r'\b[XY]\b', lambda found: x if found.group() == 'X' else y, row[column])
+
+
+def is_of_revolution(deck):
+    return any(options['TYPE'].startswith('CAX') for _, options, _ in deck.each('ELEMENT'))
 
 
 def signed_axes(deck, q):
@@ -151,6 +171,11 @@ def signed_axes(deck, q):
     for _, _, data in deck.each('SPRING'):
         if len(data) > 1:
             data[0][0] = str(goes[int(data[0][0]) - 1][0] + 1)
+    for _, _, data in deck.each('EQUATION'):
+        for row in data[1:]:
+            for i in range(0, len(row), 3):
+                axis, sign = goes[int(row[i + 1]) - 1]
+                row[i + 1:i + 3] = [str(axis + 1), repr(sign*float(row[i + 2]))]
 
 
 def shaken(deck, rng):
@@ -165,7 +190,13 @@ def shaken(deck, rng):
     return deck
 
 
+def has_few_digits(deck):
+    return all(float(f'{float(word):.11e}') == float(word) for _, _, data in deck.each('NODE') for row in data for word in row[1:3])
+
+
 def quarter_turn(deck, _):
+    if is_of_revolution(deck):
+        return None
     deck, q = deck.copy(), np.array([[0.0, -1.0], [1.0, 0.0]])
     move_places(deck, q)
     signed_axes(deck, q)
@@ -173,7 +204,7 @@ def quarter_turn(deck, _):
 
 
 def mirror(deck, _):
-    deck, q = deck.copy(), np.array([[-1.0, 0.0], [0.0, 1.0]])
+    deck, q = deck.copy(), np.diag([1.0, -1.0] if is_of_revolution(deck) else [-1.0, 1.0])
     move_places(deck, q)
     signed_axes(deck, q)
     corners = {}
@@ -211,8 +242,11 @@ def backwards(rows):
 def turn(deck, rng):
     """By any angle: nodes that something holds get axes of their own."""
     degrees = rng.choice((30.0, 57.3, 114.6))
-    if len(deck.steps()[1]) > 1 or deck.each('SPRING', 'TRANSFORM'):
+    if is_of_revolution(deck) or deck.each('SPRING', 'TRANSFORM', 'EQUATION'):
         return None
+    by_axes = deck.each('CLOAD') or any(row[1] in ('BX', 'BY') for _, _, data in deck.each('DLOAD') for row in data)
+    if len(deck.steps()[1]) > 1 and by_axes:
+        return None  # a component that a later step gives again would take that of another load away
     a = math.radians(degrees)
     q = np.array([[math.cos(a), -math.sin(a)], [math.sin(a), math.cos(a)]])
     deck = deck.copy()
@@ -253,7 +287,7 @@ def units(deck, rng):
     a, b = base**rng.randint(-most, most), base**rng.randint(-most, most)
     deck = deck.copy()
     factors = {'NODE': ((1, 2), a), 'ELASTIC': ((0,), b/a**2), 'DENSITY': ((0,), b/a**3), 'SOLID SECTION': ((0,), a), 'CLOAD': ((2,), b),
-               'BOUNDARY': ((3,), a), 'DSLOAD': ((2,), b/a**2)}
+               'BOUNDARY': ((3,), a), 'CLEARANCE': ((1,), a)}
     for keyword, options, data in deck.cards:
         if keyword in factors:
             for row in data:
@@ -261,6 +295,11 @@ def units(deck, rng):
         elif keyword == 'SURFACE' and options.get('TYPE') == 'SEGMENTS':
             for row in data:
                 times(row, range(1, len(row)), a)
+        elif keyword == 'DSLOAD':
+            for row in data:
+                if 'FUNCTION' in options:
+                    in_place(row, 2, f'(X/{a!r})', f'(Y/{a!r})')
+                times(row, (2,), b/a**2)
         elif keyword == 'DLOAD':
             for row in data:
                 times(row, (2,), 1.0 if row[1] == 'GRAV' else b/a**2 if row[1][0] == 'P' else b/a**3)
@@ -289,7 +328,10 @@ def renumber(deck, rng):
             rng.shuffle(data)
         elif keyword == 'NSET':
             data[:] = [[node[word] for word in row if word] for row in data]
-        elif keyword in ('BOUNDARY', 'CLOAD'):
+        elif keyword == 'EQUATION':
+            for row in data[1:]:
+                row[::3] = [node[word] for word in row[::3]]
+        elif keyword in ('BOUNDARY', 'CLEARANCE', 'CLOAD', 'TEMPERATURE'):
             for row in data:
                 row[0] = node.get(row[0], row[0])
         elif keyword == 'DLOAD':
@@ -316,6 +358,8 @@ def scaled_step(step, factor):
                 times(row, (2,), factor)
             elif keyword == 'BOUNDARY':
                 times(row, (3,), factor)
+            elif keyword == 'TEMPERATURE':
+                times(row, (1,), factor)
         out.append((keyword, dict(options), data))
     return out
 

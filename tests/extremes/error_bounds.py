@@ -146,8 +146,10 @@ class Scene:
         return most if self.clearance[k] == 'value' else 4*most*(x - 0.4)**2
 
     def write(self, path, meshes, kinds, coarse):
+        pathlib.Path(path).write_text(self.deck(meshes, kinds, coarse, 'CPS' if self.is_plane_stress else 'CPE'))
+
+    def deck(self, meshes, kinds, coarse, state):
         turn, out = self.turn(), ['*HEADING', f'scene {self.number}']
-        state = 'CPS' if self.is_plane_stress else 'CPE'
         for i, (mesh, kind) in enumerate(zip(meshes, kinds)):
             out += ['*NODE']
             out += [f'{mesh.first_node + k}, {x[0]:.17g}, {x[1]:.17g}' for k, x in enumerate(mesh.nodes @ turn.T)]
@@ -178,8 +180,7 @@ class Scene:
         out += ['*STEP', '*STATIC']
         self.write_supports(meshes, turn, out)
         self.write_loads(meshes, coarse, turn, out)
-        out += ['*NODE PRINT', 'U', '*CONTACT PRINT', '*END STEP']
-        pathlib.Path(path).write_text('\n'.join(out) + '\n')
+        return '\n'.join([*out, '*NODE PRINT', 'U', '*CONTACT PRINT', '*END STEP', ''])
 
     def clearances(self, k, slave, meshes, coarse):
         """Linear between the nodes of the coarse mesh."""

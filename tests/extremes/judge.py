@@ -38,6 +38,8 @@ GROWTH = 1e5
 MOTION = 64
 PRINTED_ZERO = 1e-14
 END = 1e-6
+TILTED = 0.01      # sine from which on the end of a slave stands on its master
+STRAIGHT = 1e-6    # radians between faces that are rounding of the places
 CANCEL = 1e-13
 BALANCED = 1e-12
 MOST_FORCE = 10**10
@@ -204,6 +206,11 @@ class Pair:
         where = scene.place
         sees = [all(look(where[node], normal, pieces, length) for node, normal, length in rule(scene, number, nodes))
                 for number, nodes in faces]
+        # normals of straight sides are known to the digits of the deck, which turn faces against each other
+        along = [rule(scene, *face)[0][1] for face in faces] + [(piece[0][1] - piece[0][0])[::-1]*(1, -1) for piece in pieces]
+        along = [d/np.linalg.norm(d) for d in along]
+        turns = [abs(a[0]*b[1] - a[1]*b[0]) for a in along for b in along]
+        self.tilt = max([turn for turn in turns if turn < STRAIGHT], default=0.0)
         self.nodes, weight, length, normal = [], {}, {}, {}
         for (number, nodes), seen in zip(faces, sees):
             for node, w in weighted(scene, nodes):
@@ -219,6 +226,10 @@ class Pair:
         self.weight = np.array([weight[node] for node in self.nodes])
         self.length = np.array([length[node] for node in self.nodes])
         self.normal = np.array([normal[node]/np.linalg.norm(normal[node]) for node in self.nodes]).reshape(-1, 2)
+        ends = [node for (_, nodes), seen in zip(faces, sees) if seen for node in nodes[:2]]
+        for node, n in zip(self.nodes, self.normal):
+            if ends.count(node) == 1:
+                n[:] = standing(where[node], n, pieces, 2*length[node])
         self.tangent = np.stack([-self.normal[:, 1], self.normal[:, 0]], axis=1)
         self.gap0, self.master = [], []
         for node, n in zip(self.nodes, self.normal):
@@ -304,7 +315,7 @@ def weighted(scene, nodes):
 
 
 def look(x, normal, pieces, reach, over=END):
-    """(distance, place t, nodes, shapes) of the nearest piece along the normal that faces x, or None. `over`: how far it may be
+    """(distance, place t, nodes, shapes, piece) of the nearest piece along the normal that faces x, or None. `over`: how far it may be
     missed, in parts of a piece; a piece that is met properly goes first."""
     best, nearest = None, math.inf
     x = np.array(x)
@@ -333,8 +344,17 @@ def look(x, normal, pieces, reach, over=END):
             if abs(t - place) < 1e-10:
                 t = place
         shape = face_shapes(len(points), 2*t - 1)[0] if nodes else None
-        best = (distance, t, nodes, shape)
+        best = (distance, t, nodes, shape, (points, nodes, side))
     return best
+
+
+def standing(x, normal, pieces, reach):
+    """The normal where a slave ends: that of what it faces, if its face is turned against it, since it stands there on a corner."""
+    sight = look(x, normal, pieces, reach) or look(x, normal, pieces, math.inf, 1.0)
+    points, _, side = sight[4]
+    along = (points[1] - points[0])/np.linalg.norm(points[1] - points[0])
+    other = -side*np.array([along[1], -along[0]])
+    return other if abs(other[0]*normal[1] - other[1]*normal[0]) > TILTED else normal
 
 
 def meet(away, d, sag, normal):
@@ -482,7 +502,7 @@ def check_pair(pair, field, number, owner, verdict):
     u_n, u_t = (motion*pair.normal).sum(axis=1), (motion*pair.tangent).sum(axis=1)
     size = max(np.abs(u_n).max(), np.abs(u_t).max(), law.delta*p.max())
     largest = max(np.abs(body.u).max() for body in pair.bodies)
-    places = PLACE*size + GROWTH*EPS*largest + printed + field['zero'] + 1e-300
+    places = PLACE*size + (GROWTH*EPS + pair.tilt)*largest + printed + field['zero'] + 1e-300
     bound = field['bound']
     law_scale = LAW*bound.max() + field['no_shear']
     for j in range(len(p)):

@@ -52,10 +52,10 @@ def program(atrito, name, sees, table='none', column='', change=1e-6, code=0):
     return path
 
 
-def relate(atrito, generator, seed, number, which):
+def relate(atrito, generator, seed, number, which, *options):
     runner = os.path.join(os.path.dirname(os.path.abspath(__file__)), 'run_relations.py')
     done = subprocess.run([sys.executable, runner, atrito, generator, str(number), str(number), str(seed), '--which', which, '--folder',
-                           os.path.join(FOLDER, 'runs')], capture_output=True, text=True, check=False)
+                           os.path.join(FOLDER, 'runs'), *options], capture_output=True, text=True, check=False)
     return done.returncode, done.stdout.split('\n')[0]
 
 
@@ -74,6 +74,8 @@ def liars_must_be_caught(atrito, generator):
         path = program(atrito, 'liar', sees, table, column)
         code, said = relate(path, generator, *SCENES[scene], which)
         expect(f'{what}: {said[:100]}', code == 1)
+    path = program(atrito, 'liar', '--threads', 'stress', 's12')
+    expect('a stress', relate(path, generator, 5, 19, 'threads', '--mixed')[0] == 1)
     path = program(atrito, 'quits', '--threads', code=3)
     expect('another exit code', relate(path, generator, *SCENES['plain'], 'threads')[0] == 1)
     path = program(atrito, 'silent', '--threads', 'idle')

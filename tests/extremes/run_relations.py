@@ -1,12 +1,12 @@
 """Relations between two decks of one scene: what both say must be the same.
 
-run_relations.py ATRITO RANDOM_SCENES FIRST LAST SEED [-j N] [--folder DIR] [--only N,N,..] [--which RELATION,..] [options of atrito]
+run_relations.py ATRITO RANDOM_SCENES FIRST LAST SEED [-j N] [--folder DIR] [--only N,N,..] [--which RELATION,..] [--mixed] [options of atrito]
 
-Scene K is one of random_scenes, a history of one (histories.py) or a curved one (curved_scenes.py), in turn. Its deck is run, and then
+Scene K is one of random_scenes, a history of one (histories.py) or a curved one (curved_scenes.py), in turn; with --mixed all are those of mixed_scenes.py. Its deck is run, and then
 turned, mirrored, in other units (of a curved scene with all digits), with other numbers; with every solver, in both forms, with
 two threads; with an empty step behind it, its step in two, and begun again by --restart. Exit codes and W-IDLE must be the same, and
-all numbers of nodes.tab, reactions.tab and contact.tab to 1e-9 of the largest of their column (of a pair in contact.tab), after they
-were turned back. Where a deck with all digits differs more, it is measured what these are worth: the same deck is run with places
+all numbers of nodes.tab, reactions.tab, stress.tab (its invariants, point by point) and contact.tab to 1e-9 of the largest of their
+column (of a pair in contact.tab), after they were turned back. Where a deck with all digits differs more, it is measured what these are worth: both decks are run with places
 that are off by the last digit. If its answer moves by as much, the scene is `loose`, and says nothing. Where friction acts to 1e-7, which is what the outer loop is stopped at, and only where both forms agree so far
 (else there may be several answers). Far from the origin the last digit of a coordinate is more than that of the motions: it is allowed, too. Prints a table by
 relation with the largest difference, and what failed; exit code 0 when nothing did.
@@ -26,6 +26,7 @@ import numpy as np
 sys.dont_write_bytecode = True  # the sources stay as they are
 import curved_scenes
 import deck_relations as relations
+import mixed_scenes
 from deck_relations import Back, Deck
 from histories import History
 from run_scenes import chosen_numbers, run, runner_arguments
@@ -57,7 +58,7 @@ class Result:
         self.is_idle = 'W-IDLE' in said
         self.tables = {}
         if self.code == 0:
-            for table in ('nodes', 'reactions', 'contact'):
+            for table in ('nodes', 'reactions', 'stress', 'contact'):
                 file = os.path.join(self.folder, table + '.tab')
                 if os.path.exists(file):
                     self.tables[table] = read_table(file)[0]
@@ -78,14 +79,14 @@ def largest_difference(first, other, back):
     spared = last_digits(first.tables.get('nodes'))
     u = max((np.abs(first.tables['nodes'][c]).max(initial=0.0) for c in ('u1', 'u2')), default=0.0) if 'nodes' in first.tables else 0.0
     far = max((np.abs(first.tables['nodes'][c]).max(initial=0.0) for c in 'xy'), default=0.0) if 'nodes' in first.tables else 0.0
-    floor = {'reactions': LITTLE*first.load, 'contact': max(LITTLE*u, DIGITS*EPS*far/EXACT), 'nodes': 0.0}
+    floor = {'reactions': LITTLE*first.load, 'stress': 0.0, 'contact': max(LITTLE*u, DIGITS*EPS*far/EXACT), 'nodes': 0.0}
     for name, table in first.tables.items():
         if name not in other.tables:
             return math.inf, f'{name}.tab is missing'
         a, b = frame(table, back.is_last), frame(other.tables[name], back.is_last)
         if len(a['step']) != len(b['step']):
             return math.inf, f'{name}.tab has {len(b["step"])} rows for {len(a["step"])}'
-        rule = compare_points if name == 'contact' else compare_nodes
+        rule = {'contact': compare_points, 'stress': compare_stresses}.get(name, compare_nodes)
         for part, where in rule(a, b, back, ('r1', 'r2') if name == 'reactions' else ('u1', 'u2'), floor[name]):
             part = part if part == math.inf else max(part - spared, 0.0)
             worst = max(worst, (part, f'{name} {where}'), key=lambda one: (not one[0] <= math.inf, one[0]))
@@ -113,6 +114,23 @@ def compare_nodes(a, b, back, columns, floor):
     scale = np.abs(here).max(initial=0.0)
     scale = max(scale, np.abs(there).max(initial=0.0), floor)
     yield (np.abs(here - there).max(initial=0.0)/scale if scale > 0 else 0.0), columns[0][0]
+
+
+def compare_stresses(a, b, back, *_):
+    """Half of the trace, the largest shear and what lies across the plane, at the points nearest."""
+    for key in sorted(set(zip(a['step'], a['increment']))):
+        i, j = (np.flatnonzero((t['step'] == key[0]) & (t['increment'] == key[1]) | back.is_last) for t in (a, b))
+        if len(i) != len(j):
+            yield math.inf, 'points of stress'
+            return
+        here, there = np.stack([a['x'][i], a['y'][i]], axis=1), back.vector(np.stack([b['x'][j], b['y'][j]], axis=1))/back.length
+        j = j[[((there - place)**2).sum(axis=1).argmin() for place in here]]
+        for what, of in (('trace', lambda t, k: t['s11'][k] + t['s22'][k]), ('s33', lambda t, k: t['s33'][k]),
+                         ('shear', lambda t, k: np.hypot(0.5*(t['s11'][k] - t['s22'][k]), t['s12'][k]))):
+            x, y = of(a, i), of(b, j)*back.length**2/back.force
+            scale = max(*(np.abs(a[c][i]).max(initial=0.0) for c in ('s11', 's22', 's12')), np.abs(y).max(initial=0.0))
+            if scale > 0:
+                yield np.abs(x - y).max()/scale, what
 
 
 def compare_points(a, b, back, _, floor):
@@ -153,6 +171,8 @@ class Outcome:
 
 
 def deck_of(settings, number, digits=None):
+    if getattr(settings, 'mixed', False):
+        return mixed_scenes.make(number, settings.seed, digits)
     if number % 3 == 2:
         scene = curved_scenes.make(number, settings.seed, digits)
         return 'curved ' + scene.kind, scene.deck()
@@ -190,6 +210,8 @@ def compare_all(settings, outcome, deck, base):
         outcome.is_one = all(forms[name] <= WITH_FRICTION for name in ('dense form', 'sparse form'))
     exact = Deck(deck_of(settings, outcome.number, digits=17)[1])
     all_digits = first
+    if exact.text() == deck.text() and relations.has_few_digits(deck):
+        exact = relations.shaken(deck, random.Random(f'{settings.seed}-{outcome.number}'))  # which the other deck cannot show, either
     if exact.text() != deck.text():
         all_digits = Result(settings, exact.text(), base, 'all-digits')
         if outcome.has_friction and outcome.is_one:
@@ -202,7 +224,7 @@ def compare_all(settings, outcome, deck, base):
             if found:
                 compare(settings, outcome, its, Result(settings, found[0].text(), base, 'other'), found[1], name)
                 if name in NEW_DIGITS and not good(outcome, name):
-                    measure_digits(settings, outcome, mine, its, base, name)
+                    measure_digits(settings, outcome, (mine, found[0]), base, name)
     if 'step in two' in settings.relations:
         found = relations.split_step(deck, None)
         if found:
@@ -212,13 +234,15 @@ def compare_all(settings, outcome, deck, base):
         begin_again(settings, outcome, deck, base)
 
 
-def measure_digits(settings, outcome, deck, first, base, name):
-    """What the last digits are worth, where a relation that makes others of them does not hold."""
+def measure_digits(settings, outcome, decks, base, name):
+    """What the last digits are worth, where a relation that makes others of them does not hold: of either deck."""
     moved = 0.0
-    for shake in range(SHAKES):
-        other = relations.shaken(deck, random.Random(f'{settings.seed}-{outcome.number}-{name}-{shake}'))
-        other = Result(settings, other.text(), base, 'other')
-        moved = max(moved, math.inf if first.is_idle != other.is_idle else difference(first, other, Back())[0])
+    for deck in decks:
+        first = Result(settings, deck.text(), base, 'digits')
+        for shake in range(SHAKES):
+            other = relations.shaken(deck, random.Random(f'{settings.seed}-{outcome.number}-{name}-{shake}'))
+            other = Result(settings, other.text(), base, 'other')
+            moved = max(moved, math.inf if first.is_idle != other.is_idle else difference(first, other, Back())[0])
     if outcome.found[name][0] <= WORTH*moved:
         outcome.loose.add(name)
 
@@ -281,6 +305,7 @@ def main():
     parser = runner_arguments(__doc__, 'relations')
     parser.add_argument('--which', default=','.join(RELATIONS))
     parser.add_argument('--keep', action='store_true')
+    parser.add_argument('--mixed', action='store_true')
     settings, settings.options = parser.parse_known_args()
     settings.relations = settings.which.split(',')
     os.makedirs(settings.folder, exist_ok=True)
