@@ -18,18 +18,19 @@ module atrito_balanced_contact
 
 contains
 
-   !> The segments of all pairs with tractions that have the resultants of the run, pair by pair, and balance the loads of bodies
-   !> that can move; if that is not to be had, with those of the points as they are.
-   subroutine balanced_segments(model, problem, solution, segments, why_not)
+   !> The segments of all pairs with tractions that balance the loads of bodies that can move. They have the resultants of the run,
+   !> pair by pair, if this is asked and leaves such a balance; else they are those of the points.
+   subroutine balanced_segments(model, problem, solution, keeps, segments, why_not)
       type(model_t), intent(in) :: model
       class(problem_t), intent(in) :: problem
       type(contact_solution_t), intent(in) :: solution
+      logical, intent(in) :: keeps                  !< the resultants
       type(segment_t), allocatable, intent(out) :: segments(:)
       character(len=:), allocatable, intent(out) :: why_not
       integer(ip) :: n
       integer :: attempt
 
-      do attempt = 1, 2
+      do attempt = merge(1, 2, keeps), 2
          call list_segments(model, problem, solution, attempt == 1, segments, n, why_not)
          if (allocated(why_not)) return
          segments = segments(:n)

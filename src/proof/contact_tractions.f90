@@ -1,7 +1,8 @@
 !> Contact as the bound of the error sees it: tractions of both sides that the law allows, and what the law lacks of being met.
 !>
 !> Along a slave with straight faces the pressures p_j and shears t_j of the points are taken as linear from node to node: p >= 0,
-!> and |t| <= tau with the bounds tau_j linear, too. All of a pair are multiplied so that resultant and moment are those of the run.
+!> and |t| <= tau with the bounds tau_j linear, too. All of a pair may be multiplied so that resultant and moment are those of the
+!> run; else those of a face of three nodes are, so that it has the resultant of Simpson's rule.
 !> With potentials of the law and their conjugates (Fenchel),
 !>
 !>     psi_n(g) = (g+)^2/(2 delta),        psi_n*(p) = delta p^2/2,
@@ -146,7 +147,7 @@ contains
          n = n + 1
          call place_segment(model, i, f, master, piece, places, segments(n))
          associate (is_given => model%pairs(i)%gap_is_given)
-            call take_stresses(problem, solution, point, problem%points(i)%matching .or. is_given, segments(n), why_not)
+            call take_stresses(problem, solution, point, problem%points(i)%matching .or. is_given, keeps, segments(n), why_not)
             if (is_given) return
          end associate
          if (abs(dot_product(normal_at(master, piece, 0.5_wp), segments(n)%normal) + 1) > SAME_DIRECTION) then
@@ -228,13 +229,15 @@ contains
    end subroutine take_nodes
 
    !> The stresses of a solution along a segment, its law, and which side gives way.
-   subroutine take_stresses(problem, solution, point, has_gaps, segment, why_not)
+   subroutine take_stresses(problem, solution, point, has_gaps, keeps, segment, why_not)
       class(problem_t), intent(in) :: problem
       type(contact_solution_t), intent(in) :: solution
       integer(ip), intent(in) :: point(:)           !< (n_nodes) of the pair; 0: none
       logical, intent(in) :: has_gaps               !< gaps are those of the points, and not those of the mesh
+      logical, intent(in) :: keeps                  !< the resultant of the pair; else that of each face
       type(segment_t), intent(inout) :: segment     !< in its place
       character(len=:), allocatable, intent(inout) :: why_not
+      real(wp) :: share
       integer(ip) :: j
 
       do j = 1, segment%n
@@ -244,9 +247,11 @@ contains
          end if
       end do
       if (has_gaps) segment%gap = along(segment, point, problem%rows%gap)
-      segment%p = along(segment, point, max(solution%p, 0.0_wp))
-      segment%t = along(segment, point, solution%t)
-      segment%tau = along(segment, point, solution%tau)
+      share = 1.0_wp
+      if (.not. keeps) share = share_of_face(segment, point, max(solution%p, 0.0_wp))
+      segment%p = share*along(segment, point, max(solution%p, 0.0_wp))
+      segment%t = share*along(segment, point, solution%t)
+      segment%tau = share*along(segment, point, solution%tau)
       if (allocated(problem%line%rest)) segment%rest = along(segment, point, problem%line%rest)
       j = maxval(point(segment%node(:segment%n)))
       segment%delta = problem%line%delta(j)
@@ -338,6 +343,22 @@ contains
       end function along_pair
 
    end subroutine keep_resultant
+
+   !> By what the stresses of a face of three nodes are multiplied, so that linear from node to node they have the resultant of
+   !> Simpson's rule.
+   pure real(wp) function share_of_face(segment, point, p)
+      type(segment_t), intent(in) :: segment
+      integer(ip), intent(in) :: point(:)
+      real(wp), intent(in) :: p(:)                  !< of all points [F/L^2]
+      real(wp) :: ends, middle
+
+      share_of_face = 1.0_wp
+      if (segment%n /= 3) return
+      if (any(point(segment%node) == 0)) return
+      ends = sum(p(point(segment%node(:2))))
+      middle = p(point(segment%node(3)))
+      if (ends + middle > 0.0_wp) share_of_face = (2*ends + 8*middle)/(3*ends + 6*middle)
+   end function share_of_face
 
    !> Changes shears in proportion to the room that is left below tau, so that they have a resultant; where there is not that much room
    !> they stay.

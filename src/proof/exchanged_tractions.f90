@@ -33,7 +33,7 @@ contains
       type(segment_t), allocatable :: segments(:)
       character(len=:), allocatable :: why_not
 
-      call balanced_segments(model, problem, solution, segments, why_not)
+      call balanced_segments(model, problem, solution, .true., segments, why_not)
       if (.not. allocated(why_not)) call exchange(problem, solution, segments, change, why_not, bodies)
    end subroutine exchange_with_factors
 
