@@ -119,10 +119,11 @@ contains
          multipliers%a_old = multipliers%x(system%n - system%k + 1:)
          since = merge(0_ip, since + 1_ip, changes < least)
          least = min(least, changes)
-         if ((since >= MOST_IN_VAIN .or. solves == MOST_SOLVES) .and. changes <= NEAR*line%n) found = .true.
+         if (since >= MOST_IN_VAIN .or. solves == MOST_SOLVES) found = changes <= NEAR*line%n
          if (found) return
       end do
       multipliers%x = kept%x
+      multipliers%e = kept%e
       multipliers%q_old = kept%q_old
       multipliers%a_old = kept%a_old
       solution%state = begun%state

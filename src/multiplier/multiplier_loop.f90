@@ -157,19 +157,7 @@ contains
       end if
       call finish(system, line, shape, loop%distance, before%state, multipliers, solution)
       if (solution%converged) x = multipliers%x
-      if (allocated(before%multipliers)) then
-         multipliers%were = solution%state%state
-         multipliers%went = multipliers%x
-         multipliers%grew = solution%state%q
-         multipliers%bound_grew = solution%tau
-         if (has_multipliers(before)) then
-            multipliers%were = before%state%state
-            multipliers%went = multipliers%x - before%multipliers%x
-            multipliers%grew = solution%state%q - before%state%q
-            multipliers%bound_grew = solution%tau - before%tau
-         end if
-         solution%multipliers = multipliers
-      end if
+      if (allocated(before%multipliers)) call keep_multipliers(before, multipliers, solution)
    end subroutine solve_by_multipliers
 
    !> Whether the steps are used up that MAXIT allows. A loop whose distance was halved in the last quarter of them is on its way,
@@ -218,6 +206,25 @@ contains
       has_multipliers = allocated(solution%multipliers)
       if (has_multipliers) has_multipliers = allocated(solution%multipliers%x)
    end function has_multipliers
+
+   !> What the next increment starts from, with what this one has changed.
+   subroutine keep_multipliers(before, multipliers, solution)
+      type(contact_solution_t), intent(in) :: before
+      type(multiplier_t), intent(inout) :: multipliers
+      type(contact_solution_t), intent(inout) :: solution
+
+      multipliers%were = solution%state%state
+      multipliers%went = multipliers%x
+      multipliers%grew = solution%state%q
+      multipliers%bound_grew = solution%tau
+      if (has_multipliers(before)) then
+         multipliers%were = before%state%state
+         multipliers%went = multipliers%x - before%multipliers%x
+         multipliers%grew = solution%state%q - before%state%q
+         multipliers%bound_grew = solution%tau - before%tau
+      end if
+      solution%multipliers = multipliers
+   end subroutine keep_multipliers
 
    !> Forces, displacements, states and friction bound of the increment before, and what they changed by in it where the load goes on
    !> in that way; the factor is its, too.
