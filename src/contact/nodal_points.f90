@@ -77,53 +77,21 @@ contains
       points%n_faces = slave%n
       used = [(finds_master(mesh, slave, i, master), i=1, slave%n)]
       points%n_left_out = count(.not. used, kind=ip)
-      if (points%n_left_out == slave%n) points%n_seeing = count([(sees_master(i), i=1, slave%n)], kind=ip)
+      if (points%n_left_out == slave%n) points%n_seeing = count([(sees_master(mesh, slave, i, master), i=1, slave%n)], kind=ip)
       points%faces = pack([(int(slave%element(i), lp)*MOST_SIDES + slave%face(i), i=1, slave%n)], used)
       call allocate_points(3*slave%n, 3*slave%n*NODAL_ENTRIES, points)
       call place_points(mesh, thickness, slave, used, master%grain, points, curvature, mixed)
       call look_for_master(master_faces, points)
       if (.not. master%rigid) points%matching = are_matching(mesh, slave, master, points)
-      if (points%matching .and. points%n > 0) points%matching = .not. any([(hangs_over(i), i=1, slave%n)])
+      if (points%matching .and. points%n > 0) then
+         do i = 1, slave%n
+            if (.not. used(i)) points%matching = points%matching .and. .not. hangs_over(mesh, slave, i, master)
+         end do
+      end if
       call mix_rows(mixed, points)
       call drop_points(common_ends(mesh, slave, master_faces), points)
 
    contains
-
-      !> A node of the face finds the master, or the middle of a straight one does: for the message about a pair none of
-      !> whose faces sees the master with all of its nodes.
-      pure logical function sees_master(i) result(sees)
-         integer(ip), intent(in) :: i                  !< face of the slave
-         type(nodal_rule_t) :: rule
-         type(sight_t) :: sight
-         integer(ip) :: k
-
-         rule = nodal_rule(mesh, slave%element(i), slave%face(i))
-         sight = look_along(0.5_wp*(mesh%x(:, rule%node(1)) + mesh%x(:, rule%node(rule%n))), rule%normal(:, 1), rule%s(rule%n), &
-                            master)
-         sees = sight%piece > 0
-         do k = 1, rule%n
-            sees = sees .or. node_finds(mesh, slave, i, rule, k, master)
-         end do
-      end function sees_master
-
-      !> A face that is left out sees the master with a part of it, not only at a node where both sides have one: they do not match.
-      pure logical function hangs_over(i)
-         integer(ip), intent(in) :: i                  !< face of the slave
-         type(nodal_rule_t) :: rule
-         type(sight_t) :: sight
-         real(wp) :: inwards(2)
-         integer(ip) :: k
-
-         hangs_over = .false.
-         if (used(i)) return
-         rule = nodal_rule(mesh, slave%element(i), slave%face(i))
-         do k = 1, rule%n, rule%n - 1
-            if (.not. node_finds(mesh, slave, i, rule, k, master)) cycle
-            inwards = mesh%x(:, rule%node(rule%n + 1 - k)) - mesh%x(:, rule%node(k))
-            sight = look_along(mesh%x(:, rule%node(k)) + INSIDE*inwards, rule%normal(:, k), rule%s(rule%n), master)
-            hangs_over = hangs_over .or. sight%piece > 0
-         end do
-      end function hangs_over
 
       !> Initial distances, and the master's shape functions where each point faces it: the row u_j - sum phi_k(t) u_k. A
       !> distance that is round-off of the coordinates is none: displacements may be smaller than that. A point at a corner
@@ -158,6 +126,47 @@ contains
       end subroutine look_for_master
 
    end subroutine pair_with_master
+
+   !> A node of the face finds the master, or the middle of a straight one does: for the message about a pair none of
+   !> whose faces sees the master with all of its nodes.
+   pure logical function sees_master(mesh, slave, i, master) result(sees)
+      type(mesh_t), intent(in) :: mesh
+      type(face_list_t), intent(in) :: slave
+      integer(ip), intent(in) :: i                  !< face of the slave
+      type(master_t), intent(in) :: master
+      type(nodal_rule_t) :: rule
+      type(sight_t) :: sight
+      integer(ip) :: k
+
+      rule = nodal_rule(mesh, slave%element(i), slave%face(i))
+      sight = look_along(0.5_wp*(mesh%x(:, rule%node(1)) + mesh%x(:, rule%node(rule%n))), rule%normal(:, 1), rule%s(rule%n), &
+                         master)
+      sees = sight%piece > 0
+      do k = 1, rule%n
+         sees = sees .or. node_finds(mesh, slave, i, rule, k, master)
+      end do
+   end function sees_master
+
+   !> A face that is left out sees the master with a part of it, not only at a node where both sides have one: they do not match.
+   pure logical function hangs_over(mesh, slave, i, master)
+      type(mesh_t), intent(in) :: mesh
+      type(face_list_t), intent(in) :: slave
+      integer(ip), intent(in) :: i                  !< face of the slave
+      type(master_t), intent(in) :: master
+      type(nodal_rule_t) :: rule
+      type(sight_t) :: sight
+      real(wp) :: inwards(2)
+      integer(ip) :: k
+
+      hangs_over = .false.
+      rule = nodal_rule(mesh, slave%element(i), slave%face(i))
+      do k = 1, rule%n, rule%n - 1
+         if (.not. node_finds(mesh, slave, i, rule, k, master)) cycle
+         inwards = mesh%x(:, rule%node(rule%n + 1 - k)) - mesh%x(:, rule%node(k))
+         sight = look_along(mesh%x(:, rule%node(k)) + INSIDE*inwards, rule%normal(:, k), rule%s(rule%n), master)
+         hangs_over = hangs_over .or. sight%piece > 0
+      end do
+   end function hangs_over
 
    !> A face is a candidate when each of its nodes finds the master along the face's normal there. On a curved slave
    !> that normal is only as good as the faces resolve the curve: at the end of the master it may miss by as much as the
