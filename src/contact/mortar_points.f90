@@ -127,7 +127,8 @@ contains
             face%state = mesh%state(slave%element(i))
             face%thickness = thickness(slave%element(i))
             face%places(:face%n) = depth_places(mesh, face%state, face%node(:face%n))
-            face%is_corner(:2) = [is_corner_at(1_ip), is_corner_at(2_ip)]
+            face%is_corner(:2) = [is_corner_at(mesh, slave, master, segments, i, face%node(1), 1_ip), &
+                                  is_corner_at(mesh, slave, master, segments, i, face%node(2), 2_ip)]
             call integrate_face(master_faces, integrals)
             call add_face(mesh, face, rule, s, integrals, rows, points)
          end if
@@ -140,31 +141,6 @@ contains
       call finish_points(mesh, rows, points)
 
    contains
-
-      !> Whether face i has a corner at one of its ends, where the normal is the master's, whatever the slopes: it meets another
-      !> face that sees the master at an angle, the mean of both normals being that of neither, or it is straight, has no
-      !> other beside it, and is TILTED against a straight master.
-      pure logical function is_corner_at(end)
-         integer(ip), intent(in) :: end                !< 1 or 2
-         integer(ip) :: k, m, beside(2)
-
-         k = modulo(i + 2*end - 4, slave%n) + 1        ! the face before or behind; of a ring the last one is before the first
-         beside(:2) = 0
-         if (segments%first(k + 1) > segments%first(k)) then
-            associate (nodes => face_nodes(mesh, slave%element(k), slave%face(k)))
-               beside = nodes(:2)
-            end associate
-         end if
-         associate (own => segments%direction(:, end, i))
-            if (beside(3 - end) == face%node(end)) then
-               is_corner_at = sine(own, segments%direction(:, 3 - end, k)) > CORNER
-            else
-               m = segments%piece(merge(segments%first(i), segments%first(i + 1) - 1, end == 1))
-               is_corner_at = .not. segments%curvature(i) > 0.0_wp .and. is_straight(master, m)
-               if (is_corner_at) is_corner_at = sine(own, -normal_at(master, m, 0.5_wp)) > TILTED
-            end if
-         end associate
-      end function is_corner_at
 
       !> The integrals over the segments of a face: N_GAUSS points on each, t = ((1 - g) from + (1 + g) to)/2, exact to
       !> degree five, and both ends for the least gap. A face that is covered whole gets its dual functions at the end,
@@ -197,6 +173,37 @@ contains
       end subroutine integrate_face
 
    end subroutine pair_by_mortar
+
+   !> Whether face i has a corner at one of its ends, where the normal is the master's, whatever the slopes: it meets another
+   !> face that sees the master at an angle, the mean of both normals being that of neither, or it is straight, has no
+   !> other beside it, and is TILTED against a straight master.
+   pure logical function is_corner_at(mesh, slave, master, segments, i, node, end)
+      type(mesh_t), intent(in) :: mesh
+      type(face_list_t), intent(in) :: slave
+      type(master_t), intent(in) :: master
+      type(segments_t), intent(in) :: segments
+      integer(ip), intent(in) :: i                  !< face of the slave
+      integer(ip), intent(in) :: node               !< at that end of it
+      integer(ip), intent(in) :: end                !< 1 or 2
+      integer(ip) :: k, m, beside(2)
+
+      k = modulo(i + 2*end - 4, slave%n) + 1        ! the face before or behind; of a ring the last one is before the first
+      beside(:2) = 0
+      if (segments%first(k + 1) > segments%first(k)) then
+         associate (nodes => face_nodes(mesh, slave%element(k), slave%face(k)))
+            beside = nodes(:2)
+         end associate
+      end if
+      associate (own => segments%direction(:, end, i))
+         if (beside(3 - end) == node) then
+            is_corner_at = sine(own, segments%direction(:, 3 - end, k)) > CORNER
+         else
+            m = segments%piece(merge(segments%first(i), segments%first(i + 1) - 1, end == 1))
+            is_corner_at = .not. segments%curvature(i) > 0.0_wp .and. is_straight(master, m)
+            if (is_corner_at) is_corner_at = sine(own, -normal_at(master, m, 0.5_wp)) > TILTED
+         end if
+      end associate
+   end function is_corner_at
 
    !> Adds what a place x(t) of the slave is worth to the integrals, with ds = weight |dx/dt| and the depth h there:
    !>
