@@ -226,8 +226,8 @@ contains
       solution%multipliers = multipliers
    end subroutine keep_multipliers
 
-   !> Forces, displacements, states and friction bound of the increment before, and what they changed by in it where the load goes on
-   !> in that way; the factor is its, too.
+   !> Forces, displacements, states and friction bound of the increment before, and what they changed by in it where the load goes
+   !> on in that way; the factor is its, too.
    !>
    !> What belongs to the way there begins anew: the sizes of the steps, and the counts. The largest force of each pair stays known,
    !> since of a pair that is unloaded now nothing else may be left to compare round-off with.
@@ -282,8 +282,8 @@ contains
 
    !> How much of the last increment the load grows by once more; 0 where it goes another way, or before the second one.
    !>
-   !> What the increment changed, A dx + B'dq, is the load that it added; what its end lacks of the load now is r. The rate is that of
-   !> the least |r - rate (A dx + B'dq)|, if next to nothing is left.
+   !> What the increment changed, A dx + B'dq, is the load that it added; what its end lacks of the load now is r. The rate is that
+   !> of the least |r - rate (A dx + B'dq)|, if next to nothing is left.
    real(wp) function rate_of_load(system, multipliers) result(rate)
       class(contact_system_t), intent(in) :: system
       type(multiplier_t), intent(in) :: multipliers

@@ -164,8 +164,8 @@ contains
       solution%converged = .false.
    end subroutine pull_firmly_again
 
-   !> Where the next step starts from, forces and friction bound: what the last one has found as long as states change, then Anderson's
-   !> mixing of both, the bound within a range of Picard's.
+   !> Where the next step starts from, forces and friction bound: what the last one has found as long as states change, then
+   !> Anderson's mixing of both, the bound within a range of Picard's.
    !>
    !> While states change the map is another one each time, and differences tell nothing: the memory is empty. Then forces and bound
    !> are one fixed point of one map, and are mixed as one vector; each pair is measured by its own forces.

@@ -74,8 +74,8 @@ contains
    !>     p (1 + sum_m c_m z_m),     t + (tau - |t|) sum_m c_m y_m,
    !>
    !> z_m the approach of the sides there by motion m, y_m the same along the sides. The work on the motions is then W + G c = 0,
-   !> G_mn = sum over the ends of the forces of p times z_m z_n, and those of tau - |t| times y_m y_n: motions of bodies that touch, so
-   !> that their numbers are those of a mesh whose elements are the segments.
+   !> G_mn = sum over the ends of the forces of p times z_m z_n, and those of tau - |t| times y_m y_n: motions of bodies that touch,
+   !> so that their numbers are those of a mesh whose elements are the segments.
    subroutine change_least(problem, first, work, with_friction, segments, is_found)
       class(problem_t), intent(in) :: problem
       integer(ip), intent(in) :: first(:)           !< motions of the bodies
@@ -161,10 +161,11 @@ contains
       integer(ip), allocatable, intent(out) :: number(:)
       type(profile_t), intent(out) :: profile
       type(graph_t) :: graph
-      integer(ip) :: together(6, size(segments)), order(first(size(first)) - 1), i, n
+      integer(ip), allocatable :: together(:, :), order(:)
+      integer(ip) :: i, n
       real(wp) :: z(6, 2)
 
-      together = 0
+      allocate (together(6, size(segments)), order(first(size(first)) - 1), source=0_ip)
       do i = 1, size(segments, kind=ip)
          call approach_of(problem, segments(i), 1, first, n, together(:, i), z)
          together(n + 1:, i) = 0
