@@ -245,7 +245,7 @@ contains
       if (any(terms%dof == ROTATION_DOF)) return
       do i = 1, size(terms, kind=ip)
          call row_terms(context, merge(node, terms(i)%nodes(1), i == 1), terms(i)%dof, 1.0_wp, nodes(:, i), vectors(:, :, i))
-         vectors(:, :, i) = terms(i)%coefficient*vectors(:, :, i)
+         vectors(:, :, i) = vectors(:, :, i)*terms(i)%coefficient
       end do
       is_idle_at = is_empty([nodes], reshape(vectors, [2_ip, size(nodes, kind=ip)]))
    end function is_idle_at
