@@ -43,6 +43,7 @@ module atrito_master
       real(wp), allocatable :: kink(:, :)           !< (first and last end, n) 0..1: how far the next piece is another side
       real(wp) :: straight = 0.0_wp                 !< [1/L] a curvature that is nothing beside those of curves
       real(wp), allocatable :: bend(:)              !< (n) [1/L] the same, convex > 0
+      logical, allocatable :: is_floor(:)           !< (n) straight segments beside which no other turns away; not allocated: none
       type(piece_tree_t) :: tree
    end type master_t
 
@@ -57,6 +58,7 @@ module atrito_master
    real(wp), parameter :: ANY_SIDE_FACES = 2.0_wp  !< no cosine of two normals is above it
    !> Of the turn at a rigid joint [rad] from which on it is a kink, and of a curvature by the length of a piece that is none.
    real(wp), parameter :: A_KINK = 0.1_wp, NO_CURVE = 1.0e-5_wp
+   real(wp), parameter :: NO_TURN = 1.0e-6_wp      !< [rad]
    !> Closer than this to a node of the master is at the node.
    real(wp), parameter :: NODE_TOLERANCE = 1.0e-10_wp
 
@@ -172,7 +174,11 @@ contains
          master%bend(i) = sign(curvature(i), dot_product(master%ends(:, 1, i), master%a(:, i) - master%centre(:, i)))
       end do
       call begin_ends(curvature, master)
+      master%is_floor = [(.not. abs(master%sweep(i)) > 0.0_wp, i=1, n)]
       do i = 1, n - 1
+         if (dot_product(master%d(:, i + 1), master%ends(:, 2, i)) < -NO_TURN*norm2(master%d(:, i + 1))) then
+            master%is_floor(i:i + 1) = .false.
+         end if
          master%kink(2, i) = min(sine(master%ends(:, 2, i), master%ends(:, 1, i + 1))/A_KINK, 1.0_wp)
          if (abs(master%bend(i) - master%bend(i + 1)) > NO_CURVE*maxval(curvature(i:i + 1))) master%kink(2, i) = 1.0_wp
          master%kink(1, i + 1) = master%kink(2, i)
@@ -197,7 +203,8 @@ contains
 
    !> The share of the master's normal, at a place of a piece, in the direction in which two surfaces touch. The radii are the
    !> weights, so that of two circles that touch it is the line between their centres, of a curve on a straight side the normal of
-   !> that, and it does not depend on who is the slave. Of straight sides it is the slave's.
+   !> that, and it does not depend on who is the slave. Of straight sides it is the slave's,
+   !> but over a rigid floor that of the floor: a body that leans stands on it with a corner.
    pure real(wp) function share_of_master(master, i, t, slave_curvature) result(share)
       type(master_t), intent(in) :: master
       integer(ip), intent(in) :: i                  !< piece
@@ -205,6 +212,10 @@ contains
       real(wp), intent(in) :: slave_curvature       !< [1/L] >= 0
       real(wp) :: both
 
+      share = 1.0_wp
+      if (allocated(master%is_floor)) then
+         if (master%is_floor(i)) return
+      end if
       both = slave_curvature + ((1 - t)*master%curvature(1, i) + t*master%curvature(2, i))
       share = slave_curvature/(both + max(master%straight - 0.1_wp*both, 0.0_wp))
    end function share_of_master

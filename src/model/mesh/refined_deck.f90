@@ -4,9 +4,9 @@
 !> that it is. The places of the new nodes in the block's unit square are those of a refined mesh whose coordinates they are: there
 !> every element is a rectangle, and the map of the element is exact.
 !>
-!> Equations and supports: those that a deck gives node by node along a side may have none at the nodes between, which is told; of
-!> equations between two sets the nodes are put into corresponding orders, since the new nodes of a set stand edge by edge, and
-!> edges run either way.
+!> Equations and supports: those that a deck gives node by node along a side may have none at the nodes between, which is told.
+!> Of equations between two sets the nodes are put into corresponding orders, since the new nodes of a set stand edge by edge,
+!> and edges run either way.
 module atrito_refined_deck
    use atrito_bilateral_rows, only: ROW_EQUATION
    use atrito_block_map, only: map_point, has_arcs

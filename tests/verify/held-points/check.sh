@@ -21,4 +21,10 @@ for type in CPS4 CPS9; do
       done
    done
 done
+# a block that leans on a corner on a rigid floor: no push along the floor, whatever the slope
+for angle in 0.01 0.2 0.8; do
+   run 0 "$here/leaning.inp" "leaning-$angle" --set angle=$angle --quiet
+   near "leaning $angle" "$(summary "leaning-$angle" normal_resultant)" 1 1e-6
+   near "leaning $angle, along the floor" "$(column "leaning-$angle/reactions.tab" r1 | awk '{ s += $1 } END { printf "%.17g", s }')" 0 1e-9
+done
 finish
