@@ -87,8 +87,8 @@ contains
    end function is_solved
 
    !> Solves again with the stiffness of each element: where a body is as slender as the digits of its nodes are few, taking near
-   !> elements as equal says nothing of it, and refinement does not converge. It does not begin from the increment before, which stays
-   !> what was found last.
+   !> elements as equal says nothing of it, and refinement does not converge. It does not begin from the increment before,
+   !> which stays what was found last.
    subroutine solve_without_near(data, controls, store, results, solution, status)
       type(scene_data_t), intent(inout) :: data
       type(controls_t), intent(in) :: controls

@@ -46,6 +46,7 @@ module atrito_dual_preconditioner
    real(wp), parameter :: FALSE_END = 1.0e-11_wp    !< of the terms of the true residual: the steps did not go where they said
    real(wp), parameter :: LEAST_CURVATURE = 1.0e-13_wp !< of M; below it points depend on each other, which a factor tells
    real(wp), parameter :: WEAKLY_HELD = 1.0e-6_wp   !< a motion that the free set hardly holds asks for a factor of its own
+   real(wp), parameter :: HARDLY_HELD = 1.0e-12_wp  !< round-off of the complement
    real(wp), parameter :: SEES = 1.0e-6_wp, SEES_NONE = 1.0e-13_wp !< of a motion, of its size: a row; round-off
 
    !> Forces and motions of the system so far, and the residual of their rows.
@@ -151,10 +152,10 @@ contains
       end associate
    end subroutine find_complement
 
-   !> Motions that are held weakly may be held well, but by rows that are far softer than others of their bodies: a stiff body on a
-   !> soft one, with supports aslant. S has the digits of the stiff rows. So such motions N get a complement of their own,
-   !> (G N)' M^-1 (G N), without what round-off leaves of the stiff rows in G N, and a scale of its own. Where no row sees more of
-   !> them than SEES they are held weakly, or not at all, and stay as they are.
+   !> Motions that seem not to be held may be held well, but by rows that are far softer than others of their bodies: a stiff body
+   !> on a soft one, with supports aslant. S has the digits of the stiff rows. So such motions N get a complement of their
+   !> own, (G N)' M^-1 (G N), without what round-off leaves of the stiff rows in G N, and a scale of its own. Where no row
+   !> sees more of them than SEES they are not held, and stay as they are.
    subroutine refine_complement(g, y, complement)
       real(wp), intent(in) :: g(:, :), y(:, :)   !< (n, k)
       type(complement_t), intent(inout) :: complement
@@ -163,7 +164,7 @@ contains
       real(wp), allocatable :: n(:, :), seen(:, :), size_of(:, :)
       integer(ip) :: j
 
-      weak = pack([(j, j=1, size(complement%values, kind=ip))], complement%values <= WEAKLY_HELD)
+      weak = pack([(j, j=1, size(complement%values, kind=ip))], complement%values <= HARDLY_HELD)
       if (size(weak) == 0) return
       n = complement%vectors(:, weak)*spread(complement%scale, 2, size(weak))
       seen = matmul(g, n)

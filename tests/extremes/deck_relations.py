@@ -344,6 +344,8 @@ def renumber(deck, rng):
 
 
 def empty_step(deck, _):
+    if any(options.get('TIME') == 'TOTAL TIME' for _, options, _ in deck.each('AMPLITUDE')):
+        return None  # such loads go on
     deck = deck.copy()
     deck.cards += [('STEP', {}, []), ('STATIC', {}, []), ('END STEP', {}, [])]
     return deck, Back(is_last=True)
