@@ -1,21 +1,11 @@
-!> Contact as the bound of the error sees it: tractions of both sides that the law allows, and what the law lacks of being met.
+!> Contact as the bound of the error sees it: tractions of both sides that the law allows.
 !>
 !> Along a slave with straight faces the pressures p_j and shears t_j of the points are taken as linear from node to node: p >= 0,
 !> and |t| <= tau with the bounds tau_j linear, too. All of a pair may be multiplied so that resultant and moment are those of the
 !> run; else those of a face of three nodes are, so that it has the resultant of Simpson's rule.
-!> With potentials of the law and their conjugates (Fenchel),
 !>
-!>     psi_n(g) = (g+)^2/(2 delta),        psi_n*(p) = delta p^2/2,
-!>     psi_t(r) = tau phi_eps(|r|),        psi_t*(t) = eps t^2/(2 tau),                                        (1)
-!>
-!> g = u_n - s and r the slip, the brackets of
-!>
-!>     gap = int [psi_n(g) + psi_n*(p) - p g] + [psi_t(r) + psi_t*(t) - t r] ds                                (2)
-!>
-!> are never negative, and 0 where the law is met. Without delta (1) has g <= 0 as a condition: displacements that break it between
-!> points are corrected by moving nodes back along the normal (atrito_sides_apart).
-!>
-!> The slave's faces are cut where they face nodes of the master (segments), so that all that stands in (2) is linear on a segment.
+!> The slave's faces are cut where they face nodes of the master (segments), so that gaps, stresses and, of faces of two nodes,
+!> displacements are linear on a segment. What the law lacks of being met there: atrito_law_lack.
 module atrito_contact_tractions
    use atrito_assembly, only: fem_t
    use atrito_contact_rows, only: contact_rows_t
@@ -157,7 +147,8 @@ contains
 
    end subroutine list_segments
 
-   !> Nodes of a slave that have no point of their own have the stresses of the one that stands most for them: at the end of a master.
+   !> Nodes of a slave that have no point of their own have the stresses of the one that stands most for them: at the end
+   !> of a master.
    pure subroutine name_nodes_between(rows, first, n_points, is_slave, point)
       type(contact_rows_t), intent(in) :: rows
       integer(ip), intent(in) :: first, n_points    !< points first + 1 .. first + n_points
@@ -264,8 +255,8 @@ contains
                                                             stiffness_of(problem%fem, segment%slave(1))
    end subroutine take_stresses
 
-   !> Multiplies the stresses of a pair by a function that is linear along it, so that the pressures have the resultant and the moment
-   !> of those of the run: what a body far from its contact feels of them is the same.
+   !> Multiplies the stresses of a pair by a function that is linear along it, so that the pressures have the resultant and the
+   !> moment of those of the run: what a body far from its contact feels of them is the same.
    subroutine keep_resultant(problem, solution, first, n_points, is_slave, segments)
       class(problem_t), intent(in) :: problem
       type(contact_solution_t), intent(in) :: solution
@@ -360,8 +351,8 @@ contains
       if (ends + middle > 0.0_wp) share_of_face = (2*ends + 8*middle)/(3*ends + 6*middle)
    end function share_of_face
 
-   !> Changes shears in proportion to the room that is left below tau, so that they have a resultant; where there is not that much room
-   !> they stay.
+   !> Changes shears in proportion to the room that is left below tau, so that they have a resultant; where there is not that much
+   !> room they stay.
    pure subroutine keep_shear(resultant, segments)
       real(wp), intent(in) :: resultant             !< [F]
       type(segment_t), intent(inout) :: segments(:)

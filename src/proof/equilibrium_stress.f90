@@ -30,7 +30,7 @@ contains
       real(wp), intent(in) :: u(:, :)               !< (2, n_nodes) [L]
       type(side_cuts_t), intent(in) :: cuts         !< sides whose tractions are polynomials by parts
       real(wp), intent(out) :: share(:)             !< (n_elements) [F L]
-      real(wp), intent(inout) :: residual           !< of the equilibrium; not less than what outlines are open by, over the largest force
+      real(wp), intent(inout) :: residual           !< of the equilibrium; >= what outlines are open by, over the largest force
       type(outlines_t) :: outlines
       integer(ip), allocatable :: cut(:)            ! elements
       integer(ip) :: degree, most, c

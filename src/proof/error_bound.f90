@@ -8,8 +8,8 @@
 !>
 !> (Prager and Synge, for contact with friction), norms of the energy. No constant, no assumption on the mesh. The steps:
 !>
-!> 1. p^, t^: from point to point as those of the run, linear, of small scenes in two kinds, of which the better one counts; balanced
-!> with the loads of bodies that nothing else holds (`balanced_segments`).
+!> 1. p^, t^: from point to point as those of the run, linear, of small scenes in two kinds, of which the better one counts;
+!> balanced with the loads of bodies that nothing else holds (`balanced_segments`).
 !> 2. One more solution with these tractions in place of the forces of contact, by which all that follows is a matter of loads.
 !> 3. Tractions along all sides in equilibrium with every element (atrito_side_tractions).
 !> 4. A stress in every element (atrito_airy_stress), bettered by sweeps over the corners (atrito_star_sweeps).

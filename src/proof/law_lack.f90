@@ -1,4 +1,5 @@
-!> The laws of contact as the bound of the error sees them: by how much tractions p^, t^ and displacements together fail to meet them.
+!> The laws of contact as the bound of the error sees them: by how much tractions p^, t^ and displacements together fail to meet
+!> them.
 !>
 !> With y = g - delta p^ along the normal, g = u_n - s the overlap, and y = r - c t^/tau along T, r the slip and c that of full
 !> friction, rho is the most that other tractions could work on y (docs/theory/proof.md),

@@ -264,8 +264,8 @@ contains
       corners = each_once(pack(corners, corners > 0))
    end function neighbours_of
 
-   !> Corners together that have several places: along the normal and along T of one of these to where all laws and the triangles are
-   !> in balance, by bisection.
+   !> Corners together that have several places: along the normal and along T of one of these to where all laws and the triangles
+   !> are in balance, by bisection.
    subroutine move_crowd(segments, strip, places, i, vertex, w, change)
       type(segment_t), intent(in) :: segments(:)
       type(strip_t), intent(in) :: strip
