@@ -212,8 +212,8 @@ contains
       end do
    end subroutine all_solutions
 
-   !> The matrix of a state over the active forces and the motions: rows A q - G a = g0 of closed and sticking ones, with t = +-nu W p
-   !> of slipping ones put in, and the balance.
+   !> The matrix of a state over the active forces and the motions: rows A q - G a = g0 of closed and sticking ones, with t = +-nu W
+   !> p of slipping ones put in, and the balance.
    subroutine matrix_of_state(problem, line, factor, state, active, matrix)
       type(bound_qp_t), intent(in) :: problem
       type(contact_line_t), intent(in) :: line
