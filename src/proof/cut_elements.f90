@@ -47,6 +47,14 @@ module atrito_cut_elements
       integer(ip) :: at_side(MOST_CORNERS) = 0      !< first of the side's numbers among those of the element; 0: a part of one
    end type polygon_t
 
+   !> A part of a polygon between its outline and the ring, or within the ring.
+   type :: cell_t
+      type(element_energy_t) :: energy
+      real(wp) :: a(MOST_OUTLINE) = 0.0_wp          !< what is known of its outline
+      integer(ip) :: place(MOST_OUTLINE) = 0        !< of a number of the outline among the unknown ones; 0: it is known
+      real(wp) :: sign_of(MOST_OUTLINE) = 1.0_wp    !< of it there
+   end type cell_t
+
    real(wp), parameter :: SAME_PLACE = 1.0e-9_wp    !< along a side
 
 contains
@@ -140,16 +148,15 @@ contains
       real(wp), intent(out), optional :: h(:, :)    !< (n, n)
       real(wp), intent(out), optional :: slope(:)   !< (n)
       type(polygon_t) :: polygon
-      type(element_energy_t), allocatable :: energy(:, :)
+      type(cell_t), allocatable :: cells(:, :)      !< (outer and inner, sides)
       real(wp), allocatable :: matrix(:, :), inner(:)
-      real(wp) :: centre(2), a(MOST_OUTLINE), g(MOST_OUTLINE), sign_of(MOST_OUTLINE)
-      integer(ip) :: i, j, m, n, next, degree, place(MOST_OUTLINE)
+      real(wp) :: centre(2)
+      integer(ip) :: i, j, m, n
 
       difference = -1.0_wp
       n = size(outline, kind=ip)
-      degree = n/(2*CORNERS_OF(fem%mesh%shape(e))) - 1
-      polygon%degree = degree
-      polygon%per_side = 2*degree - 1
+      polygon%degree = n/(2*CORNERS_OF(fem%mesh%shape(e))) - 1
+      polygon%per_side = 2*polygon%degree - 1
       call make_polygon(fem, sides, cuts, e, x_given(size(x_given) - 1:), outline, polygon)
       if (polygon%n > MOST_CORNERS) return
       associate (nodes => fem%mesh%nodes(:CORNERS_OF(fem%mesh%shape(e)), e))
@@ -157,19 +164,12 @@ contains
       end associate
       m = 3 + 3*polygon%n + 3*polygon%per_side*polygon%n
       allocate (matrix(m + n, m + n), inner(m + n), source=0.0_wp)
-      allocate (energy(0:1, polygon%n))
+      allocate (cells(0:1, polygon%n))
       do i = 1, polygon%n
-         next = 1 + mod(i, polygon%n)
          do j = 0, 1
-            if (j == 0) then
-               call make_energy(fem, e, degree, energy(j, i), reshape([corner_at(0_ip, i), corner_at(0_ip, next), &
-                                                                       corner_at(1_ip, next), corner_at(1_ip, i)], [2, 4]))
-            else
-               call make_energy(fem, e, degree, energy(j, i), reshape([corner_at(1_ip, i), corner_at(1_ip, next), centre], [2, 3]))
-            end if
-            call take_outline(j, i)
-            g(:energy(j, i)%n) = matmul(energy(j, i)%slopes(:, energy(j, i)%n + 1:), x_given)
-            call add_cell(energy(j, i)%n, energy(j, i)%slopes)
+            call make_energy(fem, e, polygon%degree, cells(j, i)%energy, cell_corners(polygon, centre, j, i))
+            call take_outline(polygon, m, j, i, cells(j, i))
+            call add_cell(cells(j, i), x_given, matrix, inner)
          end do
       end do
       call solve_least(m, matrix, inner, n)
@@ -183,61 +183,73 @@ contains
       inner(m + 1:) = 0.0_wp
       difference = 0.0_wp
       do i = 1, polygon%n
-         next = 1 + mod(i, polygon%n)
          do j = 0, 1
-            call take_outline(j, i)
-            associate (n_cell => energy(j, i)%n)
-               where (place(:n_cell) > 0) a(:n_cell) = a(:n_cell) + sign_of(:n_cell)*inner(max(place(:n_cell), 1))
-               difference = difference + energy_difference(energy(j, i), x_given, a(:n_cell))
+            associate (cell => cells(j, i), n_cell => cells(j, i)%energy%n)
+               where (cell%place(:n_cell) > 0)
+                  cell%a(:n_cell) = cell%a(:n_cell) + cell%sign_of(:n_cell)*inner(max(cell%place(:n_cell), 1))
+               end where
+               difference = difference + energy_difference(cell%energy, x_given, cell%a(:n_cell))
             end associate
          end do
       end do
+   end subroutine cut_difference
+
+   !> Corners of the cell behind side i of the outline (j = 0), a quadrilateral, or of the ring (1), a triangle.
+   pure function cell_corners(polygon, centre, j, i) result(x)
+      type(polygon_t), intent(in) :: polygon
+      real(wp), intent(in) :: centre(2)             !< the inner point, less the element's first node [L]
+      integer(ip), intent(in) :: j, i
+      real(wp) :: x(2, 4 - j)
+      integer(ip) :: next
+
+      next = 1 + mod(i, polygon%n)
+      if (j == 0) then
+         x(:, 1) = polygon%corner(:, i)
+         x(:, 2) = polygon%corner(:, next)
+         x(:, 3) = centre + CORE*(polygon%ring(:, next) - centre)
+         x(:, 4) = centre + CORE*(polygon%ring(:, i) - centre)
+      else
+         x(:, 1) = centre + CORE*(polygon%ring(:, i) - centre)
+         x(:, 2) = centre + CORE*(polygon%ring(:, next) - centre)
+         x(:, 3) = centre
+      end if
+   end function cell_corners
+
+   !> The outline of the cell behind side i of the outline (j = 0) or of the ring (1): what is known of it, and where its numbers
+   !> stand among the m inner ones; behind these come those of the element's outline.
+   subroutine take_outline(polygon, m, j, i, cell)
+      type(polygon_t), intent(in) :: polygon
+      integer(ip), intent(in) :: m, j, i
+      type(cell_t), intent(inout) :: cell           !< with its energy
+      integer(ip) :: corners, next, k, c
+
+      corners = cell%energy%macro%n
+      next = 1 + mod(i, polygon%n)
+      if (j == 0) then
+         cell%a(:3) = polygon%at_corner(:, i)
+         cell%a(4:6) = polygon%at_corner(:, next)
+         if (polygon%of_corner(i) > 0) cell%place(1:3) = m + 3*polygon%of_corner(i) - [2_ip, 1_ip, 0_ip]
+         if (polygon%of_corner(next) > 0) cell%place(4:6) = m + 3*polygon%of_corner(next) - [2_ip, 1_ip, 0_ip]
+         do k = 1, polygon%per_side
+            c = side_place(corners, polygon%degree, 1_ip) + k - 1
+            cell%a(c) = polygon%of_side(k, i)
+            if (polygon%at_side(i) > 0) cell%place(c) = m + polygon%at_side(i) + k - 1
+         end do
+      else
+         cell%place(1:3) = at_ring(j, i)
+         cell%place(4:6) = at_ring(j, next)
+      end if
+      if (corners == 4) cell%place(10:12) = at_ring(j + 1, i)
+      cell%place(7:9) = at_ring(j + 1, next)
+      if (j > 0) call take_line(1_ip, (1 + j)*polygon%n + i, .true.)
+      call take_line(2_ip, j*polygon%n + next, .true.)
+      if (corners == 4) call take_line(3_ip, 2*polygon%n + i, .false.)
+      call take_line(corners, j*polygon%n + i, .false.)
 
    contains
 
-      !> A corner of the outline (0) or of the ring (1).
-      function corner_at(ring, i) result(x)
-         integer(ip), intent(in) :: ring, i
-         real(wp) :: x(2)
-
-         x = polygon%corner(:, i)
-         if (ring == 1) x = centre + CORE*(polygon%ring(:, i) - centre)
-      end function corner_at
-
-      !> The outline of the cell behind side i of the outline (j = 0) or of the ring (1): what is known of it, and where its numbers
-      !> stand among the inner ones; behind these, m, come those of the element's outline.
-      subroutine take_outline(j, i)
-         integer(ip), intent(in) :: j, i
-         integer(ip) :: corners, k, c
-
-         corners = energy(j, i)%macro%n
-         place = 0
-         sign_of = 1.0_wp
-         a = 0.0_wp
-         if (j == 0) then
-            a(:3) = polygon%at_corner(:, i)
-            a(4:6) = polygon%at_corner(:, next)
-            if (polygon%of_corner(i) > 0) place(1:3) = m + 3*polygon%of_corner(i) - [2_ip, 1_ip, 0_ip]
-            if (polygon%of_corner(next) > 0) place(4:6) = m + 3*polygon%of_corner(next) - [2_ip, 1_ip, 0_ip]
-            do k = 1, polygon%per_side
-               c = side_place(corners, degree, 1_ip) + k - 1
-               a(c) = polygon%of_side(k, i)
-               if (polygon%at_side(i) > 0) place(c) = m + polygon%at_side(i) + k - 1
-            end do
-         else
-            place(1:3) = at_ring(j, i)
-            place(4:6) = at_ring(j, next)
-         end if
-         if (corners == 4) place(10:12) = at_ring(j + 1, i)
-         place(7:9) = at_ring(j + 1, next)
-         if (j > 0) call take_line(corners, 1_ip, (1 + j)*polygon%n + i, .true.)
-         call take_line(corners, 2_ip, j*polygon%n + next, .true.)
-         if (corners == 4) call take_line(corners, 3_ip, 2*polygon%n + i, .false.)
-         call take_line(corners, corners, j*polygon%n + i, .false.)
-      end subroutine take_outline
-
       !> Places of phi and its gradient at a corner of the ring (1), or at the inner point, which stands behind them (2).
-      function at_ring(ring, i) result(places)
+      pure function at_ring(ring, i) result(places)
          integer(ip), intent(in) :: ring, i
          integer(ip) :: places(3)
 
@@ -246,40 +258,45 @@ contains
 
       !> The numbers of an inner line, of which a side of the cell goes the same way or the other one. Lines: from the
       !> outline to the ring, from there to the inner point, and along the ring.
-      subroutine take_line(corners, side, line, is_same_way)
-         integer(ip), intent(in) :: corners, side, line
+      subroutine take_line(side, line, is_same_way)
+         integer(ip), intent(in) :: side, line
          logical, intent(in) :: is_same_way
          integer(ip) :: k, c, first
 
          first = 3 + 3*polygon%n + polygon%per_side*(line - 1)
          do k = 1, polygon%per_side
-            c = side_place(corners, degree, side) + k - 1
-            if (is_same_way .or. k > degree) then
-               place(c) = first + k
+            c = side_place(corners, polygon%degree, side) + k - 1
+            if (is_same_way .or. k > polygon%degree) then
+               cell%place(c) = first + k
             else
-               place(c) = first + degree + 1 - k
-               sign_of(c) = -1.0_wp
+               cell%place(c) = first + polygon%degree + 1 - k
+               cell%sign_of(c) = -1.0_wp
             end if
          end do
       end subroutine take_line
 
-      !> Adds a cell to the system: H, and -(H a + g) with what is known.
-      subroutine add_cell(n_cell, slopes)
-         integer(ip), intent(in) :: n_cell
-         real(wp), intent(in) :: slopes(:, :)
-         integer(ip) :: j, k
+   end subroutine take_outline
 
-         do j = 1, n_cell
+   !> Adds a cell to the system: H, and -(H a + g) with what is known.
+   pure subroutine add_cell(cell, x_given, matrix, inner)
+      type(cell_t), intent(in) :: cell
+      real(wp), intent(in) :: x_given(:)
+      real(wp), intent(inout) :: matrix(:, :), inner(:)
+      real(wp) :: g(MOST_OUTLINE)
+      integer(ip) :: j, k
+
+      associate (n => cell%energy%n, slopes => cell%energy%slopes, place => cell%place, sign_of => cell%sign_of)
+         g(:n) = matmul(slopes(:, n + 1:), x_given)
+         do j = 1, n
             if (place(j) == 0) cycle
-            inner(place(j)) = inner(place(j)) - sign_of(j)*(g(j) + dot_product(slopes(:n_cell, j), a(:n_cell)))
-            do k = 1, n_cell
+            inner(place(j)) = inner(place(j)) - sign_of(j)*(g(j) + dot_product(slopes(:n, j), cell%a(:n)))
+            do k = 1, n
                if (place(k) == 0) cycle
                matrix(place(k), place(j)) = matrix(place(k), place(j)) + sign_of(j)*sign_of(k)*slopes(k, j)
             end do
          end do
-      end subroutine add_cell
-
-   end subroutine cut_difference
+      end associate
+   end subroutine add_cell
 
    !> Corners of an element and of its cuts with phi and its gradient, and the numbers of the sides between them.
    subroutine make_polygon(fem, sides, cuts, e, b, outline, polygon)

@@ -53,7 +53,7 @@ contains
       end do
       residual = max(residual, most_open/max(largest, tiny(open)))
       do c = 1, size(cut, kind=ip)
-         call begin_cut(cut(c), classes%n + c)
+         call begin_cut(fem, sides, cuts, loads, u, cut(c), classes%n + c, outlines)
       end do
       left = sum(outlines%energy)
       do sweep = 1, MOST_SWEEPS
@@ -71,7 +71,7 @@ contains
       subroutine begin_class(c)
          integer(ip), intent(in) :: c
          type(element_energy_t) :: energy
-         real(wp) :: x(MOST_GIVEN), of_sides(2, 0:degree, 4)
+         real(wp) :: x(MOST_GIVEN)
          real(wp), allocatable :: rows(:)
          integer(ip) :: i, n_given, j
 
@@ -82,21 +82,9 @@ contains
             associate (e => classes%member(i), n => energy%n, corners => energy%macro%n)
                call given_of(fem, e, u, x, n_given)
                x(n_given + 1:n_given + 2) = loads%volume(:, e)
-               do j = 1, corners
-                  associate (side => sides%of_element(j, e), at => energy%macro%corner)
-                     if (side > 0) then
-                        of_sides(:, :, j) = loads%traction(:, :, side)
-                     else
-                        of_sides(:, :, j) = -loads%traction(:, degree:0:-1, -side)
-                     end if
-                     if (any(loads%volume(:, e) /= 0.0_wp)) then
-                        associate (next => at(:, 1 + mod(j, corners)))
-                           of_sides(:, :, j) = of_sides(:, :, j) + volume_tractions(loads%volume(:, e), at(:, j), next, degree)
-                        end associate
-                     end if
-                  end associate
-               end do
-               call outline_of_tractions(energy%macro%corner(:, :corners), of_sides(:, :, :corners), outlines%a(:n, e), open)
+               call outline_of_tractions(energy%macro%corner(:, :corners), &
+                                         tractions_around(sides, loads, e, energy%macro%corner(:, :corners)), &
+                                         outlines%a(:n, e), open)
                most_open = max(most_open, open)
                largest = max(largest, maxval(abs(outlines%a(2:3*corners:3, e))), maxval(abs(outlines%a(3:3*corners:3, e))))
                call given_rows(energy, x(:energy%n_given), rows)
@@ -113,22 +101,53 @@ contains
          end do
       end subroutine begin_class
 
-      !> An element that is cut has an energy of its own, and so a class.
-      subroutine begin_cut(e, class)
-         integer(ip), intent(in) :: e, class
-         real(wp) :: x(MOST_GIVEN)
-         integer(ip) :: n_given
-
-         associate (n => outline_size(fem%mesh%shape(e), degree))
-            call given_of(fem, e, u, x, n_given)
-            x(n_given + 1:n_given + 2) = loads%volume(:, e)
-            outlines%class_of(e) = class
-            call cut_difference(fem, sides, cuts, e, x(:n_given + 2), outlines%a(:n, e), outlines%energy(e), &
-                                outlines%h(:n, :n, class), outlines%slope(:n, e))
-         end associate
-      end subroutine begin_cut
-
    end subroutine sum_stresses
+
+   !> Outline, slope and energy of an element that is cut. It has an energy of its own, and so a class.
+   subroutine begin_cut(fem, sides, cuts, loads, u, e, class, outlines)
+      type(fem_t), intent(in) :: fem
+      type(mesh_sides_t), intent(in) :: sides
+      type(side_cuts_t), intent(in) :: cuts
+      type(proof_loads_t), intent(in) :: loads
+      real(wp), intent(in) :: u(:, :)               !< (2, n_nodes) [L]
+      integer(ip), intent(in) :: e, class
+      type(outlines_t), intent(inout) :: outlines   !< with the outline
+      real(wp) :: x(MOST_GIVEN)
+      integer(ip) :: n_given
+
+      associate (n => outline_size(fem%mesh%shape(e), outlines%degree))
+         call given_of(fem, e, u, x, n_given)
+         x(n_given + 1:n_given + 2) = loads%volume(:, e)
+         outlines%class_of(e) = class
+         call cut_difference(fem, sides, cuts, e, x(:n_given + 2), outlines%a(:n, e), outlines%energy(e), &
+                             outlines%h(:n, :n, class), outlines%slope(:n, e))
+      end associate
+   end subroutine begin_cut
+
+   !> The tractions along the sides of an element, counter-clockwise, with what its forces per volume add.
+   pure function tractions_around(sides, loads, e, corner) result(traction)
+      type(mesh_sides_t), intent(in) :: sides
+      type(proof_loads_t), intent(in) :: loads
+      integer(ip), intent(in) :: e
+      real(wp), intent(in) :: corner(:, :)          !< (2, corners) [L]
+      real(wp) :: traction(2, 0:ubound(loads%traction, 2), size(corner, 2)) !< as loads%traction [F/L]
+      integer(ip) :: degree, next, j
+
+      degree = ubound(loads%traction, 2, kind=ip)
+      do j = 1, size(corner, 2, kind=ip)
+         next = 1 + mod(j, size(corner, 2, kind=ip))
+         associate (side => sides%of_element(j, e))
+            if (side > 0) then
+               traction(:, :, j) = loads%traction(:, :, side)
+            else
+               traction(:, :, j) = -loads%traction(:, degree:0:-1, -side)
+            end if
+         end associate
+         if (any(loads%volume(:, e) /= 0.0_wp)) then
+            traction(:, :, j) = traction(:, :, j) + volume_tractions(loads%volume(:, e), corner(:, j), corner(:, next), degree)
+         end if
+      end do
+   end function tractions_around
 
    !> Numbers of the outline of an element.
    pure elemental integer(ip) function outline_size(shape, degree)

@@ -45,6 +45,7 @@ module atrito_error_bound
       real(wp), allocatable :: share(:)             !< (n_elements) all of it [F L]
       real(wp) :: of_law(3) = 0.0_wp                !< in them: the misfit of the sides, the normal law, friction [F L]
       real(wp) :: residual = 0.0_wp                 !< of the equilibrium
+      character(len=:), allocatable :: why_not      !< allocated: there is no bound
    end type terms_t
 
    integer(ip), parameter :: TRIED_TWICE = 4000     !< elements of a scene for which two kinds of tractions of contact are tried
@@ -73,32 +74,31 @@ contains
       type(terms_t) :: terms, other_terms
       type(element_classes_t) :: classes
       real(wp), allocatable :: other(:, :)
-      character(len=:), allocatable :: why_not, why_not_other
 
       results%error_bound = error_bound_t()
-      call check_hypotheses(problem, results%u, why_not)
+      call check_hypotheses(problem, results%u, terms%why_not)
       call find_classes(problem%fem, classes)
-      if (.not. allocated(why_not) .and. if_quick .and. takes_long(problem%fem, classes)) then
-         why_not = 'it takes longer than the run: --proof on'
+      if (.not. allocated(terms%why_not) .and. if_quick .and. takes_long(problem%fem, classes)) then
+         terms%why_not = 'it takes longer than the run: --proof on'
       end if
-      if (.not. allocated(why_not)) then
-         call sum_terms(model, acting, problem, solution, .true., classes, exchanged, results, terms, why_not)
+      if (.not. allocated(terms%why_not)) then
+         call sum_terms(model, acting, problem, solution, .true., classes, exchanged, results, terms)
       end if
-      if (.not. allocated(why_not) .and. size(problem%points) > 0 .and. problem%fem%mesh%n_elements <= TRIED_TWICE) then
-         call sum_terms(model, acting, problem, solution, .false., classes, other, results, other_terms, why_not_other)
-         if (.not. allocated(why_not_other)) then
+      if (.not. allocated(terms%why_not) .and. size(problem%points) > 0 .and. problem%fem%mesh%n_elements <= TRIED_TWICE) then
+         call sum_terms(model, acting, problem, solution, .false., classes, other, results, other_terms)
+         if (.not. allocated(other_terms%why_not)) then
             if (sum(other_terms%share) < sum(terms%share)) terms = other_terms
          end if
       end if
-      if (allocated(why_not)) then
-         results%error_bound%why_not = why_not
+      if (allocated(terms%why_not)) then
+         results%error_bound%why_not = terms%why_not
       else
          call complete_bound(problem%fem, terms%residual, terms%share, terms%of_law, results)
       end if
    end subroutine bound_error
 
    !> The terms of (1) with tractions of contact that have the resultants of the run, pair by pair, or those of the points.
-   subroutine sum_terms(model, acting, problem, solution, keeps, classes, exchanged, results, terms, why_not)
+   subroutine sum_terms(model, acting, problem, solution, keeps, classes, exchanged, results, terms)
       type(model_t), intent(in) :: model
       type(step_t), intent(in) :: acting
       class(problem_t), intent(in) :: problem
@@ -108,7 +108,6 @@ contains
       real(wp), allocatable, intent(inout) :: exchanged(:, :)
       type(results_t), intent(in) :: results
       type(terms_t), intent(out) :: terms
-      character(len=:), allocatable, intent(out) :: why_not
       type(proof_loads_t) :: loads
       type(mesh_sides_t) :: sides
       type(side_cuts_t) :: cuts
@@ -117,24 +116,26 @@ contains
       real(wp), allocatable :: force(:, :, :)
       integer(ip) :: degree
 
-      call balanced_segments(model, problem, solution, keeps, segments, why_not)
-      if (.not. allocated(why_not)) then
+      call balanced_segments(model, problem, solution, keeps, segments, terms%why_not)
+      if (.not. allocated(terms%why_not)) then
          degree = maxval(DEGREE_OF(problem%fem%mesh%shape(:problem%fem%mesh%n_elements)))
          call list_sides(problem%fem%mesh, sides)
-         call take_loads(model, acting, problem%fem, sides, degree, problem%held, results%reaction, loads, why_not)
+         call take_loads(model, acting, problem%fem, sides, degree, problem%held, results%reaction, loads, terms%why_not)
       end if
-      if (.not. allocated(why_not) .and. .not. allocated(exchanged)) call exchange(problem, solution, segments, exchanged, why_not)
-      if (.not. allocated(why_not)) call take_contact(problem%fem, sides, segments, degree, loads, cuts, why_not)
-      if (.not. allocated(why_not)) then
+      if (.not. (allocated(terms%why_not) .or. allocated(exchanged))) then
+         call exchange(problem, solution, segments, exchanged, terms%why_not)
+      end if
+      if (.not. allocated(terms%why_not)) call take_contact(problem%fem, sides, segments, degree, loads, cuts, terms%why_not)
+      if (.not. allocated(terms%why_not)) then
          call list_chains(problem%fem%mesh, sides, chains)
          call take_elements(problem%fem, classes, sides, results%u + exchanged, loads, force)
          call equilibrate_sides(problem%fem%mesh, sides, chains, force, loads%known, loads%traction, terms%residual)
          allocate (terms%share(problem%fem%mesh%n_elements))
          call sum_stresses(problem%fem, classes, sides, chains, loads, results%u, cuts, terms%share, terms%residual)
-         if (any(terms%share < 0.0_wp)) why_not = 'a side of an element faces too many others'
+         if (any(terms%share < 0.0_wp)) terms%why_not = 'a side of an element faces too many others'
       end if
-      if (.not. allocated(why_not)) then
-         call add_misfit(problem%fem, problem%held, segments, results%u, terms%share, terms%of_law, why_not)
+      if (.not. allocated(terms%why_not)) then
+         call add_misfit(problem%fem, problem%held, segments, results%u, terms%share, terms%of_law, terms%why_not)
       end if
    end subroutine sum_terms
 

@@ -31,6 +31,15 @@ module atrito_strip_mesh
       real(wp), allocatable :: coupling(:, :, :)    !< (2, 2, ..) stiffness towards them
    end type strip_t
 
+   !> Places on faces where triangles are to have a corner, sorted.
+   type :: marks_t
+      integer(ip), allocatable :: number(:)         !< (m) as they were given
+      integer(ip), allocatable :: element(:), face(:) !< (m)
+      real(wp), allocatable :: place(:)             !< (m) along the face, 0 to 1
+      integer(lp), allocatable :: key(:)            !< (m) element, face and place as one number
+      integer(ip), allocatable :: first_of(:)       !< (n_elements) the first mark of an element; 0: it has none
+   end type marks_t
+
 contains
 
    !> The strip behind some faces.
@@ -41,23 +50,18 @@ contains
       real(wp), intent(in) :: place(:)              !< (m) along the face, 0 to 1
       type(strip_t), intent(out) :: strip
       integer(ip), intent(out) :: vertex(:)         !< (m) the corner of triangles there
-      integer(ip), allocatable :: of_node(:), order(:), first_of(:)
+      type(marks_t) :: marks
+      integer(ip), allocatable :: of_node(:)        !< (n_nodes) corner of triangles; 0: none
       logical, allocatable :: is_inside(:)          !< (n_elements) of the strip
-      integer(lp), allocatable :: key(:)
       integer(ip) :: e
 
-      key = (4_lp*element + face)*(2*PLACES) + nint(place*PLACES, lp)
-      order = sorted_places(key)
+      call sort_marks(fem%mesh%n_elements, element, face, place, marks)
       call choose_elements(fem, element, face, is_inside)
       allocate (of_node(fem%mesh%n_nodes), source=0_ip)
-      allocate (first_of(fem%mesh%n_elements), source=0_ip)
-      do e = size(order, kind=ip), 1, -1
-         first_of(element(order(e))) = e
-      end do
       call make_room(strip%element, 0_ip, 64_ip)
       allocate (strip%x(2, 0), strip%is_free(2, 0), strip%corner(3, 0))
       do e = 1, fem%mesh%n_elements
-         if (is_inside(e)) call cut_element(e)
+         if (is_inside(e)) call cut_element(fem, held, marks, e, of_node, strip, vertex)
       end do
       do e = 1, fem%mesh%n_elements                 ! where the strip ends
          if (is_inside(e)) cycle
@@ -66,86 +70,107 @@ contains
          end associate
       end do
       call add_stiffness(fem, strip)
+   end subroutine make_strip
+
+   !> Places on faces in the order of elements, of their faces, and along these.
+   pure subroutine sort_marks(n_elements, element, face, place, marks)
+      integer(ip), intent(in) :: n_elements
+      integer(ip), intent(in) :: element(:), face(:) !< (m)
+      real(wp), intent(in) :: place(:)              !< (m) along the face, 0 to 1
+      type(marks_t), intent(out) :: marks
+      integer(lp) :: key(size(element))
+      integer(ip) :: i
+
+      key = (4_lp*element + face)*(2*PLACES) + nint(place*PLACES, lp)
+      marks%number = sorted_places(key)
+      marks%key = key(marks%number)
+      marks%element = element(marks%number)
+      marks%face = face(marks%number)
+      marks%place = place(marks%number)
+      allocate (marks%first_of(n_elements), source=0_ip)
+      do i = size(element, kind=ip), 1, -1
+         marks%first_of(marks%element(i)) = i
+      end do
+   end subroutine sort_marks
+
+   !> The triangles of an element: from its middle, and of one with faces of contact those between its outline and a ring within,
+   !> too.
+   subroutine cut_element(fem, held, marks, e, of_node, strip, vertex)
+      type(fem_t), intent(in) :: fem
+      logical, intent(in) :: held(:, :)             !< (2, n_nodes)
+      type(marks_t), intent(in) :: marks
+      integer(ip), intent(in) :: e
+      integer(ip), intent(inout) :: of_node(:)      !< (n_nodes)
+      type(strip_t), intent(inout) :: strip
+      integer(ip), intent(inout) :: vertex(:)       !< (m) those of its marks are found
+      integer(ip), allocatable :: outline(:)
+      real(wp) :: middle(2)
+      integer(ip) :: i, next, centre, n, first
+
+      associate (nodes => fem%mesh%nodes(:CORNERS_OF(fem%mesh%shape(e)), e))
+         middle = sum(fem%mesh%x(:, nodes), dim=2)/size(nodes)
+      end associate
+      call take_outline(fem, held, marks, e, of_node, strip, vertex, outline, n)
+      call add_vertex(strip, middle, [.true., .true.], centre)
+      first = centre
+      if (marks%first_of(e) > 0) then
+         do i = 1, n
+            call add_vertex(strip, middle + CORE*(strip%x(:, outline(i)) - middle), [.true., .true.], next)
+         end do
+      end if
+      do i = 1, n
+         next = 1 + mod(i, n)
+         if (marks%first_of(e) > 0) then
+            call add_triangle(strip, [outline(i), outline(next), first + i], e)
+            call add_triangle(strip, [outline(next), first + next, first + i], e)
+            call add_triangle(strip, [first + i, first + next, centre], e)
+         else
+            call add_triangle(strip, [outline(i), outline(next), centre], e)
+         end if
+      end do
+   end subroutine cut_element
+
+   !> Corners and marks along the outline of an element, counter-clockwise.
+   subroutine take_outline(fem, held, marks, e, of_node, strip, vertex, outline, n)
+      type(fem_t), intent(in) :: fem
+      logical, intent(in) :: held(:, :)             !< (2, n_nodes)
+      type(marks_t), intent(in) :: marks
+      integer(ip), intent(in) :: e
+      integer(ip), intent(inout) :: of_node(:)      !< (n_nodes)
+      type(strip_t), intent(inout) :: strip
+      integer(ip), intent(inout) :: vertex(:)       !< (m)
+      integer(ip), allocatable, intent(inout) :: outline(:)
+      integer(ip), intent(out) :: n                 !< corners of it
+      integer(ip) :: k, at
+
+      n = 0
+      at = marks%first_of(e)
+      do k = 1, CORNERS_OF(fem%mesh%shape(e))
+         associate (from => fem%mesh%nodes(k, e), to => fem%mesh%nodes(face_end(fem%mesh, e, k), e))
+            call make_room(outline, n, n + 1)
+            n = n + 1
+            call take_node(from, outline(n))
+            do while (at > 0 .and. at <= size(marks%number))
+               associate (t => marks%place(at), i => marks%number(at))
+                  if (marks%element(at) /= e .or. marks%face(at) /= k) exit
+                  if (nint(t*PLACES, lp) >= PLACES - 1) then
+                     call take_node(to, vertex(i))
+                  else
+                     if (nint(t*PLACES, lp) > 1 .and. .not. is_same(marks, at)) then
+                        call make_room(outline, n, n + 1)
+                        n = n + 1
+                        call add_vertex(strip, (1 - t)*fem%mesh%x(:, from) + t*fem%mesh%x(:, to), &
+                                        .not. (held(:, from) .and. held(:, to)), outline(n))
+                     end if
+                     vertex(i) = outline(n)
+                  end if
+               end associate
+               at = at + 1
+            end do
+         end associate
+      end do
 
    contains
-
-      !> The triangles of an element: from its middle, and of one with faces of contact those between its outline and a ring within,
-      !> too.
-      subroutine cut_element(e)
-         integer(ip), intent(in) :: e
-         integer(ip), allocatable :: outline(:)
-         real(wp) :: middle(2)
-         integer(ip) :: i, next, centre, n, first
-
-         associate (nodes => fem%mesh%nodes(:CORNERS_OF(fem%mesh%shape(e)), e))
-            middle = sum(fem%mesh%x(:, nodes), dim=2)/size(nodes)
-         end associate
-         call take_outline(e, outline, n)
-         call add_vertex(strip, middle, [.true., .true.], centre)
-         first = centre
-         if (first_of(e) > 0) then
-            do i = 1, n
-               call add_vertex(strip, middle + CORE*(strip%x(:, outline(i)) - middle), [.true., .true.], next)
-            end do
-         end if
-         do i = 1, n
-            next = 1 + mod(i, n)
-            if (first_of(e) > 0) then
-               call add_triangle(strip, [outline(i), outline(next), first + i], e)
-               call add_triangle(strip, [outline(next), first + next, first + i], e)
-               call add_triangle(strip, [first + i, first + next, centre], e)
-            else
-               call add_triangle(strip, [outline(i), outline(next), centre], e)
-            end if
-         end do
-      end subroutine cut_element
-
-      !> Corners and places along the outline of an element, counter-clockwise.
-      subroutine take_outline(e, outline, n)
-         integer(ip), intent(in) :: e
-         integer(ip), allocatable, intent(inout) :: outline(:)
-         integer(ip), intent(out) :: n
-         integer(ip) :: k, at
-         real(wp) :: t
-
-         n = 0
-         at = first_of(e)
-         do k = 1, CORNERS_OF(fem%mesh%shape(e))
-            associate (from => fem%mesh%nodes(k, e), to => fem%mesh%nodes(face_end(fem%mesh, e, k), e))
-               call make_room(outline, n, n + 1)
-               n = n + 1
-               call take_node(from, outline(n))
-               do while (at > 0 .and. at <= size(order))
-                  associate (i => order(at))
-                     if (element(i) /= e .or. face(i) /= k) exit
-                     t = place(i)
-                     if (nint(t*PLACES, lp) >= PLACES - 1) then
-                        call take_node(to, vertex(i))
-                     else
-                        if (nint(t*PLACES, lp) > 1 .and. .not. is_same(at)) then
-                           call make_room(outline, n, n + 1)
-                           n = n + 1
-                           call add_vertex(strip, (1 - t)*fem%mesh%x(:, from) + t*fem%mesh%x(:, to), &
-                                           .not. (held(:, from) .and. held(:, to)), outline(n))
-                        end if
-                        vertex(i) = outline(n)
-                     end if
-                  end associate
-                  at = at + 1
-               end do
-            end associate
-         end do
-      end subroutine take_outline
-
-      !> Whether the point before is in the same place, to a few digits less than those of PLACES.
-      pure logical function is_same(at)
-         integer(ip), intent(in) :: at
-
-         is_same = .false.
-         if (at == 1) return
-         is_same = key(order(at)) - key(order(at - 1)) <= 1 .and. element(order(at)) == element(order(at - 1)) .and. &
-                   face(order(at)) == face(order(at - 1)) .and. nint(place(order(at - 1))*PLACES, lp) > 1
-      end function is_same
 
       subroutine take_node(node, at)
          integer(ip), intent(in) :: node
@@ -155,7 +180,18 @@ contains
          at = of_node(node)
       end subroutine take_node
 
-   end subroutine make_strip
+   end subroutine take_outline
+
+   !> Whether the mark before is in the same place, to a few digits less than those of PLACES.
+   pure logical function is_same(marks, at)
+      type(marks_t), intent(in) :: marks
+      integer(ip), intent(in) :: at
+
+      is_same = .false.
+      if (at == 1) return
+      is_same = marks%key(at) - marks%key(at - 1) <= 1 .and. marks%element(at) == marks%element(at - 1) .and. &
+                marks%face(at) == marks%face(at - 1) .and. nint(marks%place(at - 1)*PLACES, lp) > 1
+   end function is_same
 
    !> Elements that are no farther from the faces than the layers of the strip.
    subroutine choose_elements(fem, element, face, is_inside)
