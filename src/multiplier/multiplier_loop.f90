@@ -118,7 +118,7 @@ contains
       end if
       if (.not. is_ok(status)) return
       tau = solution%tau
-      anderson%least = -HUGE_REAL
+      if (has_many_points(line)) anderson%least = -HUGE_REAL
       outer = 0
       do
          outer = outer + 1
@@ -149,7 +149,7 @@ contains
          ! the step is taken over: q_o, a_o, how far the next one may go, and its friction bound
          call accept_step(system, solution%state, multipliers)
          call choose_steps(outer, solution%state, multipliers, loop)
-         call next_start(solution%bounds, begun, image, loop, anderson, multipliers, tau)
+         call next_start(has_many_points(line), solution%bounds, begun, image, loop, anderson, multipliers, tau)
       end do
       if (solution%converged) then
          call measure_bodies(system, solution%state%q, of_body)

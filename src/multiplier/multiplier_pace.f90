@@ -32,6 +32,7 @@ module atrito_multiplier_pace
       type(distance_t) :: distance               !< of the last step from a solution
       integer(ip) :: standing = 0                !< steps without a change of states
       integer(ip) :: lagging = 0                 !< of them, those in which the forces changed nearly as much as in the one before
+      logical :: can_wait = .true.               !< with the mixing of bounds alone, for forces that come faster
       real(wp) :: change = 0.0_wp                !< of the forces in the last step, relative as in distance
       logical :: is_firm = .false.               !< the pull was made usual again
       logical :: slow = .false.                  !< states went on changing: smaller steps
@@ -124,7 +125,7 @@ contains
          if (loop%distance%pull > NO_LOAD .and. multipliers%kappa > LEAST_KAPPA) then
             multipliers%kappa = max(0.1_wp*multipliers%kappa, LEAST_KAPPA)
          else
-            call take_less_rho(state, multipliers)
+            call take_less_rho(state, multipliers, loop%can_wait)
          end if
       end if
       if (loop%slow .or. outer < MANY_STEPS .or. .not. multipliers%changed) return
@@ -135,9 +136,10 @@ contains
    !> Less rho at the pairs whose forces stay far above the round-off of their rows with it.
    !>
    !> Round-off of B x is a force of eps |B| |x|/rho: so rho may fall as long as that is MOST_NOISE of the forces of the pair.
-   pure subroutine take_less_rho(state, multipliers)
+   pure subroutine take_less_rho(state, multipliers, any_less)
       type(box_state_t), intent(in) :: state
       type(multiplier_t), intent(inout) :: multipliers
+      logical, intent(out) :: any_less
       real(wp) :: force(multipliers%n_pairs), noise(multipliers%n_pairs)
       logical :: bears(size(state%q))
 
@@ -145,6 +147,7 @@ contains
       noise = largest_of_pairs(multipliers, multipliers%noise)
       bears = noise(multipliers%pair) <= LESS_PART*MOST_NOISE*force(multipliers%pair) .and. multipliers%r*multipliers%part > LEAST_R
       where (bears) multipliers%part = LESS_PART*multipliers%part
+      any_less = any(bears)
    end subroutine take_less_rho
 
    !> Bodies that have come to where something holds them need a weak pull no more, and with the usual one the last step is better
@@ -168,8 +171,10 @@ contains
    !> Anderson's mixing of both, the bound within a range of Picard's.
    !>
    !> While states change the map is another one each time, and differences tell nothing: the memory is empty. Then forces and bound
-   !> are one fixed point of one map, and are mixed as one vector; each pair is measured by its own forces.
-   subroutine next_start(bounds, begun, image, loop, anderson, multipliers, tau)
+   !> are one fixed point of one map, and are mixed as one vector; each pair is measured by its own forces. With few points the
+   !> bound alone is mixed: digits that a matrix of stiff and soft bodies lacks in the forces are not carried on.
+   subroutine next_start(with_forces, bounds, begun, image, loop, anderson, multipliers, tau)
+      logical, intent(in) :: with_forces         !< they are mixed, too
       type(box_bounds_t), intent(in) :: bounds   !< of the last step
       real(wp), intent(in) :: begun(:)           !< (m) forces that the last step started from [F]
       real(wp), intent(in) :: image(:)           !< (points) nu S_rho of the pressures that it found [F/L^2]
@@ -180,6 +185,10 @@ contains
       real(wp) :: mixed(size(begun) + size(tau))
 
       if (loop%standing >= merge(SLOW_STANDS, 1_ip, loop%slow) .and. all(tau < HUGE_REAL)) then
+         if (.not. with_forces) then
+            call mix_bound()
+            return
+         end if
          if (.not. allocated(anderson%last_x)) loop%unit = unit_of_each()
          call anderson%update([begun, tau]/loop%unit, [multipliers%q_old, image]/loop%unit, mixed)
          mixed = loop%unit*mixed
@@ -199,6 +208,17 @@ contains
       end if
 
    contains
+
+      !> Anderson's mixing of the bound, once the forces have come.
+      subroutine mix_bound()
+         if (loop%can_wait .and. loop%lagging > 0) then
+            call anderson%reset()
+            tau = image
+         else
+            call anderson%update(tau, image, mixed(:size(tau)))
+            tau = min(max(mixed(:size(tau)), image/MOST_MIXING), MOST_MIXING*image)
+         end if
+      end subroutine mix_bound
 
       !> The largest force of the pair of each row, and the largest bound for all points.
       function unit_of_each() result(unit)

@@ -228,8 +228,8 @@ class Pair:
         self.normal = np.array([normal[node]/np.linalg.norm(normal[node]) for node in self.nodes]).reshape(-1, 2)
         ends = [node for (_, nodes), seen in zip(faces, sees) if seen for node in nodes[:2]]
         for node, n in zip(self.nodes, self.normal):
-            if ends.count(node) == 1:
-                n[:] = standing(where[node], n, pieces, 2*length[node])
+            if self.rigid or ends.count(node) == 1:
+                n[:] = standing(where[node], n, pieces, 2*length[node], floors(pieces) if self.rigid else [])
         self.tangent = np.stack([-self.normal[:, 1], self.normal[:, 0]], axis=1)
         self.gap0, self.master = [], []
         for node, n in zip(self.nodes, self.normal):
@@ -348,10 +348,19 @@ def look(x, normal, pieces, reach, over=END):
     return best
 
 
-def standing(x, normal, pieces, reach):
+def floors(pieces):
+    """Segments of a rigid surface beside which no other one turns away: contact with them is along their normal."""
+    along = [piece[0][1] - piece[0][0] for piece in pieces]
+    away = [i for i, (a, b) in enumerate(zip(along, along[1:])) if a[0]*b[1] - a[1]*b[0] < -1e-6*math.hypot(*a)*math.hypot(*b)]
+    return [piece for i, piece in enumerate(pieces) if i not in away and i - 1 not in away]
+
+
+def standing(x, normal, pieces, reach, floors):
     """The normal where a slave ends: that of what it faces, if its face is turned against it, since it stands there on a corner."""
     sight = look(x, normal, pieces, reach) or look(x, normal, pieces, math.inf, 1.0)
     points, _, side = sight[4]
+    if any(points is floor[0] for floor in floors):
+        return np.array([points[1][1] - points[0][1], points[0][0] - points[1][0]])*-side/np.linalg.norm(points[1] - points[0])
     along = (points[1] - points[0])/np.linalg.norm(points[1] - points[0])
     other = -side*np.array([along[1], -along[0]])
     return other if abs(other[0]*normal[1] - other[1]*normal[0]) > TILTED else normal
