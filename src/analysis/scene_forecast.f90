@@ -144,10 +144,10 @@ contains
    end function recovery_bytes
 
    !> A bound of the error, with the results that are there by then: of each element the numbers of its outline and their slopes,
-   !> its forces twice, sides and the chains round corners.
+   !> its forces twice, sides and the chains round corners; triangles beside contact points.
    pure integer(lp) function proof_bytes(data) result(bytes)
       type(scene_data_t), intent(in) :: data
-      integer(lp), parameter :: NODE_BYTES = 200_lp, SHARE_BYTES = 100_lp
+      integer(lp), parameter :: NODE_BYTES = 200_lp, SHARE_BYTES = 100_lp, POINT_BYTES = 1500_lp
       integer(lp) :: n_nodes, n_corners, degree
 
       bytes = 0
@@ -157,8 +157,9 @@ contains
          n_nodes = maxval(mesh%shape(:mesh%n_elements))
          n_corners = maxval(CORNERS_OF(mesh%shape(:mesh%n_elements)))
          degree = maxval(DEGREE_OF(mesh%shape(:mesh%n_elements)))
-         bytes = NODE_BYTES*mesh%n_nodes + mesh%n_elements*(degree*SHARE_BYTES + 2*REAL_BYTES*n_corners*(2*degree + 2) + &
-                                                            4*REAL_BYTES*n_nodes + n_corners*(58 + 16*(degree + 1)))
+         bytes = NODE_BYTES*mesh%n_nodes + POINT_BYTES*data%line%n &
+                 + mesh%n_elements*(degree*SHARE_BYTES + 2*REAL_BYTES*n_corners*(2*degree + 2) + 4*REAL_BYTES*n_nodes &
+                                    + n_corners*(58 + 16*(degree + 1)))
       end associate
    end function proof_bytes
 

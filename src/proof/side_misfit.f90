@@ -78,7 +78,7 @@ contains
          of_law = 0.0_wp
          of_elements = 0.0_wp
          do i = 1, strip%n_triangles
-            energy = strip_energy(strip, i, w)
+            energy = strip_energy(fem, strip, i, w)
             of_elements(strip%element(i)) = of_elements(strip%element(i)) + energy
             of_law(1) = of_law(1) + energy
          end do

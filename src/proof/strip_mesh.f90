@@ -24,7 +24,6 @@ module atrito_strip_mesh
       logical, allocatable :: is_free(:, :)         !< (2, n)
       integer(ip), allocatable :: corner(:, :)      !< (3, n_triangles)
       integer(ip), allocatable :: element(:)        !< (n_triangles)
-      real(wp), allocatable :: stiffness(:, :, :)   !< (6, 6, n_triangles) [F/L]
       real(wp), allocatable :: own(:, :, :)         !< (2, 2, n) stiffness of a corner
       integer(ip), allocatable :: first(:)          !< (n + 1) other corners of the triangles round corner i: first(i) ..
       integer(ip), allocatable :: other(:)          !< first(i + 1) - 1, some more than once
@@ -250,18 +249,17 @@ contains
       strip%element(strip%n_triangles) = e
    end subroutine add_triangle
 
-   !> The stiffness of all triangles, and as rows of their corners.
+   !> The stiffness of all triangles, as rows of their corners.
    subroutine add_stiffness(fem, strip)
       type(fem_t), intent(in) :: fem
       type(strip_t), intent(inout) :: strip
+      real(wp) :: stiffness(6, 6)                   ! of a triangle; not kept, since it is most of what a strip would hold
       integer(ip) :: i, j, k, at
       integer(ip), allocatable :: next(:)
 
-      allocate (strip%stiffness(6, 6, strip%n_triangles))
       allocate (strip%own(2, 2, strip%n), source=0.0_wp)
       allocate (strip%first(strip%n + 1), source=0_ip)
       do i = 1, strip%n_triangles
-         strip%stiffness(:, :, i) = triangle_stiffness(fem, strip%element(i), strip%x(:, strip%corner(:, i)))
          strip%first(strip%corner(:, i) + 1) = strip%first(strip%corner(:, i) + 1) + 2
       end do
       strip%first(1) = 1
@@ -271,10 +269,11 @@ contains
       next = strip%first
       allocate (strip%other(6*strip%n_triangles), strip%coupling(2, 2, 6*strip%n_triangles))
       do i = 1, strip%n_triangles
+         stiffness = triangle_stiffness(fem, strip%element(i), strip%x(:, strip%corner(:, i)))
          do j = 1, 3
             associate (mine => strip%corner(j, i))
                do k = 1, 3
-                  associate (block => strip%stiffness(2*j - 1:2*j, 2*k - 1:2*k, i))
+                  associate (block => stiffness(2*j - 1:2*j, 2*k - 1:2*k))
                      if (k == j) then
                         strip%own(:, :, mine) = strip%own(:, :, mine) + block
                      else
@@ -312,14 +311,17 @@ contains
    end function triangle_stiffness
 
    !> int eps(w) : C eps(w) of a triangle [F L].
-   pure real(wp) function strip_energy(strip, i, w) result(energy)
+   pure real(wp) function strip_energy(fem, strip, i, w) result(energy)
+      type(fem_t), intent(in) :: fem
       type(strip_t), intent(in) :: strip
       integer(ip), intent(in) :: i
       real(wp), intent(in) :: w(:, :)               !< (2, n) [L]
       real(wp) :: v(6)
 
       v = reshape(w(:, strip%corner(:, i)), [6])
-      energy = dot_product(v, matmul(strip%stiffness(:, :, i), v))
+      energy = 0.0_wp
+      if (all(abs(v) <= 0.0_wp)) return
+      energy = dot_product(v, matmul(triangle_stiffness(fem, strip%element(i), strip%x(:, strip%corner(:, i))), v))
    end function strip_energy
 
 end module atrito_strip_mesh

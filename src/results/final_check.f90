@@ -6,9 +6,8 @@ module atrito_final_check
    use atrito_bodies, only: body_t, mode_at
    use atrito_contact_line, only: contact_line_t, last_of_pair, rest_of, slip_noise, friction_bound
    use atrito_contact_rows, only: contact_rows_t, row_value, bodies_of_row
-   use atrito_contact_scales, only: contact_scales_t, had_t, measure_places, add_round_off, &
-                                    printed_as_none, usual_growth, had_motion, &
-                                    had_force, force_round_off, NONE_OF_HAD
+   use atrito_contact_scales, only: contact_scales_t, had_t, measure_places, add_round_off, printed_as_none, usual_growth, &
+                                    had_motion, had_force, force_round_off, NONE_OF_HAD
    use atrito_friction_law, only: friction_stress, sticking_slip, FRICTION_NONE
    use atrito_internal_forces, only: internal_forces, internal_force_sizes
    use atrito_kinds, only: ip, wp, EPS_MACH
