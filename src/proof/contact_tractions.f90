@@ -264,7 +264,7 @@ contains
       logical, intent(in) :: is_slave(:)            !< (n_nodes)
       type(segment_t), intent(inout) :: segments(:) !< of the pair
       real(wp), parameter :: LEAST_FACTOR = 0.2_wp, SMALL = 1.0e-6_wp
-      real(wp) :: work(2), gram(2, 2), c(2), z, z_of_force, force, low, high, det, factor(2)
+      real(wp) :: work(2), gram(2, 2), c(2), z, z_of_force, force, unit, low, high, det, factor(2)
       integer(ip) :: i, j, l
       integer :: attempt
 
@@ -275,10 +275,13 @@ contains
          low = min(low, place_at(segments(i), 0.0_wp), place_at(segments(i), 1.0_wp))
          high = max(high, place_at(segments(i), 0.0_wp), place_at(segments(i), 1.0_wp))
       end do
+      unit = maxval([problem%line%weight(first + 1:first + n_points)*solution%p(first + 1:first + n_points), 0.0_wp])
+      if (.not. unit > 0.0_wp) return
+      unit = scale(1.0_wp, exponent(unit)) ! [F], a power of two: the squares of forces in any units are of size 1
       work = 0.0_wp
       gram = 0.0_wp
       do j = first + 1, first + n_points
-         force = problem%line%weight(j)*max(solution%p(j), 0.0_wp)
+         force = problem%line%weight(j)*max(solution%p(j), 0.0_wp)/unit
          do l = problem%rows%first(j), problem%rows%first(j + 1) - 1
             if (.not. is_slave(problem%rows%node(l))) cycle
             z = (along_pair(problem%fem%mesh%x(:, problem%rows%node(l))) - low)/(high - low)
@@ -287,7 +290,7 @@ contains
       end do
       do i = 1, size(segments, kind=ip)
          do j = 1, 2
-            force = 0.5_wp*segments(i)%length*segments(i)%thickness*segments(i)%p(j)
+            force = 0.5_wp*segments(i)%length*segments(i)%thickness*(segments(i)%p(j)/unit)
             z_of_force = (place_at(segments(i), real(j, wp)/3) - low)/(high - low)
             z = (place_at(segments(i), j - 1.0_wp) - low)/(high - low)
             work = work - force*[1.0_wp, z_of_force]
