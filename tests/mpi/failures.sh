@@ -133,7 +133,7 @@ esac
 # kill_rank RANK SIGNAL: while the deck is solved.
 kill_rank() {
    begin 3 "$deck" --refine 6 --progress all -o old
-   await told err '^step '
+   await told err '^read '
    kill -"$2" "$(cat "pid.$1")" 2>/dev/null
    end
 }
@@ -158,7 +158,7 @@ all_gone 'SIGSEGV of rank 1'
 
 # --- mpirun is told to end --------------------------------------------------------------------------------------------------------------
 begin 3 "$deck" --refine 6 --progress all -o old
-await told err '^step '
+await told err '^read '
 kill -TERM $run
 end
 expect_code 1 'SIGTERM of mpirun'                        # its own code; ./run --ranks makes 143 of it
