@@ -26,7 +26,7 @@ contains
          results%uniqueness%nu = maxval(data%line%law%nu)
          associate (why_not => results%uniqueness%why_not)
             why_not = 'the sparse form has no matrix of the line'
-            if (can_be_dense(size(data%line%point, kind=ip))) why_not = 'the sparse form has no matrix, --contact dense has'
+            if (can_be_dense(size(data%line%point, kind=ip))) why_not = 'the sparse form cannot, --contact dense may'
          end associate
       else
          if (.not. allocated(data%certificate)) then
