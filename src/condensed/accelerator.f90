@@ -58,6 +58,7 @@ module atrito_accelerator
    !> Anderson's mixing of the last differences (1965), type II, memory 5: the combination of the last residuals that is least.
    type, extends(accelerator_t) :: anderson_t
       real(wp) :: mixing = 1.0_wp
+      real(wp) :: least = 0.0_wp                      !< of the values
       integer(ip) :: held = 0                         !< differences held
       real(wp), allocatable :: dx(:, :), df(:, :)     !< (n, MEMORY)
       real(wp), allocatable :: last_x(:), last_f(:)
@@ -111,7 +112,7 @@ contains
          call least_squares(self%df(:, :self%held), f, gamma, DEPENDENT, rank, info)
          if (info == 0) next = next - matmul(self%dx(:, :self%held) + self%mixing*self%df(:, :self%held), gamma)
       end if
-      next = max(next, 0.0_wp)
+      next = max(next, self%least)
    end subroutine update_anderson
 
    !> Holds one more difference; the oldest goes.

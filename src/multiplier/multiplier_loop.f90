@@ -19,7 +19,7 @@
 !> What makes it fast or ends it, each in the procedure of its name:
 !>
 !>     find_fronts          with many points, states near a solution before the first step
-!>     next_bound           Anderson's mixing once a step has changed no state; Picard's bound before
+!>     next_start           Anderson's mixing of forces and bound once a step has changed no state; Picard's bound before
 !>     choose_steps         less rho where forces come slowly; where states still change after MANY_STEPS, rho as large as the
 !>                          flexibility and a share of the way to Picard's bound, point by point (go_part_of_the_way)
 !>     judge                kappa falls where a body goes on moving, so that it gets where something holds it; when the pull on it
@@ -47,7 +47,7 @@ module atrito_multiplier_loop
    use atrito_undetermined_motions, only: settle_undetermined_motions
    use atrito_kinds, only: ip, wp, HUGE_REAL
    use atrito_multiplier_distance, only: distance_t, measure_distance, measure_bodies, forces_that_are_none, NO_FORCE_AFTER
-   use atrito_multiplier_pace, only: loop_t, follow_drift, choose_steps, pull_firmly_again, next_bound, LEAST_KAPPA, USUAL_KAPPA, &
+   use atrito_multiplier_pace, only: loop_t, follow_drift, choose_steps, pull_firmly_again, next_start, LEAST_KAPPA, USUAL_KAPPA, &
                                      NO_LOAD, LITTLE_LEFT, STALE_DISTANCE
    use atrito_multiplier_step, only: begin_multipliers, close_all, start_closed, take_multiplier_step, refine_step, accept_step, &
                                      take_least_forces, clear_round_off, largest_of_pairs, residual_of, set_forces
@@ -94,7 +94,7 @@ contains
       type(multiplier_t) :: multipliers
       type(loop_t) :: loop
       type(anderson_t) :: anderson
-      real(wp) :: tau(line%n), image(line%n), of_body(system%n_bodies)
+      real(wp) :: tau(line%n), image(line%n), begun(system%rows%n), of_body(system%n_bodies)
       integer(ip) :: outer
       logical :: found
 
@@ -118,6 +118,7 @@ contains
       end if
       if (.not. is_ok(status)) return
       tau = solution%tau
+      if (has_many_points(line)) anderson%least = -HUGE_REAL
       outer = 0
       do
          outer = outer + 1
@@ -143,11 +144,12 @@ contains
             call set_status(status, STATUS_SINGULAR, FREE_MOTION)
             return
          end if
+         begun = multipliers%q_old
          call follow_drift(system, solution%bounds, multipliers, loop, solution%state)
          ! the step is taken over: q_o, a_o, how far the next one may go, and its friction bound
          call accept_step(system, solution%state, multipliers)
          call choose_steps(outer, solution%state, multipliers, loop)
-         call next_bound(image, loop, anderson, tau)
+         call next_start(has_many_points(line), solution%bounds, begun, image, loop, anderson, multipliers, tau)
       end do
       if (solution%converged) then
          call measure_bodies(system, solution%state%q, of_body)
