@@ -71,20 +71,6 @@ measures() {
       /^FAILED/ { failed = failed "| **" $0 "** | | | |\n" }
       END { printf "| %s | %d | %.2g | %s |\n%s", name, n, worst, where, failed }' "$1.txt"
 }
-printf '\n## Poisson'"'"'s ratio\n\nLame'"'"'s ring in plane strain (tests/verify/locking), 384 elements: relative error of the displacements. BBAR is\n'
-printf '`*SOLID SECTION, FORMULATION=BBAR`. More, Cook'"'"'s membrane and contact pressures: [locking.md](locking.md).\n\n'
-printf '| mu | CPE4 | BBAR | CPE9 | the program says |\n|---|---|---|---|---|\n'
-measures locking >locking.rows
-for mu in -0.9 0 0.3 0.49 0.4999 0.4999999; do
-   for kind in CPE4 BBAR CPE9; do
-      awk -v name=${kind}_$mu '$1 == name { e = $4 } END { printf "%.2e ", e }' locking/ring.txt
-   done >errors
-   said=
-   grep -q W-LOCKING locking/ring-CPE4_$mu-16.err && said='W-LOCKING without BBAR'
-   echo "$mu $(cat errors) $said" | awk '{ printf "| %s | %s | %s | %s |", $1, $2, $3, $4; for (i = 5; i <= NF; i++) printf " %s", $i; print " |" }'
-done
-echo '| 0.5, -1, above 0.5 | | | | exit 2 (tests/errors) |'
-grep FAILED locking.rows
 cat <<'END'
 
 ## Slender elements, far places, units; several solutions, or none
