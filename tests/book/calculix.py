@@ -270,16 +270,15 @@ def page(rows, version):
     """docs/verification/book/calculix.md."""
     lines = ["# The book beside CalculiX", "", MADE.replace("--write", "--calculix ccx"), "",
              f"Ten of the problems by both programs on the same three meshes, each twice as fine as the one before; {version}. Errors are those of the",
-             "quantity that is named, against the reference of the book. Seconds are of the processor, one thread, reading and writing included, as",
-             "measured when this page was made.", "",
+             "named quantity against the reference of the book. Seconds are processor time, one thread, with reading and writing.", "",
              "![Error over run time](calculix.svg)", "",
-             "*By hand* is what had to be chosen. Contact is hard in atrito. CalculiX has a slope of pressure over penetration: so many times E over the",
-             "length of a face, and with friction a stick slope of a tenth of that. Smaller slopes are less exact (CA1 with 50: 8e-4 on the finest mesh),",
-             "larger ones converge less well, or oscillate (J6 with 1000: the largest pressure is 76 % off on the coarsest mesh). What the table shows is",
-             "the best of a few tries.", "",
-             "Where curved sides have unlike nodes, chords and parabolas leave gaps between them that are none of the problem's; in atrito `*CLEARANCE`",
-             "says that the gap is 0, or what the overlap is. With that card the answers of CalculiX are far worse; its gap is that of the drawing, in",
-             "which the overlap is drawn. In B2 the error is that of the reference, which is one-dimensional, and in BE1 that of a beam.", ""]
+             "*By hand* lists what had to be chosen. Contact is hard in atrito. CalculiX has a slope of pressure over penetration, the given number times E",
+             "over the length of a face, and with friction a stick slope of a tenth of that. Smaller slopes are less exact (CA1 with 50: 8e-4 on the finest mesh),",
+             "larger ones converge less well, or oscillate (J6 with 1000: the largest pressure is 76 % off on the coarsest mesh). The table has the",
+             "best of a few tries.", "",
+             "Where curved sides have different nodes, chords and parabolas leave gaps that are not part of the problem. In atrito `*CLEARANCE`",
+             "sets the gap to 0, or to the overlap. With that card the answers of CalculiX are far worse, so its gap, or its overlap, is that of the",
+             "mesh. In B2 the error is that of the one-dimensional reference, and in BE1 that of beam theory.", ""]
     meshes = range(1, len(LEVELS) + 1)
     head = ["problem", "quantity", *(f"error, mesh {k}" for k in meshes), *(f"seconds, mesh {k}" for k in meshes), "by hand"]
     cells = []

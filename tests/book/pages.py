@@ -139,16 +139,16 @@ def page(case, outcomes):
         included = re.findall(r"(?im)^\*include, *input=(\S+)", (case.folder/deck).read_text())
         if included:
             lines += ["It includes " + " and ".join(link(case, name) for name in included) + ".", ""]
-    lines += ["## What it gives", ""]
+    lines += ["## Results", ""]
     for run in case.runs:
         words = " ".join(["atrito", *run.command, shown_path(case, run.deck), *run.options])
         lines += [f"`{words}` with `--refine` {', '.join(map(str, run.refine))}" +
                   (f", which ends with exit code {run.exit}" if run.exit else "") + ":", "", *run_tables(case, run, outcomes)]
-    lines += ["Errors are relative, but where *absolute* is said; *allowed* is what the test of the finest mesh takes.", ""]
+    lines += ["Errors are relative unless marked *absolute*; *allowed* is the tolerance of the test on the finest mesh.", ""]
     if case.note:
         lines += [*case.note.strip().split("\n"), ""]
     lines += ["## The references", ""]
-    lines += table(["quantity", "kind", "reference", "published, or by another way", "uncertainty", "why this much is allowed"],
+    lines += table(["quantity", "kind", "reference", "published, or found otherwise", "uncertainty", "reason for the tolerance"],
                    [[v.name, v.kind, reference(v), "" if v.second is None else f"{v.second:.10g}", v.uncertainty, v.why] for v in case.values])
     for value in case.values:
         if value.missed:
@@ -186,15 +186,15 @@ def overview(chosen, outcomes, left_out):
     missed = sum(bool(value.missed) for value in values)
     groups = sorted({case.group for case in chosen}, key=str.casefold)
     lines = ["# The book of cases", "", MADE, "",
-             f"{len(chosen)} problems whose answers are known, {len(values)} values from {len(groups)} origins, each with its data, its deck, its reference",
-             f"and what atrito says, on several meshes where that says more. {len(values) - missed} values lie within what is allowed on the finest mesh, {missed} are",
-             "missed, with the reason on the page. `./check book` runs all of them, and fails where a value leaves its tolerance, or is said to be",
-             "missed and is not. [Ten of them beside CalculiX](book/calculix.md): errors and times.", ""]
+             f"{len(chosen)} problems with known answers, {len(values)} values from {len(groups)} origins. Each page has the data, the deck, the references",
+             f"and the results of atrito, mostly on several meshes. On the finest mesh {len(values) - missed} values are within their tolerance, {missed} are",
+             "missed, with the reason on the page. `./check book` runs all cases; it fails if a value leaves its tolerance, or is no longer missed.",
+             "[Ten cases beside CalculiX](book/calculix.md): errors and times.", ""]
     lines += counted(chosen, KINDS, lambda case, value: value.kind, "kind of reference") + [""]
     lines += counted(chosen, groups, lambda case, value: case.group, "origin")
     lines += ["", "## The cases", "",
-              "The largest error is that of the values with a relative tolerance, on the finest mesh, without those that are missed. The estimate is the",
-              "program's own, of the stresses in the energy norm. Seconds are of the processor, of all runs of a case.", ""]
+              "The largest error is that of the values with a relative tolerance, on the finest mesh, without missed ones. The estimate is the",
+              "program's own, of the stresses in the energy norm. Seconds are processor time of all runs of a case.", ""]
     lines += table(["case", "title", "origin", "values", "largest error %", "estimate %", "seconds", "verdict"],
                    [row_of_case(case, outcomes) for case in chosen])
     lines += ["", "## Left out", "", "Cases of the collection that are not here" + (":" if left_out else ": none. Values of cases that are:"), ""]
