@@ -5,31 +5,31 @@ import textwrap
 
 HEAD = """# Decks and meshes from elsewhere: what agrees
 
-*For whoever has decks of Abaqus, CalculiX, PrePoMax, Mecway or Gmsh. After it you know which run here, and how near the results are.*
+*For users with decks of Abaqus, CalculiX, PrePoMax, Mecway or Gmsh. After it you know which run here, and how near the results are.*
 
-Decks of other programs, and ours in their manner, each run as it is, and CalculiX VERSION beside it. `tests/peers` makes this page, and a test
-makes it again where CalculiX and its test decks are installed: where a verdict, a count or a reason is another, the test fails.
+Decks of other programs, and ours in their style, each run unchanged, with CalculiX VERSION for comparison. `tests/peers` makes this page. Where
+CalculiX and its test decks are installed, a test makes it again and fails if a verdict, a count or a reason differs.
 """
 
-MEANING = """What is compared: the displacements of all nodes at the end of each step; the difference is the largest over the largest displacement.
-In the copies that are compared only what asks for output is changed. A deck of parts, and one with a mesh of Gmsh, is made flat for CalculiX, which
-reads neither. Of the decks `contact-*` forces and pressures are compared instead; CalculiX takes minutes for them, so what it found is kept.
+MEANING = """The displacements of all nodes at the end of each step are compared; the difference is the largest over the largest displacement. In the
+copies that are compared only requests for output are changed. Decks with parts, or with a mesh of Gmsh, which CalculiX cannot read, are made flat.
+Of the decks `contact-*` forces and pressures are compared instead; CalculiX takes minutes for them, so its results are stored.
 
 - **agreed**: the difference is at most 1e-4, in our own decks with contact 1e-2; of `contact-*` forces within 1 % and pressures within 3 %
 - **explained**: it is more; the test bounds it, and a note says why
 - **solved**: solved here, CalculiX gives no result
-- **refused**: exit 2, nothing is solved; the note has the first message
+- **refused**: exit code 2, nothing is solved; the note has the first message
 - **DIFFERS**, **FAILS**: neither; there is none as long as the test passes
 
-A deck with NLGEOM is solved here with small displacements, so CalculiX is run without NLGEOM. Of a body of revolution CalculiX makes a wedge of 2
-degrees, and what it prints for a node of the plane is a mean over the wedge: radial displacements are cos(1 degree) times the true ones at
-the middle of an edge (1.5e-4 less), a third of that at corners. Compared are the displacements of its solid elements, turned back into the plane.
+A deck with NLGEOM is solved here with small displacements, so CalculiX is run without NLGEOM. CalculiX models a body of revolution as a wedge of 2
+degrees, and its value for a node of the plane is a mean over the wedge: radial displacements are cos(1 degree) times the true ones at the middle of
+an edge (1.5e-4 less), a third of that at corners. So the displacements of its solid elements, turned back into the plane, are compared.
 """
 
-MESHES = """CalculiX has other elements of four nodes in plane stress, and the pressure at the corner of a punch has no bound, so that it is spread
-differently: what differs on a coarse mesh comes to the same on finer ones. Each element is divided into n by n, and both programs read the same
-deck; forces of four-node meshes are spread as the functions of the coarse mesh, as the displacement under a force at a node has no limit.
-The largest difference of all nodes, and the largest displacement of each program:
+MESHES = """CalculiX has other elements of four nodes in plane stress, and the pressure at the corner of a punch has no limit, so the programs spread it
+differently: what differs on a coarse mesh agrees on finer ones. Each element is divided into n by n, and both programs read the same deck. On
+four-node meshes forces are spread by the shape functions of the coarse mesh, since the displacement under a force at a node has no limit. The largest
+difference of all nodes, and the largest displacement of each program:
 """
 WIDTH = 80
 FEW = 3                                              # names of decks of one reason that are told
