@@ -9,7 +9,7 @@ from cases import check_keys
 MADE = "<!-- made by tests/book/run_book --write: change tests/book/gallery.toml, not the page -->"
 HEAD = """# Gallery
 
-*For whoever looks for a deck to begin with. After it you have found one near to your scene.*
+*For those who look for a deck to begin with. After it you have found one near to your scene.*
 
 Every deck of `input/` and every case of the [book](../verification/book.md), meshes displaced. A click on a picture or a name leads to what is said of it.
 """

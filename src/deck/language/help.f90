@@ -20,7 +20,7 @@ module atrito_help
    character(len=107), parameter :: INTRODUCTION(16) = [character(len=107) :: &
                                                         '# Keywords of a deck', &
                                                         '', &
-                     '*A reference for whoever writes a deck. After it you know what a keyword, its options and its lines mean.*', &
+                     '*A reference for those who write decks. After it you know what a keyword, its options and its lines mean.*', &
                                                         '', &
                            'This page is printed by `atrito help all > docs/user/keywords.md` from the table of the deck reader;', &
                                       'do not edit it. `atrito help KEYWORD` prints one section, `atrito help` what each is for.', &
