@@ -194,32 +194,27 @@ contains
       integer, intent(out) :: code
       type(comparison_t) :: comparison
       type(status_t) :: status
+      type(message_t) :: message
+      integer :: i
 
       call begin_comparison(comparison, command%rtol, command%atol)
       if (allocated(command%tolerances)) call read_rules(command%tolerances, comparison%rules, status)
       if (allocated(command%tables) .and. is_ok(status)) call take_tables(command%tables, comparison%rules, status)
       if (allocated(command%ignore) .and. is_ok(status)) call leave_out(command%ignore, comparison%rules, status)
       if (is_ok(status)) call compare_paths(command%names(1)%s, command%names(2)%s, comparison, status)
-      if (command%json) call print_differences(comparison)
+      if (command%json) then                        ! each difference as a message
+         do i = 1, size(comparison%differences)
+            message = wrong(comparison%differences(i)%s)
+            message%id = 'E-DIFFERENT'
+            call print_message(message, .true.)
+         end do
+      end if
       if (.not. command%quiet) call print_page(comparison%page, output_unit)
       ! tables that differ are printed on standard output; anything else is an error
       if (.not. is_ok(status) .and. comparison%n_differences == 0) call print_status(status, PROGRAM_NAME, command%json)
       if (status%code == STATUS_FILE .and. comparison%n_differences > 0) call print_status(status, PROGRAM_NAME, command%json)
       code = status%code
    end subroutine compare_tables
-
-   !> Each difference as a message of JSON.
-   subroutine print_differences(comparison)
-      type(comparison_t), intent(in) :: comparison
-      type(message_t) :: message
-      integer :: i
-
-      do i = 1, size(comparison%differences)
-         message = wrong(comparison%differences(i)%s)
-         message%id = 'E-DIFFERENT'
-         call print_message(message, .true.)
-      end do
-   end subroutine print_differences
 
    !> `atrito help`: a keyword, or one of the pages that are made of the tables.
    subroutine print_help(command, code)

@@ -43,7 +43,7 @@ module atrito_run
    use atrito_restart_recorder, only: restart_recorder_t, begin_recorder
    use atrito_results, only: history_t, results_t, last_frame
    use atrito_screen, only: compose_summary
-   use atrito_show, only: begin_show, show_t
+   use atrito_show, only: show_t
    use atrito_show_plots, only: draw_shown
    use atrito_solve, only: solve_options_t, PROOF_AUTO, PROOF_OFF, PROOF_ON, CONTACT_AUTO, CONTACT_DENSE, CONTACT_SPARSE, &
                            SOLVER_AUTO, SOLVER_SKYLINE, &
@@ -112,7 +112,8 @@ contains
          options%frames => frames
          do
             if (allocated(command%show)) then       ! of the last mesh
-               call begin_show(command%show, show)
+               show%views = command%show
+               show%page%n = 0
                if (size(command%show) > 0) options%viewer => show
             end if
             call solve_history(model, options, reporter, history, status, store, recorder, observations)
@@ -260,10 +261,9 @@ contains
       integer(ip) :: n_printed
       integer :: n_shown
 
-      n_shown = 0
-      if (allocated(show%tables)) n_shown = size(show%tables)
+      n_shown = show%n_tables
       allocate (shown(n_shown + merge(1, 0, adaptation%target > 0.0_wp)))
-      if (n_shown > 0) shown(:n_shown) = show%tables
+      shown(:n_shown) = show%tables(:n_shown)
       if (size(shown) > n_shown) call build_adaptation(adaptation, shown(n_shown + 1))
       folder = output_folder(command)
       call report_phase(reporter, 'write '//folder)

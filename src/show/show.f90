@@ -22,7 +22,7 @@ module atrito_show
    use atrito_table, only: table_t
    implicit none (type, external)
    private
-   public :: show_t, begin_show, is_view
+   public :: show_t, is_view
 
    integer(ip), parameter :: MOST_EQUATIONS = 4000, MOST_POINTS = 200  !< of a scene whose matrices, contact line are shown
    character(len=*), parameter :: ELEMENT = 'element='
@@ -31,7 +31,8 @@ module atrito_show
    type, extends(viewer_t) :: show_t
       type(string_t), allocatable :: views(:)        !< as the user asked for them
       type(page_t) :: page                           !< for the screen
-      type(table_t), allocatable :: tables(:)
+      type(table_t) :: tables(7)                     !< of each name one
+      integer :: n_tables = 0
       type(states_t) :: states
    contains
       procedure :: check => check_views
@@ -39,16 +40,6 @@ module atrito_show
    end type show_t
 
 contains
-
-   !> Begins, with nothing seen.
-   subroutine begin_show(views, show)
-      type(string_t), intent(in) :: views(:)
-      type(show_t), intent(out) :: show
-
-      show%views = views
-      allocate (show%tables(0))
-      call begin_page(show%page, 79)
-   end subroutine begin_show
 
    !> Whether the word is a view: `matrix`, `element=12`.
    pure logical function is_view(word)
@@ -76,6 +67,8 @@ contains
       character(len=:), allocatable :: reason
       integer :: i
 
+      self%states = states_t()                       ! nothing of the mesh before
+      self%n_tables = 0
       do i = 1, size(self%views)
          reason = ''
          associate (view => self%views(i)%s)
@@ -125,8 +118,7 @@ contains
       integer :: i
 
       call begin_page(self%page, 79)
-      deallocate (self%tables)
-      allocate (self%tables(0))
+      self%n_tables = 0
       call add_states(results, solution, self%states)
       do i = 1, size(self%views)
          associate (view => self%views(i)%s)
@@ -136,7 +128,7 @@ contains
             case ('line')
                if (.not. allocated(data%flexibility)) cycle
                call view_line(data%flexibility, data%line, solution, self%page, table, motions)
-               if (motions%n_rows > 0) call append_table(motions, self%tables)
+               if (motions%n_rows > 0) call keep_table(motions, self)
             case ('states')
                call view_states(self%states, self%page, table)
             case ('picard')
@@ -148,23 +140,20 @@ contains
                call view_element(data%fem, find_element(data%fem%mesh, element_of(view)), self%page, table)
             end select
          end associate
-         call append_table(table, self%tables)
+         call keep_table(table, self)
       end do
    end subroutine view_all
 
-   subroutine append_table(table, tables)
+   subroutine keep_table(table, show)
       type(table_t), intent(in) :: table
-      type(table_t), allocatable, intent(inout) :: tables(:)
-      type(table_t), allocatable :: longer(:)
+      type(show_t), intent(inout) :: show
       integer :: i
 
-      do i = 1, size(tables)
-         if (tables(i)%name == table%name) return    ! asked for twice, or of a second element
+      do i = 1, show%n_tables
+         if (show%tables(i)%name == table%name) return    ! asked for twice, or of a second element
       end do
-      allocate (longer(size(tables) + 1))
-      longer(:size(tables)) = tables
-      longer(size(longer)) = table
-      call move_alloc(longer, tables)
-   end subroutine append_table
+      show%n_tables = show%n_tables + 1
+      show%tables(show%n_tables) = table
+   end subroutine keep_table
 
 end module atrito_show

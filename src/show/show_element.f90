@@ -23,13 +23,6 @@ module atrito_show_element
    integer(ip), parameter :: MOST_PRINTED = 4       !< points whose B is printed; the table has all
    character(len=3), parameter :: STRAINS(COMPONENTS) = ['e11', 'e22', 'g12']
 
-   !> The rows of the table, as they come.
-   type :: rows_t
-      type(string_t), allocatable :: matrix(:)
-      integer(ip), allocatable :: place(:, :)       !< (3, n) point, row, column
-      real(wp), allocatable :: value(:)
-   end type rows_t
-
 contains
 
    !> Page and table of an element in the plane.
@@ -39,53 +32,76 @@ contains
       type(page_t), intent(inout) :: page
       type(table_t), intent(out) :: table
       type(stiffness_cache_t) :: cache
-      type(rows_t) :: rows
-      real(wp), allocatable :: b(:, :), k(:, :), total(:, :), values(:)
+      type(string_t), allocatable :: matrices(:)    ! rows of the table, as they come
+      integer(ip), allocatable :: places(:, :)      ! (3, rows) point, row, column
+      real(wp), allocatable :: entries(:), b(:, :), k(:, :), total(:, :), values(:)
       real(wp) :: d(COMPONENTS, COMPONENTS), xi(2), place(2), weight
       integer(ip) :: n, i, info, n_rigid
-      character(len=:), allocatable :: name
+      character(len=:), allocatable :: name, nodes
 
       n = fem%mesh%shape(e)
-      allocate (rows%matrix(0), rows%place(3, 0), rows%value(0))
+      allocate (matrices(0), places(3, 0), entries(0))
       allocate (b(COMPONENTS, 2*n), total(2*n, 2*n), values(2*n), source=0.0_wp)
       call cached_stiffness(fem, e, cache)
       k = cache%k(:2*n, :2*n)
       d = elasticity_matrix(fem%sections(cache%section), cache%state)
       name = 'element '//to_text(fem%mesh%element_id(e))//', '//trim(KINDS(kind_of(n, cache%state))%name)
+      nodes = ''
+      do i = 1, n
+         nodes = nodes//' '//to_text(fem%mesh%node_id(fem%mesh%nodes(i, e)))
+      end do
       call add_heading(page, name//', '//trim(STATES(cache%state)%name))
-      call add_line(page, 'columns of B: u1 and u2 of the nodes in their order,'//node_list(fem, e))
+      call add_line(page, 'columns of B: u1 and u2 of the nodes in their order,'//nodes)
       do i = 1, point_count(n, cache%state)
          call strain_matrix(cache, fem%sections(cache%section)%thickness, i, b, xi, place, weight)
          total = total + weight*matmul(transpose(b), matmul(d, b))
-         call add_rows('B', i, b, rows)
-         call add_rows('w', i, reshape([weight], [1, 1]), rows)
+         call put_rows('B', i, b)
+         call put_rows('w', i, reshape([weight], [1, 1]))
          if (i > MOST_PRINTED) cycle
          place = place + fem%mesh%x(:, fem%mesh%nodes(1, e))
          call add_matrix(page, 'B [1/L], point '//to_text(i)//', ('//to_text(xi(1), 4)//', '//to_text(xi(2), 4)//'), x = ('// &
                          to_text(place(1), 4)//', '//to_text(place(2), 4)//'), w = '//to_text(weight, 4), b, STRAINS)
       end do
       if (point_count(n, cache%state) > MOST_PRINTED) call add_line(page, 'B of the other points: show-element')
-      call add_matrix(page, 'D [F/L^2]', d)
-      call add_rows('D', 0_ip, d, rows)
-      call add_matrix(page, 'K_e [F/L]', k)
-      call add_rows('K', 0_ip, k, rows)
-      total = total - k
+      call put_rows('D', 0_ip, d, 'D [F/L^2]')
+      call put_rows('K', 0_ip, k, 'K_e [F/L]')
       call eigen_symmetric(cache%k(:2*n, :2*n), values, info)
       where (abs(values) <= NONE*maxval(abs(values))) values = 0.0_wp
       call add_matrix(page, 'eigenvalues of K_e [F/L]', reshape(values, [1_ip, 2*n]))
-      call add_rows('eigenvalue', 0_ip, reshape(values, [2*n, 1_ip]), rows)
+      call put_rows('eigenvalue', 0_ip, reshape(values, [2*n, 1_ip]))
       n_rigid = count(values == 0.0_wp, kind=ip)
       call add_line(page, to_text(n_rigid)//' of '//to_text(2*n)//' eigenvalues are 0: motions without strain; 3 are rigid')
-      call add_line(page, 'sum of B'' D B w over the points less K_e: '//to_text(maxval(abs(total))/maxval(abs(k)), 2)// &
-                    ' of the largest entry')
-      call begin_table(table, 'show-element', 'a row a number of the matrices of '//name, size(rows%value, kind=ip))
+      call add_line(page, 'sum of B'' D B w over the points less K_e: '// &
+                    to_text(maxval(abs(total - k))/maxval(abs(k)), 2)//' of the largest entry')
+      call begin_table(table, 'show-element', 'a row a number of the matrices of '//name, size(entries, kind=ip))
       call append_string(table%remarks, 'B [1/L], D [F/L^2], K and its eigenvalues [F/L]; w: weight of a point [L^3]')
       call append_string(table%remarks, 'motions without strain: '//to_text(n_rigid))
-      call add_words(table, 'matrix', '-', rows%matrix, on_the_left=.true.)
-      call add_integers(table, 'point', rows%place(1, :))
-      call add_integers(table, 'row', rows%place(2, :))
-      call add_integers(table, 'column', rows%place(3, :))
-      call add_reals(table, 'value', 'see_above', rows%value, 0.0_wp)
+      call add_words(table, 'matrix', '-', matrices, on_the_left=.true.)
+      call add_integers(table, 'point', places(1, :))
+      call add_integers(table, 'row', places(2, :))
+      call add_integers(table, 'column', places(3, :))
+      call add_reals(table, 'value', 'see_above', entries, 0.0_wp)
+
+   contains
+
+      !> Puts a matrix into the table, and with a title on the page.
+      subroutine put_rows(name, point, a, title)
+         character(len=*), intent(in) :: name
+         integer(ip), intent(in) :: point           !< 0: of the element
+         real(wp), intent(in) :: a(:, :)
+         character(len=*), intent(in), optional :: title
+         integer(ip) :: row, column
+
+         do row = 1, size(a, 1, kind=ip)
+            do column = 1, size(a, 2, kind=ip)
+               call append_string(matrices, name)
+               places = reshape([places, point, row, column], [3, size(matrices)])
+               entries = [entries, a(row, column)]
+            end do
+         end do
+         if (present(title)) call add_matrix(page, title, a)
+      end subroutine put_rows
+
    end subroutine view_element
 
    !> B at a point, and what the point weighs.
@@ -115,34 +131,5 @@ contains
          end do
       end associate
    end subroutine strain_matrix
-
-   pure function node_list(fem, e) result(text)
-      type(fem_t), intent(in) :: fem
-      integer(ip), intent(in) :: e
-      character(len=:), allocatable :: text
-      integer(ip) :: i
-
-      text = ''
-      do i = 1, fem%mesh%shape(e)
-         text = text//' '//to_text(fem%mesh%node_id(fem%mesh%nodes(i, e)))
-      end do
-   end function node_list
-
-   !> Adds a matrix to the rows of the table.
-   pure subroutine add_rows(name, point, a, rows)
-      character(len=*), intent(in) :: name
-      integer(ip), intent(in) :: point              !< 0: of the element
-      real(wp), intent(in) :: a(:, :)
-      type(rows_t), intent(inout) :: rows
-      integer(ip) :: i, j
-
-      do i = 1, size(a, 1, kind=ip)
-         do j = 1, size(a, 2, kind=ip)
-            call append_string(rows%matrix, name)
-            rows%place = reshape([rows%place, point, i, j], [3, size(rows%matrix)])
-            rows%value = [rows%value, a(i, j)]
-         end do
-      end do
-   end subroutine add_rows
 
 end module atrito_show_element

@@ -16,9 +16,6 @@ module atrito_show_law
    public :: view_law
 
    integer, parameter :: HALF = 32, HIGH = 6        !< of the drawing, in characters from its middle
-   character(len=8), parameter :: COLUMNS(9) = [character(len=8) :: 's', 'overlap', 'delta', 'pressure', 'slip', 'limit', 'bound', &
-                                                                                                                 'friction', 'u']
-   character(len=5), parameter :: DIMENSIONS(9) = [character(len=5) :: 'L', 'L', 'L^3/F', 'F/L^2', 'L', 'L', 'F/L^2', 'F/L^2', '-']
    real(wp), parameter :: SHOWN = 2.0_wp            !< u of its ends: points beyond stand there
 
 contains
@@ -34,7 +31,7 @@ contains
       real(wp) :: tau, limit, slip, u, most
       integer(ip) :: i, k, j
 
-      allocate (numbers(2, 0), values(9, 0))
+      allocate (numbers(line%n, 2), values(line%n, 9))
       most = 0.0_wp
       do i = 1, size(results%contact, kind=ip)
          if (results%contact(i)%n > 0) most = max(most, maxval(abs(results%contact(i)%slip)))
@@ -48,53 +45,54 @@ contains
                limit = sticking_slip(line%law(j), tau)
                slip = c%slip(k) - rest_of(line, j)
                u = slip/merge(limit, max(most, tiny(1.0_wp)), limit > 0.0_wp)
-               numbers = reshape([numbers, i, k], [2, size(numbers, 2) + 1])
-               values = reshape([values, c%s(k), -c%gap(k), line%delta(j), c%pressure(k), slip, limit, tau, -c%shear(k), u], &
-                                [9, size(numbers, 2)])
+               numbers(j, :) = [i, k]
+               values(j, :) = [c%s(k), -c%gap(k), line%delta(j), c%pressure(k), slip, limit, tau, -c%shear(k), u]
             end do
          end associate
       end do
-      call begin_table(table, 'show-law', 'a row a contact point on its laws', size(values, 2, kind=ip))
+      call begin_table(table, 'show-law', 'a row a contact point on its laws', j)
       call append_string(table%remarks, 'pressure = overlap/delta where the overlap is positive, delta 0: no overlap')
       call append_string(table%remarks, 'friction = bound min(|u|, 1) sign(u), u = slip/limit (exact stick has limit 0: over '// &
                          'the largest slip); friction: upon the master along T, slip: less that at which it is none')
-      call add_integers(table, 'pair', numbers(1, :))
-      call add_integers(table, 'point', numbers(2, :))
-      call add_real_columns(table, COLUMNS, DIMENSIONS, transpose(values))
+      call add_integers(table, 'pair', numbers(:j, 1))
+      call add_integers(table, 'point', numbers(:j, 2))
+      call add_real_columns(table, [character(len=8) :: 's', 'overlap', 'delta', 'pressure', 'slip', 'limit', 'bound', &
+                                    'friction', 'u'], &
+                            [character(len=5) :: 'L', 'L', 'L^3/F', 'F/L^2', 'L', 'L', 'F/L^2', 'F/L^2', '-'], values(:j, :))
       call add_heading(page, 'law of friction: t/tau over u = slip/(slip at which it is full), and the points')
-      if (all(values(7, :) <= 0.0_wp)) then
+      if (all(values(:j, 7) <= 0.0_wp)) then
          call add_line(page, 'no point has friction')
       else
-         call draw_friction(values, page)
+         call draw_friction(values(:j, :), page)
       end if
       call add_line(page, 'law of pressure: p = overlap/delta; largest overlap '// &
-                    to_text(maxval([values(2, :), 0.0_wp]), 4)//', pressure '//to_text(maxval(values(4, :)), 4))
+                    to_text(maxval([values(:j, 2), 0.0_wp]), 4)//', pressure '//to_text(maxval(values(:j, 4)), 4))
    end subroutine view_law
 
    !> The curve of dots, and how many points there are at each place of it: 1 to 9, + for more.
    pure subroutine draw_friction(values, page)
       real(wp), intent(in) :: values(:, :)
       type(page_t), intent(inout) :: page
-      character(len=2*HALF + 1) :: lines(-HIGH:HIGH)
+      character(len=1) :: canvas(-HALF:HALF, -HIGH:HIGH)
       integer :: count_at(-HALF:HALF, -HIGH:HIGH), i, x, y
+      character(len=2*HALF + 1) :: line
 
-      lines = ''
+      canvas = ' '
+      canvas(:, 0) = '-'
       count_at = 0
       do x = -HALF, HALF
-         lines(0) (x + HALF + 1:x + HALF + 1) = '-'
-         y = nint(HIGH*max(-1.0_wp, min(1.0_wp, SHOWN*x/HALF)))
-         lines(y) (x + HALF + 1:x + HALF + 1) = '.'
+         canvas(x, nint(HIGH*max(-1.0_wp, min(1.0_wp, SHOWN*x/HALF)))) = '.'
       end do
-      do i = 1, size(values, 2)
-         if (values(7, i) <= 0.0_wp) cycle
-         x = nint(HALF*max(-1.0_wp, min(1.0_wp, values(9, i)/SHOWN)))
-         y = nint(HIGH*max(-1.0_wp, min(1.0_wp, values(8, i)/values(7, i))))
+      do i = 1, size(values, 1)
+         if (values(i, 7) <= 0.0_wp) cycle
+         x = nint(HALF*max(-1.0_wp, min(1.0_wp, values(i, 9)/SHOWN)))
+         y = nint(HIGH*max(-1.0_wp, min(1.0_wp, values(i, 8)/values(i, 7))))
          count_at(x, y) = count_at(x, y) + 1
-         lines(y) (x + HALF + 1:x + HALF + 1) = achar(iachar('0') + min(count_at(x, y), 9))
-         if (count_at(x, y) > 9) lines(y) (x + HALF + 1:x + HALF + 1) = '+'
+         canvas(x, y) = merge('+', achar(iachar('0') + min(count_at(x, y), 9)), count_at(x, y) > 9)
       end do
       do y = HIGH, -HIGH, -1
-         call add_line(page, merge(' 1', merge('-1', merge(' 0', '  ', y == 0), y == -HIGH), y == HIGH)//' '//lines(y))
+         write (line, '(*(a))') canvas(:, y)
+         call add_line(page, merge(' 1', merge('-1', merge(' 0', '  ', y == 0), y == -HIGH), y == HIGH)//' '//line)
       end do
       call add_line(page, '  u: -2'//repeat(' ', HALF - 5)//'0'//repeat(' ', HALF - 2)//'2')
       call add_line(page, 'a digit: so many points there (+: more than 9); those beyond |u| = 2 at the ends')

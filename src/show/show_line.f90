@@ -9,7 +9,7 @@ module atrito_show_line
    use atrito_kinds, only: ip, wp, EPS_MACH
    use atrito_page, only: page_t, add_heading, add_line, plural
    use atrito_show_text, only: add_matrix
-   use atrito_strings, only: append_string, string_t, to_text
+   use atrito_strings, only: append_string, to_text, trimmed_strings
    use atrito_table, only: table_t, add_integers, add_reals, add_words, begin_table
    implicit none (type, external)
    private
@@ -28,13 +28,11 @@ contains
       type(page_t), intent(inout) :: page
       type(table_t), intent(out) :: table, motions
       real(wp) :: vectors(qp%m, qp%m), values(qp%m)
-      character(len=4) :: names(qp%m)
-      type(string_t) :: words(qp%m)
+      character(len=4) :: names(qp%m)               ! `n1` and `t1`: the forces of point 1, of 200 at most
       integer(ip) :: i, info
 
-      names = unknown_names(qp, line)
       do i = 1, qp%m
-         words(i)%s = trim(names(i))
+         names(i) = merge('n', 't', i <= qp%n_normal)//to_text(line%point(i))
       end do
       call add_heading(page, 'contact line: '//to_text(qp%m)//' unknown forces, '//to_text(qp%n_normal)//' of them normal, ' &
                        //plural(qp%k, 'rigid motion', 'rigid motions'))
@@ -55,7 +53,7 @@ contains
                     to_text(values(qp%m)/max(values(1), EPS_MACH*values(qp%m)), 3))
       call begin_table(table, 'show-line', 'a row an unknown force of the contact line', qp%m)
       call append_string(table%remarks, 'r = g0 - (C + D) q + G a; c_j: column j of C, g_j: column j of G')
-      call add_words(table, 'unknown', '-', words, on_the_left=.true.)
+      call add_words(table, 'unknown', '-', trimmed_strings(names), on_the_left=.true.)
       call add_reals(table, 'weight', 'L^2', qp%weight, 0.0_wp)
       call add_reals(table, 'g0', 'L', qp%g0, 0.0_wp)
       if (allocated(solution%p)) then
@@ -74,18 +72,6 @@ contains
       call add_reals(motions, 'h', 'F', qp%h, 0.0_wp)
       if (allocated(solution%p)) call add_reals(motions, 'a', 'L', solution%state%a, 0.0_wp)
    end subroutine view_line
-
-   !> `n1` and `t1`: the normal and the tangential force of point 1.
-   pure function unknown_names(qp, line) result(names)
-      type(bound_qp_t), intent(in) :: qp
-      type(contact_line_t), intent(in) :: line
-      character(len=4) :: names(qp%m)               ! 200 points at most
-      integer(ip) :: i
-
-      do i = 1, qp%m
-         names(i) = merge('n', 't', i <= qp%n_normal)//to_text(line%point(i))
-      end do
-   end function unknown_names
 
    !> C as digits: by how many powers of ten an entry is below the largest, 9 for all that are smaller.
    pure subroutine add_digits(c, page)

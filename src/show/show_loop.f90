@@ -16,8 +16,6 @@ module atrito_show_loop
    public :: states_t, add_states, view_states, view_picard
 
    character(len=*), parameter :: LETTERS = 'o open, c closed without friction, = sticking, + slipping along T, - against it'
-   character(len=8), parameter :: COLUMNS(5) = [character(len=8) :: 's', 'x', 'y', 'pressure', 'bound']
-   character(len=5), parameter :: DIMENSIONS(5) = [character(len=5) :: 'L', 'L', 'L', 'F/L^2', 'F/L^2']
    integer, parameter :: ROOM = 55                   !< characters of states on a line of the screen
    integer(ip), parameter :: MOST_ROWS = 2000        !< of a history
 
@@ -103,64 +101,62 @@ contains
       type(contact_solution_t), intent(in) :: solution
       type(page_t), intent(inout) :: page
       type(table_t), intent(out) :: table
-      integer(ip), allocatable :: numbers(:, :)
-      real(wp), allocatable :: values(:, :)         ! (5, rows): s, x, y, pressure, bound
-      real(wp) :: p(line%n), tau(line%n), residual, before
+      integer(ip), allocatable :: numbers(:, :)     ! (rows, 3): outer, pair, point
+      real(wp), allocatable :: values(:, :)         ! (rows, 5): s, x, y, pressure, bound
+      real(wp) :: residual, before
       type(iteration_t) :: record
-      integer(ip) :: i, j, k, pair
+      integer(ip) :: i, j, k, pair, first, n
 
       call add_heading(page, 'outer iterations, in each the bound of the friction is frozen')
       call add_line(page, 'outer  solves   largest pressure   largest bound   residual   over before')
-      allocate (numbers(3, 0), values(5, 0))
+      allocate (numbers(logged(solution)*line%n, 3), values(logged(solution)*line%n, 5))
       before = 0.0_wp
+      n = 0
       do i = 1, logged(solution)
          record = solution%history%records(i)
          if (i < solution%history%n) then
             if (solution%history%records(i + 1)%outer == record%outer) cycle
          end if
-         call fetch_stresses(line, solution, i, p, tau)
+         first = n + 1
+         do pair = 1, size(points, kind=ip)
+            do k = 1, points(pair)%n
+               n = n + 1
+               j = n - first + 1
+               numbers(n, :) = [record%outer, pair, k]
+               values(n, :) = [points(pair)%s(k), points(pair)%x(:, k), stress(line%normal(j), solution%history%log%q), &
+                               stress(line%tangential(j), solution%history%log%upper)]
+            end do
+         end do
          residual = record%residual
          if (record%outer == 0) residual = 0.0_wp
          call add_line(page, right(to_text(record%outer), 5)//right(to_text(record%inner), 8)// &
-                       right(to_text(maxval([p, 0.0_wp]), 6), 19)//right(to_text(maxval([tau, 0.0_wp]), 6), 16)// &
+                       right(to_text(maxval([values(first:n, 4), 0.0_wp]), 6), 19)// &
+                       right(to_text(maxval([values(first:n, 5), 0.0_wp]), 6), 16)// &
                        right(ratio(residual, 1.0_wp), 12)//right(ratio(residual, before), 12))
          before = residual
-         j = 0
-         do pair = 1, size(points, kind=ip)
-            do k = 1, points(pair)%n
-               j = j + 1
-               numbers = reshape([numbers, record%outer, pair, k], [3, size(values, 2) + 1])
-               values = reshape([values, points(pair)%s(k), points(pair)%x(:, k), p(j), tau(j)], [5, size(numbers, 2)])
-            end do
-         end do
       end do
-      call begin_table(table, 'show-picard', 'a row a point at the end of an outer iteration', size(values, 2, kind=ip))
+      call begin_table(table, 'show-picard', 'a row a point at the end of an outer iteration', n)
       call append_string(table%remarks, 'of step '//to_text(results%step)//', increment '//to_text(results%increment)// &
                          '; the pressure was found with the bound |t| <= bound; outer 0: without friction')
-      call add_integers(table, 'outer', numbers(1, :))
-      call add_integers(table, 'pair', numbers(2, :))
-      call add_integers(table, 'point', numbers(3, :))
-      call add_real_columns(table, COLUMNS, DIMENSIONS, transpose(values))
+      call add_integers(table, 'outer', numbers(:n, 1))
+      call add_integers(table, 'pair', numbers(:n, 2))
+      call add_integers(table, 'point', numbers(:n, 3))
+      call add_real_columns(table, [character(len=8) :: 's', 'x', 'y', 'pressure', 'bound'], &
+                            [character(len=5) :: 'L', 'L', 'L', 'F/L^2', 'F/L^2'], values(:n, :))
+
+   contains
+
+      !> Of an unknown in solve i: 0 where there is none, and for the bound of a point that cannot slip.
+      pure real(wp) function stress(unknown, forces)
+         integer(ip), intent(in) :: unknown
+         real(wp), intent(in) :: forces(:, :)       !< (unknowns, solves)
+
+         stress = 0.0_wp
+         if (unknown == 0) return
+         if (forces(unknown, i) < HUGE_REAL) stress = forces(unknown, i)/line%weight(j)
+      end function stress
+
    end subroutine view_picard
-
-   !> Pressures and bounds of solve i; 0 where there are no unknowns, and for the bound of a point that cannot slip.
-   pure subroutine fetch_stresses(line, solution, i, p, tau)
-      type(contact_line_t), intent(in) :: line
-      type(contact_solution_t), intent(in) :: solution
-      integer(ip), intent(in) :: i
-      real(wp), intent(out) :: p(:), tau(:)         !< (points) [F/L^2]
-      integer(ip) :: j
-
-      p = 0.0_wp
-      tau = 0.0_wp
-      associate (log => solution%history%log)
-         do j = 1, line%n
-            if (line%normal(j) > 0) p(j) = log%q(line%normal(j), i)/line%weight(j)
-            if (line%tangential(j) == 0) cycle
-            if (log%upper(line%tangential(j), i) < HUGE_REAL) tau(j) = log%upper(line%tangential(j), i)/line%weight(j)
-         end do
-      end associate
-   end subroutine fetch_stresses
 
    !> A residual over another one, or 1; '' where one of them is none.
    pure function ratio(x, over) result(text)

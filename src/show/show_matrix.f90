@@ -17,14 +17,6 @@ module atrito_show_matrix
                                                                                              'first_before', 'node', 'dof', 'first']
    integer, parameter :: LABEL = 20, VALUE = 22      !< widths of the columns of numbers
 
-   !> A body before its equations were numbered for the solver.
-   type :: natural_t
-      type(profile_t) :: profile
-      integer(ip), allocatable :: number(:)          !< (equations of the body) the number of each as the nodes come
-      integer(ip), allocatable :: equation(:)        !< and back
-      integer(ip), allocatable :: node(:), dof(:)    !< of each: the user's number of the node
-   end type natural_t
-
 contains
 
    !> Page and table of all bodies.
@@ -32,67 +24,59 @@ contains
       type(fem_t), intent(in) :: fem
       type(page_t), intent(inout) :: page
       type(table_t), intent(out) :: table
-      type(natural_t) :: before
-      type(profile_t) :: after
-      integer(ip), allocatable :: rows(:, :)        ! columns of the table
-      integer(ip) :: b, j, k
+      type(profile_t) :: before, after
+      integer(ip), allocatable :: rows(:, :), equation(:), node(:), dof(:)
+      integer(ip) :: b, j, n
 
-      allocate (rows(8, 0))
+      allocate (rows(sum(fem%bodies%list%n), size(COLUMNS)))
+      n = 0
       do b = 1, fem%bodies%n
          associate (body => fem%bodies%list(b))
             if (body%n == 0) cycle
-            call number_naturally(fem, b, before)
+            call number_naturally(fem, b, equation, node, dof, before)
             call body_profile(fem, b, after)
             call add_heading(page, 'matrix of body '//body%name//': '//to_text(body%n)//' equations, the last '// &
                              to_text(body%n_retained)//' of them contact')
-            call add_numbers(before%profile, after, page)
-            call add_drawings(before%profile, after, page)
+            call add_numbers(before, after, page)
+            call add_drawings(before, after, page)
             do j = 1, body%n
-               k = before%equation(j)
-               rows = reshape([rows, b, j, before%node(k), before%dof(k), before%profile%first(j), before%node(j), before%dof(j), &
-                               after%first(j)], [8, size(rows, 2) + 1])
+               rows(n + j, [1, 2, 3, 4, 5, 8]) = [b, j, node(j), dof(j), before%first(j), after%first(j)]
+               rows(n + equation(j), 6:7) = [node(j), dof(j)]
             end do
+            n = n + body%n
          end associate
       end do
-      call begin_table(table, 'show-matrix', 'a row an equation of a body: as the nodes come (before), and renumbered', &
-                       size(rows, 2, kind=ip))
+      call begin_table(table, 'show-matrix', 'a row an equation of a body: as the nodes come (before), and renumbered', n)
       call append_string(table%remarks, 'first: row of the first entry of the column of the equation; its height is '// &
                          'equation - first + 1')
       do j = 1, size(COLUMNS, kind=ip)
-         call add_integers(table, trim(COLUMNS(j)), rows(j, :))
+         call add_integers(table, trim(COLUMNS(j)), rows(:n, j))
       end do
    end subroutine view_matrix
 
-   !> Numbers the equations of a body as its nodes stand in the mesh.
-   subroutine number_naturally(fem, i_body, natural)
+   !> The equations of a body as its nodes stand in the mesh, with the numbers of their nodes, and their profile.
+   subroutine number_naturally(fem, i_body, equation, node, dof, profile)
       type(fem_t), intent(in) :: fem
       integer(ip), intent(in) :: i_body
-      type(natural_t), intent(out) :: natural
+      integer(ip), allocatable, intent(out) :: equation(:), node(:), dof(:)
+      type(profile_t), intent(out) :: profile
       integer(ip), allocatable :: equations(:)
-      integer(ip) :: node, dof, n, k, i
+      integer(ip) :: number(fem%bodies%list(i_body)%n), i
+      logical :: is_there(2, fem%mesh%n_nodes)
 
-      associate (body => fem%bodies%list(i_body))
-         allocate (natural%number(body%n), natural%equation(body%n), natural%node(body%n), natural%dof(body%n))
-         n = 0
-         do node = 1, fem%mesh%n_nodes
-            if (fem%bodies%of_node(node) /= i_body) cycle
-            do dof = 1, 2
-               k = fem%bodies%equation(dof, node)
-               if (k <= 0) cycle
-               n = n + 1
-               natural%number(k) = n
-               natural%equation(n) = k
-               natural%node(k) = fem%mesh%node_id(node)
-               natural%dof(k) = dof
-            end do
-         end do
-         call begin_profile(natural%profile, body%n, 0_ip)
+      associate (body => fem%bodies%list(i_body), all_equations => fem%bodies%equation)
+         is_there = all_equations > 0 .and. spread(fem%bodies%of_node == i_body, 1, 2)
+         equation = pack(all_equations, is_there)
+         node = pack(spread(fem%mesh%node_id, 1, 2), is_there)
+         dof = pack(spread([1_ip, 2_ip], 2, fem%mesh%n_nodes), is_there)
+         number(equation) = [(i, i=1, body%n)]
+         call begin_profile(profile, body%n, 0_ip)
          do i = 1, size(body%elements, kind=ip)
             equations = element_equations(fem%mesh, fem%bodies, body%elements(i))
-            where (equations > 0) equations = natural%number(max(equations, 1_ip))
-            call add_to_profile(natural%profile, equations)
+            where (equations > 0) equations = number(max(equations, 1_ip))
+            call add_to_profile(profile, equations)
          end do
-         call close_profile(natural%profile)
+         call close_profile(profile)
       end associate
    end subroutine number_naturally
 
@@ -143,19 +127,12 @@ contains
          integer(ip) :: j, c
 
          line = ''
-         c = 0
-         do j = 1, profile%n, wide
-            c = c + 1
-            associate (first => minval(profile%first(j:min(j + wide - 1, profile%n))), last => min(j + wide - 1, profile%n))
-               if (i > last) then
-                  line(c:c) = ' '
-               else if (first > min(i + high - 1, profile%n)) then
-                  line(c:c) = '.'
-               else if (i > profile%n - profile%n_retained) then
-                  line(c:c) = 'k'
-               else
-                  line(c:c) = '#'
-               end if
+         do c = 1, (profile%n - 1)/wide + 1
+            j = (c - 1)*wide + 1
+            associate (last => min(j + wide - 1, profile%n))
+               if (i > last) cycle
+               line(c:c) = merge('.', merge('k', '#', i > profile%n - profile%n_retained), &
+                                 minval(profile%first(j:last)) > i + high - 1)
             end associate
          end do
       end function line_of

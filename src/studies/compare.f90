@@ -9,7 +9,7 @@ module atrito_compare
    use atrito_kinds, only: ip, wp
    use atrito_strings, only: string_t, append_string, to_text, join
    use atrito_status, only: status_t, set_status, is_ok, STATUS_FILE, STATUS_OK, STATUS_USAGE
-   use atrito_compare_heads, only: heads_t, tell_heads
+   use atrito_compare_heads, only: tell_heads
    use atrito_compare_rules, only: rule_t, rules_t, rule_of, takes_table, ANY_NAME, COMPARED_TABLES
    use atrito_column_scales, only: kind_of, columns_of_scale, row_scales, summary_scales, moment_scale, is_of_pair, is_number
    use atrito_files, only: file_exists, is_folder
@@ -27,11 +27,10 @@ module atrito_compare
 
    !> A comparison while it goes on.
    type :: comparison_t
-      type(rules_t) :: rules = rules_t(DEFAULT_RTOL, DEFAULT_ATOL)
+      type(rules_t) :: rules
       integer(ip) :: n_tables = 0, n_values = 0, n_differences = 0
       type(string_t), allocatable :: left_out(:)    !< names of tables
       type(string_t), allocatable :: differences(:) !< all that are kept, in words
-      type(heads_t) :: heads
       type(page_t) :: page                          !< what is to be printed
    end type comparison_t
 
@@ -45,7 +44,7 @@ contains
 
       comparison%rules%rtol = rtol
       comparison%rules%atol = atol
-      allocate (comparison%left_out(0), comparison%differences(0))
+      allocate (comparison%left_out(0), comparison%differences(0), comparison%rules%list(0))
       call begin_page(comparison%page, 100)
    end subroutine begin_comparison
 
@@ -129,7 +128,7 @@ contains
       call read_table(a, table_a, status)
       if (is_ok(status)) call read_table(b, table_b, status)
       if (.not. is_ok(status)) return
-      call tell_heads(table_a, table_b, comparison%heads, comparison%page)
+      call tell_heads(table_a, table_b, comparison%page)
       if (any(LEFT_OUT == kind_of(table_a)) .and. kind_of(table_a) == kind_of(table_b)) then
          call append_string(comparison%left_out, kind_of(table_a))
       else
@@ -170,7 +169,6 @@ contains
       type(comparison_t), intent(inout) :: comparison
       integer(ip) :: i, k, quantity
 
-      if (.not. allocated(comparison%rules%list)) return
       quantity = merge(find_column(a, 'quantity'), 0_ip, has_quantities(a))
       do i = 1, size(comparison%rules%list, kind=ip)
          associate (rule => comparison%rules%list(i))

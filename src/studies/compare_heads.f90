@@ -3,37 +3,28 @@
 module atrito_compare_heads
    use atrito_page, only: page_t, add_line
    use atrito_read_table, only: table_file_t
-   use atrito_strings, only: string_t, append_string
    implicit none (type, external)
    private
-   public :: heads_t, tell_heads
+   public :: tell_heads
 
    integer, parameter :: DECK = 1, PARAMETERS = 2, OPTIONS = 3, DIGEST = 4   !< places in HEAD_NAMES
 
-   !> What was told already: all tables of a run say the same.
-   type :: heads_t
-      type(string_t), allocatable :: told(:)
-   end type heads_t
-
 contains
 
-   !> Adds a line for each thing that two heads say otherwise and that was not told before.
-   subroutine tell_heads(a, b, heads, page)
+   !> Adds a line for each thing that two heads say otherwise. What the page has already is not told again: all tables of a run say
+   !> the same.
+   subroutine tell_heads(a, b, page)
       type(table_file_t), intent(in) :: a, b
-      type(heads_t), intent(inout) :: heads
       type(page_t), intent(inout) :: page
 
-      if (.not. allocated(heads%told)) allocate (heads%told(0))
       if (.not. (a%has_head .and. b%has_head)) return
-      associate (other_deck => text_of(a, DECK) /= text_of(b, DECK), &
-                 other_values => text_of(a, PARAMETERS) /= text_of(b, PARAMETERS))
-         if (other_deck) call tell('another deck: '//both(text_of(a, DECK), text_of(b, DECK)))
-         if (other_values) call tell('other parameters: '//both(others(text_of(a, PARAMETERS), text_of(b, PARAMETERS)), &
-                                                                others(text_of(b, PARAMETERS), text_of(a, PARAMETERS))))
-         if (text_of(a, OPTIONS) /= text_of(b, OPTIONS)) then
-            call tell('other options: '//both(text_of(a, OPTIONS), text_of(b, OPTIONS)))
-         end if
-         if (text_of(a, DIGEST) /= text_of(b, DIGEST) .and. len(text_of(a, DIGEST)) > 0 .and. len(text_of(b, DIGEST)) > 0 .and. &
+      associate (one => a%head, two => b%head, other_deck => a%head(DECK)%s /= b%head(DECK)%s, &
+                 other_values => a%head(PARAMETERS)%s /= b%head(PARAMETERS)%s)
+         if (other_deck) call tell('another deck: '//both(one(DECK)%s, two(DECK)%s))
+         if (other_values) call tell('other parameters: '//both(others(one(PARAMETERS)%s, two(PARAMETERS)%s), &
+                                                                others(two(PARAMETERS)%s, one(PARAMETERS)%s)))
+         if (one(OPTIONS)%s /= two(OPTIONS)%s) call tell('other options: '//both(one(OPTIONS)%s, two(OPTIONS)%s))
+         if (one(DIGEST)%s /= two(DIGEST)%s .and. min(len(one(DIGEST)%s), len(two(DIGEST)%s)) > 0 .and. &
              .not. (other_deck .or. other_values)) call tell('a deck of the same name with other lines (digest)')
       end associate
 
@@ -43,10 +34,9 @@ contains
          character(len=*), intent(in) :: text
          integer :: i
 
-         do i = 1, size(heads%told)
-            if (heads%told(i)%s == text) return
+         do i = 1, page%n
+            if (page%lines(i)%s == text) return
          end do
-         call append_string(heads%told, text)
          call add_line(page, text)
       end subroutine tell
 
@@ -69,15 +59,6 @@ contains
          first = last + 3
       end do
    end function others
-
-   pure function text_of(table, i) result(text)
-      type(table_file_t), intent(in) :: table
-      integer, intent(in) :: i                       !< place in HEAD_NAMES
-      character(len=:), allocatable :: text
-
-      text = ''
-      if (allocated(table%head(i)%s)) text = table%head(i)%s
-   end function text_of
 
    pure function both(one, two) result(text)
       character(len=*), intent(in) :: one, two

@@ -7,7 +7,7 @@ module atrito_compare_rules
    use atrito_kinds, only: ip, wp
    use atrito_numbers, only: read_real, NUMBER_OK
    use atrito_status, only: status_t, is_ok, set_status, STATUS_FILE, STATUS_USAGE
-   use atrito_strings, only: string_t, append_string, join, nearest_names, to_text
+   use atrito_strings, only: string_t, append_string, join, nearest_names, to_text, trimmed_strings
    use atrito_write_tables, only: TABLE_NAMES, SHOWN_TABLES
    implicit none (type, external)
    private
@@ -21,7 +21,7 @@ module atrito_compare_rules
 
    type :: rules_t
       real(wp) :: rtol = 0.0_wp, atol = 0.0_wp       !< where no rule fits
-      type(rule_t), allocatable :: list(:)
+      type(rule_t), allocatable :: list(:)           !< allocated
       type(string_t), allocatable :: tables(:)       !< that are compared; not allocated: all
    end type rules_t
 
@@ -40,34 +40,33 @@ contains
       character(len=:), allocatable :: text
       integer(ip) :: line
       integer :: first, last, outcome(2)
+      logical :: is_rule
 
       call read_file(path, text, status)
       if (.not. is_ok(status)) return
       line = 0
       first = 1
-      do while (first <= len(text))
+      do while (first <= len(text) .and. is_ok(status))
          line = line + 1
          last = first + index(text(first:)//achar(10), achar(10)) - 2
          call split(text(first:last), words)
          first = last + 2
          if (size(words) == 0) cycle
-         outcome = NUMBER_OK
-         if (size(words) == 3 .or. size(words) == 4) then
+         if (size(words) == 3) call append_string(words, '0')
+         is_rule = size(words) == 4
+         if (is_rule) then
             rule%table = words(1)%s
             rule%column = words(2)%s
             call read_real(words(3)%s, rule%rtol, outcome(1))
-            rule%atol = 0.0_wp
-            if (size(words) == 4) call read_real(words(4)%s, rule%atol, outcome(2))
-            if (all(outcome == NUMBER_OK) .and. min(rule%rtol, rule%atol) >= 0.0_wp) then
-               call add_rule(rule, rules)
-               call check_table(rule%table, path//', line '//to_text(line)//': ', status)
-               if (.not. is_ok(status)) return
-               cycle
-            end if
+            call read_real(words(4)%s, rule%atol, outcome(2))
+            is_rule = all(outcome == NUMBER_OK) .and. min(rule%rtol, rule%atol) >= 0.0_wp
          end if
-         call set_status(status, STATUS_FILE, path//', line '//to_text(line)//' is no rule; expected: TABLE COLUMN RTOL '// &
-                         '[ATOL], numbers not negative, * for any table or column')
-         return
+         if (is_rule) then
+            call add_rule(rule, path//', line '//to_text(line)//': ', rules, status)
+         else
+            call set_status(status, STATUS_FILE, path//', line '//to_text(line)//' is no rule; expected: TABLE COLUMN RTOL '// &
+                            '[ATOL], numbers not negative, * for any table or column')
+         end if
       end do
    end subroutine read_rules
 
@@ -87,9 +86,7 @@ contains
          rule%table = names(i)%s(:dot - 1)
          rule%column = ANY_NAME
          if (dot < len(names(i)%s)) rule%column = names(i)%s(dot + 1:)
-         call add_rule(rule, rules)
-         call check_table(rule%table, '--ignore: ', status)
-         if (.not. is_ok(status)) return
+         if (is_ok(status)) call add_rule(rule, '--ignore: ', rules, status)
       end do
    end subroutine leave_out
 
@@ -109,15 +106,10 @@ contains
    subroutine check_table(name, place, status)
       character(len=*), intent(in) :: name, place
       type(status_t), intent(inout) :: status
-      type(string_t) :: known(size(COMPARED_TABLES))
-      integer :: i
 
       if (name == ANY_NAME .or. any(COMPARED_TABLES == name)) return
-      do i = 1, size(known)
-         known(i)%s = trim(COMPARED_TABLES(i))
-      end do
       call set_status(status, STATUS_USAGE, place//'there is no table '//name//'; nearest: '// &
-                      join(nearest_names(name, known, 2), ', '))
+                      join(nearest_names(name, trimmed_strings(COMPARED_TABLES), 2), ', '))
    end subroutine check_table
 
    !> Words between blanks, tabs and commas, up to a #.
@@ -139,18 +131,18 @@ contains
       end do
    end subroutine split
 
-   pure subroutine add_rule(rule, rules)
+   subroutine add_rule(rule, place, rules, status)
       type(rule_t), intent(in) :: rule
+      character(len=*), intent(in) :: place
       type(rules_t), intent(inout) :: rules
+      type(status_t), intent(inout) :: status
       type(rule_t), allocatable :: longer(:)
-      integer :: n
 
-      n = 0
-      if (allocated(rules%list)) n = size(rules%list)
-      allocate (longer(n + 1))
-      if (n > 0) longer(:n) = rules%list
-      longer(n + 1) = rule
+      allocate (longer(size(rules%list) + 1))
+      longer(:size(rules%list)) = rules%list
+      longer(size(longer)) = rule
       call move_alloc(longer, rules%list)
+      call check_table(rule%table, place, status)
    end subroutine add_rule
 
    !> What is asked of a column, or of a quantity.
@@ -161,18 +153,13 @@ contains
 
       rule%rtol = rules%rtol
       rule%atol = rules%atol
-      if (.not. allocated(rules%list)) return
       do i = 1, size(rules%list)
-         if (fits(rules%list(i), table, column)) rule = rules%list(i)
+         associate (next => rules%list(i))
+            if (next%table /= ANY_NAME .and. next%table /= table) cycle
+            if (next%column == ANY_NAME .or. next%column == column) rule = next
+         end associate
       end do
    end function rule_of
-
-   pure logical function fits(rule, table, column)
-      type(rule_t), intent(in) :: rule
-      character(len=*), intent(in) :: table, column
-
-      fits = (rule%table == ANY_NAME .or. rule%table == table) .and. (rule%column == ANY_NAME .or. rule%column == column)
-   end function fits
 
    !> Whether a table is compared at all.
    pure logical function takes_table(rules, table)
@@ -182,7 +169,6 @@ contains
 
       takes_table = .true.
       if (allocated(rules%tables)) takes_table = any([(rules%tables(i)%s == table, i=1, size(rules%tables))])
-      if (.not. allocated(rules%list)) return
       do i = 1, size(rules%list)
          associate (rule => rules%list(i))
             if (rule%is_left_out .and. rule%column == ANY_NAME .and. rule%table == table) takes_table = .false.

@@ -24,7 +24,7 @@ module atrito_read_table
       character(len=:), allocatable :: name            !< file name without folder
       logical :: is_csv = .false.                      !< its head is a file beside it
       logical :: has_head = .false.                    !< else it does not tell whether the run converged, and of what
-      type(string_t) :: head(size(HEAD_NAMES))         !< what it says; %s not allocated: nothing
+      type(string_t) :: head(size(HEAD_NAMES))         !< what it says; '': nothing
       logical :: not_converged = .false.
       type(string_t), allocatable :: columns(:)        !< their names
       integer(ip) :: n_columns = 0, n_rows = 0
@@ -75,9 +75,12 @@ contains
       character(len=*), intent(in) :: text, name
       type(table_file_t), intent(out) :: table
       type(status_t), intent(out) :: status
-      integer :: first, last
+      integer :: first, last, i
       integer(ip) :: line, n_rows
 
+      do i = 1, size(HEAD_NAMES)
+         table%head(i)%s = ''
+      end do
       table%name = name
       table%text = text
       table%is_csv = index(name, CSV_ENDING, back=.true.) == max(1, len(name) - len(CSV_ENDING) + 1)

@@ -2,15 +2,15 @@
 module atrito_command_line
    use atrito_element_table, only: kind_named
    use atrito_kinds, only: ip, wp
-   use atrito_strings, only: string_t, append_string, nearest_names, to_text, deck_name, lower_case, upper_case
+   use atrito_strings, only: string_t, append_string, nearest_names, to_text, deck_name, lower_case, upper_case, &
+                             trimmed_strings
    use atrito_status, only: status_t
    use atrito_numbers, only: read_integer, read_real, NUMBER_OK
    use atrito_files, only: confine_files, file_exists, target_path, true_path
    use atrito_messages, only: message_t, SEVERITY_ERROR
    use atrito_number_text, only: LEAST_DIGITS, MOST_DIGITS, DEFAULT_DIGITS
    use atrito_option_table, only: OPTIONS, MOST_THREADS, MOST_LEVELS, MOST_STARTS, find_option, has_value, option_words, &
-                                  place_of_word, value_text, trimmed_strings, &
-                                  TASKS, TASK_USAGE, TASK_RUN, TASK_CHECK, TASK_COMPARE, TASK_HELP, &
+                                  place_of_word, value_text, TASKS, TASK_USAGE, TASK_RUN, TASK_CHECK, TASK_COMPARE, TASK_HELP, &
                                   TASK_SWEEP, TASK_STUDY, TASK_LIMIT, TASK_OPTIONS, TASK_VERSION, task_named, command_names, &
                                   task_form, task_text
    use atrito_plot_view, only: plot_view_t, read_box

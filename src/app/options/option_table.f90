@@ -1,12 +1,12 @@
 !> What the program can be asked to do: the commands, and the options with what their values may be, what they are for and which
 !> commands know them. The command line, `--help`, the manual page and the completion of bash are made from these two tables.
 module atrito_option_table
-   use atrito_strings, only: string_t, append_string, join
+   use atrito_strings, only: string_t, append_string, join, trimmed_strings
    implicit none (type, external)
    private
    public :: TASK_USAGE, TASK_RUN, TASK_CHECK, TASK_COMPARE, TASK_HELP, TASK_SWEEP, TASK_STUDY, TASK_LIMIT, TASK_OPTIONS, &
              TASK_VERSION, TASKS, task_named, command_names, task_form, called, task_text
-   public :: OPTIONS, MOST_THREADS, MOST_LEVELS, MOST_STARTS, VALUE_FOLDER, VALUE_FILE, trimmed_strings
+   public :: OPTIONS, MOST_THREADS, MOST_LEVELS, MOST_STARTS, VALUE_FOLDER, VALUE_FILE
    public :: find_option, has_value, option_words, place_of_word, value_text, option_text, phrase_text
    public :: option_group_t, group_options
 
@@ -179,17 +179,6 @@ contains
       text = 'a run'
       if (task /= TASK_RUN) text = 'atrito '//trim(TASKS(task)%name)
    end function task_text
-
-   !> Words of a table as strings, without the blanks at their ends.
-   pure function trimmed_strings(words) result(list)
-      character(len=*), intent(in) :: words(:)
-      type(string_t) :: list(size(words))
-      integer :: i
-
-      do i = 1, size(words)
-         list(i)%s = trim(words(i))
-      end do
-   end function trimmed_strings
 
    !> Place of an option in OPTIONS, by either name; 0 when there is none.
    pure integer function find_option(name) result(i)

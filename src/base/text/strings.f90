@@ -4,7 +4,7 @@ module atrito_strings
    implicit none (type, external)
    private
    public :: string_t, string_list_t, add_string, take_strings, replaced
-   public :: break_line
+   public :: break_line, trimmed_strings
    public :: lower_case, upper_case, to_text, join, nearest_names, edit_distance, same_name, append_string, deck_name, count_symbol
    public :: begins_with, ends_with, fits_pattern
 
@@ -198,6 +198,17 @@ contains
          n = n + len(list(i)%s)
       end do
    end function join
+
+   !> Words of a table as strings, without the blanks at their ends.
+   pure function trimmed_strings(words) result(list)
+      character(len=*), intent(in) :: words(:)
+      type(string_t) :: list(size(words))
+      integer :: i
+
+      do i = 1, size(words)
+         list(i)%s = trim(words(i))
+      end do
+   end function trimmed_strings
 
    !> Adds a text at the end of a list; a list that is not allocated counts as an empty one. The texts before it are moved, not
    !> copied: n of them take n such steps, so long lists are made by add_string.
