@@ -3,7 +3,7 @@ module atrito_scene_data
    use atrito_assembled_scene, only: assembled_scene_t, assemble_scene
    use atrito_assembly, only: fem_t
    use atrito_base_loads, only: build_bases
-   use atrito_bilateral_rows, only: ROW_KIND_NAME, ROW_SUPPORT
+   use atrito_bilateral_rows, only: bilateral_rows_t, ROW_KIND_NAME, ROW_SUPPORT
    use atrito_body_cache, only: body_cache_t, take_numbering
    use atrito_contact_form, only: choose_contact_form, CONTACT_AUTO, CONTACT_DENSE, CONTACT_SPARSE
    use atrito_contact_line, only: contact_line_t
@@ -24,7 +24,7 @@ module atrito_scene_data
    use atrito_scene_builder, only: build_scene, build_bodies, list_held
    use atrito_scene_system, only: scene_system_t, set_scene_gaps, set_scene_load
    use atrito_scene_memory, only: check_average_memory, most_average_entries
-   use atrito_sliding_bodies, only: let_slide, balance_loads
+   use atrito_sliding_bodies, only: let_slide, balance_loads, turn_supports
    use atrito_solver_choice, only: SOLVER_SPARSE
    use atrito_status, only: status_t, is_ok, STATUS_DECK, set_status
    use atrito_step_loads, only: base_factors, moment_t, act_at, is_end, share_at
@@ -189,6 +189,7 @@ contains
       type(scene_data_t), intent(out) :: data
       type(status_t), intent(out) :: status
       type(step_t), intent(in), target, optional :: step    !< left out: the first of the model
+      type(bilateral_rows_t) :: bilateral                   ! of the model, but for supports that let a body turn
       logical :: known
 
       data%model => model
@@ -211,11 +212,11 @@ contains
       call take_numbering(store, data%held, data%points, data%solver_kind, data%fem, known, model%bilateral)
       if (.not. known) call build_bodies(model, data%held, data%points, data%solver_kind, data%fem)
       if (has_moving_surfaces(model)) call set_rigid_motions(model, data%step%rigid_prescribed, data%fem%bodies)
-      call let_slide(model%interactions(model%pairs%interaction)%nu > 0.0_wp, data%points, data%fem, model%bilateral)
+      call turn_supports(data%fem, model%bilateral, bilateral)
+      call let_slide(model%interactions(model%pairs%interaction)%nu > 0.0_wp, data%points, data%fem, bilateral)
       call straighten_held_points(model%bilateral, data%fem, data%points)
-      call build_rows(data%points, data%rows, model%bilateral)
-      call balance_rows(model%interactions(model%pairs%interaction)%nu > 0.0_wp, data%points, data%fem, model%bilateral, &
-                        data%rows)
+      call build_rows(data%points, data%rows, bilateral)
+      call balance_rows(model%interactions(model%pairs%interaction)%nu > 0.0_wp, data%points, data%fem, bilateral, data%rows)
       if (any(model%interactions%rho > 0.0_wp)) then
          call check_average_memory(model%deck_path, data%rows%n, &
                                    average_entries(model, data%points, most_average_entries(asked%memory)), asked%memory, status)

@@ -81,7 +81,7 @@ contains
                is_within_digits = .false.
                return
             end if
-            forces = sum(norm2(data%f(:, body%nodes), dim=1))
+            forces = sum(hypot(data%f(1, body%nodes), data%f(2, body%nodes)))
             allowed = allowed + forces*turn/body%size
          end associate
       end do

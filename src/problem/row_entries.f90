@@ -219,7 +219,7 @@ contains
       do b = 1, fem%bodies%n
          associate (body => fem%bodies%list(b))
             all_forces = 0.0_wp
-            if (first(b + 1) > first(b)) all_forces = sum(norm2(f(:, body%nodes), dim=1))
+            if (first(b + 1) > first(b)) all_forces = sum(hypot(f(1, body%nodes), f(2, body%nodes)))
             do m = first(b), first(b + 1) - 1
                call work_on_motion(fem, body, m - first(b) + 1_ip, f, work(m), work_size(m))
                work_size(m) = max(work_size(m), LEVER*abs(body%modes(3, m - first(b) + 1))*all_forces &

@@ -9,20 +9,20 @@
 !> told that a balanced load moves the body.
 module atrito_sliding_bodies
    use atrito_assembly, only: fem_t
-   use atrito_bilateral_rows, only: bilateral_rows_t, ROW_SUPPORT
+   use atrito_bilateral_rows, only: bilateral_rows_t, begin_rows, add_row, trim_rows, ROW_SUPPORT
    use atrito_bodies, only: body_t, mode_at
    use atrito_dense, only: eigen_symmetric
    use atrito_kinds, only: ip, wp
    use atrito_points, only: contact_points_t, sliding_t
-   use atrito_sliding_motions, only: is_along, turn_points
+   use atrito_sliding_motions, only: is_along, turn_points, printed_grain
    implicit none (type, external)
    private
-   public :: let_slide, balance_loads, motions_left
+   public :: let_slide, balance_loads, motions_left, turn_supports
 
    real(wp), parameter :: GRAINS = 5.0_wp           !< by which the place of a force may be off
    real(wp), parameter :: EXACT = 1.0e-13_wp        !< grain over extent of a deck that is not rounded to digits
 
-   real(wp), parameter :: NONE_HELD = 1.0e-14_wp    !< square of what a support sees of a motion that it leaves
+   real(wp), parameter :: NONE_HELD = 1.0e-7_wp     !< what a support sees of a motion that it leaves
    real(wp), parameter :: ALL_BUT = 1.0e-3_wp       !< distance from a centre, of the size of a body
 
 contains
@@ -147,7 +147,7 @@ contains
          end do
       end do
       work = sum(f(:, body%nodes)*along)
-      if (.not. abs(work) <= motion(4)*sum(norm2(f(:, body%nodes), dim=1))) return
+      if (.not. abs(work) <= motion(4)*sum(hypot(f(1, body%nodes), f(2, body%nodes)))) return
       if (size(body%modes, 2) == size(body%modes, 1) .and. abs(motion(3)) > 0.0_wp) then
          mean = sum(along, dim=2)/size(along, 2)
          along = along - spread(mean, 2, size(along, 2))
@@ -173,9 +173,24 @@ contains
       type(bilateral_rows_t), intent(in) :: bilateral
       integer(ip), intent(in) :: b                  !< body
       real(wp), allocatable :: left(:, :)           !< (3, motions)
-      real(wp), allocatable :: a(:, :), values(:), row(:)
-      real(wp) :: all_rows
-      integer(ip) :: i, k, dof, mode, n
+      real(wp), allocatable :: seen(:, :)
+      integer(ip), allocatable :: rows(:)
+
+      call see_motions(fem, bilateral, b, left, rows, seen, NONE_HELD)
+   end function motions_left
+
+   !> The motions that the supports of a body leave, if a support holds none of which it sees no more than `least`; and what
+   !> each of its rows sees of them.
+   subroutine see_motions(fem, bilateral, b, left, rows, seen, least)
+      type(fem_t), intent(in) :: fem
+      type(bilateral_rows_t), intent(in) :: bilateral
+      integer(ip), intent(in) :: b                  !< body
+      real(wp), allocatable, intent(out) :: left(:, :) !< (3, motions) orthogonal where there are such rows
+      integer(ip), allocatable, intent(out) :: rows(:) !< supports of the body along directions of their own
+      real(wp), allocatable, intent(out) :: seen(:, :) !< (motions, rows)
+      real(wp), intent(in) :: least                 !< of motions of size one, the root of the mean of the squares
+      real(wp), allocatable :: a(:, :), values(:)
+      integer(ip) :: i, j, k, dof, mode, n
       integer :: info
 
       associate (body => fem%bodies%list(b))
@@ -184,31 +199,105 @@ contains
          do mode = 1, n
             left(:, mode) = left(:, mode)/norm2(left(:, mode))
          end do
-         if (n == 0 .or. bilateral%n == 0) return
-         allocate (a(n, n), values(n), row(n), source=0.0_wp)
-         all_rows = 0.0_wp
-         do i = 1, bilateral%n
-            if (bilateral%kind(i) /= ROW_SUPPORT) cycle
-            k = bilateral%first(i)
-            if (fem%bodies%of_node(bilateral%node(k)) /= b) cycle
-            row = 0.0_wp
-            do k = bilateral%first(i), bilateral%first(i + 1) - 1
-               do mode = 1, n
-                  do dof = 1, 2
-                     if (fem%bodies%equation(dof, bilateral%node(k)) == 0) cycle
-                     row(mode) = row(mode) + bilateral%vector(dof, k) &
-                                 *mode_at(body, left(:, mode), fem%mesh%x(:, bilateral%node(k)), dof)
-                  end do
+         rows = pack([(i, i=1, bilateral%n)], [(bilateral%kind(i) == ROW_SUPPORT .and. &
+                                                fem%bodies%of_node(bilateral%node(bilateral%first(i))) == b, i=1, bilateral%n)])
+         allocate (seen(n, size(rows)), source=0.0_wp)
+         if (size(seen) == 0) return
+         do j = 1, size(rows, kind=ip)
+            do k = bilateral%first(rows(j)), bilateral%first(rows(j) + 1) - 1
+               do dof = 1, 2
+                  if (fem%bodies%equation(dof, bilateral%node(k)) == 0) cycle
+                  seen(:, j) = seen(:, j) + bilateral%vector(dof, k) &
+                               *[(mode_at(body, left(:, mode), fem%mesh%x(:, bilateral%node(k)), dof), mode=1, n)]
                end do
             end do
-            all_rows = all_rows + 1.0_wp
-            a = a + spread(row, 2, n)*spread(row, 1, n)
          end do
-         if (.not. all_rows > 0.0_wp) return
+         allocate (values(n))
+         a = matmul(seen, transpose(seen))
          call eigen_symmetric(a, values, info)
          if (info /= 0) return
-         left = matmul(left, a(:, :count(values <= NONE_HELD*all_rows)))
+         n = count(values <= size(rows)*least**2, kind=ip)
+         left = matmul(left, a(:, :n))
+         seen = matmul(transpose(a(:, :n)), seen)
       end associate
-   end function motions_left
+   end subroutine see_motions
+
+   !> The rows of supports that hold a rotation by the last digits of their nodes alone, turned so that the body may turn.
+   !>
+   !> Supports along d at nodes of a line along d leave the body the rotation about any place of the line. Of nodes that
+   !> are off the line by s_j, less than their last digits tell, row j sees w s_j of the rotation w, and would hold it by
+   !> large forces. The rotation is that of the line from its node a to its node b,
+   !>
+   !>     w = perp(x_b - x_a) . (u_b - u_a)/|x_b - x_a|^2,
+   !>
+   !> so w s_j is taken out of the row.
+   subroutine turn_supports(fem, bilateral, turned)
+      type(fem_t), intent(in) :: fem
+      type(bilateral_rows_t), intent(in) :: bilateral
+      type(bilateral_rows_t), intent(out) :: turned !< all rows
+      real(wp) :: off(bilateral%n), across(2, bilateral%n), grain
+      integer(ip) :: ends(2, bilateral%n), i
+
+      turned = bilateral
+      if (bilateral%n == 0) return
+      if (.not. any(bilateral%kind(:bilateral%n) == ROW_SUPPORT)) return
+      off = 0.0_wp
+      grain = printed_grain(fem%mesh%x)
+      do i = 1, fem%bodies%n
+         if (.not. fem%bodies%list(i)%is_rigid) call find_line(fem, bilateral, i, grain, off, across, ends)
+      end do
+      if (all(off == 0.0_wp)) return
+      call begin_rows(turned)
+      do i = 1, bilateral%n
+         associate (node => bilateral%node(bilateral%first(i):bilateral%first(i + 1) - 1), &
+                    vector => bilateral%vector(:, bilateral%first(i):bilateral%first(i + 1) - 1), &
+                    identity => [bilateral%kind(i), bilateral%group(i), bilateral%part(i)])
+            if (off(i) == 0.0_wp) then
+               call add_row(node, vector, bilateral%value(i), bilateral%compliance(i), bilateral%weight(i), identity, turned)
+            else
+               call add_row([node, ends(:, i)], reshape([vector, off(i)*across(:, i), -off(i)*across(:, i)], &
+                                                        [2, size(node) + 2]), bilateral%value(i), bilateral%compliance(i), &
+                            bilateral%weight(i), identity, turned)
+            end if
+         end associate
+      end do
+      call trim_rows(turned)
+   end subroutine turn_supports
+
+   !> How far the supports of a body are off a line along which they leave a rotation; nothing where there is none.
+   subroutine find_line(fem, bilateral, b, grain, off, across, ends)
+      type(fem_t), intent(in) :: fem
+      type(bilateral_rows_t), intent(in) :: bilateral
+      integer(ip), intent(in) :: b                  !< body
+      real(wp), intent(in) :: grain                 !< of the mesh [L]
+      real(wp), intent(inout) :: off(:)             !< (rows) what a row sees of a rotation of one [L]
+      real(wp), intent(inout) :: across(:, :)       !< (2, rows) perp(x_b - x_a)/|x_b - x_a|^2 [1/L]
+      integer(ip), intent(inout) :: ends(:, :)      !< (2, rows) a and b
+      real(wp), allocatable :: left(:, :), seen(:, :)
+      integer(ip), allocatable :: rows(:)
+      real(wp) :: d(2), doubt, turn
+      integer(ip) :: i, k, own_ends(2)
+
+      associate (body => fem%bodies%list(b), x => fem%mesh%x)
+         doubt = GRAINS*max(grain, printed_grain(x(:, body%nodes)))/body%size
+         call see_motions(fem, bilateral, b, left, rows, seen, doubt)
+         if (size(rows) < 2 .or. size(left) == 0) return
+         ! the combination that turns most
+         turn = norm2(left(3, :))
+         if (.not. turn > ALL_BUT .or. maxval(abs(matmul(left(3, :), seen))) <= EXACT) return
+         associate (node => bilateral%node(bilateral%first(rows)))
+            own_ends = node(1)
+            do k = 1, 2
+               i = maxloc([(norm2(x(:, node(i)) - x(:, own_ends(2))), i=1, size(node, kind=ip))], dim=1, kind=ip)
+               own_ends = [own_ends(2), node(i)]
+            end do
+         end associate
+         d = x(:, own_ends(2)) - x(:, own_ends(1))
+         if (.not. norm2(d) > ALL_BUT*body%size) return
+         off(rows) = matmul(left(3, :), seen)*(body%size/turn**2)
+         across(:, rows) = spread([-d(2), d(1)]/sum(d**2), 2, size(rows))
+         ends(:, rows) = spread(own_ends, 2, size(rows))
+      end associate
+   end subroutine find_line
 
 end module atrito_sliding_bodies

@@ -116,8 +116,8 @@ contains
       type(scene_data_t), intent(in) :: data
       real(wp) :: moved, depth
 
-      force = sum(norm2(data%f, dim=1))
-      if (allocated(data%thermal)) force = force + sum(norm2(data%thermal, dim=1))
+      force = sum(hypot(data%f(1, :), data%f(2, :)))
+      if (allocated(data%thermal)) force = force + sum(hypot(data%thermal(1, :), data%thermal(2, :)))
       moved = max(maxval(abs(data%value), mask=data%held), -minval(data%rows%gap), 0.0_wp)
       if (data%rows%n_bilateral > 0) moved = max(moved, maxval(abs(data%rows%gap(data%rows%n - data%rows%n_bilateral + 1:))))
       if (data%rigid_prescribed%n > 0) moved = max(moved, largest_motion(data))

@@ -40,4 +40,8 @@ says twice twice.err 'one of them, OUT-LEFT on IN-RIGHT, whose slave is the soft
 told wedge 'W-LEFT on LEFT carries forces of 250 [F], more than a hundred times' wedge.inp
 near 'the wedge' "$(summary wedge normal_resultant | head -1)" 250.0005 1e-3
 silent blunt W-WEDGE wedge.inp --set s=0.02
+# loads whose squares are no numbers
+sed 's:^W-TOP, P, <:&1e-250*:' wedge.inp >tiny.inp
+told 'tiny wedge' 'W-LEFT on LEFT carries forces of 2.5e-248 [F], more than a hundred times' tiny.inp
+silent 'tiny blunt' W-WEDGE tiny.inp --set s=0.02
 finish
