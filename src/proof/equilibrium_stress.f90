@@ -21,7 +21,7 @@ module atrito_equilibrium_stress
 contains
 
    !> The squares of the distance, element by element, behind as many sweeps as are worth it.
-   subroutine sum_stresses(fem, classes, sides, chains, loads, u, cuts, share, residual)
+   subroutine sum_stresses(fem, classes, sides, chains, loads, u, cuts, outlines, residual)
       type(fem_t), intent(in) :: fem
       type(element_classes_t), intent(in) :: classes
       type(mesh_sides_t), intent(in) :: sides
@@ -29,9 +29,8 @@ contains
       type(proof_loads_t), intent(in) :: loads      !< with tractions that are in equilibrium; sweeps leave what is known as it is
       real(wp), intent(in) :: u(:, :)               !< (2, n_nodes) [L]
       type(side_cuts_t), intent(in) :: cuts         !< sides whose tractions are polynomials by parts
-      real(wp), intent(out) :: share(:)             !< (n_elements) [F L]
+      type(outlines_t), intent(out) :: outlines     !< of the stresses; < 0 where an element has too many cuts: its energy
       real(wp), intent(inout) :: residual           !< of the equilibrium; >= what outlines are open by, over the largest force
-      type(outlines_t) :: outlines
       integer(ip), allocatable :: cut(:)            ! elements
       integer(ip) :: degree, most, c
       real(wp) :: gain, left, open, most_open, largest
@@ -43,8 +42,10 @@ contains
       outlines%class_of = classes%of_element
       most = maxval(outline_size(fem%mesh%shape(:fem%mesh%n_elements), degree))
       cut = pack([(c, c=1, fem%mesh%n_elements)], [(is_cut(cuts, sides, c), c=1, fem%mesh%n_elements)])
-      allocate (outlines%h(most, most, classes%n + size(cut)), outlines%a(most, size(share)), outlines%slope(most, size(share)), &
-                outlines%energy(size(share)), source=0.0_wp)
+      associate (n => fem%mesh%n_elements)
+         allocate (outlines%h(most, most, classes%n + size(cut)), outlines%a(most, n), outlines%slope(most, n), &
+                   outlines%energy(n), source=0.0_wp)
+      end associate
       of_stresses = 0.0_wp
       most_open = 0.0_wp
       largest = 0.0_wp
@@ -54,6 +55,7 @@ contains
       residual = max(residual, most_open/max(largest, tiny(open)))
       do c = 1, size(cut, kind=ip)
          call begin_cut(fem, sides, cuts, loads, u, cut(c), classes%n + c, outlines)
+         if (outlines%energy(cut(c)) < 0.0_wp) return
       end do
       left = sum(outlines%energy)
       do sweep = 1, MOST_SWEEPS
@@ -61,9 +63,7 @@ contains
          left = left - gain
          if (.not. gain > LITTLE*left) exit
       end do
-      share = outlines%energy
-      ! sums of squares point by point where the difference of large numbers would be round-off
-      call sum_again(fem, classes, sides, cuts, loads, u, outlines, sum(share) <= FEW_DIGITS*of_stresses, share)
+      if (sum(outlines%energy) <= FEW_DIGITS*of_stresses) call sum_again(fem, classes, sides, cuts, loads, u, outlines)
 
    contains
 
@@ -157,17 +157,15 @@ contains
       outline_size = CORNERS_OF(shape)*(2*degree + 2)
    end function outline_size
 
-   !> The energies of elements that are cut, or of all, by their stresses.
-   subroutine sum_again(fem, classes, sides, cuts, loads, u, outlines, is_all, share)
+   !> The energies as sums of squares point by point, where the difference of large numbers would be round-off.
+   subroutine sum_again(fem, classes, sides, cuts, loads, u, outlines)
       type(fem_t), intent(in) :: fem
       type(element_classes_t), intent(in) :: classes
       type(mesh_sides_t), intent(in) :: sides
       type(side_cuts_t), intent(in) :: cuts
       type(proof_loads_t), intent(in) :: loads
       real(wp), intent(in) :: u(:, :)               !< (2, n_nodes) [L]
-      type(outlines_t), intent(in) :: outlines
-      logical, intent(in) :: is_all
-      real(wp), intent(inout) :: share(:)           !< (n_elements) [F L]
+      type(outlines_t), intent(inout) :: outlines
       type(element_energy_t) :: energy
       real(wp) :: x(MOST_GIVEN)
       integer(ip) :: c, i, n_given
@@ -177,16 +175,15 @@ contains
          is_made = .false.
          do i = classes%first(c), classes%first(c + 1) - 1
             associate (e => classes%member(i))
-               if (.not. (is_all .or. is_cut(cuts, sides, e))) cycle
                call given_of(fem, e, u, x, n_given)
                x(n_given + 1:n_given + 2) = loads%volume(:, e)
                if (is_cut(cuts, sides, e)) then
                   call cut_difference(fem, sides, cuts, e, x(:n_given + 2), &
-                                      outlines%a(:outline_size(fem%mesh%shape(e), outlines%degree), e), share(e))
+                                      outlines%a(:outline_size(fem%mesh%shape(e), outlines%degree), e), outlines%energy(e))
                else
                   if (.not. is_made) call make_energy(fem, e, outlines%degree, energy)
                   is_made = .true.
-                  share(e) = energy_difference(energy, x(:n_given + 2), outlines%a(:energy%n, e))
+                  outlines%energy(e) = energy_difference(energy, x(:n_given + 2), outlines%a(:energy%n, e))
                end if
             end associate
          end do

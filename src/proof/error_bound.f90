@@ -35,10 +35,11 @@ module atrito_error_bound
    use atrito_results, only: error_bound_t, results_t
    use atrito_side_misfit, only: add_misfit
    use atrito_side_tractions, only: equilibrate_sides, side_length, traction_of
+   use atrito_star_sweeps, only: outlines_t
    use atrito_thermal_loads, only: add_thermal_of, elastic_energy
    implicit none (type, external)
    private
-   public :: bound_error
+   public :: bound_error, terms_t, sum_terms
 
    !> What the square of the bound is the sum of.
    type :: terms_t
@@ -46,6 +47,7 @@ module atrito_error_bound
       real(wp) :: of_law(3) = 0.0_wp                !< in them: the misfit of the sides, the normal law, friction [F L]
       real(wp) :: residual = 0.0_wp                 !< of the equilibrium
       character(len=:), allocatable :: why_not      !< allocated: there is no bound
+      type(outlines_t) :: outlines                  !< s^, but that of elements that are cut
    end type terms_t
 
    integer(ip), parameter :: TRIED_TWICE = 4000     !< elements of a scene for which two kinds of tractions of contact are tried
@@ -130,8 +132,8 @@ contains
          call list_chains(problem%fem%mesh, sides, chains)
          call take_elements(problem%fem, classes, sides, results%u + exchanged, loads, force)
          call equilibrate_sides(problem%fem%mesh, sides, chains, force, loads%known, loads%traction, terms%residual)
-         allocate (terms%share(problem%fem%mesh%n_elements))
-         call sum_stresses(problem%fem, classes, sides, chains, loads, results%u, cuts, terms%share, terms%residual)
+         call sum_stresses(problem%fem, classes, sides, chains, loads, results%u, cuts, terms%outlines, terms%residual)
+         terms%share = terms%outlines%energy
          if (any(terms%share < 0.0_wp)) terms%why_not = 'a side of an element faces too many others'
       end if
       if (.not. allocated(terms%why_not)) then
