@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import html
 import math
+import re
 from collections import Counter
 from pathlib import Path
 
@@ -18,6 +19,11 @@ STYLE = Path(__file__).with_name("style.css").read_text(encoding="utf-8")
 def say(text: object) -> str:
     """A text for HTML: escaped, without control characters."""
     return html.escape("".join(letter if letter.isprintable() or letter == "\n" else "\ufffd" for letter in str(text)))
+
+
+def asked(text: str) -> str:
+    """What is asked for, in HTML: options of the program are not broken behind their dashes."""
+    return re.sub(r"(--\w+)", r"<span class=whole>\1</span>", say(text))
 
 
 def page(title: str, body: list[str]) -> str:
@@ -56,7 +62,7 @@ def write_feedback(case: Case, path: Path) -> None:
     notes = [text for text in (case.deck_reason if case.deck_kind != "right" else "", case.values_reason, *hand_in.notes) if text]
     if notes:
         body += ["<ul>", *[f"<li>{say(note)}</li>" for note in notes], "</ul>"]
-    rows = [[say(verdict.text), value_in_words(verdict.value, verdict.unit), value_in_words(verdict.right, verdict.unit),
+    rows = [[asked(verdict.text), value_in_words(verdict.value, verdict.unit), value_in_words(verdict.right, verdict.unit),
              f'<span class={mood(verdict)}>{verdict.points:g}</span> / {verdict.of:g}', say(verdict.reason)] for verdict in case.verdicts]
     body += ["<h2>Points</h2>", *table_of(["Asked", "Yours", "Right", "Points", "Why"], rows, {1, 2, 3})]
     body += picture_of(case)
@@ -65,7 +71,7 @@ def write_feedback(case: Case, path: Path) -> None:
     for explanation in sheet.explanations:
         text = text_of(hand_in.answers.get(explanation.name.lower()))
         if text:
-            body += [f"<h2>{say(explanation.text)}</h2>", f"<div class=text>{say(text)}</div>"]
+            body += [f"<h2>{asked(explanation.text)}</h2>", f"<div class=text>{say(text)}</div>"]
     path.write_text(page(f"{sheet.name}: {hand_in.number}", body), encoding="utf-8")
 
 
@@ -105,12 +111,19 @@ def ticks(low: float, high: float) -> list[float]:
     return [place*step for place in range(first, last + 1)]
 
 
+def not_zero(curve: list[tuple[float, float]], least: float) -> list[float]:
+    """The ends of the part of a curve that is not zero, with a zero on each side."""
+    counted = [place for place, (_, y) in enumerate(curve) if abs(y) > least]
+    return [curve[max(0, counted[0] - 1)][0], curve[min(counted[-1] + 1, len(curve) - 1)][0]] if counted else []
+
+
 def draw(reference: list[tuple[float, float]], own: list[tuple[float, float]], picture: dict[str, str]) -> list[str]:
-    """Two curves as a drawing (SVG), where that of the reference is not zero."""
+    """Two curves as a drawing (SVG), where one of them is not zero."""
     top = max((abs(y) for _, y in reference), default=0.0) or 1.0
-    counted = [place for place, (_, y) in enumerate(reference) if abs(y) > 1e-3*top] or [0, len(reference) - 1]
-    left, right = reference[max(0, counted[0] - 1)][0], reference[min(counted[-1] + 1, len(reference) - 1)][0]
-    right = right if right > left else left + 1.0
+    ends = [place for curve in (reference, own) for place in not_zero(curve, 1e-3*top) if reference[0][0] <= place <= reference[-1][0]]
+    left, right = min(ends, default=reference[0][0]), max(ends, default=reference[-1][0])
+    across = ticks(left, right if right > left else left + 1.0)
+    left, right = across[0], across[-1]
     heights = [0.0, *(y for x, y in [*reference, *own] if left <= x <= right and abs(y) < 3*top)]
     up = ticks(min(heights), max(*heights, min(heights) + 1e-9*top))
     low, span = up[0], up[-1] - up[0]
@@ -123,7 +136,7 @@ def draw(reference: list[tuple[float, float]], own: list[tuple[float, float]], p
         height = place(left, y)[1]
         lines.append(f'<line class=grid x1="70" x2="680" y1="{height:.1f}" y2="{height:.1f}"/>'
                      f'<text x="64" y="{height + 4:.1f}" text-anchor="end">{y:.4g}</text>')
-    lines += [f'<text x="{place(x, 0)[0]:.1f}" y="300" text-anchor="middle">{x:.4g}</text>' for x in ticks(left, right) if left <= x <= right]
+    lines += [f'<text x="{place(x, 0)[0]:.1f}" y="300" text-anchor="middle">{x:.4g}</text>' for x in across]
     lines += [f'<text x="375" y="320" text-anchor="middle">{say(picture["x"])}</text>', f'<text x="70" y="14">{say(picture["y"])}</text>',
               '<polyline class=axis points="70,25 70,280 680,280"/>', '<g clip-path="url(#inside)">']
     for kind, curve in (("own", own), ("ref", reference)):
@@ -151,7 +164,7 @@ def write_lecturer(sheet: Sheet, cases: list[Case], strange: list[str], path: Pa
              say(case.hand_in.name), f"{case.points:g}", say(summary(case))] for case in cases]
     body += ["<h2>The class</h2>", *table_of(["Number", "Name", "Points", "What was not right"], rows, {2})]
     for explanation in sheet.explanations:
-        body += [f"<h2>To read: {say(explanation.text)}</h2>", f"<p class=soft>A good answer: {say(explanation.good)}</p>"]
+        body += [f"<h2>To read: {asked(explanation.text)}</h2>", f"<p class=soft>A good answer: {say(explanation.good)}</p>"]
         for case in cases:
             text = text_of(case.hand_in.answers.get(explanation.name.lower()))
             if text:
@@ -163,7 +176,7 @@ def histogram(points: list[float], most: float) -> list[str]:
     """Ten bars."""
     counts = Counter(min(9, int(10*value/most)) if most else 0 for value in points)
     tallest = max(counts.values())
-    lines = ['<svg viewBox="0 0 700 220" role="img">']
+    lines = ['<svg viewBox="0 -10 700 225" role="img">']
     for place in range(10):
         count = counts.get(place, 0)
         height = 160*count/tallest
@@ -181,7 +194,7 @@ def failures(cases: list[Case]) -> list[str]:
         kinds = Counter(verdict.kind for verdict in all_ if verdict.points < verdict.of)
         lost = sum(verdict.of - verdict.points for verdict in all_)
         if kinds:  # so the item has points
-            rows.append((lost/first.of, [say(first.text), str(sum(kinds.values())), f"{100*lost/(first.of*len(all_)):.0f} %",
+            rows.append((lost/first.of, [asked(first.text), str(sum(kinds.values())), f"{100*lost/(first.of*len(all_)):.0f} %",
                                 say(", ".join(f"{kind} {count}" for kind, count in kinds.most_common()))]))
     rows.sort(key=lambda row: -row[0])
     return table_of(["Item", "Not full", "Points lost", "Reasons"], [row for _, row in rows], {1, 2}) if rows else ["<p>Nothing.</p>"]

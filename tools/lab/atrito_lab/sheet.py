@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import re
+import textwrap
 import tomllib
 from dataclasses import dataclass, field
 from decimal import Decimal
@@ -129,7 +130,7 @@ class Sheet:
             gap = GAP.match(line)
             if gap:
                 inside = True
-                lines.append(f"** TO COMPLETE: {gap[1]}")
+                lines += [f"** {line}" for line in textwrap.wrap(f"TO COMPLETE: {gap[1]}", 90)]
             elif END.match(line):
                 inside = False
             elif not inside:
