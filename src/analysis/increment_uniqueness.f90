@@ -31,7 +31,7 @@ contains
       else
          if (.not. allocated(data%certificate)) then
             allocate (data%certificate)
-            call certify_line(data%flexibility, data%line, data%starts > 0, data%certificate%known)
+            call certify_line(data%flexibility, data%line, data%starts > 0, data%certificate)
          end if
          results%uniqueness = data%certificate%known
          call judge_solution(data%flexibility, data%line, solution, data%is_last, data%certificate, results%uniqueness)

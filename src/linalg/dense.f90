@@ -15,11 +15,12 @@ module atrito_dense
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use atrito_halting, only: halting_t, suspend_halting, restore_halting
    use atrito_kinds, only: ip, wp, HUGE_REAL
-   use atrito_lapack, only: dgemm, dgemv, dgesv, dgesvd, dgelsd, dpocon, dpotrs, dsyev
+   use atrito_lapack, only: dgemm, dgemv, dgesv, dgesvd, dgelsd, dpocon, dpotrs, dsyev, dsyrk
    implicit none (type, external)
    private
    public :: solve_cholesky, estimate_condition, solve_lu, sign_of_determinant, eigen_symmetric
-   public :: orthonormalise, add_product, transposed_product, multiply_vector, null_space, least_squares
+   public :: orthonormalise, add_product, add_square, transposed_product, multiply_vector, multiply_transposed
+   public :: null_space, least_squares
 
    integer(ip), parameter :: NOT_FINITE = -99             !< an info that is none of LAPACK's
    real(wp), parameter :: ROUNDED_PIVOT = 1.0e-12_wp      !< over the largest: its sign may be rounding
@@ -283,6 +284,20 @@ contains
       call restore_halting(halting)
    end subroutine add_product
 
+   !> c <- c + factor a a', or a'a, lower triangle (dsyrk): half as many operations as the product of two matrices.
+   subroutine add_square(a, is_transposed, factor, c)
+      real(wp), intent(in), contiguous :: a(:, :)        !< (n, k), or (k, n)
+      logical, intent(in) :: is_transposed               !< a'a
+      real(wp), intent(in) :: factor
+      real(wp), intent(inout), contiguous :: c(:, :)     !< (n, n)
+      type(halting_t) :: halting
+
+      call suspend_halting(halting)
+      call dsyrk('L', merge('T', 'N', is_transposed), order(c), size(a, merge(1, 2, is_transposed), kind=ip), factor, a, &
+                 leading(a), 1.0_wp, c, leading(c))
+      call restore_halting(halting)
+   end subroutine add_square
+
    !> y <- a x (dgemv): every entry of a is used once, so it takes as long as a takes to come from memory.
    subroutine multiply_vector(a, x, y)
       real(wp), intent(in), contiguous :: a(:, :)        !< (m, n)
@@ -296,6 +311,20 @@ contains
       call dgemv('N', size(a, 1, kind=ip), size(a, 2, kind=ip), 1.0_wp, a, leading(a), x, 1_ip, 0.0_wp, y, 1_ip)
       call restore_halting(halting)
    end subroutine multiply_vector
+
+   !> y <- a' x (dgemv).
+   subroutine multiply_transposed(a, x, y)
+      real(wp), intent(in), contiguous :: a(:, :)        !< (m, n)
+      real(wp), intent(in), contiguous :: x(:)           !< (m)
+      real(wp), intent(out), contiguous :: y(:)          !< (n)
+      type(halting_t) :: halting
+
+      y = 0.0_wp
+      if (size(a) == 0) return
+      call suspend_halting(halting)
+      call dgemv('T', size(a, 1, kind=ip), size(a, 2, kind=ip), 1.0_wp, a, leading(a), x, 1_ip, 0.0_wp, y, 1_ip)
+      call restore_halting(halting)
+   end subroutine multiply_transposed
 
    pure integer(ip) function order(a)
       real(wp), intent(in) :: a(:, :)

@@ -13,7 +13,7 @@ module atrito_dense_blocks
    use atrito_front, only: eliminate
    implicit none (type, external)
    private
-   public :: factor_in_blocks, solve_with_triangle, multiply_symmetric, add_inverse_form
+   public :: factor_in_blocks, solve_with_triangle, solve_with_half, divide_by_triangle, multiply_symmetric, add_inverse_form
 
    integer(ip), parameter :: BLOCK = 96_ip             !< columns of a block
    integer(ip), parameter :: LARGE = 400_ip            !< order from which on work is shared out
@@ -55,6 +55,35 @@ contains
       call dtrsv('L', 'T', 'N', n, a, n, x, 1_ip)
       call restore_halting(halting)
    end subroutine solve_with_triangle
+
+   !> x <- L^-1 x, or L'^-1 x: half of solve_with_triangle.
+   subroutine solve_with_half(a, is_transposed, x)
+      real(wp), intent(in), contiguous :: a(:, :)      !< (n, n) factor, lower triangle
+      logical, intent(in) :: is_transposed             !< L'
+      real(wp), intent(inout), contiguous :: x(:)      !< (n)
+      type(halting_t) :: halting
+      integer(ip) :: n
+
+      n = size(a, 1, kind=ip)
+      if (n == 0) return
+      call suspend_halting(halting)
+      call dtrsv('L', merge('T', 'N', is_transposed), 'N', n, a, n, x, 1_ip)
+      call restore_halting(halting)
+   end subroutine solve_with_half
+
+   !> X <- L^-1 X
+   subroutine divide_by_triangle(a, x)
+      real(wp), intent(in), contiguous :: a(:, :)      !< (n, n) factor, lower triangle
+      real(wp), intent(inout), contiguous :: x(:, :)   !< (n, k)
+      type(halting_t) :: halting
+      integer(ip) :: n
+
+      n = size(a, 1, kind=ip)
+      if (size(x) == 0) return
+      call suspend_halting(halting)
+      call dtrsm('L', 'L', 'N', 'N', n, size(x, 2, kind=ip), 1.0_wp, a, n, x, n)
+      call restore_halting(halting)
+   end subroutine divide_by_triangle
 
    !> y <- A x, A symmetric: reads the lower triangle alone.
    subroutine multiply_symmetric(a, x, y)

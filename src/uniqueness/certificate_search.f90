@@ -4,7 +4,7 @@
 !>
 !>     H(alpha) - s R(alpha, gamma) > 0,      H = sym(diag(alpha 1, 1) A),
 !>     R = (gamma W'W (+) 0 + A_t'A_t/gamma)/2           every load
-!>     R = -sym(diag(alpha 1, 1) [A_t S W, 0])           the directions S of slip given
+!>     R = -sym(diag(alpha 1, 1) [A_t S W, 0])           the directions S of slip given, or shares from -1 to 1 of the bounds
 !>
 !> for some alpha, gamma > 0; A_t are the tangential rows of A. The least s at which this fails is 1/lambda, lambda the largest
 !> ratio z'Rz/z'Hz. Each vector z that a search for it finds is a cut: for all alpha and gamma
@@ -16,22 +16,15 @@
 !> The set of (alpha, gamma) that serve an s is convex, so there is one least; a few rounds come to within some per cent of it, and
 !> any (alpha, gamma) will do. In the end the matrix of the best is factored: its Cholesky factor is the proof.
 module atrito_certificate_search
-   use atrito_dense, only: add_product
+   use atrito_certificate_forms, only: build_certified, factor_pencil, forms_t, pencil_t
+   use atrito_dense, only: multiply_transposed, multiply_vector
    use atrito_dense_blocks, only: factor_in_blocks, multiply_symmetric
-   use atrito_friction_form, only: friction_form_t
    use atrito_kinds, only: ip, wp
    use atrito_largest_ratio, only: find_largest_ratio
+   use atrito_line_certificate, only: friction_form_t
    implicit none (type, external)
    private
-   public :: forms_t, every_load_forms, given_way_forms, certified_factor, build_certified
-
-   !> What R is made of; lower triangles. Only some of it is there: bound and slip, or way.
-   type :: forms_t
-      type(friction_form_t) :: form
-      real(wp), allocatable :: bound(:, :)        !< (n, n) W'W/2
-      real(wp), allocatable :: slip(:, :)         !< (m, m) A_t'A_t/2
-      real(wp), allocatable :: way(:, :)          !< (m, n) A_t S W: normal rows symmetric
-   end type forms_t
+   public :: certified_factor
 
    type :: cut_t
       real(wp) :: a = 0.0_wp, b = 0.0_wp, c = 0.0_wp, d = 0.0_wp, e = 0.0_wp, f = 0.0_wp
@@ -47,66 +40,32 @@ module atrito_certificate_search
    integer, parameter :: SMALL = 16               !< unknowns of a line whose ratios stand after the steps of the rounds
    real(wp), parameter :: FAR = 2.0_wp            !< first change of an exponent at most, twice as much where it was all used
    real(wp), parameter :: GOOD_ENOUGH = 0.98_wp   !< of the ratio: no more to be gained
-   real(wp), parameter :: MARGIN = 1.0e-10_wp     !< of the diagonal of H: what is left of the certified matrix is no rounding
    integer, parameter :: TRIES = 12
    real(wp), parameter :: BACK = 0.998_wp         !< of the factor, and again where the largest ratio was not met by the steps
 
 contains
 
-   !> R for every load.
-   subroutine every_load_forms(form, forms)
-      type(friction_form_t), intent(in) :: form
-      type(forms_t), intent(out) :: forms
-      integer(ip) :: m
-
-      m = size(form%a, 1, kind=ip)
-      forms%form = form
-      allocate (forms%bound(form%n, form%n), forms%slip(m, m), source=0.0_wp)
-      call add_product(form%w, form%w, forms%bound)
-      call add_product(form%a(:, form%n + 1:), form%a(:, form%n + 1:), forms%slip)
-      forms%bound = 0.5_wp*forms%bound
-      forms%slip = 0.5_wp*forms%slip
-   end subroutine every_load_forms
-
-   !> R for given directions of slip.
-   subroutine given_way_forms(form, direction, forms)
-      type(friction_form_t), intent(in) :: form
-      real(wp), intent(in) :: direction(:)        !< (m - n) 1 or -1
-      type(forms_t), intent(out) :: forms
-      real(wp) :: turned(form%n, size(direction))
-      integer(ip) :: j
-
-      forms%form = form
-      do j = 1, size(direction, kind=ip)
-         turned(:, j) = direction(j)*form%w(:, j)
-      end do
-      allocate (forms%way(size(form%a, 1), form%n), source=0.0_wp)
-      call add_product(form%a(:, form%n + 1:), turned, forms%way)
-      associate (n => form%n)
-         forms%way(:n, :) = 0.5_wp*(forms%way(:n, :) + transpose(forms%way(:n, :)))
-      end associate
-   end subroutine given_way_forms
-
    !> The largest s found for which the matrix is positive definite, at most `most`; 0 where none was, A itself being singular.
-   subroutine certified_factor(forms, most, factor, x, y)
+   subroutine certified_factor(form, forms, most, factor, pencil)
+      type(friction_form_t), intent(in) :: form
       type(forms_t), intent(in) :: forms
       real(wp), intent(in) :: most
       real(wp), intent(out) :: factor
-      real(wp), intent(out) :: x, y               !< its alpha = e^x and gamma = e^y
+      type(pencil_t), intent(out) :: pencil       !< its alpha and gamma
       type(place_t) :: best
       real(wp), allocatable :: matrix(:, :)
       integer :: i
       integer(ip) :: failed
 
-      call search(forms, most, best)
-      x = best%x
-      y = best%y
+      call search(form, forms, most, best)
+      pencil%alpha = exp(best%x)
+      pencil%gamma = exp(best%y)
       factor = 0.0_wp
       if (best%ratio >= huge(1.0_wp)) return
       factor = most
       if (best%ratio*most > BACK) factor = BACK/best%ratio    ! also where it is not positive: then any s will do
       do i = 1, TRIES
-         call build_certified(forms, factor, x, y, matrix)
+         call build_certified(form, forms, factor, pencil, matrix)
          call factor_in_blocks(matrix, failed)
          if (failed == 0) return
          factor = BACK**(2**(i - 1))*factor       ! 0.2, 0.6, 1.4, 3 per cent less, ...
@@ -114,42 +73,27 @@ contains
       factor = 0.0_wp
    end subroutine certified_factor
 
-   !> H - s R - MARGIN diag(H), lower triangle: what has a Cholesky factor where s is certified.
-   subroutine build_certified(forms, factor, x, y, matrix)
-      type(forms_t), intent(in) :: forms
-      real(wp), intent(in) :: factor              !< s
-      real(wp), intent(in) :: x, y                !< alpha = e^x, gamma = e^y
-      real(wp), allocatable, intent(out) :: matrix(:, :)
-      real(wp), allocatable :: r(:, :)
-      integer(ip) :: i
-
-      call build_h(forms%form, exp(x), matrix)
-      call build_r(forms, exp(x), exp(y), r)
-      do i = 1, size(matrix, 1, kind=ip)
-         matrix(i, i) = (1 - MARGIN)*matrix(i, i)
-      end do
-      matrix = matrix - factor*r
-   end subroutine build_certified
-
    !> The alpha and gamma with the least of the largest ratios, as far as a few rounds come.
-   subroutine search(forms, most, best)
+   subroutine search(form, forms, most, best)
+      type(friction_form_t), intent(in) :: form
       type(forms_t), intent(in) :: forms
       real(wp), intent(in) :: most
       type(place_t), intent(out) :: best
       type(place_t) :: now
       type(cut_t) :: cuts(ROUNDS)
-      real(wp), allocatable :: factor(:, :), r(:, :)
-      real(wp) :: z(size(forms%form%a, 1)), reach
+      type(pencil_t) :: pencil
+      real(wp) :: z(size(form%a, 1)), reach
       integer :: round, n_cuts
       integer(ip) :: failed
 
       z = 0.0_wp
-      now%y = first_gamma(forms) + 0.5_wp*now%x
+      now%y = first_gamma(form, forms) + 0.5_wp*now%x
       n_cuts = 0
       reach = FAR
       do round = 1, ROUNDS
-         call build_h(forms%form, exp(now%x), factor)
-         call factor_in_blocks(factor, failed)
+         pencil%alpha = exp(now%x)
+         pencil%gamma = exp(now%y)
+         call factor_pencil(form, pencil, failed)
          if (failed /= 0) then
             if (abs(now%x) <= 0.0_wp) return      ! A itself
             now%y = now%y - 0.5_wp*now%x
@@ -158,10 +102,9 @@ contains
             now%y = now%y + 0.5_wp*now%x
             cycle
          end if
-         call build_r(forms, exp(now%x), exp(now%y), r)
-         call find_largest_ratio(r, factor, z, now%ratio)
+         call find_largest_ratio(form, forms, pencil, z, now%ratio)
          n_cuts = n_cuts + 1
-         cuts(n_cuts) = cut_of(forms, now, z)
+         cuts(n_cuts) = cut_of(form, forms, now, z)
          if (now%ratio < best%ratio) best = now
          if (best%ratio*most <= BACK .or. round == ROUNDS) exit
          now = best
@@ -169,93 +112,65 @@ contains
          reach = merge(2*reach, FAR, abs(now%x - best%x) > 0.9_wp*reach)
          if (now%ratio > GOOD_ENOUGH*best%ratio) exit
       end do
-      if (best%ratio < huge(1.0_wp) .and. size(z) > SMALL) call polish(forms, z, best)
+      if (best%ratio < huge(1.0_wp) .and. size(z) > SMALL) call polish(form, forms, z, best)
    end subroutine search
 
    !> More steps at the best place, until the ratio stands.
-   subroutine polish(forms, z, best)
+   subroutine polish(form, forms, z, best)
+      type(friction_form_t), intent(in) :: form
       type(forms_t), intent(in) :: forms
       real(wp), intent(inout), contiguous :: z(:)
       type(place_t), intent(inout) :: best
-      real(wp), allocatable :: factor(:, :), r(:, :)
+      type(pencil_t) :: pencil
       real(wp) :: before
       integer :: i
       integer(ip) :: failed
 
-      call build_h(forms%form, exp(best%x), factor)
-      call factor_in_blocks(factor, failed)
-      call build_r(forms, exp(best%x), exp(best%y), r)
+      pencil%alpha = exp(best%x)
+      pencil%gamma = exp(best%y)
+      call factor_pencil(form, pencil, failed)
       do i = 1, MOST_POLISHING
          before = best%ratio
-         call find_largest_ratio(r, factor, z, best%ratio)
+         call find_largest_ratio(form, forms, pencil, z, best%ratio)
          best%ratio = max(best%ratio, before)
          if (best%ratio <= before + (1 - BACK)*abs(before)) exit
       end do
    end subroutine polish
 
    !> gamma for alpha = 1 at which both parts of R are alike, as an exponent.
-   pure real(wp) function first_gamma(forms) result(y)
+   pure real(wp) function first_gamma(form, forms) result(y)
+      type(friction_form_t), intent(in) :: form
       type(forms_t), intent(in) :: forms
       real(wp) :: bound, slip
       integer(ip) :: i
 
       y = 0.0_wp
       if (.not. allocated(forms%bound)) return
-      bound = sum([(forms%bound(i, i), i=1, forms%form%n)])
-      slip = sum([(forms%slip(i, i), i=forms%form%n + 1, size(forms%slip, 1))])
+      bound = sum([(forms%bound(i, i), i=1, form%n)])
+      slip = 0.5_wp*sum(form%a(form%n + 1:, form%n + 1:)**2)
       if (bound > 0.0_wp .and. slip > 0.0_wp) y = 0.5_wp*log(slip/bound)
    end function first_gamma
 
-   !> H, lower triangle.
-   pure subroutine build_h(form, alpha, h)
-      type(friction_form_t), intent(in) :: form
-      real(wp), intent(in) :: alpha
-      real(wp), allocatable, intent(out) :: h(:, :)
-
-      h = form%a
-      associate (n => form%n)
-         h(:n, :n) = alpha*h(:n, :n)
-         h(n + 1:, :n) = (0.5_wp*(alpha + 1))*h(n + 1:, :n)
-      end associate
-   end subroutine build_h
-
-   !> R, lower triangle.
-   pure subroutine build_r(forms, alpha, gamma, r)
-      type(forms_t), intent(in) :: forms
-      real(wp), intent(in) :: alpha, gamma
-      real(wp), allocatable, intent(out) :: r(:, :)
-
-      associate (n => forms%form%n)
-         if (allocated(forms%bound)) then
-            r = forms%slip/gamma
-            r(:n, :n) = r(:n, :n) + gamma*forms%bound
-         else
-            allocate (r, mold=forms%form%a)
-            r = 0.0_wp
-            r(:n, :n) = -alpha*forms%way(:n, :)
-            r(n + 1:, :n) = -0.5_wp*forms%way(n + 1:, :)
-         end if
-      end associate
-   end subroutine build_r
-
    !> The cut of a vector z, of which the ratio at one place is known.
-   type(cut_t) function cut_of(forms, place, z) result(cut)
+   type(cut_t) function cut_of(form, forms, place, z) result(cut)
+      type(friction_form_t), intent(in) :: form
       type(forms_t), intent(in) :: forms
       type(place_t), intent(in) :: place          !< with the ratio of z
-      real(wp), intent(in), contiguous :: z(:)
-      real(wp) :: image(size(z)), normal(forms%form%n), all
+      real(wp), intent(in), contiguous :: z(:)    !< (z_n, v)
+      real(wp) :: x(size(z) - form%n), normal(form%n), all
 
-      associate (n => forms%form%n)
-         call multiply_symmetric(forms%form%a, z, image)
-         cut%c = dot_product(z(:n), image(:n))
-         cut%d = dot_product(z(n + 1:), image(n + 1:))
+      associate (n => form%n, v => z(form%n + 1:))
+         call multiply_vector(form%x, z(:n), x)
+         call multiply_symmetric(form%a(:n, :n), z(:n), normal)
+         cut%c = dot_product(z(:n), normal) + dot_product(x, v - x)
+         cut%d = dot_product(v - x, v)
          all = place%ratio*(exp(place%x)*cut%c + cut%d)
          if (allocated(forms%bound)) then
             call multiply_symmetric(forms%bound, z(:n), normal)
             cut%a = dot_product(z(:n), normal)
             cut%b = max(all/exp(place%y) - cut%a, 0.0_wp)*exp(2*place%y)
          else
-            call multiply_symmetric(forms%way(:n, :), z(:n), normal)
+            call multiply_transposed(forms%way, x, normal)
             cut%e = -dot_product(z(:n), normal)
             cut%f = all - exp(place%x)*cut%e
          end if

@@ -9,27 +9,28 @@
 !> can move along the contact are out of reach of the certificates; where G has no tangential rows, k reflections (Householder) turn
 !> its columns onto the first k normal directions, and what is left without these is the kernel:  A <- Y' A Y,  W <- W Y. No basis
 !> is stored, and without free bodies nothing is done.
+!>
+!> What the certificates do again and again costs an eighth with half of the forces taken out: with A_tt = L L', X = L^-1 A_tn and
+!> S = A_nn - X'X (X'X is kept), forces (z_n, z_t) are told by z_n and v = L' z_t + X z_n, and
+!>
+!>     (A z)_n = S z_n + X'v,      (A z)_t = L v.
 module atrito_friction_form
    use atrito_bound_qp, only: bound_qp_t
    use atrito_contact_line, only: contact_line_t
+   use atrito_dense, only: add_square
+   use atrito_dense_blocks, only: divide_by_triangle, factor_in_blocks
    use atrito_kinds, only: ip, wp
+   use atrito_line_certificate, only: friction_form_t
    implicit none (type, external)
    private
    public :: friction_form_t, build_form
-
-   type :: friction_form_t
-      real(wp) :: nu = 0.0_wp                     !< the largest coefficient of friction; 0: none has friction
-      integer(ip) :: n = 0                        !< normal forces, on the kernel of G'; the tangential ones follow
-      real(wp), allocatable :: a(:, :)            !< (m, m) [L/F]
-      real(wp), allocatable :: w(:, :)            !< (n, m - n) the transpose of W: a column a tangential force
-   end type friction_form_t
 
    real(wp), parameter :: NONE_ALONG = 1.0e-12_wp  !< of the largest entry of a motion: it does not go along the contact
 
 contains
 
    !> Builds A and W on the forces that leave all bodies in balance. why_not: '', or why there is no such form.
-   pure subroutine build_form(problem, line, form, why_not)
+   subroutine build_form(problem, line, form, why_not)
       type(bound_qp_t), intent(in) :: problem     !< C and G
       type(contact_line_t), intent(in) :: line    !< points, laws, average S_rho
       type(friction_form_t), intent(out) :: form
@@ -66,7 +67,28 @@ contains
          g = problem%g(:n, :)
       end associate
       call take_kernel(g, form)
+      call take_tangential(form)
    end subroutine build_form
+
+   !> Takes the tangential forces out of A.
+   subroutine take_tangential(form)
+      type(friction_form_t), intent(inout) :: form
+      integer(ip) :: j, failed
+
+      associate (n => form%n)
+         form%l = form%a(n + 1:, n + 1:)
+         call factor_in_blocks(form%l, failed)
+         form%is_definite = failed == 0
+         if (.not. form%is_definite) return
+         do j = 2, size(form%l, 1, kind=ip)
+            form%l(:j - 1, j) = 0.0_wp
+         end do
+         form%x = form%a(n + 1:, :n)
+         call divide_by_triangle(form%l, form%x)
+         allocate (form%xx(n, n), source=0.0_wp)
+         call add_square(form%x, .true., 1.0_wp, form%xx)
+      end associate
+   end subroutine take_tangential
 
    !> Leaves the motions' directions out of A and W.
    !>

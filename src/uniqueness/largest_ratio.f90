@@ -7,13 +7,14 @@
 !>
 !> H z_{j+1} is that r/|r|, so H itself is never multiplied by, and its Cholesky factor is all that is wanted of it. On the vectors
 !> of the steps R is a small matrix T with z_i'R z_j as entries; its largest eigenvalue is a lower bound of the one of all vectors,
-!> and after a few steps near it. (All vectors are kept orthogonal: there are few.) A step costs 4 m^2 multiplications.
+!> and after a few steps near it. (All vectors are kept orthogonal: there are few.) A step costs some 5 n^2 multiplications.
 !>
 !> What is found is a lower bound and no more. Whoever wants a proof factors H - R/lambda.
 module atrito_largest_ratio
+   use atrito_certificate_forms, only: forms_t, multiply_r, norm_of, pencil_t, reduced, solve_h
    use atrito_dense, only: eigen_symmetric
-   use atrito_dense_blocks, only: multiply_symmetric, solve_with_triangle
    use atrito_kinds, only: ip, wp
+   use atrito_line_certificate, only: friction_form_t
    implicit none (type, external)
    private
    public :: find_largest_ratio
@@ -25,10 +26,11 @@ module atrito_largest_ratio
 contains
 
    !> Goes STEPS steps from about H^-1 R z; on return z is the vector of the largest ratio that was met, with z'Hz = 1.
-   subroutine find_largest_ratio(r, factor, z, ratio)
-      real(wp), intent(in), contiguous :: r(:, :)       !< (m, m) R, lower triangle
-      real(wp), intent(in), contiguous :: factor(:, :)  !< (m, m) Cholesky factor of H, lower triangle
-      real(wp), intent(inout), contiguous :: z(:)       !< (m)
+   subroutine find_largest_ratio(form, forms, pencil, z, ratio)
+      type(friction_form_t), intent(in) :: form
+      type(forms_t), intent(in) :: forms
+      type(pencil_t), intent(in) :: pencil              !< factored
+      real(wp), intent(inout), contiguous :: z(:)       !< (m) (z_n, v); 0: none yet
       real(wp), intent(out) :: ratio                    !< <= the largest there is
       real(wp) :: v(size(z), STEPS), hv(size(z), STEPS), t(STEPS, STEPS), values(STEPS)
       real(wp) :: image(size(z)), next(size(z)), length, before
@@ -36,20 +38,20 @@ contains
 
       t = 0.0_wp
       n = 0
-      length = norm2(z)
+      length = norm_of(form, z)
       if (length > 0.0_wp) z = z/length
-      z = z + STIRRED/sqrt(real(size(z), wp))*[(1.0_wp + 0.9_wp*sin(real(5*i*i, wp)), i=1, size(z))]
-      call multiply_symmetric(r, z, image)
+      z = z + STIRRED/sqrt(real(size(z), wp))*reduced(form, [(1.0_wp + 0.9_wp*sin(real(5*i*i, wp)), i=1, size(z))])
+      call multiply_r(form, forms, pencil, z, image)
       before = 0.0_wp
       do j = 1, min(STEPS, size(z, kind=ip))
          next = image
-         call solve_with_triangle(factor, next)
+         call solve_h(form, pencil, next)
          length = sqrt(max(dot_product(image, next), 0.0_wp))
          if (.not. length > NOTHING_NEW*before) exit
          n = j
          v(:, j) = next/length
          hv(:, j) = image/length
-         call multiply_symmetric(r, v(:, j), image)
+         call multiply_r(form, forms, pencil, v(:, j), image)
          before = norm2(image)*norm2(v(:, j))
          do i = 1, j
             t(j, i) = dot_product(v(:, i), image)

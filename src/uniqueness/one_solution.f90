@@ -22,12 +22,14 @@
 !>
 !> What is certified is the discrete problem, of this mesh; beyond the coefficient there may be one solution all the same.
 module atrito_one_solution
-   use atrito_certificate_search, only: forms_t, every_load_forms, given_way_forms, certified_factor
-   use atrito_friction_form, only: friction_form_t
-   use atrito_kinds, only: wp
+   use atrito_certificate_forms, only: build_certified, every_load_forms, forms_t, given_way_forms, pencil_t
+   use atrito_certificate_search, only: certified_factor
+   use atrito_dense_blocks, only: factor_in_blocks
+   use atrito_kinds, only: ip, wp
+   use atrito_line_certificate, only: friction_form_t
    implicit none (type, external)
    private
-   public :: certify_every_load, certify_way
+   public :: certify_every_load, certify_way, is_regular
 
    real(wp), parameter :: MOST = 1.0e3_wp         !< what is certified up to here is not looked for beyond
 
@@ -39,22 +41,50 @@ contains
       type(friction_form_t), intent(in) :: form
       real(wp), intent(out) :: nu
       type(forms_t) :: forms
-      real(wp) :: x, y
+      type(pencil_t) :: pencil
 
+      nu = 0.0_wp
+      if (.not. form%is_definite) return
       call every_load_forms(form, forms)
-      call certified_factor(forms, MOST, nu, x, y)
+      call certified_factor(form, forms, MOST, nu, pencil)
    end subroutine certify_every_load
 
    !> The same for solutions that move along given directions, or not at all, at every point. Exact stick is presumed.
-   subroutine certify_way(form, direction, nu)
+   subroutine certify_way(form, direction, nu, alpha)
       type(friction_form_t), intent(in) :: form
-      real(wp), intent(in) :: direction(:)        !< (tangential unknowns) 1 or -1
+      real(wp), intent(in) :: direction(:)        !< (tangential unknowns) 1 or -1, or what is_regular takes
       real(wp), intent(out) :: nu
+      real(wp), intent(out) :: alpha              !< of the proof
       type(forms_t) :: forms
-      real(wp) :: x, y
+      type(pencil_t) :: pencil
 
+      nu = 0.0_wp
+      alpha = 1.0_wp
+      if (.not. form%is_definite) return
       call given_way_forms(form, direction, forms)
-      call certified_factor(forms, MOST, nu, x, y)
+      call certified_factor(form, forms, MOST, nu, pencil)
+      alpha = pencil%alpha
    end subroutine certify_way
+
+   !> Whether a state is proved to be regular for this nu and all smaller ones, given one alpha to try it with.
+   !>
+   !> Where the state stands, the friction of a point changes by m times its bound: m is 1 or -1 where it slips, the share of the
+   !> bound that an elastic slip has come to, or any number where it sticks. Then dr_n dq_n = 0 and (dq_t - m db) du >= 0 along
+   !> all that a singular matrix leaves free, so dq = 0 by the same matrix as that of a way.
+   logical function is_regular(form, share, nu, alpha)
+      type(friction_form_t), intent(in) :: form
+      real(wp), intent(in) :: share(:)            !< (tangential unknowns) m
+      real(wp), intent(in) :: nu, alpha
+      type(forms_t) :: forms
+      real(wp), allocatable :: matrix(:, :)
+      integer(ip) :: failed
+
+      is_regular = .false.
+      if (.not. form%is_definite) return
+      call given_way_forms(form, share, forms)
+      call build_certified(form, forms, nu, pencil_t(alpha=alpha), matrix)
+      call factor_in_blocks(matrix, failed)
+      is_regular = failed == 0
+   end function is_regular
 
 end module atrito_one_solution

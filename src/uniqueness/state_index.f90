@@ -5,39 +5,95 @@
 !> forces that balance). All solutions for coefficients from 0 to nu are bounded, where the motions of the bodies do not go along
 !> the contact, and so the indices of those at nu add up to 1, too (degree of a map). A solution of index -1 therefore cannot be the
 !> only one: there are two more at least, unless another one stands on the edge of its state or with a singular matrix, and then
-!> one. An index of 1 says nothing. The price is one factorisation by LU.
+!> one. An index of 1 says nothing.
+!>
+!> Most states are proved to be regular down to nu = 0 by one Cholesky factor of a quarter of the matrix (is_regular); where that
+!> fails M is factored by LU. A state that is met again has the sign that it had.
 module atrito_state_index
-   use atrito_bound_qp, only: bound_qp_t, FREE, AT_LOWER
+   use atrito_bound_qp, only: bound_qp_t, FREE, AT_LOWER, AT_UPPER
    use atrito_contact_line, only: contact_line_t
    use atrito_contact_solution, only: contact_solution_t
    use atrito_dense, only: sign_of_determinant
+   use atrito_friction_law, only: FRICTION_NONLOCAL
    use atrito_kinds, only: ip, wp, HUGE_REAL
+   use atrito_line_certificate, only: line_certificate_t, NOT_ASKED
    use atrito_newton, only: jacobian_of_state
+   use atrito_one_solution, only: is_regular
    implicit none (type, external)
    private
-   public :: index_of_solution
+   public :: index_of_solution, meet_state
 
    real(wp), parameter :: ON_THE_EDGE = 1.0e-7_wp !< of the largest pressure, bound or gap
 
 contains
 
    !> 1 or -1; 0 where a point stands on the edge of its state, or the matrix is singular but for rounding.
-   integer(ip) function index_of_solution(problem, line, solution, is_known) result(index_of)
+   integer(ip) function index_of_solution(problem, line, solution, is_known, certificate) result(index_of)
       type(bound_qp_t), intent(in) :: problem     !< C and G
       type(contact_line_t), intent(in) :: line    !< points, laws, average S_rho
       type(contact_solution_t), intent(in) :: solution !< that has converged
       logical, intent(in) :: is_known             !< a certificate says that the determinant is positive
+      type(line_certificate_t), intent(inout) :: certificate !< that has met the state, with the form
       real(wp), allocatable :: jacobian(:, :)
       logical, allocatable :: slips(:)
 
       index_of = 0
       if (.not. is_inside(problem, line, solution)) return
-      index_of = 1
-      if (is_known) return
-      call jacobian_of_state(problem, line, solution, jacobian, slips)
-      call eliminate(slips, jacobian)
-      index_of = sign_of_determinant(jacobian)
+      if (is_known) certificate%sign_of = 1
+      if (certificate%sign_of == NOT_ASKED) then
+         if (is_regular(certificate%form, certificate%share, certificate%known%nu, certificate%alpha)) certificate%sign_of = 1
+      end if
+      if (certificate%sign_of == NOT_ASKED) then
+         call jacobian_of_state(problem, line, solution, jacobian, slips)
+         call eliminate(slips, jacobian)
+         certificate%sign_of = sign_of_determinant(jacobian)
+      end if
+      index_of = certificate%sign_of
    end function index_of_solution
+
+   !> Makes the state of a solution the one that is asked about: what is known of it stays where it was that before.
+   pure subroutine meet_state(problem, line, solution, certificate)
+      type(bound_qp_t), intent(in) :: problem
+      type(contact_line_t), intent(in) :: line
+      type(contact_solution_t), intent(in) :: solution
+      type(line_certificate_t), intent(inout) :: certificate
+      real(wp) :: share(problem%m - problem%n_normal)
+      logical :: is_new
+
+      share = share_of(problem, line, solution)
+      associate (state => solution%state%state, d => solution%bounds%d)
+         is_new = .not. allocated(certificate%state)
+         if (.not. is_new) is_new = any(certificate%state /= state) .or. any(abs(certificate%compliance - d) > 0.0_wp) &
+                                    .or. any(abs(certificate%share - share) > 0.0_wp)
+         if (.not. is_new) return
+         certificate%state = state
+         certificate%compliance = d
+      end associate
+      certificate%share = share
+      certificate%sign_of = NOT_ASKED
+      certificate%contraction = -1.0_wp
+   end subroutine meet_state
+
+   !> m of a state: by how much of its bound the friction of a point changes with it. 1 and -1 where it slips; q over the bound where
+   !> it sticks elastically by the law of Oden and Pires, whose compliance falls with the bound; else 0.
+   pure function share_of(problem, line, solution) result(share)
+      type(bound_qp_t), intent(in) :: problem
+      type(contact_line_t), intent(in) :: line
+      type(contact_solution_t), intent(in) :: solution
+      real(wp) :: share(problem%m - problem%n_normal)
+      integer(ip) :: i
+
+      associate (n => problem%n_normal)
+         share = merge(1.0_wp, 0.0_wp, solution%state%state(n + 1:) == AT_UPPER) &
+                 - merge(1.0_wp, 0.0_wp, solution%state%state(n + 1:) == AT_LOWER)
+         do i = n + 1, problem%m
+            associate (j => line%point(i))
+               if (solution%state%state(i) /= FREE .or. line%law(j)%kind /= FRICTION_NONLOCAL) cycle
+               if (solution%bounds%d(i) > 0.0_wp) share(i - n) = solution%state%q(i)/(line%weight(j)*solution%tau(j))
+            end associate
+         end do
+      end associate
+   end function share_of
 
    !> Takes slipping forces out of the matrix: their rows q -+ w tau = 0 have few entries, and a positive one on the diagonal.
    pure subroutine eliminate(slips, matrix)

@@ -8,17 +8,17 @@
 !>
 !> The largest coefficient stands for all: those of other pairs are scaled with it.
 module atrito_uniqueness
-   use atrito_bound_qp, only: bound_qp_t, AT_LOWER, AT_UPPER
+   use atrito_bound_qp, only: bound_qp_t
    use atrito_contact_line, only: contact_line_t
    use atrito_contact_solution, only: contact_solution_t
    use atrito_contraction, only: estimate_contraction
-   use atrito_friction_form, only: friction_form_t, build_form
+   use atrito_friction_form, only: build_form
    use atrito_friction_law, only: FRICTION_NONE
    use atrito_kinds, only: ip, wp
    use atrito_line_certificate, only: line_certificate_t
    use atrito_one_solution, only: certify_every_load, certify_way
    use atrito_results, only: uniqueness_t
-   use atrito_state_index, only: index_of_solution
+   use atrito_state_index, only: index_of_solution, meet_state
    implicit none (type, external)
    private
    public :: certify_line, judge_solution, judge_contraction, is_certified, LONGEST
@@ -28,35 +28,38 @@ module atrito_uniqueness
 contains
 
    !> What is certified of a line for every load.
-   subroutine certify_line(problem, line, is_asked, uniqueness)
+   subroutine certify_line(problem, line, is_asked, certificate)
       type(bound_qp_t), intent(in) :: problem     !< C and G
       type(contact_line_t), intent(in) :: line    !< points, laws, average S_rho
       logical, intent(in) :: is_asked             !< also where the line is long
-      type(uniqueness_t), intent(out) :: uniqueness
-      type(friction_form_t) :: form
+      type(line_certificate_t), intent(out) :: certificate
       character(len=:), allocatable :: why_not
       real(wp) :: nu
 
-      uniqueness%nu = maxval([0.0_wp, line%law(line%point(problem%n_normal + 1:))%nu])
-      if (.not. uniqueness%nu > 0.0_wp) return
-      if (problem%m > LONGEST .and. .not. is_asked) then
-         uniqueness%why_not = 'the line is long: --unique asks for it'
-         return
-      end if
-      call build_form(problem, line, form, why_not)
-      if (len(why_not) == 0) then
-         call certify_every_load(form, nu)
-         uniqueness%up_to_nu = rounded_down(nu)
-         if (.not. nu > 0.0_wp) why_not = 'contact points depend on each other'
-      end if
-      uniqueness%why_not = why_not
+      associate (known => certificate%known)
+         known%nu = maxval([0.0_wp, line%law(line%point(problem%n_normal + 1:))%nu])
+         if (.not. known%nu > 0.0_wp) return
+         if (problem%m > LONGEST .and. .not. is_asked) then
+            known%why_not = 'the line is long: --unique asks for it'
+            return
+         end if
+         allocate (certificate%form)
+         call build_form(problem, line, certificate%form, why_not)
+         if (len(why_not) == 0) then
+            call certify_every_load(certificate%form, nu)
+            known%up_to_nu = rounded_down(nu)
+            if (.not. nu > 0.0_wp) why_not = 'contact points depend on each other'
+         end if
+         known%why_not = why_not
+         if (len(why_not) > 0 .or. is_certified(known)) deallocate (certificate%form)   ! no solution asks for it
+      end associate
    end subroutine certify_line
 
    !> Adds what is proved of a solution that no certificate makes the only one.
    !>
    !> For bodies that move along the contact, and where points depend on each other, the index proves nothing, as the certificates.
    !> With exact stick, where one solution at most moves a certain way, no state that slips that way is singular for smaller
-   !> coefficients, and its index is 1.
+   !> coefficients, and its index is 1. The states of elastic stick are tried with the alpha of the first one.
    subroutine judge_solution(problem, line, solution, is_last, certificate, uniqueness)
       type(bound_qp_t), intent(in) :: problem     !< C and G
       type(contact_line_t), intent(in) :: line    !< points, laws, average S_rho
@@ -64,36 +67,40 @@ contains
       logical, intent(in) :: is_last              !< its own way is asked for; else the first one that was found serves
       type(line_certificate_t), intent(inout) :: certificate
       type(uniqueness_t), intent(inout) :: uniqueness  !< of certify_line
+      character(len=:), allocatable :: why_not
       logical :: is_along
 
       if (is_certified(uniqueness)) uniqueness%index = 1
       if (is_certified(uniqueness) .or. .not. solution%converged .or. len_trim(uniqueness%why_not) > 0) return
+      if (.not. allocated(certificate%form)) then
+         allocate (certificate%form)
+         call build_form(problem, line, certificate%form, why_not)
+      end if
+      call meet_state(problem, line, solution, certificate)
       is_along = .false.
       if (.not. has_elastic_stick(line)) then
-         if (is_last .or. .not. allocated(certificate%way)) call keep_way(problem, line, way_of(problem, solution), certificate)
+         if (is_last .or. .not. allocated(certificate%way)) call keep_way(way_of(problem, solution, certificate%share), certificate)
          if (is_last) uniqueness%same_way_up_to_nu = certificate%way_up_to_nu
-         associate (slip => slip_of(problem, solution), way => certificate%way)
+         associate (slip => certificate%share, way => certificate%way)
             is_along = certificate%way_up_to_nu >= uniqueness%nu .and. all(slip*way >= 0.0_wp)
          end associate
+      else if (.not. allocated(certificate%way)) then
+         call keep_way(certificate%share, certificate)
       end if
-      uniqueness%index = index_of_solution(problem, line, solution, is_along)
+      uniqueness%index = index_of_solution(problem, line, solution, is_along, certificate)
+      if (is_last) deallocate (certificate%form)
    end subroutine judge_solution
 
    !> The certificate of a way, if it is not that which is there.
-   subroutine keep_way(problem, line, way, certificate)
-      type(bound_qp_t), intent(in) :: problem
-      type(contact_line_t), intent(in) :: line
+   subroutine keep_way(way, certificate)
       real(wp), intent(in) :: way(:)
-      type(line_certificate_t), intent(inout) :: certificate
-      type(friction_form_t) :: form
-      character(len=:), allocatable :: why_not
+      type(line_certificate_t), intent(inout) :: certificate  !< with the form
 
       if (allocated(certificate%way)) then
          if (all(certificate%way*way > 0.0_wp)) return
       end if
       certificate%way = way
-      call build_form(problem, line, form, why_not)
-      call certify_way(form, way, certificate%way_up_to_nu)
+      call certify_way(certificate%form, way, certificate%way_up_to_nu, certificate%alpha)
       certificate%way_up_to_nu = rounded_down(certificate%way_up_to_nu)
    end subroutine keep_way
 
@@ -104,17 +111,13 @@ contains
       type(contact_solution_t), intent(in) :: solution !< converged or not
       type(line_certificate_t), intent(inout) :: certificate
       real(wp), intent(out) :: contraction
-      logical :: is_new
 
       contraction = 0.0_wp
       if (is_certified(certificate%known)) return
-      associate (state => solution%state%state, d => solution%bounds%d)
-         is_new = .not. allocated(certificate%state)
-         if (.not. is_new) is_new = any(certificate%state /= state) .or. any(abs(certificate%compliance - d) > 0.0_wp)
-         if (is_new) certificate%contraction = estimate_contraction(problem, line, d, state)
-         certificate%state = state
-         certificate%compliance = d
-      end associate
+      call meet_state(problem, line, solution, certificate)
+      if (certificate%contraction < 0.0_wp) then
+         certificate%contraction = estimate_contraction(problem, line, solution%bounds%d, solution%state%state)
+      end if
       contraction = certificate%contraction
    end subroutine judge_contraction
 
@@ -146,27 +149,17 @@ contains
    end function rounded_down
 
    !> The directions along which a solution moves; points that stick may be taken to go along with most of the others.
-   pure function way_of(problem, solution) result(direction)
+   pure function way_of(problem, solution, slip) result(direction)
       type(bound_qp_t), intent(in) :: problem
       type(contact_solution_t), intent(in) :: solution
+      real(wp), intent(in) :: slip(:)             !< 1 or -1 of those that slip, 0 of the others
       real(wp) :: direction(problem%m - problem%n_normal)
 
-      direction = slip_of(problem, solution)
+      direction = slip
       associate (r => solution%state%r(problem%n_normal + 1:))
          where (solution%bounds%upper(problem%n_normal + 1:) <= 0.0_wp) direction = sign(1.0_wp, r)
          where (abs(direction) <= 0.0_wp) direction = merge(1.0_wp, -1.0_wp, sum(direction) >= 0.0_wp)
       end associate
    end function way_of
-
-   !> 1 or -1 of tangential unknowns that slip against friction, 0 of the others.
-   pure function slip_of(problem, solution) result(direction)
-      type(bound_qp_t), intent(in) :: problem
-      type(contact_solution_t), intent(in) :: solution
-      real(wp) :: direction(problem%m - problem%n_normal)
-
-      associate (state => solution%state%state(problem%n_normal + 1:))
-         direction = merge(1.0_wp, 0.0_wp, state == AT_UPPER) - merge(1.0_wp, 0.0_wp, state == AT_LOWER)
-      end associate
-   end function slip_of
 
 end module atrito_uniqueness
