@@ -70,6 +70,7 @@ contains
 
       call exchange(archive, 'exists', bound%exists)
       call exchange(archive, 'is_certified', bound%is_certified)
+      call exchange(archive, 'is_of_polygon', bound%is_of_polygon)
       call exchange(archive, 'percent', bound%percent)
       call exchange(archive, 'norm', bound%norm)
       call exchange(archive, 'bulk', bound%bulk)

@@ -64,6 +64,7 @@ contains
          if (.not. gain > LITTLE*left) exit
       end do
       if (sum(outlines%energy) <= FEW_DIGITS*of_stresses) call sum_again(fem, classes, sides, cuts, loads, u, outlines)
+      outlines%energy = max(outlines%energy, 0.0_wp)   ! elsewhere than where the energy is, round-off of either sign
 
    contains
 

@@ -96,6 +96,7 @@ contains
          results%error_bound%why_not = terms%why_not
       else
          call complete_bound(problem%fem, terms%residual, terms%share, terms%of_law, results)
+         results%error_bound%is_of_polygon = model%has_arcs
       end if
    end subroutine bound_error
 

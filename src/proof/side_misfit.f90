@@ -294,7 +294,7 @@ contains
          if (j <= size(vertex)) cycle
          low = 0.0_wp
          high = 0.0_wp
-         x = maxval(abs(places%law(1)%y), mask=places%weight > 0.0_wp) + maxval(abs(w)) + abs(force)/k
+         x = maxval(abs(places%law(1)%y), mask=places%weight > 0.0_wp) + farthest() + abs(force)/k
          if (pull_at(0.0_wp) > 0.0_wp) high = x
          if (pull_at(0.0_wp) < 0.0_wp) low = -x
          do step = 1, MOST_STEPS
@@ -311,6 +311,18 @@ contains
       end do
 
    contains
+
+      !> No place has a larger jump.
+      real(wp) function farthest()
+         integer(ip) :: j, e
+
+         farthest = 0.0_wp
+         do j = 1, size(places, kind=ip)
+            do e = 1, 2
+               if (places(j)%vertex(e) > 0) farthest = max(farthest, 2*maxval(abs(w(:, places(j)%vertex(e)))))
+            end do
+         end do
+      end function farthest
 
       !> What would move the corners further, of the triangles and of all laws. Overlaps without delta: more than anything else.
       real(wp) function pull_at(x)

@@ -135,6 +135,7 @@ contains
          call add_entry(page, 'bound of the error', number(bound%percent, DIGITS)//' % of the energy norm of the displacements')
          call add_entry(page, '', trim(merge('certified for the friction bound of this run', &
                                              'not certified                               ', bound%is_certified)))
+         if (bound%is_of_polygon) call add_entry(page, '', 'of the polygon of the mesh: sides of a *BLOCK are arcs')
          call add_entry(page, 'of its square', 'bodies '//number(bound%bulk, 3)//', normal contact '//number(bound%normal, 3) &
                         //', friction '//number(bound%tangential, 3))
          call add_entry(page, 'equilibrium of its stresses', number(bound%residual, 2)//' of the largest force')

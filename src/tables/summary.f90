@@ -185,8 +185,9 @@ contains
 
       associate (bound => results%error_bound)
          if (bound%exists) then
-            text = 'at most '//number(bound%percent, 3)//' % in the energy norm ('//trim(merge('certified    ', &
-                                     'not certified', bound%is_certified))//'), estimated '//number(results%error_estimate, 2)//' %'
+            text = ' in the energy norm ('//trim(merge('certified    ', 'not certified', bound%is_certified))
+            if (bound%is_of_polygon) text = text(20:)//', of the polygon'
+            text = 'at most '//number(bound%percent, 3)//' %'//text//'), estimated '//number(results%error_estimate, 2)//' %'
          else
             text = number(results%error_estimate, 3)//' %; no bound: '//trim(bound%why_not)
             if (len_trim(bound%why_not) == 0) text = 'error of '//number(results%error_estimate, 3)//' % of the energy norm'

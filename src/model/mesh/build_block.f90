@@ -116,6 +116,7 @@ contains
       block%along(:) = node_lines(spec%n(1), spec%order, spec%grade(1), spec%of_halves(1), spec%along)
       block%across(:) = node_lines(spec%n(2), spec%order, spec%grade(2), spec%of_halves(2), spec%across)
       if (has_arcs(spec%map)) then
+         context%model%has_arcs = .true.
          call curved_nodes(block%map, block%along, block%across, x)
       else
          call block_nodes(spec%map%corners, block%along, block%across, x)

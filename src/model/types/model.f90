@@ -259,6 +259,7 @@ module atrito_model
       type(observed_line_t), allocatable :: observed(:)
       type(instance_t), allocatable :: instances(:)
       type(mesh_t) :: mesh
+      logical :: has_arcs = .false.                 !< sides of a *BLOCK are: elements with straight sides make polygons of them
       integer(ip) :: levels = 0                     !< of --refine: each element of the deck is 4**levels of the mesh
       integer(ip) :: n_cut = 0                      !< elements of the deck that are cut where the error is
       type(set_list_t) :: node_sets, element_sets

@@ -183,6 +183,7 @@ module atrito_results
    type :: error_bound_t
       logical :: exists = .false.
       logical :: is_certified = .false.             !< proved for the friction bound of the run; else every step but one is
+      logical :: is_of_polygon = .false.            !< of the bodies as meshed: the deck has arcs
       real(wp) :: percent = 0.0_wp                  !< the energy norm of the error over that of the displacements, at most [%]
       real(wp) :: norm = 0.0_wp                     !< the same without that norm, eta [(F L)^(1/2)]
       real(wp) :: bulk = 0.0_wp, normal = 0.0_wp, tangential = 0.0_wp !< shares of eta^2: bodies, contact, friction

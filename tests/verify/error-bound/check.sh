@@ -46,6 +46,15 @@ for type in CPE3 CPE4 CPE6 CPE8 CPE9; do
    bound "clamped-$type" "$true_error" "$(value "1.35*$true_error")"
 done
 
+# beside a body whose stress is found exactly: its elements have nothing but round-off, of either sign
+sed 's/^\*MATERIAL, NAME=M/*BLOCK, TYPE=CPE4, ELSET=BAR, NX=9, NY=7\n5., 0.\n7.7, 0.\n7.7, 1.3\n5., 1.3\n&/
+   s/^\*SOLID SECTION, ELSET=BODY/*SOLID SECTION, ELSET=BAR, MATERIAL=M\n1.\n&/; s/^\*BOUNDARY/&\nBAR-LEFT, 1\nBAR-BOTTOM, 2/
+   s/^\*DSLOAD/&\nBAR-RIGHT, P, 0.3\nBAR-TOP, P, 0.7/' "$here/clamped.inp" >bar.inp
+run 0 bar.inp bar --proof on --quiet
+near 'beside a bar: certified' "$(summary bar error_certified)" 1 0
+near 'beside a bar' "$(value "$(summary bar error_bound_percent)*sqrt($(summary bar strain_energy))")" \
+   "$(value "$(summary clamped-CPE4 error_bound_percent)*sqrt($(summary clamped-CPE4 strain_energy))")" 1e-6
+
 # example 1, local friction: an independent program found 24.80, 14.81, 9.14
 for refine in 0:24.80 1:14.81 2:9.14; do
    run 0 "$ex1" "ex1-${refine%:*}" --set rho=0 --refine "${refine%:*}" --proof on --quiet
@@ -60,7 +69,7 @@ bound seven-1e-6 24 25.5
 sed 's/^\*CONTACT PAIR/&, QUADRATURE=NODAL/' seven.inp >nodal.inp     # with nodes of the support that no node of the plate faces
 run 0 nodal.inp nodal --set rho=0 --proof on --quiet
 bound nodal 24 25.5
-near 'delta 1e-9' "$(summary seven-1e-9 error_bound_percent)" "$(summary seven-1e-6 error_bound_percent)" 0.7
+near 'delta 1e-9' "$(summary seven-1e-9 error_bound_percent)" "$(summary seven-1e-6 error_bound_percent)" 0.49
 
 # a block that contact alone holds; turned, in other units, with other numbers it is the same
 for type in CPE4 CPE9; do
@@ -71,7 +80,8 @@ for type in CPE4 CPE9; do
          awk -v type=$type -v upper=$upper -v $way -f "$here/blocks.awk" </dev/null >blocks.inp
          run 0 blocks.inp "blocks-$i" --proof on --digits 15 --quiet
          near "$type, $upper, $way: certified" "$(summary "blocks-$i" error_certified)" 1 0
-         near "$type, $upper, $way" "$(summary "blocks-$i" error_bound_percent)" "$(summary blocks-1 error_bound_percent)" 1e-7
+         near "$type, $upper, $way" "$(summary "blocks-$i" error_bound_percent)" "$(summary blocks-1 error_bound_percent)" \
+            "$(value "1e-9*$(summary blocks-1 error_bound_percent)")"
       done
    done
 done
@@ -89,6 +99,12 @@ no_bound force 'node 40 carries a force at a point'
 sed 's/CPE4/CPE8/; s/^2., 1.$/&/; s/^0., 1.$/&\nARC, TOP, 1., -2./' "$here/clamped.inp" >arc.inp
 run 0 arc.inp arc --proof on
 no_bound arc 'curved sides'
+says 'an estimate' arc.out 'estimated    '
+sed 's/CPE8/CPE4/' arc.inp >polygon.inp
+run 0 polygon.inp polygon --proof on
+says 'of the polygon' polygon.out '% (certified, of the polygon), estimated'
+says 'of the polygon, in the listing' polygon/polygon.lst 'of the polygon of the mesh: sides of a *BLOCK are arcs'
+grep -q polygon clamped-CPE4/clamped.lst && complain 'a polygon where no side is an arc'
 sed 's/CPE4/CAX4/; s/1, 2$/2/' "$here/clamped.inp" >ring.inp
 run 0 ring.inp ring --proof on
 no_bound ring 'rings'
