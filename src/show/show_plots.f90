@@ -66,12 +66,12 @@ contains
          settings = 'set size ratio -1; set xlabel "equation"; set tmargin 3'
          room = '1000,'//to_text(480*i)
          commands = 'set multiplot layout '//to_text(i)//',2 columnsfirst downwards'//LF// &
-              'do for [c in "5 8"] {'//LF//'do for [b=1:'//to_text(i)//'] {'//LF// &
-              'set xrange [*:*]; set yrange [*:*]; stats table using ($1==b ? $2 : 1/0) nooutput'//LF// &
-              'set xrange [0:STATS_max+1]; set yrange [STATS_max+1:0]'//LF// &
-              'set title sprintf("body %d, %s", b, (c eq "5" ? "as the nodes come" : "renumbered, contact last"))'//LF// &
-              'plot table using ($1==b ? $2 : 1/0):(column(int(c))-0.5):(0):($2-column(int(c))+1) with vectors nohead '// &
-              'lw 320.0/STATS_max lc rgb "#0072B2", x with lines lw 1 lc rgb "#D55E00"'//LF//'}'//LF//'}'
+                    'do for [c in "5 8"] {'//LF//'do for [b=1:'//to_text(i)//'] {'//LF// &
+                    'set xrange [*:*]; set yrange [*:*]; stats table using ($1==b ? $2 : 1/0) nooutput'//LF// &
+                    'set xrange [0:STATS_max+1]; set yrange [STATS_max+1:0]'//LF// &
+                    'set title sprintf("body %d, %s", b, (c eq "5" ? "as the nodes come" : "renumbered, contact last"))'//LF// &
+                    'plot table using ($1==b ? $2 : 1/0):(column(int(c))-0.5):(0):($2-column(int(c))+1) with vectors nohead '// &
+                    'lw 320.0/STATS_max lc rgb "#0072B2", x with lines lw 1 lc rgb "#D55E00"'//LF//'}'//LF//'}'
       case ('show-picard')                          ! from light to dark
          what = 'pressure and friction bound of the outer iterations, first pair'
          columns = '1 outer iteration, 2 pair, 4 s [L], 7 pressure, 8 bound [F/L^2]'
@@ -79,22 +79,22 @@ contains
                     'set palette defined (0 "#C6DBEF", 0.5 "#4292C6", 1 "#08306B")'//LF// &
                     'unset colorbox; set cbrange [0:last+1]; set xlabel "s [L]"'
          commands = 'set multiplot layout 2,1'//LF//'do for [c in "7 8"] {'//LF// &
-              'set ylabel (c eq "7" ? "pressure [F/L^2]" : "friction bound [F/L^2]")'//LF// &
-              'plot for [k=0:last] table using ($1==k && $2==1 ? $4 : 1/0):(column(int(c))):(k) with linespoints palette lw 2 '// &
-              'pt 7 ps 0.5*dot title sprintf("outer %d", k)'//LF//'}'
+                    'set ylabel (c eq "7" ? "pressure [F/L^2]" : "friction bound [F/L^2]")'//LF// &
+               'plot for [k=0:last] table using ($1==k && $2==1 ? $4 : 1/0):(column(int(c))):(k) with linespoints palette lw 2 '// &
+                    'pt 7 ps 0.5*dot title sprintf("outer %d", k)'//LF//'}'
       case default                                  ! both laws, with the points
          what = 'the laws of friction and of pressure, and the points on them'
          columns = '4 overlap [L], 5 delta [L^3/F], 6 pressure [F/L^2], 9 bound, 10 friction [F/L^2], 11 u'
          settings = 'set samples 1001; stats table using 5 nooutput; delta = STATS_max'//LF// &
                     'stats table using 4 nooutput; deep = STATS_max > 0 ? 1.1*STATS_max : 1'
          commands = 'set multiplot layout 2,1'//LF//'set xlabel "u = slip over the slip at which friction is full"; '// &
-              'set ylabel "t over its bound"; set yrange [-1.2:1.2]; set xrange [-3:3]'//LF// &
-              'plot (abs(x) < 1 ? x : sgn(x)) with lines lw 2 lc rgb "#0072B2" title "law", table using '// &
-              '($9 > 0 ? ($11 > 3 ? 3 : $11 < -3 ? -3 : $11) : 1/0):($10/$9) with points pt 7 ps dot lc rgb "#D55E00" '// &
-              'title "points"'//LF//'set xlabel "overlap [L]"; set ylabel "pressure [F/L^2]"; set yrange [0:*]; '// &
-              'set xrange [-0.2*deep:deep]'//LF// &
-              'plot (x < 0 ? 0 : delta > 0 ? x/delta : 1/0) with lines lw 2 lc rgb "#0072B2" title "law", table using '// &
-              '($4 < -0.2*deep ? -0.2*deep : $4):6 with points pt 7 ps dot lc rgb "#D55E00" title "points"'
+                    'set ylabel "t over its bound"; set yrange [-1.2:1.2]; set xrange [-3:3]'//LF// &
+                    'plot (abs(x) < 1 ? x : sgn(x)) with lines lw 2 lc rgb "#0072B2" title "law", table using '// &
+                    '($9 > 0 ? ($11 > 3 ? 3 : $11 < -3 ? -3 : $11) : 1/0):($10/$9) with points pt 7 ps dot lc rgb "#D55E00" '// &
+                    'title "points"'//LF//'set xlabel "overlap [L]"; set ylabel "pressure [F/L^2]"; set yrange [0:*]; '// &
+                    'set xrange [-0.2*deep:deep]'//LF// &
+                    'plot (x < 0 ? 0 : delta > 0 ? x/delta : 1/0) with lines lw 2 lc rgb "#0072B2" title "law", table using '// &
+                    '($4 < -0.2*deep ? -0.2*deep : $4):6 with points pt 7 ps dot lc rgb "#D55E00" title "points"'
       end select
       call begin_script(plots, table%name, what, 'Columns of '//table%name//'.tab: '//columns)
       call put_table(plots, table%name)
