@@ -47,7 +47,7 @@ module atrito_mortar_points
    use atrito_points, only: contact_points_t, terms_t, allocate_points, add_point, add_entries, add_term, drop_points
    use atrito_shape_functions, only: face_shape_values, gauss_rule
    use atrito_revolved_faces, only: is_at_axis, hats
-   use atrito_slave_faces, only: nodal_rule_t, nodal_rule, common_ends, sine, clear_small_component, CORNER, TILTED
+   use atrito_slave_faces, only: nodal_rule_t, nodal_rule, common_ends, is_end_of_side, sine, clear_small_component, TILTED
    use atrito_sorting, only: sorted_places
    use atrito_smooth_normals, only: common_normal
    implicit none (type, external)
@@ -175,8 +175,8 @@ contains
    end subroutine pair_by_mortar
 
    !> Whether face i has a corner at one of its ends, where the normal is the master's, whatever the slopes: it meets another
-   !> face that sees the master at an angle, the mean of both normals being that of neither, or it is straight, has no
-   !> other beside it, and is TILTED against a straight master.
+   !> face that sees the master at an angle, the mean of both normals being that of neither, or it is straight, its side ends
+   !> there, and it is TILTED against a straight master.
    pure logical function is_corner_at(mesh, slave, master, segments, i, node, end)
       type(mesh_t), intent(in) :: mesh
       type(face_list_t), intent(in) :: slave
@@ -185,24 +185,17 @@ contains
       integer(ip), intent(in) :: i                  !< face of the slave
       integer(ip), intent(in) :: node               !< at that end of it
       integer(ip), intent(in) :: end                !< 1 or 2
-      integer(ip) :: k, m, beside(2)
+      integer(ip) :: k, m
 
+      is_corner_at = is_end_of_side(mesh, slave, segments%direction, i, end)
+      if (.not. is_corner_at) return
       k = modulo(i + 2*end - 4, slave%n) + 1        ! the face before or behind; of a ring the last one is before the first
-      beside(:2) = 0
-      if (segments%first(k + 1) > segments%first(k)) then
-         associate (nodes => face_nodes(mesh, slave%element(k), slave%face(k)))
-            beside = nodes(:2)
-         end associate
-      end if
-      associate (own => segments%direction(:, end, i))
-         if (beside(3 - end) == node) then
-            is_corner_at = sine(own, segments%direction(:, 3 - end, k)) > CORNER
-         else
-            m = segments%piece(merge(segments%first(i), segments%first(i + 1) - 1, end == 1))
-            is_corner_at = .not. segments%curvature(i) > 0.0_wp .and. is_straight(master, m)
-            if (is_corner_at) is_corner_at = sine(own, -normal_at(master, m, 0.5_wp)) > TILTED
-         end if
+      associate (nodes => face_nodes(mesh, slave%element(k), slave%face(k)))
+         if (nodes(3 - end) == node .and. segments%first(k + 1) > segments%first(k)) return
       end associate
+      m = segments%piece(merge(segments%first(i), segments%first(i + 1) - 1, end == 1))
+      is_corner_at = .not. segments%curvature(i) > 0.0_wp .and. is_straight(master, m)
+      if (is_corner_at) is_corner_at = sine(segments%direction(:, end, i), -normal_at(master, m, 0.5_wp)) > TILTED
    end function is_corner_at
 
    !> Adds what a place x(t) of the slave is worth to the integrals, with ds = weight |dx/dt| and the depth h there:

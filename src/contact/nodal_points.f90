@@ -30,7 +30,8 @@ module atrito_nodal_points
    use atrito_points, only: contact_points_t, terms_t, allocate_points, add_point, add_entries, drop_points
    use atrito_revolved_faces, only: revolved_face_t, revolve_face, note_mixed, mix_rows
    use atrito_shape_functions, only: face_shape_values
-   use atrito_slave_faces, only: nodal_rule_t, nodal_rule, common_ends, turn_at, sine, clear_small_component, CORNER, TILTED
+   use atrito_slave_faces, only: nodal_rule_t, nodal_rule, common_ends, turn_at, is_end_of_side, sine, &
+                                 clear_small_component, CORNER, TILTED
    use atrito_smooth_normals, only: smooth_surface, common_normal
    implicit none (type, external)
    private
@@ -209,7 +210,7 @@ contains
 
    !> One point a slave node; weights and normals of the faces that share it are summed: l_j = sum l_a, w_j = sum l_a
    !> h_a, and the normal is that of sum l_a n_a. The curvature of a point is the mean of its faces', weighted by l_a,
-   !> AT_CORNER where they meet at a corner, and AT_END where a straight face has no other beside it.
+   !> AT_CORNER where they meet at a corner, and AT_END where a straight side ends.
    pure subroutine place_points(mesh, thickness, slave, used, grain, points, curvature, mixed)
       type(mesh_t), intent(in) :: mesh
       real(wp), intent(in) :: thickness(:)          !< of each element [L]
@@ -223,14 +224,14 @@ contains
       type(id_map_t) :: place                       ! point of a node
       type(nodal_rule_t) :: rule
       type(revolved_face_t) :: face
-      logical :: is_corner(size(points%s))
+      logical :: is_corner(size(points%s)), is_end(size(points%s))
       real(wp) :: s
-      integer(ip) :: n_ends(size(points%s)), i, j, k, of_node(3)
+      integer(ip) :: i, j, k, of_node(3)
 
       call smooth_surface(mesh, slave, ends, of_face, bend, grain)
       allocate (curvature(size(points%s)), source=0.0_wp)
       is_corner = .false.
-      n_ends = 0
+      is_end = .false.
       s = 0.0_wp
       do i = 1, slave%n
          rule = nodal_rule(mesh, slave%element(i), slave%face(i))
@@ -242,7 +243,7 @@ contains
             of_node(k) = j
             if (points%length(j) > 0.0_wp) is_corner(j) = sine(points%normal(:, j)/norm2(points%normal(:, j)), &
                                                                rule%normal(:, k)) > CORNER
-            if (k == 1 .or. k == rule%n) n_ends(j) = n_ends(j) + 1
+            if (k == 1 .or. k == rule%n) is_end(j) = is_end(j) .or. is_end_of_side(mesh, slave, ends, i, merge(1_ip, 2_ip, k == 1))
             points%length(j) = points%length(j) + rule%weight(k)
             curvature(j) = curvature(j) + rule%weight(k)*of_face(i)
             if (face%n > 0) then
@@ -258,7 +259,7 @@ contains
          s = s + rule%s(rule%n)
       end do
       curvature(:points%n) = merge(AT_CORNER, curvature(:points%n)/points%length(:points%n), is_corner(:points%n))
-      where (n_ends(:points%n) == 1 .and. .not. curvature(:points%n) > 0.0_wp) curvature(:points%n) = AT_END
+      where (is_end(:points%n) .and. .not. curvature(:points%n) > 0.0_wp) curvature(:points%n) = AT_END
       do i = 1, points%n
          points%normal(:, i) = points%normal(:, i)/norm2(points%normal(:, i))
          call clear_small_component(points%x(:, i), points%length(i), points%normal(:, i))
@@ -269,8 +270,8 @@ contains
    !> with the curvatures of both sides (share_of_master). f fades out where the master has a kink within NEAR_KINK of
    !> the point's length, since the normal beyond it is another one, and where the sides hardly face each other
    !> (ASLANT): the normal is the slave's there. A corner of the slave, whose curvature is without bound, takes the
-   !> master's normal and looks along it once more, since the mean normal of its faces may lead far away; so does a
-   !> straight end that is TILTED against a straight master, on which it stands.
+   !> master's normal and looks along it once more, since the mean normal of its faces may lead far away; so does the
+   !> end of a straight side that is TILTED against a straight master, on which it stands.
    pure subroutine turn_to_common_normal(master, curvature, x, length, sight, normal, gap)
       type(master_t), intent(in) :: master
       real(wp), intent(in) :: curvature             !< of the slave [1/L]

@@ -14,7 +14,7 @@ module atrito_slave_faces
    use atrito_mesh, only: mesh_t, face_end, face_nodes
    implicit none (type, external)
    private
-   public :: nodal_rule_t, nodal_rule, common_ends, turn_at, sine, clear_small_component
+   public :: nodal_rule_t, nodal_rule, common_ends, turn_at, is_end_of_side, sine, clear_small_component
 
    !> The nodal rule on a face, in the order of travel.
    type :: nodal_rule_t
@@ -74,6 +74,24 @@ contains
       end do
       if (turn > CORNER) turn = 0.0_wp
    end function turn_at
+
+   !> Whether a side of the slave ends at an end of face i: no face of the chain is beside it, or one at a corner. Faces that see
+   !> no master count: where a master ends below a side that goes on the slave has no corner.
+   pure logical function is_end_of_side(mesh, slave, normals, i, end) result(is_end)
+      type(mesh_t), intent(in) :: mesh
+      type(face_list_t), intent(in) :: slave        !< one chain, ordered
+      real(wp), intent(in) :: normals(:, :, :)      !< (2, first and last end and more, faces) of the smooth surface
+      integer(ip), intent(in) :: i                  !< face of the slave
+      integer(ip), intent(in) :: end                !< 1 or 2
+      integer(ip) :: k
+
+      k = modulo(i + 2*end - 4, slave%n) + 1        ! the face before or behind; of a ring the last one is before the first
+      associate (own => face_nodes(mesh, slave%element(i), slave%face(i)), &
+                 other => face_nodes(mesh, slave%element(k), slave%face(k)))
+         is_end = other(3 - end) /= own(end)
+      end associate
+      if (.not. is_end) is_end = sine(normals(:, end, i), normals(:, 3 - end, k)) > CORNER
+   end function is_end_of_side
 
    !> The sine of the angle between two directions; 1 where it is more than a right one.
    pure real(wp) function sine(a, b)

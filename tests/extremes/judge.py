@@ -226,7 +226,7 @@ class Pair:
         self.weight = np.array([weight[node] for node in self.nodes])
         self.length = np.array([length[node] for node in self.nodes])
         self.normal = np.array([normal[node]/np.linalg.norm(normal[node]) for node in self.nodes]).reshape(-1, 2)
-        ends = [node for (_, nodes), seen in zip(faces, sees) if seen for node in nodes[:2]]
+        ends = [node for _, nodes in faces for node in nodes[:2]]
         for node, n in zip(self.nodes, self.normal):
             if self.rigid or ends.count(node) == 1:
                 n[:] = standing(where[node], n, pieces, 2*length[node], floors(pieces) if self.rigid else [])

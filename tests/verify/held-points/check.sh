@@ -27,4 +27,16 @@ for angle in 0.01 0.2 0.8; do
    near "leaning $angle" "$(summary "leaning-$angle" normal_resultant)" 1 1e-6
    near "leaning $angle, along the floor" "$(column "leaning-$angle/reactions.tab" r1 | awk '{ s += $1 } END { printf "%.17g", s }')" 0 1e-9
 done
+# a plate aslant on the edge of a block: the edge pushes across the plate, whichever is the slave, from slopes of 0.01 on
+for angle in 0.02 0.2; do
+   for quadrature in NODAL MORTAR; do
+      for roles in PLATE-BOTTOM,BASE-TOP BASE-TOP,PLATE-BOTTOM; do
+         name=edge-$angle-$quadrature-$roles
+         sed "s/^PLATE-BOTTOM,.*/$roles/; s/^\\*CONTACT PAIR.*/&, QUADRATURE=$quadrature/" "$here/edge.inp" >"$name.inp"
+         run 0 "$name.inp" "$name" --set angle=$angle --quiet --digits 17
+         near "$name" "$(awk '!/^#/ && $2 == 1 { printf "%.17g", -$3 }' "$name/reactions.tab")" \
+            "$(awk -v a=$angle '!/^#/ { n += $8*$13 } END { printf "%.17g", n*sin(a) }' "$name/contact.tab")" 1e-9
+      done
+   done
+done
 finish
