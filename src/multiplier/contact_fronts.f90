@@ -23,10 +23,10 @@
 !> fly. So the number of solves does not grow with the number of points.
 !>
 !> The friction bound is frozen while more than FEW_CHANGES of the points change, as in the Picard loop, and follows the pressures
-!> then. A row that has changed TO_AND_FRO times changes in every other solve alone, and its neighbour in the ones between: so
-!> states that follow each other in a circle come out of it. What is found is a start for the steps of the multipliers, which go to
-!> the last digit and ask whether the states are right. They take it, too, where the last few do not come to rest; where more than
-!> NEAR of the points still change after MOST_SOLVES (bodies that nothing holds while all slips, say), they begin without.
+!> then. Neighbours whose states follow each other in a circle come out of it as the one that is furthest off its law changes first
+!> (furthest_off_first). What is found is a start for the steps of the multipliers, which go to the last digit and ask whether the
+!> states are right. They take it, too, where the last few do not come to rest; where more than NEAR of the points still change
+!> after MOST_SOLVES (bodies that nothing holds while all slips, say), they begin without.
 module atrito_contact_fronts
    use atrito_bound_qp, only: bound_qp_t, box_bounds_t, box_state_t, FREE, AT_LOWER, AT_UPPER, FROZEN
    use atrito_sparse_rows, only: multiply_rows
@@ -50,7 +50,7 @@ module atrito_contact_fronts
 
    integer(ip), parameter :: MANY_POINTS = 100_ip  !< for which it is worth it
    integer(ip), parameter :: MOST_SOLVES = 30_ip
-   integer(ip), parameter :: MOST_IN_VAIN = 10_ip  !< of them, since fewer points changed than ever before
+   integer(ip), parameter :: MOST_IN_VAIN = 10_ip  !< of them, since fewer points changed than in each of the three before
    integer(ip), parameter :: TO_AND_FRO = 3_ip
    real(wp), parameter :: NEAR = 0.05_wp           !< of the points may still change in a start
    integer(ip), parameter :: LOOKS_AHEAD = 8_ip    !< points that do not change, before those that do are looked for no more
@@ -81,7 +81,7 @@ contains
       type(contact_solution_t) :: begun
       type(front_moves_t) :: normal, tangential
       integer(ip) :: before(system%rows%n), raw(system%rows%n), turns(system%rows%n)
-      integer(ip) :: solves, changes, least, since, i ! least changes of a solve, solves since then
+      integer(ip) :: solves, changes, last(3), since ! changes of the last solves; solves since there were fewer
       real(wp) :: noise(system%rows%n)
       logical :: follows
 
@@ -92,7 +92,7 @@ contains
       call multiply_rows(system%rows, multipliers%x, multipliers%e, noise)
       multipliers%e = multipliers%e + system%g0
       turns = 0
-      least = huge(least)
+      last = huge(last)
       since = 0
       do solves = 1, MOST_SOLVES
          before = solution%state%state
@@ -112,13 +112,13 @@ contains
          solution%state%state = raw
          call move_fronts(line, line%normal, before, raw, solution%state%state, normal)
          call move_fronts(line, line%tangential, before, raw, solution%state%state, tangential)
-         where (turns >= TO_AND_FRO .and. mod([(i, i=1, system%rows%n)] + solves, 2_ip) == 0) solution%state%state = before
+         call furthest_off_first(system, line, solution%bounds, before, turns, normal, tangential, solution%state)
          where (solution%state%state /= before) turns = turns + 1
          ! the proximal terms stand at what is found
          multipliers%q_old = min(max(solution%state%q, solution%bounds%lower), solution%bounds%upper)
          multipliers%a_old = multipliers%x(system%n - system%k + 1:)
-         since = merge(0_ip, since + 1_ip, changes < least)
-         least = min(least, changes)
+         since = merge(0_ip, since + 1_ip, all(changes < last))
+         last = [last(2:), changes]
          if (since >= MOST_IN_VAIN .or. solves == MOST_SOLVES) found = changes <= NEAR*line%n
          if (found) return
       end do
@@ -204,6 +204,57 @@ contains
          end if
       end do
    end function states_of_law
+
+   !> Of neighbours that change to and fro the one that is furthest off its law changes, and the others wait.
+   !>
+   !> What one point changes, the points beside it feel most: if all of them change at once, each goes too far, and comes back. A row
+   !> waits from its second change on, one that a front takes along from TO_AND_FRO on: fronts go too far and return. It is off by
+   !> the way that its excess of force would go, or by the gap or slip that ought not to be.
+   subroutine furthest_off_first(system, line, bounds, before, turns, normal, tangential, state)
+      class(contact_system_t), intent(in) :: system
+      type(contact_line_t), intent(in) :: line
+      type(box_bounds_t), intent(in) :: bounds
+      integer(ip), intent(in) :: before(:)       !< (m) states of the solve
+      integer(ip), intent(in) :: turns(:)        !< (m) changes of each row so far
+      type(front_moves_t), intent(in) :: normal, tangential
+      type(box_state_t), intent(inout) :: state  !< q and r of the solve; states of the next one
+      integer(ip) :: often(size(before)), j
+      real(wp) :: off(0:size(before)), of_point(0:line%n + 1), most
+
+      often = 1
+      often(pack(line%normal, normal%went > 0)) = TO_AND_FRO
+      often(pack(line%tangential, tangential%went > 0)) = TO_AND_FRO
+      off(0) = -1.0_wp                           ! of a point without the unknown
+      off(1:) = merge((bounds%d + system%flexibility)*max(bounds%lower - state%q, state%q - bounds%upper, 0.0_wp), abs(state%r), &
+                      before == FREE)
+      where (state%state == before .or. turns < often) off(1:) = -1.0_wp
+      of_point = -1.0_wp
+      of_point(1:line%n) = max(off(line%normal), off(line%tangential))
+      do j = 1, line%n
+         most = of_point(j)
+         if (is_neighbour(j - 1, j)) most = max(most, of_point(j - 1))
+         if (is_neighbour(j, j + 1)) most = max(most, of_point(j + 1))
+         call wait(line%normal(j))
+         call wait(line%tangential(j))
+      end do
+
+   contains
+
+      !> A row that may have to wait, and is less far off than another one.
+      subroutine wait(i)
+         integer(ip), intent(in) :: i
+
+         if (off(i) >= 0.0_wp .and. off(i) < most) state%state(i) = before(i)
+      end subroutine wait
+
+      pure logical function is_neighbour(left, right)
+         integer(ip), intent(in) :: left, right
+
+         is_neighbour = left >= 1 .and. right <= line%n
+         if (is_neighbour .and. allocated(line%pair)) is_neighbour = line%pair(left) == line%pair(right)
+      end function is_neighbour
+
+   end subroutine furthest_off_first
 
    !> Moves the fronts: where points of two states are neighbours, and those of one side would be in the state of the other.
    pure subroutine move_fronts(line, unknown, before, raw, new, moves)
