@@ -35,6 +35,7 @@ module atrito_study_errors
       integer(ip) :: code = 0                        !< exit code of the run
       real(wp), allocatable :: values(:)             !< one a quantity; nan where the run has none
       real(wp) :: estimate = 0.0_wp                  !< error_estimate_percent
+      real(wp) :: bound = -1.0_wp                    !< error_bound_percent; < 0: there is none
       real(wp) :: penetration = 0.0_wp, pressure = 0.0_wp   !< largest ones of pair 1
       type(phase_time_t), allocatable :: phases(:)
    end type study_row_t

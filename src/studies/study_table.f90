@@ -60,6 +60,7 @@ contains
             end associate
          end do
          call add_reals(table, 'error_estimate_percent', '%', rows%estimate, 0.0_wp)
+         if (any(rows%bound >= 0.0_wp)) call add_reals(table, 'error_bound_percent', '%', rows%bound, 0.0_wp)
          do i = 1, size(PHASES)
             phase = trim(PHASES(i))
             call add_reals(table, phase//'_wall', 's', [(phase_seconds(rows(k), phase, WALL), k=1, n)], 0.0_wp)

@@ -175,6 +175,7 @@ contains
       nan = ieee_value(1.0_wp, ieee_quiet_nan)
       row%values = [(amount(run%summary, study%quantities(i)%name, nan), i=1, size(study%quantities))]
       row%estimate = amount(run%summary, 'error_estimate_percent', nan)
+      row%bound = amount(run%summary, 'error_bound_percent', -1.0_wp)
       row%penetration = amount(run%summary, 'max_penetration', 0.0_wp)
       row%pressure = amount(run%summary, 'max_pressure', 0.0_wp)
    end subroutine make_run

@@ -22,6 +22,7 @@ run 0 ex1.inp ex1 --adapt 8 --solver sparse --digits 15 --quiet
 below 'bound' "$(last ex1 error_percent)" 8.0000001
 near 'the last mesh is written' "$(summary ex1 error_bound_percent)" "$(last ex1 error_percent)" 0
 near 'dofs' "$(value_of 3 adapt dofs)" "$(last ex1 dofs)" 0
+near 'study: the bound' "$(value_of 3 adapt error_bound_percent)" "$(last ex1 error_percent)" 0
 below 'the same everywhere' 8 "$(value_of 2 deck error_estimate_percent)"
 below 'displacements' "$(last ex1 dofs)" "$(value_of 2 deck dofs)"
 below 'error of the energy' "$(value "4.9299e-3 - $(summary ex1 strain_energy)")" \
