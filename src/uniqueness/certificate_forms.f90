@@ -8,7 +8,7 @@
 !>
 !> and H has T = alpha S - b^2 X'X = alpha A_nn - ((alpha + 1)/2)^2 X'X left without v: all that is to be factored for an alpha.
 module atrito_certificate_forms
-   use atrito_dense, only: add_square, multiply_transposed, multiply_vector
+   use atrito_dense, only: add_square, multiply_transposed, multiply_vector, transposed_product
    use atrito_dense_blocks, only: factor_in_blocks, multiply_symmetric, solve_with_half, solve_with_triangle
    use atrito_kinds, only: ip, wp
    use atrito_line_certificate, only: friction_form_t
@@ -31,6 +31,7 @@ module atrito_certificate_forms
    end type pencil_t
 
    real(wp), parameter :: MARGIN = 1.0e-10_wp     !< of the diagonal of H: what is left of the certified matrix is no rounding
+   integer, parameter :: FEW = 8                  !< entries of W for each force up to which they are taken one by one
 
 contains
 
@@ -51,14 +52,20 @@ contains
       type(friction_form_t), intent(in) :: form
       real(wp), intent(in) :: share(:)            !< (m - n) m, from -1 to 1
       type(forms_t), intent(out) :: forms
-      real(wp) :: row(size(share))
+      real(wp) :: bound(size(share), form%n)
       integer(ip) :: i, j
 
       allocate (forms%way(size(share), form%n), source=0.0_wp)
       do j = 1, size(share, kind=ip)
-         row(:j) = share(j)*form%l(j, :j)
-         do i = 1, form%n
-            if (abs(form%w(i, j)) > 0.0_wp) forms%way(:j, i) = forms%way(:j, i) + form%w(i, j)*row(:j)
+         bound(j, :) = share(j)*form%w(:, j)
+      end do
+      if (count(abs(bound) > 0.0_wp) > FEW*size(share)) then
+         call transposed_product(form%l, bound, forms%way)
+         return
+      end if
+      do i = 1, form%n
+         do j = 1, size(share, kind=ip)
+            if (abs(bound(j, i)) > 0.0_wp) forms%way(:j, i) = forms%way(:j, i) + bound(j, i)*form%l(j, :j)
          end do
       end do
    end subroutine given_way_forms
