@@ -207,9 +207,9 @@ contains
 
    !> Of neighbours that change to and fro the one that is furthest off its law changes, and the others wait.
    !>
-   !> What one point changes, the points beside it feel most: if all of them change at once, each goes too far, and comes back. A row
-   !> waits from its second change on, one that a front takes along from TO_AND_FRO on: fronts go too far and return. It is off by
-   !> the way that its excess of force would go, or by the gap or slip that ought not to be.
+   !> What one point changes, the points beside it feel most: if all of them change at once, each goes too far, and comes back. A
+   !> row waits from its second change on, one that a front takes along from TO_AND_FRO on: fronts go too far and return. It is off
+   !> by the way that its excess of force would go, or by the gap or slip that ought not to be.
    subroutine furthest_off_first(system, line, bounds, before, turns, normal, tangential, state)
       class(contact_system_t), intent(in) :: system
       type(contact_line_t), intent(in) :: line

@@ -74,8 +74,8 @@ contains
       certificate%contraction = -1.0_wp
    end subroutine meet_state
 
-   !> m of a state: by how much of its bound the friction of a point changes with it. 1 and -1 where it slips; q over the bound where
-   !> it sticks elastically by the law of Oden and Pires, whose compliance falls with the bound; else 0.
+   !> m of a state: by how much of its bound the friction of a point changes with it. 1 and -1 where it slips; q over the bound
+   !> where it sticks elastically by the law of Oden and Pires, whose compliance falls with the bound; else 0.
    pure function share_of(problem, line, solution) result(share)
       type(bound_qp_t), intent(in) :: problem
       type(contact_line_t), intent(in) :: line
