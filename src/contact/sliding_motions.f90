@@ -28,7 +28,7 @@ module atrito_sliding_motions
    use atrito_slave_faces, only: nodal_rule_t, nodal_rule, turn_at, sine, clear_small_component
    implicit none (type, external)
    private
-   public :: chords_t, list_chords, find_sliding, turn_points, is_along, note_doubt, serves, adopted, velocity, &
+   public :: chords_t, list_chords, find_sliding, turn_points, is_along, note_doubt, serves, adopted, sharpness, velocity, &
              printed_grain, first_of_master
 
    !> The chords of both sides of a pair.
@@ -323,6 +323,18 @@ contains
       serves = other%is_round .eqv. own%is_round
       if (serves) serves = all([(slides(chords, i, other) .or. .not. slides(chords, i, own), i=1, chords%n)])
    end function serves
+
+   !> How sharply the chords of a pair tell its motion: their number, of a rotation; the longest one that slides, in grains, of a
+   !> translation, since a node that is off by g turns a chord by g/h.
+   pure integer(lp) function sharpness(chords, motion)
+      type(chords_t), intent(in) :: chords
+      type(sliding_t), intent(in) :: motion         !< of the pair
+      integer(ip) :: i
+
+      sharpness = chords%n
+      if (motion%is_round) return
+      sharpness = int(maxval(chords%length(:chords%n), mask=[(slides(chords, i, motion), i=1, chords%n)])/chords%grain, lp)
+   end function sharpness
 
    !> The motion of another pair with the size of a pair's own.
    pure type(sliding_t) function adopted(other, own) result(motion)

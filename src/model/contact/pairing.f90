@@ -10,7 +10,7 @@ module atrito_pairing
    use atrito_points, only: contact_points_t, sliding_t
    use atrito_mesh, only: is_revolved
    use atrito_section_elasticity, only: elasticity_of
-   use atrito_sliding_motions, only: chords_t, list_chords, find_sliding, note_doubt, printed_grain, serves, adopted
+   use atrito_sliding_motions, only: chords_t, list_chords, find_sliding, note_doubt, printed_grain, serves, adopted, sharpness
    use atrito_sorting, only: sorted_places
    implicit none (type, external)
    private
@@ -39,31 +39,35 @@ contains
 
    !> The points of all pairs. Each has two surfaces that are what a slave and a master must be, the slave in its order; a master is
    !> made once for all of its pairs. In the plane the sides of a pair may slide along themselves in a motion of the whole body:
-   !> pairs that have the same one but for digits, as rings in rings, take that of the one with the most chords.
+   !> pairs that have the same one but for digits, as rings in rings, take that of the one which tells it most sharply.
    subroutine pair_all(model, points)
       type(model_t), intent(in) :: model
       type(contact_points_t), allocatable, intent(out) :: points(:)
       type(chords_t), allocatable :: chords(:)
       type(sliding_t) :: motions(size(model%pairs))
+      integer(lp) :: sharp(size(model%pairs))
       integer(ip) :: order(size(model%pairs)), i, k, n
 
       call pair_surfaces(model, model%pairs%slave, model%pairs%master, model%pairs%quadrature, points, chords=chords)
       if (is_revolved(model%mesh)) return
-      order = sorted_places(int(-chords%n, lp))
+      sharp = 0
+      do i = 1, size(points, kind=ip)
+         if (points(i)%n > 0) call find_sliding(chords(i), points(i)%sliding)
+         if (points(i)%sliding%exists) sharp(i) = sharpness(chords(i), points(i)%sliding)
+      end do
+      order = sorted_places(-sharp)
       n = 0
       do i = 1, size(points, kind=ip)
-         associate (own => chords(order(i)), pair => points(order(i)))
-            if (pair%n == 0) cycle
-            call find_sliding(own, pair%sliding)
-            if (.not. pair%sliding%exists) cycle
+         associate (own => chords(order(i)), sliding => points(order(i))%sliding)
+            if (.not. sliding%exists) cycle
             do k = 1, n
-               if (serves(own, motions(k), pair%sliding)) exit
+               if (serves(own, motions(k), sliding)) exit
             end do
             if (k <= n) then
-               pair%sliding = adopted(motions(k), pair%sliding)
+               sliding = adopted(motions(k), sliding)
             else
                n = n + 1
-               motions(n) = pair%sliding
+               motions(n) = sliding
             end if
          end associate
       end do
