@@ -47,6 +47,7 @@ module atrito_error_bound
       real(wp) :: of_law(3) = 0.0_wp                !< in them: the misfit of the sides, the normal law, friction [F L]
       real(wp) :: residual = 0.0_wp                 !< of the equilibrium
       character(len=:), allocatable :: why_not      !< allocated: there is no bound
+      logical :: keeps_outlines = .false.           !< they are asked for: large
       type(outlines_t) :: outlines                  !< s^, but that of elements that are cut
    end type terms_t
 
@@ -110,7 +111,7 @@ contains
       type(element_classes_t), intent(in) :: classes
       real(wp), allocatable, intent(inout) :: exchanged(:, :)
       type(results_t), intent(in) :: results
-      type(terms_t), intent(out) :: terms
+      type(terms_t), intent(inout) :: terms
       type(proof_loads_t) :: loads
       type(mesh_sides_t) :: sides
       type(side_cuts_t) :: cuts
@@ -133,8 +134,13 @@ contains
          call list_chains(problem%fem%mesh, sides, chains)
          call take_elements(problem%fem, classes, sides, results%u + exchanged, loads, force)
          call equilibrate_sides(problem%fem%mesh, sides, chains, force, loads%known, loads%traction, terms%residual)
-         call sum_stresses(problem%fem, classes, sides, chains, loads, results%u, cuts, terms%outlines, terms%residual)
-         terms%share = terms%outlines%energy
+         block
+            type(outlines_t) :: found                ! large: they go before the sides are looked at
+
+            call sum_stresses(problem%fem, classes, sides, chains, loads, results%u, cuts, found, terms%residual)
+            terms%share = found%energy
+            if (terms%keeps_outlines) terms%outlines = found
+         end block
          if (any(terms%share < 0.0_wp)) terms%why_not = 'a side of an element faces too many others'
       end if
       if (.not. allocated(terms%why_not)) then

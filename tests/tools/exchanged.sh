@@ -41,7 +41,7 @@ slip_memory_t      fields/restart_file.f90 exchange_state memory is_incremental
 run_t              analysis/history_run.f90 record run options,reporter,scene,has_last,observer,sense,idle,n_idle
 run_t              analysis/history_run.f90 resume run reporter,observer,idle,n_idle
 progress_t         analysis/history_run.f90 record now cuts
-model_t            model/fingerprint.f90 * model deck_path,deck_name,heading,units,parameters,instances,levels,n_cut,node_sets,element_sets,springs,ties,equations,inclined,sources,restart_every,asks_nlgeom,solver_mesh,provenance,as_run,observed
+model_t            model/fingerprint.f90 * model deck_path,deck_name,heading,units,parameters,instances,levels,n_cut,node_sets,element_sets,springs,ties,equations,inclined,sources,restart_every,asks_nlgeom,solver_mesh,provenance,as_run,observed,has_arcs
 mesh_t             model/fingerprint.f90 digest_of_mesh mesh node_map,element_map
 material_t         model/fingerprint.f90 digest_of_materials material name
 section_t          model/fingerprint.f90 digest_of_materials sections elset,is_tapered
