@@ -26,7 +26,7 @@ module atrito_strip_mesh
       integer(ip), allocatable :: element(:)        !< (n_triangles)
       real(wp), allocatable :: own(:, :, :)         !< (2, 2, n) stiffness of a corner
       integer(ip), allocatable :: first(:)          !< (n + 1) other corners of the triangles round corner i: first(i) ..
-      integer(ip), allocatable :: other(:)          !< first(i + 1) - 1, some more than once
+      integer(ip), allocatable :: other(:)          !< first(i + 1) - 1
       real(wp), allocatable :: coupling(:, :, :)    !< (2, 2, ..) stiffness towards them
    end type strip_t
 
@@ -255,19 +255,9 @@ contains
       type(strip_t), intent(inout) :: strip
       real(wp) :: stiffness(6, 6)                   ! of a triangle; not kept, since it is most of what a strip would hold
       integer(ip) :: i, j, k, at
-      integer(ip), allocatable :: next(:)
 
-      allocate (strip%own(2, 2, strip%n), source=0.0_wp)
-      allocate (strip%first(strip%n + 1), source=0_ip)
-      do i = 1, strip%n_triangles
-         strip%first(strip%corner(:, i) + 1) = strip%first(strip%corner(:, i) + 1) + 2
-      end do
-      strip%first(1) = 1
-      do i = 1, strip%n
-         strip%first(i + 1) = strip%first(i) + strip%first(i + 1)
-      end do
-      next = strip%first
-      allocate (strip%other(6*strip%n_triangles), strip%coupling(2, 2, 6*strip%n_triangles))
+      call list_neighbours(strip)
+      allocate (strip%own(2, 2, strip%n), strip%coupling(2, 2, size(strip%other)), source=0.0_wp)
       do i = 1, strip%n_triangles
          stiffness = triangle_stiffness(fem, strip%element(i), strip%x(:, strip%corner(:, i)))
          do j = 1, 3
@@ -277,10 +267,8 @@ contains
                      if (k == j) then
                         strip%own(:, :, mine) = strip%own(:, :, mine) + block
                      else
-                        at = next(mine)
-                        next(mine) = at + 1
-                        strip%other(at) = strip%corner(k, i)
-                        strip%coupling(:, :, at) = block
+                        at = strip%first(mine) - 1 + findloc(strip%other(strip%first(mine):), strip%corner(k, i), dim=1)
+                        strip%coupling(:, :, at) = strip%coupling(:, :, at) + block
                      end if
                   end associate
                end do
@@ -288,6 +276,41 @@ contains
          end do
       end do
    end subroutine add_stiffness
+
+   !> The other corners of the triangles round each corner, each once.
+   pure subroutine list_neighbours(strip)
+      type(strip_t), intent(inout) :: strip
+      integer(ip) :: last(strip%n), other(6*strip%n_triangles), i, j, k, n
+
+      allocate (strip%first(strip%n + 1), source=0_ip)
+      do i = 1, strip%n_triangles
+         strip%first(strip%corner(:, i) + 1) = strip%first(strip%corner(:, i) + 1) + 2
+      end do
+      strip%first(1) = 1
+      do i = 1, strip%n
+         strip%first(i + 1) = strip%first(i) + strip%first(i + 1)
+      end do
+      last = strip%first(:strip%n) - 1
+      do i = 1, strip%n_triangles
+         do j = 1, 3
+            do k = 1, 3
+               associate (mine => strip%corner(j, i), its => strip%corner(k, i))
+                  if (k == j .or. any(other(strip%first(mine):last(mine)) == its)) cycle
+                  last(mine) = last(mine) + 1
+                  other(last(mine)) = its
+               end associate
+            end do
+         end do
+      end do
+      n = 0
+      do i = 1, strip%n                             ! most are corners of two triangles: what is left is closed up
+         other(n + 1:n + 1 + last(i) - strip%first(i)) = other(strip%first(i):last(i))
+         n = n + 1 + last(i) - strip%first(i)
+         strip%first(i) = n - last(i) + strip%first(i)
+      end do
+      strip%first(strip%n + 1) = n + 1
+      strip%other = other(:n)
+   end subroutine list_neighbours
 
    pure function triangle_stiffness(fem, e, x) result(k)
       type(fem_t), intent(in) :: fem
