@@ -9,7 +9,7 @@ module atrito_cards
    use atrito_keyword_table, only: define_keyword, find_keyword, find_option_spec, find_choice, keyword_names, option_names, &
                                    choice_names, packed
    use atrito_keyword_text, only: option_text_of, with_dimension, choices_text
-   use atrito_messages, only: ID_OUTSIDE
+   use atrito_messages, only: ID_OUTSIDE, SEVERITY_ERROR, has_room
    use atrito_lexer, only: find_equals
    use atrito_strings, only: string_t, nearest_names, upper_case
    implicit none (type, external)
@@ -68,6 +68,10 @@ contains
          if (subject == deck%subject .or. is_company(deck, name)) return   ! of elements, or of a keyword, that are refused
          call report_outside(deck, card%place, '*'//name, subject)
       case (NOT_FOREIGN)
+         if (.not. has_room(SEVERITY_ERROR)) then   ! there may be very many
+            call report_error(deck, card%place, 'E-KEYWORD', 'unknown keyword *'//token_text(deck, card%place))
+            return
+         end if
          near = nearest_names(token_text(deck, card%place), keyword_names(deck%keywords), 1)
          if (size(near) > 0) card%meant = near(1)%s
          call report_error(deck, card%place, 'E-KEYWORD', 'unknown keyword *'//token_text(deck, card%place), &

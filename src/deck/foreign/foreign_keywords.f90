@@ -102,6 +102,7 @@ contains
       integer :: i, bar
 
       do i = 1, size(lines)
+         if (lines(i)%s(1:1) /= kind(1:1)) cycle   ! no line is empty
          if (.not. begins_with(lines(i)%s, kind)) cycle
          bar = index(lines(i)%s, ' | ')
          if (is_among(name, lines(i)%s(bar + 3:))) head = lines(i)%s(len(kind) + 1:bar - 1)
