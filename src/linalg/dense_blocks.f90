@@ -45,18 +45,12 @@ contains
    subroutine solve_with_triangle(a, x)
       real(wp), intent(in), contiguous :: a(:, :)      !< (n, n) factor, lower triangle
       real(wp), intent(inout), contiguous :: x(:)      !< (n)
-      type(halting_t) :: halting
-      integer(ip) :: n
 
-      n = size(a, 1, kind=ip)
-      if (n == 0) return
-      call suspend_halting(halting)
-      call dtrsv('L', 'N', 'N', n, a, n, x, 1_ip)
-      call dtrsv('L', 'T', 'N', n, a, n, x, 1_ip)
-      call restore_halting(halting)
+      call solve_with_half(a, .false., x)
+      call solve_with_half(a, .true., x)
    end subroutine solve_with_triangle
 
-   !> x <- L^-1 x, or L'^-1 x: half of solve_with_triangle.
+   !> x <- L^-1 x, or L'^-1 x.
    subroutine solve_with_half(a, is_transposed, x)
       real(wp), intent(in), contiguous :: a(:, :)      !< (n, n) factor, lower triangle
       logical, intent(in) :: is_transposed             !< L'
