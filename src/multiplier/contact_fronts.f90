@@ -17,13 +17,17 @@
 !>     d too far      slip     A (s - d)^(3/2)  ~   A s^(3/2) - 3 A d/2 s^(1/2)    < 0 for s < 3 d/2
 !>
 !> So a run of m points beside a front that would leave the inner state takes as many more with it, and of a run that would come
-!> back only two thirds do: then the error d falls to what the next term says, and not by half in each solve. Where a front goes on
-!> in the same direction by runs that do not get shorter (its neighbourhood is not as above, or m is one), it goes twice as
-!> far each time. Half of what the law leaves in front of it stays: let go at once, a body that the last stuck points hold would
-!> fly. So the number of solves does not grow with the number of points.
+!> back only two thirds do: then the error d falls to what the next term says, and not by half in each solve. Elements that are
+!> long across the line smear the root: one point at the front bears the whole excess, and m is one however large d is. Then the
+!> forces tell d: points beyond the bound hand their excess on to those behind them, as far as it takes until these can bear it,
+!>
+!>     sum over i = 1 .. D of (|q_i| - bound_i) = 0,     D = 3 d/2 for the stresses above,
+!>
+!> and the front goes by 2 D/3, or 2 m if that is more. Half of what the law leaves in front of it stays: let go at once, a body
+!> that the last stuck points hold would fly. So the number of solves does not grow with the number of points.
 !>
 !> The friction bound is frozen while more than FEW_CHANGES of the points change, as in the Picard loop, and follows the pressures
-!> then. Neighbours whose states follow each other in a circle come out of it as the one that is furthest off its law changes first
+!> then. Rows whose states follow each other in a circle come out of it as the one that is furthest off its law changes first
 !> (furthest_off_first). What is found is a start for the steps of the multipliers, which go to the last digit and ask whether the
 !> states are right. They take it, too, where the last few do not come to rest; where more than NEAR of the points still change
 !> after MOST_SOLVES (bodies that nothing holds while all slips, say), they begin without.
@@ -40,16 +44,10 @@ module atrito_contact_fronts
    use atrito_status, only: status_t, is_ok, STATUS_SINGULAR
    implicit none (type, external)
    private
-   public :: find_fronts, has_many_points, move_fronts, front_moves_t
-
-   !> What the fronts did in the last step, at each point of the line; 0 where no front passed.
-   type :: front_moves_t
-      integer(ip), allocatable :: found(:)       !< (points) length of the run that the law has changed
-      integer(ip), allocatable :: went(:)        !< (points) length of what the front took of it, and beyond
-   end type front_moves_t
+   public :: find_fronts, has_many_points, move_fronts
 
    integer(ip), parameter :: MANY_POINTS = 100_ip  !< for which it is worth it
-   integer(ip), parameter :: MOST_SOLVES = 30_ip
+   integer(ip), parameter :: MOST_SOLVES = 40_ip
    integer(ip), parameter :: MOST_IN_VAIN = 10_ip  !< of them, since fewer points changed than in each of the three before
    integer(ip), parameter :: TO_AND_FRO = 3_ip
    real(wp), parameter :: NEAR = 0.05_wp           !< of the points may still change in a start
@@ -79,7 +77,7 @@ contains
       type(status_t), intent(out) :: status
       type(multiplier_t) :: kept
       type(contact_solution_t) :: begun
-      type(front_moves_t) :: normal, tangential
+      integer(ip), allocatable :: normal(:), tangential(:) ! how far a front went that has passed each point
       integer(ip) :: before(system%rows%n), raw(system%rows%n), turns(system%rows%n)
       integer(ip) :: solves, changes, last(3), since ! changes of the last solves; solves since there were fewer
       real(wp) :: noise(system%rows%n)
@@ -110,8 +108,8 @@ contains
          found = changes == 0 .and. relative_residual(line, solution%tau, bound_of_state(line, solution)) <= BOUND_FOUND
          follows = changes <= FEW_CHANGES*line%n
          solution%state%state = raw
-         call move_fronts(line, line%normal, before, raw, solution%state%state, normal)
-         call move_fronts(line, line%tangential, before, raw, solution%state%state, tangential)
+         call move_fronts(line, line%normal, before, raw, solution%state%state, normal, solution%state%q, solution%bounds)
+         call move_fronts(line, line%tangential, before, raw, solution%state%state, tangential, solution%state%q, solution%bounds)
          call furthest_off_first(system, line, solution%bounds, before, turns, normal, tangential, solution%state)
          where (solution%state%state /= before) turns = turns + 1
          ! the proximal terms stand at what is found
@@ -205,47 +203,75 @@ contains
       end do
    end function states_of_law
 
-   !> Of neighbours that change to and fro the one that is furthest off its law changes, and the others wait.
+   !> Of rows that change to and fro the one that is furthest off its law changes, and the others wait.
    !>
    !> What one point changes, the points beside it feel most: if all of them change at once, each goes too far, and comes back. A
-   !> row waits from its second change on, one that a front takes along from TO_AND_FRO on: fronts go too far and return. It is off
-   !> by the way that its excess of force would go, or by the gap or slip that ought not to be.
+   !> row waits for its neighbours from its second change on, one that a front takes along from TO_AND_FRO on: fronts go too far and
+   !> return. A block that slips at all of its points flies, and sticks at all of them in the next solve: from TO_AND_FRO changes on
+   !> a row waits for all the rows of the bodies that it joins. It is off by the way that its excess of force would go, or by the
+   !> gap or slip that ought not to be.
    subroutine furthest_off_first(system, line, bounds, before, turns, normal, tangential, state)
       class(contact_system_t), intent(in) :: system
       type(contact_line_t), intent(in) :: line
       type(box_bounds_t), intent(in) :: bounds
       integer(ip), intent(in) :: before(:)       !< (m) states of the solve
       integer(ip), intent(in) :: turns(:)        !< (m) changes of each row so far
-      type(front_moves_t), intent(in) :: normal, tangential
+      integer(ip), intent(in) :: normal(:), tangential(:) !< (points) how far a front went that has passed it, else 0
       type(box_state_t), intent(inout) :: state  !< q and r of the solve; states of the next one
       integer(ip) :: often(size(before)), j
-      real(wp) :: off(0:size(before)), of_point(0:line%n + 1), most
+      real(wp) :: off(0:size(before)), of_point(0:line%n + 1), of_body(system%n_bodies), most
 
       often = 1
-      often(pack(line%normal, normal%went > 0)) = TO_AND_FRO
-      often(pack(line%tangential, tangential%went > 0)) = TO_AND_FRO
+      often(pack(line%normal, normal > 0)) = TO_AND_FRO
+      often(pack(line%tangential, tangential > 0)) = TO_AND_FRO
       off(0) = -1.0_wp                           ! of a point without the unknown
       off(1:) = merge((bounds%d + system%flexibility)*max(bounds%lower - state%q, state%q - bounds%upper, 0.0_wp), abs(state%r), &
                       before == FREE)
       where (state%state == before .or. turns < often) off(1:) = -1.0_wp
+      of_body = -1.0_wp
+      do j = 1, size(before, kind=ip)
+         if (turns(j) >= TO_AND_FRO) call raise_bodies(j)
+      end do
+      do j = 1, size(before, kind=ip)
+         if (turns(j) >= TO_AND_FRO) call wait(j, most_of_bodies(j))
+      end do
       of_point = -1.0_wp
       of_point(1:line%n) = max(off(line%normal), off(line%tangential))
       do j = 1, line%n
          most = of_point(j)
          if (is_neighbour(j - 1, j)) most = max(most, of_point(j - 1))
          if (is_neighbour(j, j + 1)) most = max(most, of_point(j + 1))
-         call wait(line%normal(j))
-         call wait(line%tangential(j))
+         call wait(line%normal(j), most)
+         call wait(line%tangential(j), most)
       end do
 
    contains
 
       !> A row that may have to wait, and is less far off than another one.
-      subroutine wait(i)
+      subroutine wait(i, most)
          integer(ip), intent(in) :: i
+         real(wp), intent(in) :: most
 
          if (off(i) >= 0.0_wp .and. off(i) < most) state%state(i) = before(i)
       end subroutine wait
+
+      !> What the row i is off counts for the bodies that it joins.
+      subroutine raise_bodies(i)
+         integer(ip), intent(in) :: i
+         integer(ip) :: k
+
+         do k = system%rows%first(i), system%rows%first(i + 1) - 1
+            associate (of => of_body(system%body(system%rows%column(k))))
+               of = max(of, off(i))
+            end associate
+         end do
+      end subroutine raise_bodies
+
+      pure real(wp) function most_of_bodies(i)
+         integer(ip), intent(in) :: i
+
+         most_of_bodies = maxval(of_body(system%body(system%rows%column(system%rows%first(i):system%rows%first(i + 1) - 1))))
+      end function most_of_bodies
 
       pure logical function is_neighbour(left, right)
          integer(ip), intent(in) :: left, right
@@ -257,22 +283,21 @@ contains
    end subroutine furthest_off_first
 
    !> Moves the fronts: where points of two states are neighbours, and those of one side would be in the state of the other.
-   pure subroutine move_fronts(line, unknown, before, raw, new, moves)
+   pure subroutine move_fronts(line, unknown, before, raw, new, went, q, bounds)
       type(contact_line_t), intent(in) :: line   !< whose points follow each other along each pair
       integer(ip), intent(in) :: unknown(:)      !< (points) normal or tangential unknown of each; 0: none
       integer(ip), intent(in) :: before(:)       !< (m) states
       integer(ip), intent(in) :: raw(:)          !< (m) states that the law asks for
       integer(ip), intent(inout) :: new(:)       !< (m) at first raw; states with the fronts where they go to
-      type(front_moves_t), intent(inout) :: moves !< of the step before; of this one
-      type(front_moves_t) :: last_moves
-      integer(ip) :: j
+      !> (points) How far a front went that passed it in the step before, else 0; of this one. Not allocated before the first.
+      integer(ip), allocatable, intent(inout) :: went(:)
+      real(wp), intent(in), optional :: q(:)     !< (m) forces of the solve [F]; without them fronts go by their runs alone
+      type(box_bounds_t), intent(in), optional :: bounds !< of the forces [F]
+      integer(ip) :: last(line%n), j
 
-      if (.not. allocated(moves%found)) then
-         allocate (moves%found(line%n), moves%went(line%n), source=0_ip)
-      end if
-      last_moves = moves
-      moves%found = 0
-      moves%went = 0
+      last = 0
+      if (allocated(went)) last = went
+      went = spread(0_ip, 1, line%n)
       do j = 1, line%n - 1
          if (unknown(j) == 0 .or. unknown(j + 1) == 0) cycle
          if (allocated(line%pair)) then
@@ -282,8 +307,8 @@ contains
             ! one of the two is stuck or closed
             if (left == right .or. (left /= FREE .and. right /= FREE) .or. left == FROZEN .or. right == FROZEN) cycle
          end associate
-         call move_front(line, unknown, before, raw, last_moves, j, 1_ip, new, moves)
-         call move_front(line, unknown, before, raw, last_moves, j + 1, -1_ip, new, moves)
+         call move_front(line, unknown, before, raw, last, j, 1_ip, new, went, q, bounds)
+         call move_front(line, unknown, before, raw, last, j + 1, -1_ip, new, went, q, bounds)
       end do
    end subroutine move_fronts
 
@@ -291,13 +316,15 @@ contains
    !>
    !> Stresses beside a front may go up and down from point to point (sides that do not match): its run is the longest of which at
    !> least half of the points would change.
-   pure subroutine move_front(line, unknown, before, raw, last_moves, edge, side, new, moves)
+   pure subroutine move_front(line, unknown, before, raw, last, edge, side, new, went, q, bounds)
       type(contact_line_t), intent(in) :: line
       integer(ip), intent(in) :: unknown(:), before(:), raw(:)
-      type(front_moves_t), intent(in) :: last_moves
+      integer(ip), intent(in) :: last(:)         !< (points) how far a front went in the step before
       integer(ip), intent(in) :: edge, side      !< the front is beside that point; direction in which it may go, 1 or -1
       integer(ip), intent(inout) :: new(:)
-      type(front_moves_t), intent(inout) :: moves
+      integer(ip), intent(inout) :: went(:)      !< (points) of this step
+      real(wp), intent(in), optional :: q(:)
+      type(box_bounds_t), intent(in), optional :: bounds
       integer(ip) :: from, to, m, taken, ahead, i, changing
 
       to = before(unknown(edge))
@@ -317,7 +344,7 @@ contains
       if (m == 0 .or. .not. is_from(m + 1)) return
       if (from == FREE) then
          taken = 2*m
-         if (2*m >= last_moves%found(edge)) taken = max(taken, 2*last_moves%went(edge))
+         if (present(q) .and. present(bounds)) taken = max(taken, (2*reach_of_excess())/3)
          ! never all that holds the body: half of what would be left stays
          ahead = m
          do while (is_from(ahead + 1))
@@ -328,7 +355,7 @@ contains
          taken = (2*m + 1)/3
       end if
       ! it came from there: its place is between
-      if (last_moves%went(edge + side) > 0) taken = min(taken, max(1_ip, 2*last_moves%went(edge + side)/3))
+      if (last(edge + side) > 0) taken = min(taken, max(1_ip, 2*last(edge + side)/3))
       do i = 1, max(m, taken)
          if (.not. is_from(i)) exit
          associate (j => edge + side*i)
@@ -336,8 +363,7 @@ contains
                new(unknown(j)) = from
             else
                new(unknown(j)) = to
-               moves%found(j) = m
-               moves%went(j) = taken
+               went(j) = taken
             end if
          end associate
       end do
@@ -354,6 +380,20 @@ contains
          if (is_from .and. allocated(line%pair)) is_from = line%pair(edge + side*i) == line%pair(edge)
          if (is_from) is_from = before(unknown(edge + side*i)) == from
       end function is_from
+
+      !> D: the points in front of the edge, the run among them, whose forces are within their bounds in the sum.
+      pure integer(ip) function reach_of_excess() result(reach)
+         real(wp) :: excess
+
+         excess = 0.0_wp
+         reach = 0
+         do while (is_from(reach + 1) .and. (reach < m .or. excess > 0.0_wp))
+            reach = reach + 1
+            associate (row => unknown(edge + side*reach))
+               excess = excess + merge(bounds%lower(row) - q(row), q(row) - bounds%upper(row), to == AT_LOWER)
+            end associate
+         end do
+      end function reach_of_excess
 
    end subroutine move_front
 

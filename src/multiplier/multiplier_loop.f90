@@ -37,7 +37,7 @@ module atrito_multiplier_loop
    use atrito_bound_qp, only: bound_qp_t, box_state_t, FREE, AT_LOWER, AT_UPPER, FROZEN
    use atrito_constraint_rows, only: constraint_rows_t
    use atrito_sparse_rows, only: multiply_rows, add_transposed
-   use atrito_contact_fronts, only: find_fronts, front_moves_t, has_many_points, move_fronts
+   use atrito_contact_fronts, only: find_fronts, has_many_points, move_fronts
    use atrito_contact_line, only: contact_line_t, pressure_of, shear_force_of, normal_bounds, set_friction_bounds, &
                                   last_contact_pair, pairs_of_unknowns, tangential_of
    use atrito_contact_solution, only: contact_solution_t, asks_no_force, let_rest, FREE_MOTION, bound_of_state
@@ -269,7 +269,7 @@ contains
 
       !> Fronts go on by as many points as in the increment before, where they leave contact or stick.
       subroutine go_on_with_fronts()
-         type(front_moves_t) :: normal, tangential
+         integer(ip), allocatable :: normal(:), tangential(:)
          integer(ip) :: moved(shape%m)
 
          moved = before%state%state
