@@ -46,8 +46,16 @@ module atrito_contact_fronts
    private
    public :: find_fronts, has_many_points, move_fronts
 
+   !> Displacements, forces, states and bound.
+   type :: place_t
+      real(wp), allocatable :: x(:), e(:), q_old(:), a_old(:), tau(:) ! of multiplier_t and contact_solution_t
+      type(box_state_t) :: state
+      type(box_bounds_t) :: bounds
+      integer(ip) :: changes = huge(1_ip)        !< that the law asks for there
+   end type place_t
+
    integer(ip), parameter :: MANY_POINTS = 100_ip  !< for which it is worth it
-   integer(ip), parameter :: MOST_SOLVES = 40_ip
+   integer(ip), parameter :: MOST_SOLVES = 60_ip
    integer(ip), parameter :: MOST_IN_VAIN = 10_ip  !< of them, since fewer points changed than in each of the three before
    integer(ip), parameter :: TO_AND_FRO = 3_ip
    real(wp), parameter :: NEAR = 0.05_wp           !< of the points may still change in a start
@@ -75,16 +83,14 @@ contains
       type(contact_solution_t), intent(inout) :: solution !< states, bound tau; what is found
       logical, intent(out) :: found
       type(status_t), intent(out) :: status
-      type(multiplier_t) :: kept
-      type(contact_solution_t) :: begun
+      type(place_t) :: begun, best
       integer(ip), allocatable :: normal(:), tangential(:) ! how far a front went that has passed each point
       integer(ip) :: before(system%rows%n), raw(system%rows%n), turns(system%rows%n)
       integer(ip) :: solves, changes, last(3), since ! changes of the last solves; solves since there were fewer
       real(wp) :: noise(system%rows%n)
       logical :: follows
 
-      kept = multipliers
-      begun = solution
+      begun = place_of(multipliers, solution)
       found = .false.
       follows = .true.
       call multiply_rows(system%rows, multipliers%x, multipliers%e, noise)
@@ -103,8 +109,12 @@ contains
          call record_solve(solution%history, shape, solution%bounds, solution%state)
          if (follows) solution%tau = bound_of_state(line, solution)
          call set_friction_bounds(line, shape, solution%tau, solution%bounds, solution%state)
+         ! the proximal terms stand at what is found
+         multipliers%q_old = min(max(solution%state%q, solution%bounds%lower), solution%bounds%upper)
+         multipliers%a_old = multipliers%x(system%n - system%k + 1:)
          raw = states_of_law(system, shape, solution%bounds, multipliers, solution%state, before)
          changes = count(raw /= before, kind=ip)
+         if (changes < best%changes) best = place_of(multipliers, solution, changes)
          found = changes == 0 .and. relative_residual(line, solution%tau, bound_of_state(line, solution)) <= BOUND_FOUND
          follows = changes <= FEW_CHANGES*line%n
          solution%state%state = raw
@@ -112,22 +122,46 @@ contains
          call move_fronts(line, line%tangential, before, raw, solution%state%state, tangential, solution%state%q, solution%bounds)
          call furthest_off_first(system, line, solution%bounds, before, turns, normal, tangential, solution%state)
          where (solution%state%state /= before) turns = turns + 1
-         ! the proximal terms stand at what is found
-         multipliers%q_old = min(max(solution%state%q, solution%bounds%lower), solution%bounds%upper)
-         multipliers%a_old = multipliers%x(system%n - system%k + 1:)
          since = merge(0_ip, since + 1_ip, all(changes < last))
          last = [last(2:), changes]
-         if (since >= MOST_IN_VAIN .or. solves == MOST_SOLVES) found = changes <= NEAR*line%n
          if (found) return
+         if (since >= MOST_IN_VAIN) exit
       end do
-      multipliers%x = kept%x
-      multipliers%e = kept%e
-      multipliers%q_old = kept%q_old
-      multipliers%a_old = kept%a_old
-      solution%state = begun%state
-      solution%bounds = begun%bounds
-      solution%tau = begun%tau
+      found = is_ok(status) .and. best%changes <= NEAR*line%n
+      if (found) begun = best
+      call go_to(begun, multipliers, solution)
    end subroutine find_fronts
+
+   !> Where the fronts are.
+   pure function place_of(multipliers, solution, changes) result(place)
+      type(multiplier_t), intent(in) :: multipliers
+      type(contact_solution_t), intent(in) :: solution
+      integer(ip), intent(in), optional :: changes
+      type(place_t) :: place
+
+      place%x = multipliers%x
+      place%e = multipliers%e
+      place%q_old = multipliers%q_old
+      place%a_old = multipliers%a_old
+      place%state = solution%state
+      place%bounds = solution%bounds
+      place%tau = solution%tau
+      if (present(changes)) place%changes = changes
+   end function place_of
+
+   pure subroutine go_to(place, multipliers, solution)
+      type(place_t), intent(in) :: place
+      type(multiplier_t), intent(inout) :: multipliers
+      type(contact_solution_t), intent(inout) :: solution
+
+      multipliers%x = place%x
+      multipliers%e = place%e
+      multipliers%q_old = place%q_old
+      multipliers%a_old = place%a_old
+      solution%state = place%state
+      solution%bounds = place%bounds
+      solution%tau = place%tau
+   end subroutine go_to
 
    !> The displacements for which FREE rows obey their law and the others have the force of their bound.
    !>

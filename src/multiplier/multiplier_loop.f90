@@ -65,6 +65,7 @@ module atrito_multiplier_loop
    integer(ip), parameter :: STALE = 12_ip
    real(wp), parameter :: LEAST_PULL = 1.0e-8_wp      !< kappa of what has no contact points, and r of it:
    real(wp), parameter :: FAST_R = 1.0e-3_wp
+   real(wp), parameter :: PULL_OF_ROW = 3.0e-4_wp     !< while the states of many points are found
    real(wp), parameter :: MOVES = 1.0e-6_wp           !< pull over the forces of a body that moves, when it does not fall:
    real(wp), parameter :: MOVES_SLOWLY = 1.0e-7_wp    !< the same where the forces have come to rest
    real(wp), parameter :: STEADY_PULL = 0.8_wp        !< of that of the step before
@@ -178,7 +179,9 @@ contains
 
    !> States of many points at once, as one outer iteration of the history.
    !>
-   !> With a weak pull: what friction holds needs none, and a strong one would keep fronts from their places.
+   !> The pull on a body is PULL_OF_ROW of what one of its rows holds, in the mean of all bodies: a block that slips at all of its
+   !> points moves about as far as others are strained, not to the next block, and the next solve tells which of them stick. What
+   !> many rows hold does not feel it; a pull by all of them would keep fronts from their places.
    subroutine start_at_fronts(system, shape, line, reporter, multipliers, solution, found, status)
       class(contact_system_t), intent(inout) :: system
       type(bound_qp_t), intent(in) :: shape
@@ -191,11 +194,11 @@ contains
       real(wp) :: kappa
 
       kappa = multipliers%kappa
-      multipliers%kappa = USUAL_KAPPA
+      multipliers%kappa = max(USUAL_KAPPA, PULL_OF_ROW*system%n_bodies/system%rows%n)
       call begin_outer(solution%history)
       call find_fronts(system, shape, line, multipliers, solution, found, status)
       call end_outer(solution%history, 1.0_wp)
-      if (.not. found) multipliers%kappa = kappa
+      multipliers%kappa = merge(USUAL_KAPPA, kappa, found)
       if (is_ok(status)) call report_step(reporter, 'fronts', 0_ip, solution%history, &
                                           '  factorisations '//to_text(multipliers%factorisations), '')
    end subroutine start_at_fronts
