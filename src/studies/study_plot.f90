@@ -102,6 +102,7 @@ contains
       character(len=*), intent(in) :: y_label
       character(len=:), allocatable :: line
       type(range_t) :: range(2)
+      real(wp) :: room                              ! of the height, for the legend below the points: lines of 18 of 205 pixels
       integer(ip) :: i, x
       integer :: k
 
@@ -124,7 +125,8 @@ contains
             if (is_point(study, k, x, y)) call cover(range(1), [column(study, k, x)])
             if (is_point(study, k, x, y)) call cover(range(2), [column(study, k, y)])
          end do
-         call cover(range(2), [0.3_wp*range(2)%low])   ! for the legend
+         room = min(0.5_wp, (28 + 18*count([(has_points(study, study%elements(k)%s, x, y), k=1, size(study%elements))]))/205.0_wp)
+         call cover(range(2), [range(2)%low*min(0.3_wp, (range(2)%low/range(2)%high)**(room/(1 - room)))])
          call put(plots, log_axis('x', range(1), 4_ip)//LF//log_axis('y', range(2), 6_ip)//LF// &
                   'set xlabel "'//trim(X_LABELS(x))//'"; unset label 1'//LF// &
                   'set key '//trim(merge('right', 'left ', x == SIDE .neqv. y == SECONDS))// &

@@ -122,7 +122,7 @@ def comma_and_unit(made: Made) -> Expected:
 def damaged_answers(made: Made) -> Expected:
     made.write()
     path = made.folder/"answers.toml"
-    path.write_text(path.read_text().replace("[answers]", "[answers"))
+    path.write_text(re.sub(r"(?m)^(\w+) = (?=[-\d])", r'\1 = ""', path.read_text().replace("[answers]", "[answers")))
     return {}
 
 

@@ -24,6 +24,8 @@ TOP = Path(__file__).resolve().parents[2]
 sys.dont_write_bytecode = True
 sys.path[:0] = [str(TOP/"tools"/"lab"), str(Path(__file__).resolve().parent)]
 
+from atrito_lab.mark import hand_ins_of  # noqa: E402
+from atrito_lab.people import Student  # noqa: E402
 from atrito_lab.program import Keeper, Limits, find_program, processors  # noqa: E402
 from atrito_lab.sheet import Sheet, load_sheet  # noqa: E402
 import hostile  # noqa: E402
@@ -227,6 +229,15 @@ def try_draw(sheet: Sheet, folder: Path) -> None:
         fail(f"{sheet.name}: check: {done.stdout}{done.stderr}")
 
 
+def try_folders(folder: Path) -> None:
+    """A hand-in is found by a number with dots and underscores: alone, before a name, behind it, or by the name as Moodle writes it."""
+    for place, name in enumerate(("UP-2026.007_B", "UP-2026.007_B_Tó Filho", "Tó UP-2026.007_B", "Tó Filho_12_assignsubmission_file_")):
+        (folder/f"folders-{place}"/name).mkdir(parents=True)
+        found = hand_ins_of(folder/f"folders-{place}", [Student("UP-2026.007_B", "Tó Filho"), Student("2026.007")])
+        if [source and source.name for _, source in found] != [name, None]:
+            fail(f"the folder {name} is not found by its number or name, or somebody else's number is seen in it: {found}")
+
+
 def try_wrong_sheets(sheet: Sheet, folder: Path) -> None:
     """What is wrong with a sheet is told: by reading it, or by `check`."""
     (folder/sheet.name).mkdir()
@@ -274,6 +285,7 @@ def main() -> int:
                 try_class(sheet, given.count, Path(work))
                 try_draw(sheet, Path(work))
                 if sheet.name == "03-hertz":
+                    try_folders(Path(work))
                     try_wrong_sheets(sheet, Path(work))
     print("all as expected" if not failures else f"{failures} failed")
     return 1 if failures else 0

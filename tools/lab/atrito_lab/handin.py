@@ -156,9 +156,9 @@ def read_answers(path: Path, notes: list[str]) -> dict[str, Any]:
         where = place[0] if place else "it cannot be read"
         notes.append(f"answers.toml is damaged ({where}); what could be made out line by line was read.")
     answers = {}
-    pattern = r'^[ \t]*(\w+)[ \t]*=[ \t]*(?:"""(.*?)"""|"([^"\n]*)"|([^#\n]*))'
+    pattern = r'^[ \t]*(\w+)[ \t]*=[ \t]*(?:"""(.*?)"""|"([^"\n]+)"|([^#\n]*))'
     for name, long_, short, bare in re.findall(pattern, text, re.M | re.S):
-        answers[name.lower()] = long_ or short or bare.strip()
+        answers[name.lower()] = long_ or short or bare.strip(' \t"')   # 0.3 behind "", too
     return answers
 
 

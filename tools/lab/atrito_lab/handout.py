@@ -43,7 +43,7 @@ def hand_out(sheet: Sheet, students: list[Student], out: Path, program: str, lim
 def empty_answers(sheet: Sheet, student: Student) -> str:
     """answers.toml, with a line a question."""
     lines = [f"# Answers to sheet {sheet.name} ({sheet.title})",
-             "# Write numbers behind =, such as 12.5 or 1.2e-3, in the unit that is named, and texts between",
+             "# Write numbers in place of \"\", such as 12.5 or 1.2e-3, in the unit that is named, and texts between",
              "# the three quotes. A line that begins with # is not read.", "",
              f'student = "{student.number}"', "", "# your values, as they stand in the deck:"]
     lines += [f"#    {name} = {value}" for name, value in sheet.draw(student.number).items()]

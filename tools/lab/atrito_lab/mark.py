@@ -52,6 +52,8 @@ def mark(sheet: Sheet, folder: Path, out: Path, students: list[Student] | None, 
         known = {"class.csv", *(source.name for _, source in found if source)}
         strange = sorted(shown(name) for name in os.listdir(folder) if name not in known)
         pages.write_lecturer(sheet, cases, strange, out/"lecturer.html")
+    if strange:
+        print(f"of nobody in the class: {', '.join(strange)}")
     print(f"{len(cases)} hand-ins of {sheet.name} marked in {seconds_since(start)}: {out/'marks.csv'}, {out/'lecturer.html'}")
 
 
@@ -84,7 +86,7 @@ def hand_ins_of(folder: Path, students: list[Student] | None) -> list[tuple[Stud
     found: list[tuple[Student, Path | None]] = []
     for student in students:
         fits = [name for name in names if student.number in (name, name.rpartition(".")[0])]
-        fits += [name for name in names if student.number in re.split(r"[ _()]+", name)]
+        fits += [name for name in names if re.search(rf"(^|[ _()]){re.escape(student.number)}($|[ _()])", name)]
         fits += [name for name in names if student.name and name.split("_")[0] == student.name]
         found.append((student, folder/fits[0] if fits else None))
     return found
