@@ -60,7 +60,7 @@ contains
       call join_motions(rows, holds, group)
       if (largest_group(group) > MOST_MOTIONS) return
       call find_idle(rows, holds, group, idle)
-      if (may_change) call doubt_loads(data, rows, group, idle, holds, solution, again)
+      if (may_change) call doubt_loads(data, rows, group, idle, holds, tau, solution, again)
       if (again) return
       call doubt_small_forces()
       if (allocated(solution%inner%undetermined)) deallocate (solution%inner%undetermined)
@@ -139,7 +139,6 @@ contains
 
       has_changed = .false.
       if (.not. (allocated(solution%inner%motion) .and. allocated(solution%state%q))) return
-      if (data%line%has_friction) return
       call build_motion_rows(data%fem, data%rows, data%line, data%f, rows)
       if (size(solution%inner%motion) /= rows%n_columns .or. size(solution%state%q) /= rows%n) return
       if (.not. any(place_doubt(data) > 0.0_wp)) return
@@ -185,15 +184,16 @@ contains
 
    !> Takes the work on motions that were idle but for small forces out of the loads, where it is no more than what the digits of
    !> the deck make of them.
-   subroutine doubt_loads(data, rows, group, idle, holds, solution, has_changed)
+   subroutine doubt_loads(data, rows, group, idle, holds, tau, solution, has_changed)
       type(scene_data_t), intent(inout) :: data
       type(motion_rows_t), intent(in) :: rows
       integer(ip), intent(in) :: group(:)           !< (k)
       real(wp), intent(in) :: idle(:, :)            !< (k, motions)
       logical, intent(in) :: holds(:)               !< (m)
+      real(wp), intent(in) :: tau(:)                !< friction bounds at the points [F/L^2]
       type(contact_solution_t), intent(in) :: solution
       logical, intent(out) :: has_changed
-      real(wp) :: largest(rows%n), doubt(rows%n)
+      real(wp) :: largest(rows%n), doubt(rows%n), force
       logical :: is_sure(rows%n), is_due            ! larger forces than those that are dropped in any case
       real(wp), allocatable :: more(:, :)
       integer(ip) :: i
@@ -206,11 +206,13 @@ contains
       is_due = .false.
       do i = 1, rows%n
          if (.not. (holds(i) .and. doubt(i) > 0.0_wp) .or. rows%first(i + 1) == rows%first(i)) cycle
-         associate (force => abs(solution%state%q(i)), most => largest(i))
+         associate (j => data%line%point(i), most => largest(i))
+            force = abs(solution%state%q(i))
+            if (data%line%tangential(j) == i) force = tau(j)*data%line%weight(j) ! what friction there may hold
             is_sure(i) = force > doubt(i)*most
-            ! what is dropped is felt by supports along directions of their own
-            is_due = is_due .or. (.not. is_sure(i) &
-                                  .and. force > merge(NO_FORCE, dropped_part(data, i), data%line%n_bilateral > 0)*most)
+            ! what is dropped is felt by supports along directions of their own, and by friction
+            is_due = is_due .or. (.not. is_sure(i) .and. force > merge(NO_FORCE, dropped_part(data, i), data%line%n_bilateral > 0 &
+                                                                       .or. data%line%law(j)%kind /= FRICTION_NONE)*most)
          end associate
       end do
       if (.not. is_due) return

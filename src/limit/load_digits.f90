@@ -12,7 +12,6 @@
 module atrito_load_digits
    use atrito_contact_rows, only: vector_of_entry
    use atrito_dense, only: solve_lu
-   use atrito_friction_law, only: FRICTION_NONE
    use atrito_kinds, only: ip, wp
    use atrito_motion_rows, only: motion_rows_t
    use atrito_row_entries, only: first_motions, modes_at_node
@@ -24,14 +23,14 @@ module atrito_load_digits
    public :: place_doubt, is_within_digits, take_out
 
    real(wp), parameter :: GRAINS = 5.0_wp           !< by which the place of a force may be off
-   real(wp), parameter :: EXACT = 1.0e-13_wp        !< grain over coordinates of a deck that is not rounded to digits
+   real(wp), parameter :: EXACT = 1.0e-14_wp        !< grain over coordinates of a deck that is not rounded to digits
    real(wp), parameter :: LATTICE = 10.0_wp         !< length of a point in grains, of nodes that were not rounded
    real(wp), parameter :: MOST_PART = 1.0e-3_wp     !< a larger part of the forces was meant, whatever the digits
    real(wp), parameter :: ALONG_AXIS = 1.0e-12_wp   !< part of a normal
 
 contains
 
-   !> Of each unknown force, the part of the largest one that the digits may make; 0: none, as with friction.
+   !> Of each unknown force, the part of the largest one that the digits may make; 0: none, as of joints.
    function place_doubt(data) result(doubt)
       type(scene_data_t), intent(in) :: data
       real(wp) :: doubt(size(data%line%point)), grain
@@ -43,7 +42,6 @@ contains
       do i = 1, size(doubt, kind=ip)
          associate (j => data%line%point(i))
             if (j > data%line%n - data%line%n_bilateral) cycle
-            if (data%line%law(j)%kind /= FRICTION_NONE) cycle
             doubt(i) = min(GRAINS*grain/data%rows%reach(j), MOST_PART)
          end associate
       end do

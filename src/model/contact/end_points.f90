@@ -7,9 +7,9 @@
 !>     +- (u_end - sum_a phi_a(t) u_a),
 !>
 !> and a force there takes part as at any other point. An end is one of a chain, or a convex corner of the master. Across is along
-!> the normal at the end, but where the sides may slide along each other (atrito_sliding_motions) across that motion: from the centre
-!> of a pin, or upright on the plane that a wheel stands on. A rotation moves neither of the two places along it then, and no corner
-!> of chords holds what is free to turn or to roll away.
+!> the normal at the end, but where the sides may slide along each other (atrito_sliding_motions) across that motion: from the
+!> centre of a pin, or upright on the plane that a wheel stands on. A rotation moves neither of the two places along it then, and no
+!> corner of chords holds what is free to turn or to roll away.
 module atrito_end_points
    use atrito_faces, only: face_list_t
    use atrito_kinds, only: ip, wp, EPS_MACH
