@@ -24,7 +24,7 @@ module atrito_idle_motions
    private
    public :: settle_idle_motions, stop_slow_motion
 
-   integer(ip), parameter :: MOST_MOTIONS = 300_ip  !< of a group: its null space takes their cube of operations
+   integer(ip), parameter :: MOST_MOTIONS = 300_ip  !< of a group: its null space takes their cube of operations; larger ones have none
    real(wp), parameter :: NULL_MOTION = 1.0e-14_wp  !< square of what rows see of an idle motion, over that of the others
    real(wp), parameter :: MOST_ENTRIES = 1.0e6_wp   !< of the rows that are closed again
    real(wp), parameter :: NO_FORCE = 1.0e-13_wp     !< of the largest force on bodies that touch: round-off
@@ -46,7 +46,7 @@ contains
       logical :: holds(size(solution%state%state))  ! rows that hold motions
       real(wp) :: tau(data%line%n)                  ! friction bounds at the points [F/L^2]
       integer(ip), allocatable :: group(:)
-      logical :: may_change
+      logical :: may_change, is_open(size(solution%state%state)) ! rows of which nothing is known to hold them
       real(wp), allocatable :: idle(:, :), off(:), metric(:, :, :)
       real(wp) :: way(size(solution%state%a))
       integer(ip) :: i
@@ -58,20 +58,20 @@ contains
       tau = friction_bound(data%line, max(solution%p, 0.0_wp))
       holds = [(is_holding(data, solution, tau, i), i=1, rows%n)]
       call join_motions(rows, holds, group)
-      if (largest_group(group) > MOST_MOTIONS) return
       call find_idle(rows, holds, group, idle)
       if (may_change) call doubt_loads(data, rows, group, idle, holds, tau, solution, again)
       if (again) return
       call doubt_small_forces()
-      if (allocated(solution%inner%undetermined)) deallocate (solution%inner%undetermined)
+      if (allocated(solution%inner%undetermined) .and. all(members_of(group) <= MOST_MOTIONS)) &
+         deallocate (solution%inner%undetermined)
       if (size(idle, 2) == 0) return
       solution%inner%undetermined = simplest_motion(idle)
       ! a closed point without force may open, one without friction slip, and slip without friction may turn back
+      is_open = .not. (holds .or. of_large_group(rows, group))
       associate (state => solution%state, n => count(data%line%normal > 0, kind=ip))
-         where (state%state(:n) == FREE .and. .not. holds(:n)) state%state(:n) = AT_LOWER
-         where (state%state(n + 1:) == FREE .and. .not. holds(n + 1:)) state%state(n + 1:) = FROZEN
-         where (state%state(n + 1:) /= FREE .and. abs(state%q(n + 1:)) <= NO_FORCE*maxval(abs(state%q))) &
-            state%state(n + 1:) = FROZEN
+         where (state%state(:n) == FREE .and. is_open(:n)) state%state(:n) = AT_LOWER
+         where (state%state(n + 1:) == FREE .and. is_open(n + 1:)) state%state(n + 1:) = FROZEN
+         where (is_open(n + 1:) .and. abs(state%q(n + 1:)) <= NO_FORCE*maxval(abs(state%q))) state%state(n + 1:) = FROZEN
       end associate
       if (size(idle, 2) > MOST_MOTIONS) return
       call measure_motions(data%fem, u, before, solution%state%a, off, metric)
@@ -246,16 +246,32 @@ contains
       end do
    end subroutine join_motions
 
-   pure integer(ip) function largest_group(group) result(n)
+   !> Of each motion, how many its group has.
+   pure function members_of(group) result(n)
       integer(ip), intent(in) :: group(:)
-      integer(ip) :: members(size(group)), i
+      integer(ip) :: members(size(group)), n(size(group)), i
 
       members = 0
       do i = 1, size(group, kind=ip)
          members(group(i)) = members(group(i)) + 1
       end do
-      n = maxval(members)
-   end function largest_group
+      n = members(group)
+   end function members_of
+
+   !> Of each row, whether all motions that it sees are of groups that are too large.
+   pure function of_large_group(rows, group) result(is_large)
+      type(motion_rows_t), intent(in) :: rows
+      integer(ip), intent(in) :: group(:)
+      logical :: is_large(rows%n)
+      integer(ip) :: members(size(group)), i
+
+      members = members_of(group)
+      do i = 1, rows%n
+         associate (own => members(rows%column(rows%first(i):rows%first(i + 1) - 1)))
+            is_large(i) = size(own) > 0 .and. all(own > MOST_MOTIONS)
+         end associate
+      end do
+   end function of_large_group
 
    !> The null space of the rows that hold, group by group.
    !>
@@ -282,6 +298,7 @@ contains
       do g = 1, rows%n_columns
          if (group(g) /= g) cycle
          list = pack([(i, i=1, rows%n_columns)], group == g)
+         if (size(list) > MOST_MOTIONS) cycle
          place(list) = [(i, i=1, size(list, kind=ip))]
          allocate (a(size(list), size(list)), source=0.0_wp)
          do j = first(g), first(g + 1) - 1
