@@ -24,7 +24,7 @@ module atrito_idle_motions
    private
    public :: settle_idle_motions, stop_slow_motion
 
-   integer(ip), parameter :: MOST_MOTIONS = 300_ip  !< of a group: its null space takes their cube of operations; larger ones have none
+   integer(ip), parameter :: MOST_MOTIONS = 300_ip  !< of a group: its null space takes their cube of operations
    real(wp), parameter :: NULL_MOTION = 1.0e-14_wp  !< square of what rows see of an idle motion, over that of the others
    real(wp), parameter :: MOST_ENTRIES = 1.0e6_wp   !< of the rows that are closed again
    real(wp), parameter :: NO_FORCE = 1.0e-13_wp     !< of the largest force on bodies that touch: round-off
@@ -62,8 +62,9 @@ contains
       if (may_change) call doubt_loads(data, rows, group, idle, holds, tau, solution, again)
       if (again) return
       call doubt_small_forces()
-      if (allocated(solution%inner%undetermined) .and. all(members_of(group) <= MOST_MOTIONS)) &
+      if (allocated(solution%inner%undetermined) .and. all(members_of(group) <= MOST_MOTIONS)) then
          deallocate (solution%inner%undetermined)
+      end if
       if (size(idle, 2) == 0) return
       solution%inner%undetermined = simplest_motion(idle)
       ! a closed point without force may open, one without friction slip, and slip without friction may turn back
@@ -273,7 +274,7 @@ contains
       end do
    end function of_large_group
 
-   !> The null space of the rows that hold, group by group.
+   !> The null space of the rows that hold, group by group; of those with more than MOST_MOTIONS none is sought.
    !>
    !> v is idle when G_i v = 0 for all rows i that hold, so when v'A v = 0 with A = sum_i G_i'G_i, which is positive semidefinite:
    !> the idle motions of a group are the eigenvectors of its A whose eigenvalue is zero. A row has entries in one group alone, so a
