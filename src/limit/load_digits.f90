@@ -47,13 +47,13 @@ contains
       end do
    end function place_doubt
 
-   !> Half a unit of the last digit of the coordinates [L]; 0: they are not rounded, or the loads are sums that are kept.
+   !> Half a unit of the last digit of the coordinates [L]; 0: they are not rounded.
    real(wp) function digits_of_deck(data) result(grain)
       type(scene_data_t), intent(in) :: data
 
       grain = 0.0_wp
       associate (n => data%rows%n - data%rows%n_bilateral)
-         if (n == 0 .or. allocated(data%bases)) return
+         if (n == 0) return
          grain = printed_grain(data%fem%mesh%x)
          if (grain <= EXACT*maxval(abs(data%fem%mesh%x))) grain = 0.0_wp
          if (any(data%rows%reach(:n) < LATTICE*grain)) grain = 0.0_wp
@@ -124,7 +124,8 @@ contains
 
    end function is_within_digits
 
-   !> Takes work h on the motions of the bodies out of the loads: of all forces with that work the least, Z (Z'Z)^-1 h.
+   !> Takes work h on the motions of the bodies out of the loads: of all forces with that work the least, Z (Z'Z)^-1 h. The loads of
+   !> the increment are no sum of the bases of its step any more; the next increment has its own.
    subroutine take_out(data, work)
       type(scene_data_t), intent(inout) :: data
       real(wp), intent(in) :: work(:)               !< (k) [F]
@@ -153,6 +154,8 @@ contains
             end do
          end associate
       end do
+      data%asks_for_bases = data%asks_for_bases .or. allocated(data%bases)
+      if (allocated(data%bases)) deallocate (data%bases)
       call reload(data)
    end subroutine take_out
 

@@ -104,6 +104,14 @@ for digits in 6 7 8 10 13; do
          near "$name stays" "$(column "$name/nodes.tab" u1 | awk '{ if ($1*$1 > m*m) m = $1 } END { printf "%.17g", m }')" 0 0.01
       done
    done
+   # as little in each increment of a history
+   for form in dense sparse; do
+      name=increments-$digits-$form
+      awk -v digits=$digits -v angle=57.3 -v off=0 -v nu=0.2 -f "$here/roller.awk" </dev/null | awk '{ print } /^\*STATIC/ { print "0.25, 1." }' >"$name.inp"
+      run 0 "$name.inp" "$name" --digits 17 --quiet --contact $form
+      grep -q 'W-IDLE' "$name.err" || complain "$name: the motion is not told"
+      near "$name stays" "$(column "$name/nodes.tab" u1 | awk '{ if ($1*$1 > m*m) m = $1 } END { printf "%.17g", m }')" 0 0.01
+   done
    for nu in 0 0.2; do
       name=rolls-$digits-$nu
       awk -v digits=$digits -v angle=57.3 -v off=0.05 -v nu=$nu -f "$here/roller.awk" </dev/null >"$name.inp"
