@@ -131,7 +131,7 @@ contains
    end function is_holding
 
    !> Where no solution was found since a motion went on that the loads drive: takes its work out of the loads, where it is no more
-   !> than what the digits of the deck make of them.
+   !> than what the digits of the deck make of them; with friction of the loads alone, since forces that wedge may be of any size.
    subroutine stop_slow_motion(data, solution, has_changed)
       type(scene_data_t), intent(inout) :: data
       type(contact_solution_t), intent(in) :: solution
@@ -145,7 +145,7 @@ contains
       if (.not. any(place_doubt(data) > 0.0_wp)) return
       associate (v => solution%inner%motion)
          if (.not. sum(v**2) > 0.0_wp) return
-         if (.not. is_within_digits(data, rows, v, solution%state%q)) return
+         if (.not. is_within_digits(data, rows, v, merge(0.0_wp, solution%state%q, data%line%has_friction))) return
          call take_out(data, v*(dot_product(v, rows%work)/sum(v**2)))
       end associate
       has_changed = .true.
