@@ -25,11 +25,10 @@ module atrito_sliding_motions
    use atrito_mesh, only: mesh_t, face_nodes
    use atrito_pieces, only: place_at, normal_at
    use atrito_points, only: contact_points_t, sliding_t
-   use atrito_slave_faces, only: nodal_rule_t, nodal_rule, turn_at, sine, clear_small_component
+   use atrito_slave_faces, only: nodal_rule_t, nodal_rule, turn_at, sine
    implicit none (type, external)
    private
-   public :: chords_t, list_chords, find_sliding, turn_points, is_along, note_doubt, serves, adopted, sharpness, velocity, &
-             printed_grain, first_of_master
+   public :: chords_t, list_chords, find_sliding, note_doubt, serves, adopted, sharpness, velocity, printed_grain
 
    !> The chords of both sides of a pair.
    type :: chords_t
@@ -47,9 +46,6 @@ module atrito_sliding_motions
    integer, parameter :: MOST_DIGITS = 13           !< that are looked for
    integer(ip), parameter :: LEAST_CHORDS = 3_ip    !< of a round side: two bisectors always meet
    real(wp), parameter :: FLAT = 1.0e-3_wp          !< sag of a face over its length, of one that is straight
-   real(wp), parameter :: NO_PART = 5.0e-14_wp      !< of a motion, along a normal
-   real(wp), parameter :: MOST_TURN = 1.2_wp        !< of a row [rad]: more than coarse chords make of a curve
-   real(wp), parameter :: MIXED_TURN = 30.0_wp      !< where one side alone is straight: in grains over the length of a point
    real(wp), parameter :: EXACT = 1.0e-13_wp        !< grain over size of nodes that are not rounded to digits
    real(wp), parameter :: CONCENTRIC = 1.0_wp      !< distance of the centres of a pin and its hole, in radii of the smaller
 
@@ -354,113 +350,6 @@ contains
       v = motion%direction
       if (motion%is_round) v = perp(x - motion%centre)
    end function velocity
-
-   !> Turns the rows of a pair along a motion that both sides have, so that it moves no point along its normal: n . v =
-   !> 0. The normal of a point becomes the one across the motion where the force acts on the slave; where the master's
-   !> share acts, the motion may have a part along that, and some of the force passes from the nodes on one side of that
-   !> place to those on the other. Where one side alone is straight, points at which the other one has turned away stay
-   !> as they are.
-   pure subroutine turn_points(motion, mesh, points)
-      type(sliding_t), intent(in) :: motion
-      type(mesh_t), intent(in) :: mesh
-      type(contact_points_t), intent(inout) :: points !< of the pair
-      real(wp) :: normal(2, points%n), v(2), most
-      logical :: is_turned(points%n)
-      integer(ip) :: j, k, m
-
-      do j = 1, points%n
-         v = velocity(motion, force_place())
-         if (.not. norm2(v) > 0.0_wp) return
-         normal(:, j) = [v(2), -v(1)]/norm2(v)
-         normal(:, j) = sign(1.0_wp, dot_product(normal(:, j), points%normal(:, j)))*normal(:, j)
-         most = MOST_TURN
-         if (.not. motion%is_of_both) most = MIXED_TURN*motion%grain/points%length(j)
-         is_turned(j) = norm2(normal(:, j) - points%normal(:, j)) <= most
-         if (.not. is_turned(j) .and. motion%is_of_both) return
-      end do
-      do j = 1, points%n
-         if (.not. is_turned(j)) cycle
-         points%gap(j) = points%gap(j)/dot_product(normal(:, j), points%normal(:, j)) ! of faces across the old normal
-         points%normal(:, j) = normal(:, j)
-         call clear_small_component(points%x(:, j), points%length(j), points%normal(:, j))
-         if (.not. motion%is_round) cycle
-         k = first_of_master(points, j)
-         m = points%first(j + 1) - 1
-         if (m > k) call shift_force(points%normal(:, j), points%entry(k:m), points%coefficient(k:m))
-      end do
-
-   contains
-
-      !> Where the force of a point acts on the slave [L]: sum c_k x_k over the slave's nodes, taken from the first of them.
-      pure function force_place() result(x)
-         real(wp) :: x(2), o(2), away(2)
-         integer(ip) :: k
-
-         o = mesh%x(:, points%entry(points%first(j)))
-         away = 0.0_wp
-         do k = points%first(j), first_of_master(points, j) - 1
-            away = away + points%coefficient(k)*(mesh%x(:, points%entry(k)) - o)
-         end do
-         x = o + away
-      end function force_place
-
-      !> The least change of the master's coefficients, weighted by themselves, that keeps their sum and leaves no motion along n:
-      !> with a_k = n . v(x_k) the changes d_k that minimise sum d_k^2/|c_k| under sum d_k = 0 and sum (c_k + d_k) a_k = 0 are
-      !>
-      !>     d_k = -|c_k| (a_k - mean a) (sum c_i a_i)/sum |c_i| (a_i - mean a)^2,     mean a = sum |c_i| a_i/sum |c_i|.
-      pure subroutine shift_force(n, node, coefficient)
-         real(wp), intent(in) :: n(2)                  !< normal of the point
-         integer(ip), intent(in) :: node(:)            !< of the master
-         real(wp), intent(inout) :: coefficient(:)     !< their sum is -1
-         real(wp) :: along(size(node)), mean, spread_of
-         integer(ip) :: k
-
-         do k = 1, size(node, kind=ip)
-            along(k) = dot_product(n, velocity(motion, mesh%x(:, node(k))))
-         end do
-         mean = sum(abs(coefficient)*along)/sum(abs(coefficient))
-         spread_of = sum(abs(coefficient)*(along - mean)**2)
-         if (.not. spread_of > (EPS_MACH*motion%extent)**2) return
-         coefficient = coefficient - abs(coefficient)*(along - mean)*(sum(coefficient*along)/spread_of)
-      end subroutine shift_force
-
-   end subroutine turn_points
-
-   !> Whether no point moves along its normal as it is, neither what is the slave's of its row nor what is the master's.
-   pure logical function is_along(motion, mesh, points)
-      type(sliding_t), intent(in) :: motion
-      type(mesh_t), intent(in) :: mesh
-      type(contact_points_t), intent(in) :: points  !< of the pair
-      real(wp) :: moved(2)                          ! by what is the slave's and what is the master's
-      integer(ip) :: i, j, k
-
-      is_along = .false.
-      do j = 1, points%n
-         moved = 0.0_wp
-         do k = points%first(j), points%first(j + 1) - 1
-            i = merge(1, 2, k < first_of_master(points, j))
-            moved(i) = moved(i) + points%coefficient(k)*dot_product(points%normal(:, j), &
-                                                                    velocity(motion, mesh%x(:, points%entry(k))))
-         end do
-         if (any(abs(moved) > NO_PART*merge(motion%radius, 1.0_wp, motion%is_round))) return
-      end do
-      is_along = .true.
-   end function is_along
-
-   !> The first of the master's entries of a point: those of the slave stand before and add up to one; beside a face of three nodes
-   !> some may be negative.
-   pure integer(ip) function first_of_master(points, j) result(k)
-      type(contact_points_t), intent(in) :: points  !< of the pair
-      integer(ip), intent(in) :: j                  !< point
-      real(wp), parameter :: NEARLY = 1.0e-9_wp
-      real(wp) :: total
-
-      total = 0.0_wp
-      do k = points%first(j), points%first(j + 1) - 1
-         if (abs(total - 1) <= NEARLY) return
-         total = total + points%coefficient(k)
-      end do
-   end function first_of_master
 
    !> By what normals may be off [rad]: by the digits of the nodes, 3 g/l_j; and at an end of a chain, where a curve
    !> goes on that the faces do not show, as at a line of symmetry, by half of the turn from one straight face to the

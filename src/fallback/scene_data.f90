@@ -81,7 +81,7 @@ module atrito_scene_data
       integer(ip) :: most_factorisations = huge(1_ip)
       ! Of a history:
       logical :: may_cut = .false.                          !< without a solution a shorter increment is tried
-      logical :: asks_for_bases = .false.                   !< the step begins
+      logical :: asks_for_bases = .false.                   !< the step begins, or the increment before has changed its loads
       real(wp), allocatable :: released(:, :)               !< (2, n_nodes) of supports that the step does not have; they fade [F]
       type(had_t) :: had                                    !< the largest so far
       type(line_certificate_t), allocatable :: certificate  !< of the flexibility that is there

@@ -46,7 +46,7 @@ contains
       logical :: holds(size(solution%state%state))  ! rows that hold motions
       real(wp) :: tau(data%line%n)                  ! friction bounds at the points [F/L^2]
       integer(ip), allocatable :: group(:)
-      logical :: may_change
+      logical :: may_change, is_open(size(solution%state%state)) ! rows of which nothing is known to hold them
       real(wp), allocatable :: idle(:, :), off(:), metric(:, :, :)
       real(wp) :: way(size(solution%state%a))
       integer(ip) :: i
@@ -58,20 +58,21 @@ contains
       tau = friction_bound(data%line, max(solution%p, 0.0_wp))
       holds = [(is_holding(data, solution, tau, i), i=1, rows%n)]
       call join_motions(rows, holds, group)
-      if (largest_group(group) > MOST_MOTIONS) return
       call find_idle(rows, holds, group, idle)
-      if (may_change) call doubt_loads(data, rows, group, idle, holds, solution, again)
+      if (may_change) call doubt_loads(data, rows, group, idle, holds, tau, solution, again)
       if (again) return
       call doubt_small_forces()
-      if (allocated(solution%inner%undetermined)) deallocate (solution%inner%undetermined)
+      if (allocated(solution%inner%undetermined) .and. all(members_of(group) <= MOST_MOTIONS)) then
+         deallocate (solution%inner%undetermined)
+      end if
       if (size(idle, 2) == 0) return
       solution%inner%undetermined = simplest_motion(idle)
       ! a closed point without force may open, one without friction slip, and slip without friction may turn back
+      is_open = .not. (holds .or. of_large_group(rows, group))
       associate (state => solution%state, n => count(data%line%normal > 0, kind=ip))
-         where (state%state(:n) == FREE .and. .not. holds(:n)) state%state(:n) = AT_LOWER
-         where (state%state(n + 1:) == FREE .and. .not. holds(n + 1:)) state%state(n + 1:) = FROZEN
-         where (state%state(n + 1:) /= FREE .and. abs(state%q(n + 1:)) <= NO_FORCE*maxval(abs(state%q))) &
-            state%state(n + 1:) = FROZEN
+         where (state%state(:n) == FREE .and. is_open(:n)) state%state(:n) = AT_LOWER
+         where (state%state(n + 1:) == FREE .and. is_open(n + 1:)) state%state(n + 1:) = FROZEN
+         where (is_open(n + 1:) .and. abs(state%q(n + 1:)) <= NO_FORCE*maxval(abs(state%q))) state%state(n + 1:) = FROZEN
       end associate
       if (size(idle, 2) > MOST_MOTIONS) return
       call measure_motions(data%fem, u, before, solution%state%a, off, metric)
@@ -130,7 +131,7 @@ contains
    end function is_holding
 
    !> Where no solution was found since a motion went on that the loads drive: takes its work out of the loads, where it is no more
-   !> than what the digits of the deck make of them.
+   !> than what the digits of the deck make of them; with friction of the loads alone, since forces that wedge may be of any size.
    subroutine stop_slow_motion(data, solution, has_changed)
       type(scene_data_t), intent(inout) :: data
       type(contact_solution_t), intent(in) :: solution
@@ -139,13 +140,12 @@ contains
 
       has_changed = .false.
       if (.not. (allocated(solution%inner%motion) .and. allocated(solution%state%q))) return
-      if (data%line%has_friction) return
       call build_motion_rows(data%fem, data%rows, data%line, data%f, rows)
       if (size(solution%inner%motion) /= rows%n_columns .or. size(solution%state%q) /= rows%n) return
       if (.not. any(place_doubt(data) > 0.0_wp)) return
       associate (v => solution%inner%motion)
          if (.not. sum(v**2) > 0.0_wp) return
-         if (.not. is_within_digits(data, rows, v, solution%state%q)) return
+         if (.not. is_within_digits(data, rows, v, merge(0.0_wp, solution%state%q, data%line%has_friction))) return
          call take_out(data, v*(dot_product(v, rows%work)/sum(v**2)))
       end associate
       has_changed = .true.
@@ -185,15 +185,16 @@ contains
 
    !> Takes the work on motions that were idle but for small forces out of the loads, where it is no more than what the digits of
    !> the deck make of them.
-   subroutine doubt_loads(data, rows, group, idle, holds, solution, has_changed)
+   subroutine doubt_loads(data, rows, group, idle, holds, tau, solution, has_changed)
       type(scene_data_t), intent(inout) :: data
       type(motion_rows_t), intent(in) :: rows
       integer(ip), intent(in) :: group(:)           !< (k)
       real(wp), intent(in) :: idle(:, :)            !< (k, motions)
       logical, intent(in) :: holds(:)               !< (m)
+      real(wp), intent(in) :: tau(:)                !< friction bounds at the points [F/L^2]
       type(contact_solution_t), intent(in) :: solution
       logical, intent(out) :: has_changed
-      real(wp) :: largest(rows%n), doubt(rows%n)
+      real(wp) :: largest(rows%n), doubt(rows%n), force
       logical :: is_sure(rows%n), is_due            ! larger forces than those that are dropped in any case
       real(wp), allocatable :: more(:, :)
       integer(ip) :: i
@@ -206,11 +207,13 @@ contains
       is_due = .false.
       do i = 1, rows%n
          if (.not. (holds(i) .and. doubt(i) > 0.0_wp) .or. rows%first(i + 1) == rows%first(i)) cycle
-         associate (force => abs(solution%state%q(i)), most => largest(i))
+         associate (j => data%line%point(i), most => largest(i))
+            force = abs(solution%state%q(i))
+            if (data%line%tangential(j) == i) force = tau(j)*data%line%weight(j) ! what friction there may hold
             is_sure(i) = force > doubt(i)*most
-            ! what is dropped is felt by supports along directions of their own
-            is_due = is_due .or. (.not. is_sure(i) &
-                                  .and. force > merge(NO_FORCE, dropped_part(data, i), data%line%n_bilateral > 0)*most)
+            ! what is dropped is felt by supports along directions of their own, and by friction
+            is_due = is_due .or. (.not. is_sure(i) .and. force > merge(NO_FORCE, dropped_part(data, i), data%line%n_bilateral > 0 &
+                                                                       .or. data%line%law(j)%kind /= FRICTION_NONE)*most)
          end associate
       end do
       if (.not. is_due) return
@@ -244,18 +247,34 @@ contains
       end do
    end subroutine join_motions
 
-   pure integer(ip) function largest_group(group) result(n)
+   !> Of each motion, how many its group has.
+   pure function members_of(group) result(n)
       integer(ip), intent(in) :: group(:)
-      integer(ip) :: members(size(group)), i
+      integer(ip) :: members(size(group)), n(size(group)), i
 
       members = 0
       do i = 1, size(group, kind=ip)
          members(group(i)) = members(group(i)) + 1
       end do
-      n = maxval(members)
-   end function largest_group
+      n = members(group)
+   end function members_of
 
-   !> The null space of the rows that hold, group by group.
+   !> Of each row, whether all motions that it sees are of groups that are too large.
+   pure function of_large_group(rows, group) result(is_large)
+      type(motion_rows_t), intent(in) :: rows
+      integer(ip), intent(in) :: group(:)
+      logical :: is_large(rows%n)
+      integer(ip) :: members(size(group)), i
+
+      members = members_of(group)
+      do i = 1, rows%n
+         associate (own => members(rows%column(rows%first(i):rows%first(i + 1) - 1)))
+            is_large(i) = size(own) > 0 .and. all(own > MOST_MOTIONS)
+         end associate
+      end do
+   end function of_large_group
+
+   !> The null space of the rows that hold, group by group; of those with more than MOST_MOTIONS none is sought.
    !>
    !> v is idle when G_i v = 0 for all rows i that hold, so when v'A v = 0 with A = sum_i G_i'G_i, which is positive semidefinite:
    !> the idle motions of a group are the eigenvectors of its A whose eigenvalue is zero. A row has entries in one group alone, so a
@@ -280,6 +299,7 @@ contains
       do g = 1, rows%n_columns
          if (group(g) /= g) cycle
          list = pack([(i, i=1, rows%n_columns)], group == g)
+         if (size(list) > MOST_MOTIONS) cycle
          place(list) = [(i, i=1, size(list, kind=ip))]
          allocate (a(size(list), size(list)), source=0.0_wp)
          do j = first(g), first(g + 1) - 1

@@ -12,7 +12,6 @@
 module atrito_load_digits
    use atrito_contact_rows, only: vector_of_entry
    use atrito_dense, only: solve_lu
-   use atrito_friction_law, only: FRICTION_NONE
    use atrito_kinds, only: ip, wp
    use atrito_motion_rows, only: motion_rows_t
    use atrito_row_entries, only: first_motions, modes_at_node
@@ -24,14 +23,14 @@ module atrito_load_digits
    public :: place_doubt, is_within_digits, take_out
 
    real(wp), parameter :: GRAINS = 5.0_wp           !< by which the place of a force may be off
-   real(wp), parameter :: EXACT = 1.0e-13_wp        !< grain over coordinates of a deck that is not rounded to digits
+   real(wp), parameter :: EXACT = 1.0e-14_wp        !< grain over coordinates of a deck that is not rounded to digits
    real(wp), parameter :: LATTICE = 10.0_wp         !< length of a point in grains, of nodes that were not rounded
    real(wp), parameter :: MOST_PART = 1.0e-3_wp     !< a larger part of the forces was meant, whatever the digits
    real(wp), parameter :: ALONG_AXIS = 1.0e-12_wp   !< part of a normal
 
 contains
 
-   !> Of each unknown force, the part of the largest one that the digits may make; 0: none, as with friction.
+   !> Of each unknown force, the part of the largest one that the digits may make; 0: none, as of joints.
    function place_doubt(data) result(doubt)
       type(scene_data_t), intent(in) :: data
       real(wp) :: doubt(size(data%line%point)), grain
@@ -43,19 +42,18 @@ contains
       do i = 1, size(doubt, kind=ip)
          associate (j => data%line%point(i))
             if (j > data%line%n - data%line%n_bilateral) cycle
-            if (data%line%law(j)%kind /= FRICTION_NONE) cycle
             doubt(i) = min(GRAINS*grain/data%rows%reach(j), MOST_PART)
          end associate
       end do
    end function place_doubt
 
-   !> Half a unit of the last digit of the coordinates [L]; 0: they are not rounded, or the loads are sums that are kept.
+   !> Half a unit of the last digit of the coordinates [L]; 0: they are not rounded.
    real(wp) function digits_of_deck(data) result(grain)
       type(scene_data_t), intent(in) :: data
 
       grain = 0.0_wp
       associate (n => data%rows%n - data%rows%n_bilateral)
-         if (n == 0 .or. allocated(data%bases)) return
+         if (n == 0) return
          grain = printed_grain(data%fem%mesh%x)
          if (grain <= EXACT*maxval(abs(data%fem%mesh%x))) grain = 0.0_wp
          if (any(data%rows%reach(:n) < LATTICE*grain)) grain = 0.0_wp
@@ -126,7 +124,8 @@ contains
 
    end function is_within_digits
 
-   !> Takes work h on the motions of the bodies out of the loads: of all forces with that work the least, Z (Z'Z)^-1 h.
+   !> Takes work h on the motions of the bodies out of the loads: of all forces with that work the least, Z (Z'Z)^-1 h. The loads of
+   !> the increment are no sum of the bases of its step any more; the next increment has its own.
    subroutine take_out(data, work)
       type(scene_data_t), intent(inout) :: data
       real(wp), intent(in) :: work(:)               !< (k) [F]
@@ -155,6 +154,8 @@ contains
             end do
          end associate
       end do
+      data%asks_for_bases = data%asks_for_bases .or. allocated(data%bases)
+      if (allocated(data%bases)) deallocate (data%bases)
       call reload(data)
    end subroutine take_out
 

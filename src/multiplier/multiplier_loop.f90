@@ -138,10 +138,10 @@ contains
                           //to_text(loop%distance%pull, 2))
          if (solution%converged) call pull_firmly_again(multipliers, loop, solution)
          if (solution%converged) call look_for_shared(system, rows, shape, multipliers, loop, solution)
+         if (.not. solution%converged) solution%inner%motion = multipliers%x(system%n - system%k + 1:) - multipliers%a_old
          if (solution%converged .or. is_used_up(outer, controls, multipliers%factorisations, loop)) exit
          if (loop%moving > MOST_MOVING) then
             solution%inner%moves = .true.
-            solution%inner%motion = multipliers%x(system%n - system%k + 1:) - multipliers%a_old
             call set_status(status, STATUS_SINGULAR, FREE_MOTION)
             return
          end if

@@ -14,7 +14,8 @@ module atrito_sliding_bodies
    use atrito_dense, only: eigen_symmetric
    use atrito_kinds, only: ip, wp
    use atrito_points, only: contact_points_t, sliding_t
-   use atrito_sliding_motions, only: is_along, turn_points, printed_grain
+   use atrito_sliding_motions, only: printed_grain
+   use atrito_turned_points, only: is_along, turn_points
    implicit none (type, external)
    private
    public :: let_slide, balance_loads, motions_left, turn_supports

@@ -24,7 +24,7 @@ module atrito_turning_rows
    use atrito_kinds, only: ip, wp
    use atrito_points, only: contact_points_t
    use atrito_sliding_bodies, only: motions_left
-   use atrito_sliding_motions, only: first_of_master
+   use atrito_turned_points, only: first_of_master
    implicit none (type, external)
    private
    public :: balance_rows

@@ -349,7 +349,9 @@ def compare_with_springs(scene, verdict, folder, warnings):
         verdict.test('pressure with springs', np.abs(p - q).max(initial=0.0)/scale if scale > 0 else 0.0, allowed, f' of pair {number}')
     z = np.stack([nodal_motion(scene, motion) for motion in verdict.free.T], axis=1) if verdict.free.shape[1] else np.zeros((1, 0))
     a, b = np.concatenate(plain.u).ravel(), np.concatenate(held.u).ravel()
-    difference = without(z, a - b)[0]
-    scale = np.abs(without(z, b)[0]).max()
+    difference, idle = without(z, a - b)
+    scale = max(np.abs(without(z, b)[0]).max(), 1e-300)
+    # weak springs let a load that is the last digit of the deck move a body far, along a side of which the digits tell so much
+    turned = 2*scene.grain/scene.size*np.abs(idle).max()
     if forces > 0:
-        verdict.test('displacement with springs', np.abs(difference).max()/max(scale, 1e-300), allowed)
+        verdict.test('displacement with springs', np.abs(difference).max()/scale, allowed + turned/scale)

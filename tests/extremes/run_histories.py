@@ -29,7 +29,7 @@ from scene_reader import read_deck, read_table
 
 DISSIPATION = 1e-7   # of the sum of its terms
 SUMS = 1e-7          # of the sum of the forces
-FULL = 1e-8          # of the friction bound: a shear that is nearer to it has reached it
+FULL = 1e-7          # of the friction bound, to which it is found: a shear that is nearer to it has reached it
 
 
 class Outcome:
@@ -266,9 +266,11 @@ def check_row(pair, field, memory, number, frames, table, verdict):
         verdict.test('number of points', row[name][0] - (field['status'] == status).sum(), 0.5, where)
 
 
-def ending(said):
-    """Step and time of the increment that had no solution."""
-    found = re.search(r'ended in step (\d+), increment \d+, time ([-+.eE\d]+)', said)
+def ending(said, folder):
+    """Step and time of the increment that had no solution; the listing has all digits of the time."""
+    lists = [open(os.path.join(folder, name)).read() for name in os.listdir(folder) if name.endswith('.lst')] if os.path.isdir(folder) else []
+    found = [re.search(r'ended in step (\d+), increment \d+, time ([-+.eE\d]+)', ' '.join(text.split())) for text in [*lists, said]]
+    found = next((match for match in found if match), None)
     return (int(found.group(1)), float(found.group(2))) if found else None
 
 
@@ -298,7 +300,7 @@ def give_verdict(outcome, history, scene, folder, said):
     if outcome.code not in (0, 3, 4):
         outcome.word, outcome.reason = 'wrong', 'takes too long' if outcome.code is None else message(said)
         return
-    end = ending(said) if outcome.code else None
+    end = ending(said, folder) if outcome.code else None
     verdict, outcome.frames, word = judge_history(history, copy.deepcopy(scene), folder, end)
     if verdict.wrong:
         outcome.word, outcome.reason = 'wrong', verdict.text()

@@ -6,7 +6,10 @@
 !>
 !>     +- (u_end - sum_a phi_a(t) u_a),
 !>
-!> and a force there takes part as at any other point. An end is one of a chain, or a convex corner of the master.
+!> and a force there takes part as at any other point. An end is one of a chain, or a convex corner of the master. Across is along
+!> the normal at the end, but where the sides may slide along each other (atrito_sliding_motions) across that motion: from the
+!> centre of a pin, or upright on the plane that a wheel stands on. A rotation moves neither of the two places along it then, and no
+!> corner of chords holds what is free to turn or to roll away.
 module atrito_end_points
    use atrito_faces, only: face_list_t
    use atrito_kinds, only: ip, wp, EPS_MACH
@@ -15,8 +18,9 @@ module atrito_end_points
    use atrito_model, only: model_t
    use atrito_pairing, only: make_master
    use atrito_pieces, only: normal_at, place_at, END_TOLERANCE
-   use atrito_points, only: contact_points_t, allocate_points, add_entries, insert_point
+   use atrito_points, only: contact_points_t, sliding_t, allocate_points, add_entries, insert_point
    use atrito_shape_functions, only: face_shape_values
+   use atrito_sliding_motions, only: velocity
    implicit none (type, external)
    private
    public :: add_end_points
@@ -114,24 +118,24 @@ contains
       integer(ip), intent(in) :: k, p                !< at end 1 or 2 of this piece
       type(contact_points_t), intent(out) :: one
       type(sight_t) :: sight, beside
-      real(wp) :: end(2), x(2), normal(2), inwards(2), t(2), reach
+      real(wp) :: end(2), x(2), normal(2), across(2), inwards(2), t(2), reach
       integer(ip) :: j, pieces(2)
 
       end = place_at(sides(side), p, real(k - 1, wp))
       normal = normal_at(sides(side), p, real(k - 1, wp))
       inwards = (3 - 2*k)*sides(side)%d(:, p)
-      sight = look_along(end, normal, norm2(inwards), sides(3 - side))
+      across = normal_across(model%points(pair)%sliding, end, normal)
+      sight = look_along(end, across, norm2(inwards), sides(3 - side))
       if (sight%piece == 0) return
       pieces(side) = p
       pieces(3 - side) = sight%piece
       t(side) = real(k - 1, wp)
       t(3 - side) = sight%t
       x = place_at(sides(1), pieces(1), t(1))
-      normal = normal_at(sides(1), pieces(1), t(1))
+      normal = normal_across(model%points(pair)%sliding, x, normal_at(sides(1), pieces(1), t(1)))
       associate (points => model%points(pair), face => norm2(sides(1)%d(:, pieces(1))))
          reach = min(face, norm2(sides(2)%d(:, pieces(2))))
-         beside = look_along(end + (NEAR*reach/norm2(inwards))*inwards, normal_at(sides(side), p, real(k - 1, wp)), reach, &
-                             sides(3 - side))
+         beside = look_along(end + (NEAR*reach/norm2(inwards))*inwards, across, reach, sides(3 - side))
          if (beside%piece == 0 .or. abs(sight%distance) > face) return
          if (minval(norm2(points%x(:, :points%n) - spread(x, 2, int(points%n)), dim=1)) <= 2*END_TOLERANCE*reach) return
          call allocate_points(1_ip, MOST_ENTRIES, one)
@@ -154,6 +158,18 @@ contains
          one%node = one%entry(1)
       end associate
    end subroutine find_point
+
+   !> The normal at a place across the motion in which both sides of a pair slide; the same where there is none.
+   pure function normal_across(sliding, x, normal) result(n)
+      type(sliding_t), intent(in) :: sliding         !< of the pair
+      real(wp), intent(in) :: x(2), normal(2)        !< place [L] and normal of the side there
+      real(wp) :: n(2), v(2)
+
+      n = normal
+      if (.not. sliding%exists) return
+      v = velocity(sliding, x)
+      if (norm2(v) > 0.0_wp) n = sign(1.0_wp, v(2)*normal(1) - v(1)*normal(2))*[v(2), -v(1)]/norm2(v)
+   end function normal_across
 
    !> The entries of a place of a face.
    pure subroutine add_face(mesh, faces, i, t, sign, one)

@@ -90,19 +90,33 @@ for variables in "" "-v holes=26" "-v slave=LUG" "-v holes=30 -v slave=LUG -v ty
    done
 done
 # A roller that stands on one node of its rim, on a flat that is inclined: its load goes through that node but for the last digits of
-# the deck, which do not roll it onto the next one, where they are less than a thousandth of the load. A load that was meant to does.
-for digits in 6 8 12; do
+# the deck, which do not roll it onto the next one, where they are less than a thousandth of the load, with friction or without. A load that was
+# meant to does.
+for digits in 6 7 8 10 13; do
    for angle in 30 57.3 114.6; do
-      for form in dense auto; do
-         name=roller-$digits-$angle-$form
-         awk -v digits=$digits -v angle=$angle -v off=0 -f "$here/roller.awk" </dev/null >"$name.inp"
+      for kind in "dense 0" "auto 0" "dense 0.2" "sparse 0.2"; do
+         form=${kind% *}
+         nu=${kind#* }
+         name=roller-$digits-$angle-$form-$nu
+         awk -v digits=$digits -v angle=$angle -v off=0 -v nu=$nu -f "$here/roller.awk" </dev/null >"$name.inp"
          run 0 "$name.inp" "$name" --digits 17 --quiet --contact $form
          grep -q 'W-IDLE' "$name.err" || complain "$name: the motion is not told"
          near "$name stays" "$(column "$name/nodes.tab" u1 | awk '{ if ($1*$1 > m*m) m = $1 } END { printf "%.17g", m }')" 0 0.01
       done
    done
-   awk -v digits=$digits -v angle=57.3 -v off=0.05 -f "$here/roller.awk" </dev/null >"rolls-$digits.inp"
-   run 0 "rolls-$digits.inp" "rolls-$digits" --digits 17 --quiet
-   near "rolls-$digits: points that carry" "$(column "rolls-$digits/contact.tab" pressure | awk '$1 > 0 { n++ } END { print n + 0 }')" 2 0
+   # as little in each increment of a history
+   for form in dense sparse; do
+      name=increments-$digits-$form
+      awk -v digits=$digits -v angle=57.3 -v off=0 -v nu=0.2 -f "$here/roller.awk" </dev/null | awk '{ print } /^\*STATIC/ { print "0.25, 1." }' >"$name.inp"
+      run 0 "$name.inp" "$name" --digits 17 --quiet --contact $form
+      grep -q 'W-IDLE' "$name.err" || complain "$name: the motion is not told"
+      near "$name stays" "$(column "$name/nodes.tab" u1 | awk '{ if ($1*$1 > m*m) m = $1 } END { printf "%.17g", m }')" 0 0.01
+   done
+   for nu in 0 0.2; do
+      name=rolls-$digits-$nu
+      awk -v digits=$digits -v angle=57.3 -v off=0.05 -v nu=$nu -f "$here/roller.awk" </dev/null >"$name.inp"
+      run 0 "$name.inp" "$name" --digits 17 --quiet
+      near "$name: points that carry" "$(column "$name/contact.tab" pressure | awk '$1 > 0 { n++ } END { print n + 0 }')" 2 0
+   done
 done
 finish

@@ -1,5 +1,6 @@
-# A roller of 24 straight faces, a node of which stands on a straight rigid line: -v digits=6 -v angle=30 -v off=0. The frame is turned
-# by the angle; the roller is pushed onto the line by 2 at the two nodes of its bore that lie above each other, off by a part of the radius.
+# A roller of 24 straight faces, a node of which stands on a straight rigid line: -v digits=6 -v angle=30 -v off=0 -v nu=0. The frame is
+# turned by the angle; the roller is pushed onto the line by 2 at the two nodes of its bore that lie above each other, off by a part of the
+# radius.
 function put(x) { return sprintf("%." digits "g", x) + 0 == 0 ? "0" : sprintf("%." digits "g", x) }
 function place(x, y) { return put(cos(turn)*x - sin(turn)*y + 7.3) ", " put(sin(turn)*x + cos(turn)*y - 2.9) }
 BEGIN {
@@ -16,7 +17,7 @@ BEGIN {
    for (j = 0; j < faces; j++) if (j < 5 || j >= faces - 5) print 2*j + 2 ", S2"
    print "*SURFACE, NAME=FLAT, TYPE=SEGMENTS\nSTART, " place(-1.5, 0) "\nLINE, " place(1.5, 0) "\n*RIGID BODY, ANALYTICAL SURFACE=FLAT"
    print "*MATERIAL, NAME=M\n*ELASTIC\n1e4, 0.3\n*SOLID SECTION, ELSET=ROLLER, MATERIAL=M"
-   print "*SURFACE INTERACTION, NAME=I\n*CONTACT PAIR, INTERACTION=I\nRIM, FLAT\n*STEP\n*STATIC\n*CLOAD"
+   print "*SURFACE INTERACTION, NAME=I" (nu > 0 ? "\n*FRICTION\n" nu : "") "\n*CONTACT PAIR, INTERACTION=I\nRIM, FLAT\n*STEP\n*STATIC\n*CLOAD"
    for (k = 0; k < 2; k++) {
       node = 1 + 3*(12*k)
       printf "%d, 1, %.17g\n%d, 2, %.17g\n", node, sin(turn), node, -cos(turn) }

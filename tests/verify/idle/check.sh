@@ -32,5 +32,15 @@ for form in dense sparse; do
    done
    same_tables "drift $form" drift-$form-skyline/nodes.tab drift-$form-sparse/nodes.tab 1e-12
 done
+# of a chain with more motions than a null space is sought of the block beside it stays where it was put
+awk -v blocks=105 -f "$here/chain.awk" </dev/null >chain.inp
+for form in dense auto; do
+   run 0 chain.inp chain-$form --digits 17 --quiet --contact $form
+   says "chain $form" chain-$form.err 'body LOOSE (node'
+   for dof in 1 2; do
+      near "chain $form: u$dof" "$(awk -v dof=$dof '!/^#/ && $1 == 2 && $2 > 420 { s += $(4 + dof)/4 } END { printf "%.17g", s }' chain-$form/nodes.tab)" \
+         "$(value "0.1*$dof")" 1e-12
+   done
+done
 same_tables "drift, both forms" drift-dense-skyline/nodes.tab drift-sparse-sparse/nodes.tab 1e-12
 finish
