@@ -2,6 +2,7 @@
 module atrito_line_certificate
    use atrito_kinds, only: ip, wp
    use atrito_results, only: uniqueness_t
+   use atrito_sparse_rows, only: sparse_rows_t
    implicit none (type, external)
    private
    public :: line_certificate_t, friction_form_t, NOT_ASKED
@@ -13,10 +14,7 @@ module atrito_line_certificate
       real(wp) :: nu = 0.0_wp                     !< the largest coefficient of friction; 0: none has friction
       integer(ip) :: n = 0                        !< normal forces, on the kernel of G'; the tangential ones follow
       real(wp), allocatable :: a(:, :)            !< (m, m) [L/F], both triangles
-      ! W before the motions are left out, a row a tangential force: it has few entries.
-      integer(ip), allocatable :: first(:)        !< (m - n + 1) of each row; the next one's begin behind its last
-      integer(ip), allocatable :: column(:)       !< normal force of each entry
-      real(wp), allocatable :: value(:)
+      type(sparse_rows_t) :: w                    !< W before the motions are left out: a row a tangential force
       real(wp), allocatable :: reflection(:, :)   !< (normal forces, motions left out) v of 1 - 2 v v'
       ! A without its tangential forces:
       logical :: is_definite = .false.            !< A_tt is, and the others are there

@@ -68,23 +68,25 @@ contains
       type(friction_form_t), intent(inout) :: form
       integer(ip) :: i, k, n
 
+      form%w%n = size(point, kind=ip)
+      form%w%n_columns = form%n
       n = sum(line%average%first(point + 1) - line%average%first(point))
-      allocate (form%first(size(point) + 1), form%column(n), form%value(n))
+      allocate (form%w%first(form%w%n + 1), form%w%column(n), form%w%value(n))
       n = 0
-      do i = 1, size(point, kind=ip)
-         form%first(i) = n + 1
+      do i = 1, form%w%n
+         form%w%first(i) = n + 1
          associate (j => point(i))
             do k = line%average%first(j), line%average%first(j + 1) - 1
                associate (other => line%average%column(k))
                   if (line%normal(other) == 0) cycle          ! its pressure is known: the same in all solutions
                   n = n + 1
-                  form%column(n) = line%normal(other)
-                  form%value(n) = line%law(j)%nu/form%nu*line%weight(j)*line%average%value(k)/line%weight(other)
+                  form%w%column(n) = line%normal(other)
+                  form%w%value(n) = line%law(j)%nu/form%nu*line%weight(j)*line%average%value(k)/line%weight(other)
                end associate
             end do
          end associate
       end do
-      form%first(size(point) + 1) = n + 1
+      form%w%first(form%w%n + 1) = n + 1
    end subroutine take_bounds
 
    !> product = left diag(share) W Y
@@ -97,20 +99,20 @@ contains
       real(wp) :: y(size(left, 1))
       integer(ip) :: i, j, k, left_out
 
-      allocate (product(size(left, 1), size(form%reflection, 1)), source=0.0_wp)
-      if (SLOW*(form%first(size(form%first)) - 1) > size(share)*size(product, 2)) then
-         allocate (bounds(size(product, 2), size(share)), source=0.0_wp)
-         do j = 1, size(share, kind=ip)
-            do k = form%first(j), form%first(j + 1) - 1
-               bounds(form%column(k), j) = share(j)*form%value(k)
+      allocate (product(size(left, 1), form%w%n_columns), source=0.0_wp)
+      if (SLOW*(form%w%first(form%w%n + 1) - 1) > form%w%n*form%w%n_columns) then
+         allocate (bounds(form%w%n_columns, form%w%n), source=0.0_wp)
+         do j = 1, form%w%n
+            do k = form%w%first(j), form%w%first(j + 1) - 1
+               bounds(form%w%column(k), j) = share(j)*form%w%value(k)
             end do
          end do
          call add_product(left, bounds, product)
       else
-         do j = 1, size(share, kind=ip)
+         do j = 1, form%w%n
             if (.not. abs(share(j)) > 0.0_wp) cycle
-            do k = form%first(j), form%first(j + 1) - 1
-               call add_column(share(j)*form%value(k), left(:, j), product(:, form%column(k)))
+            do k = form%w%first(j), form%w%first(j + 1) - 1
+               call add_column(share(j)*form%w%value(k), left(:, j), product(:, form%w%column(k)))
             end do
          end do
       end if
