@@ -15,7 +15,7 @@ module atrito_solution_search
    use atrito_status, only: status_t
    use atrito_strings, only: to_text
    use atrito_timers, only: start_phase, stop_phase
-   use atrito_uniqueness, only: judge_solution
+   use atrito_uniqueness, only: is_certified, judge_solution
    implicit none (type, external)
    private
    public :: search_solutions
@@ -23,7 +23,7 @@ module atrito_solution_search
 contains
 
    !> Searches from data%starts starts. The numbers of both go into the results. Where the dense form was not tried there is nothing
-   !> to search with.
+   !> to search with, and where one solution is certified there is nothing to search for.
    subroutine search_solutions(data, store, first, results, others)
       type(scene_data_t), intent(inout) :: data             !< with C and G
       type(body_cache_t), intent(inout) :: store            !< with the bodies
@@ -44,9 +44,12 @@ contains
          results%uniqueness%starts = data%starts
          return
       end if
-      call start_phase('search')
-      call find_others(data%flexibility, data%line, data%step%controls, first, data%starts, found)
-      call stop_phase('search')
+      allocate (found(0))
+      if (.not. is_certified(results%uniqueness)) then
+         call start_phase('search')
+         call find_others(data%flexibility, data%line, data%step%controls, first, data%starts, found)
+         call stop_phase('search')
+      end if
       allocate (list(size(found)))
       had = data%had                                        ! what is rounding beside the first is so in all
       call widen(data%had, first%body_motion, first%body_force)

@@ -2,6 +2,7 @@
 module atrito_line_certificate
    use atrito_kinds, only: ip, wp
    use atrito_results, only: uniqueness_t
+   use atrito_sparse_rows, only: sparse_rows_t
    implicit none (type, external)
    private
    public :: line_certificate_t, friction_form_t, NOT_ASKED
@@ -13,7 +14,8 @@ module atrito_line_certificate
       real(wp) :: nu = 0.0_wp                     !< the largest coefficient of friction; 0: none has friction
       integer(ip) :: n = 0                        !< normal forces, on the kernel of G'; the tangential ones follow
       real(wp), allocatable :: a(:, :)            !< (m, m) [L/F], both triangles
-      real(wp), allocatable :: w(:, :)            !< (n, m - n) the transpose of W: a column a tangential force
+      type(sparse_rows_t) :: w                    !< W before the motions are left out: a row a tangential force
+      real(wp), allocatable :: reflection(:, :)   !< (normal forces, motions left out) v of 1 - 2 v v'
       ! A without its tangential forces:
       logical :: is_definite = .false.            !< A_tt is, and the others are there
       real(wp), allocatable :: l(:, :)            !< (m - n, m - n) A_tt = L L', zeros above the diagonal
@@ -24,9 +26,9 @@ module atrito_line_certificate
    type :: line_certificate_t
       type(uniqueness_t) :: known                   !< for every load
       type(friction_form_t), allocatable :: form    !< while there are solutions to be judged by it
-      real(wp), allocatable :: way(:)               !< (tangential unknowns) directions of slip, 1 or -1; not allocated: none asked
+      real(wp), allocatable :: way(:)               !< (tangential unknowns) directions of slip; of elastic stick a state
       real(wp) :: way_up_to_nu = 0.0_wp             !< one solution at most moves that way at every point
-      real(wp) :: alpha = 1.0_wp                    !< of that proof; other states are tried with it
+      real(wp) :: alpha = 1.0_wp                    !< of that proof, or of every load: states are tried with it
       ! The state that was met last, and what was found of it.
       integer(ip), allocatable :: state(:)
       real(wp), allocatable :: compliance(:)        !< [L/F]

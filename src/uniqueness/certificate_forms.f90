@@ -8,8 +8,9 @@
 !>
 !> and H has T = alpha S - b^2 X'X = alpha A_nn - ((alpha + 1)/2)^2 X'X left without v: all that is to be factored for an alpha.
 module atrito_certificate_forms
-   use atrito_dense, only: add_square, multiply_transposed, multiply_vector, transposed_product
+   use atrito_dense, only: add_square, multiply_transposed, multiply_vector
    use atrito_dense_blocks, only: factor_in_blocks, multiply_symmetric, solve_with_half, solve_with_triangle
+   use atrito_friction_form, only: multiply_bounds
    use atrito_kinds, only: ip, wp
    use atrito_line_certificate, only: friction_form_t
    implicit none (type, external)
@@ -17,11 +18,12 @@ module atrito_certificate_forms
    public :: forms_t, every_load_forms, given_way_forms, pencil_t, factor_pencil, solve_h, multiply_r
    public :: build_certified, reduced, norm_of
 
-   !> What R is made of; lower triangles of what is symmetric. Only some of it is there: bound and slip, or way.
+   !> What R is made of; lower triangles of what is symmetric. Only some of it is there: bound and slip, or share and way.
    type :: forms_t
       real(wp), allocatable :: bound(:, :)        !< (n, n) W'W/2
       real(wp), allocatable :: slip(:, :)         !< (m - n, m - n) L'L/2
-      real(wp), allocatable :: way(:, :)          !< (m - n, n) Y
+      real(wp), allocatable :: share(:)           !< (m - n) m
+      real(wp), allocatable :: way(:, :)          !< (m - n, n) Y; build_certified does without
    end type forms_t
 
    !> H and R at one place.
@@ -31,7 +33,6 @@ module atrito_certificate_forms
    end type pencil_t
 
    real(wp), parameter :: MARGIN = 1.0e-10_wp     !< of the diagonal of H: what is left of the certified matrix is no rounding
-   integer, parameter :: FEW = 8                  !< entries of W for each force up to which they are taken one by one
 
 contains
 
@@ -39,11 +40,19 @@ contains
    subroutine every_load_forms(form, forms)
       type(friction_form_t), intent(in) :: form
       type(forms_t), intent(out) :: forms
-      integer(ip) :: k
+      real(wp), allocatable :: unit(:, :), w(:, :), all(:)
+      integer(ip) :: i, k
 
       k = size(form%l, 1, kind=ip)
-      allocate (forms%bound(form%n, form%n), forms%slip(k, k), source=0.0_wp)
-      call add_square(form%w, .false., 0.5_wp, forms%bound)
+      allocate (all(k), source=1.0_wp)
+      allocate (unit(k, k), source=0.0_wp)
+      do i = 1, k
+         unit(i, i) = 1.0_wp
+      end do
+      call multiply_bounds(form, unit, all, w)
+      call multiply_bounds(form, 0.5_wp*transpose(w(:, :form%n)), all, forms%bound)
+      forms%bound = forms%bound(:, :form%n)
+      allocate (forms%slip(k, k), source=0.0_wp)
       call add_square(form%l, .true., 0.5_wp, forms%slip)
    end subroutine every_load_forms
 
@@ -52,22 +61,10 @@ contains
       type(friction_form_t), intent(in) :: form
       real(wp), intent(in) :: share(:)            !< (m - n) m, from -1 to 1
       type(forms_t), intent(out) :: forms
-      real(wp) :: bound(size(share), form%n)
-      integer(ip) :: i, j
 
-      allocate (forms%way(size(share), form%n), source=0.0_wp)
-      do j = 1, size(share, kind=ip)
-         bound(j, :) = share(j)*form%w(:, j)
-      end do
-      if (count(abs(bound) > 0.0_wp) > FEW*size(share)) then
-         call transposed_product(form%l, bound, forms%way)
-         return
-      end if
-      do i = 1, form%n
-         do j = 1, size(share, kind=ip)
-            if (abs(bound(j, i)) > 0.0_wp) forms%way(:j, i) = forms%way(:j, i) + bound(j, i)*form%l(j, :j)
-         end do
-      end do
+      forms%share = share
+      call multiply_bounds(form, transpose(form%l), share, forms%way)
+      forms%way = forms%way(:, :form%n)
    end subroutine given_way_forms
 
    !> Factors T. failed: /= 0 where H is not positive definite.
@@ -130,24 +127,36 @@ contains
 
    !> H - s R less MARGIN of the diagonal of H, lower triangle: what has a Cholesky factor where s is certified.
    !>
-   !> For every load it is that of all forces as they are. Of a way it is what is left without v, and A_tt has its factor:
+   !> For every load it is that of all forces as they are. Of a way it is what is left without v, and A_tt has its factor; as
+   !> X'Y = A_nt diag(m) W and Y'Y = W'diag(m) A_tt diag(m) W, and W has few entries, some m^2 operations suffice:
    !>
-   !>     alpha S - |2 b X - s Y|^2/4
+   !>     alpha S - |2 b X - s Y|^2/4 = T - (V + V')/4,      V = s (s/2 W'diag(m) A_tt - 2 b A_nt) diag(m) W
    subroutine build_certified(form, forms, factor, pencil, matrix)
       type(friction_form_t), intent(in) :: form
       type(forms_t), intent(in) :: forms
       real(wp), intent(in) :: factor              !< s
       type(pencil_t), intent(in) :: pencil        !< with alpha and gamma
       real(wp), allocatable, intent(out) :: matrix(:, :)
-      integer(ip) :: i
+      real(wp), allocatable :: w(:, :), left(:, :), v(:, :)
+      integer(ip) :: i, j
 
       associate (n => form%n, alpha => pencil%alpha, gamma => pencil%gamma)
-         if (allocated(forms%way)) then
-            matrix = alpha*(form%a(:n, :n) - form%xx)
-            do i = 1, n
-               matrix(i, i) = matrix(i, i) - MARGIN*alpha*form%a(i, i)
+         if (allocated(forms%share)) then
+            call multiply_bounds(form, form%a(n + 1:, n + 1:), forms%share, w)
+            allocate (left(n, size(w, 1)))
+            do j = 1, size(w, 1, kind=ip)
+               left(:, j) = factor*(0.5_wp*factor*w(j, :n) - (alpha - 1)*form%a(:n, n + j))
             end do
-            call add_square((alpha - 1)*form%x - factor*forms%way, .true., -0.25_wp, matrix)
+            deallocate (w)                        ! its memory is near, and serves v
+            call multiply_bounds(form, left, forms%share, v)
+            deallocate (left)
+            allocate (matrix(n, n))
+            do j = 1, n
+               do i = j, n
+                  matrix(i, j) = alpha*form%a(i, j) - ((alpha + 1)/2)**2*form%xx(i, j) - 0.25_wp*(v(i, j) + v(j, i))
+               end do
+               matrix(j, j) = matrix(j, j) - MARGIN*alpha*form%a(j, j)
+            end do
          else
             matrix = form%a
             matrix(:n, :n) = alpha*matrix(:n, :n)

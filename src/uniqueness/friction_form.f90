@@ -8,7 +8,7 @@
 !> share of its own pair. Of two solutions the loads are the same, and so the difference dq lies in the kernel of G'. Bodies that
 !> can move along the contact are out of reach of the certificates; where G has no tangential rows, k reflections (Householder) turn
 !> its columns onto the first k normal directions, and what is left without these is the kernel:  A <- Y' A Y,  W <- W Y. No basis
-!> is stored, and without free bodies nothing is done.
+!> is stored, and without free bodies nothing is done. W Y is full, so W is kept as it is, and products with it are reflected.
 !>
 !> What the certificates do again and again costs an eighth with half of the forces taken out: with A_tt = L L', X = L^-1 A_tn and
 !> S = A_nn - X'X (X'X is kept), forces (z_n, z_t) are told by z_n and v = L' z_t + X z_n, and
@@ -17,15 +17,16 @@
 module atrito_friction_form
    use atrito_bound_qp, only: bound_qp_t
    use atrito_contact_line, only: contact_line_t
-   use atrito_dense, only: add_square
+   use atrito_dense, only: add_product, add_square, multiply_vector
    use atrito_dense_blocks, only: divide_by_triangle, factor_in_blocks
    use atrito_kinds, only: ip, wp
    use atrito_line_certificate, only: friction_form_t
    implicit none (type, external)
    private
-   public :: friction_form_t, build_form
+   public :: friction_form_t, build_form, multiply_bounds
 
    real(wp), parameter :: NONE_ALONG = 1.0e-12_wp  !< of the largest entry of a motion: it does not go along the contact
+   integer, parameter :: SLOW = 6                  !< times that an operation takes of those that are done one by one
 
 contains
 
@@ -36,7 +37,7 @@ contains
       type(friction_form_t), intent(out) :: form
       character(len=:), allocatable, intent(out) :: why_not
       real(wp) :: g(problem%n_normal, problem%k)
-      integer(ip) :: i, j, k
+      integer(ip) :: i, k
 
       why_not = ''
       associate (n => problem%n_normal, m => problem%m)
@@ -50,25 +51,91 @@ contains
          end do
          form%n = n
          form%a = problem%c
-         allocate (form%w(n, m - n), source=0.0_wp)
          do i = 1, n
             form%a(i, i) = form%a(i, i) + line%delta(line%point(i))/line%weight(line%point(i))
          end do
-         do i = 1, m - n
-            j = line%point(n + i)
-            do k = line%average%first(j), line%average%first(j + 1) - 1
-               associate (other => line%average%column(k))
-                  if (line%normal(other) == 0) cycle          ! its pressure is known: the same in all solutions
-                  form%w(line%normal(other), i) = line%law(j)%nu/form%nu*line%weight(j)*line%average%value(k) &
-                                                  /line%weight(other)
-               end associate
-            end do
-         end do
+         call take_bounds(line, line%point(n + 1:), form)
          g = problem%g(:n, :)
       end associate
       call take_kernel(g, form)
       call take_tangential(form)
    end subroutine build_form
+
+   !> W of the points of the tangential forces.
+   pure subroutine take_bounds(line, point, form)
+      type(contact_line_t), intent(in) :: line
+      integer(ip), intent(in) :: point(:)
+      type(friction_form_t), intent(inout) :: form
+      integer(ip) :: i, k, n
+
+      form%w%n = size(point, kind=ip)
+      form%w%n_columns = form%n
+      n = sum(line%average%first(point + 1) - line%average%first(point))
+      allocate (form%w%first(form%w%n + 1), form%w%column(n), form%w%value(n))
+      n = 0
+      do i = 1, form%w%n
+         form%w%first(i) = n + 1
+         associate (j => point(i))
+            do k = line%average%first(j), line%average%first(j + 1) - 1
+               associate (other => line%average%column(k))
+                  if (line%normal(other) == 0) cycle          ! its pressure is known: the same in all solutions
+                  n = n + 1
+                  form%w%column(n) = line%normal(other)
+                  form%w%value(n) = line%law(j)%nu/form%nu*line%weight(j)*line%average%value(k)/line%weight(other)
+               end associate
+            end do
+         end associate
+      end do
+      form%w%first(form%w%n + 1) = n + 1
+   end subroutine take_bounds
+
+   !> product = left diag(share) W Y
+   subroutine multiply_bounds(form, left, share, product)
+      type(friction_form_t), intent(in) :: form
+      real(wp), intent(in) :: left(:, :)                    !< (any, m - n)
+      real(wp), intent(in) :: share(:)                      !< (m - n)
+      real(wp), allocatable, intent(out) :: product(:, :)   !< (any, n + motions): its first n columns
+      real(wp), allocatable :: bounds(:, :)
+      real(wp) :: y(size(left, 1))
+      integer(ip) :: i, j, k, left_out
+
+      allocate (product(size(left, 1), form%w%n_columns), source=0.0_wp)
+      if (SLOW*(form%w%first(form%w%n + 1) - 1) > form%w%n*form%w%n_columns) then
+         allocate (bounds(form%w%n_columns, form%w%n), source=0.0_wp)
+         do j = 1, form%w%n
+            do k = form%w%first(j), form%w%first(j + 1) - 1
+               bounds(form%w%column(k), j) = share(j)*form%w%value(k)
+            end do
+         end do
+         call add_product(left, bounds, product)
+      else
+         do j = 1, form%w%n
+            if (.not. abs(share(j)) > 0.0_wp) cycle
+            do k = form%w%first(j), form%w%first(j + 1) - 1
+               call add_column(share(j)*form%w%value(k), left(:, j), product(:, form%w%column(k)))
+            end do
+         end do
+      end if
+      do k = 1, size(form%reflection, 2, kind=ip)
+         left_out = merge(k, 0_ip, k == size(form%reflection, 2))
+         associate (v => form%reflection(:, k))
+            call multiply_vector(product, v, y)
+            do i = k + 1, size(v, kind=ip)
+               if (left_out > 0) product(:, i - left_out) = product(:, i)
+               call add_column(-2*v(i), y, product(:, i - left_out))
+            end do
+         end associate
+      end do
+   end subroutine multiply_bounds
+
+   !> y <- y + factor x
+   pure subroutine add_column(factor, x, y)
+      real(wp), intent(in) :: factor
+      real(wp), intent(in), contiguous :: x(:)
+      real(wp), intent(inout), contiguous :: y(:)
+
+      y = y + factor*x
+   end subroutine add_column
 
    !> Takes the tangential forces out of A.
    subroutine take_tangential(form)
@@ -90,7 +157,7 @@ contains
       end associate
    end subroutine take_tangential
 
-   !> Leaves the motions' directions out of A and W.
+   !> Leaves the motions' directions out of A, and keeps the reflections for W.
    !>
    !> The reflection 1 - 2 v v' that takes a column g of G, from row i on, to a multiple of the unit vector i has v along g + |g|
    !> e_i. With x = A v and y = 2 (x - (v'x) v) it makes of A the matrix A - v y' - y v'.
@@ -101,6 +168,7 @@ contains
       integer(ip) :: first, j, k, n
 
       n = form%n
+      allocate (form%reflection(n, size(g, 2)))
       first = 1
       do k = 1, size(g, 2, kind=ip)
          size_before = norm2(g(:, k))
@@ -112,9 +180,7 @@ contains
          do j = k, size(g, 2, kind=ip)
             g(:, j) = g(:, j) - 2*v*dot_product(v, g(:, j))
          end do
-         do j = 1, size(form%w, 2, kind=ip)
-            form%w(:, j) = form%w(:, j) - 2*v*dot_product(v, form%w(:, j))
-         end do
+         form%reflection(:, first) = v
          y = matmul(form%a(:, :n), v)
          y(:n) = y(:n) - dot_product(v, y(:n))*v
          y = 2*y
@@ -124,10 +190,9 @@ contains
          end do
          first = first + 1
       end do
-      if (first == 1) return
+      form%reflection = form%reflection(:, :first - 1)
       form%n = n - (first - 1)
-      form%a = form%a(first:, first:)
-      form%w = form%w(first:, :)
+      if (first > 1) form%a = form%a(first:, first:)
    end subroutine take_kernel
 
 end module atrito_friction_form

@@ -37,16 +37,19 @@ contains
 
    !> The largest nu found up to which there is one solution, whatever the loads; 0 where there is none, the points depending on
    !> each other.
-   subroutine certify_every_load(form, nu)
+   subroutine certify_every_load(form, nu, alpha)
       type(friction_form_t), intent(in) :: form
       real(wp), intent(out) :: nu
+      real(wp), intent(out) :: alpha              !< of the proof
       type(forms_t) :: forms
       type(pencil_t) :: pencil
 
       nu = 0.0_wp
+      alpha = 1.0_wp
       if (.not. form%is_definite) return
       call every_load_forms(form, forms)
       call certified_factor(form, forms, MOST, nu, pencil)
+      alpha = pencil%alpha
    end subroutine certify_every_load
 
    !> The same for solutions that move along given directions, or not at all, at every point. Exact stick is presumed.
@@ -81,7 +84,7 @@ contains
 
       is_regular = .false.
       if (.not. form%is_definite) return
-      call given_way_forms(form, share, forms)
+      forms%share = share
       call build_certified(form, forms, nu, pencil_t(alpha=alpha), matrix)
       call factor_in_blocks(matrix, failed)
       is_regular = failed == 0

@@ -13,6 +13,7 @@ module atrito_other_solutions
    use atrito_contact_line, only: contact_line_t, normal_bounds, set_friction_bounds, tangential_of
    use atrito_contact_solution, only: contact_solution_t, bound_of_state
    use atrito_controls, only: controls_t
+   use atrito_dense_blocks, only: multiply_symmetric
    use atrito_kinds, only: ip, lp, wp, HUGE_REAL
    use atrito_newton, only: iterate_newton
    implicit none (type, external)
@@ -21,7 +22,7 @@ module atrito_other_solutions
 
    integer(ip), parameter :: MOST_OTHERS = 20
    integer(ip), parameter :: MOST_STEPS = 40        !< of a start
-   real(wp), parameter :: OTHER_FORCES = 1.0e-6_wp  !< of the largest stress: less is the same solution
+   real(wp), parameter :: OTHER_FORCES = 1.0e-6_wp  !< of the largest stress or displacement: less is the same solution
 
    !> A sequence of random numbers: x <- 48271 x mod (2^31 - 1).
    type :: random_t
@@ -64,14 +65,23 @@ contains
       others = found(:n)
    end subroutine find_others
 
-   !> Whether the forces of two solutions differ by more than rounding.
-   pure logical function is_another(problem, a, b)
+   !> Whether forces and displacements of two solutions differ by more than rounding. Where points depend on each other their forces
+   !> can be shared out in many ways that move nothing: C (q_a - q_b) = 0, and gaps and slips are the same.
+   logical function is_another(problem, a, b)
       type(bound_qp_t), intent(in) :: problem
       type(contact_solution_t), intent(in) :: a, b
+      real(wp) :: of_a(problem%m), of_b(problem%m), length
 
       associate (p => a%state%q/problem%weight, q => b%state%q/problem%weight)
          is_another = maxval(abs(p - q)) > OTHER_FORCES*max(maxval(abs(p)), maxval(abs(q)))
       end associate
+      if (.not. is_another) return
+      call multiply_symmetric(problem%c, a%state%q, of_a)
+      call multiply_symmetric(problem%c, b%state%q, of_b)
+      length = OTHER_FORCES*maxval(abs([of_a, of_b]))
+      is_another = maxval(abs(of_a - of_b)) > length
+      length = max(length, OTHER_FORCES*maxval(abs([problem%g0, a%state%r, b%state%r])))
+      is_another = is_another .or. maxval(abs(a%state%r - b%state%r)) > length
    end function is_another
 
    !> States of start k, and equal pressures: with friction bounds above zero at all points, whatever the states.

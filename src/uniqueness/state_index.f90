@@ -18,7 +18,7 @@ module atrito_state_index
    use atrito_kinds, only: ip, wp, HUGE_REAL
    use atrito_line_certificate, only: line_certificate_t, NOT_ASKED
    use atrito_newton, only: jacobian_of_state
-   use atrito_one_solution, only: is_regular
+   use atrito_one_solution, only: certify_way, is_regular
    implicit none (type, external)
    private
    public :: index_of_solution, meet_state
@@ -36,13 +36,21 @@ contains
       type(line_certificate_t), intent(inout) :: certificate !< that has met the state, with the form
       real(wp), allocatable :: jacobian(:, :)
       logical, allocatable :: slips(:)
+      real(wp) :: up_to_nu
 
       index_of = 0
       if (.not. is_inside(problem, line, solution)) return
       if (is_known) certificate%sign_of = 1
-      if (certificate%sign_of == NOT_ASKED) then
-         if (is_regular(certificate%form, certificate%share, certificate%known%nu, certificate%alpha)) certificate%sign_of = 1
-      end if
+      associate (nu => certificate%known%nu, share => certificate%share)
+         if (certificate%sign_of == NOT_ASKED) then
+            if (is_regular(certificate%form, share, nu, certificate%alpha)) certificate%sign_of = 1
+         end if
+         if (certificate%sign_of == NOT_ASKED .and. .not. allocated(certificate%way)) then
+            certificate%way = share               ! elastic stick: an alpha that may serve states to come, too
+            call certify_way(certificate%form, share, up_to_nu, certificate%alpha)
+            if (up_to_nu >= nu) certificate%sign_of = 1
+         end if
+      end associate
       if (certificate%sign_of == NOT_ASKED) then
          call jacobian_of_state(problem, line, solution, jacobian, slips)
          call eliminate(slips, jacobian)

@@ -46,7 +46,7 @@ contains
          allocate (certificate%form)
          call build_form(problem, line, certificate%form, why_not)
          if (len(why_not) == 0) then
-            call certify_every_load(certificate%form, nu)
+            call certify_every_load(certificate%form, nu, certificate%alpha)
             known%up_to_nu = rounded_down(nu)
             if (.not. nu > 0.0_wp) why_not = 'contact points depend on each other'
          end if
@@ -59,7 +59,7 @@ contains
    !>
    !> For bodies that move along the contact, and where points depend on each other, the index proves nothing, as the certificates.
    !> With exact stick, where one solution at most moves a certain way, no state that slips that way is singular for smaller
-   !> coefficients, and its index is 1. The states of elastic stick are tried with the alpha of the first one.
+   !> coefficients, and its index is 1.
    subroutine judge_solution(problem, line, solution, is_last, certificate, uniqueness)
       type(bound_qp_t), intent(in) :: problem     !< C and G
       type(contact_line_t), intent(in) :: line    !< points, laws, average S_rho
@@ -84,8 +84,6 @@ contains
          associate (slip => certificate%share, way => certificate%way)
             is_along = certificate%way_up_to_nu >= uniqueness%nu .and. all(slip*way >= 0.0_wp)
          end associate
-      else if (.not. allocated(certificate%way)) then
-         call keep_way(certificate%share, certificate)
       end if
       uniqueness%index = index_of_solution(problem, line, solution, is_along, certificate)
       if (is_last) deallocate (certificate%form)

@@ -39,6 +39,7 @@ run 0 "$lessons/three-solutions.inp" three --set nu=0.65
 says 'one solution' three.out 'exactly one solution for every load up to nu = 0.654 (certified)'
 grep -q W-UNIQUE three.err && complain 'a warning though one solution is certified'
 near 'found' "$(summary three solutions_found)" 1 0
+grep -q search three/timing.tab && complain 'a search for what is certified not to be there'
 below 'certified' "$(summary three unique_up_to_nu)" 0.66333
 run 0 "$lessons/three-solutions.inp" beyond --set nu=0.66
 says 'beyond what is certified' beyond.out 'not proved beyond nu = 0.654; 40 starts find no other solution'
@@ -58,6 +59,50 @@ run 0 steps.inp steps --quiet
 [ "$(column steps/history.tab index | tr '\n' ' ')" = '1 1 ' ] || complain 'a history without indices'
 near 'found in the first increment' "$(awk '$3 == "solutions_found" && $5 == 1 { print $4 }' steps/summary.tab)" 3 0
 [ ! -e steps/solution-2 ] || complain 'other solutions of a history are written'
+
+# a corner between a floor and a wall: one node, two points, whose forces can be shared out in many ways; nothing moves otherwise
+cat >corner.inp <<END
+*HEADING
+corner
+*BLOCK, TYPE=CPS4, ELSET=BLOCK, NX=1, NY=1
+0, 0
+1, 0
+1, 1
+0, 1
+*MATERIAL, NAME=M
+*ELASTIC
+1000, 0.44
+*SOLID SECTION, ELSET=BLOCK, MATERIAL=M
+1
+*SURFACE, NAME=FLOOR, TYPE=SEGMENTS
+START, -3, 0
+LINE, 9, 0
+*RIGID BODY, ANALYTICAL SURFACE=FLOOR
+*SURFACE, NAME=WALL, TYPE=SEGMENTS
+START, 0, 4
+LINE, 0, -2
+*RIGID BODY, ANALYTICAL SURFACE=WALL
+*SURFACE INTERACTION, NAME=ROUGH
+*FRICTION
+2.6
+*SURFACE INTERACTION, NAME=OTHER
+*FRICTION
+0.95
+*CONTACT PAIR, INTERACTION=ROUGH
+BLOCK-BOTTOM, FLOOR
+*CONTACT PAIR, INTERACTION=OTHER
+BLOCK-LEFT, WALL
+*STEP
+*STATIC
+*BOUNDARY
+BLOCK-TOP, 1, 1, 0.0044
+BLOCK-TOP, 2, 2, -0.0095
+*CONTACT PRINT
+*END STEP
+END
+run 0 corner.inp corner --unique 24
+says 'forces alone' corner.out 'not proved; 24 starts find no other solution'
+near 'forces alone' "$(summary corner solutions_found)" 1 0
 
 # certified NAME DECK LEAST MOST: what is certified of a deck lies between them
 certified() {
