@@ -149,7 +149,7 @@ contains
       real(wp), intent(out), optional :: slope(:)   !< (n)
       type(polygon_t) :: polygon
       type(cell_t), allocatable :: cells(:, :)      !< (outer and inner, sides)
-      real(wp), allocatable :: matrix(:, :), inner(:)
+      real(wp), allocatable :: matrix(:, :), inner(:), given(:, :)
       real(wp) :: centre(2)
       integer(ip) :: i, j, m, n
 
@@ -165,11 +165,12 @@ contains
       m = 3 + 3*polygon%n + 3*polygon%per_side*polygon%n
       allocate (matrix(m + n, m + n), inner(m + n), source=0.0_wp)
       allocate (cells(0:1, polygon%n))
+      given = reshape(x_given, [size(x_given), 1])
       do i = 1, polygon%n
          do j = 0, 1
-            call make_energy(fem, e, polygon%degree, cells(j, i)%energy, cell_corners(polygon, centre, j, i))
+            call make_energy(fem, e, polygon%degree, cells(j, i)%energy, cell_corners(polygon, centre, j, i), given)
             call take_outline(polygon, m, j, i, cells(j, i))
-            call add_cell(cells(j, i), x_given, matrix, inner)
+            call add_cell(cells(j, i), matrix, inner)
          end do
       end do
       call solve_least(m, matrix, inner, n)
@@ -188,7 +189,7 @@ contains
                where (cell%place(:n_cell) > 0)
                   cell%a(:n_cell) = cell%a(:n_cell) + cell%sign_of(:n_cell)*inner(max(cell%place(:n_cell), 1))
                end where
-               difference = difference + energy_difference(cell%energy, x_given, cell%a(:n_cell))
+               difference = difference + energy_difference(cell%energy, [1.0_wp], cell%a(:n_cell))
             end associate
          end do
       end do
@@ -278,18 +279,15 @@ contains
    end subroutine take_outline
 
    !> Adds a cell to the system: H, and -(H a + g) with what is known.
-   pure subroutine add_cell(cell, x_given, matrix, inner)
+   pure subroutine add_cell(cell, matrix, inner)
       type(cell_t), intent(in) :: cell
-      real(wp), intent(in) :: x_given(:)
       real(wp), intent(inout) :: matrix(:, :), inner(:)
-      real(wp) :: g(MOST_OUTLINE)
       integer(ip) :: j, k
 
       associate (n => cell%energy%n, slopes => cell%energy%slopes, place => cell%place, sign_of => cell%sign_of)
-         g(:n) = matmul(slopes(:, n + 1:), x_given)
          do j = 1, n
             if (place(j) == 0) cycle
-            inner(place(j)) = inner(place(j)) - sign_of(j)*(g(j) + dot_product(slopes(:n, j), cell%a(:n)))
+            inner(place(j)) = inner(place(j)) - sign_of(j)*(slopes(j, n + 1) + dot_product(slopes(:n, j), cell%a(:n)))
             do k = 1, n
                if (place(k) == 0) cycle
                matrix(place(k), place(j)) = matrix(place(k), place(j)) + sign_of(j)*sign_of(k)*slopes(k, j)

@@ -74,20 +74,19 @@ contains
          type(element_energy_t) :: energy
          real(wp) :: x(MOST_GIVEN)
          real(wp), allocatable :: rows(:)
-         integer(ip) :: i, n_given, j
+         integer(ip) :: i, j
 
-         call make_energy(fem, classes%member(classes%first(c)), degree, energy)
+         call make_class_energy(fem, loads, u, classes%member(classes%first(c):classes%first(c + 1) - 1), degree, energy)
          outlines%h(:energy%n, :energy%n, c) = energy%slopes(:, :energy%n)
          allocate (rows(energy%n_rows))
          do i = classes%first(c), classes%first(c + 1) - 1
             associate (e => classes%member(i), n => energy%n, corners => energy%macro%n)
-               call given_of(fem, e, u, x, n_given)
-               x(n_given + 1:n_given + 2) = loads%volume(:, e)
                call outline_of_tractions(energy%macro%corner(:, :corners), &
                                          tractions_around(sides, loads, e, energy%macro%corner(:, :corners)), &
                                          outlines%a(:n, e), open)
                most_open = max(most_open, open)
                largest = max(largest, maxval(abs(outlines%a(2:3*corners:3, e))), maxval(abs(outlines%a(3:3*corners:3, e))))
+               call take_given(fem, loads, u, e, energy, x)
                call given_rows(energy, x(:energy%n_given), rows)
                do j = 1, energy%n_given
                   outlines%slope(:n, e) = outlines%slope(:n, e) + energy%slopes(:, n + j)*x(j)
@@ -104,6 +103,52 @@ contains
 
    end subroutine sum_stresses
 
+   !> What depends on the shape of the elements of a class; of one alone by its own numbers.
+   subroutine make_class_energy(fem, loads, u, members, degree, energy)
+      type(fem_t), intent(in) :: fem
+      type(proof_loads_t), intent(in) :: loads
+      real(wp), intent(in) :: u(:, :)               !< (2, n_nodes) [L]
+      integer(ip), intent(in) :: members(:)
+      integer(ip), intent(in) :: degree             !< k
+      type(element_energy_t), intent(inout) :: energy
+      real(wp) :: x(MOST_GIVEN, 1)
+      integer(ip) :: n
+
+      if (size(members) > 1) then
+         call make_energy(fem, members(1), degree, energy)
+      else
+         call given_with_loads(fem, loads, u, members(1), x(:, 1), n)
+         call make_energy(fem, members(1), degree, energy, given=x(:n, :))
+      end if
+   end subroutine make_class_energy
+
+   !> The numbers of an element that its energy (make_class_energy) is to be taken with.
+   subroutine take_given(fem, loads, u, e, energy, x)
+      type(fem_t), intent(in) :: fem
+      type(proof_loads_t), intent(in) :: loads
+      real(wp), intent(in) :: u(:, :)               !< (2, n_nodes) [L]
+      integer(ip), intent(in) :: e
+      type(element_energy_t), intent(in) :: energy
+      real(wp), intent(inout) :: x(:)
+      integer(ip) :: n
+
+      x(1) = 1.0_wp
+      if (energy%n_given > 1) call given_with_loads(fem, loads, u, e, x, n)
+   end subroutine take_given
+
+   subroutine given_with_loads(fem, loads, u, e, x, n)
+      type(fem_t), intent(in) :: fem
+      type(proof_loads_t), intent(in) :: loads
+      real(wp), intent(in) :: u(:, :)               !< (2, n_nodes) [L]
+      integer(ip), intent(in) :: e
+      real(wp), intent(inout) :: x(:)
+      integer(ip), intent(out) :: n                 !< how many
+
+      call given_of(fem, e, u, x, n)
+      x(n + 1:n + 2) = loads%volume(:, e)
+      n = n + 2
+   end subroutine given_with_loads
+
    !> Outline, slope and energy of an element that is cut. It has an energy of its own, and so a class.
    subroutine begin_cut(fem, sides, cuts, loads, u, e, class, outlines)
       type(fem_t), intent(in) :: fem
@@ -114,14 +159,13 @@ contains
       integer(ip), intent(in) :: e, class
       type(outlines_t), intent(inout) :: outlines   !< with the outline
       real(wp) :: x(MOST_GIVEN)
-      integer(ip) :: n_given
+      integer(ip) :: n_x
 
       associate (n => outline_size(fem%mesh%shape(e), outlines%degree))
-         call given_of(fem, e, u, x, n_given)
-         x(n_given + 1:n_given + 2) = loads%volume(:, e)
+         call given_with_loads(fem, loads, u, e, x, n_x)
          outlines%class_of(e) = class
-         call cut_difference(fem, sides, cuts, e, x(:n_given + 2), outlines%a(:n, e), outlines%energy(e), &
-                             outlines%h(:n, :n, class), outlines%slope(:n, e))
+         call cut_difference(fem, sides, cuts, e, x(:n_x), outlines%a(:n, e), outlines%energy(e), outlines%h(:n, :n, class), &
+                             outlines%slope(:n, e))
       end associate
    end subroutine begin_cut
 
@@ -169,27 +213,29 @@ contains
       type(outlines_t), intent(inout) :: outlines
       type(element_energy_t) :: energy
       real(wp) :: x(MOST_GIVEN)
-      integer(ip) :: c, i, n_given
+      integer(ip) :: c, i, n
       logical :: is_made
 
       do c = 1, classes%n
          is_made = .false.
          do i = classes%first(c), classes%first(c + 1) - 1
             associate (e => classes%member(i))
-               call given_of(fem, e, u, x, n_given)
-               x(n_given + 1:n_given + 2) = loads%volume(:, e)
                if (is_cut(cuts, sides, e)) then
-                  call cut_difference(fem, sides, cuts, e, x(:n_given + 2), &
+                  call given_with_loads(fem, loads, u, e, x, n)
+                  call cut_difference(fem, sides, cuts, e, x(:n), &
                                       outlines%a(:outline_size(fem%mesh%shape(e), outlines%degree), e), outlines%energy(e))
                else
-                  if (.not. is_made) call make_energy(fem, e, outlines%degree, energy)
+                  if (.not. is_made) then
+                     call make_class_energy(fem, loads, u, classes%member(classes%first(c):classes%first(c + 1) - 1), &
+                                            outlines%degree, energy)
+                  end if
                   is_made = .true.
-                  outlines%energy(e) = energy_difference(energy, x(:n_given + 2), outlines%a(:energy%n, e))
+                  call take_given(fem, loads, u, e, energy, x)
+                  outlines%energy(e) = energy_difference(energy, x(:energy%n_given), outlines%a(:energy%n, e))
                end if
             end associate
          end do
       end do
-
    end subroutine sum_again
 
 end module atrito_equilibrium_stress

@@ -19,8 +19,8 @@ module atrito_error_bound
    use atrito_assembly, only: cached_stiffness, fem_t, stiffness_cache_t
    use atrito_balanced_contact, only: balanced_segments
    use atrito_cut_elements, only: add_piece, link_pieces, side_cuts_t
+   use atrito_contact_segments, only: segment_forces, segment_t, traction_at
    use atrito_contact_solution, only: contact_solution_t
-   use atrito_contact_tractions, only: segment_forces, segment_t, traction_at
    use atrito_element_classes, only: element_classes_t, find_classes, given_of
    use atrito_element_energy, only: corner_stresses, MOST_GIVEN
    use atrito_element_table, only: CORNERS_OF, DEGREE_OF, MOST_NODES
@@ -137,6 +137,7 @@ contains
          block
             type(outlines_t) :: found                ! large: they go before the sides are looked at
 
+            deallocate (force)
             call sum_stresses(problem%fem, classes, sides, chains, loads, results%u, cuts, found, terms%residual)
             terms%share = found%energy
             if (terms%keeps_outlines) terms%outlines = found
@@ -288,7 +289,8 @@ contains
       real(wp), allocatable :: thermal(:, :)
       integer(ip) :: c
 
-      allocate (force, source=-loads%at_nodes)
+      call move_alloc(loads%at_nodes, force)
+      force = -force
       if (allocated(fem%heating)) allocate (thermal(2, fem%mesh%n_nodes), source=0.0_wp)
       do c = 1, classes%n
          call take_class(c)

@@ -86,6 +86,16 @@ for type in CPE4 CPE9; do
    done
 done
 
+# a gap that is linear along the joint turns the block, and that is all: the run has means of it, the bound what the nodes are given
+for upper in 3 5; do
+   for gap in 0 0.01; do
+      awk -v type=CPE4 -v upper=$upper -v clearance=$gap -v rule=', QUADRATURE=MORTAR' -f "$here/blocks.awk" </dev/null >gap.inp
+      run 0 gap.inp "gap-$upper-$gap" --proof on --digits 15 --quiet
+   done
+   near "a linear gap, $upper" "$(summary "gap-$upper-0.01" error_bound_percent)" "$(summary "gap-$upper-0" error_bound_percent)" \
+      "$(value "1e-6*$(summary "gap-$upper-0" error_bound_percent)")"
+done
+
 # no_bound NAME REASON: nothing in the tables, the reason on the screen
 no_bound() {
    grep -q error_bound "$1/summary.tab" && complain "$1: a bound"
