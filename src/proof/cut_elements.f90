@@ -20,7 +20,7 @@ module atrito_cut_elements
    use atrito_star_sweeps, only: solve_least
    implicit none (type, external)
    private
-   public :: side_cuts_t, add_piece, link_pieces, is_cut, cut_difference
+   public :: side_cuts_t, add_piece, link_pieces, is_cut, count_cells, cut_difference
 
    integer(ip), parameter :: MOST_CORNERS = 400     !< of a polygon
    real(wp), parameter :: CORE = 2.0_wp/3         !< size of the ring round the inner point, as a share of the element
@@ -121,17 +121,43 @@ contains
       type(side_cuts_t), intent(in) :: cuts
       type(mesh_sides_t), intent(in) :: sides
       integer(ip), intent(in) :: e
-      integer(ip) :: i, first
+      integer(ip) :: i
 
       is_cut = .false.
       do i = 1, size(sides%of_element, 1, kind=ip)
-         if (sides%of_element(i, e) <= 0) cycle
-         first = cuts%first(sides%of_element(i, e))
-         if (first == 0) cycle
-         is_cut = cuts%next(first) > 0 .or. cuts%from(first) > SAME_PLACE .or. cuts%to(first) < 1 - SAME_PLACE
-         if (is_cut) return
+         if (sides%of_element(i, e) > 0) is_cut = is_cut .or. has_cuts(cuts, sides%of_element(i, e))
       end do
    end function is_cut
+
+   !> Whether the traction along a side is a polynomial by parts.
+   pure logical function has_cuts(cuts, side)
+      type(side_cuts_t), intent(in) :: cuts
+      integer(ip), intent(in) :: side
+
+      has_cuts = .false.
+      associate (first => cuts%first(side))
+         if (first > 0) has_cuts = cuts%next(first) > 0 .or. cuts%from(first) > SAME_PLACE .or. cuts%to(first) < 1 - SAME_PLACE
+      end associate
+   end function has_cuts
+
+   !> Cells of all elements that are cut, each of which has one such side: about as many.
+   pure integer(ip) function count_cells(fem, sides, cuts) result(n)
+      type(fem_t), intent(in) :: fem
+      type(mesh_sides_t), intent(in) :: sides
+      type(side_cuts_t), intent(in) :: cuts
+      integer(ip) :: i, piece
+
+      n = 0
+      do i = 1, sides%n
+         if (.not. has_cuts(cuts, i)) cycle
+         n = n + 2*(CORNERS_OF(fem%mesh%shape(sides%element(1, i))) - 1)
+         piece = cuts%first(i)
+         do while (piece > 0)
+            n = n + 2
+            piece = cuts%next(piece)
+         end do
+      end do
+   end function count_cells
 
    !> The least energy by which stresses in equilibrium differ from those of the displacements [F L].
    !>

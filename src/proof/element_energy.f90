@@ -220,22 +220,22 @@ contains
       real(wp), intent(in) :: origin(2)             !< of the macro's corners, less the element's first node [L]
       real(wp), intent(in) :: given(:, :)           !< (x, n_given)
       type(element_energy_t), intent(inout) :: energy
-      real(wp) :: field(COMPONENTS, size(given, 1)), values(COMPONENTS, rule%n, energy%n_given), lambda(3)
+      real(wp) :: field(COMPONENTS, size(given, 1)), values(COMPONENTS, rule%n, energy%n_given), lambda(3), stress(COMPONENTS)
       real(wp) :: rest(COMPONENTS*rule%n*energy%macro%n, energy%n_given)
       integer(ip) :: i, j, k, l, q, row
 
       associate (macro => energy%macro, n => energy%macro%n_coefficients)
          do i = 1, macro%n
-            values = 0.0_wp
             do k = 1, rule%n
                lambda = rule%place(:, k)
                call given_field(energy, is_heated, origin + lambda(1)*macro%corner(:, i) &
-                                + lambda(2)*macro%corner(:, 1 + mod(i, macro%n)) + lambda(3)*macro%centre, &
-                                rule%weight(k)*macro%area(i), field)
+                                + lambda(2)*macro%corner(:, 1 + mod(i, macro%n)) + lambda(3)*macro%centre, field)
                do j = 1, energy%n_given
+                  stress = 0.0_wp
                   do l = 1, size(given, 1, kind=ip)
-                     values(:, k, j) = values(:, k, j) + field(:, l)*given(l, j)
+                     stress = stress + field(:, l)*given(l, j)
                   end do
+                  values(:, k, j) = times_root(sqrt(rule%weight(k)*macro%area(i))*energy%root, stress)
                end do
             end do
             do j = 1, energy%n_given
@@ -262,32 +262,28 @@ contains
       end associate
    end subroutine add_given
 
-   !> s_b - s_h at a place by the numbers of x, times the root of C^-1 and of an area.
-   pure subroutine given_field(energy, is_heated, place, area, field)
+   !> s_b - s_h at a place by the numbers of x.
+   pure subroutine given_field(energy, is_heated, place, field)
       type(element_energy_t), intent(in) :: energy
       logical, intent(in) :: is_heated
       real(wp), intent(in) :: place(2)              !< less the element's first node [L]
-      real(wp), intent(in) :: area                  !< [L^2]
       real(wp), intent(out) :: field(:, :)          !< (COMPONENTS, x)
-      real(wp) :: root(COMPONENTS, COMPONENTS), of_u(COMPONENTS, 2*MOST_NODES), value(MOST_NODES)
+      real(wp) :: value(MOST_NODES)
       integer(ip) :: j, l
 
-      root = sqrt(area)*energy%root
+      field = 0.0_wp
       associate (n => energy%shape)
-         call take_field(n, energy%x(:, :n), natural_place(n, energy%x(:, :n), place), energy%elasticity, of_u, value)
-         do j = 1, 2*n
-            field(:, j) = -times_root(root, of_u(:, j))
-         end do
+         call take_field(n, energy%x(:, :n), natural_place(n, energy%x(:, :n), place), -energy%elasticity, field, value)
          l = 2*n
          if (is_heated) then
             do j = 1, n
-               field(:, l + j) = times_root(root, energy%heat(:COMPONENTS))*value(j)
+               field(:, l + j) = energy%heat(:COMPONENTS)*value(j)
             end do
             l = l + n
          end if
       end associate
-      field(:, l + 1) = -root(:, 1)*place(1)
-      field(:, l + 2) = -root(:, 2)*place(2)
+      field(1, l + 1) = -place(1)
+      field(2, l + 2) = -place(2)
    end subroutine given_field
 
    !> Makes all columns orthogonal to those of the bubbles.

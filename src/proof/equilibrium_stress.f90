@@ -16,7 +16,10 @@ module atrito_equilibrium_stress
 
    integer, parameter :: MOST_SWEEPS = 12
    real(wp), parameter :: FEW_DIGITS = 1.0e-9_wp
-   real(wp), parameter :: LITTLE = 0.1_wp           !< of the energy: a sweep that gained less is the last one
+   !> Of the energy: a sweep that gained less is the last one. The one behind it gains a fifteenth of what it did, or so.
+   real(wp), parameter :: LITTLE = 0.1_wp, LITTLE_OF_LARGE = 1.0_wp
+   integer(ip), parameter :: LARGE = 4000           !< elements of a scene whose sweeps take time
+   real(wp), parameter :: NOTHING = 1.0e-13_wp      !< of the energy of the stresses: round-off
 
 contains
 
@@ -32,8 +35,10 @@ contains
       type(outlines_t), intent(out) :: outlines     !< of the stresses; < 0 where an element has too many cuts: its energy
       real(wp), intent(inout) :: residual           !< of the equilibrium; >= what outlines are open by, over the largest force
       integer(ip), allocatable :: cut(:)            ! elements
+      type(element_energy_t) :: energy              ! of a class
+      real(wp), allocatable :: rows(:)
       integer(ip) :: degree, most, c
-      real(wp) :: gain, left, open, most_open, largest
+      real(wp) :: gain, left, open, most_open, largest, least
       real(wp) :: of_stresses                       ! energy of those of the displacements
       integer :: sweep
 
@@ -58,10 +63,12 @@ contains
          if (outlines%energy(cut(c)) < 0.0_wp) return
       end do
       left = sum(outlines%energy)
+      least = merge(LITTLE, LITTLE_OF_LARGE, fem%mesh%n_elements <= LARGE)
       do sweep = 1, MOST_SWEEPS
+         if (.not. left > NOTHING*of_stresses) exit
          call sweep_stars(fem%mesh, sides, chains, loads%known, outlines, gain)
          left = left - gain
-         if (.not. gain > LITTLE*left) exit
+         if (.not. gain > least*left) exit
       end do
       if (sum(outlines%energy) <= FEW_DIGITS*of_stresses) call sum_again(fem, classes, sides, cuts, loads, u, outlines)
       outlines%energy = max(outlines%energy, 0.0_wp)   ! elsewhere than where the energy is, round-off of either sign
@@ -71,14 +78,13 @@ contains
       !> Outlines and slopes of the energy of the elements of a class, and their energies.
       subroutine begin_class(c)
          integer(ip), intent(in) :: c
-         type(element_energy_t) :: energy
          real(wp) :: x(MOST_GIVEN)
-         real(wp), allocatable :: rows(:)
          integer(ip) :: i, j
 
          call make_class_energy(fem, loads, u, classes%member(classes%first(c):classes%first(c + 1) - 1), degree, energy)
          outlines%h(:energy%n, :energy%n, c) = energy%slopes(:, :energy%n)
-         allocate (rows(energy%n_rows))
+         if (.not. allocated(rows)) allocate (rows(energy%n_rows))
+         if (size(rows) /= energy%n_rows) rows = spread(0.0_wp, 1, energy%n_rows)
          do i = classes%first(c), classes%first(c + 1) - 1
             associate (e => classes%member(i), n => energy%n, corners => energy%macro%n)
                call outline_of_tractions(energy%macro%corner(:, :corners), &
