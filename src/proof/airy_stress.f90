@@ -29,8 +29,8 @@ module atrito_airy_stress
    use atrito_plane_state, only: COMPONENTS
    implicit none (type, external)
    private
-   public :: macro_t, make_macro, outline_of_tractions, go_along, side_place, piece_values, MOST_OUTLINE, MOST_UNKNOWNS, &
-             MOST_COEFFICIENTS, MOST_PIECES
+   public :: macro_t, make_macro, outline_of_tractions, go_along, side_place, piece_values, volume_tractions, MOST_OUTLINE, &
+             MOST_UNKNOWNS, MOST_COEFFICIENTS, MOST_PIECES
 
    integer(ip), parameter :: MOST_PIECES = 4, MOST_DEGREE = 2
    !> Numbers of the outline of an element: phi and its gradient at each corner, 2k - 1 at each side; and with the bubbles.
@@ -322,6 +322,21 @@ contains
       if (k == 2) numbers(k + 1) = f(2)
       at_corner = [f(k + 2), g(:, k + 1)]
    end subroutine go_along
+
+   !> Less what the stress of the forces per volume has along a side, the traction (-b_1 x_1 n_1, -b_2 x_2 n_2).
+   pure function volume_tractions(b, from, to, degree) result(traction)
+      real(wp), intent(in) :: b(2)                  !< thickness times force per volume [F/L^2]
+      real(wp), intent(in) :: from(2), to(2)        !< ends, counter-clockwise, less the element's first node [L]
+      integer(ip), intent(in) :: degree
+      real(wp) :: traction(2, 0:degree)
+      real(wp) :: n(2)
+      integer(ip) :: j
+
+      n = [to(2) - from(2), from(1) - to(1)]/norm2(to - from)
+      do j = 0, degree
+         traction(:, j) = b*(from + real(j, wp)/degree*(to - from))*n
+      end do
+   end function volume_tractions
 
    !> Bernstein polynomials at a point of a piece.
    pure function piece_values(degree, lambda) result(b)

@@ -41,8 +41,7 @@ contains
       type(segment_t), allocatable, intent(out) :: segments(:)
       integer(ip), intent(out) :: n
       character(len=:), allocatable, intent(inout) :: why_not
-      integer(ip), allocatable :: point(:)          !< (n_nodes) of the pair
-      integer(ip), allocatable :: given(:)          !< (n_nodes) place of its gap among those that are given; 0: none is
+      integer(ip), allocatable :: point(:), given(:) !< (n_nodes) of the pair; place of its gap among those that are given, or 0
       logical, allocatable :: is_slave(:)           !< (n_nodes)
       type(master_t) :: master
       type(segments_t) :: cuts
@@ -60,8 +59,7 @@ contains
                do k = 1, points%n
                   point(points%node(k)) = first + k
                end do
-               if (allocated(points%given_node)) given(points%given_node) = [(k, k=1, size(points%given_node))]
-               if (allocated(points%given_gap) .and. .not. allocated(points%given_node)) given = 1
+               call number_gaps(points, given)
                call make_master(model, pair%master, master)
                associate (faces => model%surfaces(pair%slave)%faces)
                   is_slave = .false.
@@ -78,7 +76,6 @@ contains
                   end do
                end associate
                point = 0
-               given = 0
                if (keeps) call keep_resultant(problem, solution, first, points%n, is_slave, segments(before + 1:n))
             end if
             first = first + points%n
@@ -126,6 +123,20 @@ contains
       end subroutine add_segment
 
    end subroutine list_segments
+
+   !> The place of the gap of each node among those that are given.
+   pure subroutine number_gaps(points, given)
+      type(contact_points_t), intent(in) :: points
+      integer(ip), intent(inout) :: given(:)        !< (n_nodes) 0: none is
+      integer(ip) :: k
+
+      given = 0
+      if (allocated(points%given_node)) then
+         given(points%given_node) = [(k, k=1, size(points%given_node))]
+      else if (allocated(points%given_gap)) then
+         given = 1
+      end if
+   end subroutine number_gaps
 
    !> Nodes of a slave that have no point of their own have the stresses of the one that stands most for them: at the end
    !> of a master.

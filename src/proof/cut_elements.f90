@@ -10,9 +10,9 @@
 !> and gradient at the ends of the side. What an element that is cut says of its energy to the sweeps over the corners
 !> (atrito_star_sweeps) is the least energy over the outline, H and slope.
 module atrito_cut_elements
-   use atrito_airy_stress, only: go_along, side_place, MOST_OUTLINE
+   use atrito_airy_stress, only: go_along, side_place, volume_tractions, MOST_OUTLINE
    use atrito_assembly, only: fem_t
-   use atrito_element_energy, only: element_energy_t, energy_difference, make_energy, volume_tractions
+   use atrito_element_energy, only: element_energy_t, energy_difference, make_energy
    use atrito_element_table, only: CORNERS_OF
    use atrito_growth, only: make_room
    use atrito_kinds, only: ip, wp

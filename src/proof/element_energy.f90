@@ -25,7 +25,7 @@ module atrito_element_energy
    use atrito_shape_functions, only: shape_gradients, shape_values
    implicit none (type, external)
    private
-   public :: element_energy_t, make_energy, given_rows, energy_difference, volume_tractions, corner_stresses, MOST_GIVEN
+   public :: element_energy_t, make_energy, given_rows, energy_difference, corner_stresses, MOST_GIVEN
 
    integer(ip), parameter :: MOST_PLACES = 12       !< of quadrature on a piece
    integer(ip), parameter :: MOST_ROWS = COMPONENTS*MOST_COEFFICIENTS*MOST_PIECES
@@ -373,21 +373,6 @@ contains
       end do
       difference = dot_product(rows, rows)
    end function energy_difference
-
-   !> Less what the stress of the forces per volume has along a side, the traction (-b_1 x_1 n_1, -b_2 x_2 n_2).
-   pure function volume_tractions(b, from, to, degree) result(traction)
-      real(wp), intent(in) :: b(2)                  !< thickness times force per volume [F/L^2]
-      real(wp), intent(in) :: from(2), to(2)        !< ends, counter-clockwise, less the element's first node [L]
-      integer(ip), intent(in) :: degree
-      real(wp) :: traction(2, 0:degree)
-      real(wp) :: n(2)
-      integer(ip) :: j
-
-      n = [to(2) - from(2), from(1) - to(1)]/norm2(to - from)
-      do j = 0, degree
-         traction(:, j) = b*(from + real(j, wp)/degree*(to - from))*n
-      end do
-   end function volume_tractions
 
    !> The stresses of displacements at the corners of an element, times the thickness: rows s11, s22, s12 corner by corner, columns
    !> as x without forces per volume.

@@ -1,10 +1,10 @@
 !> Stresses in equilibrium with tractions along all sides, and their distance from the stresses of displacements.
 module atrito_equilibrium_stress
-   use atrito_airy_stress, only: outline_of_tractions
+   use atrito_airy_stress, only: outline_of_tractions, volume_tractions
    use atrito_assembly, only: fem_t
    use atrito_cut_elements, only: side_cuts_t, cut_difference, is_cut
    use atrito_element_classes, only: element_classes_t, given_of
-   use atrito_element_energy, only: element_energy_t, energy_difference, given_rows, make_energy, volume_tractions, MOST_GIVEN
+   use atrito_element_energy, only: element_energy_t, energy_difference, given_rows, make_energy, MOST_GIVEN
    use atrito_element_table, only: CORNERS_OF
    use atrito_kinds, only: ip, wp
    use atrito_mesh_sides, only: chains_t, mesh_sides_t
