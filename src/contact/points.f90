@@ -47,6 +47,8 @@ module atrito_points
       real(wp), allocatable :: length(:)            !< quadrature weight [L]
       real(wp), allocatable :: weight(:)            !< quadrature weight times thickness [L^2]
       real(wp), allocatable :: gap(:)               !< initial distance s_j along the normal [L]; negative: overclosed
+      real(wp), allocatable :: given_gap(:)         !< of the nodes given_node, or (1) of all, where *CLEARANCE gives them [L]
+      integer(ip), allocatable :: given_node(:)
       integer(ip), allocatable :: first(:)          !< (n + 1) of the entries of each point, the slave's before the master's
       integer(ip), allocatable :: entry(:)          !< nodes
       real(wp), allocatable :: coefficient(:)

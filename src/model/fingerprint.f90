@@ -172,6 +172,8 @@ contains
       call add_to(digest, points%x(:, :points%n))
       call add_to(digest, points%normal(:, :points%n))
       call add_to(digest, points%gap(:points%n))
+      call add_allocated(digest, points%given_gap)
+      call add_allocated(digest, points%given_node)
       call add_to(digest, points%weight(:points%n))
       call add_to(digest, points%entry(:points%first(points%n + 1) - 1))
       call add_to(digest, points%coefficient(:points%first(points%n + 1) - 1))

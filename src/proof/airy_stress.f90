@@ -29,8 +29,8 @@ module atrito_airy_stress
    use atrito_plane_state, only: COMPONENTS
    implicit none (type, external)
    private
-   public :: macro_t, make_macro, outline_of_tractions, go_along, side_place, piece_values, MOST_OUTLINE, MOST_UNKNOWNS, &
-             MOST_COEFFICIENTS, MOST_PIECES
+   public :: macro_t, make_macro, outline_of_tractions, go_along, side_place, piece_values, volume_tractions, MOST_OUTLINE, &
+             MOST_UNKNOWNS, MOST_COEFFICIENTS, MOST_PIECES
 
    integer(ip), parameter :: MOST_PIECES = 4, MOST_DEGREE = 2
    !> Numbers of the outline of an element: phi and its gradient at each corner, 2k - 1 at each side; and with the bubbles.
@@ -77,16 +77,16 @@ contains
       real(wp), intent(in) :: corner(:, :)          !< (2, 3 or 4) counter-clockwise [L]
       integer(ip), intent(in) :: degree             !< k: 1, 2
       type(macro_t), intent(out) :: macro
-      real(wp) :: along(MOST_UNKNOWNS, 0:MOST_DEGREE + 2, MOST_PIECES)      ! phi on the sides
-      real(wp) :: next(MOST_UNKNOWNS, 0:MOST_DEGREE + 1, MOST_PIECES)       ! the layer of coefficients beside them
-      real(wp) :: inner(MOST_UNKNOWNS, 0:MOST_DEGREE + 2, MOST_PIECES)      ! along the line from a corner to the inner point
+      real(wp) :: along(numbers_of(size(corner, 2), degree), 0:MOST_DEGREE + 2, size(corner, 2))  ! phi on the sides
+      real(wp) :: next(size(along, 1), 0:MOST_DEGREE + 1, size(corner, 2)) ! the layer of coefficients beside them
+      real(wp) :: inner(size(along, 1), 0:MOST_DEGREE + 2, size(corner, 2)) ! along the line from a corner to the inner point
       integer(ip) :: i, n
 
       n = size(corner, 2, kind=ip)
       macro%n = n
       macro%degree = degree
       macro%n_outline = n*(3 + 2*degree - 1)
-      macro%n_unknowns = macro%n_outline + merge(n, 0_ip, degree == 2)
+      macro%n_unknowns = numbers_of(n, degree)
       macro%n_coefficients = N_COEFFICIENTS(degree)
       do i = 1, n
          macro%corner(:, i) = corner(:, i) - corner(:, 1)
@@ -104,12 +104,20 @@ contains
       end do
    end subroutine make_macro
 
+   !> Of the outline, and bubbles.
+   pure integer(ip) function numbers_of(n, degree)
+      integer(ip), intent(in) :: n                  !< corners
+      integer(ip), intent(in) :: degree             !< k
+
+      numbers_of = n*(2*degree + 2) + merge(n, 0_ip, degree == 2)
+   end function numbers_of
+
    !> Bernstein coefficients of phi along a side, and the layer beside them, over the numbers of the outline.
    pure subroutine take_side(macro, i, along, next)
       type(macro_t), intent(in) :: macro
       integer(ip), intent(in) :: i                  !< side
       real(wp), intent(out) :: along(:, 0:), next(:, 0:)
-      real(wp) :: t(2), normal(2), length, slope(MOST_UNKNOWNS, 2)
+      real(wp) :: t(2), normal(2), length, slope(size(along, 1), 2)
       integer(ip) :: j, k, d, here, there, place
 
       k = macro%degree
@@ -150,7 +158,7 @@ contains
       type(macro_t), intent(in) :: macro
       real(wp), intent(in) :: next(:, 0:, :), along(:, 0:, :)
       real(wp), intent(out) :: inner(:, 0:, :)
-      real(wp) :: beside(MOST_UNKNOWNS, 2), p, q, r, s
+      real(wp) :: beside(size(along, 1), 2), p, q, r, s
       integer(ip) :: i, m, d, before
 
       d = macro%degree + 2
@@ -195,7 +203,7 @@ contains
       type(macro_t), intent(inout) :: macro
       integer(ip), intent(in) :: i                  !< piece
       real(wp), intent(in) :: along(:, 0:), next(:, 0:), inner(:, 0:, :)
-      real(wp) :: g(2, 3), c(MOST_UNKNOWNS), of_c(COMPONENTS), w
+      real(wp) :: g(2, 3), c(size(along, 1)), of_c(COMPONENTS), w
       integer(ip) :: j, k, r, s, a(3), d
 
       d = macro%degree + 2
@@ -221,7 +229,7 @@ contains
       !> The coefficient of phi with these exponents.
       pure function coefficient(exponent) result(c)
          integer(ip), intent(in) :: exponent(3)
-         real(wp) :: c(MOST_UNKNOWNS)
+         real(wp) :: c(size(along, 1))
 
          if (exponent(3) == 0) then
             c = along(:, exponent(2))
@@ -314,6 +322,21 @@ contains
       if (k == 2) numbers(k + 1) = f(2)
       at_corner = [f(k + 2), g(:, k + 1)]
    end subroutine go_along
+
+   !> Less what the stress of the forces per volume has along a side, the traction (-b_1 x_1 n_1, -b_2 x_2 n_2).
+   pure function volume_tractions(b, from, to, degree) result(traction)
+      real(wp), intent(in) :: b(2)                  !< thickness times force per volume [F/L^2]
+      real(wp), intent(in) :: from(2), to(2)        !< ends, counter-clockwise, less the element's first node [L]
+      integer(ip), intent(in) :: degree
+      real(wp) :: traction(2, 0:degree)
+      real(wp) :: n(2)
+      integer(ip) :: j
+
+      n = [to(2) - from(2), from(1) - to(1)]/norm2(to - from)
+      do j = 0, degree
+         traction(:, j) = b*(from + real(j, wp)/degree*(to - from))*n
+      end do
+   end function volume_tractions
 
    !> Bernstein polynomials at a point of a piece.
    pure function piece_values(degree, lambda) result(b)

@@ -1,7 +1,8 @@
 !> Tractions of contact that balance the loads of bodies which nothing else holds.
 module atrito_balanced_contact
+   use atrito_contact_segments, only: segment_forces, segment_t
    use atrito_contact_solution, only: contact_solution_t
-   use atrito_contact_tractions, only: list_segments, segment_forces, segment_t
+   use atrito_contact_tractions, only: list_segments
    use atrito_kinds, only: ip, wp
    use atrito_model, only: model_t
    use atrito_ordering, only: build_graph, graph_t, order_contact_last

@@ -9,6 +9,7 @@
 module atrito_contact_tractions
    use atrito_assembly, only: fem_t
    use atrito_contact_rows, only: contact_rows_t
+   use atrito_contact_segments, only: along, between, segment_t
    use atrito_contact_solution, only: contact_solution_t
    use atrito_element_table, only: DEGREE_OF
    use atrito_face_geometry, only: outward_normal
@@ -20,37 +21,13 @@ module atrito_contact_tractions
    use atrito_mortar_segments, only: segments_t, cut_slave
    use atrito_pairing, only: make_master
    use atrito_pieces, only: cross, normal_at
+   use atrito_points, only: contact_points_t
    use atrito_problem, only: problem_t
-   use atrito_shape_functions, only: face_shape_values
    implicit none (type, external)
    private
-   public :: segment_t, list_segments, segment_forces, traction_at, overlap_at, slip_at, between, SAME_DIRECTION
-
-   !> A part of a slave's face that faces one face of the master. Arrays of two: at its ends.
-   type :: segment_t
-      integer(ip) :: pair = 0
-      integer(ip) :: slave(2) = 0, master(2) = 0    !< element and face; master 0: rigid
-      integer(ip) :: n = 0, n_master = 0            !< nodes of these faces
-      integer(ip) :: node(3) = 0, master_node(3) = 0 !< in the order of face_nodes
-      real(wp) :: on_slave(2) = 0.0_wp, on_master(2) = 0.0_wp       !< places on the faces, 0 to 1
-      real(wp) :: length = 0.0_wp                   !< on the slave [L]
-      real(wp) :: thickness = 0.0_wp                !< [L]
-      real(wp) :: normal(2) = 0.0_wp                !< out of the slave
-      real(wp) :: p(2) = 0.0_wp, t(2) = 0.0_wp      !< pressure, shear on the master along T [F/L^2]
-      real(wp) :: tau(2) = 0.0_wp                   !< friction bound [F/L^2]
-      real(wp) :: gap(2) = 0.0_wp                   !< s [L]
-      real(wp) :: delta = 0.0_wp                    !< [L^3/F]
-      real(wp) :: eps = 0.0_wp                      !< largest slip of a sticking point where it does not depend on tau [L]
-      real(wp) :: compliance = 0.0_wp               !< and over tau where it does [L^3/F]
-      real(wp) :: rest(2) = 0.0_wp                  !< slip at which there is no shear [L]
-      logical :: master_is_softer = .false.
-   end type segment_t
+   public :: list_segments, SAME_DIRECTION
 
    real(wp), parameter :: SAME_DIRECTION = 1.0e-6_wp
-   !> Three Gauss points on [0,1].
-   real(wp), parameter :: GAUSS_PLACES(3) = 0.5_wp + 0.38729833462074168852_wp*[real(wp) :: -1, 0, 1]
-   real(wp), parameter :: GAUSS_WEIGHTS(3) = [real(wp) :: 5, 8, 5]/18
-
 contains
 
    !> The segments of all pairs, with the stresses of a solution.
@@ -64,7 +41,7 @@ contains
       type(segment_t), allocatable, intent(out) :: segments(:)
       integer(ip), intent(out) :: n
       character(len=:), allocatable, intent(inout) :: why_not
-      integer(ip), allocatable :: point(:)          !< (n_nodes) of the pair
+      integer(ip), allocatable :: point(:), given(:) !< (n_nodes) of the pair; place of its gap among those that are given, or 0
       logical, allocatable :: is_slave(:)           !< (n_nodes)
       type(master_t) :: master
       type(segments_t) :: cuts
@@ -73,7 +50,7 @@ contains
       n = 0
       first = 0
       allocate (segments(0))
-      allocate (point(size(problem%held, 2)), source=0_ip)
+      allocate (point(size(problem%held, 2)), given(size(problem%held, 2)), source=0_ip)
       allocate (is_slave(size(point)))
       do i = 1, size(problem%points, kind=ip)
          associate (pair => model%pairs(i), points => problem%points(i))
@@ -82,6 +59,7 @@ contains
                do k = 1, points%n
                   point(points%node(k)) = first + k
                end do
+               call number_gaps(points, given)
                call make_master(model, pair%master, master)
                associate (faces => model%surfaces(pair%slave)%faces)
                   is_slave = .false.
@@ -136,16 +114,29 @@ contains
          end if
          n = n + 1
          call place_segment(model, i, f, master, piece, places, segments(n))
-         associate (is_given => model%pairs(i)%gap_is_given)
-            call take_stresses(problem, solution, point, problem%points(i)%matching .or. is_given, keeps, segments(n), why_not)
-            if (is_given) return
-         end associate
+         call take_stresses(problem, solution, point, keeps, segments(n), why_not)
+         call take_gaps(problem, problem%points(i), point, given, segments(n), why_not)
+         if (model%pairs(i)%gap_is_given) return
          if (abs(dot_product(normal_at(master, piece, 0.5_wp), segments(n)%normal) + 1) > SAME_DIRECTION) then
             why_not = 'contact sides that are not parallel'
          end if
       end subroutine add_segment
 
    end subroutine list_segments
+
+   !> The place of the gap of each node among those that are given.
+   pure subroutine number_gaps(points, given)
+      type(contact_points_t), intent(in) :: points
+      integer(ip), intent(inout) :: given(:)        !< (n_nodes) 0: none is
+      integer(ip) :: k
+
+      given = 0
+      if (allocated(points%given_node)) then
+         given(points%given_node) = [(k, k=1, size(points%given_node))]
+      else if (allocated(points%given_gap)) then
+         given = 1
+      end if
+   end subroutine number_gaps
 
    !> Nodes of a slave that have no point of their own have the stresses of the one that stands most for them: at the end
    !> of a master.
@@ -220,11 +211,10 @@ contains
    end subroutine take_nodes
 
    !> The stresses of a solution along a segment, its law, and which side gives way.
-   subroutine take_stresses(problem, solution, point, has_gaps, keeps, segment, why_not)
+   subroutine take_stresses(problem, solution, point, keeps, segment, why_not)
       class(problem_t), intent(in) :: problem
       type(contact_solution_t), intent(in) :: solution
       integer(ip), intent(in) :: point(:)           !< (n_nodes) of the pair; 0: none
-      logical, intent(in) :: has_gaps               !< gaps are those of the points, and not those of the mesh
       logical, intent(in) :: keeps                  !< the resultant of the pair; else that of each face
       type(segment_t), intent(inout) :: segment     !< in its place
       character(len=:), allocatable, intent(inout) :: why_not
@@ -237,13 +227,12 @@ contains
             why_not = 'curved contact sides'
          end if
       end do
-      if (has_gaps) segment%gap = along(segment, point, problem%rows%gap)
       share = 1.0_wp
       if (.not. keeps) share = share_of_face(segment, point, max(solution%p, 0.0_wp))
-      segment%p = share*along(segment, point, max(solution%p, 0.0_wp))
-      segment%t = share*along(segment, point, solution%t)
-      segment%tau = share*along(segment, point, solution%tau)
-      if (allocated(problem%line%rest)) segment%rest = along(segment, point, problem%line%rest)
+      segment%p = share*along_points(segment, point, max(solution%p, 0.0_wp))
+      segment%t = share*along_points(segment, point, solution%t)
+      segment%tau = share*along_points(segment, point, solution%tau)
+      if (allocated(problem%line%rest)) segment%rest = along_points(segment, point, problem%line%rest)
       j = maxval(point(segment%node(:segment%n)))
       segment%delta = problem%line%delta(j)
       associate (law => problem%line%law(j))
@@ -254,6 +243,36 @@ contains
       if (segment%master(1) > 0) segment%master_is_softer = stiffness_of(problem%fem, segment%master(1)) < &
                                                             stiffness_of(problem%fem, segment%slave(1))
    end subroutine take_stresses
+
+   !> Gaps at the ends of a segment, where they are not those of the mesh. At a point between nodes (MORTAR) the run has the mean of
+   !> what the nodes are given; the gap itself is linear from node to node.
+   subroutine take_gaps(problem, points, point, given, segment, why_not)
+      class(problem_t), intent(in) :: problem
+      type(contact_points_t), intent(in) :: points  !< of the pair
+      integer(ip), intent(in) :: point(:), given(:)
+      type(segment_t), intent(inout) :: segment
+      character(len=:), allocatable, intent(inout) :: why_not
+      real(wp) :: at_nodes(3)
+      integer(ip) :: j
+
+      if (allocated(problem%rows%allowed) .and. points%is_mortar) then
+         if (any(problem%rows%allowed(pack(point, point > 0)) > 0.0_wp)) why_not = 'overlaps that are still being resolved'
+      end if
+      if (.not. (allocated(points%given_gap) .or. (points%matching .and. .not. points%is_mortar))) return
+      at_nodes = 0.0_wp
+      do j = 1, segment%n
+         associate (k => given(segment%node(j)), own => point(segment%node(j)))
+            if (k > 0 .and. (own == 0 .or. points%is_mortar)) then
+               at_nodes(j) = points%given_gap(k)
+            else if (own > 0 .and. .not. points%is_mortar) then
+               at_nodes(j) = problem%rows%gap(own)
+            else
+               why_not = 'a node of a side that is given no gap'
+            end if
+         end associate
+      end do
+      segment%gap = along(segment, at_nodes)
+   end subroutine take_gaps
 
    !> Multiplies the stresses of a pair by a function that is linear along it, so that the pressures have the resultant and the
    !> moment of those of the run: what a body far from its contact feels of them is the same.
@@ -387,8 +406,8 @@ contains
       end associate
    end function stiffness_of
 
-   !> The values of points at both ends of a segment, linear from node to node; 0 at a node without a point.
-   pure function along(segment, point, of_points) result(values)
+   !> The values of points at both ends of a segment; 0 at a node without a point.
+   pure function along_points(segment, point, of_points) result(values)
       type(segment_t), intent(in) :: segment
       integer(ip), intent(in) :: point(:)
       real(wp), intent(in) :: of_points(:)
@@ -400,84 +419,7 @@ contains
       do j = 1, segment%n
          if (point(segment%node(j)) > 0) at_nodes(j) = of_points(point(segment%node(j)))
       end do
-      associate (s => segment%on_slave)
-         if (segment%n == 2) then
-            values = (1 - s)*at_nodes(1) + s*at_nodes(2)
-         else if (sum(s) < 1.0_wp) then
-            values = (1 - 2*s)*at_nodes(1) + 2*s*at_nodes(3)
-         else
-            values = (2 - 2*s)*at_nodes(3) + (2*s - 1)*at_nodes(2)
-         end if
-      end associate
-   end function along
-
-   !> int T N_i ds on both sides: the forces of a segment's tractions on the nodes of the slave's face and of the master's.
-   pure subroutine segment_forces(segment, on_slave, on_master)
-      type(segment_t), intent(in) :: segment
-      real(wp), intent(out) :: on_slave(2, 3), on_master(2, 3)      !< (component, node) [F]
-      real(wp) :: t, force(2)
-      integer :: k
-
-      on_slave = 0.0_wp
-      on_master = 0.0_wp
-      do k = 1, 3
-         t = GAUSS_PLACES(k)
-         force = GAUSS_WEIGHTS(k)*segment%length*traction_at(segment, t)
-         associate (n => segment%n, m => segment%n_master)
-            on_slave(:, :n) = on_slave(:, :n) + spread(force, 2, n)* &
-                              spread(face_shape_values(n, 2*between(segment%on_slave, t) - 1), 1, 2)
-            if (m > 0) on_master(:, :m) = on_master(:, :m) - spread(force, 2, m)* &
-                                          spread(face_shape_values(m, 2*between(segment%on_master, t) - 1), 1, 2)
-         end associate
-      end do
-   end subroutine segment_forces
-
-   !> The traction on the slave times the thickness, -p n - t T [F/L].
-   pure function traction_at(segment, t) result(traction)
-      type(segment_t), intent(in) :: segment
-      real(wp), intent(in) :: t                     !< 0 to 1 along the segment
-      real(wp) :: traction(2)
-
-      traction = -segment%thickness*(between(segment%p, t)*segment%normal + &
-                                     between(segment%t, t)*[-segment%normal(2), segment%normal(1)])
-   end function traction_at
-
-   !> A linear function from its values at both ends.
-   pure real(wp) function between(values, t)
-      real(wp), intent(in) :: values(2), t
-
-      between = (1 - t)*values(1) + t*values(2)
-   end function between
-
-   !> u_n - s [L] at a place of a segment.
-   pure real(wp) function overlap_at(segment, u, t) result(g)
-      type(segment_t), intent(in) :: segment
-      real(wp), intent(in) :: u(:, :)               !< (2, n_nodes) [L]
-      real(wp), intent(in) :: t                     !< 0 to 1 along the segment
-
-      g = dot_product(segment%normal, relative(segment, u, t)) - between(segment%gap, t)
-   end function overlap_at
-
-   !> The slip, from where there is no shear [L].
-   pure real(wp) function slip_at(segment, u, t) result(r)
-      type(segment_t), intent(in) :: segment
-      real(wp), intent(in) :: u(:, :)
-      real(wp), intent(in) :: t
-
-      r = dot_product([-segment%normal(2), segment%normal(1)], relative(segment, u, t)) - between(segment%rest, t)
-   end function slip_at
-
-   !> The displacement of the slave against the master.
-   pure function relative(segment, u, t) result(d)
-      type(segment_t), intent(in) :: segment
-      real(wp), intent(in) :: u(:, :)
-      real(wp), intent(in) :: t
-      real(wp) :: d(2)
-
-      associate (n => segment%n, m => segment%n_master)
-         d = matmul(u(:, segment%node(:n)), face_shape_values(n, 2*between(segment%on_slave, t) - 1))
-         if (m > 0) d = d - matmul(u(:, segment%master_node(:m)), face_shape_values(m, 2*between(segment%on_master, t) - 1))
-      end associate
-   end function relative
+      values = along(segment, at_nodes)
+   end function along_points
 
 end module atrito_contact_tractions

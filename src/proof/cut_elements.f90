@@ -10,9 +10,9 @@
 !> and gradient at the ends of the side. What an element that is cut says of its energy to the sweeps over the corners
 !> (atrito_star_sweeps) is the least energy over the outline, H and slope.
 module atrito_cut_elements
-   use atrito_airy_stress, only: go_along, side_place, MOST_OUTLINE
+   use atrito_airy_stress, only: go_along, side_place, volume_tractions, MOST_OUTLINE
    use atrito_assembly, only: fem_t
-   use atrito_element_energy, only: element_energy_t, energy_difference, make_energy, volume_tractions
+   use atrito_element_energy, only: element_energy_t, energy_difference, make_energy
    use atrito_element_table, only: CORNERS_OF
    use atrito_growth, only: make_room
    use atrito_kinds, only: ip, wp
@@ -20,7 +20,7 @@ module atrito_cut_elements
    use atrito_star_sweeps, only: solve_least
    implicit none (type, external)
    private
-   public :: side_cuts_t, add_piece, link_pieces, is_cut, cut_difference
+   public :: side_cuts_t, add_piece, link_pieces, is_cut, count_cells, cut_difference
 
    integer(ip), parameter :: MOST_CORNERS = 400     !< of a polygon
    real(wp), parameter :: CORE = 2.0_wp/3         !< size of the ring round the inner point, as a share of the element
@@ -121,17 +121,43 @@ contains
       type(side_cuts_t), intent(in) :: cuts
       type(mesh_sides_t), intent(in) :: sides
       integer(ip), intent(in) :: e
-      integer(ip) :: i, first
+      integer(ip) :: i
 
       is_cut = .false.
       do i = 1, size(sides%of_element, 1, kind=ip)
-         if (sides%of_element(i, e) <= 0) cycle
-         first = cuts%first(sides%of_element(i, e))
-         if (first == 0) cycle
-         is_cut = cuts%next(first) > 0 .or. cuts%from(first) > SAME_PLACE .or. cuts%to(first) < 1 - SAME_PLACE
-         if (is_cut) return
+         if (sides%of_element(i, e) > 0) is_cut = is_cut .or. has_cuts(cuts, sides%of_element(i, e))
       end do
    end function is_cut
+
+   !> Whether the traction along a side is a polynomial by parts.
+   pure logical function has_cuts(cuts, side)
+      type(side_cuts_t), intent(in) :: cuts
+      integer(ip), intent(in) :: side
+
+      has_cuts = .false.
+      associate (first => cuts%first(side))
+         if (first > 0) has_cuts = cuts%next(first) > 0 .or. cuts%from(first) > SAME_PLACE .or. cuts%to(first) < 1 - SAME_PLACE
+      end associate
+   end function has_cuts
+
+   !> Cells of all elements that are cut, each of which has one such side: about as many.
+   pure integer(ip) function count_cells(fem, sides, cuts) result(n)
+      type(fem_t), intent(in) :: fem
+      type(mesh_sides_t), intent(in) :: sides
+      type(side_cuts_t), intent(in) :: cuts
+      integer(ip) :: i, piece
+
+      n = 0
+      do i = 1, sides%n
+         if (.not. has_cuts(cuts, i)) cycle
+         n = n + 2*(CORNERS_OF(fem%mesh%shape(sides%element(1, i))) - 1)
+         piece = cuts%first(i)
+         do while (piece > 0)
+            n = n + 2
+            piece = cuts%next(piece)
+         end do
+      end do
+   end function count_cells
 
    !> The least energy by which stresses in equilibrium differ from those of the displacements [F L].
    !>
@@ -149,7 +175,7 @@ contains
       real(wp), intent(out), optional :: slope(:)   !< (n)
       type(polygon_t) :: polygon
       type(cell_t), allocatable :: cells(:, :)      !< (outer and inner, sides)
-      real(wp), allocatable :: matrix(:, :), inner(:)
+      real(wp), allocatable :: matrix(:, :), inner(:), given(:, :)
       real(wp) :: centre(2)
       integer(ip) :: i, j, m, n
 
@@ -165,11 +191,12 @@ contains
       m = 3 + 3*polygon%n + 3*polygon%per_side*polygon%n
       allocate (matrix(m + n, m + n), inner(m + n), source=0.0_wp)
       allocate (cells(0:1, polygon%n))
+      given = reshape(x_given, [size(x_given), 1])
       do i = 1, polygon%n
          do j = 0, 1
-            call make_energy(fem, e, polygon%degree, cells(j, i)%energy, cell_corners(polygon, centre, j, i))
+            call make_energy(fem, e, polygon%degree, cells(j, i)%energy, cell_corners(polygon, centre, j, i), given)
             call take_outline(polygon, m, j, i, cells(j, i))
-            call add_cell(cells(j, i), x_given, matrix, inner)
+            call add_cell(cells(j, i), matrix, inner)
          end do
       end do
       call solve_least(m, matrix, inner, n)
@@ -188,7 +215,7 @@ contains
                where (cell%place(:n_cell) > 0)
                   cell%a(:n_cell) = cell%a(:n_cell) + cell%sign_of(:n_cell)*inner(max(cell%place(:n_cell), 1))
                end where
-               difference = difference + energy_difference(cell%energy, x_given, cell%a(:n_cell))
+               difference = difference + energy_difference(cell%energy, [1.0_wp], cell%a(:n_cell))
             end associate
          end do
       end do
@@ -278,18 +305,15 @@ contains
    end subroutine take_outline
 
    !> Adds a cell to the system: H, and -(H a + g) with what is known.
-   pure subroutine add_cell(cell, x_given, matrix, inner)
+   pure subroutine add_cell(cell, matrix, inner)
       type(cell_t), intent(in) :: cell
-      real(wp), intent(in) :: x_given(:)
       real(wp), intent(inout) :: matrix(:, :), inner(:)
-      real(wp) :: g(MOST_OUTLINE)
       integer(ip) :: j, k
 
       associate (n => cell%energy%n, slopes => cell%energy%slopes, place => cell%place, sign_of => cell%sign_of)
-         g(:n) = matmul(slopes(:, n + 1:), x_given)
          do j = 1, n
             if (place(j) == 0) cycle
-            inner(place(j)) = inner(place(j)) - sign_of(j)*(g(j) + dot_product(slopes(:n, j), cell%a(:n)))
+            inner(place(j)) = inner(place(j)) - sign_of(j)*(slopes(j, n + 1) + dot_product(slopes(:n, j), cell%a(:n)))
             do k = 1, n
                if (place(k) == 0) cycle
                matrix(place(k), place(j)) = matrix(place(k), place(j)) + sign_of(j)*sign_of(k)*slopes(k, j)

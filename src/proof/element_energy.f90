@@ -8,35 +8,56 @@
 !>
 !>     E = |R_a a + R_x x|^2,     x = (u, T, b):     slope/2 = H a + G x,    H = R_a' R_a,  G = R_a' R_x,
 !>
-!> the rows being the differences at the points times the roots of their weights and of C^-1 (L' of C^-1 = L L'). Taken as a sum of
-!> squares it loses no digits where both stresses nearly agree. The bubbles of stresses of degree 2 are where E is least: all other
-!> columns are made orthogonal to theirs, and the bubbles are gone.
+!> Of the values of a stress at the points of a piece, times the roots of their weights and of C^-1 (L' of C^-1 = L L'), the rows
+!> are what lies along the polynomials of s(a), orthogonal ones, and behind these what is left, which s(a) has no part of. Taken as
+!> a sum of squares E loses no digits where both stresses nearly agree. The bubbles of stresses of degree 2 are where E is least:
+!> all other columns are made orthogonal to theirs, and the bubbles are gone.
+!>
+!> Instead of x itself, any columns of it may be given (`given`) and x is what is taken of each: an element that is like no other
+!> one, or a part of one, needs its own x alone, for which little work is to be done.
 module atrito_element_energy
    use atrito_airy_stress, only: macro_t, make_macro, piece_values, MOST_COEFFICIENTS, MOST_PIECES
    use atrito_assembly, only: fem_t, form_t, take_form
    use atrito_dense, only: transposed_product
-   use atrito_element_table, only: DEGREE_OF, MOST_NODES, SHAPES
+   use atrito_element_table, only: MOST_NODES, SHAPES
    use atrito_kinds, only: ip, wp
    use atrito_plane_state, only: COMPONENTS, compliance_matrix, elasticity_matrix, thermal_stresses
    use atrito_shape_functions, only: shape_gradients, shape_values
    implicit none (type, external)
    private
-   public :: element_energy_t, make_energy, given_rows, energy_difference, volume_tractions, corner_stresses, MOST_GIVEN
+   public :: element_energy_t, make_energy, given_rows, energy_difference, corner_stresses, MOST_GIVEN
 
    integer(ip), parameter :: MOST_PLACES = 12       !< of quadrature on a piece
-   integer(ip), parameter :: MOST_ROWS = COMPONENTS*MOST_PLACES*MOST_PIECES
+   integer(ip), parameter :: MOST_ROWS = COMPONENTS*MOST_COEFFICIENTS*MOST_PIECES
    !> Displacements and temperatures of the nodes, force per volume.
    integer(ip), parameter :: MOST_GIVEN = 3*MOST_NODES + 2
-   integer(ip), parameter :: MOST_STEPS = 20            !< of Newton's method
+   integer(ip), parameter :: MOST_STEPS = 20        !< of Newton's method
+   real(wp), parameter :: ENOUGH = 1.0e-9_wp        !< its last step
 
    type, extends(form_t) :: element_energy_t
       type(macro_t) :: macro
+      real(wp) :: elasticity(COMPONENTS, COMPONENTS) = 0.0_wp !< times the thickness [F/L]
+      real(wp) :: root(COMPONENTS, COMPONENTS) = 0.0_wp !< L', over the root of the thickness [(L/F)^(1/2)]
+      real(wp) :: heat(COMPONENTS + 1) = 0.0_wp     !< stresses of a temperature of 1, times the thickness [F/L]
       integer(ip) :: n = 0                          !< numbers of the outline
-      integer(ip) :: n_rows = 0, n_given = 0        !< n_given: of x; 2 n_nodes displacements, n_nodes temperatures if any, 2 forces
-      !> R_a, and behind it R_x: all columns have n_rows rows, one after the other.
-      real(wp), allocatable :: rows(:, :)           !< (n_rows, n + n_given)
+      integer(ip) :: n_given = 0                    !< of x; 2 n_nodes displacements, n_nodes temperatures if any, 2 forces
+      integer(ip) :: n_rows = 0                     !< with those of rest
+      real(wp), allocatable :: rows(:, :)           !< (rows, n + n_given) R_a, and behind it R_x, but that of rest
+      real(wp), allocatable :: rest(:, :)           !< (n_given, n_given) a triangle: rows of R_x where those of R_a are 0
       real(wp), allocatable :: slopes(:, :)         !< (n, n + n_given) H, and behind it G
    end type element_energy_t
+
+   !> Of the stresses of 3, 4, 6, 8 and 9 nodes in elements with parallel sides; in others they are no polynomials.
+   integer(ip), parameter :: FIELD_DEGREE(MOST_NODES) = [integer(ip) :: 0, 0, 0, 1, 0, 1, 0, 2, 3], NO_DEGREE = 9
+
+   !> Points on a piece, and polynomials that are orthogonal over them.
+   type :: rule_t
+      integer(ip) :: n = 0                          !< points
+      real(wp) :: place(3, MOST_PLACES) = 0.0_wp    !< barycentric coordinates
+      real(wp) :: weight(MOST_PLACES) = 0.0_wp      !< their sum is 1
+      real(wp) :: basis(MOST_PLACES, MOST_COEFFICIENTS) = 0.0_wp !< at the points, times the roots of the weights
+      real(wp) :: triangle(MOST_COEFFICIENTS, MOST_COEFFICIENTS) = 0.0_wp !< Bernstein polynomials by them
+   end type rule_t
 
    !> Points on a triangle by barycentric coordinates and their weights, exact to degree 2, 4 and 6 (Dunavant).
    real(wp), parameter :: A = 0.501426509658179_wp, B = 0.249286745170910_wp, C = 0.873821971016996_wp, D = 0.063089014491502_wp
@@ -55,138 +76,247 @@ module atrito_element_energy
 
 contains
 
-   !> All that does not depend on displacements: of an element, or of a triangle within one.
-   subroutine make_energy(fem, e, degree, energy, part)
+   !> All that does not depend on displacements: of an element, or of a part of one.
+   subroutine make_energy(fem, e, degree, energy, part, given)
       type(fem_t), intent(in) :: fem
       integer(ip), intent(in) :: e
       integer(ip), intent(in) :: degree             !< k, of the stresses
       type(element_energy_t), intent(inout) :: energy
-      real(wp), intent(in), optional :: part(:, :)  !< (2, 3) of a triangle within the element, less its first node [L]
-      real(wp) :: bubbles(MOST_ROWS, MOST_PIECES), heat(COMPONENTS + 1), elasticity(COMPONENTS, COMPONENTS)
-      real(wp) :: root(COMPONENTS, COMPONENTS), origin(2), place(2), values(MOST_COEFFICIENTS), thickness
-      integer(ip) :: n_nodes, i, k, row, n_bubbles, rule
+      real(wp), intent(in), optional :: part(:, :)  !< (2, 3 or 4) corners of a part, less the element's first node [L]
+      real(wp), intent(in), optional :: given(:, :) !< (x, n_given) columns that x is made of; without it those of x itself
+      type(rule_t) :: rule
+      real(wp) :: bubbles(MOST_ROWS, MOST_PIECES), origin(2)
+      integer(ip) :: n_x, n_rows
 
       call take_form(fem, e, energy%form_t)
-      n_nodes = energy%shape
+      associate (section => fem%sections(energy%section))
+         energy%elasticity = section%thickness*elasticity_matrix(section, energy%state)
+         energy%root = root_of(compliance_matrix(section, energy%state)/section%thickness)
+         energy%heat = section%thickness*section%expansion*thermal_stresses(section, energy%state)
+      end associate
+      origin = 0.0_wp
       if (present(part)) then
          origin = part(:, 1)
          call make_macro(part, degree, energy%macro)
       else
-         origin = 0.0_wp
-         call make_macro(energy%x(:, :SHAPES(n_nodes)%n_corners), degree, energy%macro)
+         call make_macro(energy%x(:, :SHAPES(energy%shape)%n_corners), degree, energy%macro)
       end if
-      associate (section => fem%sections(energy%section), macro => energy%macro)
-         thickness = section%thickness
-         elasticity = thickness*elasticity_matrix(section, energy%state)
-         root = root_of(compliance_matrix(section, energy%state)/thickness)
-         heat = thickness*section%expansion*thermal_stresses(section, energy%state)
-         energy%n = macro%n_outline
-         n_bubbles = macro%n_unknowns - macro%n_outline
-         energy%n_given = 2*n_nodes + 2
-         if (allocated(fem%heating)) energy%n_given = energy%n_given + n_nodes
-         rule = size(MANY, 2)
-         if (DEGREE_OF(n_nodes) == 1 .and. degree == 1) then
-            rule = merge(size(FEW, 2), size(SOME, 2), is_affine(energy%x(:, :SHAPES(n_nodes)%n_corners)) .and. &
-                         .not. (n_nodes == 4 .and. allocated(fem%heating)))     ! temperatures are bilinear
-         end if
-         call make_rows(macro%n*rule*COMPONENTS, energy)
-         row = 0
-         do i = 1, macro%n
-            do k = 1, rule
-               if (rule == size(FEW, 2)) call add_place(FEW(:, k), 1.0_wp/size(FEW, 2))
-               if (rule == size(SOME, 2)) call add_place(SOME(:, k), SOME_WEIGHTS(k))
-               if (rule == size(MANY, 2)) call add_place(MANY(:, k), MANY_WEIGHTS(k))
-            end do
-         end do
-      end associate
-      energy%n_rows = row
-      if (n_bubbles > 0) call leave_bubbles(bubbles(:row, :n_bubbles), energy%rows)
+      n_x = 2*energy%shape + 2
+      if (allocated(fem%heating)) n_x = n_x + energy%shape
+      energy%n_given = n_x
+      if (present(given)) energy%n_given = size(given, 2, kind=ip)
+      energy%n = energy%macro%n_outline
+      call choose_rule(energy%form_t, degree, allocated(fem%heating), rule)
+      n_rows = COMPONENTS*energy%macro%n_coefficients*energy%macro%n
+      call make_room_of(n_rows, energy)
+      call add_outline(rule, energy, bubbles)
+      if (present(given)) then
+         call add_given(allocated(fem%heating), rule, origin, given, energy)
+      else
+         call add_given(allocated(fem%heating), rule, origin, unit_matrix(n_x), energy)
+      end if
+      call leave_bubbles(bubbles(:n_rows, :energy%macro%n_unknowns - energy%n), energy%rows)
       call transposed_product(energy%rows(:, :energy%n), energy%rows, energy%slopes)
-
-   contains
-
-      !> The rows of a point of piece i.
-      subroutine add_place(lambda, share)
-         real(wp), intent(in) :: lambda(3), share
-         real(wp) :: field(COMPONENTS, 2*MOST_NODES), value(MOST_NODES), of_row(COMPONENTS, COMPONENTS), stress(COMPONENTS)
-         integer(ip) :: j, l
-
-         associate (macro => energy%macro)
-            place = origin + lambda(1)*macro%corner(:, i) + lambda(2)*macro%corner(:, 1 + mod(i, macro%n)) + lambda(3)*macro%centre
-            values = piece_values(degree, lambda)
-            of_row = root*sqrt(share*macro%area(i))
-            associate (x => energy%x(:, :n_nodes))
-               call take_field(n_nodes, x, natural_place(n_nodes, x, place), elasticity, field, value)
-            end associate
-            do j = 1, macro%n_unknowns
-               stress = 0.0_wp
-               do l = 1, macro%n_coefficients
-                  stress = stress + macro%stress(:, l, i, j)*values(l)
-               end do
-               if (j <= energy%n) then
-                  energy%rows(row + 1:row + 3, j) = times_root(of_row, stress)
-               else
-                  bubbles(row + 1:row + 3, j - energy%n) = times_root(of_row, stress)
-               end if
-            end do
-         end associate
-         do j = 1, 2*n_nodes
-            energy%rows(row + 1:row + 3, energy%n + j) = -times_root(of_row, field(:, j))
-         end do
-         l = energy%n + 2*n_nodes
-         if (allocated(fem%heating)) then
-            do j = 1, n_nodes
-               energy%rows(row + 1:row + 3, l + j) = times_root(of_row, heat(:COMPONENTS))*value(j)
-            end do
-            l = l + n_nodes
-         end if
-         energy%rows(row + 1:row + 3, l + 1) = -of_row(:, 1)*place(1)
-         energy%rows(row + 1:row + 3, l + 2) = -of_row(:, 2)*place(2)
-         row = row + COMPONENTS
-      end subroutine add_place
-
    end subroutine make_energy
 
+   !> The points on a piece: the fewest that are exact, as far as any are.
+   pure subroutine choose_rule(form, degree, is_heated, rule)
+      type(form_t), intent(in) :: form
+      integer(ip), intent(in) :: degree
+      logical, intent(in) :: is_heated
+      type(rule_t), intent(out) :: rule
+      integer(ip) :: i, degree_of_field, n_coefficients
+
+      degree_of_field = NO_DEGREE
+      if (is_affine(form%x(:, :SHAPES(form%shape)%n_corners))) then
+         degree_of_field = FIELD_DEGREE(form%shape)
+         if (is_heated) degree_of_field = degree_of_field + 1
+      end if
+      if (degree == 1 .and. degree_of_field <= 1) then
+         rule%n = size(FEW, 2)
+         rule%place(:, :rule%n) = FEW
+         rule%weight = 1.0_wp/size(FEW, 2)
+      else if (degree == 1 .or. degree_of_field <= 2) then
+         rule%n = size(SOME, 2)
+         rule%place(:, :rule%n) = SOME
+         rule%weight(:rule%n) = SOME_WEIGHTS
+      else
+         rule%n = size(MANY, 2)
+         rule%place = MANY
+         rule%weight = MANY_WEIGHTS
+      end if
+      n_coefficients = merge(3, MOST_COEFFICIENTS, degree == 1)
+      do i = 1, rule%n
+         rule%basis(i, :) = sqrt(rule%weight(i))*piece_values(degree, rule%place(:, i))
+      end do
+      call make_orthogonal(rule%basis(:rule%n, :n_coefficients), rule%triangle(:n_coefficients, :n_coefficients))
+   end subroutine choose_rule
+
+   !> Columns become orthogonal ones of length 1, q, of which the given ones are q triangle (Gram and Schmidt).
+   pure subroutine make_orthogonal(columns, triangle)
+      real(wp), intent(inout) :: columns(:, :)
+      real(wp), intent(out) :: triangle(:, :)
+      integer(ip) :: i, j
+
+      triangle = 0.0_wp
+      do j = 1, size(columns, 2, kind=ip)
+         do i = 1, j - 1
+            triangle(i, j) = dot_product(columns(:, i), columns(:, j))
+            columns(:, j) = columns(:, j) - triangle(i, j)*columns(:, i)
+         end do
+         triangle(j, j) = norm2(columns(:, j))
+         if (triangle(j, j) > 0.0_wp) columns(:, j) = columns(:, j)/triangle(j, j)
+      end do
+   end subroutine make_orthogonal
+
    !> Room for the rows of this kind of element.
-   pure subroutine make_rows(n_rows, energy)
+   pure subroutine make_room_of(n_rows, energy)
       integer(ip), intent(in) :: n_rows
       type(element_energy_t), intent(inout) :: energy
       logical :: fits
 
+      energy%n_rows = n_rows + energy%n_given
       fits = allocated(energy%rows)
       if (fits) fits = size(energy%rows, 1) == n_rows .and. size(energy%rows, 2) == energy%n + energy%n_given
       if (fits) return
-      if (allocated(energy%rows)) deallocate (energy%rows, energy%slopes)
-      allocate (energy%rows(n_rows, energy%n + energy%n_given), energy%slopes(energy%n, energy%n + energy%n_given))
-   end subroutine make_rows
+      if (allocated(energy%rows)) deallocate (energy%rows, energy%rest, energy%slopes)
+      allocate (energy%rows(n_rows, energy%n + energy%n_given), energy%slopes(energy%n, energy%n + energy%n_given), &
+                energy%rest(energy%n_given, energy%n_given))
+   end subroutine make_room_of
 
-   !> Makes all columns orthogonal to those of the bubbles (Gram and Schmidt, twice).
+   !> R_a, and the same of the bubbles.
+   pure subroutine add_outline(rule, energy, bubbles)
+      type(rule_t), intent(in) :: rule
+      type(element_energy_t), intent(inout) :: energy
+      real(wp), intent(out) :: bubbles(:, :)
+      real(wp) :: root(COMPONENTS, COMPONENTS), stress(COMPONENTS)
+      integer(ip) :: i, j, l, q, row
+
+      associate (macro => energy%macro, n => energy%macro%n_coefficients)
+         do i = 1, macro%n
+            root = sqrt(macro%area(i))*energy%root
+            do j = 1, macro%n_unknowns
+               do q = 1, n
+                  stress = 0.0_wp
+                  do l = q, n
+                     stress = stress + macro%stress(:, l, i, j)*rule%triangle(q, l)
+                  end do
+                  row = COMPONENTS*(n*(i - 1) + q - 1)
+                  if (j <= energy%n) then
+                     energy%rows(row + 1:row + 3, j) = times_root(root, stress)
+                  else
+                     bubbles(row + 1:row + 3, j - energy%n) = times_root(root, stress)
+                  end if
+               end do
+            end do
+         end do
+      end associate
+   end subroutine add_outline
+
+   !> R_x of the given columns.
+   pure subroutine add_given(is_heated, rule, origin, given, energy)
+      logical, intent(in) :: is_heated
+      type(rule_t), intent(in) :: rule
+      real(wp), intent(in) :: origin(2)             !< of the macro's corners, less the element's first node [L]
+      real(wp), intent(in) :: given(:, :)           !< (x, n_given)
+      type(element_energy_t), intent(inout) :: energy
+      real(wp) :: field(COMPONENTS, size(given, 1)), values(COMPONENTS, rule%n, energy%n_given), lambda(3), stress(COMPONENTS)
+      real(wp) :: rest(COMPONENTS*rule%n*energy%macro%n, energy%n_given)
+      integer(ip) :: i, j, k, l, q, row
+
+      associate (macro => energy%macro, n => energy%macro%n_coefficients)
+         do i = 1, macro%n
+            do k = 1, rule%n
+               lambda = rule%place(:, k)
+               call given_field(energy, is_heated, origin + lambda(1)*macro%corner(:, i) &
+                                + lambda(2)*macro%corner(:, 1 + mod(i, macro%n)) + lambda(3)*macro%centre, field)
+               do j = 1, energy%n_given
+                  stress = 0.0_wp
+                  do l = 1, size(given, 1, kind=ip)
+                     stress = stress + field(:, l)*given(l, j)
+                  end do
+                  values(:, k, j) = times_root(sqrt(rule%weight(k)*macro%area(i))*energy%root, stress)
+               end do
+            end do
+            do j = 1, energy%n_given
+               do q = 1, n
+                  row = COMPONENTS*(n*(i - 1) + q - 1)
+                  associate (along => energy%rows(row + 1:row + 3, energy%n + j))
+                     along = 0.0_wp
+                     do k = 1, rule%n
+                        along = along + values(:, k, j)*rule%basis(k, q)
+                     end do
+                     do k = 1, rule%n
+                        values(:, k, j) = values(:, k, j) - along*rule%basis(k, q)
+                     end do
+                  end associate
+               end do
+               do k = 1, rule%n
+                  row = COMPONENTS*(rule%n*(i - 1) + k - 1)
+                  rest(row + 1:row + 3, j) = values(:, k, j)
+               end do
+            end do
+         end do
+         energy%rest = 0.0_wp                       ! as many polynomials as points: nothing is left
+         if (rule%n > n) call make_orthogonal(rest, energy%rest)
+      end associate
+   end subroutine add_given
+
+   !> s_b - s_h at a place by the numbers of x.
+   pure subroutine given_field(energy, is_heated, place, field)
+      type(element_energy_t), intent(in) :: energy
+      logical, intent(in) :: is_heated
+      real(wp), intent(in) :: place(2)              !< less the element's first node [L]
+      real(wp), intent(out) :: field(:, :)          !< (COMPONENTS, x)
+      real(wp) :: value(MOST_NODES)
+      integer(ip) :: j, l
+
+      field = 0.0_wp
+      associate (n => energy%shape)
+         call take_field(n, energy%x(:, :n), natural_place(n, energy%x(:, :n), place), -energy%elasticity, field, value)
+         l = 2*n
+         if (is_heated) then
+            do j = 1, n
+               field(:, l + j) = energy%heat(:COMPONENTS)*value(j)
+            end do
+            l = l + n
+         end if
+      end associate
+      field(1, l + 1) = -place(1)
+      field(2, l + 2) = -place(2)
+   end subroutine given_field
+
+   !> Makes all columns orthogonal to those of the bubbles.
    !>
    !> A bubble is an Airy function that is 0 with its gradient all along the outline, so no other element sees its number: for any
    !> a and x it is the one for which E is least. |R_a a + R_x x + B b|^2 is least over b where B'(R_a a + R_x x + B b) = 0, and
-   !> then is |P R_a a + P R_x x|^2, P being the projection on what is orthogonal to the columns of B. One pass of Gram and Schmidt
-   !> leaves a part of eps times the quotient of the lengths, the second one takes that, too.
-   pure subroutine leave_bubbles(bubbles, rows)
-      real(wp), intent(inout) :: bubbles(:, :)
-      real(wp), intent(inout) :: rows(:, :)
-      integer(ip) :: i, j, pass
+   !> then is |P R_a a + P R_x x|^2, P = 1 - B B' being the projection on what is orthogonal to the columns of B.
+   subroutine leave_bubbles(bubbles, rows)
+      real(wp), intent(inout), contiguous :: bubbles(:, :)
+      real(wp), intent(inout), contiguous :: rows(:, :)
+      real(wp) :: triangle(size(bubbles, 2), size(bubbles, 2)), parts(size(bubbles, 2), size(rows, 2))
+      integer(ip) :: i, j
 
-      do i = 1, size(bubbles, 2, kind=ip)
-         associate (bubble => bubbles(:, i))
-            do pass = 1, 2
-               do j = 1, i - 1
-                  bubble = bubble - dot_product(bubbles(:, j), bubble)*bubbles(:, j)
-               end do
-            end do
-            bubble = bubble/norm2(bubble)
-            do pass = 1, 2
-               do j = 1, size(rows, 2, kind=ip)
-                  rows(:, j) = rows(:, j) - dot_product(bubble, rows(:, j))*bubble
-               end do
-            end do
-         end associate
+      if (size(bubbles) == 0) return
+      call make_orthogonal(bubbles, triangle)
+      call transposed_product(bubbles, rows, parts)
+      do j = 1, size(rows, 2, kind=ip)
+         do i = 1, size(bubbles, 2, kind=ip)
+            rows(:, j) = rows(:, j) - bubbles(:, i)*parts(i, j)
+         end do
       end do
    end subroutine leave_bubbles
+
+   pure function unit_matrix(n) result(matrix)
+      integer(ip), intent(in) :: n
+      real(wp) :: matrix(n, n)
+      integer(ip) :: i
+
+      matrix = 0.0_wp
+      do i = 1, n
+         matrix(i, i) = 1.0_wp
+      end do
+   end function unit_matrix
 
    !> An upper triangle times a stress.
    pure function times_root(root, stress) result(product_of)
@@ -215,14 +345,16 @@ contains
    !> R_x x: the rows without the outline.
    pure subroutine given_rows(energy, x, rows)
       type(element_energy_t), intent(in) :: energy
-      real(wp), intent(in) :: x(:)                  !< (n_given) displacements less those of the first node [L], temperatures,
-      !< thickness times force per volume [F/L^2]
+      real(wp), intent(in) :: x(:)                  !< (n_given) of each given column; without them displacements less those of
+      !< the first node [L], temperatures, thickness times force per volume [F/L^2]
       real(wp), intent(out) :: rows(:)              !< (n_rows) [(F L)^(1/2)]
-      integer(ip) :: j
+      integer(ip) :: j, n
 
+      n = size(energy%rows, 1, kind=ip)
       rows = 0.0_wp
       do j = 1, energy%n_given
-         rows = rows + energy%rows(:, energy%n + j)*x(j)
+         rows(:n) = rows(:n) + energy%rows(:, energy%n + j)*x(j)
+         rows(n + 1:n + j) = rows(n + 1:n + j) + energy%rest(:j, j)*x(j)
       end do
    end subroutine given_rows
 
@@ -232,29 +364,15 @@ contains
       real(wp), intent(in) :: x(:)                  !< (n_given)
       real(wp), intent(in) :: outline(:)            !< (n)
       real(wp) :: rows(energy%n_rows)
-      integer(ip) :: j
+      integer(ip) :: j, n
 
+      n = size(energy%rows, 1, kind=ip)
       call given_rows(energy, x, rows)
       do j = 1, energy%n
-         rows = rows + energy%rows(:, j)*outline(j)
+         rows(:n) = rows(:n) + energy%rows(:, j)*outline(j)
       end do
       difference = dot_product(rows, rows)
    end function energy_difference
-
-   !> Less what the stress of the forces per volume has along a side, the traction (-b_1 x_1 n_1, -b_2 x_2 n_2).
-   pure function volume_tractions(b, from, to, degree) result(traction)
-      real(wp), intent(in) :: b(2)                  !< thickness times force per volume [F/L^2]
-      real(wp), intent(in) :: from(2), to(2)        !< ends, counter-clockwise, less the element's first node [L]
-      integer(ip), intent(in) :: degree
-      real(wp) :: traction(2, 0:degree)
-      real(wp) :: n(2)
-      integer(ip) :: j
-
-      n = [to(2) - from(2), from(1) - to(1)]/norm2(to - from)
-      do j = 0, degree
-         traction(:, j) = b*(from + real(j, wp)/degree*(to - from))*n
-      end do
-   end function volume_tractions
 
    !> The stresses of displacements at the corners of an element, times the thickness: rows s11, s22, s12 corner by corner, columns
    !> as x without forces per volume.
@@ -315,19 +433,44 @@ contains
    pure function inverse(m) result(i)
       real(wp), intent(in) :: m(2, 2)
       real(wp) :: i(2, 2)
+      real(wp) :: det
 
-      i = reshape([m(2, 2), -m(2, 1), -m(1, 2), m(1, 1)], [2, 2])/(m(1, 1)*m(2, 2) - m(1, 2)*m(2, 1))
+      det = m(1, 1)*m(2, 2) - m(1, 2)*m(2, 1)
+      i(:, 1) = [m(2, 2), -m(2, 1)]/det
+      i(:, 2) = [-m(1, 2), m(1, 1)]/det
    end function inverse
 
-   !> xi of a place, by Newton's method from the middle.
+   !> xi of a place, by Newton's method from the middle: of a quadrilateral with straight sides by its corners, and where its centre
+   !> may be elsewhere, from there by all nodes.
    pure function natural_place(n, x, place) result(xi)
       integer(ip), intent(in) :: n
       real(wp), intent(in) :: x(:, :), place(2)
       real(wp) :: xi(2)
-      real(wp) :: j(2, 2), r(2), step(2), value(n)
+      real(wp) :: j(2, 2), r(2), step(2), of(2, 4), value(n)
       integer(ip) :: i, k
 
-      xi = merge(1.0_wp/3, 0.0_wp, SHAPES(n)%n_corners == 3)
+      of = 0.0_wp                                   ! x = of_1 + of_2 xi + of_3 eta + of_4 xi eta
+      if (SHAPES(n)%n_corners == 3) then
+         of(:, 1) = x(:, 1)
+         of(:, 2) = x(:, 2) - x(:, 1)
+         of(:, 3) = x(:, 3) - x(:, 1)
+      else
+         of(:, 1) = 0.25_wp*(x(:, 1) + x(:, 2) + x(:, 3) + x(:, 4))
+         of(:, 2) = 0.25_wp*(x(:, 2) + x(:, 3) - x(:, 1) - x(:, 4))
+         of(:, 3) = 0.25_wp*(x(:, 3) + x(:, 4) - x(:, 1) - x(:, 2))
+         of(:, 4) = 0.25_wp*(x(:, 1) + x(:, 3) - x(:, 2) - x(:, 4))
+      end if
+      xi = 0.0_wp
+      do i = 1, MOST_STEPS
+         r = place - of(:, 1) - of(:, 2)*xi(1) - of(:, 3)*xi(2) - of(:, 4)*(xi(1)*xi(2))
+         j(:, 1) = of(:, 2) + of(:, 4)*xi(2)
+         j(:, 2) = of(:, 3) + of(:, 4)*xi(1)
+         j = inverse(j)
+         step = [j(1, 1)*r(1) + j(1, 2)*r(2), j(2, 1)*r(1) + j(2, 2)*r(2)]
+         xi = xi + step
+         if (maxval(abs(step)) <= ENOUGH) exit      ! what is left is its square
+      end do
+      if (n < 9) return
       do i = 1, MOST_STEPS
          value = shape_values(n, xi)
          r = place
@@ -337,7 +480,7 @@ contains
          j = inverse(jacobian(x, shape_gradients(n, xi)))
          step = [j(1, 1)*r(1) + j(1, 2)*r(2), j(2, 1)*r(1) + j(2, 2)*r(2)]
          xi = xi + step
-         if (maxval(abs(step)) <= 1.0e-9_wp) exit  ! what is left is its square
+         if (maxval(abs(step)) <= ENOUGH) exit
       end do
    end function natural_place
 

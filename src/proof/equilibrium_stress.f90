@@ -1,10 +1,10 @@
 !> Stresses in equilibrium with tractions along all sides, and their distance from the stresses of displacements.
 module atrito_equilibrium_stress
-   use atrito_airy_stress, only: outline_of_tractions
+   use atrito_airy_stress, only: outline_of_tractions, volume_tractions
    use atrito_assembly, only: fem_t
    use atrito_cut_elements, only: side_cuts_t, cut_difference, is_cut
    use atrito_element_classes, only: element_classes_t, given_of
-   use atrito_element_energy, only: element_energy_t, energy_difference, given_rows, make_energy, volume_tractions, MOST_GIVEN
+   use atrito_element_energy, only: element_energy_t, energy_difference, given_rows, make_energy, MOST_GIVEN
    use atrito_element_table, only: CORNERS_OF
    use atrito_kinds, only: ip, wp
    use atrito_mesh_sides, only: chains_t, mesh_sides_t
@@ -16,7 +16,10 @@ module atrito_equilibrium_stress
 
    integer, parameter :: MOST_SWEEPS = 12
    real(wp), parameter :: FEW_DIGITS = 1.0e-9_wp
-   real(wp), parameter :: LITTLE = 0.1_wp           !< of the energy: a sweep that gained less is the last one
+   !> Of the energy: a sweep that gained less is the last one. The one behind it gains a fifteenth of what it did, or so.
+   real(wp), parameter :: LITTLE = 0.1_wp, LITTLE_OF_LARGE = 1.0_wp
+   integer(ip), parameter :: LARGE = 4000           !< elements of a scene whose sweeps take time
+   real(wp), parameter :: NOTHING = 1.0e-13_wp      !< of the energy of the stresses: round-off
 
 contains
 
@@ -32,8 +35,10 @@ contains
       type(outlines_t), intent(out) :: outlines     !< of the stresses; < 0 where an element has too many cuts: its energy
       real(wp), intent(inout) :: residual           !< of the equilibrium; >= what outlines are open by, over the largest force
       integer(ip), allocatable :: cut(:)            ! elements
+      type(element_energy_t) :: energy              ! of a class
+      real(wp), allocatable :: rows(:)
       integer(ip) :: degree, most, c
-      real(wp) :: gain, left, open, most_open, largest
+      real(wp) :: gain, left, open, most_open, largest, least
       real(wp) :: of_stresses                       ! energy of those of the displacements
       integer :: sweep
 
@@ -58,10 +63,12 @@ contains
          if (outlines%energy(cut(c)) < 0.0_wp) return
       end do
       left = sum(outlines%energy)
+      least = merge(LITTLE, LITTLE_OF_LARGE, fem%mesh%n_elements <= LARGE)
       do sweep = 1, MOST_SWEEPS
+         if (.not. left > NOTHING*of_stresses) exit
          call sweep_stars(fem%mesh, sides, chains, loads%known, outlines, gain)
          left = left - gain
-         if (.not. gain > LITTLE*left) exit
+         if (.not. gain > least*left) exit
       end do
       if (sum(outlines%energy) <= FEW_DIGITS*of_stresses) call sum_again(fem, classes, sides, cuts, loads, u, outlines)
       outlines%energy = max(outlines%energy, 0.0_wp)   ! elsewhere than where the energy is, round-off of either sign
@@ -71,23 +78,21 @@ contains
       !> Outlines and slopes of the energy of the elements of a class, and their energies.
       subroutine begin_class(c)
          integer(ip), intent(in) :: c
-         type(element_energy_t) :: energy
          real(wp) :: x(MOST_GIVEN)
-         real(wp), allocatable :: rows(:)
-         integer(ip) :: i, n_given, j
+         integer(ip) :: i, j
 
-         call make_energy(fem, classes%member(classes%first(c)), degree, energy)
+         call make_class_energy(fem, loads, u, classes%member(classes%first(c):classes%first(c + 1) - 1), degree, energy)
          outlines%h(:energy%n, :energy%n, c) = energy%slopes(:, :energy%n)
-         allocate (rows(energy%n_rows))
+         if (.not. allocated(rows)) allocate (rows(energy%n_rows))
+         if (size(rows) /= energy%n_rows) rows = spread(0.0_wp, 1, energy%n_rows)
          do i = classes%first(c), classes%first(c + 1) - 1
             associate (e => classes%member(i), n => energy%n, corners => energy%macro%n)
-               call given_of(fem, e, u, x, n_given)
-               x(n_given + 1:n_given + 2) = loads%volume(:, e)
                call outline_of_tractions(energy%macro%corner(:, :corners), &
                                          tractions_around(sides, loads, e, energy%macro%corner(:, :corners)), &
                                          outlines%a(:n, e), open)
                most_open = max(most_open, open)
                largest = max(largest, maxval(abs(outlines%a(2:3*corners:3, e))), maxval(abs(outlines%a(3:3*corners:3, e))))
+               call take_given(fem, loads, u, e, energy, x)
                call given_rows(energy, x(:energy%n_given), rows)
                do j = 1, energy%n_given
                   outlines%slope(:n, e) = outlines%slope(:n, e) + energy%slopes(:, n + j)*x(j)
@@ -104,6 +109,52 @@ contains
 
    end subroutine sum_stresses
 
+   !> What depends on the shape of the elements of a class; of one alone by its own numbers.
+   subroutine make_class_energy(fem, loads, u, members, degree, energy)
+      type(fem_t), intent(in) :: fem
+      type(proof_loads_t), intent(in) :: loads
+      real(wp), intent(in) :: u(:, :)               !< (2, n_nodes) [L]
+      integer(ip), intent(in) :: members(:)
+      integer(ip), intent(in) :: degree             !< k
+      type(element_energy_t), intent(inout) :: energy
+      real(wp) :: x(MOST_GIVEN, 1)
+      integer(ip) :: n
+
+      if (size(members) > 1) then
+         call make_energy(fem, members(1), degree, energy)
+      else
+         call given_with_loads(fem, loads, u, members(1), x(:, 1), n)
+         call make_energy(fem, members(1), degree, energy, given=x(:n, :))
+      end if
+   end subroutine make_class_energy
+
+   !> The numbers of an element that its energy (make_class_energy) is to be taken with.
+   subroutine take_given(fem, loads, u, e, energy, x)
+      type(fem_t), intent(in) :: fem
+      type(proof_loads_t), intent(in) :: loads
+      real(wp), intent(in) :: u(:, :)               !< (2, n_nodes) [L]
+      integer(ip), intent(in) :: e
+      type(element_energy_t), intent(in) :: energy
+      real(wp), intent(inout) :: x(:)
+      integer(ip) :: n
+
+      x(1) = 1.0_wp
+      if (energy%n_given > 1) call given_with_loads(fem, loads, u, e, x, n)
+   end subroutine take_given
+
+   subroutine given_with_loads(fem, loads, u, e, x, n)
+      type(fem_t), intent(in) :: fem
+      type(proof_loads_t), intent(in) :: loads
+      real(wp), intent(in) :: u(:, :)               !< (2, n_nodes) [L]
+      integer(ip), intent(in) :: e
+      real(wp), intent(inout) :: x(:)
+      integer(ip), intent(out) :: n                 !< how many
+
+      call given_of(fem, e, u, x, n)
+      x(n + 1:n + 2) = loads%volume(:, e)
+      n = n + 2
+   end subroutine given_with_loads
+
    !> Outline, slope and energy of an element that is cut. It has an energy of its own, and so a class.
    subroutine begin_cut(fem, sides, cuts, loads, u, e, class, outlines)
       type(fem_t), intent(in) :: fem
@@ -114,14 +165,13 @@ contains
       integer(ip), intent(in) :: e, class
       type(outlines_t), intent(inout) :: outlines   !< with the outline
       real(wp) :: x(MOST_GIVEN)
-      integer(ip) :: n_given
+      integer(ip) :: n_x
 
       associate (n => outline_size(fem%mesh%shape(e), outlines%degree))
-         call given_of(fem, e, u, x, n_given)
-         x(n_given + 1:n_given + 2) = loads%volume(:, e)
+         call given_with_loads(fem, loads, u, e, x, n_x)
          outlines%class_of(e) = class
-         call cut_difference(fem, sides, cuts, e, x(:n_given + 2), outlines%a(:n, e), outlines%energy(e), &
-                             outlines%h(:n, :n, class), outlines%slope(:n, e))
+         call cut_difference(fem, sides, cuts, e, x(:n_x), outlines%a(:n, e), outlines%energy(e), outlines%h(:n, :n, class), &
+                             outlines%slope(:n, e))
       end associate
    end subroutine begin_cut
 
@@ -169,27 +219,29 @@ contains
       type(outlines_t), intent(inout) :: outlines
       type(element_energy_t) :: energy
       real(wp) :: x(MOST_GIVEN)
-      integer(ip) :: c, i, n_given
+      integer(ip) :: c, i, n
       logical :: is_made
 
       do c = 1, classes%n
          is_made = .false.
          do i = classes%first(c), classes%first(c + 1) - 1
             associate (e => classes%member(i))
-               call given_of(fem, e, u, x, n_given)
-               x(n_given + 1:n_given + 2) = loads%volume(:, e)
                if (is_cut(cuts, sides, e)) then
-                  call cut_difference(fem, sides, cuts, e, x(:n_given + 2), &
+                  call given_with_loads(fem, loads, u, e, x, n)
+                  call cut_difference(fem, sides, cuts, e, x(:n), &
                                       outlines%a(:outline_size(fem%mesh%shape(e), outlines%degree), e), outlines%energy(e))
                else
-                  if (.not. is_made) call make_energy(fem, e, outlines%degree, energy)
+                  if (.not. is_made) then
+                     call make_class_energy(fem, loads, u, classes%member(classes%first(c):classes%first(c + 1) - 1), &
+                                            outlines%degree, energy)
+                  end if
                   is_made = .true.
-                  outlines%energy(e) = energy_difference(energy, x(:n_given + 2), outlines%a(:energy%n, e))
+                  call take_given(fem, loads, u, e, energy, x)
+                  outlines%energy(e) = energy_difference(energy, x(:energy%n_given), outlines%a(:energy%n, e))
                end if
             end associate
          end do
       end do
-
    end subroutine sum_again
 
 end module atrito_equilibrium_stress

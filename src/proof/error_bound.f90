@@ -19,8 +19,8 @@ module atrito_error_bound
    use atrito_assembly, only: cached_stiffness, fem_t, stiffness_cache_t
    use atrito_balanced_contact, only: balanced_segments
    use atrito_cut_elements, only: add_piece, link_pieces, side_cuts_t
+   use atrito_contact_segments, only: segment_forces, segment_t, traction_at
    use atrito_contact_solution, only: contact_solution_t
-   use atrito_contact_tractions, only: segment_forces, segment_t, traction_at
    use atrito_element_classes, only: element_classes_t, find_classes, given_of
    use atrito_element_energy, only: corner_stresses, MOST_GIVEN
    use atrito_element_table, only: CORNERS_OF, DEGREE_OF, MOST_NODES
@@ -31,6 +31,7 @@ module atrito_error_bound
    use atrito_mesh_sides, only: chains_t, list_chains, list_sides, mesh_sides_t
    use atrito_model, only: model_t, step_t
    use atrito_problem, only: problem_t
+   use atrito_proof_forecast, only: work_of_bound, work_of_run
    use atrito_proof_loads, only: proof_loads_t, take_loads
    use atrito_results, only: error_bound_t, results_t
    use atrito_side_misfit, only: add_misfit
@@ -48,12 +49,12 @@ module atrito_error_bound
       real(wp) :: residual = 0.0_wp                 !< of the equilibrium
       character(len=:), allocatable :: why_not      !< allocated: there is no bound
       logical :: keeps_outlines = .false.           !< they are asked for: large
+      real(wp) :: most_work = huge(1.0_wp)          !< more is not wanted (atrito_proof_forecast)
+      real(wp) :: work = 0.0_wp
       type(outlines_t) :: outlines                  !< s^, but that of elements that are cut
    end type terms_t
 
    integer(ip), parameter :: TRIED_TWICE = 4000     !< elements of a scene for which two kinds of tractions of contact are tried
-   integer(ip), parameter :: SMALL_SCENE = 1000     !< different elements that take no time to speak of
-   real(wp), parameter :: MANY = 0.2_wp             !< of the elements
    real(wp), parameter :: LEAST_PERCENT = 1.0e-7_wp !< no bound is below what round-off may be
    real(wp), parameter :: SHARE_DIGITS = 1.0e-6_wp
    real(wp), parameter :: LARGEST = 1.0e100_wp      !< of displacements and stresses, 1/LARGEST the least: squares stay numbers
@@ -72,7 +73,7 @@ contains
       class(problem_t), intent(in) :: problem
       type(contact_solution_t), intent(in) :: solution
       real(wp), allocatable, intent(inout) :: exchanged(:, :) !< what exchange_tractions found; not allocated: it is asked now
-      logical, intent(in) :: if_quick               !< a bound is wanted where it takes less than half of the time of a run
+      logical, intent(in) :: if_quick               !< a bound is wanted where it takes less time than the rest of the run
       type(results_t), intent(inout) :: results     !< with displacements and reactions
       type(terms_t) :: terms, other_terms
       type(element_classes_t) :: classes
@@ -81,13 +82,13 @@ contains
       results%error_bound = error_bound_t()
       call check_hypotheses(problem, results%u, terms%why_not)
       call find_classes(problem%fem, classes)
-      if (.not. allocated(terms%why_not) .and. if_quick .and. takes_long(problem%fem, classes)) then
-         terms%why_not = 'it takes longer than the run: --proof on'
-      end if
+      if (if_quick) terms%most_work = work_of_run(problem%fem, classes, sum(problem%points%n), solution%form, &
+                                                  results%linear_solves)
       if (.not. allocated(terms%why_not)) then
          call sum_terms(model, acting, problem, solution, .true., classes, exchanged, results, terms)
       end if
       if (.not. allocated(terms%why_not) .and. size(problem%points) > 0 .and. problem%fem%mesh%n_elements <= TRIED_TWICE) then
+         other_terms%most_work = terms%most_work - terms%work
          call sum_terms(model, acting, problem, solution, .false., classes, other, results, other_terms)
          if (.not. allocated(other_terms%why_not)) then
             if (sum(other_terms%share) < sum(terms%share)) terms = other_terms
@@ -131,12 +132,17 @@ contains
       end if
       if (.not. allocated(terms%why_not)) call take_contact(problem%fem, sides, segments, degree, loads, cuts, terms%why_not)
       if (.not. allocated(terms%why_not)) then
+         terms%work = work_of_bound(problem%fem, classes, sides, cuts)
+         if (terms%work > terms%most_work) terms%why_not = 'it takes longer than the run: --proof on'
+      end if
+      if (.not. allocated(terms%why_not)) then
          call list_chains(problem%fem%mesh, sides, chains)
          call take_elements(problem%fem, classes, sides, results%u + exchanged, loads, force)
          call equilibrate_sides(problem%fem%mesh, sides, chains, force, loads%known, loads%traction, terms%residual)
          block
             type(outlines_t) :: found                ! large: they go before the sides are looked at
 
+            deallocate (force)
             call sum_stresses(problem%fem, classes, sides, chains, loads, results%u, cuts, found, terms%residual)
             terms%share = found%energy
             if (terms%keeps_outlines) terms%outlines = found
@@ -189,16 +195,6 @@ contains
 
       share_of = nint(part/SHARE_DIGITS)*SHARE_DIGITS
    end function share_of
-
-   !> Whether a bound takes more than the run does: where many elements are quadrilaterals or of second degree and no two are equal.
-   pure logical function takes_long(fem, classes)
-      type(fem_t), intent(in) :: fem
-      type(element_classes_t), intent(in) :: classes
-
-      takes_long = .false.
-      if (classes%n <= SMALL_SCENE .or. classes%n <= MANY*fem%mesh%n_elements) return
-      takes_long = any(fem%mesh%shape(:fem%mesh%n_elements) > 3)
-   end function takes_long
 
    !> What nothing can be proved for, whatever the loads are.
    subroutine check_hypotheses(problem, u, why_not)
@@ -288,7 +284,8 @@ contains
       real(wp), allocatable :: thermal(:, :)
       integer(ip) :: c
 
-      allocate (force, source=-loads%at_nodes)
+      call move_alloc(loads%at_nodes, force)
+      force = -force
       if (allocated(fem%heating)) allocate (thermal(2, fem%mesh%n_nodes), source=0.0_wp)
       do c = 1, classes%n
          call take_class(c)

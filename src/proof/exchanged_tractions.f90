@@ -8,8 +8,8 @@ module atrito_exchanged_tractions
    use atrito_balanced_contact, only: add_segments, balanced_segments
    use atrito_bodies, only: bodies_t
    use atrito_condensed_body, only: condense_body, condensed_body_t, contact_response, expand_body
+   use atrito_contact_segments, only: segment_t
    use atrito_contact_solution, only: contact_solution_t
-   use atrito_contact_tractions, only: segment_t
    use atrito_displacements, only: contact_forces
    use atrito_kinds, only: ip, wp
    use atrito_model, only: model_t

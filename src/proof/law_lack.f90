@@ -9,7 +9,7 @@
 !>
 !> It is never negative, and 0 where the law is met. Without delta, y <= 0 is a condition.
 module atrito_law_lack
-   use atrito_contact_tractions, only: between, overlap_at, segment_t, slip_at
+   use atrito_contact_segments, only: between, overlap_at, segment_t, slip_at
    use atrito_kinds, only: ip, wp
    use atrito_sorting, only: order_key, sorted_places
    implicit none (type, external)

@@ -1,7 +1,7 @@
 !> Places of contact, where corners of the triangles on both sides face one another.
 module atrito_misfit_places
    use atrito_assembly, only: fem_t
-   use atrito_contact_tractions, only: between, segment_t
+   use atrito_contact_segments, only: between, segment_t
    use atrito_kinds, only: ip, lp, wp
    use atrito_law_lack, only: axis_of, law_t, laws_at, NO_LIMIT
    use atrito_sorting, only: sorted_places

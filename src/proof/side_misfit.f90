@@ -9,7 +9,8 @@
 !> by descent on a strip of triangles: one after the other corners alone, both sides of a place apart, and both together.
 module atrito_side_misfit
    use atrito_assembly, only: fem_t
-   use atrito_contact_tractions, only: segment_t, SAME_DIRECTION
+   use atrito_contact_segments, only: segment_t
+   use atrito_contact_tractions, only: SAME_DIRECTION
    use atrito_kinds, only: ip, lp, wp
    use atrito_law_lack, only: axis_of, balanced_jump, lack_of_part, traction_of_law
    use atrito_misfit_places, only: jump_at, list_places, part_count, part_ends, place_t

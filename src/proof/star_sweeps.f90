@@ -28,6 +28,18 @@ module atrito_star_sweeps
       real(wp), allocatable :: energy(:)            !< (n_elements) E [F L]
    end type outlines_t
 
+   !> The system of a star. It depends on the shapes of its elements alone: in a regular mesh the next star has the same one.
+   type :: star_t
+      integer(ip) :: n = 0, n_free = 0              !< numbers, and those that are free
+      integer(ip), allocatable :: class_of(:), corner(:) !< (elements)
+      logical, allocatable :: is_first(:, :)        !< (2, elements) of the side before it and of the one behind it
+      logical, allocatable :: is_held(:)            !< (n)
+      integer(ip), allocatable :: place(:, :)       !< (m, elements) of its numbers among those of the element
+      integer(ip), allocatable :: at(:, :)          !< the same among the free ones of the star; 0: held
+      real(wp), allocatable :: sign_of(:, :)
+      real(wp), allocatable :: factor(:, :)         !< (n_free, n_free)
+   end type star_t
+
    real(wp), parameter :: ROUND_OFF = 1.0e-11_wp    !< a pivot below this share of its diagonal is none
    real(wp), parameter :: ALONG_AXIS = 1.0e-10_wp
 
@@ -41,13 +53,15 @@ contains
       logical, intent(in) :: known(:, :)            !< (2, sides)
       type(outlines_t), intent(inout) :: outlines
       real(wp), intent(out) :: gain                 !< what the energy has become less by [F L]
+      type(star_t) :: star
       integer(ip) :: i
 
       gain = 0.0_wp
       do i = 1, chains%n
          associate (first => chains%first(i), last => chains%first(i + 1) - 1)
-            call improve_star(mesh, sides, known, last - first + 1, chains%element(first:last), chains%corner(first:last), &
-                              chains%side(first + i - 1:last + i), outlines, gain)
+            call take_star(mesh, sides, known, chains%element(first:last), chains%corner(first:last), &
+                           chains%side(first + i - 1:last + i), outlines, star)
+            if (star%n_free > 0) call improve_star(star, chains%element(first:last), outlines, gain)
          end associate
       end do
    end subroutine sweep_stars
@@ -62,54 +76,97 @@ contains
    !> and is less there by y' times the right-hand side. H_e a_e + g_e (slope) is kept for each element and moved with it, so a star
    !> costs the product of some small matrices, whatever the mesh. The order of the system is 3 + (2k - 1) times the sides that meet
    !> at the corner, 15 with k = 2 in a grid of quadrilaterals.
-   subroutine improve_star(mesh, sides, known, n_elements, element, corner, side, outlines, gain)
+   subroutine improve_star(star, element, outlines, gain)
+      type(star_t), intent(in) :: star
+      integer(ip), intent(in) :: element(:)         !< of a chain
+      type(outlines_t), intent(inout) :: outlines
+      real(wp), intent(inout) :: gain
+      real(wp) :: step(star%n_free), slope(star%n_free)
+      integer(ip) :: j, s
+
+      slope = 0.0_wp
+      do j = 1, size(element, kind=ip)
+         do s = 1, size(star%at, 1, kind=ip)
+            associate (k => star%at(s, j))
+               if (k > 0) slope(k) = slope(k) - star%sign_of(s, j)*outlines%slope(star%place(s, j), element(j))
+            end associate
+         end do
+      end do
+      step = slope
+      call solve_factored(star%n_free, star%factor, step)
+      gain = gain + dot_product(slope, step)
+      do j = 1, size(element, kind=ip)
+         call move_outline(star%place(:, j), star%at(:, j), star%sign_of(:, j), step, element(j), outlines)
+      end do
+   end subroutine improve_star
+
+   !> The system of a star, if it is not the one that is there.
+   subroutine take_star(mesh, sides, known, element, corner, side, outlines, star)
       type(mesh_t), intent(in) :: mesh
       type(mesh_sides_t), intent(in) :: sides
       logical, intent(in) :: known(:, :)
-      integer(ip), intent(in) :: n_elements, element(:), corner(:), side(0:) !< a chain
-      type(outlines_t), intent(inout) :: outlines
-      real(wp), intent(inout) :: gain
-      integer(ip) :: n, j, r, s, per_side, m, n_free
-      integer(ip) :: place(9, n_elements)           ! of its numbers among those of the element
-      integer(ip) :: at(9, n_elements)              ! the same among the free ones of the star; 0: held
-      real(wp) :: sign_of(9, n_elements)
-      logical :: is_held(3*n_elements + 6)
-      real(wp) :: matrix(3*n_elements + 6, 3*n_elements + 6), step(3*n_elements + 6), slope(3*n_elements + 6)
-      integer(ip) :: free(3*n_elements + 6)
+      integer(ip), intent(in) :: element(:), corner(:), side(0:) !< a chain
+      type(outlines_t), intent(in) :: outlines
+      type(star_t), intent(inout) :: star
+      logical :: is_held(3*size(element) + 6), is_first(2, size(element))
+      integer(ip) :: n, j, per_side, n_elements
+      logical :: is_same
 
+      n_elements = size(element, kind=ip)
       per_side = 2*outlines%degree - 1
-      m = 3 + 2*per_side
       n = 3 + per_side*(n_elements + merge(0, 1, side(0) == side(n_elements)))
       call find_held(mesh, sides, known, side, outlines%degree, is_held(:n))
-      n_free = 0
-      do j = 1, n
-         free(j) = 0
-         if (is_held(j)) cycle
-         n_free = n_free + 1
-         free(j) = n_free
-      end do
-      if (n_free == 0) return
-      matrix(:n_free, :n_free) = 0.0_wp
-      step(:n_free) = 0.0_wp
       do j = 1, n_elements
+         is_first(1, j) = sides%of_element(corner(j), element(j)) > 0
+         is_first(2, j) = sides%of_element(corner_before(mesh, element(j), corner(j)), element(j)) > 0
+      end do
+      is_same = star%n == n
+      if (is_same) is_same = size(star%corner) == n_elements
+      if (is_same) is_same = all(star%class_of == outlines%class_of(element) .and. star%corner == corner) .and. &
+                             all(star%is_first .eqv. is_first) .and. all(star%is_held .eqv. is_held(:n))
+      if (is_same) return
+      star%n = n
+      star%class_of = outlines%class_of(element)
+      star%corner = corner
+      star%is_first = is_first
+      star%is_held = is_held(:n)
+      call make_star(mesh, element, side(0) == side(n_elements), outlines, star)
+   end subroutine take_star
+
+   !> Where the numbers of a star stand in its elements, and the factor of its system.
+   subroutine make_star(mesh, element, is_round, outlines, star)
+      type(mesh_t), intent(in) :: mesh
+      integer(ip), intent(in) :: element(:)
+      logical, intent(in) :: is_round               !< the chain has no ends
+      type(outlines_t), intent(in) :: outlines
+      type(star_t), intent(inout) :: star           !< with what it is known by
+      integer(ip) :: j, m, r, s, free(star%n)
+
+      m = 3 + 2*(2*outlines%degree - 1)
+      star%n_free = 0
+      do j = 1, star%n
+         free(j) = 0
+         if (star%is_held(j)) cycle
+         star%n_free = star%n_free + 1
+         free(j) = star%n_free
+      end do
+      if (allocated(star%place)) deallocate (star%place, star%at, star%sign_of, star%factor)
+      allocate (star%place(m, size(element)), star%at(m, size(element)), star%sign_of(m, size(element)))
+      allocate (star%factor(star%n_free, star%n_free), source=0.0_wp)
+      do j = 1, size(element, kind=ip)
          call find_places(j)
-         associate (h => outlines%h(:, :, outlines%class_of(element(j))), of_element => outlines%slope(:, element(j)))
+         associate (h => outlines%h(:, :, star%class_of(j)), at => star%at(:, j), place => star%place(:, j), &
+                    sign_of => star%sign_of(:, j))
             do s = 1, m
-               if (at(s, j) == 0) cycle
-               step(at(s, j)) = step(at(s, j)) - sign_of(s, j)*of_element(place(s, j))
+               if (at(s) == 0) cycle
                do r = 1, m
-                  if (at(r, j) < at(s, j)) cycle    ! the lower triangle
-                  matrix(at(r, j), at(s, j)) = matrix(at(r, j), at(s, j)) + sign_of(r, j)*sign_of(s, j)*h(place(r, j), place(s, j))
+                  if (at(r) < at(s)) cycle          ! the lower triangle
+                  star%factor(at(r), at(s)) = star%factor(at(r), at(s)) + sign_of(r)*sign_of(s)*h(place(r), place(s))
                end do
             end do
          end associate
       end do
-      slope(:n_free) = step(:n_free)
-      call solve_least(n_free, matrix, step)
-      gain = gain + dot_product(slope(:n_free), step(:n_free))
-      do j = 1, n_elements
-         call move_outline(m, place(:, j), at(:, j), sign_of(:, j), step, element(j), outlines)
-      end do
+      call factor_least(star%n_free, star%factor)
 
    contains
 
@@ -117,31 +174,29 @@ contains
       !> its normal points the other way, and its coefficients come in the other order.
       subroutine find_places(j)
          integer(ip), intent(in) :: j
-         integer(ip) :: l, c, i, n_corners, of_star
-         logical :: is_first
+         integer(ip) :: l, c, i, of_star, per_side
 
-         associate (e => element(j), k => outlines%degree)
-            n_corners = CORNERS_OF(mesh%shape(e))
+         associate (k => outlines%degree)
+            per_side = 2*k - 1
             do l = 1, 3
-               place(l, j) = 3*corner(j) - 3 + l
-               at(l, j) = free(l)
-               sign_of(l, j) = 1.0_wp
+               star%place(l, j) = 3*star%corner(j) - 3 + l
+               star%at(l, j) = free(l)
+               star%sign_of(l, j) = 1.0_wp
             end do
             do l = 0, 1                             ! the side before the element, and the one behind it
-               i = corner(j)
-               if (l == 1) i = merge(n_corners, i - 1, i == 1)
+               i = star%corner(j)
+               if (l == 1) i = corner_before(mesh, element(j), i)
                of_star = j - 1 + l
-               if (of_star == n_elements .and. side(0) == side(n_elements)) of_star = 0
-               is_first = sides%of_element(i, e) > 0
+               if (of_star == size(element) .and. is_round) of_star = 0
                do c = 1, per_side
                   associate (at_l => 3 + l*per_side + c)
-                     place(at_l, j) = side_place(n_corners, k, i) + c - 1
-                     if (c <= k .and. .not. is_first) then
-                        at(at_l, j) = free(3 + of_star*per_side + k + 1 - c)
-                        sign_of(at_l, j) = -1.0_wp
+                     star%place(at_l, j) = side_place(CORNERS_OF(mesh%shape(element(j))), k, i) + c - 1
+                     if (c <= k .and. .not. star%is_first(1 + l, j)) then
+                        star%at(at_l, j) = free(3 + of_star*per_side + k + 1 - c)
+                        star%sign_of(at_l, j) = -1.0_wp
                      else
-                        at(at_l, j) = free(3 + of_star*per_side + c)
-                        sign_of(at_l, j) = 1.0_wp
+                        star%at(at_l, j) = free(3 + of_star*per_side + c)
+                        star%sign_of(at_l, j) = 1.0_wp
                      end if
                   end associate
                end do
@@ -149,11 +204,17 @@ contains
          end associate
       end subroutine find_places
 
-   end subroutine improve_star
+   end subroutine make_star
+
+   pure integer(ip) function corner_before(mesh, e, corner)
+      type(mesh_t), intent(in) :: mesh
+      integer(ip), intent(in) :: e, corner
+
+      corner_before = merge(CORNERS_OF(mesh%shape(e)), corner - 1, corner == 1)
+   end function corner_before
 
    !> The step of a star in the numbers of one element. E changes by the step times the slopes before and behind it.
-   subroutine move_outline(m, place, at, sign_of, step, e, outlines)
-      integer(ip), intent(in) :: m                  !< numbers of the star in the element
+   subroutine move_outline(place, at, sign_of, step, e, outlines)
       integer(ip), intent(in) :: place(:), at(:)    !< among those of the element, among the free ones of the star; 0: held
       real(wp), intent(in) :: sign_of(:), step(:)
       integer(ip), intent(in) :: e
@@ -163,17 +224,17 @@ contains
 
       associate (h => outlines%h(:, :, outlines%class_of(e)), slope => outlines%slope(:, e))
          change = 0.0_wp
-         do s = 1, m
+         do s = 1, size(at, kind=ip)
             of_number(s) = 0.0_wp
             if (at(s) > 0) of_number(s) = sign_of(s)*step(at(s))
             change = change + of_number(s)*slope(place(s))
          end do
-         do s = 1, m
+         do s = 1, size(at, kind=ip)
             if (at(s) == 0) cycle
             outlines%a(place(s), e) = outlines%a(place(s), e) + of_number(s)
             slope = slope + h(:, place(s))*of_number(s)
          end do
-         do s = 1, m
+         do s = 1, size(at, kind=ip)
             change = change + of_number(s)*slope(place(s))
          end do
       end associate
@@ -221,15 +282,25 @@ contains
    end subroutine find_held
 
    !> matrix step = step by Cholesky, of the lower triangle; numbers without a pivot stay 0.
-   !>
-   !> n_more: so many numbers behind them stay 0, too; their part of the matrix, and of step, becomes what is left without the first
-   !> ones: x'S x/2 - r'x is the least that the whole has.
    pure subroutine solve_least(n, matrix, step, n_more)
       integer(ip), intent(in) :: n
       real(wp), intent(inout) :: matrix(:, :), step(:)
       integer(ip), intent(in), optional :: n_more
+
+      call factor_least(n, matrix, n_more)
+      call solve_factored(n, matrix, step, n_more)
+   end subroutine solve_least
+
+   !> The lower triangle by Cholesky; numbers without a pivot have columns of 0.
+   !>
+   !> n_more: so many numbers behind them stay 0, too; their part of the matrix, and of step, becomes what is left without the first
+   !> ones: x'S x/2 - r'x is the least that the whole has.
+   pure subroutine factor_least(n, matrix, n_more)
+      integer(ip), intent(in) :: n
+      real(wp), intent(inout) :: matrix(:, :)
+      integer(ip), intent(in), optional :: n_more
       real(wp) :: original
-      integer(ip) :: i, j, k, last
+      integer(ip) :: j, k, last
 
       last = n
       if (present(n_more)) last = n + n_more
@@ -240,7 +311,6 @@ contains
          end do
          if (.not. matrix(j, j) > ROUND_OFF*original) then
             matrix(j:last, j) = 0.0_wp
-            step(j) = 0.0_wp
             cycle
          end if
          matrix(j, j) = sqrt(matrix(j, j))
@@ -248,13 +318,30 @@ contains
             matrix(j + 1:last, j) = matrix(j + 1:last, j) - matrix(j, k)*matrix(j + 1:last, k)
          end do
          matrix(j + 1:last, j) = matrix(j + 1:last, j)/matrix(j, j)
-         step(j) = step(j)/matrix(j, j)
-         step(j + 1:last) = step(j + 1:last) - matrix(j + 1:last, j)*step(j)
       end do
       do j = n + 1, last
          do k = 1, n
             matrix(j:last, j) = matrix(j:last, j) - matrix(j, k)*matrix(j:last, k)
          end do
+      end do
+   end subroutine factor_least
+
+   pure subroutine solve_factored(n, matrix, step, n_more)
+      integer(ip), intent(in) :: n
+      real(wp), intent(in) :: matrix(:, :)          !< of factor_least
+      real(wp), intent(inout) :: step(:)
+      integer(ip), intent(in), optional :: n_more
+      integer(ip) :: i, j, last
+
+      last = n
+      if (present(n_more)) last = n + n_more
+      do j = 1, n
+         if (.not. matrix(j, j) > 0.0_wp) then
+            step(j) = 0.0_wp
+            cycle
+         end if
+         step(j) = step(j)/matrix(j, j)
+         step(j + 1:last) = step(j + 1:last) - matrix(j + 1:last, j)*step(j)
       end do
       do j = n, 1, -1
          if (.not. matrix(j, j) > 0.0_wp) cycle
@@ -263,6 +350,6 @@ contains
          end do
          step(j) = step(j)/matrix(j, j)
       end do
-   end subroutine solve_least
+   end subroutine solve_factored
 
 end module atrito_star_sweeps

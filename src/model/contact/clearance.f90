@@ -200,6 +200,7 @@ contains
       do i = 1, size(list, kind=ip)
          if (list(i)%is_uniform) then
             points(list(i)%pair)%gap = list(i)%value
+            points(list(i)%pair)%given_gap = [list(i)%value]
             cycle
          end if
          if (.not. allocated(value)) allocate (value(n_nodes), is_given(n_nodes))
@@ -213,6 +214,8 @@ contains
          ! the gap of a point is that of its node; of MORTAR the mean over the nodes of its row that have one, as their
          ! displacements are
          associate (pair => points(list(i)%pair))
+            pair%given_node = pack([(k, k=1, n_nodes)], is_given)
+            pair%given_gap = value(pair%given_node)
             do j = 1, pair%n
                if (.not. is_given(pair%node(j))) cycle
                total = 0.0_wp

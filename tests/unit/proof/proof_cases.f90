@@ -1,6 +1,6 @@
 !> Elements, tractions and small meshes for the tests of the bound of the error.
 module proof_cases
-   use atrito_contact_tractions, only: segment_t
+   use atrito_contact_segments, only: segment_t
    use atrito_dense, only: solve_lu
    use atrito_kinds, only: ip, lp, wp
    use atrito_mesh, only: mesh_t

@@ -32,7 +32,7 @@ near 'reactions' "$(awk '!/^#/ { s += $4 } END { printf "%.17g", s }' ex1/reacti
 says 'study' study/study.tab '# an estimated error of'
 # the deck of the last mesh
 cp ex1/ex1.run.inp again.inp
-run 0 again.inp again --solver sparse --digits 15 --quiet
+run 0 again.inp again --proof on --solver sparse --digits 15 --quiet
 "$atrito" compare ex1 again --rtol 1e-11 >/dev/null || complain 'the deck as it was run: other tables'
 # single nodes carry example 2
 run 3 "$input/ex2-two-plates.inp" ex2 --adapt 5 --quiet

@@ -1,4 +1,5 @@
 # A block on a block, turned, in other units, with other numbers: -v angle=DEGREES -v length_unit=L -v force_unit=F -v reverse=1
+# -v rule=', QUADRATURE=MORTAR', -v clearance=S (the lower block is the slave, with a gap of S at its left end, 2 S at the right one);
 # -v upper=N (elements of the upper block along the joint; 4 match the lower one's) -v type=CPE4 or CPE9.
 function at(node) { return reverse ? 5000 - 7*node : node }
 function grid(first, nx, ny, x0, y0, x1, y1,    i, j) {
@@ -26,6 +27,7 @@ BEGIN {
    if (!length_unit) length_unit = 1
    if (!force_unit) force_unit = 1
    if (!upper) upper = 4
+   pair = clearance == "" ? "UPPER-BOTTOM, LOWER-TOP" : "LOWER-TOP, UPPER-BOTTOM"
    if (!type) type = "CPE4"
    p = type == "CPE9" ? 2 : 1
    c = cos(angle*atan2(0, -1)/180)
@@ -43,7 +45,11 @@ BEGIN {
    printf "*MATERIAL, NAME=HARD\n*ELASTIC\n%.17g, 0.2\n", 300*stress
    printf "*SOLID SECTION, ELSET=LOWER, MATERIAL=SOFT\n%.17g\n*SOLID SECTION, ELSET=UPPER, MATERIAL=HARD\n%.17g\n", length_unit, length_unit
    printf "*SURFACE INTERACTION, NAME=JOINT\n*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=PENALTY\n%.17g\n", 1e-5*length_unit/stress
-   printf "*FRICTION, NONLOCAL\n0.3, %.17g, 0.\n*CONTACT PAIR, INTERACTION=JOINT\nUPPER-BOTTOM, LOWER-TOP\n", 1e-3*length_unit
+   printf "*FRICTION, NONLOCAL\n0.3, %.17g, 0.\n*CONTACT PAIR, INTERACTION=JOINT%s\n%s\n", 1e-3*length_unit, rule, pair
+   if (clearance != "") {
+      print "*CLEARANCE, SLAVE=LOWER-TOP, MASTER=UPPER-BOTTOM, TABULAR"
+      for (i = 0; i <= 4*p; i++) printf "%d, %.17g\n", at(2*p*(4*p + 1) + 1 + i), clearance*(1 + i/(4*p))
+   }
    print "*BOUNDARY"
    for (i = 1; i <= 4*p + 1; i++) print at(i) ", 1, 2"
    # the upper block is held by contact alone: a load that is not in its middle, friction, and the weight of the lower one
