@@ -9,7 +9,7 @@ module atrito_patches
    use atrito_incidence, only: list_holders
    use atrito_kinds, only: ip
    use atrito_mesh, only: mesh_t
-   use atrito_plane_state, only: elastic_t, STATES
+   use atrito_plane_state, only: STATES
    use atrito_threads, only: is_shared
    implicit none (type, external)
    private
@@ -54,7 +54,10 @@ contains
 
       do i = 1, size(fem%sections, kind=ip)
          do j = 1, i
-            if (same_section(fem%sections(i), fem%sections(j))) exit
+            associate (a => fem%sections(i), b => fem%sections(j))
+               if (a%young == b%young .and. a%poisson == b%poisson .and. a%thickness == b%thickness &
+                   .and. all(a%stiffness == b%stiffness)) exit
+            end associate
          end do
          like(i) = j
       end do
@@ -65,13 +68,6 @@ contains
       end do
       !$omp end parallel do
    end function zones_of_elements
-
-   pure logical function same_section(a, b)
-      type(elastic_t), intent(in) :: a, b
-
-      same_section = a%young == b%young .and. a%poisson == b%poisson .and. a%thickness == b%thickness &
-                     .and. all(a%stiffness == b%stiffness)
-   end function same_section
 
    !> Gives every pair of a node and a zone its place.
    subroutine number_places(mesh, zone, patches)

@@ -8,7 +8,7 @@
 !> round-off. s33 follows from s11 + s22 by the plane state (stress_33), or has a row of its own in rings.
 module atrito_point_stress
    use atrito_assembly, only: fem_t, form_t, has_form, take_form
-   use atrito_axisymmetric, only: mean_rows, add_hoop_stress
+   use atrito_axisymmetric, only: mean_rows
    use atrito_element, only: mean_gradients
    use atrito_element_table, only: SHAPES, MOST_NODES, MOST_CORNERS, has_mean_dilatation
    use atrito_kinds, only: ip, wp
@@ -317,7 +317,9 @@ contains
             at_point = at_point + geometry%across(:COMPONENTS)*e33
             s33 = dot_product(geometry%across, [e11, e22, s(k, 3), e33])
          else
-            call add_hoop_stress(geometry%d, e11, e22, e33, at_point, s33)
+            ! what a hoop strain adds to the stresses in the plane, and its own stress
+            at_point(1:2) = at_point(1:2) + geometry%d(1, 2)*e33
+            s33 = geometry%d(1, 2)*(e11 + e22) + geometry%d(1, 1)*e33
          end if
          s(k, :) = at_point
          if (present(hoop)) hoop(k) = s33

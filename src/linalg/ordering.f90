@@ -25,7 +25,7 @@
 !> In the new numbers no two neighbours are more than 3 apart (5 and 2 are numbers 1 and 4); in the old ones 1 and 6 are 5 apart.
 module atrito_ordering
    use atrito_incidence, only: list_holders
-   use atrito_joined_sets, only: find_lowest, join_sets
+   use atrito_joined_sets, only: find_lowest
    use atrito_kinds, only: ip, lp
    implicit none (type, external)
    private
@@ -140,7 +140,7 @@ contains
       logical, intent(in), optional :: connected !< the graph is known to be one component; default .false.
       type(walk_t) :: walk, trial
       integer(ip), allocatable :: component(:)
-      integer(ip) :: n_components, i
+      integer(ip) :: n_components, i, root
       logical, allocatable :: done(:)
       logical :: is_one
 
@@ -163,7 +163,10 @@ contains
       do i = 1, graph%n
          if (done(component(i))) cycle
          done(component(i)) = .true.
-         call begin_component(graph, i, trial, walk)
+         if (.not. allocated(trial%nodes)) call begin_walk(trial, graph%n)
+         call find_peripheral_node(graph, i, trial, root)
+         call visit(walk, root)
+         call grow_layers(graph, [root], walk)
       end do
       order = walk%nodes(graph%n:1:-1)
    end subroutine order_contact_last
@@ -185,19 +188,6 @@ contains
          next = next + 1
       end do
    end subroutine grow_layers
-
-   !> Cuthill-McKee of the component of a node that nobody has seen.
-   pure subroutine begin_component(graph, node, trial, walk)
-      type(graph_t), intent(in) :: graph
-      integer(ip), intent(in) :: node
-      type(walk_t), intent(inout) :: trial, walk
-      integer(ip) :: root
-
-      if (.not. allocated(trial%nodes)) call begin_walk(trial, graph%n)
-      call find_peripheral_node(graph, node, trial, root)
-      call visit(walk, root)
-      call grow_layers(graph, [root], walk)
-   end subroutine begin_component
 
    !> A node from which the component has many layers (George and Liu): from the last layer take the node of least degree and
    !> look back, as long as that makes more layers.

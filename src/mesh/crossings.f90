@@ -12,8 +12,8 @@ module atrito_crossings
    use atrito_sorting, only: order_key, sorted_places
    implicit none (type, external)
    private
-   public :: cut_line_t, piece_t, crossing_t, line_through, height_over, point_at, outline_of, is_ahead, slack_of, &
-             find_crossings, INSIDE, EDGE_BEHIND, EDGE_AHEAD, MOST_OUTLINE
+   public :: cut_line_t, piece_t, crossing_t, height_over, point_at, outline_of, is_ahead, slack_of, find_crossings, INSIDE, &
+             EDGE_BEHIND, EDGE_AHEAD, MOST_OUTLINE
 
    !> A line from one point to another. Behind it is where its normal comes from.
    type :: cut_line_t
@@ -55,16 +55,6 @@ module atrito_crossings
    real(wp), parameter :: SHORT = 0.1_wp
 
 contains
-
-   !> The line from one point to another, with its unit vector and its normal, which is the vector turned by -90 degrees.
-   pure type(cut_line_t) function line_through(ends) result(line)
-      real(wp), intent(in) :: ends(2, 2)            !< two points that differ [L]
-
-      line%start = ends(:, 1)
-      line%length = norm2(ends(:, 2) - ends(:, 1))
-      line%along = (ends(:, 2) - ends(:, 1))/line%length
-      line%normal = [line%along(2), -line%along(1)]
-   end function line_through
 
    !> Distance of a point from the line [L]: negative behind it.
    pure real(wp) function height_over(line, x)

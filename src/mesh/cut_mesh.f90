@@ -7,7 +7,7 @@
 !> shares with its neighbour), or inside.
 module atrito_cut_mesh
    use atrito_element_table, only: SHAPES, MOST_NODES, MOST_SIDES, kind_of
-   use atrito_element_trees, only: element_trees_t, is_side_cut, leaf_corners, list_leaves, SIDE
+   use atrito_element_trees, only: element_trees_t, is_side_cut, list_leaves, SIDE, corner_count
    use atrito_faces, only: node_elements_t
    use atrito_id_map, only: add_id
    use atrito_kinds, only: ip, lp, wp
@@ -71,7 +71,10 @@ contains
             n = n + 1
             pieces%leaf(n) = leaves(i)
             pieces%root(n) = trees%root(leaves(i))
-            pieces%shape(n) = piece_shape(mesh%shape(pieces%root(n)), sizes(k))
+            pieces%shape(n) = mesh%shape(pieces%root(n))
+            associate (shape => SHAPES(pieces%shape(n)))    ! triangles among quadrilaterals have their degree
+               if (shape%n_corners /= sizes(k)) pieces%shape(n) = sizes(k)*shape%degree
+            end associate
             call fill_places(pieces%shape(n), corners(:, :sizes(k), k), pieces%place(:, :, n))
             associate (place => pieces%place(:, :sizes(k), n))
                middle = (12/sizes(k))*sum(int(place, lp), dim=2)/16  ! places are multiples of 32
@@ -87,15 +90,6 @@ contains
       pieces%shape = pieces%shape(order)
       pieces%place = pieces%place(:, :, order)
    end subroutine list_pieces
-
-   !> Triangles among quadrilaterals have their degree.
-   pure integer(ip) function piece_shape(shape, n_corners)
-      integer(ip), intent(in) :: shape               !< of the element of the deck
-      integer(ip), intent(in) :: n_corners           !< of the piece
-
-      piece_shape = shape
-      if (SHAPES(shape)%n_corners /= n_corners) piece_shape = n_corners*SHAPES(shape)%degree
-   end function piece_shape
 
    !> The corners of a leaf's pieces: as it is, or with a node m (and o) in the middle of sides that a neighbour has cut.
    !>
@@ -116,7 +110,7 @@ contains
       integer(ip) :: m(2), other(2), i
       logical :: is_cut(4)
 
-      p = leaf_corners(trees, leaf)
+      p = trees%place(:, :corner_count(trees, leaf), leaf)
       is_cut = .false.
       if (size(p, 2) == 4) is_cut = [(is_side_cut(trees, leaf, i), i=1, 4)]
       sizes = 0

@@ -8,7 +8,7 @@ module atrito_gmsh_mesh
    implicit none (type, external)
    private
    public :: gmsh_mesh_t, gmsh_part_t, gmsh_name_t
-   public :: add_part, find_part, add_element, trim_gmsh_mesh, move_mesh, note_group_name, group_name, part_name
+   public :: add_part, find_part, add_element, trim_gmsh_mesh, move_mesh, group_name, part_name, note_key, key_of, keys_t
 
    !> An entity of the drawing with the physical groups to which it belongs.
    type :: gmsh_part_t
@@ -106,15 +106,6 @@ contains
       place = find_name(list%keys, key)
       if (place > 0) place = list%place(place)
    end function place_of
-
-   !> The name of a physical group has been read into mesh%names(i).
-   pure subroutine note_group_name(mesh, i)
-      type(gmsh_mesh_t), intent(inout) :: mesh
-      integer(ip), intent(in) :: i
-
-      if (i == 1) mesh%name_keys = keys_t()            ! a second list of names takes the place of the first
-      call note_key(mesh%name_keys, key_of(mesh%names(i)%dim, mesh%names(i)%tag), i)
-   end subroutine note_group_name
 
    !> Keeps an element.
    subroutine add_element(mesh, id, part, nodes)

@@ -128,6 +128,7 @@ contains
       type(symbols_t), intent(inout) :: symbols
       integer(ip), allocatable :: rows(:), nodes(:)
       integer(ip) :: b, i
+      real(wp) :: middle(2), move(2), arrow(2)
 
       if (.not. allocated(symbols%model%rigid_bodies)) return
       do b = 1, size(symbols%model%rigid_bodies, kind=ip)
@@ -143,7 +144,12 @@ contains
             do i = 1, size(nodes, kind=ip)
                call put_point(symbols, symbols%u(:, nodes(i)), symbols%model%mesh%x(:, nodes(i)), [1.0_wp])
             end do
-            call put_pull(all_rows%vector(:, all_rows%first(rows(1))), nodes, symbols)
+            middle = sum(symbols%model%mesh%x(:, nodes), dim=2)/size(nodes)
+            move = sum(symbols%u(:, nodes), dim=2)/size(nodes)
+            arrow = PULL*symbols%pixel*all_rows%vector(:, all_rows%first(rows(1)))
+            call begin_block(symbols, 'its force', ':5:6', ARROW_LOOKS//' lw 1.8 '//SECTIONS)
+            call put_arrow(symbols, move, middle - 1.2_wp*arrow, arrow)
+            call put_arrow(symbols, move, middle + 1.2_wp*arrow, -arrow)
          end associate
       end do
    end subroutine put_sections
@@ -166,21 +172,6 @@ contains
          end do
       end associate
    end function section_text
-
-   !> Two arrows towards each other along the normal.
-   subroutine put_pull(normal, nodes, symbols)
-      real(wp), intent(in) :: normal(2)             !< unit vector
-      integer(ip), intent(in) :: nodes(:)           !< of the section
-      type(symbols_t), intent(inout) :: symbols
-      real(wp) :: middle(2), move(2), arrow(2)
-
-      middle = sum(symbols%model%mesh%x(:, nodes), dim=2)/size(nodes)
-      move = sum(symbols%u(:, nodes), dim=2)/size(nodes)
-      arrow = PULL*symbols%pixel*normal
-      call begin_block(symbols, 'its force', ':5:6', ARROW_LOOKS//' lw 1.8 '//SECTIONS)
-      call put_arrow(symbols, move, middle - 1.2_wp*arrow, arrow)
-      call put_arrow(symbols, move, middle + 1.2_wp*arrow, -arrow)
-   end subroutine put_pull
 
    !> Reference nodes of rigid surfaces; a square round those whose rotation is held.
    subroutine put_references(symbols)
