@@ -55,7 +55,7 @@ contains
       integer(ip), intent(in) :: elements(:, :)  !< (nodes per element, elements): 1..n, 0 beyond the count
       type(graph_t), intent(out) :: graph
       integer(ip), allocatable :: start(:), list(:), last_seen_from(:)
-      integer(ip) :: i, used
+      integer(ip) :: i, used, e, k, node
 
       call list_holders(n, elements, start, list)
       graph%n = n
@@ -66,32 +66,23 @@ contains
       used = 0
       do i = 1, n
          graph%xadj(i) = used + 1
-         call take_neighbours(i, elements, list(start(i):start(i + 1) - 1), last_seen_from, graph%adjncy, used)
+         ! Appends the neighbours of node i.
+         associate (around => list(start(i):start(i + 1) - 1))
+            last_seen_from(i) = i
+            do e = 1, size(around, kind=ip)
+               do k = 1, size(elements, 1, kind=ip)
+                  node = elements(k, around(e))
+                  if (node == 0) exit
+                  if (last_seen_from(node) == i) cycle
+                  last_seen_from(node) = i
+                  used = used + 1
+                  graph%adjncy(used) = node
+               end do
+            end do
+         end associate
       end do
       graph%xadj(n + 1) = used + 1
    end subroutine build_graph
-
-   !> Appends the neighbours of node i.
-   pure subroutine take_neighbours(i, elements, around, last_seen_from, neighbours, used)
-      integer(ip), intent(in) :: i, elements(:, :)
-      integer(ip), intent(in) :: around(:)                    !< elements at node i
-      integer(ip), intent(inout) :: last_seen_from(:)
-      integer(ip), intent(inout) :: neighbours(:)
-      integer(ip), intent(inout) :: used
-      integer(ip) :: e, k, node
-
-      last_seen_from(i) = i
-      do e = 1, size(around, kind=ip)
-         do k = 1, size(elements, 1, kind=ip)
-            node = elements(k, around(e))
-            if (node == 0) exit
-            if (last_seen_from(node) == i) cycle
-            last_seen_from(node) = i
-            used = used + 1
-            neighbours(used) = node
-         end do
-      end do
-   end subroutine take_neighbours
 
    !> Numbers the connected components of a mesh from 1 in the order of their lowest nodes, without its graph.
    !>

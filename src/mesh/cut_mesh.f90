@@ -185,23 +185,6 @@ contains
       end select
    end function is_on
 
-   !> How far a place on a side is from where the side begins.
-   pure integer(ip) function along_side(place, side_number, is_triangle) result(t)
-      integer(ip), intent(in) :: place(2), side_number
-      logical, intent(in) :: is_triangle
-
-      select case (side_number)
-      case (1)
-         t = place(1)
-      case (2)
-         t = place(2)
-      case (3)
-         t = SIDE - merge(place(2), place(1), is_triangle)
-      case default
-         t = SIDE - place(2)
-      end select
-   end function along_side
-
    !> Where a place of an element is kept: edge and key on it, or edge 0 and the key inside; node: of the deck, or 0.
    !>
    !> A place on an edge is told by how far it is from the first node of the edge, whichever of the two elements asks, so both find
@@ -220,7 +203,17 @@ contains
       key = ROW*int(place(2), lp) + int(place(1), lp)
       do i = 1, side_count(mesh, e)
          if (.not. is_on(place, i, refinement%is_triangle(e))) cycle
-         t = along_side(place, i, refinement%is_triangle(e))
+         ! How far a place on a side is from where the side begins.
+         select case (i)
+         case (1)
+            t = place(1)
+         case (2)
+            t = place(2)
+         case (3)
+            t = SIDE - merge(place(2), place(1), refinement%is_triangle(e))
+         case default
+            t = SIDE - place(2)
+         end select
          if (t == 0) node = mesh%nodes(i, e)
          if (t == SIDE) cycle                         ! where the next one begins
          edge = refinement%face_edge(i, e)

@@ -35,10 +35,20 @@ contains
       type(results_t), intent(inout) :: results
       type(largest_t) :: largest
       integer(ip) :: k, i, j
+      real(wp) :: slack
 
       do k = 1, mesh%n_nodes
          if (body_of_node(k) == 0) cycle
-         call take_displacement(results%u(:, k), k, mesh%x(:, k), largest)
+         associate (v => results%u(:, k), x => mesh%x(:, k))
+            if (largest%node(U) == 0 .or. abs(v(1)) + abs(v(2)) > largest%value(U)) then
+               call take(U, hypot(v(1), v(2)), 0.0_wp, k, x, largest)
+            end if
+            slack = ROUND_OFF*largest%value(U)
+            call take(U + 1, v(1), slack, k, x, largest)
+            call take(U + 2, -v(1), slack, k, x, largest)
+            call take(U + 3, v(2), slack, k, x, largest)
+            call take(U + 4, -v(2), slack, k, x, largest)
+         end associate
          call take_stress(results%nodal_stress(:, k), k, mesh%x(:, k), largest)
       end do
       do i = 1, size(points, kind=ip)
@@ -69,23 +79,6 @@ contains
          if (IS_LEAST(i)) list(n)%value = -list(n)%value
       end do
    end subroutine list_extremes
-
-   pure subroutine take_displacement(v, node, x, largest)
-      real(wp), intent(in) :: v(2)                     !< [L]
-      integer(ip), intent(in) :: node
-      real(wp), intent(in) :: x(2)                     !< its place [L]
-      type(largest_t), intent(inout) :: largest
-      real(wp) :: slack
-
-      if (largest%node(U) == 0 .or. abs(v(1)) + abs(v(2)) > largest%value(U)) then
-         call take(U, hypot(v(1), v(2)), 0.0_wp, node, x, largest)
-      end if
-      slack = ROUND_OFF*largest%value(U)
-      call take(U + 1, v(1), slack, node, x, largest)
-      call take(U + 2, -v(1), slack, node, x, largest)
-      call take(U + 3, v(2), slack, node, x, largest)
-      call take(U + 4, -v(2), slack, node, x, largest)
-   end subroutine take_displacement
 
    !> The principal stresses are asked for where their bounds may be more.
    pure subroutine take_stress(s, node, x, largest)

@@ -38,13 +38,22 @@ contains
       type(resultant_t), allocatable :: rigid(:)
       integer, allocatable :: supports(:), loads(:)
       integer :: i, n
+      type(step_t) :: now
+      type(moment_t) :: moment
 
       n = 0
       if (allocated(model%sources)) n = size(model%sources)
       allocate (sums%of(n), sums%acts(n))
       sums%acts = .false.
       call add_supports(model, frame, sums)
-      call add_loads(model, frame, sums)
+      ! What acts at the time of the increment.
+      moment = moment_t(frame%step_time, frame%time)
+      if (is_end(model%steps(frame%step), moment)) then
+         call add_loads_of(model, model%steps(frame%step), sums)
+      else
+         call act_at(model, model%steps(frame%step), moment, now)
+         call add_loads_of(model, now, sums)
+      end if
       call find_rigid_surfaces(model, frame, rigid)
       supports = pack([(i, i=1, n)], [(sums%acts(i) .and. model%sources(i)%keyword == SUPPORT, i=1, n)])
       loads = pack([(i, i=1, n)], [(sums%acts(i) .and. model%sources(i)%keyword /= SUPPORT, i=1, n)])
@@ -137,23 +146,6 @@ contains
       sums%acts(source) = .true.
       call add_value(sums%of(source), dof, value, x)
    end subroutine add
-
-   !> What acts at the time of the increment.
-   pure subroutine add_loads(model, frame, sums)
-      type(model_t), intent(in) :: model
-      type(results_t), intent(in) :: frame
-      type(sums_t), intent(inout) :: sums
-      type(step_t) :: now
-      type(moment_t) :: moment
-
-      moment = moment_t(frame%step_time, frame%time)
-      if (is_end(model%steps(frame%step), moment)) then
-         call add_loads_of(model, model%steps(frame%step), sums)
-      else
-         call act_at(model, model%steps(frame%step), moment, now)
-         call add_loads_of(model, now, sums)
-      end if
-   end subroutine add_loads
 
    pure subroutine add_loads_of(model, now, sums)
       type(model_t), intent(in) :: model
