@@ -6,7 +6,7 @@ module atrito_help
    use atrito_keyword_table, only: keyword_table, find_keyword, packed
    use atrito_keyword_text, only: form_text, option_text_of, choices_text, lines_text, condition_text, &
                                   with_dimension, item_meaning, LEVEL_TEXTS
-   use atrito_strings, only: string_t, append_string, upper_case
+   use atrito_strings, only: string_t, append_string, upper_case, recoded
    implicit none (type, external)
    private
    public :: help_overview, help_keyword, help_manual
@@ -302,13 +302,8 @@ contains
    pure function escaped(text) result(safe)
       character(len=*), intent(in) :: text
       character(len=:), allocatable :: safe
-      integer :: i
 
-      safe = ''
-      do i = 1, len(text)
-         if (scan(text(i:i), '*<>|_') > 0) safe = safe//'\'
-         safe = safe//text(i:i)
-      end do
+      safe = recoded(text, '*<>|_', ['\*', '\<', '\>', '\|', '\_'])
    end function escaped
 
 end module atrito_help
