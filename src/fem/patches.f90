@@ -93,6 +93,10 @@ contains
    end subroutine number_places
 
    !> Adds the places of the second zone at a node, of the third, ...
+   !>
+   !> The places of a node are a chain: the first has the node's number, next(at) leads to the one of a further zone, 0 ends it. An
+   !> element goes along the chain of each of its nodes until it meets its own zone, and appends a place where there is none: few
+   !> zones meet at a node, so that is a step or two, whatever the number of elements.
    pure subroutine add_places(mesh, zone, patches)
       type(mesh_t), intent(in) :: mesh
       integer(ip), intent(in) :: zone(:)
@@ -248,7 +252,8 @@ contains
       end do
    end subroutine patch_the_bare
 
-   !> Elements of the zone lie all round a corner node when each edge that leaves it has one of them on either side.
+   !> Elements of the zone lie all round a corner node when each edge that leaves it has one of them on either side: in each element
+   !> the edge to the next corner must be that to the corner before in another one. Nodes on an outline fail at its first edge.
    pure logical function is_interior(mesh, patches, i)
       type(mesh_t), intent(in) :: mesh
       type(patches_t), intent(in) :: patches

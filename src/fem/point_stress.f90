@@ -113,7 +113,10 @@ contains
       end if
    end subroutine fetch_geometry
 
-   !> Places, Jacobians and gradients at the points.
+   !> Places, Jacobians and gradients at the points: with J = dx/dxi the gradient of a shape function is J^-T dN/dxi, h below being
+   !> J^-1 = d(xi, eta)/d(x, y). `steepness`, the sum of the squares of J^-1, is about 1/h^2 of an element of size h: round-off of
+   !> displacements makes strains of the order eps |u| times its root (atrito_error_estimate). All points go through a loop
+   !> together, which is what the compiler wants.
    pure subroutine map_points(rule, geometry)
       type(point_rule_t), intent(in) :: rule
       type(point_geometry_t), intent(inout) :: geometry
@@ -144,8 +147,12 @@ contains
       end do
    end subroutine map_points
 
-   !> s11, s22, s12 of an element at the points [F/L^2]. Displacements are taken relative to the first node, so that a rigid
-   !> translation costs no digits. Axisymmetric elements have a hoop stress s33 of its own.
+   !> s11, s22, s12 of an element at the points [F/L^2], s = D (e - e_th) with the strains e = sum_k B_k u_k.
+   !>
+   !> The strains are those that the stiffness knows. With the mean dilatation that of each point is replaced by the mean theta_m of
+   !> the element: e11 and e22 get (theta_m - e11 - e22)/2 each, of rings a third of what is missing in each direction. With reduced
+   !> integration they are spread from its points (fetch_geometry). Displacements are taken relative to the first node, so that a
+   !> rigid translation costs no digits. Axisymmetric elements have a hoop stress s33 of its own.
    pure subroutine point_stresses(fem, e, u, rule, geometry, s, hoop)
       type(fem_t), intent(in) :: fem
       integer(ip), intent(in) :: e
@@ -343,6 +350,8 @@ contains
       end associate
    end function hoop_strain
 
+   !> e11 = sum_k g_k1 u_k1, e22 = sum_k g_k2 u_k2, 2 e12 = sum_k (g_k2 u_k1 + g_k1 u_k2) at n points; the first node's
+   !> displacements are taken off the others and have no term.
    pure subroutine strain_points(n, shape, gradient, way, e)
       integer(ip), intent(in) :: n, shape
       real(wp), intent(in) :: gradient(MOST_POINTS, 2, MOST_NODES), way(2, MOST_NODES)
@@ -357,6 +366,7 @@ contains
       end do
    end subroutine strain_points
 
+   !> s <- D s of an isotropic D, whose entries between normal and shear components are 0.
    pure subroutine strains_to_stresses(n, d, s)
       integer(ip), intent(in) :: n
       real(wp), intent(in) :: d(COMPONENTS, COMPONENTS)

@@ -4,6 +4,10 @@
 !> A piece is inside where there is material on both sides of the line: an element that the line parts, a face on the line between
 !> two elements, a node on the line that elements of both sides share. Else it is an edge: a face of the outline on the line.
 !> Elements of the second degree count as polygons of all nodes on their sides.
+!>
+!> The line is x(s) = start + s along; height h(x) = normal.(x - start) of a node tells its side, and where h changes its sign from
+!> node a to node b of a polygon, the line leaves it or enters it at s = s_a + (s_b - s_a) h_a/(h_a - h_b). |h| below SLACK of the
+!> element's size is 0: a line along nodes must not depend on the last digits of their coordinates.
 module atrito_crossings
    use atrito_element_table, only: MOST_SIDES
    use atrito_faces, only: node_elements_t, is_outer_face

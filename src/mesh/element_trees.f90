@@ -242,6 +242,7 @@ contains
       end if
    end subroutine cut_cell
 
+   !> Corners of a cell, 3 or 4.
    pure integer(ip) function corner_count(trees, cell) result(n)
       type(element_trees_t), intent(in) :: trees
       integer(ip), intent(in) :: cell

@@ -97,6 +97,7 @@ contains
       call take(answer, values)
    end subroutine hear_values
 
+   !> Does what a question asks of this rank's part of the scene, and puts what rank 0 wants to know into the answer.
    subroutine answer_question(request, answer)
       type(buffer_t), intent(inout) :: request, answer
       type(scene_part_t) :: no_part

@@ -156,6 +156,7 @@ contains
       row%phases = transfer(memory, [phase_time_t()], n)
    end subroutine take_row
 
+   !> One run of a study, with its own deck and mesh, and what its row keeps of it. status: as of read_summary.
    subroutine make_run(command, study, row, status)
       type(command_t), intent(in) :: command
       type(study_t), intent(in) :: study

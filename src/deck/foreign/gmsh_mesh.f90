@@ -80,6 +80,7 @@ contains
       i = place_of(mesh%part_keys, key_of(dim, tag, group))
    end function find_part
 
+   !> By what a part or a name is found: its dimension and number, and its physical group.
    pure function key_of(dim, tag, group) result(key)
       integer(ip), intent(in) :: dim, tag
       integer(ip), intent(in), optional :: group
@@ -89,6 +90,7 @@ contains
       if (present(group)) key = key//' '//to_text(group)
    end function key_of
 
+   !> Notes where in a list the thing with a key is; a later one takes the place of an earlier one.
    pure subroutine note_key(list, key, place)
       type(keys_t), intent(inout) :: list
       character(len=*), intent(in) :: key
