@@ -6,6 +6,7 @@ module atrito_exchange_results
    use atrito_results, only: results_t, contact_result_t, unsettled_t, balance_t, body_motion_t, rigid_result_t, joint_t, &
                              cut_force_t, extreme_t, iteration_t, observed_t, body_result_t, pair_scene_t, scene_t, uniqueness_t, &
                              error_bound_t
+   use atrito_strings, only: string_t
    implicit none (type, external)
    private
    public :: exchange_results, exchange_iterations
@@ -312,7 +313,6 @@ contains
    subroutine exchange_scene(archive, scene)
       type(archive_t), intent(inout) :: archive
       type(scene_t), intent(inout) :: scene
-      integer(ip) :: n, i
 
       call exchange_bodies(archive, scene%bodies)
       call exchange_pairs(archive, scene%pairs)
@@ -330,11 +330,7 @@ contains
       call exchange(archive, 'memory_before', scene%memory_before)
       call exchange(archive, 'peak_before', scene%peak_before)
       call exchange(archive, 'solving', scene%solving)
-      call exchange_length(archive, 'left_out', n, scene%left_out)
-      if (archive%is_reading .and. n >= 0) allocate (scene%left_out(n))
-      do i = 1, n
-         call exchange(archive, 'left_out', scene%left_out(i)%s)
-      end do
+      call exchange_left_out(archive, scene%left_out)
    end subroutine exchange_scene
 
    subroutine exchange_bodies(archive, list)
@@ -395,5 +391,17 @@ contains
          end associate
       end do
    end subroutine exchange_pairs
+
+   subroutine exchange_left_out(archive, list)
+      type(archive_t), intent(inout) :: archive
+      type(string_t), allocatable, intent(inout) :: list(:)
+      integer(ip) :: n, i
+
+      call exchange_length(archive, 'left_out', n, list)
+      if (archive%is_reading .and. n >= 0) allocate (list(n))
+      do i = 1, n
+         call exchange(archive, 'left_out', list(i)%s)
+      end do
+   end subroutine exchange_left_out
 
 end module atrito_exchange_results
