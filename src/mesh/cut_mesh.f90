@@ -52,6 +52,10 @@ contains
    end subroutine cut_mesh
 
    !> The pieces of all leaves: by their element of the deck, then by their middles row by row from its first side.
+   !>
+   !> Places are whole numbers (s, t), 0..SIDE along the sides 1-2 and 1-4 (or 1-3) of the element of the deck: halving loses
+   !> nothing, equal places are equal numbers, and a node that two pieces share is one key, ROW t + s, without a tolerance. The
+   !> middle of 3 or 4 corners is their sum over 3 or 4, taken times 12/16 to stay whole and within the key.
    subroutine list_pieces(mesh, trees, pieces)
       type(mesh_t), intent(in) :: mesh
       type(element_trees_t), intent(in) :: trees

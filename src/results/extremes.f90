@@ -80,7 +80,12 @@ contains
       end do
    end subroutine list_extremes
 
-   !> The principal stresses are asked for where their bounds may be more.
+   !> Mises' stress and the principal stresses of a node. Those in the plane are the ends of Mohr's circle,
+   !>
+   !>     s = (s11 + s22)/2 +- r,     r^2 = ((s11 - s22)/2)^2 + s12^2,
+   !>
+   !> and the third one is s33: S1 is the greatest of the three, S3 the least. r is at most |s11 - s22|/2 + |s12|; where that bound
+   !> reaches neither extreme, which is nearly everywhere, no root is taken.
    pure subroutine take_stress(s, node, x, largest)
       real(wp), intent(in) :: s(5)                     !< s11 s22 s33 s12 mises [F/L^2]
       integer(ip), intent(in) :: node
@@ -100,7 +105,9 @@ contains
       call take(S3, max(radius - mean, -s(3)), slack, node, x, largest)
    end subroutine take_stress
 
-   !> Keeps the larger of a value and the largest one so far.
+   !> Keeps the larger of a value and the largest one so far. Larger is what is so by a part NEAR of it, and by `slack`, which is
+   !> the round-off of the largest of its kind: a component that is 0 but for round-off has no digits of its own by which to
+   !> compare.
    pure subroutine take(quantity, value, slack, node, x, largest)
       integer, intent(in) :: quantity                  !< place in EXTREME_NAMES
       real(wp), intent(in) :: value, slack
