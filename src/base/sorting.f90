@@ -88,9 +88,9 @@ contains
       end do
    end function first_at_least
 
-   !> A whole number for a real: they have the same order. Of numbers that are not negative the bits, exponent before fraction, are
-   !> whole numbers in their order (IEEE 754). Negative ones have the first bit set, which makes a negative whole number, and the same
-   !> bits behind it in falling order: these are turned over. (-0 comes just before 0.)
+   !> A whole number for a real: they have the same order. Of numbers that are not negative the bits, exponent before fraction,
+   !> are whole numbers in their order (IEEE 754). Negative ones have the first bit set, which makes a negative whole number, and
+   !> the same bits behind it in falling order: these are turned over. (-0 comes just before 0.)
    pure elemental integer(lp) function order_key(x) result(key)
       real(wp), intent(in) :: x
 
