@@ -186,6 +186,8 @@ contains
       end do
    end subroutine compare_chunks
 
+   !> Counts the different stiffnesses of a chunk: an element that has the form of the one before takes its number. The first is
+   !> compared with the one that `before` names.
    pure subroutine compare_chunk(fem, elements, grain, i_chunk, chunk, number)
       type(fem_t), intent(in) :: fem
       integer(ip), intent(in) :: elements(:), i_chunk

@@ -380,6 +380,8 @@ contains
       end do
    end subroutine append_keys
 
+   !> The elements are the pieces, numbered from 1. A node is found by halves by its key among the rising ones of its edge, or of
+   !> those inside its element of the deck.
    subroutine place_elements(mesh, pieces, edge_key, inner_key, refinement, fine)
       type(mesh_t), intent(in) :: mesh
       type(pieces_t), intent(in) :: pieces
