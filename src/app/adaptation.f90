@@ -58,18 +58,6 @@ contains
       adaptation%processor = processor_seconds()
    end subroutine begin_adaptation
 
-   !> Whose error is followed, in one place: the square of each element's share, and the error of the whole [%]. It is the bound
-   !> where there is one, as the shares are, else the estimate.
-   pure subroutine fetch_errors(results, squares, mesh)
-      type(results_t), intent(in) :: results
-      real(wp), allocatable, intent(out) :: squares(:) !< (n_elements)
-      type(adapted_mesh_t), intent(inout) :: mesh
-
-      squares = results%element_error**2
-      mesh%percent = error_of(results)
-      mesh%is_certified = results%error_bound%is_certified
-   end subroutine fetch_errors
-
    !> The bound of the error of an increment, or its estimate [%].
    elemental real(wp) function error_of(frame) result(percent)
       class(frame_numbers_t), intent(in) :: frame
@@ -90,7 +78,11 @@ contains
       integer(lp) :: now, rate
 
       call view_frame(history, maxloc(error_of(history%frames), dim=1, kind=ip), results)
-      call fetch_errors(results, squares, mesh)
+      ! In one place: the square of each element's share, and the error of the whole [%], of the bound where there is one, else
+      ! of the estimate.
+      squares = results%element_error**2
+      mesh%percent = error_of(results)
+      mesh%is_certified = results%error_bound%is_certified
       mesh%n_elements = model%mesh%n_elements
       mesh%n_dofs = results%scene%n_dofs
       mesh%n_solves = size(history%iterations, kind=ip)

@@ -41,29 +41,22 @@ contains
       logical, intent(out) :: is_written
       type(string_t), allocatable :: arguments(:)
       type(reporter_t) :: reporter
+      character(len=*), parameter :: PLAIN = 'ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-+=.,:/%@'
+      integer :: i
 
       reporter = reporter_of(command)
       call report_phase(reporter, 'report '//report%folder//'/'//REPORT_NAME)
       call fetch_arguments(arguments)
-      report%command = command_text(arguments)
-      call write_report(report, date_text(), is_written)
-   end subroutine make_report
-
-   !> The command as it can be given to a shell.
-   pure function command_text(arguments) result(text)
-      type(string_t), intent(in) :: arguments(:)
-      character(len=:), allocatable :: text
-      character(len=*), parameter :: PLAIN = 'ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-+=.,:/%@'
-      integer :: i
-
-      text = PROGRAM_NAME
+      ! The command as it can be given to a shell.
+      report%command = PROGRAM_NAME
       do i = 1, size(arguments)
          if (len(arguments(i)%s) > 0 .and. verify(arguments(i)%s, PLAIN) == 0) then
-            text = text//' '//arguments(i)%s
+            report%command = report%command//' '//arguments(i)%s
          else
-            text = text//' '//shell_quoted(arguments(i)%s)
+            report%command = report%command//' '//shell_quoted(arguments(i)%s)
          end if
       end do
-   end function command_text
+      call write_report(report, date_text(), is_written)
+   end subroutine make_report
 
 end module atrito_report_maker

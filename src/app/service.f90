@@ -2,12 +2,12 @@
 module atrito_service
    use atrito_command_line, only: command_t, confine_command, TASK_STUDY, TASK_SWEEP
    use atrito_kinds, only: ip
-   use atrito_mpi, only: receive_buffer
+   use atrito_mpi, only: receive_buffer, send_buffer
+   use atrito_part_service, only: answer_question
+   use atrito_shared_fields, only: answer_fields
    use atrito_buffer, only: buffer_t, take
-   use atrito_part_service, only: serve_part
    use atrito_rank_memory, only: serve_memory
    use atrito_rank_services, only: await_message, SERVICE_END, SERVICE_FIELDS, SERVICE_MEMORY, SERVICE_PART, SERVICE_RUNS
-   use atrito_shared_fields, only: serve_fields
    use atrito_run_request, only: take_request
    use atrito_status, only: status_t
    use atrito_study, only: serve_study
@@ -20,7 +20,7 @@ contains
 
    !> Comes back when nothing more is wanted.
    subroutine serve()
-      type(buffer_t) :: request
+      type(buffer_t) :: request, answer
       type(command_t) :: command
       type(status_t) :: status
       integer(ip) :: service
@@ -33,9 +33,12 @@ contains
          case (SERVICE_END)
             return
          case (SERVICE_PART)
-            call serve_part(request)
+            answer = buffer_t()
+            call answer_question(request, answer)
+            call send_buffer(answer, 0_ip)
          case (SERVICE_FIELDS)
-            call serve_fields(request)
+            call answer_fields(request, answer)
+            call send_buffer(answer, 0_ip)
          case (SERVICE_MEMORY)
             call serve_memory()
          case (SERVICE_RUNS)

@@ -33,6 +33,7 @@ contains
       type(tally_t) :: tally
       integer(ip) :: i
       integer :: f
+      type(token_t) :: token
 
       ! which forms apply is not known when an option is wrong
       if (.not. card%ok) then
@@ -51,7 +52,21 @@ contains
             if (tally%n_words == 0) exit               ! one line too many: one message
             cycle
          end if
-         call check_line(deck, card, deck%lines(i), deck%keywords(card%keyword)%forms(tally%forms(f)), tally)
+         ! Checks the line against its form.
+         associate (line => deck%lines(i), form => deck%keywords(card%keyword)%forms(tally%forms(f)))
+            if (form%harmless) then
+               call check_unused(deck, card, line, form, 1_ip)
+               if (line%ok) call note_once(deck, card, line_item(deck, line, 1_ip), form%doc, tally)
+            else if (line%n_tokens < form%min_items .or. line%n_tokens > form%max_items) then
+               line%ok = .false.
+               token = last_item(deck, line)
+               if (line%n_tokens > form%max_items) token = line_item(deck, line, int(form%max_items, ip) + 1)
+               call report_error(deck, token, 'E-ITEMS', count_text(line%n_tokens, form), expected=form_text(form), &
+                                 keyword=trim(card%name))
+            else
+               call check_items(deck, card, line, form, tally)
+            end if
+         end associate
          tally%n_lines(f) = tally%n_lines(f) + 1
          if (.not. deck%lines(i)%ok) tally%faulty = .true.
       end do
@@ -236,29 +251,6 @@ contains
          end associate
       end do
    end function expected_forms
-
-   !> Checks one line against its form.
-   subroutine check_line(deck, card, line, form, tally)
-      type(deck_t), intent(in) :: deck
-      type(card_t), intent(in) :: card
-      type(data_line_t), intent(inout) :: line
-      type(form_t), intent(in) :: form
-      type(tally_t), intent(inout) :: tally
-      type(token_t) :: token
-
-      if (form%harmless) then
-         call check_unused(deck, card, line, form, 1_ip)
-         if (line%ok) call note_once(deck, card, line_item(deck, line, 1_ip), form%doc, tally)
-      else if (line%n_tokens < form%min_items .or. line%n_tokens > form%max_items) then
-         line%ok = .false.
-         token = last_item(deck, line)
-         if (line%n_tokens > form%max_items) token = line_item(deck, line, int(form%max_items, ip) + 1)
-         call report_error(deck, token, 'E-ITEMS', count_text(line%n_tokens, form), expected=form_text(form), &
-                           keyword=trim(card%name))
-      else
-         call check_items(deck, card, line, form, tally)
-      end if
-   end subroutine check_line
 
    !> `2 items, where 3 to 4 belong`.
    pure function count_text(n, form) result(text)

@@ -142,34 +142,25 @@ contains
    subroutine check_options(deck, card)
       type(deck_t), intent(in) :: deck
       type(card_t), intent(inout) :: card
-      integer :: i
+      integer :: i, spec
+      character(len=:), allocatable :: name
 
       do i = 1, size(card%options)
-         call check_option(deck, card, i)
+         name = token_text(deck, card%options(i)%name)
+         spec = find_option_spec(deck%keywords(card%keyword), name)
+         if (len(name) == 0) then
+            call refuse_card(deck, card, 'E-OPTION', 'an empty option', place=card%options(i)%name)
+         else if (spec == 0) then
+            call judge_option(deck, card, card%options(i))
+         else if (any(card%options(:i - 1)%spec == spec)) then
+            call refuse_card(deck, card, 'E-OPTION-TWICE', 'option '//name//' is given twice', place=card%options(i)%name)
+         else
+            card%options(i)%spec = spec
+            call check_use(deck, card, card%options(i), deck%keywords(card%keyword)%options(spec))
+         end if
       end do
       call check_company(deck, card)
    end subroutine check_options
-
-   subroutine check_option(deck, card, i)
-      type(deck_t), intent(in) :: deck
-      type(card_t), intent(inout) :: card
-      integer, intent(in) :: i
-      character(len=:), allocatable :: name
-      integer :: spec
-
-      name = token_text(deck, card%options(i)%name)
-      spec = find_option_spec(deck%keywords(card%keyword), name)
-      if (len(name) == 0) then
-         call refuse_card(deck, card, 'E-OPTION', 'an empty option', place=card%options(i)%name)
-      else if (spec == 0) then
-         call judge_option(deck, card, card%options(i))
-      else if (any(card%options(:i - 1)%spec == spec)) then
-         call refuse_card(deck, card, 'E-OPTION-TWICE', 'option '//name//' is given twice', place=card%options(i)%name)
-      else
-         card%options(i)%spec = spec
-         call check_use(deck, card, card%options(i), deck%keywords(card%keyword)%options(spec))
-      end if
-   end subroutine check_option
 
    !> An option that the table does not have: one of other programs, or of none.
    subroutine judge_option(deck, card, option)
@@ -328,14 +319,23 @@ contains
    subroutine check_company(deck, card)
       type(deck_t), intent(in) :: deck
       type(card_t), intent(inout) :: card
-      integer :: i, j
+      integer :: i, j, k
+      type(string_t), allocatable :: near(:)
+      logical :: is_misspelt
 
       if (card%is_refused .or. card%is_outside) return
       associate (options => deck%keywords(card%keyword)%options)
          do i = 1, size(options)
             if (options(i)%required .and. .not. any(card%options%spec == i)) then
                card%ok = .false.
-               if (is_misspelt(deck, card, options(i)%name)) cycle
+               ! An unknown option, which was reported, is nearest to this one.
+               is_misspelt = .false.
+               do k = 1, size(card%options)
+                  if (card%options(k)%spec /= 0) cycle
+                  near = nearest_names(token_text(deck, card%options(k)%name), option_names(deck%keywords(card%keyword)%options), 1)
+                  if (size(near) > 0) is_misspelt = is_misspelt .or. near(1)%s == options(i)%name
+               end do
+               if (is_misspelt) cycle
                call refuse_card(deck, card, 'E-OPTION-MISSING', '*'//trim(card%name)//' needs the option '//options(i)%name, &
                                 meaning(options(i)))
             end if
@@ -349,22 +349,6 @@ contains
          end do
       end associate
    end subroutine check_company
-
-   !> An unknown option, which was reported, is nearest to this one.
-   logical function is_misspelt(deck, card, name)
-      type(deck_t), intent(in) :: deck
-      type(card_t), intent(in) :: card
-      character(len=*), intent(in) :: name
-      type(string_t), allocatable :: near(:)
-      integer :: i
-
-      is_misspelt = .false.
-      do i = 1, size(card%options)
-         if (card%options(i)%spec /= 0) cycle
-         near = nearest_names(token_text(deck, card%options(i)%name), option_names(deck%keywords(card%keyword)%options), 1)
-         if (size(near) > 0) is_misspelt = is_misspelt .or. near(1)%s == name
-      end do
-   end function is_misspelt
 
    !> `MATERIAL=name: their material`.
    pure function meaning(spec) result(text)

@@ -10,7 +10,7 @@ module atrito_deck
    use atrito_growth, only: make_room_in => make_room
    use atrito_keyword, only: keyword_t, LEVEL_MODEL, LEVEL_STEP
    use atrito_lexer, only: trim_place
-   use atrito_name_list, only: name_list_t, add_name
+   use atrito_name_list, only: name_list_t
    use atrito_strings, only: string_t
    implicit none (type, external)
    private
@@ -19,8 +19,7 @@ module atrito_deck
    public :: token_text, is_empty_token, is_quoted, is_id_token, written_length, keyword_name, count_lines, line_item, last_item, &
              reading_order, take_source_line, part_of, scope_shift, scope_text, model_number
    public :: after_byte_order_mark
-   public :: allocate_deck, make_room, append_source, note_include, append_token, append_line, append_card, &
-             append_parameter, append_mesh
+   public :: allocate_deck, make_room, append_source, note_include, append_token, append_line, append_card, append_mesh
 
    !> A card whose keyword is not in the table, is not built or has no effect here; already reported.
    integer, parameter :: KEYWORD_UNKNOWN = 0
@@ -464,16 +463,5 @@ contains
       call move_mesh(mesh, longer(n + 1))
       call move_alloc(longer, deck%meshes)
    end subroutine append_mesh
-
-   !> Adds a parameter, and its name to those by which parameters are found.
-   subroutine append_parameter(deck, parameter)
-      type(deck_t), intent(inout) :: deck
-      type(parameter_t), intent(in) :: parameter
-
-      if (deck%n_parameters == size(deck%parameters)) deck%parameters = [deck%parameters, deck%parameters]
-      deck%n_parameters = deck%n_parameters + 1
-      deck%parameters(deck%n_parameters) = parameter
-      call add_name(deck%parameter_names, parameter%name)
-   end subroutine append_parameter
 
 end module atrito_deck

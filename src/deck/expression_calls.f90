@@ -31,13 +31,16 @@ contains
       character(len=:), allocatable, intent(out) :: problem !< what is wrong; not allocated: nothing
       integer, intent(out) :: place                    !< and where
       integer :: i, depth, begin
+      character(len=1) :: symbol
 
       one%name = text(first:last)
       one%first = first
       one%last = last
       allocate (one%arguments(0))
       place = first_behind(text, last)
-      one%has_parentheses = symbol_at(text, place) == '('
+      symbol = ' '
+      if (place <= len(text)) symbol = text(place:place)
+      one%has_parentheses = symbol == '('
       if (.not. one%has_parentheses) return
       begin = place + 1
       depth = 0
@@ -120,13 +123,5 @@ contains
       end do
       i = len(text) + 1
    end function first_behind
-
-   pure character(len=1) function symbol_at(text, place) result(symbol)
-      character(len=*), intent(in) :: text
-      integer, intent(in) :: place
-
-      symbol = ' '
-      if (place <= len(text)) symbol = text(place:place)
-   end function symbol_at
 
 end module atrito_expression_calls

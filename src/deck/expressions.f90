@@ -239,8 +239,9 @@ contains
    pure recursive subroutine take_name(parser, value)
       type(parser_t), intent(inout) :: parser
       real(wp), intent(out) :: value
-      character(len=:), allocatable :: name
-      integer :: first, last, i
+      character(len=:), allocatable :: name, problem
+      integer :: first, last, i, k, place
+      type(call_t) :: one
 
       value = 0.0_wp
       first = parser%position
@@ -255,7 +256,18 @@ contains
       else if (same_name(name, 'deg') .and. parser%has_degree) then
          value = PI/180
       else if (is_call(parser, name, last)) then
-         call take_call(parser, first, last, value)
+         ! Lists a call, or takes its value.
+         value = 1.0_wp
+         if (parser%is_listing) then
+            call read_call(parser%text, first, last, one, problem, place)
+            if (allocated(problem)) call fail(parser, place, place, problem)
+            parser%calls = [parser%calls, one]
+            k = size(parser%calls)
+         else
+            k = findloc(parser%calls%first, first, dim=1)
+            value = parser%amounts(k)
+         end if
+         call move_to(parser, parser%calls(k)%last + 1)
       else if (is_function(name)) then
          call take_function(parser, lower_case(name), first, value)
       else
@@ -290,28 +302,6 @@ contains
          is_call = .not. is_function(name)
       end if
    end function is_call
-
-   !> Lists a call, or takes its value.
-   pure subroutine take_call(parser, first, last, value)
-      type(parser_t), intent(inout) :: parser
-      integer, intent(in) :: first, last               !< of its name
-      real(wp), intent(out) :: value
-      type(call_t) :: one
-      character(len=:), allocatable :: problem
-      integer :: i, place
-
-      value = 1.0_wp
-      if (parser%is_listing) then
-         call read_call(parser%text, first, last, one, problem, place)
-         if (allocated(problem)) call fail(parser, place, place, problem)
-         parser%calls = [parser%calls, one]
-         i = size(parser%calls)
-      else
-         i = findloc(parser%calls%first, first, dim=1)
-         value = parser%amounts(i)
-      end if
-      call move_to(parser, parser%calls(i)%last + 1)
-   end subroutine take_call
 
    pure recursive subroutine take_function(parser, name, first, value)
       type(parser_t), intent(inout) :: parser

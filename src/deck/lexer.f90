@@ -53,7 +53,16 @@ contains
       end if
       line%first = line%start
       call trim_place(text, line%first, line%last)
-      line%kind = kind_of_line(text, line%first, line%last)
+      if (line%last < line%first) then
+         line%kind = LINE_BLANK
+      else if (text(line%first:line%first) /= '*') then
+         line%kind = LINE_DATA
+      else
+         line%kind = LINE_KEYWORD
+         if (line%last > line%first) then
+            if (text(line%first + 1:line%first + 1) == '*') line%kind = LINE_COMMENT
+         end if
+      end if
    end subroutine take_line
 
    !> How many lines of a text are neither blank nor begin with a star.
@@ -74,22 +83,6 @@ contains
          end if
       end do
    end function count_data_lines
-
-   pure integer function kind_of_line(text, first, last) result(kind)
-      character(len=*), intent(in) :: text
-      integer(ip), intent(in) :: first, last
-
-      if (last < first) then
-         kind = LINE_BLANK
-      else if (text(first:first) /= '*') then
-         kind = LINE_DATA
-      else
-         kind = LINE_KEYWORD
-         if (last > first) then
-            if (text(first + 1:first + 1) == '*') kind = LINE_COMMENT
-         end if
-      end if
-   end function kind_of_line
 
    !> Moves the ends of a place inwards over blanks and tabs. Of a blank place, last = first - 1.
    pure subroutine trim_place(text, first, last)

@@ -33,6 +33,7 @@ contains
       type(token_t) :: place
       integer(ip) :: i, first, n_parameters, n_meshes
       logical :: found, is_used
+      integer :: k
 
       if (count_messages(SEVERITY_ERROR) > 0) return
       n_parameters = 0
@@ -56,7 +57,19 @@ contains
                end associate
                deck%edits%before_steps = deck%edits%n
             end if
-            call note_options(deck, deck%cards(i))
+            ! Values of options that are numbers.
+            associate (card => deck%cards(i))
+               do k = 1, size(card%options)
+                  if (card%options(k)%spec < 1 .or. .not. card%options(k)%has_value) cycle
+                  if (.not. is_bracketed(deck, card%options(k)%value)) cycle
+                  select case (deck%keywords(card%keyword)%options(card%options(k)%spec)%kind)
+                  case (KIND_REAL, KIND_REAL_OR_NAME)
+                     call note_value(deck, card%options(k)%value, .false.)
+                  case (KIND_INTEGER)
+                     call note_value(deck, card%options(k)%value, .true.)
+                  end select
+               end do
+            end associate
             call note_lines(deck, deck%cards(i))
          end select
       end do
@@ -87,24 +100,6 @@ contains
          end associate
       end do
    end subroutine note_parameters
-
-   !> Values of options that are numbers.
-   subroutine note_options(deck, card)
-      type(deck_t), intent(inout) :: deck
-      type(card_t), intent(in) :: card
-      integer :: i
-
-      do i = 1, size(card%options)
-         if (card%options(i)%spec < 1 .or. .not. card%options(i)%has_value) cycle
-         if (.not. is_bracketed(deck, card%options(i)%value)) cycle
-         select case (deck%keywords(card%keyword)%options(card%options(i)%spec)%kind)
-         case (KIND_REAL, KIND_REAL_OR_NAME)
-            call note_value(deck, card%options(i)%value, .false.)
-         case (KIND_INTEGER)
-            call note_value(deck, card%options(i)%value, .true.)
-         end select
-      end do
-   end subroutine note_options
 
    subroutine note_lines(deck, card)
       type(deck_t), intent(inout) :: deck

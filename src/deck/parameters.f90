@@ -1,7 +1,7 @@
 !> `*PARAMETER` and `--set`, and expressions of parameters and of the place.
 module atrito_parameters
    use atrito_kinds, only: ip, wp
-   use atrito_deck, only: deck_t, token_t, parameter_t, append_parameter, part_of, reading_order, token_text
+   use atrito_deck, only: deck_t, token_t, parameter_t, part_of, reading_order, token_text
    use atrito_diagnostics, only: report_error
    use atrito_expression_names, only: is_name, is_reserved_name
    use atrito_expressions, only: expression_fault_t, evaluate_expression
@@ -89,7 +89,10 @@ contains
          parameter%overridden = .true.
       end if
       if (.not. parameter%known) call evaluate_at(deck, expression, parameter%value, parameter%known)
-      call append_parameter(deck, parameter)
+      if (deck%n_parameters == size(deck%parameters)) deck%parameters = [deck%parameters, deck%parameters]
+      deck%n_parameters = deck%n_parameters + 1
+      deck%parameters(deck%n_parameters) = parameter
+      call add_name(deck%parameter_names, parameter%name)
    end subroutine define_parameter
 
    subroutine check_name(deck, place, name, ok)

@@ -101,10 +101,13 @@ contains
       type(cursor_t) :: cursor
       type(line_t) :: line
       integer(ip) :: i
-      logical :: sound
+      logical :: sound, is_binary
 
       cursor%source = source
-      sound = .not. is_binary(deck, source)
+      ! A zero byte is in no text: the file is another thing, and reading on would only give nonsense.
+      is_binary = count_symbol(deck%sources(source)%text, achar(0)) > 0_lp
+      if (is_binary) call report_deck_error(deck, 'E-BINARY', 'not a text file', expected='a deck', source=source)
+      sound = .not. is_binary
       if (sound) sound = fits_memory(deck, source)
       if (.not. sound) then
          reading%order%incomplete = .true.
@@ -163,15 +166,6 @@ contains
       token%last = last
    end function token_at
 
-   !> A zero byte is in no text: the file is another thing, and reading on would only give nonsense.
-   logical function is_binary(deck, source)
-      type(deck_t), intent(in) :: deck
-      integer(ip), intent(in) :: source
-
-      is_binary = count_symbol(deck%sources(source)%text, achar(0)) > 0_lp
-      if (is_binary) call report_deck_error(deck, 'E-BINARY', 'not a text file', expected='a deck', source=source)
-   end function is_binary
-
    !> Reads a keyword line with the lines that continue it.
    recursive subroutine read_keyword_line(deck, reading, cursor, line)
       type(deck_t), intent(inout) :: deck
@@ -203,7 +197,7 @@ contains
       type(token_t), allocatable, intent(out) :: items(:)
       type(line_t) :: next
       type(cursor_t) :: ahead
-      integer(ip) :: n
+      integer(ip) :: n, i
       logical :: goes_on
 
       allocate (items(16))
@@ -212,7 +206,14 @@ contains
       associate (text => deck%sources(cursor%source)%text)
          do
             call split_line(deck, reading, cursor, next)
-            call add_tokens(reading%items, cursor, next, items, n)
+            ! Appends the items of a line to a list of n so far, which doubles where it is too short.
+            do while (n + reading%items%n > size(items))
+               items = [items, items]
+            end do
+            do i = 1, reading%items%n
+               items(n + i) = token_at(cursor, next, reading%items%first(i), reading%items%last(i))
+            end do
+            n = n + reading%items%n
             if (text(next%last:next%last) /= ',') exit
             ahead = cursor
             call look_ahead(deck, ahead, next, goes_on)
@@ -255,24 +256,6 @@ contains
                            'a stray quote', expected='quotes round a whole item: "my set"')
       end if
    end subroutine split_line
-
-   !> Appends the items of a line to a list of n so far, which doubles where it is too short.
-   pure subroutine add_tokens(items, cursor, line, tokens, n)
-      type(items_t), intent(in) :: items
-      type(cursor_t), intent(in) :: cursor
-      type(line_t), intent(in) :: line
-      type(token_t), allocatable, intent(inout) :: tokens(:)
-      integer(ip), intent(inout) :: n
-      integer(ip) :: i
-
-      do while (n + items%n > size(tokens))
-         tokens = [tokens, tokens]
-      end do
-      do i = 1, items%n
-         tokens(n + i) = token_at(cursor, line, items%first(i), items%last(i))
-      end do
-      n = n + items%n
-   end subroutine add_tokens
 
    subroutine begin_card(deck, reading, card)
       type(deck_t), intent(inout) :: deck
@@ -364,6 +347,7 @@ contains
       integer(ip) :: source
       integer(lp) :: identity(2)
       logical :: found, is_plain
+      type(card_t) :: failed
 
       call option_text(deck, card, 'INPUT', name, found, place)
       found = found .and. len(name) > 0 .and. (card%ok .or. .not. has_option(deck, card, 'TYPE'))
@@ -383,7 +367,14 @@ contains
       end if
       if (found) found = is_told(deck, card, text, place)
       if (.not. found) then
-         call keep_failed_include(deck, reading, card)
+         ! What the file would have defined is not known: the card says so.
+         reading%order%incomplete = .true.
+         call finish_card(deck)
+         reading%mode = MODE_SKIP
+         failed = card
+         failed%ok = .false.
+         failed%first_line = deck%n_lines + 1
+         call append_card(deck, failed)
          return
       end if
       call append_source(deck, name, text, identity)
@@ -399,22 +390,6 @@ contains
       call read_source(deck, reading, source)
       reading%depth = reading%depth - 1
    end subroutine read_include
-
-   !> What the file would have defined is not known: the card says so.
-   subroutine keep_failed_include(deck, reading, card)
-      type(deck_t), intent(inout) :: deck
-      type(reading_t), intent(inout) :: reading
-      type(card_t), intent(in) :: card
-      type(card_t) :: failed
-
-      reading%order%incomplete = .true.
-      call finish_card(deck)
-      reading%mode = MODE_SKIP
-      failed = card
-      failed%ok = .false.
-      failed%first_line = deck%n_lines + 1
-      call append_card(deck, failed)
-   end subroutine keep_failed_include
 
    !> A mesh in a file of another program. Messages of what stands in it name the *INCLUDE.
    subroutine read_mesh_file(deck, reading, source, card)

@@ -15,7 +15,7 @@ module atrito_assembly
    use atrito_plane_state, only: elastic_t, IS_TAPERED, STATES
    use atrito_profile, only: profile_t, begin_profile, add_to_profile, close_profile, expect_profile
    use atrito_linear_solver, only: linear_solver_t
-   use atrito_tapered, only: take_thickness, has_thickness
+   use atrito_tapered, only: has_thickness
    use atrito_threads, only: is_shared, chunk_count, find_chunk, CHUNK_LENGTH
    implicit none (type, external)
    private
@@ -186,6 +186,8 @@ contains
       end do
    end subroutine compare_chunks
 
+   !> Counts the different stiffnesses of a chunk: an element that has the form of the one before takes its number. The first is
+   !> compared with the one that `before` names.
    pure subroutine compare_chunk(fem, elements, grain, i_chunk, chunk, number)
       type(fem_t), intent(in) :: fem
       integer(ip), intent(in) :: elements(:), i_chunk
@@ -340,7 +342,7 @@ contains
 
       has_form = form%section == fem%section_of(element) .and. form%state == fem%mesh%state(element)
       if (.not. has_form) return
-      if (form%has_hoop) has_form = is_at_radius(fem%mesh, element, form%radius)
+      if (form%has_hoop) has_form = abs(radius_of(fem%mesh, element) - form%radius) <= 2*EPS_MACH*form%radius
       if (.not. has_form) return
       has_form = is_like_before(fem%mesh, element, form%shape, form%x, grain)
       if (IS_TAPERED(form%state)) then
@@ -356,7 +358,7 @@ contains
       type(fem_t), intent(in) :: fem
       integer(ip), intent(in) :: element
       type(form_t), intent(inout) :: form
-      integer(ip) :: k
+      integer(ip) :: k, n
 
       form%section = fem%section_of(element)
       form%state = fem%mesh%state(element)
@@ -364,7 +366,10 @@ contains
       form%has_hoop = STATES(form%state)%has_hoop
       form%radius = 0.0_wp
       if (form%has_hoop) form%radius = radius_of(fem%mesh, element)
-      if (IS_TAPERED(form%state)) call take_thickness(fem%mesh, element, form%thickness)
+      if (IS_TAPERED(form%state)) then
+         n = fem%mesh%shape(element)
+         form%thickness(:n) = fem%mesh%thickness(fem%mesh%nodes(:n, element))
+      end if
       do k = 1, form%shape
          form%x(:, k) = fem%mesh%x(:, fem%mesh%nodes(k, element)) - fem%mesh%x(:, fem%mesh%nodes(1, element))
       end do
@@ -377,15 +382,6 @@ contains
 
       radius = mesh%x(1, mesh%nodes(1, element))
    end function radius_of
-
-   !> Whether the radius of an axisymmetric element is that of another one, within the rounding of coordinates.
-   pure logical function is_at_radius(mesh, element, radius)
-      type(mesh_t), intent(in) :: mesh
-      integer(ip), intent(in) :: element
-      real(wp), intent(in) :: radius               !< of the other one [L]
-
-      is_at_radius = abs(radius_of(mesh, element) - radius) <= 2*EPS_MACH*radius
-   end function is_at_radius
 
    !> Whether an element has the shape of another one, within the rounding of the coordinates and never coarser than 1e-12 of the
    !> element; or within a grain.

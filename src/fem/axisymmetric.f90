@@ -14,7 +14,7 @@ module atrito_axisymmetric
    use atrito_shape_functions, only: shape_values, shape_gradients, rule_point
    implicit none (type, external)
    private
-   public :: axisymmetric_stiffness, mean_rows, add_hoop_stress
+   public :: axisymmetric_stiffness, mean_rows
    public :: strain_rows_t, strain_rows, mean_strain_rows, add_point, add_orthotropic_point, balance_axis
 
    !> Bits of the largest entry of a stiffness that are kept, as in atrito_element.
@@ -232,16 +232,5 @@ contains
          k(2*a, 2*a - 1) = k(2*a - 1, 2*a)
       end do
    end subroutine balance_axis
-
-   !> What a hoop strain adds to the stresses in the plane, and its own stress.
-   pure subroutine add_hoop_stress(d, e11, e22, e33, s, s33)
-      real(wp), intent(in) :: d(COMPONENTS, COMPONENTS) !< elasticity matrix [F/L^2]
-      real(wp), intent(in) :: e11, e22, e33
-      real(wp), intent(inout) :: s(COMPONENTS)     !< [F/L^2]
-      real(wp), intent(out) :: s33                 !< [F/L^2]
-
-      s(1:2) = s(1:2) + d(1, 2)*e33
-      s33 = d(1, 2)*(e11 + e22) + d(1, 1)*e33
-   end subroutine add_hoop_stress
 
 end module atrito_axisymmetric

@@ -173,7 +173,15 @@ contains
       end do
    end subroutine add_hourglass
 
-   !> What a Gauss point gives to the integrals. Arrays of a fixed length, since the compiler makes more of them.
+   !> What a Gauss point gives to the integrals of ga gb'.
+   !>
+   !> The columns of J are x_xi = sum_a x_a dN_a/dxi and x_eta likewise. J^-T det(J) has no quotient,
+   !>
+   !>     ga det(J) = [ y_eta N_xi - y_xi N_eta,  x_xi N_eta - x_eta N_xi ],
+   !>
+   !> so that with g = ga det(J) the point adds weight det(J) ga gb' = g_a g_b' weight/det(J): one division, in `factor`. Blocks
+   !> a < b alone: b goes through the nodes, i through the dofs of those before it. Arrays of a fixed length, since the compiler
+   !> makes more of them.
    pure subroutine add_products(n, x, dxi, deta, weight, products)
       integer(ip), intent(in) :: n
       real(wp), intent(in) :: x(2, n)
@@ -204,7 +212,8 @@ contains
       end do
    end subroutine add_products
 
-   !> From the integrals of ga gb' to the blocks of the stiffness, in place.
+   !> From the integrals of ga gb' to the blocks of the stiffness, in place: of an isotropic D the sum of element_stiffness, in
+   !> which `dot` is G times the integral of ga.gb and `cross` G times that of ga x gb = ga1 gb2 - ga2 gb1.
    pure subroutine combine_products(n, bulk, shear, k)
       integer(ip), intent(in) :: n
       real(wp), intent(in) :: bulk, shear          !< lambda + G and G times the thickness [F/L]
@@ -224,7 +233,9 @@ contains
       end do
    end subroutine combine_products
 
-   !> The same of any D: with g the gradients, B of a node has the rows [g1, 0], [0, g2], [g2, g1].
+   !> The same of any D: with g the gradients, B of a node has the rows [g1, 0], [0, g2], [g2, g1] of the strains e11, e22, 2 e12.
+   !> With p_ij the integral of ga_i gb_j the block Ba'D Bb has in its first entry d11 p11 + d13 (p12 + p21) + d33 p22, and the
+   !> others likewise.
    pure subroutine combine_orthotropic(n, d, k)
       integer(ip), intent(in) :: n
       real(wp), intent(in) :: d(COMPONENTS, COMPONENTS) !< times the thickness [F/L]

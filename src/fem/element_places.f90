@@ -60,6 +60,10 @@ contains
    end subroutine find_places
 
    !> All elements that hold any of the points, or miss it by little.
+   !>
+   !> The points are sorted along the axis on which they lie farther apart. The box round an element, wider by BULGE for sides that
+   !> are parabolas, cuts an interval out of them, whose first point is found by halves: of m points and n elements that makes about
+   !> n log m questions and those for the points that lie in the boxes, not m n.
    subroutine list_holders(mesh, wanted, x, found, n)
       type(mesh_t), intent(in) :: mesh
       logical, intent(in) :: wanted(:)
@@ -113,6 +117,11 @@ contains
    end function span
 
    !> Where a point is in an element: place%beyond, and the shape functions there, or at the nearest place of its edge.
+   !>
+   !> Newton's method for r(xi) = sum_k N_k(xi) (x_k - x) = 0, with the Jacobian J = dr/dxi = sum_k (x_k - x) dN_k/dxi': each step
+   !> solves J change = -r by Cramer's rule. Nodes are taken less the point, so that what is left of r near the root is not the
+   !> difference of two large numbers. In straight-sided triangles and parallelograms r is linear, and one step finds the root; in
+   !> others a few do. A point far outside may have no root, or one at which J is singular: it is given up then.
    pure subroutine look_into(n, nodes, x, place)
       integer(ip), intent(in) :: n                    !< of its nodes
       real(wp), intent(in) :: nodes(2, n), x(2)       !< [L]

@@ -174,7 +174,9 @@ contains
    end function largest_orthotropic_strain
 
    !> A bound of the strains at the points: the root of s11^2 + s22^2 + s33^2 + 2 s12^2 over the least of the moduli of elasticity;
-   !> s33 of rings alone.
+   !> s33 of rings alone. (That root is the norm of the stress tensor, whose directions of eigenstates isotropic elasticity keeps:
+   !> a deviator has 2G times its strain, a dilatation 2(G + lambda) of it in the plane and 2G + 3 lambda in space. So no strain is
+   !> longer than the stress over the least of the two.)
    pure real(wp) function largest_strain(n, compliance, s, hoop)
       integer(ip), intent(in) :: n
       real(wp), intent(in) :: compliance           !< 1 over the least of 2G and 2(G + lambda), or 2G and 2G + 3 lambda [L^2/F]
@@ -287,7 +289,7 @@ contains
       end do
    end function orthotropic_integral
 
-   !> Sum over the points of weight s C s [F L].
+   !> Sum over the points of weight s C s [F L], of an isotropic C: c11 (s11^2 + s22^2) + 2 c12 s11 s22 + c33 s12^2 with c33 = 1/G.
    pure real(wp) function integral(n, c, s, weight)
       integer(ip), intent(in) :: n
       real(wp), intent(in) :: c(COMPONENTS, COMPONENTS), s(MOST_POINTS, COMPONENTS), weight(MOST_POINTS)

@@ -129,8 +129,16 @@ contains
       has = mesh%shape(e) == EIGHT .and. IS_REDUCED(mesh%state(e)) .and. .not. STATES(mesh%state(e))%has_hoop
    end function has_hourglass
 
-   !> The part of displacements that is the hourglass, by what in them goes with xi eta^2 along xi and with xi^2 eta along eta.
-   !> (Bending under a shear force has xi^2 eta along xi: in coarse rows of long elements more than full integration bears.)
+   !> The part of displacements that is the hourglass.
+   !>
+   !> v = J'u are the displacements in the directions of xi and eta, J of the element's middle. The eight shape functions have two
+   !> cubic terms, xi^2 eta and xi eta^2. Let c_u be the factor of xi eta^2 in v_xi and c_v that of xi^2 eta in v_eta: the hourglass
+   !> v_xi = A xi (1 - 3 eta^2), v_eta = -A eta (1 - 3 xi^2) has c_u = -3A and c_v = 3A, so that
+   !>
+   !>     A = (c_v - c_u)/6,     2 c_v = (v3 + v4 - v1 - v2)/2 - v7 + v5,     2 c_u = (v2 + v3 - v1 - v4)/2 - v6 + v8
+   !>
+   !> with the nodes' v_eta and v_xi. (Bending under a shear force has xi^2 eta along xi, which is not asked for: in coarse rows of
+   !> long elements more than full integration bears.)
    pure function hourglass_of(x, u) result(part)
       real(wp), intent(in) :: x(2, EIGHT), u(2, EIGHT) !< [L]
       real(wp) :: part(2, EIGHT), j(2, 2), v(2, EIGHT), amplitude
@@ -157,7 +165,7 @@ contains
       strain(3, 2::2) = slopes(:, 1)
    end function strains_at
 
-   !> The integral of the squares of the strains, by a rule.
+   !> The integral of e11^2 + e22^2 + 2 e12^2 over an element [L^2], by a rule: twice the energy for 2G = 1 and no lateral strain.
    pure real(wp) function energy_of(x, u, n) result(energy)
       real(wp), intent(in) :: x(2, EIGHT), u(2, EIGHT)
       integer(ip), intent(in) :: n                 !< points

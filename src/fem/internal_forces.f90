@@ -116,6 +116,9 @@ contains
       first_chunk = 1 + ((part - 1)*chunk_count(n_elements))/n_parts
    end function first_chunk
 
+   !> The elements of a part, chunk by chunk: fe = K_e u_e, its work u_e.fe, and fe to the nodes. A part may add to the nodes that
+   !> it owns; forces at those of others are put down, and added when all parts are done, part by part: sums come out the same for
+   !> any number of threads.
    pure subroutine add_part(fem, n_parts, owner, u, unit, force, work, late)
       type(fem_t), intent(in) :: fem
       integer(ip), intent(in) :: n_parts, owner(:)

@@ -105,6 +105,13 @@ contains
    end subroutine measure_deformation
 
    !> The middle of an element whose nodes are its corners.
+   !>
+   !> The diagonals d, e of four nodes and how their ends move apart, a and b, give the gradient of the displacements in the middle
+   !> without shape functions: H d = a and H e = b hold there exactly, hence
+   !>
+   !>     H = [a b] [d e]^-1,     [d e]^-1 = [ e2  -e1 ; -d2  d1 ]/(d1 e2 - d2 e1).
+   !>
+   !> In a triangle H is the same everywhere, and two of its sides take the place of the diagonals.
    pure subroutine measure_middle(mesh, u, element, n_corners, largest)
       type(mesh_t), intent(in) :: mesh
       real(wp), contiguous, intent(in) :: u(:, :)

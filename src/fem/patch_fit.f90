@@ -1,9 +1,22 @@
 !> Least-squares fit of a stress polynomial to samples in a patch.
 !>
-!> Complete polynomials of degree 0, 1 or 2 do not change under an affine map, so each patch has coordinates of its own, of size 1
-!> whatever the units and the stretch of its elements. Places are given relative to the patch's node, so the origin does not
-!> matter either. The stresses are fitted as differences from the
-!> first sample: a constant field is reproduced to the last bit of the samples.
+!> With p(x) the terms 1, xi, eta, xi^2, xi eta, eta^2, or the first of them, and s_j the samples at x_j, p_j = p(x_j), the
+!> coefficients a of a stress minimise
+!>
+!>     sum_j (p_j'a - (s_j - s_1))^2,     so that    M a = sum_j p_j (s_j - s_1),    M = sum_j p_j p_j'.
+!>
+!> M depends on the places of the samples alone. It is factored once, M = L L', for all components of the stress and for all
+!> patches whose samples lie alike, which in a regular mesh are nearly all. At the patch's node p = (1, 0, ..., 0) = p_0, and the
+!> value there is a weighted mean of the samples,
+!>
+!>     s = s_1 + sum_j w_j (s_j - s_1),     w_j = p_j' M^-1 p_0,
+!>
+!> whose weights are kept with the factor. Differences from the first sample reproduce a constant field to its last bit.
+!>
+!> The terms must be of one size, or M is near to singular: with x in metres and elements of a millimetre x^2 is a millionth of x.
+!> The space of complete polynomials of degree 0, 1 or 2 does not change under an affine map, so each patch has coordinates of its
+!> own, of size 1 whatever the units and the stretch of its elements. Places are given relative to the patch's node, so the origin
+!> does not matter either.
 module atrito_patch_fit
    use atrito_growth, only: resize
    use atrito_kinds, only: ip, wp
@@ -109,6 +122,9 @@ contains
       call factor_moments(n, moments, fit)
    end subroutine lay_patch
 
+   !> xi = axis(:, 1) . x is the distance in the direction of the farthest corner, eta = axis(:, 2) . x that across it, each over
+   !> the greatest that a corner has: the corners lie within -1..1. Of thin elements, however they are turned, xi runs along
+   !> them.
    pure function axes_of(corners) result(axis)
       real(wp), intent(in) :: corners(:, :)
       real(wp) :: axis(2, 2)
@@ -134,7 +150,12 @@ contains
       axis(:, 2) = [-far(2), far(1)]/across
    end function axes_of
 
-   !> Cholesky, as far as the terms are determined.
+   !> M = L L' by columns, as far as the terms are determined.
+   !>
+   !> The pivot of column j is what is left of m_jj = sum of p_ij^2 over the samples i when the terms before it are eliminated: the
+   !> square sum of that part of the term that no combination of the others has at the samples. Of samples on one straight line, xi
+   !> say, eta has none: its pivot is round-off, and with INDEPENDENT_SHARE the fit ends with the terms before it. (Terms are in the
+   !> order of their degree, so what is left is a lower degree.)
    pure subroutine factor_moments(n, moments, fit)
       integer(ip), intent(in) :: n
       real(wp), intent(in) :: moments(MOST_TERMS, MOST_TERMS)
@@ -184,7 +205,8 @@ contains
       end do
    end function determined_degree
 
-   !> Value of the polynomial of a degree at the patch's node [F/L^2].
+   !> Value of the polynomial of a degree at the patch's node [F/L^2]: s_1 and the weighted differences of the samples. The weights
+   !> are made when the first node asks: L L' y = p_0, w_j = p_j'y.
    pure subroutine fit_node(degree, fit, s)
       integer(ip), intent(in) :: degree              !< not above determined_degree
       type(patch_fit_t), intent(inout) :: fit
@@ -207,7 +229,7 @@ contains
       s = fit%s(:, 1) + s
    end subroutine fit_node
 
-   !> The polynomial of a degree.
+   !> The polynomial of a degree, for other nodes: its coefficients from M a = sum_j p_j (s_j - s_1), and s_1 added to the first.
    pure subroutine fit_polynomial(degree, fit, polynomial)
       integer(ip), intent(in) :: degree              !< not above determined_degree
       type(patch_fit_t), intent(in) :: fit
@@ -229,7 +251,7 @@ contains
       polynomial%coefficient(:, 1) = polynomial%coefficient(:, 1) + fit%s(:, 1)
    end subroutine fit_polynomial
 
-   !> Solves the normal equations for right sides in rows.
+   !> Solves M x = L L'x = b for right sides b in rows: forward with L, backward with L'.
    pure subroutine solve_moments(n, l, x)
       integer(ip), intent(in) :: n
       real(wp), intent(in) :: l(MOST_TERMS, MOST_TERMS)

@@ -9,7 +9,7 @@ module atrito_patches
    use atrito_incidence, only: list_holders
    use atrito_kinds, only: ip
    use atrito_mesh, only: mesh_t
-   use atrito_plane_state, only: elastic_t, STATES
+   use atrito_plane_state, only: STATES
    use atrito_threads, only: is_shared
    implicit none (type, external)
    private
@@ -54,7 +54,10 @@ contains
 
       do i = 1, size(fem%sections, kind=ip)
          do j = 1, i
-            if (same_section(fem%sections(i), fem%sections(j))) exit
+            associate (a => fem%sections(i), b => fem%sections(j))
+               if (a%young == b%young .and. a%poisson == b%poisson .and. a%thickness == b%thickness &
+                   .and. all(a%stiffness == b%stiffness)) exit
+            end associate
          end do
          like(i) = j
       end do
@@ -65,13 +68,6 @@ contains
       end do
       !$omp end parallel do
    end function zones_of_elements
-
-   pure logical function same_section(a, b)
-      type(elastic_t), intent(in) :: a, b
-
-      same_section = a%young == b%young .and. a%poisson == b%poisson .and. a%thickness == b%thickness &
-                     .and. all(a%stiffness == b%stiffness)
-   end function same_section
 
    !> Gives every pair of a node and a zone its place.
    subroutine number_places(mesh, zone, patches)
@@ -97,6 +93,10 @@ contains
    end subroutine number_places
 
    !> Adds the places of the second zone at a node, of the third, ...
+   !>
+   !> The places of a node are a chain: the first has the node's number, next(at) leads to the one of a further zone, 0 ends it. An
+   !> element goes along the chain of each of its nodes until it meets its own zone, and appends a place where there is none: few
+   !> zones meet at a node, so that is a step or two, whatever the number of elements.
    pure subroutine add_places(mesh, zone, patches)
       type(mesh_t), intent(in) :: mesh
       integer(ip), intent(in) :: zone(:)
@@ -252,7 +252,8 @@ contains
       end do
    end subroutine patch_the_bare
 
-   !> Elements of the zone lie all round a corner node when each edge that leaves it has one of them on either side.
+   !> Elements of the zone lie all round a corner node when each edge that leaves it has one of them on either side: in each element
+   !> the edge to the next corner must be that to the corner before in another one. Nodes on an outline fail at its first edge.
    pure logical function is_interior(mesh, patches, i)
       type(mesh_t), intent(in) :: mesh
       type(patches_t), intent(in) :: patches

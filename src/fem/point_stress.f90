@@ -8,7 +8,7 @@
 !> round-off. s33 follows from s11 + s22 by the plane state (stress_33), or has a row of its own in rings.
 module atrito_point_stress
    use atrito_assembly, only: fem_t, form_t, has_form, take_form
-   use atrito_axisymmetric, only: mean_rows, add_hoop_stress
+   use atrito_axisymmetric, only: mean_rows
    use atrito_element, only: mean_gradients
    use atrito_element_table, only: SHAPES, MOST_NODES, MOST_CORNERS, has_mean_dilatation
    use atrito_kinds, only: ip, wp
@@ -113,7 +113,10 @@ contains
       end if
    end subroutine fetch_geometry
 
-   !> Places, Jacobians and gradients at the points.
+   !> Places, Jacobians and gradients at the points: with J = dx/dxi the gradient of a shape function is J^-T dN/dxi, h below being
+   !> J^-1 = d(xi, eta)/d(x, y). `steepness`, the sum of the squares of J^-1, is about 1/h^2 of an element of size h: round-off of
+   !> displacements makes strains of the order eps |u| times its root (atrito_error_estimate). All points go through a loop
+   !> together, which is what the compiler wants.
    pure subroutine map_points(rule, geometry)
       type(point_rule_t), intent(in) :: rule
       type(point_geometry_t), intent(inout) :: geometry
@@ -144,8 +147,12 @@ contains
       end do
    end subroutine map_points
 
-   !> s11, s22, s12 of an element at the points [F/L^2]. Displacements are taken relative to the first node, so that a rigid
-   !> translation costs no digits. Axisymmetric elements have a hoop stress s33 of its own.
+   !> s11, s22, s12 of an element at the points [F/L^2], s = D (e - e_th) with the strains e = sum_k B_k u_k.
+   !>
+   !> The strains are those that the stiffness knows. With the mean dilatation that of each point is replaced by the mean theta_m of
+   !> the element: e11 and e22 get (theta_m - e11 - e22)/2 each, of rings a third of what is missing in each direction. With reduced
+   !> integration they are spread from its points (fetch_geometry). Displacements are taken relative to the first node, so that a
+   !> rigid translation costs no digits. Axisymmetric elements have a hoop stress s33 of its own.
    pure subroutine point_stresses(fem, e, u, rule, geometry, s, hoop)
       type(fem_t), intent(in) :: fem
       integer(ip), intent(in) :: e
@@ -317,7 +324,9 @@ contains
             at_point = at_point + geometry%across(:COMPONENTS)*e33
             s33 = dot_product(geometry%across, [e11, e22, s(k, 3), e33])
          else
-            call add_hoop_stress(geometry%d, e11, e22, e33, at_point, s33)
+            ! what a hoop strain adds to the stresses in the plane, and its own stress
+            at_point(1:2) = at_point(1:2) + geometry%d(1, 2)*e33
+            s33 = geometry%d(1, 2)*(e11 + e22) + geometry%d(1, 1)*e33
          end if
          s(k, :) = at_point
          if (present(hoop)) hoop(k) = s33
@@ -341,6 +350,8 @@ contains
       end associate
    end function hoop_strain
 
+   !> e11 = sum_k g_k1 u_k1, e22 = sum_k g_k2 u_k2, 2 e12 = sum_k (g_k2 u_k1 + g_k1 u_k2) at n points; the first node's
+   !> displacements are taken off the others and have no term.
    pure subroutine strain_points(n, shape, gradient, way, e)
       integer(ip), intent(in) :: n, shape
       real(wp), intent(in) :: gradient(MOST_POINTS, 2, MOST_NODES), way(2, MOST_NODES)
@@ -355,6 +366,7 @@ contains
       end do
    end subroutine strain_points
 
+   !> s <- D s of an isotropic D, whose entries between normal and shear components are 0.
    pure subroutine strains_to_stresses(n, d, s)
       integer(ip), intent(in) :: n
       real(wp), intent(in) :: d(COMPONENTS, COMPONENTS)

@@ -105,7 +105,7 @@ contains
       real(wp), intent(in) :: m(4)                 !< mu/(1 - mu): of e22 and e33 in e11, of e11 and e33 in e22 [-]
       real(wp), intent(out) :: b(3, N_DOFS, N_POINTS) !< [1/L]
       real(wp), intent(out) :: jacobian(N_POINTS)  !< [L^2]
-      real(wp) :: relative(2, N), shape(N), axes(2, 2), t(N, 2), xi(2), weight, slope(2)
+      real(wp) :: relative(2, N), shape(N), axes(2, 2), t(N, 2), xi(2), weight, slope(2), j(2, 2)
       real(wp) :: e1(N_DOFS), e2(N_DOFS), t1(N_DOFS), t2(N_DOFS)
       integer(ip) :: point
 
@@ -115,7 +115,10 @@ contains
       t = hoop_variation(x, origin, state)
       do point = 1, N_POINTS
          call rule_point(N, N_POINTS, point, xi, weight)
-         call hourglass_slope(relative, xi, slope, jacobian(point))
+         ! The gradient of xi eta [1/L].
+         j = matmul(relative, shape_gradients(N, xi))
+         jacobian(point) = j(1, 1)*j(2, 2) - j(1, 2)*j(2, 1)
+         slope = [j(2, 2)*xi(2) - j(2, 1)*xi(1), j(1, 1)*xi(1) - j(1, 2)*xi(2)]/jacobian(point)
          slope = matmul(slope, axes)
          e1 = reshape(spread(axes(:, 1), 2, N)*spread(shape, 1, 2), [N_DOFS])*slope(1)
          e2 = reshape(spread(axes(:, 2), 2, N)*spread(shape, 1, 2), [N_DOFS])*slope(2)
@@ -146,17 +149,6 @@ contains
          t(:, 2) = t(:, 2) + rows%h(:N)*(xi(2)/SQUARES)
       end do
    end function hoop_variation
-
-   !> The gradient of xi eta [1/L].
-   pure subroutine hourglass_slope(x, xi, slope, jacobian)
-      real(wp), intent(in) :: x(2, N), xi(2)
-      real(wp), intent(out) :: slope(2), jacobian
-      real(wp) :: j(2, 2)
-
-      j = matmul(x, shape_gradients(N, xi))
-      jacobian = j(1, 1)*j(2, 2) - j(1, 2)*j(2, 1)
-      slope = [j(2, 2)*xi(2) - j(2, 1)*xi(1), j(1, 1)*xi(1) - j(1, 2)*xi(2)]/jacobian
-   end subroutine hourglass_slope
 
    !> Gradients of the shape functions and their hoop strains at n points from those of the stiffness, as spread_gradients does in
    !> the plane.

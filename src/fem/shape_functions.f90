@@ -143,6 +143,8 @@ contains
       end if
    end function triangle_values
 
+   !> Of the area coordinates L = (1 - xi - eta, xi, eta) the three nodes of the first degree have N_i = L_i. Of the second a corner
+   !> has L_i (2 L_i - 1), with the derivative (4 L_i - 1) dL_i, and the middle of a side 4 L_i L_j, with 4 (L_i dL_j + L_j dL_i).
    pure function triangle_gradients(n_nodes, xi) result(dn)
       integer(ip), intent(in) :: n_nodes
       real(wp), intent(in) :: xi(2)
@@ -297,6 +299,9 @@ contains
       weight = weights(i)*weights(j)
    end subroutine square_point
 
+   !> Point k of a rule of n. Up to six of them lie in threes: with t, t and 1 - 2t for the area coordinates a triple is the same
+   !> from each corner. More are those of Gauss in the square (a, b), of which a side is drawn together to a corner: xi = (1 +
+   !> a)/2, eta = (1 + b)(1 - xi)/2, whose Jacobian is (1 - xi)/4.
    pure subroutine triangle_point(n, k, xi, weight)
       integer(ip), intent(in) :: n                 !< exact for polynomials of degree 1, 2, 4, 6, 8: 1, 3, 6, 16, 25
       integer(ip), intent(in) :: k

@@ -4,6 +4,12 @@
 !> Gauss points, of triangles the three of the stiffness) round every corner node inside a zone; nodes on the outline of the zone
 !> take their values from the patches inside. Where there is none at hand, the patch of an outer node takes all Gauss points of two
 !> elements or more, and an element without neighbours its best points and degree p - 1.
+!>
+!> Why these points. The stresses of the displacements, of degree p, have errors of the order h^p in an element, and jump from one
+!> to the next. At the best points of a regular mesh the leading term of that error is zero (Barlow; of degree one it is linear in
+!> xi and eta, and zero in the middle): the samples there are of the order h^(p+1), and so is a polynomial of degree p through
+!> them, everywhere in the patch. The recovered stresses are thus one order better than those that they come from, which is what
+!> makes their distance an estimate of the error (atrito_error_estimate).
 module atrito_stress_recovery
    use atrito_assembly, only: fem_t
    use atrito_element_table, only: CORNERS_OF, DEGREE_OF, BEST_OF, POINTS_OF, MOST_NODES, MOST_CORNERS
@@ -179,7 +185,8 @@ contains
    end subroutine fit_chunk
 
    !> Samples of a patch, and the degree that they determine. When the best points do not determine what they should, all Gauss
-   !> points and lower degrees are tried.
+   !> points and lower degrees are tried: four quadrilaterals of the first degree have four best points for the three terms
+   !> 1, xi, eta; two in a row have two, on a line, which leave eta open. So patches on the outline take all Gauss points at once.
    pure subroutine fit_patch(fem, u, i, work, fit, degree)
       type(fem_t), intent(in) :: fem
       real(wp), intent(in) :: u(:, :)
@@ -258,7 +265,7 @@ contains
 
       first = from_patch(fem%mesh, work%patches, i, fem%mesh%nodes(1, e))
       if (IS_REDUCED(fem%mesh%state(e))) then        ! there are no others than the best
-         do point = 1, work%best(fem%mesh%shape(e))%n  ! no call: add_best_points is put into its only caller
+         do point = 1, work%best(fem%mesh%shape(e))%n
             call add_sample(first + work%x(:, point, e), work%s(:, point, e), fit)
          end do
          return

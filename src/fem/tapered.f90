@@ -9,7 +9,7 @@ module atrito_tapered
    use atrito_shape_functions, only: shape_values, shape_gradients, rule_point
    implicit none (type, external)
    private
-   public :: tapered_means, take_thickness, has_thickness
+   public :: tapered_means, has_thickness
 
 contains
 
@@ -36,17 +36,6 @@ contains
       end do
       mean = mean/volume
    end subroutine tapered_means
-
-   !> The thickness of the nodes of a tapered element.
-   pure subroutine take_thickness(mesh, element, thickness)
-      type(mesh_t), intent(in) :: mesh
-      integer(ip), intent(in) :: element
-      real(wp), intent(inout) :: thickness(MOST_NODES) !< [L]
-      integer(ip) :: n
-
-      n = mesh%shape(element)
-      thickness(:n) = mesh%thickness(mesh%nodes(:n, element))
-   end subroutine take_thickness
 
    !> Whether the nodes of an element have the thickness of those of another one, within rounding.
    pure logical function has_thickness(mesh, element, thickness) result(alike)

@@ -111,6 +111,10 @@ contains
       end associate
    end subroutine add_expansion
 
+   !> fe_k = sum over the points of B_k' D e_th times their volume, with b = D e_th/(alpha dT) per unit of strain: b1 and b2 of
+   !> thermal_stresses push along the gradient of the shape function of node k, which is how a node strains both axes; b3, which
+   !> only an orthotropic material has whose axes are turned, pushes as a shear stress does; b4 round the circle of a ring. The
+   !> first node has what makes the sum zero to the last bit: gradients add up to 0, but for round-off.
    pure subroutine add_element(fem, e, rule, geometry, f, blocked)
       type(fem_t), intent(in) :: fem
       integer(ip), intent(in) :: e

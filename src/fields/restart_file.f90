@@ -80,7 +80,13 @@ contains
       call open_archive(path, archive)
       call exchange_origin(archive, kind, program, in_file)
       if (is_sound(archive)) then
-         difference = foreign_origin(kind, program)
+         ! Why a file is not one of this program, in words; '' when it is.
+         difference = ''
+         if (program /= PROGRAM_NAME//' '//PROGRAM_VERSION) then
+            difference = 'it was written by '//program//', this is '//PROGRAM_NAME//' '//PROGRAM_VERSION
+         else if (kind /= FORMAT) then
+            difference = 'it is a '//kind//', expected is a '//FORMAT
+         end if
          if (len(difference) == 0) call exchange_findings(archive, history, state, increments)
          if (len(difference) == 0 .and. is_sound(archive)) difference = find_difference(in_file, fingerprint, state%step)
          if (len(difference) > 0) call set_status(status, STATUS_DECK, path//': is no restart file of this deck: '//difference)
@@ -133,19 +139,6 @@ contains
       end do
       call end_part(archive)
    end subroutine exchange_origin
-
-   !> Why a file is not one of this program, in words; '' when it is.
-   pure function foreign_origin(kind, program) result(text)
-      character(len=:), allocatable, intent(in) :: kind, program
-      character(len=:), allocatable :: text
-
-      text = ''
-      if (program /= PROGRAM_NAME//' '//PROGRAM_VERSION) then
-         text = 'it was written by '//program//', this is '//PROGRAM_NAME//' '//PROGRAM_VERSION
-      else if (kind /= FORMAT) then
-         text = 'it is a '//kind//', expected is a '//FORMAT
-      end if
-   end function foreign_origin
 
    !> The state and the rows of every increment. Each increment that is printed is a part of its own. (A list of the file costs
    !> more than some thousand numbers in it.)

@@ -195,13 +195,17 @@ contains
       type(results_t), intent(in) :: results
       type(xdmf_grid_t), intent(inout) :: grids(:)
       logical, allocatable :: mask(:)
-      integer(ip) :: k
+      integer(ip) :: k, e
 
       associate (fields => model%steps(results%step)%requests%fields)
          if (fields%nodes) call put_nodal('U', 'displacement', 'L', results%u, fields%node_u)
          if (fields%reactions) call put_nodal('RF', 'force of the support upon the body', 'F', results%reaction, fields%node_rf)
          if (.not. (fields%stress .and. allocated(results%nodal_stress))) return
-         mask = nodes_of(model%mesh, fields%element_s)
+         ! The nodes on these elements.
+         allocate (mask(model%mesh%n_nodes), source=.false.)
+         do e = 1, model%mesh%n_elements
+            if (fields%element_s(e)) mask(model%mesh%nodes(:model%mesh%shape(e), e)) = .true.
+         end do
          do k = 1, size(STRESS_NAMES, kind=ip)
             call put_nodal(trim(STRESS_NAMES(k)), 'stress recovered at the nodes', 'F/L^2', results%nodal_stress(k:k, :), mask)
          end do
@@ -261,19 +265,6 @@ contains
       end if
       call put_array(file, path, rows, name, dimension)
    end subroutine put_rows
-
-   !> The nodes on these elements.
-   pure function nodes_of(mesh, elements) result(mask)
-      type(mesh_t), intent(in) :: mesh
-      logical, intent(in) :: elements(:)
-      logical :: mask(mesh%n_nodes)
-      integer(ip) :: e
-
-      mask = .false.
-      do e = 1, mesh%n_elements
-         if (elements(e)) mask(mesh%nodes(:mesh%shape(e), e)) = .true.
-      end do
-   end function nodes_of
 
    !> What stress.tab tells: the stresses at the integration points, as a grid of points.
    subroutine put_stress_points(file, model, results, grids)

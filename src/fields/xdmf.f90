@@ -1,7 +1,7 @@
 !> The XDMF file beside an HDF5 file: it tells ParaView and other readers what the datasets are.
 module atrito_xdmf
    use atrito_kinds, only: ip
-   use atrito_strings, only: string_t, append_string, to_text
+   use atrito_strings, only: string_t, append_string, to_text, recoded
    implicit none (type, external)
    private
    public :: xdmf_grid_t, xdmf_field_t, xdmf_frame_t, begin_grid, add_field, begin_xdmf, add_time, end_xdmf, &
@@ -161,23 +161,8 @@ contains
    pure function xml_text(text) result(xml)
       character(len=*), intent(in) :: text
       character(len=:), allocatable :: xml
-      integer :: i
 
-      xml = ''
-      do i = 1, len(text)
-         select case (text(i:i))
-         case ('&')
-            xml = xml//'&amp;'
-         case ('<')
-            xml = xml//'&lt;'
-         case ('>')
-            xml = xml//'&gt;'
-         case ('"')
-            xml = xml//'&quot;'
-         case default
-            xml = xml//text(i:i)
-         end select
-      end do
+      xml = recoded(text, '&<>"', [character(len=6) :: '&amp;', '&lt;', '&gt;', '&quot;'])
    end function xml_text
 
 end module atrito_xdmf

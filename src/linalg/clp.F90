@@ -77,6 +77,7 @@ contains
       procedure(new_model), pointer :: make
       type(c_ptr) :: model
       type(halting_t) :: halting
+      procedure(ask_real), pointer :: objective
 
       if (.not. has_clp()) return
       call suspend_halting(halting)
@@ -86,7 +87,12 @@ contains
       if (c_associated(model)) then
          call load(model, program)
          call solve()
-         if (solution%status == LP_OPTIMAL) call fetch()
+         if (solution%status == LP_OPTIMAL) then
+            call copy_array('Clp_primalColumnSolution', model, program%n_columns, solution%x)
+            call copy_array('Clp_dualRowSolution', model, program%n_rows, solution%dual)
+            call c_f_procpointer(routine('Clp_objectiveValue'), objective)
+            solution%objective = objective(model)
+         end if
          call release(model)
       end if
       call restore_halting(halting)
@@ -119,16 +125,6 @@ contains
          end select
          solution%iterations = int(ask('Clp_numberIterations', model), ip)
       end subroutine solve
-
-      !> Copies of x, of the dual and of the objective: what Clp has is gone with the model.
-      subroutine fetch()
-         procedure(ask_real), pointer :: value
-
-         call copy_array('Clp_primalColumnSolution', model, program%n_columns, solution%x)
-         call copy_array('Clp_dualRowSolution', model, program%n_rows, solution%dual)
-         call c_f_procpointer(routine('Clp_objectiveValue'), value)
-         solution%objective = value(model)
-      end subroutine fetch
 
    end subroutine solve_linear_program
 

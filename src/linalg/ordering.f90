@@ -25,7 +25,7 @@
 !> In the new numbers no two neighbours are more than 3 apart (5 and 2 are numbers 1 and 4); in the old ones 1 and 6 are 5 apart.
 module atrito_ordering
    use atrito_incidence, only: list_holders
-   use atrito_joined_sets, only: find_lowest, join_sets
+   use atrito_joined_sets, only: find_lowest
    use atrito_kinds, only: ip, lp
    implicit none (type, external)
    private
@@ -55,7 +55,7 @@ contains
       integer(ip), intent(in) :: elements(:, :)  !< (nodes per element, elements): 1..n, 0 beyond the count
       type(graph_t), intent(out) :: graph
       integer(ip), allocatable :: start(:), list(:), last_seen_from(:)
-      integer(ip) :: i, used
+      integer(ip) :: i, used, e, k, node
 
       call list_holders(n, elements, start, list)
       graph%n = n
@@ -66,32 +66,23 @@ contains
       used = 0
       do i = 1, n
          graph%xadj(i) = used + 1
-         call take_neighbours(i, elements, list(start(i):start(i + 1) - 1), last_seen_from, graph%adjncy, used)
+         ! Appends the neighbours of node i.
+         associate (around => list(start(i):start(i + 1) - 1))
+            last_seen_from(i) = i
+            do e = 1, size(around, kind=ip)
+               do k = 1, size(elements, 1, kind=ip)
+                  node = elements(k, around(e))
+                  if (node == 0) exit
+                  if (last_seen_from(node) == i) cycle
+                  last_seen_from(node) = i
+                  used = used + 1
+                  graph%adjncy(used) = node
+               end do
+            end do
+         end associate
       end do
       graph%xadj(n + 1) = used + 1
    end subroutine build_graph
-
-   !> Appends the neighbours of node i.
-   pure subroutine take_neighbours(i, elements, around, last_seen_from, neighbours, used)
-      integer(ip), intent(in) :: i, elements(:, :)
-      integer(ip), intent(in) :: around(:)                    !< elements at node i
-      integer(ip), intent(inout) :: last_seen_from(:)
-      integer(ip), intent(inout) :: neighbours(:)
-      integer(ip), intent(inout) :: used
-      integer(ip) :: e, k, node
-
-      last_seen_from(i) = i
-      do e = 1, size(around, kind=ip)
-         do k = 1, size(elements, 1, kind=ip)
-            node = elements(k, around(e))
-            if (node == 0) exit
-            if (last_seen_from(node) == i) cycle
-            last_seen_from(node) = i
-            used = used + 1
-            neighbours(used) = node
-         end do
-      end do
-   end subroutine take_neighbours
 
    !> Numbers the connected components of a mesh from 1 in the order of their lowest nodes, without its graph.
    !>
@@ -140,7 +131,7 @@ contains
       logical, intent(in), optional :: connected !< the graph is known to be one component; default .false.
       type(walk_t) :: walk, trial
       integer(ip), allocatable :: component(:)
-      integer(ip) :: n_components, i
+      integer(ip) :: n_components, i, root
       logical, allocatable :: done(:)
       logical :: is_one
 
@@ -163,7 +154,10 @@ contains
       do i = 1, graph%n
          if (done(component(i))) cycle
          done(component(i)) = .true.
-         call begin_component(graph, i, trial, walk)
+         if (.not. allocated(trial%nodes)) call begin_walk(trial, graph%n)
+         call find_peripheral_node(graph, i, trial, root)
+         call visit(walk, root)
+         call grow_layers(graph, [root], walk)
       end do
       order = walk%nodes(graph%n:1:-1)
    end subroutine order_contact_last
@@ -185,19 +179,6 @@ contains
          next = next + 1
       end do
    end subroutine grow_layers
-
-   !> Cuthill-McKee of the component of a node that nobody has seen.
-   pure subroutine begin_component(graph, node, trial, walk)
-      type(graph_t), intent(in) :: graph
-      integer(ip), intent(in) :: node
-      type(walk_t), intent(inout) :: trial, walk
-      integer(ip) :: root
-
-      if (.not. allocated(trial%nodes)) call begin_walk(trial, graph%n)
-      call find_peripheral_node(graph, node, trial, root)
-      call visit(walk, root)
-      call grow_layers(graph, [root], walk)
-   end subroutine begin_component
 
    !> A node from which the component has many layers (George and Liu): from the last layer take the node of least degree and
    !> look back, as long as that makes more layers.

@@ -90,6 +90,7 @@ contains
       call list_holders(n_parts, part_of, first, member)
    end subroutine list_parts
 
+   !> Of the box round the nodes of a body its middle, half its diagonal, and its shorter side over the longer one.
    subroutine measure_body(mesh, body)
       type(mesh_t), intent(in) :: mesh
       type(body_t), intent(inout) :: body

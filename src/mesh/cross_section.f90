@@ -5,8 +5,8 @@
 !> what acts on them; what of it is on the wrong side is put right by whoever sums the forces: loads on elements by the parts of
 !> split elements, forces of single nodes by their share. So the result is that of the line, not of the zigzag of the elements.
 module atrito_cross_section
-   use atrito_crossings, only: cut_line_t, piece_t, crossing_t, line_through, height_over, point_at, is_ahead, slack_of, &
-                               find_crossings, INSIDE, EDGE_BEHIND, EDGE_AHEAD
+   use atrito_crossings, only: cut_line_t, piece_t, crossing_t, height_over, point_at, is_ahead, slack_of, find_crossings, &
+                               INSIDE, EDGE_BEHIND, EDGE_AHEAD
    use atrito_faces, only: face_list_t, node_elements_t, add_face
    use atrito_kinds, only: ip, wp
    use atrito_mesh, only: mesh_t, face_nodes
@@ -43,7 +43,10 @@ contains
       real(wp), allocatable :: place(:), weight(:)  ! of each crossing
       integer(ip) :: i
 
-      section%line = line_through(ends)
+      section%line%start = ends(:, 1)
+      section%line%length = norm2(ends(:, 2) - ends(:, 1))
+      section%line%along = (ends(:, 2) - ends(:, 1))/section%line%length
+      section%line%normal = [section%line%along(2), -section%line%along(1)]
       call find_crossings(mesh, around, of_element, section%line, pieces, crossings)
       crossings%is_wanted = .false.
       do i = 1, size(pieces, kind=ip)

@@ -4,6 +4,10 @@
 !> A piece is inside where there is material on both sides of the line: an element that the line parts, a face on the line between
 !> two elements, a node on the line that elements of both sides share. Else it is an edge: a face of the outline on the line.
 !> Elements of the second degree count as polygons of all nodes on their sides.
+!>
+!> The line is x(s) = start + s along; height h(x) = normal.(x - start) of a node tells its side, and where h changes its sign from
+!> node a to node b of a polygon, the line leaves it or enters it at s = s_a + (s_b - s_a) h_a/(h_a - h_b). |h| below SLACK of the
+!> element's size is 0: a line along nodes must not depend on the last digits of their coordinates.
 module atrito_crossings
    use atrito_element_table, only: MOST_SIDES
    use atrito_faces, only: node_elements_t, is_outer_face
@@ -12,8 +16,8 @@ module atrito_crossings
    use atrito_sorting, only: order_key, sorted_places
    implicit none (type, external)
    private
-   public :: cut_line_t, piece_t, crossing_t, line_through, height_over, point_at, outline_of, is_ahead, slack_of, &
-             find_crossings, INSIDE, EDGE_BEHIND, EDGE_AHEAD, MOST_OUTLINE
+   public :: cut_line_t, piece_t, crossing_t, height_over, point_at, outline_of, is_ahead, slack_of, find_crossings, INSIDE, &
+             EDGE_BEHIND, EDGE_AHEAD, MOST_OUTLINE
 
    !> A line from one point to another. Behind it is where its normal comes from.
    type :: cut_line_t
@@ -55,16 +59,6 @@ module atrito_crossings
    real(wp), parameter :: SHORT = 0.1_wp
 
 contains
-
-   !> The line from one point to another, with its unit vector and its normal, which is the vector turned by -90 degrees.
-   pure type(cut_line_t) function line_through(ends) result(line)
-      real(wp), intent(in) :: ends(2, 2)            !< two points that differ [L]
-
-      line%start = ends(:, 1)
-      line%length = norm2(ends(:, 2) - ends(:, 1))
-      line%along = (ends(:, 2) - ends(:, 1))/line%length
-      line%normal = [line%along(2), -line%along(1)]
-   end function line_through
 
    !> Distance of a point from the line [L]: negative behind it.
    pure real(wp) function height_over(line, x)

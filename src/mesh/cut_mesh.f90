@@ -7,7 +7,7 @@
 !> shares with its neighbour), or inside.
 module atrito_cut_mesh
    use atrito_element_table, only: SHAPES, MOST_NODES, MOST_SIDES, kind_of
-   use atrito_element_trees, only: element_trees_t, is_side_cut, leaf_corners, list_leaves, SIDE
+   use atrito_element_trees, only: element_trees_t, is_side_cut, list_leaves, SIDE, corner_count
    use atrito_faces, only: node_elements_t
    use atrito_id_map, only: add_id
    use atrito_kinds, only: ip, lp, wp
@@ -52,6 +52,10 @@ contains
    end subroutine cut_mesh
 
    !> The pieces of all leaves: by their element of the deck, then by their middles row by row from its first side.
+   !>
+   !> Places are whole numbers (s, t), 0..SIDE along the sides 1-2 and 1-4 (or 1-3) of the element of the deck: halving loses
+   !> nothing, equal places are equal numbers, and a node that two pieces share is one key, ROW t + s, without a tolerance. The
+   !> middle of 3 or 4 corners is their sum over 3 or 4, taken times 12/16 to stay whole and within the key.
    subroutine list_pieces(mesh, trees, pieces)
       type(mesh_t), intent(in) :: mesh
       type(element_trees_t), intent(in) :: trees
@@ -71,7 +75,10 @@ contains
             n = n + 1
             pieces%leaf(n) = leaves(i)
             pieces%root(n) = trees%root(leaves(i))
-            pieces%shape(n) = piece_shape(mesh%shape(pieces%root(n)), sizes(k))
+            pieces%shape(n) = mesh%shape(pieces%root(n))
+            associate (shape => SHAPES(pieces%shape(n)))    ! triangles among quadrilaterals have their degree
+               if (shape%n_corners /= sizes(k)) pieces%shape(n) = sizes(k)*shape%degree
+            end associate
             call fill_places(pieces%shape(n), corners(:, :sizes(k), k), pieces%place(:, :, n))
             associate (place => pieces%place(:, :sizes(k), n))
                middle = (12/sizes(k))*sum(int(place, lp), dim=2)/16  ! places are multiples of 32
@@ -87,15 +94,6 @@ contains
       pieces%shape = pieces%shape(order)
       pieces%place = pieces%place(:, :, order)
    end subroutine list_pieces
-
-   !> Triangles among quadrilaterals have their degree.
-   pure integer(ip) function piece_shape(shape, n_corners)
-      integer(ip), intent(in) :: shape               !< of the element of the deck
-      integer(ip), intent(in) :: n_corners           !< of the piece
-
-      piece_shape = shape
-      if (SHAPES(shape)%n_corners /= n_corners) piece_shape = n_corners*SHAPES(shape)%degree
-   end function piece_shape
 
    !> The corners of a leaf's pieces: as it is, or with a node m (and o) in the middle of sides that a neighbour has cut.
    !>
@@ -116,7 +114,7 @@ contains
       integer(ip) :: m(2), other(2), i
       logical :: is_cut(4)
 
-      p = leaf_corners(trees, leaf)
+      p = trees%place(:, :corner_count(trees, leaf), leaf)
       is_cut = .false.
       if (size(p, 2) == 4) is_cut = [(is_side_cut(trees, leaf, i), i=1, 4)]
       sizes = 0
@@ -191,23 +189,6 @@ contains
       end select
    end function is_on
 
-   !> How far a place on a side is from where the side begins.
-   pure integer(ip) function along_side(place, side_number, is_triangle) result(t)
-      integer(ip), intent(in) :: place(2), side_number
-      logical, intent(in) :: is_triangle
-
-      select case (side_number)
-      case (1)
-         t = place(1)
-      case (2)
-         t = place(2)
-      case (3)
-         t = SIDE - merge(place(2), place(1), is_triangle)
-      case default
-         t = SIDE - place(2)
-      end select
-   end function along_side
-
    !> Where a place of an element is kept: edge and key on it, or edge 0 and the key inside; node: of the deck, or 0.
    !>
    !> A place on an edge is told by how far it is from the first node of the edge, whichever of the two elements asks, so both find
@@ -226,7 +207,17 @@ contains
       key = ROW*int(place(2), lp) + int(place(1), lp)
       do i = 1, side_count(mesh, e)
          if (.not. is_on(place, i, refinement%is_triangle(e))) cycle
-         t = along_side(place, i, refinement%is_triangle(e))
+         ! How far a place on a side is from where the side begins.
+         select case (i)
+         case (1)
+            t = place(1)
+         case (2)
+            t = place(2)
+         case (3)
+            t = SIDE - merge(place(2), place(1), refinement%is_triangle(e))
+         case default
+            t = SIDE - place(2)
+         end select
          if (t == 0) node = mesh%nodes(i, e)
          if (t == SIDE) cycle                         ! where the next one begins
          edge = refinement%face_edge(i, e)
@@ -389,6 +380,8 @@ contains
       end do
    end subroutine append_keys
 
+   !> The elements are the pieces, numbered from 1. A node is found by halves by its key among the rising ones of its edge, or of
+   !> those inside its element of the deck.
    subroutine place_elements(mesh, pieces, edge_key, inner_key, refinement, fine)
       type(mesh_t), intent(in) :: mesh
       type(pieces_t), intent(in) :: pieces

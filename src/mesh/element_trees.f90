@@ -19,9 +19,9 @@ module atrito_element_trees
    use atrito_mesh, only: mesh_t, side_count
    implicit none (type, external)
    private
-   public :: element_trees_t, begin_trees, cut_all, cut_cell, cut_leaves, count_leaves, is_side_cut, leaf_corners, list_leaves
+   public :: element_trees_t, begin_trees, cut_all, cut_cell, cut_leaves, count_leaves, is_side_cut, list_leaves
    public :: part_count
-   public :: SIDE, MOST_CUTS
+   public :: SIDE, MOST_CUTS, corner_count
 
    integer(ip), parameter :: SIDE = 2_ip**28          !< of an element of the deck, by which places in it are counted
    integer(ip), parameter :: MOST_CUTS = 22           !< of an element into four: middles of pieces still are whole numbers
@@ -55,7 +55,8 @@ contains
       type(mesh_t), intent(in) :: mesh
       integer(ip), intent(in) :: partner(:)           !< of each node: itself, or the node with which it is one vertex
       type(element_trees_t), intent(out) :: trees
-      integer(ip) :: e, n
+      integer(ip) :: e, n, i
+      real(wp) :: length(4)
 
       trees%n_roots = mesh%n_elements
       trees%root_id = mesh%element_id(:mesh%n_elements)
@@ -67,7 +68,10 @@ contains
       end associate
       do e = 1, mesh%n_elements
          if (side_count(mesh, e) == 4) then
-            trees%short_side(e) = short_side_of(mesh, e)
+            length = [(norm2(mesh%x(:, mesh%nodes(mod(i, 4_ip) + 1, e)) - mesh%x(:, mesh%nodes(i, e))), i=1, 4)]
+            trees%short_side(e) = 0
+            if (length(2) + length(4) > SLENDER*(length(1) + length(3))) trees%short_side(e) = 1
+            if (length(1) + length(3) > SLENDER*(length(2) + length(4))) trees%short_side(e) = 2
             call add_cell(e, SQUARE, partner(mesh%nodes(:4, e)), trees)
          else
             n = longest_side(mesh, partner, e)
@@ -76,19 +80,6 @@ contains
          end if
       end do
    end subroutine begin_trees
-
-   !> Which sides of a slender quadrilateral are the short ones.
-   pure integer(ip) function short_side_of(mesh, e) result(short)
-      type(mesh_t), intent(in) :: mesh
-      integer(ip), intent(in) :: e
-      real(wp) :: length(4)
-      integer(ip) :: i
-
-      length = [(norm2(mesh%x(:, mesh%nodes(mod(i, 4_ip) + 1, e)) - mesh%x(:, mesh%nodes(i, e))), i=1, 4)]
-      short = 0
-      if (length(2) + length(4) > SLENDER*(length(1) + length(3))) short = 1
-      if (length(1) + length(3) > SLENDER*(length(2) + length(4))) short = 2
-   end function short_side_of
 
    !> The longest side of a triangle; of some as long the one of the least vertices, so that two neighbours agree.
    pure integer(ip) function longest_side(mesh, partner, e) result(longest)
@@ -251,6 +242,7 @@ contains
       end if
    end subroutine cut_cell
 
+   !> Corners of a cell, 3 or 4.
    pure integer(ip) function corner_count(trees, cell) result(n)
       type(element_trees_t), intent(in) :: trees
       integer(ip), intent(in) :: cell
@@ -265,15 +257,6 @@ contains
 
       n = merge(2_ip, 4_ip, corner_count(trees, cell) == 3)
    end function part_count
-
-   !> Places of the corners of a cell in its root.
-   pure function leaf_corners(trees, cell) result(places)
-      type(element_trees_t), intent(in) :: trees
-      integer(ip), intent(in) :: cell
-      integer(ip), allocatable :: places(:, :)        !< (2, 3 or 4)
-
-      places = trees%place(:, :corner_count(trees, cell), cell)
-   end function leaf_corners
 
    !> Whether there is a node in the middle of a side.
    pure logical function is_side_cut(trees, cell, side)

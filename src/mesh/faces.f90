@@ -97,6 +97,10 @@ contains
 
    !> Puts faces into the order in which one ends where the next begins, counter-clockwise round their body (an upper body's
    !> bottom from left to right); repeated faces are dropped. A closed chain begins with its first face.
+   !>
+   !> At most one face begins at each node of a chain, and at most one ends there; two tables hold which. The first face of an open
+   !> chain is the one at whose first node none ends. From it the walk goes on to the face that begins where this one ends, until
+   !> there is none, or the first comes again. What has not been met then is no part of the chain. n faces take about n steps.
    pure subroutine order_chain(mesh, list, report)
       type(mesh_t), intent(in) :: mesh
       type(face_list_t), intent(inout) :: list

@@ -3,6 +3,10 @@
 !> As long as the numbers come one after the other, and their places too, only the first number and its place are kept. From the
 !> first that does not on there is a table: of all numbers up to the greatest, where many of these are there, else a hash table.
 !> Either becomes the other when it is full.
+!>
+!> The hash table has open addressing: a number is sought from the slot that its hash gives on, one slot after the other, until it
+!> is met, or a free slot, where it would be. No more than half of the slots are in use, so that a few steps do; a table that is
+!> fuller is made anew, of twice as many numbers, which over all numbers costs a few steps each.
 module atrito_id_map
    use atrito_kinds, only: ip, lp
    implicit none (type, external)

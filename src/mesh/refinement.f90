@@ -1,6 +1,12 @@
 !> Uniform refinement: every element into pieces x pieces of the same shape, or all of one shape with as many corners, on the
 !> isoparametric map of its parent, so that curved edges stay what they are. Nodes of the coarse mesh keep their places; those on
 !> edges follow, then those inside elements.
+!>
+!> Cut into m x m pieces of degree p a square has the grid of its nodes at (i/n, j/n), i, j = 0..n with n = m p intervals: 4 nodes
+!> of the parent, n - 1 on each edge, (n - 1)^2 inside; a triangle, i + j <= n, has (n - 1)(n - 2)/2 inside. Where the parent has
+!> nodes on its edges or in its centre these are nodes of the grid already (n is even then) and are not made again; pieces without a
+!> centre node leave m^2 places of the grid empty. These counts give every edge and every element the number of its first new node
+!> (edge_first, inner_first), and from these alone any node's number follows: no search, and neighbours agree on their edge.
 module atrito_refinement
    use atrito_element_table, only: SHAPES, DEGREE_OF, CORNERS_OF, MOST_NODES, MOST_SIDES
    use atrito_faces, only: find_across, node_elements_t
@@ -156,6 +162,7 @@ contains
       end if
    end function edge_intervals
 
+   !> edge_first and inner_first, by the counts at the head of this file.
    pure subroutine number_nodes(mesh, refinement)
       type(mesh_t), intent(in) :: mesh
       type(refinement_t), intent(inout) :: refinement

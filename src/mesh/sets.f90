@@ -2,10 +2,10 @@
 module atrito_sets
    use atrito_kinds, only: ip
    use atrito_name_list, only: name_list_t, add_name, find_name
-   use atrito_ranges, only: ranges_t, add_numbers, add_ranges, move_ranges, numbers_in, count_numbers, first_number
+   use atrito_ranges, only: ranges_t, add_numbers, add_ranges, move_ranges, numbers_in, count_numbers
    implicit none (type, external)
    private
-   public :: set_t, set_list_t, set_count, find_set, grow_set, members_of, member_count, first_member, replace_members
+   public :: set_t, set_list_t, set_count, find_set, grow_set, members_of, member_count, replace_members
 
    type :: set_t
       character(len=:), allocatable :: name
@@ -55,13 +55,6 @@ contains
 
       n = count_numbers(set%members)
    end function member_count
-
-   !> Of no set without members.
-   pure integer(ip) function first_member(set) result(member)
-      type(set_t), intent(in) :: set
-
-      member = first_number(set%members)
-   end function first_member
 
    !> Gives a set other members (places of nodes or elements), in any order.
    pure subroutine replace_members(set, members)

@@ -156,25 +156,14 @@ contains
       integer(ip), allocatable, intent(out) :: members(:)
       logical, intent(out) :: ok
       character(len=*), intent(in) :: keyword
+      character(len=:), allocatable :: name, fault
       integer(ip) :: node
 
       if (is_id_token(context%deck, token)) then
          call find_one_node(context, token, node, ok, keyword)
          members = pack([node], [ok])
-      else
-         call find_node_members(context, token, members, ok, keyword)
+         return
       end if
-   end subroutine find_nodes
-
-   !> The nodes that a name means.
-   subroutine find_node_members(context, token, members, ok, keyword)
-      type(build_context_t), intent(in) :: context
-      type(token_t), intent(in) :: token
-      integer(ip), allocatable, intent(out) :: members(:)
-      logical, intent(out) :: ok
-      character(len=*), intent(in) :: keyword
-      character(len=:), allocatable :: name, fault
-
       members = [integer(ip) ::]
       call get_name(context%deck, token, 'node number, or name of a set', name, ok, keyword=keyword)
       if (.not. ok) return
@@ -185,27 +174,10 @@ contains
       else if (.not. ok) then
          call report_unknown(context, token, 'node set', 'E-SET', context%model%node_sets%names, keyword)
       end if
-   end subroutine find_node_members
+   end subroutine find_nodes
 
    !> The places of the elements that an item names: a number or an element set.
    subroutine find_elements(context, token, members, ok, keyword)
-      type(build_context_t), intent(in) :: context
-      type(token_t), intent(in) :: token
-      integer(ip), allocatable, intent(out) :: members(:)
-      logical, intent(out) :: ok
-      character(len=*), intent(in) :: keyword
-      integer(ip) :: element
-
-      if (is_id_token(context%deck, token)) then
-         call find_one_element(context, token, element, ok, keyword)
-         members = pack([element], [ok])
-         if (is_refined(context%refinement)) members = fine_elements(context%refinement, members)
-      else
-         call find_element_members(context, token, members, ok, keyword)
-      end if
-   end subroutine find_elements
-
-   subroutine find_element_members(context, token, members, ok, keyword)
       type(build_context_t), intent(in) :: context
       type(token_t), intent(in) :: token
       integer(ip), allocatable, intent(out) :: members(:)
@@ -215,6 +187,12 @@ contains
       integer(ip) :: i
 
       members = [integer(ip) ::]
+      if (is_id_token(context%deck, token)) then
+         call find_one_element(context, token, i, ok, keyword)
+         members = pack([i], [ok])
+         if (is_refined(context%refinement)) members = fine_elements(context%refinement, members)
+         return
+      end if
       call get_name(context%deck, token, 'element number, or name of a set', name, ok, keyword=keyword)
       if (.not. ok) return
       associate (sets => context%model%element_sets)
@@ -223,7 +201,7 @@ contains
          if (ok) members = members_of(sets%sets(i))
          if (.not. ok) call report_unknown(context, token, 'element set', 'E-SET', sets%names, keyword)
       end associate
-   end subroutine find_element_members
+   end subroutine find_elements
 
    !> The set that an option of a card names; 0: the option is not given.
    subroutine find_set_option(context, card, option, noun, sets, set, ok)

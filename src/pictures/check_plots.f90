@@ -79,10 +79,26 @@ contains
       character(len=*), intent(in) :: folder                !< of the plots
       type(status_t), intent(out) :: status
       type(plots_t) :: plots
+      type(drawing_t) :: drawing
+      type(shown_set_t), allocatable :: shown(:)
+      integer(ip) :: i
 
       call begin_plots(plots, folder)
       call write_scene_plot(plots, model, view)
-      if (size(shown_sets(model)) > 0) call write_set_plot(plots, model, view)
+      ! Writes sets.dat and sets.gp.
+      if (size(shown_sets(model)) > 0) then
+         call begin_drawing(model, .true., view, drawing)
+         drawing%window = shown_window(view, drawing%window)
+         shown = shown_sets(model)
+         call begin_data(plots, SET_PLOT, 'outlines of the bodies, then the members of each set; columns: x [L]  y [L]')
+         call put_lines(plots, drawing, drawing%u, .false.)
+         do i = 1, size(shown, kind=ip)
+            call put(plots, '# block '//to_text(drawing%lines%n_runs + i - 1)//': '//set_title(model, shown(i)))
+            call put_members(plots, model, shown(i), pixel_of(drawing%window)*columns_of(shown))
+            call put(plots, '')
+         end do
+         call write_set_script(plots, drawing, shown)
+      end if
       if (size(shown_pairs(model)) > 0) call write_gap_plot(plots, model)
       call end_plots(plots, status)
    end subroutine write_check_scripts
@@ -101,28 +117,6 @@ contains
       end if
       shown = [[(shown_set_t(.false., i), i=1, n_elements)], [(shown_set_t(.true., i), i=1, n_nodes)]]
    end function shown_sets
-
-   !> Writes sets.dat and sets.gp.
-   subroutine write_set_plot(plots, model, view)
-      type(plots_t), intent(inout) :: plots
-      type(model_t), intent(in), target :: model    !< with sets
-      type(plot_view_t), intent(in) :: view
-      type(drawing_t) :: drawing
-      type(shown_set_t), allocatable :: shown(:)
-      integer(ip) :: i
-
-      call begin_drawing(model, .true., view, drawing)
-      drawing%window = shown_window(view, drawing%window)
-      shown = shown_sets(model)
-      call begin_data(plots, SET_PLOT, 'outlines of the bodies, then the members of each set; columns: x [L]  y [L]')
-      call put_lines(plots, drawing, drawing%u, .false.)
-      do i = 1, size(shown, kind=ip)
-         call put(plots, '# block '//to_text(drawing%lines%n_runs + i - 1)//': '//set_title(model, shown(i)))
-         call put_members(plots, model, shown(i), pixel_of(drawing%window)*columns_of(shown))
-         call put(plots, '')
-      end do
-      call write_set_script(plots, drawing, shown)
-   end subroutine write_set_plot
 
    !> Small pictures side by side.
    pure integer(ip) function columns_of(shown) result(n)

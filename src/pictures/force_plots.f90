@@ -195,6 +195,7 @@ contains
       type(symbols_t) :: symbols
       type(string_t), allocatable :: curves(:)
       real(wp) :: share(size(drawing%results%joints)), smaller, largest
+      integer(ip) :: i
 
       associate (joints => drawing%results%joints)
          largest = max(0.0_wp, maxval(joints%n, mask=.not. is_nan(joints%n)))
@@ -205,7 +206,12 @@ contains
                             'columns: x [L]  y [L]  u1 [L]  u2 [L], and n over the largest n of the places', drawing, symbols)
          call put_states(drawing%results, symbols)
          call put_thrust(joints, share, symbols)
-         call put_places(joints, share, 'n up to '//to_text(largest, 4)//' [F]', symbols)
+         call begin_block(symbols, 'places of the resultants', ':(marker*(0.15 + 0.85*sqrt($5)))', &
+                          'with points pt 7 ps variable lc rgb "black" title "line of thrust, n up to '//to_text(largest, 4) &
+                          //' [F]"')
+         do i = 1, size(joints, kind=ip)
+            if (share(i) >= LEAST_SHARE) call put_point(symbols, joints(i)%u, joints(i)%place, [share(i)])
+         end do
          call end_symbols(symbols)
       end associate
       call begin_script(plots, JOINT_PLOT, 'the joints and the line of thrust', &
@@ -314,20 +320,5 @@ contains
          end do
       end do
    end subroutine find_means
-
-   !> The last block: places of the resultants, with n over the largest n.
-   subroutine put_places(joints, share, legend, symbols)
-      type(joint_t), intent(in) :: joints(:)
-      real(wp), intent(in) :: share(:)
-      character(len=*), intent(in) :: legend
-      type(symbols_t), intent(inout) :: symbols
-      integer(ip) :: i
-
-      call begin_block(symbols, 'places of the resultants', ':(marker*(0.15 + 0.85*sqrt($5)))', &
-                       'with points pt 7 ps variable lc rgb "black" title "line of thrust, '//legend//'"')
-      do i = 1, size(joints, kind=ip)
-         if (share(i) >= LEAST_SHARE) call put_point(symbols, joints(i)%u, joints(i)%place, [share(i)])
-      end do
-   end subroutine put_places
 
 end module atrito_force_plots

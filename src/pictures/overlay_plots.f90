@@ -119,9 +119,11 @@ contains
       type(overlay_t), intent(in) :: overlay
       integer(ip), intent(in) :: number             !< of the pair
       integer(ip), allocatable :: shown(:)
-      character(len=:), allocatable :: doubt
+      character(len=:), allocatable :: doubt, points
       type(range_t) :: along
-      integer(ip) :: i, label_width
+      integer(ip) :: i, label_width, k
+      integer(ip), parameter :: MARK(MOST_IN_LEGEND) = [7, 5, 9, 11, 13, 6, 4, 8, 10, 12]
+      character(len=9), parameter :: DASH(0:1) = ['dt 1     ', 'dt (8,4) ']
 
       associate (runs => overlay%runs, pair => overlay%pairs(number))
          shown = [FIELD_PRESSURE]
@@ -150,7 +152,13 @@ contains
          if (size(runs) > MOST_IN_LEGEND) then
             call put_palette(plots, overlay)
          else
-            call put_styles(plots, size(runs, kind=ip), pair%most_points <= MOST_MARKED)
+            ! A line style a run.
+            do k = 1, size(runs, kind=ip)
+               points = ' ps 0'
+               if (pair%most_points <= MOST_MARKED) points = ' pt '//to_text(MARK(k))//' ps 0.8*dot'
+               call put(plots, 'set style line '//to_text(k)//' lw 1.8 lc rgb "'//COLOUR(mod(k - 1, N_COLOURS) + 1)//'" '// &
+                        DASH((k - 1)/N_COLOURS)//points)
+            end do
          end if
          do i = 1, size(shown, kind=ip)
             call put_field(plots, i, FIELDS(shown(i)), pair%field(shown(i)), size(runs) > MOST_IN_LEGEND)
@@ -189,24 +197,6 @@ contains
       if (is_csv) call put(plots, CSV_SEPARATOR)
       call put(plots, 'table(i) = folder[i]."/contact'//merge(CSV_ENDING, TAB_ENDING, is_csv)//'"')
    end subroutine put_runs
-
-   !> A line style a run.
-   subroutine put_styles(plots, n, is_marked)
-      type(plots_t), intent(inout) :: plots
-      integer(ip), intent(in) :: n                  !< runs
-      logical, intent(in) :: is_marked
-      integer(ip), parameter :: MARK(MOST_IN_LEGEND) = [7, 5, 9, 11, 13, 6, 4, 8, 10, 12]
-      character(len=9), parameter :: DASH(0:1) = ['dt 1     ', 'dt (8,4) ']
-      character(len=:), allocatable :: points
-      integer(ip) :: i
-
-      do i = 1, n
-         points = ' ps 0'
-         if (is_marked) points = ' pt '//to_text(MARK(i))//' ps 0.8*dot'
-         call put(plots, 'set style line '//to_text(i)//' lw 1.8 lc rgb "'//COLOUR(mod(i - 1, N_COLOURS) + 1)//'" '// &
-                  DASH((i - 1)/N_COLOURS)//points)
-      end do
-   end subroutine put_styles
 
    !> The palette viridis without its palest end, and the bar to the right of the panels.
    subroutine put_palette(plots, overlay)
@@ -264,11 +254,19 @@ contains
       character(len=:), allocatable :: heading, observed
       integer(ip), allocatable :: shown(:)
       integer(ip) :: i, n
-      integer :: k
-      logical :: doubt
+      integer :: k, j, next
+      logical :: doubt, is_left(size(overlay%runs))
 
       sorted = overlay
-      sorted%runs = sort_by_value(overlay%runs)
+      ! The runs with a summary, by growing value, so that lines go from left to right.
+      is_left = [(allocated(overlay%runs(j)%quantity), j=1, size(overlay%runs))]
+      deallocate (sorted%runs)
+      allocate (sorted%runs(count(is_left)))
+      do j = 1, size(sorted%runs)
+         next = minloc(overlay%runs%value, dim=1, mask=is_left)
+         sorted%runs(j) = overlay%runs(next)
+         is_left(next) = .false.
+      end do
       call write_quantities(plots, sorted)
       associate (runs => sorted%runs, is_one => size(overlay%pairs) == 1)
          doubt = any(runs%not_converged)
@@ -327,22 +325,6 @@ contains
       end do
       call put(plots, 'set xtics ('//numbers(3:)//'); x_format = "%g"')
    end subroutine put_parameter_axis
-
-   !> The runs with a summary, by growing value, so that lines go from left to right.
-   pure function sort_by_value(list) result(sorted)
-      type(overlay_run_t), intent(in) :: list(:)
-      type(overlay_run_t), allocatable :: sorted(:)
-      logical :: is_left(size(list))
-      integer :: i, next
-
-      is_left = [(allocated(list(i)%quantity), i=1, size(list))]
-      allocate (sorted(count(is_left)))
-      do i = 1, size(sorted)
-         next = minloc(list%value, dim=1, mask=is_left)
-         sorted(i) = list(next)
-         is_left(next) = .false.
-      end do
-   end function sort_by_value
 
    subroutine write_quantities(plots, overlay)
       type(plots_t), intent(inout) :: plots

@@ -43,8 +43,8 @@ contains
       integer(ip), intent(in) :: i
       real(wp), allocatable :: values(:, :)
       type(path_t) :: path
-      character(len=:), allocatable :: name
-      integer :: columns(size(DRAWN, 1)), kind, k
+      character(len=:), allocatable :: name, line
+      integer :: columns(size(DRAWN, 1)), kind, k, j, m
 
       name = PATH_PLOT//to_text(i)
       associate (results => history%frames(last_frame(history)))
@@ -55,7 +55,17 @@ contains
       do k = 1, size(DRAWN, 1)
          columns(k) = column_of(DRAWN(k, kind))
       end do
-      call put_values(plots, name, path, values)
+      call begin_data(plots, name, 'the columns: '//name//'.gp')
+      do j = 1, size(values, 1)
+         if (j > 1) then
+            if (path%place(j)%point /= path%place(j - 1)%point + 1) call put(plots, '')
+         end if
+         line = to_text(path%s(j), DIGITS)
+         do m = 1, size(values, 2)
+            line = line//' '//to_text(values(j, m), DIGITS)
+         end do
+         call put(plots, line)
+      end do
       call begin_script(plots, name, 'stresses and displacements along path '//cleaned(path%name, LONGEST_NAME), &
                         'Columns of '//name//'.dat: 1 s [L], '// &
                         'then those of path.tab behind element; an empty line where the path leaves a body')
@@ -79,27 +89,6 @@ contains
 
       column_of = findloc(PATH_COLUMNS == name, .true., dim=1)
    end function column_of
-
-   subroutine put_values(plots, name, path, values)
-      type(plots_t), intent(inout) :: plots
-      character(len=*), intent(in) :: name
-      type(path_t), intent(in) :: path
-      real(wp), intent(in) :: values(:, :)
-      character(len=:), allocatable :: line
-      integer :: i, k
-
-      call begin_data(plots, name, 'the columns: '//name//'.gp')
-      do i = 1, size(values, 1)
-         if (i > 1) then
-            if (path%place(i)%point /= path%place(i - 1)%point + 1) call put(plots, '')
-         end if
-         line = to_text(path%s(i), DIGITS)
-         do k = 1, size(values, 2)
-            line = line//' '//to_text(values(i, k), DIGITS)
-         end do
-         call put(plots, line)
-      end do
-   end subroutine put_values
 
    subroutine put_curves(plots, name, columns, titles)
       type(plots_t), intent(inout) :: plots

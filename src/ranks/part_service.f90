@@ -23,8 +23,9 @@ module atrito_part_service
    use atrito_status, only: status_t, is_ok
    implicit none (type, external)
    private
-   public :: serve_part, begin_question, ask, ask_with, hear, hear_values
-   public :: held_bytes, ASSEMBLE, MULTIPLY, REFACTOR, REDUCE, EXPAND, SCHUR_BEGIN, SCHUR_FACTOR, SCHUR_SOLVE, FORGET
+   public :: begin_question, ask, ask_with, hear, hear_values
+   public :: held_bytes, ASSEMBLE, MULTIPLY, REFACTOR, REDUCE, EXPAND, SCHUR_BEGIN, SCHUR_FACTOR, SCHUR_SOLVE, FORGET, &
+             answer_question
 
    ! What is wanted.
    integer(ip), parameter :: ASSEMBLE = 1, MULTIPLY = 2, REFACTOR = 3, REDUCE = 4, EXPAND = 5, &
@@ -41,15 +42,6 @@ module atrito_part_service
    type(buffer_t) :: own_answer                  !< of the first rank to itself
 
 contains
-
-   !> On the other ranks: does what is wanted, and answers; what is left of the buffer comes behind SERVICE_PART.
-   subroutine serve_part(request)
-      type(buffer_t), intent(inout) :: request
-      type(buffer_t) :: answer
-
-      call answer_question(request, answer)
-      call send_buffer(answer, 0_ip)
-   end subroutine serve_part
 
    !> The head of a question about a part: what is wanted, one of the constants above; what it needs is put behind it.
    subroutine begin_question(wanted, request)
@@ -105,6 +97,7 @@ contains
       call take(answer, values)
    end subroutine hear_values
 
+   !> Does what a question asks of this rank's part of the scene, and puts what rank 0 wants to know into the answer.
    subroutine answer_question(request, answer)
       type(buffer_t), intent(inout) :: request, answer
       type(scene_part_t) :: no_part

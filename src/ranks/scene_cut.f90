@@ -56,7 +56,7 @@ contains
       integer(ip), intent(in) :: part_of_element(:)  !< (n_elements) 1..n_parts
       integer(ip), intent(in) :: n_parts
       type(scene_cut_t), intent(out) :: cut
-      integer(ip) :: home(fem%mesh%n_nodes), part(1, line%n), node(numbering%k), e, i
+      integer(ip) :: home(fem%mesh%n_nodes), part(1, line%n), node(numbering%k), b, e, i
 
       cut%n_parts = n_parts
       home = 0
@@ -70,7 +70,12 @@ contains
       end do
       call list_holders(n_parts, part, cut%first_point, cut%point)
       call find_shared(fem, rows, numbering, cut)
-      call place_pulls(cut)
+      ! Bodies that no point sees.
+      do b = 1, fem%bodies%n
+         if (numbering%n_motions(b) == 0 .or. cut%pull_part(b) > 0) cycle
+         cut%pull_part(b) = 1
+         if (.not. fem%bodies%list(b)%is_rigid) cut%pull_part(b) = part_of_element(fem%bodies%list(b)%elements(1))
+      end do
       allocate (cut%spring_part(numbering%k), source=0_ip)
       allocate (cut%spring_stiffness(numbering%k), source=0.0_wp)
       node = spring_nodes(fem, numbering)
@@ -82,18 +87,6 @@ contains
       allocate (cut%place(fem%mesh%n_nodes + fem%bodies%n), cut%unknown_at(numbering%n), source=0_ip)
 
    contains
-
-      !> Bodies that no point sees.
-      pure subroutine place_pulls(cut)
-         type(scene_cut_t), intent(inout) :: cut
-         integer(ip) :: b
-
-         do b = 1, fem%bodies%n
-            if (numbering%n_motions(b) == 0 .or. cut%pull_part(b) > 0) cycle
-            cut%pull_part(b) = 1
-            if (.not. fem%bodies%list(b)%is_rigid) cut%pull_part(b) = part_of_element(fem%bodies%list(b)%elements(1))
-         end do
-      end subroutine place_pulls
 
       !> Numbers the unknowns that are shared, in the order of all.
       pure subroutine number_shared(cut)

@@ -59,7 +59,15 @@ contains
       call put_piece(buffer, part%fem)
       deallocate (part%fem%mesh)
       call put_bodies(buffer, part%fem%bodies)
-      call put_numbering(buffer, part%scene%numbering)
+      associate (numbering => part%scene%numbering)
+         call put(buffer, [numbering%n, numbering%k])
+         call put(buffer, numbering%before)
+         call put(buffer, numbering%first_motion)
+         call put(buffer, numbering%n_motions)
+         call put(buffer, numbering%first_pull)
+         call put(buffer, numbering%spring)
+         call put(buffer, numbering%body)
+      end associate
       associate (rows => part%scene%rows)
          call put(buffer, [rows%n, rows%n_columns])
          call put(buffer, rows%first)
@@ -103,19 +111,6 @@ contains
       call take(buffer, part%line%tangential)
       part%line%n = part%rows%n
    end subroutine take_scene_part
-
-   subroutine put_numbering(buffer, numbering)
-      type(buffer_t), intent(inout) :: buffer
-      type(scene_numbering_t), intent(in) :: numbering
-
-      call put(buffer, [numbering%n, numbering%k])
-      call put(buffer, numbering%before)
-      call put(buffer, numbering%first_motion)
-      call put(buffer, numbering%n_motions)
-      call put(buffer, numbering%first_pull)
-      call put(buffer, numbering%spring)
-      call put(buffer, numbering%body)
-   end subroutine put_numbering
 
    subroutine take_numbering(buffer, numbering)
       type(buffer_t), intent(inout) :: buffer

@@ -97,7 +97,9 @@ contains
       do
          call give_to_ranks(rank_of)
          heaviest = maxloc(weight, dim=1, kind=ip, mask=is_root)
-         if (is_even(n_ranks, weight, is_root, rank_of) .or. .not. is_worth_cutting(heaviest)) exit
+         if (is_even(n_ranks, weight, is_root, rank_of)) exit
+         if (.not. any(elimination%parent == heaviest)) exit
+         if (weight(heaviest) <= LEAST_CUT*sum(weight, mask=is_root)/real(n_ranks, wp)) exit
          is_root(heaviest) = .false.
          is_top(heaviest) = .true.
          where (elimination%parent == heaviest) is_root = .true.
@@ -108,12 +110,6 @@ contains
       end do
 
    contains
-
-      pure logical function is_worth_cutting(s)
-         integer(ip), intent(in) :: s
-
-         is_worth_cutting = any(elimination%parent == s) .and. weight(s) > LEAST_CUT*sum(weight, mask=is_root)/real(n_ranks, wp)
-      end function is_worth_cutting
 
       !> Subtrees to ranks in their order: with the weights w_s and their sum W, subtree s goes to the rank floor(n (sum of w
       !> before s + w_s/2)/W), where its middle lies in the sum of all.

@@ -22,7 +22,7 @@ module atrito_shared_fields
    use atrito_thermal_loads, only: largest_thermal_strain
    implicit none (type, external)
    private
-   public :: field_distribution_t, serve_fields
+   public :: field_distribution_t, answer_fields
 
    integer(ip), parameter :: RINGS = 4
 
@@ -137,15 +137,6 @@ contains
       call put_piece(request, piece)
       deallocate (piece%mesh)
    end subroutine put_region
-
-   !> Joins in; what is left of the buffer comes behind SERVICE_FIELDS.
-   subroutine serve_fields(request)
-      type(buffer_t), intent(inout) :: request
-      type(buffer_t) :: answer
-
-      call answer_fields(request, answer)
-      call send_buffer(answer, 0_ip)
-   end subroutine serve_fields
 
    !> Stresses at the nodes of the rank's elements [F/L^2], and their error: the energies, and ||e||^2 of each element [F L] where
    !> it is wanted. Without elements there is no answer.

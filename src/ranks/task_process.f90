@@ -63,6 +63,7 @@ contains
       logical, intent(out) :: is_done
       integer, intent(out) :: end_code              !< of a copy that is gone, as that of worker_end, never 0; else 0
       integer :: ended
+      integer(int8), pointer :: bytes(:), found(:)
 
       end_code = 0
       ended = -1
@@ -73,25 +74,17 @@ contains
          is_done = get_shared(process%shared(ANSWERED)) == 1
       end if
       if (is_done) then
-         call take_answer(process, answer)
+         call make_buffer(int(process%shared(LENGTH), lp), answer)
+         bytes => buffer_bytes(answer)
+         found => shared_bytes(process, size(bytes, kind=lp))
+         bytes = found
+         call set_shared(process%shared(ANSWERED), 0_c_int)
       else if (ended >= 0) then
          is_done = .true.
          process%runs = .false.
          end_code = merge(STATUS_INTERNAL, ended, ended == 0)
       end if
    end subroutine ask_answer
-
-   subroutine take_answer(process, answer)
-      type(task_process_t), intent(inout) :: process
-      type(buffer_t), intent(inout), target :: answer
-      integer(int8), pointer :: bytes(:), found(:)
-
-      call make_buffer(int(process%shared(LENGTH), lp), answer)
-      bytes => buffer_bytes(answer)
-      found => shared_bytes(process, size(bytes, kind=lp))
-      bytes = found
-      call set_shared(process%shared(ANSWERED), 0_c_int)
-   end subroutine take_answer
 
    !> Has a copy end that has nothing to do, and waits for it.
    subroutine end_task_process(process)

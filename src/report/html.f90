@@ -5,7 +5,7 @@ module atrito_html
    use atrito_utf8, only: utf8_length
    implicit none (type, external)
    private
-   public :: html_text, shortened, unbroken, fact_t, add_fact, add_element, add_facts, add_list, add_note, add_pre, append_page
+   public :: html_text, shortened, unbroken, fact_t, add_fact, add_element, add_facts, add_list, add_note, add_pre
 
    !> Replacement character: what can be no letter of a page.
    character(len=*), parameter :: NO_LETTER = '&#65533;'
@@ -200,16 +200,5 @@ contains
       end do
       call add_line(page, '</pre>')
    end subroutine add_pre
-
-   !> The lines of another page.
-   pure subroutine append_page(page, part)
-      type(page_t), intent(inout) :: page
-      type(page_t), intent(in) :: part
-      integer :: i
-
-      do i = 1, part%n
-         call add_line(page, part%lines(i)%s)
-      end do
-   end subroutine append_page
 
 end module atrito_html

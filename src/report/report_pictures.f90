@@ -32,6 +32,7 @@ contains
       type(string_t), allocatable :: left_out(:)
       type(picture_t) :: picture
       integer :: i, free
+      character(len=:), allocatable :: caption, kind
 
       call begin_page(page, 80)
       allocate (left_out(0))
@@ -40,7 +41,18 @@ contains
       do i = 1, size(names)
          call choose_picture(plot_folder(folder), names(i)%s, free, picture)
          if (allocated(picture%bytes)) then
-            call add_picture(page, plot_folder(folder), names(i)%s, picture)
+            associate (name => names(i)%s)
+               caption = picture_caption(plot_folder(folder), name)
+               kind = picture%file(index(picture%file, '.', back=.true.) + 1:)
+               if (kind == 'svg') kind = 'svg+xml'
+               call add_line(page, '<figure id="'//html_text('picture-'//name)//'">')
+               call add_line(page, '<div class="scroll" tabindex="0" role="region" aria-label="'//html_text('picture '//name)//'">')
+               call add_line(page, '<img alt="'//html_text(name//': '//caption)//'" src="data:image/'//kind//';base64,'// &
+                             base64_text(picture%bytes)//'"></div>')
+               call add_line(page, '<figcaption><strong>'//html_text(name)//'</strong> '//html_text(caption)//'. File: '// &
+                             html_text('plots/'//picture%file)//'</figcaption>')
+               call add_line(page, '</figure>')
+            end associate
             free = free - base64_length(len(picture%bytes)) - FRAME_BYTES
          else
             call append_string(left_out, names(i)%s)
@@ -75,25 +87,6 @@ contains
          call move_alloc(bytes, picture%bytes)
       end do
    end subroutine choose_picture
-
-   subroutine add_picture(page, folder, name, picture)
-      type(page_t), intent(inout) :: page
-      character(len=*), intent(in) :: folder        !< of the plots
-      character(len=*), intent(in) :: name
-      type(picture_t), intent(in) :: picture
-      character(len=:), allocatable :: caption, kind
-
-      caption = picture_caption(folder, name)
-      kind = picture%file(index(picture%file, '.', back=.true.) + 1:)
-      if (kind == 'svg') kind = 'svg+xml'
-      call add_line(page, '<figure id="'//html_text('picture-'//name)//'">')
-      call add_line(page, '<div class="scroll" tabindex="0" role="region" aria-label="'//html_text('picture '//name)//'">')
-      call add_line(page, '<img alt="'//html_text(name//': '//caption)//'" src="data:image/'//kind//';base64,'// &
-                    base64_text(picture%bytes)//'"></div>')
-      call add_line(page, '<figcaption><strong>'//html_text(name)//'</strong> '//html_text(caption)// &
-                    '. File: '//html_text('plots/'//picture%file)//'</figcaption>')
-      call add_line(page, '</figure>')
-   end subroutine add_picture
 
    !> What a picture shows: the first line of its script says it behind the name of the program.
    function picture_caption(folder, name) result(caption)

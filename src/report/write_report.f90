@@ -4,7 +4,7 @@
 !> is read from the folder, so that a table or picture that is new appears without a change here.
 module atrito_write_report
    use atrito_files, only: file_set_t, text_file_t, begin_files, open_text, put_line, close_text, end_files
-   use atrito_html, only: add_element, append_page, html_text, shortened
+   use atrito_html, only: add_element, html_text, shortened
    use atrito_kinds, only: ip
    use atrito_messages, only: add_warning
    use atrito_page, only: page_t, add_line, begin_page
@@ -125,7 +125,7 @@ contains
       type(page_section_t), allocatable :: before(:), behind(:), sections(:)
       type(page_section_t) :: pictures
       type(contents_t) :: contents
-      integer :: i
+      integer :: i, line
 
       call read_contents(report, contents)
       call add_numbers(report, contents, before)
@@ -149,7 +149,9 @@ contains
       do i = 1, size(sections)
          call add_line(page, '<section id="s'//to_text(int(i, ip))//'">')
          call add_element(page, 'h2', sections(i)%title)
-         call append_page(page, sections(i)%page)
+         do line = 1, sections(i)%page%n
+            call add_line(page, sections(i)%page%lines(line)%s)
+         end do
          call add_line(page, '</section>')
       end do
       call add_line(page, '<footer><p>'//PROGRAM_NAME//' '//PROGRAM_VERSION//', '//html_text(date)//'</p></footer>')

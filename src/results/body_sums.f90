@@ -36,23 +36,19 @@ contains
             call add_forces(fem, body, reaction, row%centre, row%supports, row%terms)
             call add_forces(fem, body, contact, row%centre, row%contact, row%terms)
             row%contact = -row%contact
-            if (is_revolved(fem%mesh)) call close_circle(row)
+            ! A body of revolution as a whole: its centre lies on the axis and stays there, forces along a radius have no
+            ! resultant, and neither they nor those along the axis have a moment.
+            if (is_revolved(fem%mesh)) then
+               row%centre(1) = 0.0_wp
+               row%u(1) = 0.0_wp
+               row%rotation = 0.0_wp
+               row%loads([1, 3]) = 0.0_wp
+               row%supports([1, 3]) = 0.0_wp
+               row%contact([1, 3]) = 0.0_wp
+            end if
          end associate
       end do
    end subroutine sum_bodies
-
-   !> A body of revolution as a whole: its centre lies on the axis and stays there, forces along a radius have no resultant, and
-   !> neither they nor those along the axis have a moment.
-   pure subroutine close_circle(row)
-      type(body_motion_t), intent(inout) :: row
-
-      row%centre(1) = 0.0_wp
-      row%u(1) = 0.0_wp
-      row%rotation = 0.0_wp
-      row%loads([1, 3]) = 0.0_wp
-      row%supports([1, 3]) = 0.0_wp
-      row%contact([1, 3]) = 0.0_wp
-   end subroutine close_circle
 
    !> The integral of the shape function of each node, times the thickness (n_nodes) [L^3].
    function nodal_volumes(fem) result(volume)

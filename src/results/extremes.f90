@@ -35,10 +35,20 @@ contains
       type(results_t), intent(inout) :: results
       type(largest_t) :: largest
       integer(ip) :: k, i, j
+      real(wp) :: slack
 
       do k = 1, mesh%n_nodes
          if (body_of_node(k) == 0) cycle
-         call take_displacement(results%u(:, k), k, mesh%x(:, k), largest)
+         associate (v => results%u(:, k), x => mesh%x(:, k))
+            if (largest%node(U) == 0 .or. abs(v(1)) + abs(v(2)) > largest%value(U)) then
+               call take(U, hypot(v(1), v(2)), 0.0_wp, k, x, largest)
+            end if
+            slack = ROUND_OFF*largest%value(U)
+            call take(U + 1, v(1), slack, k, x, largest)
+            call take(U + 2, -v(1), slack, k, x, largest)
+            call take(U + 3, v(2), slack, k, x, largest)
+            call take(U + 4, -v(2), slack, k, x, largest)
+         end associate
          call take_stress(results%nodal_stress(:, k), k, mesh%x(:, k), largest)
       end do
       do i = 1, size(points, kind=ip)
@@ -70,24 +80,12 @@ contains
       end do
    end subroutine list_extremes
 
-   pure subroutine take_displacement(v, node, x, largest)
-      real(wp), intent(in) :: v(2)                     !< [L]
-      integer(ip), intent(in) :: node
-      real(wp), intent(in) :: x(2)                     !< its place [L]
-      type(largest_t), intent(inout) :: largest
-      real(wp) :: slack
-
-      if (largest%node(U) == 0 .or. abs(v(1)) + abs(v(2)) > largest%value(U)) then
-         call take(U, hypot(v(1), v(2)), 0.0_wp, node, x, largest)
-      end if
-      slack = ROUND_OFF*largest%value(U)
-      call take(U + 1, v(1), slack, node, x, largest)
-      call take(U + 2, -v(1), slack, node, x, largest)
-      call take(U + 3, v(2), slack, node, x, largest)
-      call take(U + 4, -v(2), slack, node, x, largest)
-   end subroutine take_displacement
-
-   !> The principal stresses are asked for where their bounds may be more.
+   !> Mises' stress and the principal stresses of a node. Those in the plane are the ends of Mohr's circle,
+   !>
+   !>     s = (s11 + s22)/2 +- r,     r^2 = ((s11 - s22)/2)^2 + s12^2,
+   !>
+   !> and the third one is s33: S1 is the greatest of the three, S3 the least. r is at most |s11 - s22|/2 + |s12|; where that bound
+   !> reaches neither extreme, which is nearly everywhere, no root is taken.
    pure subroutine take_stress(s, node, x, largest)
       real(wp), intent(in) :: s(5)                     !< s11 s22 s33 s12 mises [F/L^2]
       integer(ip), intent(in) :: node
@@ -107,7 +105,9 @@ contains
       call take(S3, max(radius - mean, -s(3)), slack, node, x, largest)
    end subroutine take_stress
 
-   !> Keeps the larger of a value and the largest one so far.
+   !> Keeps the larger of a value and the largest one so far. Larger is what is so by a part NEAR of it, and by `slack`, which is
+   !> the round-off of the largest of its kind: a component that is 0 but for round-off has no digits of its own by which to
+   !> compare.
    pure subroutine take(quantity, value, slack, node, x, largest)
       integer, intent(in) :: quantity                  !< place in EXTREME_NAMES
       real(wp), intent(in) :: value, slack

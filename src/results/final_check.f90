@@ -437,6 +437,10 @@ contains
       if (p == 0.0_wp .and. gap < -place) wrong = 'penetration '//to_text(-gap)//' without pressure'
    end subroutine judge_normal
 
+   !> A point keeps its friction law: |t| is not beyond the bound tau; a point that slips by more than sticking lets it has t = tau
+   !> against the slip; below that t is what the law gives for the slip. What counts as none of a stress is a part of the largest
+   !> friction of the scene, of a slip the scale of slips. Where the law is steep, tau over `limit`, a slip that is uncertain by
+   !> `none` leaves its stress uncertain by tau none/limit.
    pure subroutine judge_friction(line, j, t, tau, slip, scales, tolerance, wrong)
       type(contact_line_t), intent(in) :: line
       integer(ip), intent(in) :: j

@@ -49,6 +49,8 @@ contains
       work = work_of(1_ip, [sum(sums%work)], [unit])
    end subroutine sum_forces
 
+   !> Of a run of nodes the resultants of loads, reactions and contact, their moments about the origin x1 F2 - x2 F1, and the work
+   !> of loads and reactions on the displacements over the unit.
    pure subroutine sum_run(x, u, per_unit, f, reaction, contact, sums)
       real(wp), intent(in) :: x(:, :), u(:, :), per_unit, f(:, :), reaction(:, :), contact(:, :)
       type(sums_t), intent(out) :: sums

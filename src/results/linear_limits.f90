@@ -5,7 +5,7 @@ module atrito_linear_limits
    use atrito_large_deformation, only: deformation_t, may_rotate, measure_deformation
    use atrito_messages, only: add_note, add_warning
    use atrito_model, only: model_t
-   use atrito_results, only: results_t, contact_result_t, extreme_t, joint_t
+   use atrito_results, only: results_t, extreme_t
    use atrito_strings, only: to_text
    implicit none (type, external)
    private
@@ -29,7 +29,8 @@ contains
       type(results_t), intent(inout) :: results
       type(deformation_t) :: largest
       logical :: deforms, rotates
-      integer(ip) :: i
+      integer(ip) :: i, j
+      real(wp) :: bound
 
       rotates = .false.
       deforms = strain_bound > NEAR*LARGE_STRAIN
@@ -42,28 +43,19 @@ contains
                                                                   fem%mesh%element_id(largest%rotation_element), largest%rotation_x)
       end if
       do i = 1, size(results%contact, kind=ip)
-         call find_large_slip(model, i, results%joints, results%contact(i), results%large_slip)
+         ! The largest slip of a pair's closed points that is more than its part of the joint, from end to end: how fine the mesh
+         ! is does not count.
+         associate (contact => results%contact(i))
+            do j = 1, contact%n
+               bound = 2*LARGE_SLIP*results%joints(contact%joint(j))%length
+               if (.not. contact%pressure(j) > 0.0_wp .or. abs(contact%slip(j)) <= max(bound, results%large_slip%value)) cycle
+               if (bound <= 0.0_wp) cycle                   ! a single point has no extent
+               results%large_slip = extreme_t(abs(contact%slip(j)), model%mesh%node_id(model%points(i)%node(j)), contact%x(:, j), &
+                                              is_node=.true.)
+            end do
+         end associate
       end do
    end subroutine find_large
-
-   !> The largest slip of a pair's closed points that is more than its part of the joint, from end to end: how fine the mesh is does
-   !> not count.
-   pure subroutine find_large_slip(model, i, joints, contact, largest)
-      type(model_t), intent(in) :: model
-      integer(ip), intent(in) :: i                       !< the pair
-      type(joint_t), intent(in) :: joints(:)
-      type(contact_result_t), intent(in) :: contact
-      type(extreme_t), intent(inout) :: largest
-      real(wp) :: bound
-      integer(ip) :: j
-
-      do j = 1, contact%n
-         bound = 2*LARGE_SLIP*joints(contact%joint(j))%length
-         if (.not. contact%pressure(j) > 0.0_wp .or. abs(contact%slip(j)) <= max(bound, largest%value)) cycle
-         if (bound > 0.0_wp) largest = extreme_t(abs(contact%slip(j)), model%mesh%node_id(model%points(i)%node(j)), &
-                                                 contact%x(:, j), is_node=.true.)   ! a single point has no extent
-      end do
-   end subroutine find_large_slip
 
    !> What passes its bound, and what follows.
    subroutine warn_of_large(results, asks_nlgeom)

@@ -50,8 +50,15 @@ contains
       type(scene_data_t), intent(in) :: data
       character(len=:), allocatable :: text
       real(wp) :: length, force, given, stiffness(2)
+      integer(ip) :: e
 
-      length = shortest_element(data%model)
+      ! What the smallest element is across [L].
+      length = huge(length)
+      do e = 1, data%model%mesh%n_elements
+         associate (x => data%model%mesh%x(:, data%model%mesh%nodes(:SHAPES(data%model%mesh%shape(e))%n_corners, e)))
+            length = min(length, max(maxval(x(1, :)) - minval(x(1, :)), maxval(x(2, :)) - minval(x(2, :))))
+         end associate
+      end do
       stiffness = stiffness_range(data%model)
       force = largest_of(data%f)
       given = largest_of(data%value)
@@ -73,19 +80,6 @@ contains
       end if
       text = BEGIN//text//'; other units of length and force may help'
    end function range_text
-
-   !> What the smallest element is across [L].
-   pure real(wp) function shortest_element(model) result(shortest)
-      type(model_t), intent(in) :: model
-      integer(ip) :: e
-
-      shortest = huge(shortest)
-      do e = 1, model%mesh%n_elements
-         associate (x => model%mesh%x(:, model%mesh%nodes(:SHAPES(model%mesh%shape(e))%n_corners, e)))
-            shortest = min(shortest, max(maxval(x(1, :)) - minval(x(1, :)), maxval(x(2, :)) - minval(x(2, :))))
-         end associate
-      end do
-   end function shortest_element
 
    !> The least and the greatest modulus times thickness of the sections [F/L].
    pure function stiffness_range(model) result(bounds)

@@ -41,6 +41,7 @@ contains
    pure subroutine leave_mesh_alone(data, results)
       type(scene_data_t), intent(in) :: data
       type(results_t), intent(inout) :: results
+      integer(ip) :: i
 
       if (.not. has_moving_surfaces(data%model)) return
       associate (n => data%model%mesh%n_nodes)
@@ -49,23 +50,17 @@ contains
          results%prescribed = results%prescribed(:, :n)
          if (allocated(results%nodal_stress)) results%nodal_stress = results%nodal_stress(:, :n)
       end associate
-      if (allocated(results%rigid)) call find_large_rotation(data, results)
+      ! A rigid surface may rotate more than any element.
+      if (allocated(results%rigid)) then
+         do i = 1, size(results%rigid, kind=ip)
+            associate (rotation => abs(results%rigid(i)%rotation))
+               if (rotation <= max(LARGE_ROTATION, results%large_rotation%value)) cycle
+               results%large_rotation = extreme_t(rotation, results%rigid(i)%node, data%model%mesh%x(:, &
+                                                                                   data%model%rigid_bodies(i)%node), is_node=.true.)
+            end associate
+         end do
+      end if
    end subroutine leave_mesh_alone
-
-   !> A rigid surface may rotate more than any element.
-   pure subroutine find_large_rotation(data, results)
-      type(scene_data_t), intent(in) :: data
-      type(results_t), intent(inout) :: results
-      integer(ip) :: i
-
-      do i = 1, size(results%rigid, kind=ip)
-         associate (rotation => abs(results%rigid(i)%rotation))
-            if (rotation <= max(LARGE_ROTATION, results%large_rotation%value)) cycle
-            results%large_rotation = extreme_t(rotation, results%rigid(i)%node, &
-                                               data%model%mesh%x(:, data%model%rigid_bodies(i)%node), is_node=.true.)
-         end associate
-      end do
-   end subroutine find_large_rotation
 
    !> Whether the master of a pair is a rigid surface that stays where it is.
    pure logical function has_fixed_surfaces(data) result(has)

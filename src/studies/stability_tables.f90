@@ -100,7 +100,8 @@ contains
       type(page_t), intent(out) :: page
       type(string_t), intent(in) :: pictures(:)        !< that were drawn, names without folder and ending
       type(string_t), allocatable :: labels(:), texts(:)
-      integer :: i
+      integer :: i, j
+      character(len=:), allocatable :: displacement_text
 
       call begin_report(page, '   limit of '//limit%parameter//' in '//deck)
       call add_rule(page, '-')
@@ -111,7 +112,13 @@ contains
       do i = 1, size(texts)
          call add_remark(page, labels(i)%s, texts(i)%s)
       end do
-      call add_item(page, 'displacement', displacement_text(limit))
+      ! What is watched, at the value that stands.
+      displacement_text = limit%watched
+      do j = 1, size(limit%values)
+         if (abs(limit%values(j)%value - limit%stands) > 0.0_wp .or. limit%values(j)%code /= STATUS_OK) cycle
+         displacement_text = displacement_text//' = '//number(limit%values(j)%displacement, 5)//' [L] where it stands'
+      end do
+      call add_item(page, 'displacement', displacement_text)
       call add_item(page, 'values', values_text(limit))
       call add_rule(page, '-')
       call add_paragraph(page, 'mechanism: '//limit%collapse%text, 0)
@@ -202,19 +209,6 @@ contains
          if (abs(limit%values(i)%value - limit%stands) <= 0.0_wp) text = large_text(limit%values(i)%large)
       end do
    end function large_where_it_stands
-
-   !> What is watched, at the value that stands.
-   function displacement_text(limit) result(text)
-      type(stability_t), intent(in) :: limit
-      character(len=:), allocatable :: text
-      integer :: i
-
-      text = limit%watched
-      do i = 1, size(limit%values)
-         if (abs(limit%values(i)%value - limit%stands) > 0.0_wp .or. limit%values(i)%code /= STATUS_OK) cycle
-         text = text//' = '//number(limit%values(i)%displacement, 5)//' [L] where it stands'
-      end do
-   end function displacement_text
 
    !> How many values were tried, and how: `7: 3 solved, 4 by their balance alone; 2 factorisations`.
    function values_text(limit) result(text)

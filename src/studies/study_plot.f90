@@ -100,11 +100,12 @@ contains
       type(study_t), intent(in) :: study
       integer(ip), intent(in) :: y
       character(len=*), intent(in) :: y_label
-      character(len=:), allocatable :: line
+      character(len=:), allocatable :: line, slope_text
       type(range_t) :: range(2)
       real(wp) :: room                              ! of the height, for the legend below the points: lines of 18 of 205 pixels
       integer(ip) :: i, x
-      integer :: k
+      integer :: k, m
+      real(wp) :: dx
 
       do x = SIDE, SECONDS
          range = range_t()
@@ -112,9 +113,19 @@ contains
          do i = 1, size(study%elements, kind=ip)
             associate (element => study%elements(i)%s)
                if (x == y .or. .not. has_points(study, element, x, y)) cycle
+               ! `, slope -0.49` of the last two points, the difference of the logarithms of y over that of x, which is the
+               ! exponent where y goes with a power of x; empty where there are none.
+               slope_text = ''
+               do m = 2, size(study%rows)
+                  if (study%rows(m)%element /= element .or. study%rows(m - 1)%element /= element) cycle
+                  slope_text = ''
+                  if (.not. (is_point(study, m, x, y) .and. is_point(study, m - 1, x, y))) cycle
+                  dx = log(column(study, m, x)/column(study, m - 1, x))
+                  if (abs(dx) > 0.0_wp) slope_text = ', slope '//to_text(log(column(study, m, y)/column(study, m - 1, y))/dx, 2)
+               end do
                line = line//', "study.dat" index '//to_text(i - 1)//' using '//to_text(x)//':'//to_text(y)// &
-                      ' with linespoints lt 1 lw 1.8 pt '//to_text(5 + 2*mod(i, 4_ip))//' ps 0.9*dot lc rgb "'// &
-                      COLOUR(mod(i - 1, N_COLOURS) + 1)//'" title '//quoted(element//slope_text(study, element, x, y))
+                      ' with linespoints lt 1 lw 1.8 pt '//to_text(5 + 2*mod(i, 4_ip))//' ps 0.9*dot lc rgb "'//COLOUR(mod(i - 1, &
+                                                                            N_COLOURS) + 1)//'" title '//quoted(element//slope_text)
             end associate
          end do
          if (len(line) == 0) then
@@ -149,26 +160,6 @@ contains
          if (study%rows(k)%element == element) has = has .or. is_point(study, k, x, y)
       end do
    end function has_points
-
-   !> `, slope -0.49` of the last two points, the difference of the logarithms of y over that of x, which is the exponent where y
-   !> goes with a power of x; empty where there are none.
-   pure function slope_text(study, element, x, y) result(text)
-      type(study_t), intent(in) :: study
-      character(len=*), intent(in) :: element
-      integer(ip), intent(in) :: x, y
-      character(len=:), allocatable :: text
-      real(wp) :: dx
-      integer :: k
-
-      text = ''
-      do k = 2, size(study%rows)
-         if (study%rows(k)%element /= element .or. study%rows(k - 1)%element /= element) cycle
-         text = ''
-         if (.not. (is_point(study, k, x, y) .and. is_point(study, k - 1, x, y))) cycle
-         dx = log(column(study, k, x)/column(study, k - 1, x))
-         if (abs(dx) > 0.0_wp) text = ', slope '//to_text(log(column(study, k, y)/column(study, k - 1, y))/dx, 2)
-      end do
-   end function slope_text
 
    !> Whether both numbers of a row are positive.
    pure logical function is_point(study, k, x, y)

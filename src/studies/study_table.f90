@@ -76,7 +76,8 @@ contains
       character(len=*), intent(in) :: deck, folder
       type(study_t), intent(in) :: study
       type(page_t), intent(out) :: page
-      integer :: k
+      integer :: k, i
+      type(page_t) :: part
 
       call begin_report(page, '   study of '//deck)
       call add_rule(page, '-')
@@ -93,25 +94,16 @@ contains
       end associate
       call add_rule(page, '-')
       do k = 1, size(study%words)
-         call add_item(page, study%words(k)%s)
+         ! A paragraph with a dash before it.
+         call begin_page(part, page%width - 2)
+         call add_paragraph(part, study%words(k)%s, 0)
+         do i = 1, part%n
+            call add_line(page, merge('- ', '  ', i == 1)//part%lines(i)%s)
+         end do
       end do
       call add_rule(page, '-')
       call add_files(page, folder, 'study, and a folder a run', [string_t ::])
    end subroutine compose_study
-
-   !> A paragraph with a dash before it.
-   subroutine add_item(page, text)
-      type(page_t), intent(inout) :: page
-      character(len=*), intent(in) :: text
-      type(page_t) :: part
-      integer :: i
-
-      call begin_page(part, page%width - 2)
-      call add_paragraph(part, text, 0)
-      do i = 1, part%n
-         call add_line(page, merge('- ', '  ', i == 1)//part%lines(i)%s)
-      end do
-   end subroutine add_item
 
    pure function row_text(element, level, dofs, value, error, order, estimate, seconds) result(text)
       character(len=*), intent(in) :: element, level, dofs, value, error, order, estimate, seconds

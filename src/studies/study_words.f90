@@ -83,7 +83,7 @@ contains
       logical, allocatable :: is_listed(:)
       character(len=:), allocatable :: failed
       real(wp) :: seconds(size(study%rows))
-      integer :: k, n, next, before
+      integer :: k, n, next, before, j
 
       allocate (is_listed(size(study%rows)), source=.true.)
       before = 0
@@ -91,7 +91,14 @@ contains
       failed = ''
       do k = 1, size(study%rows)
          if (.not. is_last(study%rows, k)) cycle
-         n = first_good(study, i, k)
+         ! The coarsest row of an element from which on all its errors are small; 0: there is none.
+         n = 0
+         do j = k, 1, -1
+            if (study%rows(j)%element /= study%rows(k)%element) exit
+            if (is_nan(study%quantities(i)%error(j))) exit
+            if (study%quantities(i)%error(j) > GOOD) exit
+            n = j
+         end do
          if (n > 0) then
             is_listed(n) = .false.
          else
@@ -123,21 +130,6 @@ contains
       end do
       if (len(failed) > 0) text = text//'; not reached by '//failed
    end function soonest
-
-   !> The coarsest row of an element from which on all its errors are small; 0: there is none.
-   pure integer function first_good(study, i, last) result(n)
-      type(study_t), intent(in) :: study
-      integer, intent(in) :: i, last                 !< quantity; finest row of the element
-      integer :: k
-
-      n = 0
-      do k = last, 1, -1
-         if (study%rows(k)%element /= study%rows(last)%element) exit
-         if (is_nan(study%quantities(i)%error(k))) exit
-         if (study%quantities(i)%error(k) > GOOD) exit
-         n = k
-      end do
-   end function first_good
 
    !> Whether the error still falls at the finest level of an element, and if not the reason.
    subroutine describe_last_error(study, i, k)

@@ -65,6 +65,7 @@ contains
       type(grid_t) :: grid
       real(wp) :: value(1), x(2)
       integer :: i
+      character(len=:), allocatable :: label
 
       if (.not. allocated(results%extremes)) return
       call add_blank(page)
@@ -76,22 +77,16 @@ contains
             call clear_small(scale_of(extreme, scales), value)
             x = extreme%x
             call clear_small(scales%length, x)
-            call add_row(grid, name_of(extreme)//CELL//number(value(1), DIGITS)//CELL//to_text(extreme%id)//CELL// &
-                         number(x(1), DIGITS)//CELL//number(x(2), DIGITS))
+            ! `u1 max [L]`; |u| is the size of the displacement.
+            label = replaced(trim(extreme%quantity), '_', ' ')
+            if (label == 'u') label = '|u|'
+            label = label//trim(merge(' [L]    ', ' [F/L^2]', extreme%quantity(1:1) == 'u'))
+            call add_row(grid, label//CELL//number(value(1), DIGITS)//CELL//to_text(extreme%id)//CELL//number(x(1), DIGITS)// &
+                         CELL//number(x(2), DIGITS))
          end associate
       end do
       call put_grid(page, grid)
    end subroutine describe_extremes
-
-   !> `u1 max [L]`; |u| is the size of the displacement.
-   pure function name_of(extreme) result(name)
-      type(extreme_t), intent(in) :: extreme
-      character(len=:), allocatable :: name
-
-      name = replaced(trim(extreme%quantity), '_', ' ')
-      if (name == 'u') name = '|u|'
-      name = name//trim(merge(' [L]    ', ' [F/L^2]', extreme%quantity(1:1) == 'u'))
-   end function name_of
 
    !> For the screen: the largest displacement and the largest stress.
    subroutine add_extremes(page, results)

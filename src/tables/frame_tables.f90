@@ -449,15 +449,11 @@ contains
          at%arm = path%x(:, i) - path%centre
          values(i, FIRST_ALONG:LAST_ALONG) = along_direction(at, path%along(:, i))
          do k = 1, size(PATH_COLUMNS)
-            if (k < FIRST_ALONG .or. k > LAST_ALONG) values(i, k) = place_field(field_named(PATH_COLUMNS(k)), at)
+            if (k < FIRST_ALONG .or. k > LAST_ALONG) then
+               values(i, k) = place_field(findloc(PLACE_FIELDS == PATH_COLUMNS(k), .true., dim=1), at)
+            end if
          end do
       end do
    end function path_values
-
-   pure integer function field_named(name)
-      character(len=*), intent(in) :: name
-
-      field_named = findloc(PLACE_FIELDS == name, .true., dim=1)
-   end function field_named
 
 end module atrito_frame_tables

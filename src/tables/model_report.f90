@@ -131,7 +131,7 @@ contains
       type(model_t), intent(in) :: model
       character(len=:), allocatable :: thickness, elastic
       type(grid_t) :: grid
-      integer(ip) :: elements(size(model%sections, kind=ip)), i
+      integer(ip) :: elements(size(model%sections, kind=ip)), i, k
 
       elements = 0
       if (size(elements) > 0) then
@@ -150,7 +150,15 @@ contains
       end do
       call put_grid(page, grid)
       if (any(model%materials%is_orthotropic)) call describe_orthotropic(page, model)
-      if (any(model%materials%has_expansion)) call describe_expansions(page, model)
+      if (any(model%materials%has_expansion)) then
+         call add_blank(page)
+         do k = 1, size(model%materials, kind=ip)
+            associate (material => model%materials(k))
+               if (material%has_expansion) call add_entry(page, material%name//', expansion', number(material%expansion, DIGITS)// &
+                                                          ' [1/temperature]')
+            end associate
+         end do
+      end if
       call add_blank(page)
       call begin_grid(grid, 3, 'section of elements'//CELL//'material'//CELL//'formulation'//CELL//'elements'//CELL//'thickness')
       do i = 1, size(model%sections, kind=ip)
@@ -197,20 +205,6 @@ contains
          end associate
       end do
    end subroutine describe_orthotropic
-
-   subroutine describe_expansions(page, model)
-      type(page_t), intent(inout) :: page
-      type(model_t), intent(in) :: model
-      integer(ip) :: i
-
-      call add_blank(page)
-      do i = 1, size(model%materials, kind=ip)
-         associate (material => model%materials(i))
-            if (material%has_expansion) call add_entry(page, material%name//', expansion', &
-                                                       number(material%expansion, DIGITS)//' [1/temperature]')
-         end associate
-      end do
-   end subroutine describe_expansions
 
    subroutine describe_amplitudes(page, model)
       type(page_t), intent(inout) :: page

@@ -75,7 +75,7 @@ contains
       character(len=*), intent(in) :: text, name
       type(table_file_t), intent(out) :: table
       type(status_t), intent(out) :: status
-      integer :: first, last, i
+      integer :: first, last, i, k
       integer(ip) :: line, n_rows
 
       do i = 1, size(HEAD_NAMES)
@@ -100,7 +100,13 @@ contains
       end if
       if (.not. is_ok(status)) return
       table%n_columns = size(table%columns, kind=ip)
-      call check_names(table%columns, status)
+      ! status: STATUS_FILE for names that no table has.
+      if (size(table%columns) > MOST_COLUMNS) call set_status(status, STATUS_FILE, 'is no table of atrito: it has more than '// &
+                                                              to_text(MOST_COLUMNS)//' columns')
+      do k = 1, size(table%columns)
+         if (has_controls(table%columns(k)%s)) call set_status(status, STATUS_FILE, &
+                                                               'is no table of atrito: a name has control characters')
+      end do
       if (.not. is_ok(status)) return
       ! a row that is whole has a character for each column; behind one that is not nothing is read
       n_rows = min(n_rows, int(len(text)/table%n_columns, ip) + 2_ip)
@@ -119,19 +125,6 @@ contains
          first = last + 2
       end do
    end subroutine parse_table
-
-   !> status: STATUS_FILE for names that no table has.
-   subroutine check_names(names, status)
-      type(string_t), intent(in) :: names(:)
-      type(status_t), intent(inout) :: status
-      integer :: i
-
-      if (size(names) > MOST_COLUMNS) call set_status(status, STATUS_FILE, 'is no table of atrito: it has more than '// &
-                                                      to_text(MOST_COLUMNS)//' columns')
-      do i = 1, size(names)
-         if (has_controls(names(i)%s)) call set_status(status, STATUS_FILE, 'is no table of atrito: a name has control characters')
-      end do
-   end subroutine check_names
 
    !> Place of the last character of the line that begins at `first`.
    pure integer function end_of_line(text, first) result(last)

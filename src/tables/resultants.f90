@@ -4,7 +4,7 @@ module atrito_resultants
    use atrito_load_resultants, only: force_t, add_to, add_value, add_element_load, is_section_node
    use atrito_mesh, only: is_revolved
    use atrito_model, only: model_t, step_t, nodal_values_t, element_load_t, SURFACE_SEGMENTS
-   use atrito_results, only: results_t, contact_result_t
+   use atrito_results, only: results_t
    use atrito_step_loads, only: act_at, is_end, moment_t
    use atrito_summary, only: pair_count
    implicit none (type, external)
@@ -38,13 +38,22 @@ contains
       type(resultant_t), allocatable :: rigid(:)
       integer, allocatable :: supports(:), loads(:)
       integer :: i, n
+      type(step_t) :: now
+      type(moment_t) :: moment
 
       n = 0
       if (allocated(model%sources)) n = size(model%sources)
       allocate (sums%of(n), sums%acts(n))
       sums%acts = .false.
       call add_supports(model, frame, sums)
-      call add_loads(model, frame, sums)
+      ! What acts at the time of the increment.
+      moment = moment_t(frame%step_time, frame%time)
+      if (is_end(model%steps(frame%step), moment)) then
+         call add_loads_of(model, model%steps(frame%step), sums)
+      else
+         call act_at(model, model%steps(frame%step), moment, now)
+         call add_loads_of(model, now, sums)
+      end if
       call find_rigid_surfaces(model, frame, rigid)
       supports = pack([(i, i=1, n)], [(sums%acts(i) .and. model%sources(i)%keyword == SUPPORT, i=1, n)])
       loads = pack([(i, i=1, n)], [(sums%acts(i) .and. model%sources(i)%keyword /= SUPPORT, i=1, n)])
@@ -138,23 +147,6 @@ contains
       call add_value(sums%of(source), dof, value, x)
    end subroutine add
 
-   !> What acts at the time of the increment.
-   pure subroutine add_loads(model, frame, sums)
-      type(model_t), intent(in) :: model
-      type(results_t), intent(in) :: frame
-      type(sums_t), intent(inout) :: sums
-      type(step_t) :: now
-      type(moment_t) :: moment
-
-      moment = moment_t(frame%step_time, frame%time)
-      if (is_end(model%steps(frame%step), moment)) then
-         call add_loads_of(model, model%steps(frame%step), sums)
-      else
-         call act_at(model, model%steps(frame%step), moment, now)
-         call add_loads_of(model, now, sums)
-      end if
-   end subroutine add_loads
-
    pure subroutine add_loads_of(model, now, sums)
       type(model_t), intent(in) :: model
       type(step_t), intent(in) :: now               !< with the loads of a moment
@@ -199,7 +191,7 @@ contains
       type(results_t), intent(in) :: frame
       type(resultant_t), allocatable, intent(out) :: rigid(:)
       integer(ip), allocatable :: surfaces(:)
-      integer(ip) :: i, k
+      integer(ip) :: i, k, j
 
       allocate (surfaces(0))
       do i = 1, pair_count(frame)
@@ -214,7 +206,14 @@ contains
          rigid(k)%keyword = RIGID_SURFACE
          rigid(k)%name = model%surfaces(surfaces(k))%name
          do i = 1, pair_count(frame)
-            if (model%pairs(i)%master == surfaces(k)) call add_tractions(frame%contact(i), rigid(k)%force)
+            if (model%pairs(i)%master == surfaces(k)) then
+               associate (c => frame%contact(i))   ! pressure against the normal of the slave, shear along its tangent
+                  do j = 1, c%n
+                     call add_to(rigid(k)%force, c%weight(j)*(c%shear(j)*[-c%normal(2, j), c%normal(1, j)] &
+                                                              - c%pressure(j)*c%normal(:, j)), c%x(:, j))
+                  end do
+               end associate
+            end if
          end do
       end do
    end subroutine find_rigid_surfaces
@@ -227,18 +226,5 @@ contains
       moves = .false.
       if (allocated(model%rigid_bodies)) moves = any(model%rigid_bodies%surface == surface)
    end function moves
-
-   !> Pressure against the normal of the slave, shear along its tangent, which is the normal turned by +90 degrees.
-   pure subroutine add_tractions(contact, force)
-      type(contact_result_t), intent(in) :: contact
-      type(force_t), intent(inout) :: force
-      integer(ip) :: j
-
-      do j = 1, contact%n
-         associate (n => contact%normal(:, j))
-            call add_to(force, contact%weight(j)*(contact%shear(j)*[-n(2), n(1)] - contact%pressure(j)*n), contact%x(:, j))
-         end associate
-      end do
-   end subroutine add_tractions
 
 end module atrito_resultants

@@ -59,6 +59,7 @@ contains
       type(page_t), intent(out) :: page
       type(string_t), intent(in), optional :: pictures(:)    !< that were drawn, names without folder and ending
       integer :: after                              ! lines of the end
+      integer :: i, extra_lines
 
       call begin_deck_report(page, model, '')
       call add_rule(page, '-')
@@ -67,7 +68,12 @@ contains
          call add_sizes(page, model, last)
          if (has_history(model, history)) call add_item(page, 'history', history_text(model, history))
          if (allocated(last%observed)) call add_observed(page, last%observed)
-         after = CLOSING_LINES + extra_lines(files, present(pictures))
+         ! Lines of pictures, field files and the report.
+         extra_lines = merge(1, 0, present(pictures))
+         do i = 1, size(files)
+            if (ends_with(files(i)%s, '.xdmf') .or. files(i)%s == REPORT_NAME) extra_lines = extra_lines + 1
+         end do
+         after = CLOSING_LINES + extra_lines
          if (last%converged .and. last%law_holds .and. SCREEN_LINES - page%n - after >= ANSWER_LINES + LEAST_OF_PAIRS) then
             call add_extremes(page, last)
             call add_supports(page, model, last)
@@ -145,7 +151,9 @@ contains
       type(page_t), intent(inout) :: page
       type(model_t), intent(in) :: model
       type(results_t), intent(in) :: results
-      character(len=:), allocatable :: large, unique
+      character(len=:), allocatable :: large, unique, solvers
+      integer(ip) :: i
+
       associate (scene => results%scene)
          ! millions would not fit beside the counts of elements and nodes, which are as many then
          call add_item(page, 'solved', plural(body_count(scene), 'body', 'bodies')//', '// &
@@ -153,7 +161,16 @@ contains
                        plural(model%mesh%n_nodes, 'node', 'nodes')//', '//to_text(scene%n_dofs)// &
                        ' '//trim(merge('free dofs         ', 'free displacements', scene%n_dofs >= 1000000)))
          call add_item(page, 'contact', contact_text(model, scene))
-         call add_item(page, 'solver', solvers(scene)//iteration_text(model, results))
+         ! The solvers in use, each once.
+         solvers = ''
+         if (is_sparse_form(scene)) solvers = 'sparse'
+         do i = 1, merge(0_ip, body_count(scene), is_sparse_form(scene))
+            if (.not. allocated(scene%bodies(i)%solver)) cycle
+            if (index(solvers, scene%bodies(i)%solver) > 0 .or. scene%bodies(i)%solver == 'none') cycle
+            if (len(solvers) > 0) solvers = solvers//' and '
+            solvers = solvers//scene%bodies(i)%solver
+         end do
+         call add_item(page, 'solver', solvers//iteration_text(model, results))
       end associate
       if (results%converged .and. results%law_holds) then
          large = 'equilibrium to '//number(results%equilibrium_residual, 2)//' of the largest force'
@@ -185,22 +202,6 @@ contains
       end if
       if (len(joined_text(model)) > 0) text = text//'; '//joined_text(model)
    end function contact_text
-
-   !> The solvers in use, each once.
-   pure function solvers(scene) result(text)
-      type(scene_t), intent(in) :: scene
-      character(len=:), allocatable :: text
-      integer(ip) :: i
-
-      text = ''
-      if (is_sparse_form(scene)) text = 'sparse'
-      do i = 1, merge(0_ip, body_count(scene), is_sparse_form(scene))
-         if (.not. allocated(scene%bodies(i)%solver)) cycle
-         if (index(text, scene%bodies(i)%solver) > 0 .or. scene%bodies(i)%solver == 'none') cycle
-         if (len(text) > 0) text = text//' and '
-         text = text//scene%bodies(i)%solver
-      end do
-   end function solvers
 
    !> Whether all bodies are in one sparse matrix.
    pure logical function is_sparse_form(scene)
@@ -236,18 +237,6 @@ contains
       if (most < n) most = int((room - 4)/2, ip)
       most = max(0_ip, most)
    end function most_pairs
-
-   !> Lines of pictures, field files and the report.
-   pure integer function extra_lines(files, has_pictures) result(extra)
-      type(string_t), intent(in) :: files(:)
-      logical, intent(in) :: has_pictures
-      integer :: i
-
-      extra = merge(1, 0, has_pictures)
-      do i = 1, size(files)
-         if (ends_with(files(i)%s, '.xdmf') .or. files(i)%s == REPORT_NAME) extra = extra + 1
-      end do
-   end function extra_lines
 
    !> Whether the way of an iteration that did not converge is known.
    pure logical function has_trail(results)

@@ -56,12 +56,23 @@ contains
       type(growing_table_t), intent(inout) :: file
       type(table_t), intent(inout) :: piece         !< its columns get their widths
       integer, intent(in) :: digits
-      integer :: i
+      integer :: i, k, value_width
 
       ! Gives each column room for its values, its name and its dimension, so that the names stand above the numbers.
       do i = 1, size(piece%columns)
          associate (column => piece%columns(i))
-            column%width = max(len(column%name), len(column%dimension), value_width(piece, column, digits))
+            value_width = 1
+            select case (column%kind)
+            case (KIND_REAL)
+               value_width = real_width(digits)
+            case (KIND_INTEGER)
+               value_width = width_of_integers(piece, column)
+            case (KIND_WORD)
+               do k = 1, size(column%words)
+                  value_width = max(value_width, len(column%words(k)%s))
+               end do
+            end select
+            column%width = max(len(column%name), len(column%dimension), value_width)
          end associate
       end do
       if (.not. allocated(file%head%columns)) call take_head(piece, file%head)
@@ -172,25 +183,6 @@ contains
          last = table%columns(i)%last
       end do
    end subroutine place_columns
-
-   integer function value_width(table, column, digits) result(width)
-      type(table_t), intent(in) :: table
-      type(column_t), intent(in) :: column
-      integer, intent(in) :: digits
-      integer :: i
-
-      width = 1
-      select case (column%kind)
-      case (KIND_REAL)
-         width = real_width(digits)
-      case (KIND_INTEGER)
-         width = width_of_integers(table, column)
-      case (KIND_WORD)
-         do i = 1, size(column%words)
-            width = max(width, len(column%words(i)%s))
-         end do
-      end select
-   end function value_width
 
    integer function width_of_integers(table, column) result(width)
       type(table_t), intent(in) :: table

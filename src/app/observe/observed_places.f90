@@ -246,6 +246,8 @@ contains
       character(len=:), allocatable :: lacks
       integer(ip), allocatable :: nodes(:)
       logical :: found
+      type(string_t), allocatable :: others(:)
+      integer :: i, k
 
       call find_named_nodes(model%mesh, model%node_sets, model%element_sets, name, nodes, found, lacks)
       if (allocated(lacks)) then
@@ -255,31 +257,23 @@ contains
       else if (.not. found) then
          fault%text = 'the deck has no set or surface '//name
          fault%expected = A_PLACE
-         fault%known = place_names(model)
+         ! The names that a place may have, each once.
+         fault%known = names_of(model%node_sets%names)
+         others = names_of(model%element_sets%names)
+         do i = 1, size(model%surfaces)
+            call append_string(others, model%surfaces(i)%name)
+         end do
+         do i = 1, size(others)
+            do k = 1, size(fault%known)
+               if (same_name(fault%known(k)%s, others(i)%s)) exit
+            end do
+            if (k > size(fault%known)) call append_string(fault%known, others(i)%s)
+         end do
          return
       end if
       is_there(nodes) = .true.
       where (is_there) of_node = 1.0_wp
    end subroutine weigh_nodes
-
-   !> The names that a place may have, each once.
-   function place_names(model) result(names)
-      type(model_t), intent(in) :: model
-      type(string_t), allocatable :: names(:), others(:)
-      integer :: i, k
-
-      names = names_of(model%node_sets%names)
-      others = names_of(model%element_sets%names)
-      do i = 1, size(model%surfaces)
-         call append_string(others, model%surfaces(i)%name)
-      end do
-      do i = 1, size(others)
-         do k = 1, size(names)
-            if (same_name(names(k)%s, others(i)%s)) exit
-         end do
-         if (k > size(names)) call append_string(names, others(i)%s)
-      end do
-   end function place_names
 
    !> Whether any of some nodes has a prescribed displacement in any step: else there is no reaction to be told.
    pure logical function has_support(model, nodes)

@@ -61,7 +61,7 @@ contains
    subroutine compose_bash_completion(page)
       type(page_t), intent(out) :: page
       type(keyword_t), allocatable :: keywords(:)
-      integer :: i
+      integer :: i, k
 
       call begin_page(page, len(HEAD))
       do i = 1, size(HEAD)
@@ -74,31 +74,17 @@ contains
       do i = 1, size(MIDDLE)
          call add_line(page, MIDDLE(i))
       end do
-      call add_values(page)
-      call add_search(page)
-      call add_choice(page)
-   end subroutine compose_bash_completion
-
-   !> What stands behind an option that has a value.
-   subroutine add_values(page)
-      type(page_t), intent(inout) :: page
-      integer :: i
-
-      do i = 1, size(OPTIONS)
-         if (kind_of_value(i) == VALUE_WORDS) call add_line(page, '      '//trim(OPTIONS(i)%name)//') _atrito_words '''// &
-                                                            trim(OPTIONS(i)%words)//'''; return ;;')
+      ! What stands behind an option that has a value.
+      do k = 1, size(OPTIONS)
+         if (kind_of_value(k) == VALUE_WORDS) call add_line(page, '      '//trim(OPTIONS(k)%name)//') _atrito_words '''// &
+                                                            trim(OPTIONS(k)%words)//'''; return ;;')
       end do
       call add_line(page, '      '//options_where([VALUE_A_FOLDER])//') compopt -o filenames 2>/dev/null')
       call add_line(page, '         mapfile -t COMPREPLY < <(compgen -d -- "$cur"); return ;;')
       call add_line(page, '      '//options_where([VALUE_A_FILE])//') _atrito_files ''*''; return ;;')
       call add_line(page, '      '//options_where([VALUE_OWN])//') return ;;')
       call add_line(page, '   esac')
-   end subroutine add_values
-
-   !> Which command was given, and where: i is the word behind it.
-   subroutine add_search(page)
-      type(page_t), intent(inout) :: page
-
+      ! Which command was given, and where: i is the word behind it.
       call add_line(page, '   for ((i = 1; i < COMP_CWORD && ${#task} == 0; i++)); do')
       call add_line(page, '      case ${COMP_WORDS[i]} in')
       call add_line(page, '         '//options_where([VALUE_OWN, VALUE_WORDS, VALUE_A_FOLDER, VALUE_A_FILE])//')')
@@ -109,7 +95,8 @@ contains
       call add_line(page, '         *) task=run ;;')
       call add_line(page, '      esac')
       call add_line(page, '   done')
-   end subroutine add_search
+      call add_choice(page)
+   end subroutine compose_bash_completion
 
    !> What is to be had in this place.
    subroutine add_choice(page)

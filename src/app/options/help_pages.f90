@@ -7,7 +7,7 @@ module atrito_help_pages
    use atrito_option_table, only: OPTIONS, TASKS, TASK_RUN, task_form, called, find_option, option_group_t, group_options, &
                                   option_text, phrase_text, task_named, task_text
    use atrito_page, only: page_t, begin_page, add_blank, add_line, add_paragraph
-   use atrito_strings, only: lower_case, upper_case
+   use atrito_strings, only: lower_case, upper_case, recoded
    use atrito_version, only: PROGRAM_NAME, PROGRAM_VERSION
    implicit none (type, external)
    private
@@ -247,26 +247,9 @@ contains
    pure function roff_text(text) result(safe)
       character(len=*), intent(in) :: text
       character(len=:), allocatable :: safe
-      integer :: i
 
-      safe = ''
-      do i = 1, len(text)
-         select case (text(i:i))
-         case ('\')
-            safe = safe//'\e'
-         case ('-')
-            safe = safe//'\-'
-         case ('''')
-            safe = safe//'\(aq'
-         case ('`')
-            safe = safe//'\(ga'
-         case ('.')
-            if (i == 1) safe = safe//'\&'
-            safe = safe//'.'
-         case default
-            safe = safe//text(i:i)
-         end select
-      end do
+      safe = recoded(text, '\-''`', [character(len=4) :: '\e', '\-', '\(aq', '\(ga'])
+      if (index(text, '.') == 1) safe = '\&'//safe
    end function roff_text
 
 end module atrito_help_pages

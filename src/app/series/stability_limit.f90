@@ -133,7 +133,9 @@ contains
       type(reporter_t) :: reporter
       type(stability_value_t) :: one
       real(wp) :: x
-      integer :: step
+      integer :: step, n, rest
+      type(stability_value_t), allocatable :: more(:)
+      character(len=:), allocatable :: answer_text
 
       reporter = reporter_of(command)
       store%keeps = .true.
@@ -149,26 +151,28 @@ contains
             call ask_solution(command, limit, store, start, search, one, code)
          end if
          if (code /= STATUS_OK) exit
-         call put_value(one, limit%values)
-         call report_phase(reporter, limit%parameter//' = '//to_text(x, 12)//'  '//answer_text(one))
+         ! Puts the value at its place among the others, or over what was known of it.
+         n = count(limit%values%value < one%value)
+         rest = count(limit%values%value > one%value)
+         allocate (more(n + 1 + rest))
+         more(:n) = limit%values(:n)
+         more(n + 1) = one
+         more(n + 2:) = limit%values(size(limit%values) - rest + 1:)
+         call move_alloc(more, limit%values)
+         select case (one%code)
+         case (STATUS_OK)
+            answer_text = 'stands, displacement '//to_text(one%displacement, 5)//' [L]'
+         case (STATUS_NOT_CONVERGED)
+            answer_text = 'neither a solution nor a proof'
+         case (STATUS_SINGULAR)
+            answer_text = 'falls'
+         case default
+            answer_text = 'the loads can be balanced'
+            if (one%excess /= one%excess) answer_text = 'too near the limit for a proof'
+         end select
+         call report_phase(reporter, limit%parameter//' = '//to_text(x, 12)//'  '//answer_text)
       end do
    end subroutine ask_all
-
-   !> Puts a value at its place among the others, or over what was known of it.
-   pure subroutine put_value(one, values)
-      type(stability_value_t), intent(in) :: one
-      type(stability_value_t), allocatable, intent(inout) :: values(:)
-      type(stability_value_t), allocatable :: more(:)
-      integer :: n, rest
-
-      n = count(values%value < one%value)
-      rest = count(values%value > one%value)
-      allocate (more(n + 1 + rest))
-      more(:n) = values(:n)
-      more(n + 1) = one
-      more(n + 2:) = values(size(values) - rest + 1:)
-      call move_alloc(more, values)
-   end subroutine put_value
 
    !> Whether the loads can be balanced at a value. The first such question tells what the deck has to say.
    subroutine ask_balance(command, limit, search, one, code)
@@ -345,23 +349,6 @@ contains
       end if
       call print_status(status, command%names(1)%s, command%json)
    end subroutine print_failure
-
-   pure function answer_text(one) result(text)
-      type(stability_value_t), intent(in) :: one
-      character(len=:), allocatable :: text
-
-      select case (one%code)
-      case (STATUS_OK)
-         text = 'stands, displacement '//to_text(one%displacement, 5)//' [L]'
-      case (STATUS_NOT_CONVERGED)
-         text = 'neither a solution nor a proof'
-      case (STATUS_SINGULAR)
-         text = 'falls'
-      case default
-         text = 'the loads can be balanced'
-         if (one%excess /= one%excess) text = 'too near the limit for a proof'
-      end select
-   end function answer_text
 
    !> What is known of a value so far.
    pure subroutine find_value(limit, x, one)

@@ -19,7 +19,7 @@ module atrito_study
    use atrito_study_errors, only: last_uniform, study_t
    use atrito_study_plan, only: plan_study
    use atrito_study_plot, only: write_study_plot
-   use atrito_study_runs, only: make_timed_run, find_probe, make_command, has_failed, put_row, take_row, PROBES
+   use atrito_study_runs, only: find_probe, make_command, has_failed, put_row, take_row, PROBES, make_run, time_again
    use atrito_study_table, only: write_study, compose_study
    use atrito_study_words, only: judge_study
    use atrito_table, only: origin_t
@@ -154,8 +154,13 @@ contains
 
       n = size(self%study%rows, kind=ip)
       if (task <= n) then
-         call make_timed_run(self%command, self%study, self%study%rows(task), self%is_first, status)
-         call put_row(self%study%rows(task), answer)
+         associate (row => self%study%rows(task))
+            call make_run(self%command, self%study, row, status)
+            if (is_ok(status) .and. .not. has_failed(row)) then
+               call time_again(self%command, self%study, row, self%is_first, status)
+            end if
+            call put_row(row, answer)
+         end associate
          call put_status(answer, status)
          self%is_first = .false.
       else

@@ -10,7 +10,7 @@ module atrito_study_plan
    use atrito_summary, only: quantity_names
    implicit none (type, external)
    private
-   public :: plan_study, percent_of_level, DECK_ELEMENTS
+   public :: plan_study, DECK_ELEMENTS
 
    character(len=*), parameter :: DECK_ELEMENTS = 'deck'   !< instead of a kind of element: as in the deck
    character(len=*), parameter :: ADAPTED = 'adapt'  !< the same, cut where the error is
@@ -40,14 +40,6 @@ contains
          study%rows(k)%is_adapted = study%rows(k)%element == ADAPTED
       end do
    end subroutine plan_study
-
-   !> The error that --adapt has to reach on a level: that of the command on the last, twice as much on each one before it [%].
-   pure real(wp) function percent_of_level(command, level) result(percent)
-      type(command_t), intent(in) :: command
-      integer(ip), intent(in) :: level
-
-      percent = min(100.0_wp, command%adapt*2.0_wp**(command%levels - 1 - level))
-   end function percent_of_level
 
    !> --reference QUANTITY[=VALUE]; without any the energy and the resultants of the first pair. What is observed is studied in any
    !> case.

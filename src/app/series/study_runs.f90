@@ -9,24 +9,24 @@ module atrito_study_runs
    use atrito_kinds, only: ip, wp
    use atrito_load_model, only: load_model, prepare_observations
    use atrito_messages, only: clear_messages
-   use atrito_model, only: model_t, interaction_t
+   use atrito_model, only: model_t
    use atrito_observations, only: observations_t
    use atrito_read_table, only: table_file_t, find_column
    use atrito_buffer, only: buffer_t, put, take
    use atrito_reporter, only: reporter_t
-   use atrito_results, only: history_t, results_t
+   use atrito_results, only: history_t
    use atrito_run, only: run_deck, solve_options, agree_on_outcome
    use atrito_solve, only: solve_options_t
    use atrito_status, only: status_t, is_ok, STATUS_OK, STATUS_NOT_CONVERGED
    use atrito_strings, only: to_text, upper_case
    use atrito_study_errors, only: run_facts_t, study_t, study_row_t, total_seconds, PROCESSOR
-   use atrito_study_plan, only: percent_of_level, DECK_ELEMENTS
+   use atrito_study_plan, only: DECK_ELEMENTS
    use atrito_summary, only: quantity_t, scales_t, pair_quantities, step_quantities, summarise_pair
    use atrito_sweep_tables, only: sweep_run_t, read_summary, row_of_quantity
    use atrito_timers, only: phase_time_t, reset_timers, get_phases
    implicit none (type, external)
    private
-   public :: make_timed_run, find_probe, make_command, has_failed, put_row, take_row, PROBES
+   public :: make_run, time_again, find_probe, make_command, has_failed, put_row, take_row, PROBES
 
    real(wp), parameter :: SHORT = 0.1_wp             !< [s] shorter runs are made three times, for the clock
    integer, parameter :: REPEATS = 2                 !< times that a short run is made again
@@ -34,18 +34,6 @@ module atrito_study_runs
    character(len=*), parameter :: PROBES(3) = [character(len=21) :: 'half the delta', 'half the eps', 'twice the stick slope']
 
 contains
-
-   !> A run, and once more where it is short.
-   subroutine make_timed_run(command, study, row, is_first, status)
-      type(command_t), intent(in) :: command
-      type(study_t), intent(in) :: study
-      type(study_row_t), intent(inout) :: row       !< element and level are given
-      logical, intent(in) :: is_first               !< of this process
-      type(status_t), intent(out) :: status
-
-      call make_run(command, study, row, status)
-      if (is_ok(status) .and. .not. has_failed(row)) call time_again(command, study, row, is_first, status)
-   end subroutine make_timed_run
 
    !> Makes a short run again and keeps the times of the fastest; the first run of a process pays for loading it, and is made
    !> again however long it takes.
@@ -85,7 +73,8 @@ contains
       type(reporter_t) :: reporter
       type(status_t) :: status
       integer(ip) :: told
-      integer :: code
+      integer :: code, i, m
+      type(quantity_t), allocatable :: list(:)
 
       values = ieee_value(1.0_wp, ieee_quiet_nan)
       reporter%quiet = .true.
@@ -94,14 +83,30 @@ contains
       call load_model(one, reporter, model, told, code)
       if (code == STATUS_OK) call prepare_observations(one, model, observations, code)
       if (code == STATUS_OK) then
-         call scale_laws(model%interactions, merge(0.5_wp, 1.0_wp, kind == 1), merge(1.0_wp, 0.5_wp, kind == 1))
+         associate (laws => model%interactions)
+            if (kind == 1) then
+               laws%delta = 0.5_wp*laws%delta
+            else
+               laws%eps = 0.5_wp*laws%eps
+               laws%stick_slope = 2*laws%stick_slope
+            end if
+         end associate
          call begin_frames(output_folder(command), frames)
          options = solve_options(one)
          options%frames => frames
          call solve_history(model, options, reporter, history, status, store, observer=observations)
          associate (n => size(history%frames))
             if (n > 0) call agree_on_outcome(status, history%frames(n), history%ending%is_early)
-            if (is_ok(status)) call find_values(history%frames(n), study, values)
+            if (is_ok(status)) then
+               associate (last => history%frames(n))
+                  list = [pair_quantities(summarise_pair(last%contact(1)), scales_t()), step_quantities(last)]
+               end associate
+               do i = 1, size(values)
+                  do m = 1, size(list)
+                     if (list(m)%name == study%quantities(i)%name) values(i) = list(m)%value
+                  end do
+               end do
+            end if
          end associate
          call end_frames(frames)
       end if
@@ -151,6 +156,7 @@ contains
       row%phases = transfer(memory, [phase_time_t()], n)
    end subroutine take_row
 
+   !> One run of a study, with its own deck and mesh, and what its row keeps of it. status: as of read_summary.
    subroutine make_run(command, study, row, status)
       type(command_t), intent(in) :: command
       type(study_t), intent(in) :: study
@@ -196,7 +202,8 @@ contains
       one%adapt = 0.0_wp
       if (row%is_adapted) then
          one%refine = command%refine
-         one%adapt = percent_of_level(command, row%level)
+         ! that of the command on the last level, twice as much on each one before it
+         one%adapt = min(100.0_wp, command%adapt*2.0_wp**(command%levels - 1 - row%level))
       else if (row%element /= DECK_ELEMENTS) then
          one%element = row%element
       end if
@@ -222,29 +229,5 @@ contains
       amount = missing
       if (row > 0) amount = summary%value(find_column(summary, 'value'), row)
    end function amount
-
-   pure elemental subroutine scale_laws(law, delta_factor, eps_factor)
-      type(interaction_t), intent(inout) :: law
-      real(wp), intent(in) :: delta_factor, eps_factor
-
-      law%delta = delta_factor*law%delta
-      law%eps = eps_factor*law%eps
-      law%stick_slope = law%stick_slope/eps_factor
-   end subroutine scale_laws
-
-   pure subroutine find_values(results, study, values)
-      type(results_t), intent(in) :: results
-      type(study_t), intent(in) :: study
-      real(wp), intent(inout) :: values(:)
-      type(quantity_t), allocatable :: list(:)
-      integer :: i, k
-
-      list = [pair_quantities(summarise_pair(results%contact(1)), scales_t()), step_quantities(results)]
-      do i = 1, size(values)
-         do k = 1, size(list)
-            if (list(k)%name == study%quantities(i)%name) values(i) = list(k)%value
-         end do
-      end do
-   end subroutine find_values
 
 end module atrito_study_runs

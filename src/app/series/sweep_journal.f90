@@ -40,10 +40,22 @@ contains
       type(command_t), intent(in) :: command
       type(provenance_t), intent(in) :: provenance   !< of the deck without the values that vary
       type(sweep_journal_t), intent(out) :: journal
+      character(len=:), allocatable :: options
+      type(text_digest_t) :: digest
+      integer :: i
 
       journal%folder = output_folder(command)
       journal%path = journal%folder//'/'//JOURNAL_NAME
-      journal%key = key_of(command, provenance)
+      ! All that runs depend on besides the values that vary, as a word.
+      call add_characters(digest, PROGRAM_VERSION//NEW_LINE_CHARACTER//command%names(1)%s//NEW_LINE_CHARACTER)
+      if (allocated(provenance%digest)) call add_characters(digest, provenance%digest//NEW_LINE_CHARACTER)
+      call options_of_run(command, options)
+      if (allocated(options)) call add_characters(digest, options//NEW_LINE_CHARACTER)
+      do i = 1, size(command%settings)
+         call add_characters(digest, '--set '//command%settings(i)%s//NEW_LINE_CHARACTER)
+      end do
+      if (command%is_csv) call add_characters(digest, '--format csv')
+      journal%key = hexadecimal(digest)
       journal%has_earlier = command%resume
       if (.not. command%resume) call remove_journal(journal)
    end subroutine begin_journal
@@ -54,25 +66,6 @@ contains
 
       call remove_file(journal%path)
    end subroutine remove_journal
-
-   !> All that runs depend on besides the values that vary, as a word.
-   function key_of(command, provenance) result(key)
-      type(command_t), intent(in) :: command
-      type(provenance_t), intent(in) :: provenance
-      character(len=:), allocatable :: key, options
-      type(text_digest_t) :: digest
-      integer :: i
-
-      call add_characters(digest, PROGRAM_VERSION//NEW_LINE_CHARACTER//command%names(1)%s//NEW_LINE_CHARACTER)
-      if (allocated(provenance%digest)) call add_characters(digest, provenance%digest//NEW_LINE_CHARACTER)
-      call options_of_run(command, options)
-      if (allocated(options)) call add_characters(digest, options//NEW_LINE_CHARACTER)
-      do i = 1, size(command%settings)
-         call add_characters(digest, '--set '//command%settings(i)%s//NEW_LINE_CHARACTER)
-      end do
-      if (command%is_csv) call add_characters(digest, '--format csv')
-      key = hexadecimal(digest)
-   end function key_of
 
    !> What an earlier sweep noted of a run counts no longer. A journal that cannot be written keeps nothing from being done.
    subroutine note_begin(journal, plan, run)

@@ -3,12 +3,12 @@ module atrito_paths
    use, intrinsic :: iso_c_binding, only: c_null_char
    use atrito_status, only: status_t, set_status, is_ok, STATUS_FILE
    use atrito_strings, only: string_t, append_string
-   use atrito_system, only: c_is_folder, c_exists, c_may_hold, c_kind_of, c_true_path, c_may_write, c_make_folder, &
-                            c_judge_folder, c_remove_file, c_remove_folder, forget_path
+   use atrito_system, only: c_is_folder, c_exists, c_may_hold, c_kind_of, c_true_path, c_make_folder, c_judge_folder, &
+                            c_remove_file, c_remove_folder, forget_path
    implicit none (type, external)
    private
-   public :: file_exists, is_folder, may_write, make_folder, remove_folders, remove_file, remove_empty_folder, check_folder, &
-             true_path, target_path, nearest_folder
+   public :: file_exists, is_folder, make_folder, remove_folders, remove_file, remove_empty_folder, check_folder, true_path, &
+             target_path, nearest_folder
 
    !> What keeps a run from writing into a folder (judge_folder).
    integer, parameter :: NOTHING = 0, IS_MISSING = 1, IS_BELOW_A_FILE = 2, NOT_READABLE = 3
@@ -32,13 +32,6 @@ contains
 
       is_folder = c_is_folder(path//c_null_char) == 1
    end function is_folder
-
-   !> Whether this user may write into a file that is there.
-   logical function may_write(path)
-      character(len=*), intent(in) :: path
-
-      may_write = c_may_write(path//c_null_char) == 1
-   end function may_write
 
    !> The path of a file without links, `.` and `..`, which is the same for each of its names; `path` itself where there is no
    !> such file.

@@ -6,10 +6,10 @@
 module atrito_renaming
    use, intrinsic :: iso_c_binding, only: c_null_char
    use atrito_own_files, only: check_own, check_unread, is_own, names_with, remove_own_file, TEMPORARY, FORMER
-   use atrito_paths, only: file_exists, is_folder, may_write, remove_file
+   use atrito_paths, only: file_exists, is_folder, remove_file
    use atrito_status, only: status_t, set_status, is_ok, STATUS_FILE
    use atrito_strings, only: string_t, append_string, ends_with
-   use atrito_system, only: c_rename
+   use atrito_system, only: c_rename, c_may_write
    implicit none (type, external)
    private
    public :: find_obstacle, replace_files, rename_over, recover_files
@@ -48,7 +48,7 @@ contains
       type(status_t), intent(out) :: status
 
       if (.not. file_exists(path)) return
-      if (may_write(path)) return
+      if (c_may_write(path//c_null_char) == 1) return
       call set_status(status, STATUS_FILE, path//': is write-protected; nothing is replaced')
    end subroutine find_protection
 

@@ -38,8 +38,9 @@ contains
       real(wp), intent(out) :: value
       integer, intent(out) :: outcome
       integer(lp) :: mantissa
-      integer :: digits, exponent
+      integer :: digits, exponent, ios
       logical :: negative, whole, decided
+      character(len=24) :: form
 
       value = 0.0_wp
       call scan_number(text, negative, mantissa, digits, exponent, whole, outcome)
@@ -60,7 +61,18 @@ contains
       else
          call nearest_real(mantissa, digits, exponent, value, decided)
          if (negative) value = -value
-         if (.not. decided) call read_long_real(text, value, outcome)
+         ! Many digits or a large exponent: the run-time library rounds correctly; the form was checked before.
+         if (.not. decided) then
+            write (form, '("(f",i0,".0)")') len(text)
+            read (text, form, iostat=ios) value
+            outcome = NUMBER_OK
+            if (ios /= 0) then
+               outcome = NUMBER_TOO_LARGE
+            else if (abs(value) > huge(value)) then
+               outcome = NUMBER_TOO_LARGE
+            end if
+            if (outcome /= NUMBER_OK) value = 0.0_wp
+         end if
       end if
    end subroutine read_real
 
@@ -181,25 +193,6 @@ contains
       end do
       value = value*10_lp**(17 - n)
    end function first_digits
-
-   !> Many digits or a large exponent: the run-time library rounds correctly; the form was checked before.
-   pure subroutine read_long_real(text, value, outcome)
-      character(len=*), intent(in) :: text
-      real(wp), intent(out) :: value
-      integer, intent(out) :: outcome
-      character(len=24) :: form
-      integer :: ios
-
-      write (form, '("(f",i0,".0)")') len(text)
-      read (text, form, iostat=ios) value
-      outcome = NUMBER_OK
-      if (ios /= 0) then
-         outcome = NUMBER_TOO_LARGE
-      else if (abs(value) > huge(value)) then
-         outcome = NUMBER_TOO_LARGE
-      end if
-      if (outcome /= NUMBER_OK) value = 0.0_wp
-   end subroutine read_long_real
 
    !> The shortest text of a real that gives the same double back: 0.1, not 0.10000000000000001.
    pure function exact_text(x) result(text)

@@ -123,24 +123,19 @@ contains
       character(len=16) :: text
       type(text_digest_t) :: digest
       integer :: i
+      integer(ip) :: j
 
       do i = 1, size(list)
-         call add_patched(digest, list(i)%text)
+         associate (patched => list(i)%text)
+            do j = 1, patched%n
+               associate (k => patched%pieces(j)%text, first => patched%pieces(j)%first, last => patched%pieces(j)%last)
+                  if (k == OWN_WORDS) call add_characters(digest, patched%words%letters(first:last))
+                  if (k > 0) call add_characters(digest, patched%texts(k)%s(first:last))
+               end associate
+            end do
+         end associate
       end do
       text = hexadecimal(digest)
    end function digest_of_texts
-
-   pure subroutine add_patched(digest, patched)
-      type(text_digest_t), intent(inout) :: digest
-      type(patched_text_t), intent(in) :: patched
-      integer(ip) :: i
-
-      do i = 1, patched%n
-         associate (k => patched%pieces(i)%text, first => patched%pieces(i)%first, last => patched%pieces(i)%last)
-            if (k == OWN_WORDS) call add_characters(digest, patched%words%letters(first:last))
-            if (k > 0) call add_characters(digest, patched%texts(k)%s(first:last))
-         end associate
-      end do
-   end subroutine add_patched
 
 end module atrito_patched_text

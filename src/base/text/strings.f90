@@ -3,7 +3,7 @@ module atrito_strings
    use atrito_kinds, only: ip, lp, wp
    implicit none (type, external)
    private
-   public :: string_t, string_list_t, add_string, take_strings, replaced
+   public :: string_t, string_list_t, add_string, take_strings, replaced, recoded
    public :: break_line, trimmed_strings
    public :: lower_case, upper_case, to_text, join, nearest_names, edit_distance, same_name, append_string, deck_name, count_symbol
    public :: begins_with, ends_with, fits_pattern
@@ -414,6 +414,21 @@ contains
          if (index(letters, text(i:i)) > 0) replaced(i:i) = by
       end do
    end function replaced
+
+   !> A text in which each of some letters stands as another format writes it.
+   pure function recoded(text, letters, codes)
+      character(len=*), intent(in) :: text, letters
+      character(len=*), intent(in) :: codes(:)      !< (len(letters)), without the blanks behind them
+      character(len=:), allocatable :: recoded
+      integer :: i, k
+
+      recoded = ''
+      do i = 1, len(text)
+         k = index(letters, text(i:i))
+         if (k > 0) recoded = recoded//trim(codes(k))
+         if (k == 0) recoded = recoded//text(i:i)
+      end do
+   end function recoded
 
    !> One line of a text that is broken at its blanks: text(first:last), no longer than `room`; the next one begins at `next`.
    pure subroutine break_line(text, room, first, last, next)

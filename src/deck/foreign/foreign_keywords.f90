@@ -171,6 +171,7 @@ contains
       character(len=:), allocatable :: word, key
       type(string_t), allocatable :: lines(:)
       integer :: n
+      logical :: goes_on
 
       call take_foreign_lines(lines)
       word = trim(upper_case(name))
@@ -178,7 +179,10 @@ contains
       n = len(word)
       if (len(key) > 0) n = 0
       do n = n, 1, -1                              ! the longest beginning counts
-         if (.not. goes_on(word, n)) cycle
+         ! Behind one letter or two a number follows, or nothing: `B31`, `S8R`, `D`; not a misspelt name.
+         goes_on = len_trim(word) == n .or. n > 2
+         if (.not. goes_on) goes_on = scan(word(n + 1:n + 1), '123456789') == 1
+         if (.not. goes_on) cycle
          call look_up(lines, 'elements ', word(:n), key)
          if (allocated(key)) exit
       end do
@@ -214,14 +218,5 @@ contains
          end select
       end do
    end function special_plane_type
-
-   !> Behind one letter or two a number follows, or nothing: `B31`, `S8R`, `D`; not a misspelt name.
-   pure logical function goes_on(word, n)
-      character(len=*), intent(in) :: word
-      integer, intent(in) :: n                     !< letters
-
-      goes_on = len_trim(word) == n .or. n > 2
-      if (.not. goes_on) goes_on = scan(word(n + 1:n + 1), '123456789') == 1
-   end function goes_on
 
 end module atrito_foreign_keywords

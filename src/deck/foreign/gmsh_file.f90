@@ -3,7 +3,7 @@
 !> A line is what the format says of it: what is missing or too much is reported where it is, and never taken from the next line.
 module atrito_gmsh_file
    use atrito_gmsh_elements, only: read_elements
-   use atrito_gmsh_mesh, only: gmsh_mesh_t, add_part, note_group_name, trim_gmsh_mesh
+   use atrito_gmsh_mesh, only: gmsh_mesh_t, add_part, trim_gmsh_mesh, note_key, key_of, keys_t
    use atrito_gmsh_words, only: words_t, fault_t, next_line, take_word, take_integer, take_real, end_line, fail, word_is, go_on, &
                                 begin_line, read_head, check_count, check_number
    use atrito_kinds, only: ip, wp
@@ -153,7 +153,8 @@ contains
          call take_integer(words, 'tag of the group', mesh%names(i)%tag)
          call take_name(words, mesh%names(i)%name)
          if (.not. words%ok) return
-         call note_group_name(mesh, i)
+         if (i == 1) mesh%name_keys = keys_t()   ! a second list of names takes the place of the first
+         call note_key(mesh%name_keys, key_of(mesh%names(i)%dim, mesh%names(i)%tag), i)
       end do
    end subroutine read_names
 

@@ -8,7 +8,7 @@ module atrito_gmsh_mesh
    implicit none (type, external)
    private
    public :: gmsh_mesh_t, gmsh_part_t, gmsh_name_t
-   public :: add_part, find_part, add_element, trim_gmsh_mesh, move_mesh, note_group_name, group_name, part_name
+   public :: add_part, find_part, add_element, trim_gmsh_mesh, move_mesh, group_name, part_name, note_key, key_of, keys_t
 
    !> An entity of the drawing with the physical groups to which it belongs.
    type :: gmsh_part_t
@@ -80,6 +80,7 @@ contains
       i = place_of(mesh%part_keys, key_of(dim, tag, group))
    end function find_part
 
+   !> By what a part or a name is found: its dimension and number, and its physical group.
    pure function key_of(dim, tag, group) result(key)
       integer(ip), intent(in) :: dim, tag
       integer(ip), intent(in), optional :: group
@@ -89,6 +90,7 @@ contains
       if (present(group)) key = key//' '//to_text(group)
    end function key_of
 
+   !> Notes where in a list the thing with a key is; a later one takes the place of an earlier one.
    pure subroutine note_key(list, key, place)
       type(keys_t), intent(inout) :: list
       character(len=*), intent(in) :: key
@@ -106,15 +108,6 @@ contains
       place = find_name(list%keys, key)
       if (place > 0) place = list%place(place)
    end function place_of
-
-   !> The name of a physical group has been read into mesh%names(i).
-   pure subroutine note_group_name(mesh, i)
-      type(gmsh_mesh_t), intent(inout) :: mesh
-      integer(ip), intent(in) :: i
-
-      if (i == 1) mesh%name_keys = keys_t()            ! a second list of names takes the place of the first
-      call note_key(mesh%name_keys, key_of(mesh%names(i)%dim, mesh%names(i)%tag), i)
-   end subroutine note_group_name
 
    !> Keeps an element.
    subroutine add_element(mesh, id, part, nodes)

@@ -275,19 +275,7 @@ contains
             card%options(o)%value%scope = scope
          end select
       end do
-      n = owned_items(deck, card)
-      do i = card%first_line, card%first_line + card%n_lines - 1
-         do k = deck%lines(i)%first_token, deck%lines(i)%first_token + min(n, deck%lines(i)%n_tokens) - 1
-            deck%tokens(k)%scope = scope
-         end do
-      end do
-   end subroutine mark_card
-
-   !> How many items at the beginning of each line of a card are numbers or names of the block in which it stands.
-   pure integer(ip) function owned_items(deck, card) result(n)
-      type(deck_t), intent(in) :: deck
-      type(card_t), intent(in) :: card
-
+      ! How many items at the beginning of each line of a card are numbers or names of the block in which it stands.
       select case (card%name)
       case ('NODE', 'ELGEN', 'NODAL THICKNESS')
          n = 1
@@ -300,7 +288,12 @@ contains
       case default
          n = 0
       end select
-   end function owned_items
+      do i = card%first_line, card%first_line + card%n_lines - 1
+         do k = deck%lines(i)%first_token, deck%lines(i)%first_token + min(n, deck%lines(i)%n_tokens) - 1
+            deck%tokens(k)%scope = scope
+         end do
+      end do
+   end subroutine mark_card
 
    !> Outside of parts, `instance.name`, `instance.12` and `assembly.instance.name` are the instance's.
    subroutine find_owners(deck, card, parts)

@@ -6,7 +6,7 @@ module atrito_help
    use atrito_keyword_table, only: keyword_table, find_keyword, packed
    use atrito_keyword_text, only: form_text, option_text_of, choices_text, lines_text, condition_text, &
                                   with_dimension, item_meaning, LEVEL_TEXTS
-   use atrito_strings, only: string_t, append_string, upper_case
+   use atrito_strings, only: string_t, append_string, upper_case, recoded
    implicit none (type, external)
    private
    public :: help_overview, help_keyword, help_manual
@@ -67,6 +67,7 @@ contains
       logical, intent(out) :: found
       type(keyword_t), allocatable :: table(:)
       integer :: i, first
+      character(len=:), allocatable :: title, place
 
       allocate (lines(0))
       table = keyword_table()
@@ -74,7 +75,11 @@ contains
       i = find_keyword(table, name(first:))
       found = i > 0
       if (found) then
-         call append_title(lines, table(i))
+         title = title_of(table(i))
+         place = trim(LEVEL_TEXTS(table(i)%level))
+         if (len(table(i)%parent) > 0) place = 'behind *'//table(i)%parent
+         call append_string(lines, title//repeat(' ', max(2, WIDTH - len(title) - len(place)))//place)
+         call append_wrapped(lines, '  ', table(i)%summary)
          call append_keyword(lines, table(i), .false.)
       else
          call append_foreign(lines, packed(name(first:)), found)
@@ -86,6 +91,7 @@ contains
       type(string_t), allocatable, intent(out) :: lines(:)
       type(keyword_t), allocatable :: table(:)
       integer :: i
+      character(len=:), allocatable :: text
 
       allocate (lines(0))
       table = keyword_table()
@@ -93,7 +99,10 @@ contains
          call append_string(lines, trim(INTRODUCTION(i)))
       end do
       do i = 1, size(table)
-         call append_heading(lines, table(i))
+         call append_block(lines, '## '//escaped(title_of(table(i))))
+         text = upper_case(table(i)%summary(:1))//table(i)%summary(2:)//'. '//trim(PLACES(table(i)%level))
+         if (len(table(i)%parent) > 0) text = text//', behind *'//table(i)%parent
+         call append_block(lines, escaped(text)//'.')
          call append_keyword(lines, table(i), .true.)
       end do
       call append_all_foreign(lines, table)
@@ -117,31 +126,6 @@ contains
          call append_wrapped(lines, '', 'Instead: '//subjects(subject)%instead//'.')
       end if
    end subroutine append_foreign
-
-   !> The keyword on the left, its place on the right; then what it does.
-   subroutine append_title(lines, keyword)
-      type(string_t), allocatable, intent(inout) :: lines(:)
-      type(keyword_t), intent(in) :: keyword
-      character(len=:), allocatable :: title, place
-
-      title = title_of(keyword)
-      place = trim(LEVEL_TEXTS(keyword%level))
-      if (len(keyword%parent) > 0) place = 'behind *'//keyword%parent
-      call append_string(lines, title//repeat(' ', max(2, WIDTH - len(title) - len(place)))//place)
-      call append_wrapped(lines, '  ', keyword%summary)
-   end subroutine append_title
-
-   !> The same as a section of the manual.
-   subroutine append_heading(lines, keyword)
-      type(string_t), allocatable, intent(inout) :: lines(:)
-      type(keyword_t), intent(in) :: keyword
-      character(len=:), allocatable :: text
-
-      call append_block(lines, '## '//escaped(title_of(keyword)))
-      text = upper_case(keyword%summary(:1))//keyword%summary(2:)//'. '//trim(PLACES(keyword%level))
-      if (len(keyword%parent) > 0) text = text//', behind *'//keyword%parent
-      call append_block(lines, escaped(text)//'.')
-   end subroutine append_heading
 
    !> What stands below the title, for the terminal or in Markdown.
    subroutine append_keyword(lines, keyword, markdown)
@@ -238,7 +222,10 @@ contains
       call take_subjects(subjects)
       do i = 1, size(subjects)
          names = foreign_names(table, FOREIGN_OUTSIDE, subjects(i)%key)
-         if (len(names) > 0) call append_row(lines, subjects(i)%what, names, subjects(i)%instead)
+         if (len(names) > 0) then
+            call append_string(lines, '| '//escaped(subjects(i)%what)//' | '//escaped(names)//' | ' &
+                               //escaped(subjects(i)%instead)//' |')
+         end if
       end do
    end subroutine append_all_foreign
 
@@ -276,14 +263,6 @@ contains
       call append_string(lines, '')
       call append_string(lines, line)
    end subroutine append_block
-
-   !> A row of a table in Markdown.
-   subroutine append_row(lines, first, second, third)
-      type(string_t), allocatable, intent(inout) :: lines(:)
-      character(len=*), intent(in) :: first, second, third
-
-      call append_string(lines, '| '//escaped(first)//' | '//escaped(second)//' | '//escaped(third)//' |')
-   end subroutine append_row
 
    !> Two columns: a name, and its meaning wrapped beside it.
    subroutine append_entry(lines, name, text)
@@ -323,13 +302,8 @@ contains
    pure function escaped(text) result(safe)
       character(len=*), intent(in) :: text
       character(len=:), allocatable :: safe
-      integer :: i
 
-      safe = ''
-      do i = 1, len(text)
-         if (scan(text(i:i), '*<>|_') > 0) safe = safe//'\'
-         safe = safe//text(i:i)
-      end do
+      safe = recoded(text, '*<>|_', ['\*', '\<', '\>', '\|', '\_'])
    end function escaped
 
 end module atrito_help

@@ -49,6 +49,7 @@ contains
       type(keyword_t), allocatable, intent(out) :: table(:)
       character(len=:), allocatable, intent(out) :: wrong       !< the last line that cannot be read; not allocated: there is none
       integer :: i, n
+      character(len=:), allocatable :: name, level
 
       n = 0
       do i = 1, size(lines)
@@ -60,7 +61,18 @@ contains
          if (lines(i)%s(1:1) /= '*') cycle
          n = n + 1
          table(n)%line = i
-         call read_head(lines(i)%s, table(n), wrong)
+         ! `*NAME | LEVEL | summary`.
+         associate (line => lines(i)%s, keyword => table(n))
+            name = line(2:)
+            call cut_off(name, ' | ', level)
+            call cut_off(level, ' | ', keyword%summary)
+            call cut_off(level, ' *', keyword%parent)
+            keyword%name = bare(name)
+            keyword%own = has_mark(name, '+')
+            keyword%doc = ''
+            keyword%level = place_of(level, LEVEL_NAMES)
+            if (keyword%level == 0 .or. len(keyword%summary) == 0) wrong = line
+         end associate
       end do
    end subroutine read_heads
 
@@ -183,24 +195,6 @@ contains
          end select
       end do
    end subroutine read_definition
-
-   !> `*NAME | LEVEL | summary`.
-   pure subroutine read_head(line, keyword, wrong)
-      character(len=*), intent(in) :: line
-      type(keyword_t), intent(inout) :: keyword
-      character(len=:), allocatable, intent(inout) :: wrong
-      character(len=:), allocatable :: name, level
-
-      name = line(2:)
-      call cut_off(name, ' | ', level)
-      call cut_off(level, ' | ', keyword%summary)
-      call cut_off(level, ' *', keyword%parent)
-      keyword%name = bare(name)
-      keyword%own = has_mark(name, '+')
-      keyword%doc = ''
-      keyword%level = place_of(level, LEVEL_NAMES)
-      if (keyword%level == 0 .or. len(keyword%summary) == 0) wrong = line
-   end subroutine read_head
 
    !> `NAME | VALUE | meaning`.
    pure subroutine read_option(text, option, wrong)

@@ -174,7 +174,8 @@ contains
       type(build_context_t), intent(in) :: context
       type(sides_t), allocatable :: sides(:)
       integer(ip) :: twin(size(model%pairs)), i, k
-      character(len=:), allocatable :: text
+      character(len=:), allocatable :: text, advice
+      real(wp) :: a(2), b(2)
 
       if (size(model%pairs) < 2) return
       allocate (sides(size(model%pairs)))
@@ -189,8 +190,17 @@ contains
          text = text//'; together they are stiffer than the pressure-overclosure of either'
       end if
       if (count(twin > 0) > 1) text = text//'; so it is with '//to_text(count(twin > 0, kind=ip) - 1)//' more pairs'
-      call report_warning(context%deck, context%slaves(k), 'W-TWICE', text, expected=advice(model, sides, i, k), &
-                          keyword='CONTACT PAIR')
+      ! Of the two pairs the one to keep.
+      a = slave_means(model, sides(i)%slave)
+      b = slave_means(model, sides(k)%slave)
+      if (abs(a(1) - b(1)) > ALIKE*b(1)) then
+         advice = 'one of them, '//pair_text(model, merge(i, k, a(1) < b(1)))//', whose slave is the softer side'
+      else if (abs(a(2) - b(2)) > ALIKE*b(2)) then
+         advice = 'one of them, '//pair_text(model, merge(i, k, a(2) < b(2)))//', whose slave is the finer side'
+      else
+         advice = 'one of them; either will do'
+      end if
+      call report_warning(context%deck, context%slaves(k), 'W-TWICE', text, expected=advice, keyword='CONTACT PAIR')
    end subroutine warn_of_pairs_twice
 
    !> `slave on master`
@@ -201,25 +211,6 @@ contains
 
       text = model%surfaces(model%pairs(i)%slave)%name//' on '//model%surfaces(model%pairs(i)%master)%name
    end function pair_text
-
-   !> Of the two pairs the one to keep.
-   function advice(model, sides, i, k) result(text)
-      type(model_t), intent(in) :: model
-      type(sides_t), intent(in) :: sides(:)
-      integer(ip), intent(in) :: i, k
-      character(len=:), allocatable :: text
-      real(wp) :: a(2), b(2)
-
-      a = slave_means(model, sides(i)%slave)
-      b = slave_means(model, sides(k)%slave)
-      if (abs(a(1) - b(1)) > ALIKE*b(1)) then
-         text = 'one of them, '//pair_text(model, merge(i, k, a(1) < b(1)))//', whose slave is the softer side'
-      else if (abs(a(2) - b(2)) > ALIKE*b(2)) then
-         text = 'one of them, '//pair_text(model, merge(i, k, a(2) < b(2)))//', whose slave is the finer side'
-      else
-         text = 'one of them; either will do'
-      end if
-   end function advice
 
    !> Means over some faces: Young's modulus [F/L^2] behind them, and their length [L].
    pure function slave_means(model, faces) result(means)

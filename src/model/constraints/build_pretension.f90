@@ -50,9 +50,9 @@ contains
       type(section_cut_t) :: cut
       type(token_t) :: place, node_place
       character(len=:), allocatable :: name
-      integer(ip) :: surface, node
+      integer(ip) :: surface, node, i
       character(len=*), parameter :: WHAT_NODE = 'a node of no element, of this section alone'
-      real(wp) :: outward(2)
+      real(wp) :: outward(2), along(2)
       logical :: found, ok
 
       call option_text(context%deck, card, 'SURFACE', name, found, place)
@@ -71,7 +71,16 @@ contains
          return
       end if
       associate (faces => context%model%surfaces(surface)%faces)
-         outward = outward_normal(context, faces)
+         ! The sum of the faces' outward normals by their lengths [L]: of a cut that is straight its normal by its length.
+         outward = 0.0_wp
+         associate (mesh => context%model%mesh)
+            do i = 1, faces%n
+               associate (e => faces%element(i), f => faces%face(i))
+                  along = mesh%x(:, mesh%nodes(face_end(mesh, e, f), e)) - mesh%x(:, mesh%nodes(f, e))
+               end associate
+               outward = outward + [along(2), -along(1)]
+            end do
+         end associate
          call read_normal(card, context, outward, cut%normal, ok)
          if (ok) call cut_along(context, place, faces, cut, ok)
          if (.not. ok) return
@@ -80,24 +89,6 @@ contains
          context%cuts = [context%cuts, cut]
       end associate
    end subroutine read_card
-
-   !> The sum of the faces' outward normals by their lengths [L]: of a cut that is straight its normal by its length.
-   pure function outward_normal(context, faces) result(normal)
-      type(build_context_t), intent(in) :: context
-      type(face_list_t), intent(in) :: faces
-      real(wp) :: normal(2), along(2)
-      integer(ip) :: i
-
-      normal = 0.0_wp
-      associate (mesh => context%model%mesh)
-         do i = 1, faces%n
-            associate (e => faces%element(i), f => faces%face(i))
-               along = mesh%x(:, mesh%nodes(face_end(mesh, e, f), e)) - mesh%x(:, mesh%nodes(f, e))
-            end associate
-            normal = normal + [along(2), -along(1)]
-         end do
-      end associate
-   end function outward_normal
 
    !> The data line, or the mean normal of the faces.
    subroutine read_normal(card, context, outward, normal, ok)

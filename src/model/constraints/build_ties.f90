@@ -158,11 +158,24 @@ contains
       type(build_context_t), intent(inout) :: context
       type(contact_points_t), allocatable :: points(:)
       logical, allocatable :: from_behind(:)
-      integer(ip) :: i, tied_by(context%model%mesh%n_nodes)
+      integer(ip) :: i, tied_by(context%model%mesh%n_nodes), j, k
       logical :: moved
+      real(wp) :: length
 
       if (size(context%model%ties) == 0) return
-      call set_tolerances(context%model)
+      ! Those that are left out: a part of the mean length of the master's faces.
+      do j = 1, size(context%model%ties, kind=ip)
+         if (context%model%ties(j)%tolerance >= 0.0_wp) cycle
+         length = 0.0_wp
+         associate (faces => context%model%surfaces(context%model%ties(j)%master)%faces)
+            do k = 1, faces%n
+               associate (nodes => face_nodes(context%model%mesh, faces%element(k), faces%face(k)))
+                  length = length + norm2(context%model%mesh%x(:, nodes(2)) - context%model%mesh%x(:, nodes(1)))
+               end associate
+            end do
+            context%model%ties(j)%tolerance = USUAL_TOLERANCE*length/faces%n
+         end associate
+      end do
       call pair_ties(context%model, points)
       from_behind = points%n == 0
       if (any(from_behind)) then
@@ -199,26 +212,6 @@ contains
 
       call pair_surfaces(model, model%ties%slave, model%ties%master, model%ties%quadrature, points, from_behind)
    end subroutine pair_ties
-
-   !> Those that are left out: a part of the mean length of the master's faces.
-   pure subroutine set_tolerances(model)
-      type(model_t), intent(inout) :: model
-      integer(ip) :: i, k
-      real(wp) :: length
-
-      do i = 1, size(model%ties, kind=ip)
-         if (model%ties(i)%tolerance >= 0.0_wp) cycle
-         length = 0.0_wp
-         associate (faces => model%surfaces(model%ties(i)%master)%faces)
-            do k = 1, faces%n
-               associate (nodes => face_nodes(model%mesh, faces%element(k), faces%face(k)))
-                  length = length + norm2(model%mesh%x(:, nodes(2)) - model%mesh%x(:, nodes(1)))
-               end associate
-            end do
-            model%ties(i)%tolerance = USUAL_TOLERANCE*length/faces%n
-         end associate
-      end do
-   end subroutine set_tolerances
 
    !> Whether a point is near enough to be tied; a gap that is round-off is.
    pure elemental logical function is_near(gap, tolerance, size)

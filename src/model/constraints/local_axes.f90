@@ -101,6 +101,9 @@ contains
       character(len=*), parameter :: WHAT = 'coordinate, a real [L]'
       real(wp) :: other(3), z(2)
       logical :: good(2)
+      real(wp), parameter :: FLAT = 1.0e-10_wp
+      character(len=:), allocatable :: expected
+      integer(ip) :: item
 
       associate (line => context%deck%lines(card%first_line), deck => context%deck)
          call get_reals(deck, line, 1_ip, WHAT, a, good(1), 'TRANSFORM')
@@ -110,7 +113,22 @@ contains
       b = other(:2)
       z(2) = other(3)
       ok = ok .and. all(good)
-      if (ok) call check_plane(card, context, b - a, z, ok)
+      ! R: both points lie in the plane. C: they lie on an axis across it.
+      if (ok) then
+         associate (away => b - a)
+            if (option_word(context%deck, card, 'TYPE') == 'R') then
+               item = merge(3_ip, 6_ip, abs(z(1)) > FLAT*norm2(away))
+               ok = all(abs(z) <= FLAT*norm2(away))
+               expected = 'za = zb = 0'
+            else
+               item = merge(4_ip, 5_ip, abs(away(1)) > FLAT*abs(z(2) - z(1)))
+               ok = all(abs(away) <= FLAT*abs(z(2) - z(1)))
+               expected = 'xb = xa and yb = ya: an axis along z'
+            end if
+            if (.not. ok) call report_error(context%deck, line_item(context%deck, context%deck%lines(card%first_line), item), &
+                                       'E-VALUE', 'the scene is plane: these axes leave it', expected=expected, keyword='TRANSFORM')
+         end associate
+      end if
       if (.not. ok .or. card%scope == 0) return
       associate (motion => context%motions(card%scope))
          if (option_word(context%deck, card, 'TYPE') == 'R') then  ! directions
@@ -122,30 +140,6 @@ contains
          end if
       end associate
    end subroutine read_points
-
-   !> R: both points lie in the plane. C: they lie on an axis across it.
-   subroutine check_plane(card, context, away, z, ok)
-      type(card_t), intent(in) :: card
-      type(build_context_t), intent(in) :: context
-      real(wp), intent(in) :: away(2)                !< from a to b in the plane [L]
-      real(wp), intent(in) :: z(2)                   !< of a and b [L]
-      logical, intent(out) :: ok
-      real(wp), parameter :: FLAT = 1.0e-10_wp       ! what rounding leaves of 0
-      character(len=:), allocatable :: expected
-      integer(ip) :: item
-
-      if (option_word(context%deck, card, 'TYPE') == 'R') then
-         item = merge(3_ip, 6_ip, abs(z(1)) > FLAT*norm2(away))
-         ok = all(abs(z) <= FLAT*norm2(away))
-         expected = 'za = zb = 0'
-      else
-         item = merge(4_ip, 5_ip, abs(away(1)) > FLAT*abs(z(2) - z(1)))
-         ok = all(abs(away) <= FLAT*abs(z(2) - z(1)))
-         expected = 'xb = xa and yb = ya: an axis along z'
-      end if
-      if (.not. ok) call report_error(context%deck, line_item(context%deck, context%deck%lines(card%first_line), item), 'E-VALUE', &
-                                      'the scene is plane: these axes leave it', expected=expected, keyword='TRANSFORM')
-   end subroutine check_plane
 
    !> R: local x along a, local y to the side of b.
    subroutine rectangular_axes(card, context, a, b, axes, ok)

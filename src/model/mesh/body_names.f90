@@ -4,8 +4,9 @@ module atrito_body_names
    use atrito_kinds, only: ip
    use atrito_model, only: model_t
    use atrito_name_list, only: name_list_t, add_name, find_name
-   use atrito_sets, only: set_count, members_of, member_count, first_member
+   use atrito_sets, only: set_count, members_of, member_count
    use atrito_strings, only: to_text
+   use atrito_ranges, only: first_number
    implicit none (type, external)
    private
    public :: name_bodies
@@ -36,7 +37,7 @@ contains
       do s = 1, merge(0_ip, set_count(model%element_sets), all(is_named))
          associate (it => model%element_sets%sets(s))
             if (member_count(it) == 0) cycle
-            b = bodies%of_element(first_member(it))
+            b = bodies%of_element(first_number(it%members))
             if (is_named(b) .or. member_count(it) /= size(bodies%list(b)%elements)) cycle
             is_named(b) = all(bodies%of_element(members_of(it)) == b)
             if (is_named(b)) bodies%list(b)%name = it%name

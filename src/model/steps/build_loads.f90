@@ -149,7 +149,15 @@ contains
       if (.not. all(ok(2:))) return
       turns = force%dof == ROTATION_DOF .and. size(nodes) > 0 .and. all(is_reference(context, nodes))
       if ((force%dof < 1 .or. force%dof > 2) .and. .not. turns) then
-         call refuse_dof(context, force)
+         ! A dof that there is not in the plane: harmless where the force is 0.
+         associate (deck => context%deck, what => 'dof '//to_text(force%dof)//' does not exist in the plane')
+            if (force%dof > 2 .and. force%dof <= LAST_DOF .and. .not. abs(force%value(1)) > 0.0_wp) then
+               call report_note(deck, line_token(context, 2_ip), 'N-DOF', what//'; its force is 0', keyword='CLOAD')
+            else
+               call report_error(deck, line_token(context, 2_ip), 'E-DOF', what, expected=WHAT_DOF//repeat(AT_REFERENCE, merge(1, &
+                                                                                    0, force%dof == ROTATION_DOF)), keyword='CLOAD')
+            end if
+         end associate
          return
       end if
       if (.not. ok(1)) return
@@ -176,21 +184,6 @@ contains
       end do
       call note_supported(context, pack(nodes,.not. is_reference(context, nodes)), force%dof)
    end subroutine read_cload_line
-
-   !> A dof that there is not in the plane: harmless where the force is 0.
-   subroutine refuse_dof(context, force)
-      type(build_context_t), intent(in) :: context
-      type(condition_t), intent(in) :: force
-
-      associate (deck => context%deck, what => 'dof '//to_text(force%dof)//' does not exist in the plane')
-         if (force%dof > 2 .and. force%dof <= LAST_DOF .and. .not. abs(force%value(1)) > 0.0_wp) then
-            call report_note(deck, line_token(context, 2_ip), 'N-DOF', what//'; its force is 0', keyword='CLOAD')
-         else
-            call report_error(deck, line_token(context, 2_ip), 'E-DOF', what, &
-                              expected=WHAT_DOF//repeat(AT_REFERENCE, merge(1, 0, force%dof == ROTATION_DOF)), keyword='CLOAD')
-         end if
-      end associate
-   end subroutine refuse_dof
 
    !> Forces along x and y; moments stay.
    pure subroutine turn_forces(context, of_references, loads)

@@ -119,14 +119,24 @@ contains
       logical, allocatable :: wanted(:)
       logical :: is_held(context%model%paths(i)%n_points)
       character(len=:), allocatable :: text
-      integer(ip) :: near, n_out
+      integer(ip) :: near, n_out, k
       real(wp) :: distance
+      type(place_t) :: first
 
       associate (model => context%model, path => context%model%paths(i))
          wanted = elements_to_cross(model, path%elset)
          call lay_points(path, s, x, along)
          call find_places(model%mesh, wanted, x, places)
-         call keep_to_body(bodies, places)
+         ! Of several bodies at a point that in which the point before lies comes first.
+         do k = 2, size(places, kind=ip) - 1
+            if (places(k)%point /= places(k + 1)%point .or. places(k)%point == places(k - 1)%point) cycle
+            associate (body => bodies%of_element(places(k - 1:k + 1)%element))
+               if (body(1) /= body(3)) cycle
+            end associate
+            first = places(k + 1)
+            places(k + 1) = places(k)
+            places(k) = first
+         end do
          is_held = .false.
          is_held(places%point) = .true.
          n_out = count(.not. is_held, kind=ip)
@@ -174,23 +184,5 @@ contains
          end if
       end do
    end subroutine lay_points
-
-   !> Of several bodies at a point that in which the point before lies comes first.
-   pure subroutine keep_to_body(bodies, places)
-      type(bodies_t), intent(in) :: bodies
-      type(place_t), intent(inout) :: places(:)
-      type(place_t) :: first
-      integer(ip) :: k
-
-      do k = 2, size(places, kind=ip) - 1
-         if (places(k)%point /= places(k + 1)%point .or. places(k)%point == places(k - 1)%point) cycle
-         associate (body => bodies%of_element(places(k - 1:k + 1)%element))
-            if (body(1) /= body(3)) cycle
-         end associate
-         first = places(k + 1)
-         places(k + 1) = places(k)
-         places(k) = first
-      end do
-   end subroutine keep_to_body
 
 end module atrito_build_paths

@@ -14,10 +14,20 @@ contains
       type(amplitude_t), intent(in) :: amplitude
       real(wp), intent(in) :: time                     !< of the step, or of the history where the amplitude has total times
       real(wp) :: s
-      integer(ip) :: k, n
+      integer(ip) :: k, n, high, middle
 
       n = size(amplitude%time, kind=ip)
-      k = last_before(amplitude%time, time)
+      ! The last of ascending times that is not later; 0: all are.
+      k = 0
+      high = size(amplitude%time, kind=ip) + 1
+      do while (high - k > 1)
+         middle = (k + high)/2
+         if (amplitude%time(middle) <= time) then
+            k = middle
+         else
+            high = middle
+         end if
+      end do
       if (k == 0) then
          value = amplitude%value(1)
       else if (k == n) then
@@ -28,23 +38,6 @@ contains
          value = amplitude%value(k) + s*(amplitude%value(k + 1) - amplitude%value(k))
       end if
    end function amplitude_at
-
-   !> The last of ascending times that is not later; 0: all are.
-   pure integer(ip) function last_before(times, time) result(low)
-      real(wp), intent(in) :: times(:), time
-      integer(ip) :: high, middle
-
-      low = 0
-      high = size(times, kind=ip) + 1
-      do while (high - low > 1)
-         middle = (low + high)/2
-         if (times(middle) <= time) then
-            low = middle
-         else
-            high = middle
-         end if
-      end do
-   end function last_before
 
    !> What the place of an amplitude stands for at a time of a step; 1 for place 0.
    pure real(wp) function factor_at(amplitudes, place, step_time, total_time) result(factor)

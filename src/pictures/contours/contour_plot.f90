@@ -103,6 +103,8 @@ contains
       type(raster_t) :: raster
       type(field_t) :: field
       integer :: i
+      real(wp), allocatable :: pixels(:, :)
+      type(bar_t) :: bar
 
       list = contours_of(drawing%results)
       if (size(list) == 0) return
@@ -115,27 +117,15 @@ contains
       end associate
       do i = 1, size(list)
          call make_field(list(i), drawing%results, drawing%model%mesh, nodes, elements, field)
-         call write_contour(plots, drawing, layout, raster, field)
+         ! The raster and the script of a field.
+         pixels = pixel_values(raster, drawing%model%mesh, field%value, field%contour%of_elements)
+         if (.not. field%is_shown) call cover(field%range, reshape(pixels, [size(pixels)]))   ! the window lies within an element
+         if (field%range%low > field%range%high) field%range = range_t(0.0_wp, 0.0_wp)   ! or beside all of them
+         bar = make_bar(usual_range(reshape(pixels, [size(pixels)]), field%range, field%is_smooth))
+         call write_raster(plots, trim(field%contour%name), pixels, bar)
+         call write_script(plots, drawing, layout, field, bar)
       end do
    end subroutine write_contour_plots
-
-   !> The raster and the script of a field.
-   subroutine write_contour(plots, drawing, layout, raster, field)
-      type(plots_t), intent(inout) :: plots
-      type(drawing_t), intent(in) :: drawing
-      type(layout_t), intent(in) :: layout
-      type(raster_t), intent(in) :: raster
-      type(field_t), intent(inout) :: field
-      real(wp), allocatable :: pixels(:, :)
-      type(bar_t) :: bar
-
-      pixels = pixel_values(raster, drawing%model%mesh, field%value, field%contour%of_elements)
-      if (.not. field%is_shown) call cover(field%range, reshape(pixels, [size(pixels)]))   ! the window lies within an element
-      if (field%range%low > field%range%high) field%range = range_t(0.0_wp, 0.0_wp)        ! or beside all of them
-      bar = make_bar(usual_range(reshape(pixels, [size(pixels)]), field%range, field%is_smooth))
-      call write_raster(plots, trim(field%contour%name), pixels, bar)
-      call write_script(plots, drawing, layout, field, bar)
-   end subroutine write_contour
 
    !> <name>.bin: of each pixel a byte, from below. Each band of the bar is so many levels, and none lies in two bands; the last one
    !> is that of a pixel with another band above it or to the right: these are the contour lines.

@@ -127,7 +127,9 @@ contains
    subroutine put_sections(symbols)
       type(symbols_t), intent(inout) :: symbols
       integer(ip), allocatable :: rows(:), nodes(:)
-      integer(ip) :: b, i
+      integer(ip) :: b, i, k
+      real(wp) :: middle(2), move(2), arrow(2)
+      character(len=:), allocatable :: section_text
 
       if (.not. allocated(symbols%model%rigid_bodies)) return
       do b = 1, size(symbols%model%rigid_bodies, kind=ip)
@@ -137,50 +139,33 @@ contains
             rows = pack([(i, i=1, all_rows%n)], [(all_rows%kind(i) == ROW_SECTION .and. all_rows%part(i) == b .and. &
                                                   all_rows%first(i + 1) - all_rows%first(i) == 3, i=1, all_rows%n)])
             nodes = all_rows%node(all_rows%first(rows))
+            ! `, force 1000 [F]`
+            section_text = ''
+            associate (node => symbols%model%rigid_bodies(b)%node, now => symbols%model%steps(symbols%step))
+               do k = 1, now%rigid_loads%n
+                  if (now%rigid_loads%node(k) == node) section_text = ', force '//to_text(end_value(symbols, now%rigid_loads, k), &
+                                                                                          4)//' [F]'
+               end do
+               do k = 1, now%rigid_prescribed%n
+                  if (now%rigid_prescribed%node(k) /= node .or. now%rigid_prescribed%dof(k) /= 1) cycle
+                  section_text = ', taken out '//to_text(end_value(symbols, now%rigid_prescribed, k), 4)//' [L]'
+               end do
+            end associate
             call begin_block(symbols, 'a pre-tension section', ':(dot*$5)', 'with points pt 13 ps variable '//SECTIONS// &
-                             ' title "pre-tension section'//section_text(symbols, b)//'"')
+                             ' title "pre-tension section'//section_text//'"')
             nodes = pack(nodes, thinned(symbols%model%mesh%x(:, nodes), BETWEEN*symbols%pixel))
             do i = 1, size(nodes, kind=ip)
                call put_point(symbols, symbols%u(:, nodes(i)), symbols%model%mesh%x(:, nodes(i)), [1.0_wp])
             end do
-            call put_pull(all_rows%vector(:, all_rows%first(rows(1))), nodes, symbols)
+            middle = sum(symbols%model%mesh%x(:, nodes), dim=2)/size(nodes)
+            move = sum(symbols%u(:, nodes), dim=2)/size(nodes)
+            arrow = PULL*symbols%pixel*all_rows%vector(:, all_rows%first(rows(1)))
+            call begin_block(symbols, 'its force', ':5:6', ARROW_LOOKS//' lw 1.8 '//SECTIONS)
+            call put_arrow(symbols, move, middle - 1.2_wp*arrow, arrow)
+            call put_arrow(symbols, move, middle + 1.2_wp*arrow, -arrow)
          end associate
       end do
    end subroutine put_sections
-
-   !> `, force 1000 [F]`
-   pure function section_text(symbols, body) result(text)
-      type(symbols_t), intent(in) :: symbols
-      integer(ip), intent(in) :: body
-      character(len=:), allocatable :: text
-      integer(ip) :: i
-
-      text = ''
-      associate (node => symbols%model%rigid_bodies(body)%node, now => symbols%model%steps(symbols%step))
-         do i = 1, now%rigid_loads%n
-            if (now%rigid_loads%node(i) == node) text = ', force '//to_text(end_value(symbols, now%rigid_loads, i), 4)//' [F]'
-         end do
-         do i = 1, now%rigid_prescribed%n
-            if (now%rigid_prescribed%node(i) /= node .or. now%rigid_prescribed%dof(i) /= 1) cycle
-            text = ', taken out '//to_text(end_value(symbols, now%rigid_prescribed, i), 4)//' [L]'
-         end do
-      end associate
-   end function section_text
-
-   !> Two arrows towards each other along the normal.
-   subroutine put_pull(normal, nodes, symbols)
-      real(wp), intent(in) :: normal(2)             !< unit vector
-      integer(ip), intent(in) :: nodes(:)           !< of the section
-      type(symbols_t), intent(inout) :: symbols
-      real(wp) :: middle(2), move(2), arrow(2)
-
-      middle = sum(symbols%model%mesh%x(:, nodes), dim=2)/size(nodes)
-      move = sum(symbols%u(:, nodes), dim=2)/size(nodes)
-      arrow = PULL*symbols%pixel*normal
-      call begin_block(symbols, 'its force', ':5:6', ARROW_LOOKS//' lw 1.8 '//SECTIONS)
-      call put_arrow(symbols, move, middle - 1.2_wp*arrow, arrow)
-      call put_arrow(symbols, move, middle + 1.2_wp*arrow, -arrow)
-   end subroutine put_pull
 
    !> Reference nodes of rigid surfaces; a square round those whose rotation is held.
    subroutine put_references(symbols)

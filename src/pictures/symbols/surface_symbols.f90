@@ -41,7 +41,13 @@ contains
       type(strip_t) :: strip
       logical :: is_crowded
 
-      call find_kinds(model, kind_of)
+      kind_of = OTHER
+      if (allocated(model%ties)) then
+         kind_of(model%ties%slave) = TIED
+         kind_of(model%ties%master) = TIED
+      end if
+      kind_of(model%pairs%slave) = SLAVE
+      kind_of(model%pairs%master) = MASTER
       is_crowded = size(model%surfaces) > MANY_SURFACES
       symbols%widens = .false.                      ! a rigid floor may be as long as it likes
       do kind = MASTER, OTHER
@@ -51,19 +57,6 @@ contains
       end do
       symbols%widens = .true.
    end subroutine put_surfaces
-
-   pure subroutine find_kinds(model, kind_of)
-      type(model_t), intent(in) :: model
-      integer(ip), intent(out) :: kind_of(:)        !< (surfaces)
-
-      kind_of = OTHER
-      if (allocated(model%ties)) then
-         kind_of(model%ties%slave) = TIED
-         kind_of(model%ties%master) = TIED
-      end if
-      kind_of(model%pairs%slave) = SLAVE
-      kind_of(model%pairs%master) = MASTER
-   end subroutine find_kinds
 
    !> The faces and segments of some surfaces.
    subroutine collect(model, wanted, strip)

@@ -215,7 +215,7 @@ contains
       real(wp), intent(in) :: spacing               !< [L], > 0
       logical :: keep(size(places, 2))
       type(id_map_t) :: cells                       ! of a grid in which each holds one place at the most
-      integer(ip) :: order(size(places, 2))
+      integer(ip) :: order(size(places, 2)), j, other
       real(wp) :: low(2), width
       integer(ip) :: i, k, at(2)
       logical :: known
@@ -228,25 +228,15 @@ contains
       do k = 1, size(order, kind=ip)
          i = order(k)
          at = int(min((places(:, i) - low)/width, real(MOST_CELLS, wp)), ip)
-         keep(i) = is_free(cells, places, i, at, spacing)
+         ! Whether no place that is kept is near.
+         keep(i) = find_id(cells, cell_number(at)) == 0
+         do j = 0, 24
+            other = find_id(cells, cell_number(at + [mod(j, 5_ip), j/5] - 2))
+            if (other > 0) keep(i) = keep(i) .and. norm2(places(:, i) - places(:, other)) >= NEARLY*spacing
+         end do
          if (keep(i)) call add_id(cells, cell_number(at), i, known)
       end do
    end function thinned
-
-   !> Whether no place that is kept is near.
-   pure logical function is_free(cells, places, i, at, spacing)
-      type(id_map_t), intent(in) :: cells
-      real(wp), intent(in) :: places(:, :), spacing
-      integer(ip), intent(in) :: i                  !< the place
-      integer(ip), intent(in) :: at(2)              !< its cell
-      integer(ip) :: j, other
-
-      is_free = find_id(cells, cell_number(at)) == 0
-      do j = 0, 24
-         other = find_id(cells, cell_number(at + [mod(j, 5_ip), j/5] - 2))
-         if (other > 0) is_free = is_free .and. norm2(places(:, i) - places(:, other)) >= NEARLY*spacing
-      end do
-   end function is_free
 
    pure integer(ip) function cell_number(at) result(number)
       integer(ip), intent(in) :: at(2)              !< from -2 on
