@@ -317,7 +317,7 @@ contains
    end subroutine furthest_off_first
 
    !> Moves the fronts: where points of two states are neighbours, and those of one side would be in the state of the other.
-   pure subroutine move_fronts(line, unknown, before, raw, new, went, q, bounds)
+   subroutine move_fronts(line, unknown, before, raw, new, went, q, bounds)
       type(contact_line_t), intent(in) :: line   !< whose points follow each other along each pair
       integer(ip), intent(in) :: unknown(:)      !< (points) normal or tangential unknown of each; 0: none
       integer(ip), intent(in) :: before(:)       !< (m) states
@@ -327,7 +327,7 @@ contains
       integer(ip), allocatable, intent(inout) :: went(:)
       real(wp), intent(in), optional :: q(:)     !< (m) forces of the solve [F]; without them fronts go by their runs alone
       type(box_bounds_t), intent(in), optional :: bounds !< of the forces [F]
-      integer(ip) :: last(line%n), j
+      integer(ip) :: last(line%n), j, edge, side, from, to ! a front is beside the point edge and may go to that side, 1 or -1
 
       last = 0
       if (allocated(went)) last = went
@@ -341,68 +341,61 @@ contains
             ! one of the two is stuck or closed
             if (left == right .or. (left /= FREE .and. right /= FREE) .or. left == FROZEN .or. right == FROZEN) cycle
          end associate
-         call move_front(line, unknown, before, raw, last, j, 1_ip, new, went, q, bounds)
-         call move_front(line, unknown, before, raw, last, j + 1, -1_ip, new, went, q, bounds)
-      end do
-   end subroutine move_fronts
-
-   !> Moves one front in one direction: the points beside it take the state of the point `edge`, which is the last one behind it.
-   !>
-   !> Stresses beside a front may go up and down from point to point (sides that do not match): its run is the longest of which at
-   !> least half of the points would change.
-   pure subroutine move_front(line, unknown, before, raw, last, edge, side, new, went, q, bounds)
-      type(contact_line_t), intent(in) :: line
-      integer(ip), intent(in) :: unknown(:), before(:), raw(:)
-      integer(ip), intent(in) :: last(:)         !< (points) how far a front went in the step before
-      integer(ip), intent(in) :: edge, side      !< the front is beside that point; direction in which it may go, 1 or -1
-      integer(ip), intent(inout) :: new(:)
-      integer(ip), intent(inout) :: went(:)      !< (points) of this step
-      real(wp), intent(in), optional :: q(:)
-      type(box_bounds_t), intent(in), optional :: bounds
-      integer(ip) :: from, to, m, taken, ahead, i, changing
-
-      to = before(unknown(edge))
-      from = before(unknown(edge + side))
-      ! where the points behind it change as well there is no front
-      if (raw(unknown(edge)) /= to) return
-      m = 0
-      changing = 0
-      i = 0
-      do while (is_from(i + 1) .and. i <= 2*changing + LOOKS_AHEAD)
-         i = i + 1
-         if (raw(unknown(edge + side*i)) /= to) cycle
-         changing = changing + 1
-         if (2*changing >= i) m = i
-      end do
-      ! a run that ends at another front is no run of this one
-      if (m == 0 .or. .not. is_from(m + 1)) return
-      if (from == FREE) then
-         taken = 2*m
-         if (present(q) .and. present(bounds)) taken = max(taken, (2*reach_of_excess())/3)
-         ! never all that holds the body: half of what would be left stays
-         ahead = m
-         do while (is_from(ahead + 1))
-            ahead = ahead + 1
+         do side = 1, -1, -2
+            edge = merge(j, j + 1, side == 1)
+            to = before(unknown(edge))
+            from = before(unknown(edge + side))
+            ! where the points behind it change as well there is no front
+            if (raw(unknown(edge)) == to) call move_front()
          end do
-         taken = min(taken, (m + ahead)/2)
-      else
-         taken = (2*m + 1)/3
-      end if
-      ! it came from there: its place is between
-      if (last(edge + side) > 0) taken = min(taken, max(1_ip, 2*last(edge + side)/3))
-      do i = 1, max(m, taken)
-         if (.not. is_from(i)) exit
-         associate (j => edge + side*i)
-            if (i > taken) then
-               new(unknown(j)) = from
-            else
-               new(unknown(j)) = to
-               went(j) = taken
-            end if
-         end associate
       end do
 
    contains
+
+      !> Moves one front in one direction: the points beside it take the state of the point `edge`, which is the last one behind it.
+      !>
+      !> Stresses beside a front may go up and down from point to point (sides that do not match): its run is the longest of which
+      !> at least half of the points would change.
+      subroutine move_front()
+         integer(ip) :: m, taken, ahead, i, changing
+
+         m = 0
+         changing = 0
+         i = 0
+         do while (is_from(i + 1) .and. i <= 2*changing + LOOKS_AHEAD)
+            i = i + 1
+            if (raw(unknown(edge + side*i)) /= to) cycle
+            changing = changing + 1
+            if (2*changing >= i) m = i
+         end do
+         ! a run that ends at another front is no run of this one
+         if (m == 0 .or. .not. is_from(m + 1)) return
+         if (from == FREE) then
+            taken = 2*m
+            if (present(q) .and. present(bounds)) taken = max(taken, (2*reach_of_excess(m))/3)
+            ! never all that holds the body: half of what would be left stays
+            ahead = m
+            do while (is_from(ahead + 1))
+               ahead = ahead + 1
+            end do
+            taken = min(taken, (m + ahead)/2)
+         else
+            taken = (2*m + 1)/3
+         end if
+         ! it came from there: its place is between
+         if (last(edge + side) > 0) taken = min(taken, max(1_ip, 2*last(edge + side)/3))
+         do i = 1, max(m, taken)
+            if (.not. is_from(i)) exit
+            associate (point => edge + side*i)
+               if (i > taken) then
+                  new(unknown(point)) = from
+               else
+                  new(unknown(point)) = to
+                  went(point) = taken
+               end if
+            end associate
+         end do
+      end subroutine move_front
 
       !> Whether the i-th point in front of the edge is of the same pair and in the state that is left.
       pure logical function is_from(i)
@@ -416,12 +409,13 @@ contains
       end function is_from
 
       !> D: the points in front of the edge, the run among them, whose forces are within their bounds in the sum.
-      pure integer(ip) function reach_of_excess() result(reach)
+      pure integer(ip) function reach_of_excess(run) result(reach)
+         integer(ip), intent(in) :: run
          real(wp) :: excess
 
          excess = 0.0_wp
          reach = 0
-         do while (is_from(reach + 1) .and. (reach < m .or. excess > 0.0_wp))
+         do while (is_from(reach + 1) .and. (reach < run .or. excess > 0.0_wp))
             reach = reach + 1
             associate (row => unknown(edge + side*reach))
                excess = excess + merge(bounds%lower(row) - q(row), q(row) - bounds%upper(row), to == AT_LOWER)
@@ -429,6 +423,6 @@ contains
          end do
       end function reach_of_excess
 
-   end subroutine move_front
+   end subroutine move_fronts
 
 end module atrito_contact_fronts
