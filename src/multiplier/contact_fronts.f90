@@ -29,8 +29,8 @@
 !> The friction bound is frozen while more than FEW_CHANGES of the points change, as in the Picard loop, and follows the pressures
 !> then. Rows whose states follow each other in a circle come out of it as the one that is furthest off its law changes first
 !> (furthest_off_first). What is found is a start for the steps of the multipliers, which go to the last digit and ask whether the
-!> states are right. They take it, too, where the last few do not come to rest; where more than NEAR of the points still change
-!> after MOST_SOLVES (bodies that nothing holds while all slips, say), they begin without.
+!> states are right. Where states do not come to rest they take the solve after which the law asked for the fewest changes; where
+!> these are more than NEAR of the points (bodies that nothing holds while all slips, say), they begin without.
 module atrito_contact_fronts
    use atrito_bound_qp, only: bound_qp_t, box_bounds_t, box_state_t, FREE, AT_LOWER, AT_UPPER, FROZEN
    use atrito_sparse_rows, only: multiply_rows
