@@ -345,8 +345,9 @@ contains
             edge = merge(j, j + 1, side == 1)
             to = before(unknown(edge))
             from = before(unknown(edge + side))
-            ! where the points behind it change as well there is no front
-            if (raw(unknown(edge)) == to) call move_front()
+            ! where the points behind it change as well there is no front, but for one that has gone too far: what sticks behind it
+            ! is dragged the other way
+            if (raw(unknown(edge)) == to .or. (to == FREE .and. raw(unknown(edge)) /= from)) call move_front()
          end do
       end do
 
@@ -370,6 +371,8 @@ contains
          end do
          ! a run that ends at another front is no run of this one
          if (m == 0 .or. .not. is_from(m + 1)) return
+         if (raw(unknown(edge)) /= to .and. m <= LOOKS_AHEAD) return
+         new(unknown(edge)) = to
          if (from == FREE) then
             taken = 2*m
             if (present(q) .and. present(bounds)) taken = max(taken, (2*reach_of_excess(m))/3)
