@@ -181,7 +181,8 @@ contains
    !>
    !> The pull on a body is PULL_OF_ROW of what one of its rows holds, in the mean of all bodies: a block that slips at all of its
    !> points moves about as far as others are strained, not to the next block, and the next solve tells which of them stick. What
-   !> many rows hold does not feel it; a pull by all of them would keep fronts from their places. For the last digits it is a tenth.
+   !> many rows hold does not feel it; a pull by all of them would keep fronts from their places. Then it is a tenth of the usual
+   !> one: what is left of it adds up along a stack.
    subroutine start_at_fronts(system, shape, line, reporter, multipliers, solution, found, status)
       class(contact_system_t), intent(inout) :: system
       type(bound_qp_t), intent(in) :: shape
@@ -191,15 +192,14 @@ contains
       type(contact_solution_t), intent(inout) :: solution
       logical, intent(out) :: found
       type(status_t), intent(out) :: status
-      real(wp) :: kappa, of_row
+      real(wp) :: kappa
 
       kappa = multipliers%kappa
-      of_row = PULL_OF_ROW*system%n_bodies/system%rows%n
-      multipliers%kappa = max(USUAL_KAPPA, of_row)
+      multipliers%kappa = max(USUAL_KAPPA, PULL_OF_ROW*system%n_bodies/system%rows%n)
       call begin_outer(solution%history)
       call find_fronts(system, shape, line, multipliers, solution, found, status)
       call end_outer(solution%history, 1.0_wp)
-      multipliers%kappa = merge(min(USUAL_KAPPA, 0.1_wp*of_row), kappa, found)
+      multipliers%kappa = merge(0.1_wp*USUAL_KAPPA, kappa, found)
       if (is_ok(status)) call report_step(reporter, 'fronts', 0_ip, solution%history, &
                                           '  factorisations '//to_text(multipliers%factorisations), '')
    end subroutine start_at_fronts
