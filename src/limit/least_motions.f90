@@ -17,7 +17,7 @@ module atrito_least_motions
    public :: measure_motions, take_least
 
    integer(ip), parameter :: MOST_SWEEPS = 1000_ip
-   real(wp), parameter :: SEEN = 1.0e-20_wp         !< square of what a row sees of the motions, of the largest
+   real(wp), parameter :: LEAST_SEEN = 1.0e-20_wp         !< square of what a row sees of the motions, of the largest
    real(wp), parameter :: NO_WAY = 1.0e-12_wp       !< of the displacements: it is rounding that is not least
    real(wp), parameter :: BACK = 1.0e-13_wp         !< what rounding leaves of a way and the way back
    real(wp), parameter :: SETTLED = 1.0e-14_wp
@@ -130,6 +130,7 @@ contains
       real(wp), intent(in) :: basis(:, :), wanted(:)
       type(contact_solution_t), intent(in) :: solution
       real(wp) :: s(size(wanted)), a(size(wanted), rows%n), bound(rows%n), multiplier(rows%n), size_of(rows%n), step, most
+      integer(ip), allocatable :: seen(:) ! rows that see a motion
       integer(ip) :: i, j, sweep
 
       do j = 1, size(wanted, kind=ip)
@@ -142,12 +143,13 @@ contains
          size_of(i) = sum(a(:, i)**2)
          if (all(solution%state%state(i) /= [AT_LOWER, AT_UPPER])) size_of(i) = 0.0_wp
       end do
+      seen = pack([(i, i=1, rows%n)], size_of > LEAST_SEEN*maxval(size_of))
       s = wanted
       multiplier = 0.0_wp
       do sweep = 1, MOST_SWEEPS
          most = 0.0_wp
-         do i = 1, rows%n
-            if (size_of(i) <= SEEN*maxval(size_of)) cycle
+         do j = 1, size(seen, kind=ip)
+            i = seen(j)
             step = max(-multiplier(i), (dot_product(a(:, i), s) - bound(i))/size_of(i))
             multiplier(i) = multiplier(i) + step
             s = s - step*a(:, i)
