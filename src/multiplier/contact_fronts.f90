@@ -58,6 +58,7 @@ module atrito_contact_fronts
    integer(ip), parameter :: MOST_SOLVES = 60_ip
    integer(ip), parameter :: MOST_IN_VAIN = 10_ip  !< of them, since fewer points changed than in each of the three before
    integer(ip), parameter :: TO_AND_FRO = 3_ip
+   integer(ip), parameter :: SPACING = 5_ip
    real(wp), parameter :: NEAR = 0.05_wp           !< of the points may still change in a start
    integer(ip), parameter :: LOOKS_AHEAD = 8_ip    !< points that do not change, before those that do are looked for no more
    real(wp), parameter :: FEW_CHANGES = 0.1_wp     !< of the points: the friction bound may follow
@@ -243,7 +244,8 @@ contains
    !> row waits for its neighbours from its second change on, one that a front takes along from TO_AND_FRO on: fronts go too far and
    !> return. A block that slips at all of its points flies, and sticks at all of them in the next solve: from TO_AND_FRO changes on
    !> a row waits for all the rows of the bodies that it joins. It is off by the way that its excess of force would go, or by the
-   !> gap or slip that ought not to be.
+   !> gap or slip that ought not to be. Where each point is less far off than the one before, every SPACING-th goes: a long run
+   !> would else turn point by point.
    subroutine furthest_off_first(system, line, bounds, before, turns, normal, tangential, state)
       class(contact_system_t), intent(in) :: system
       type(contact_line_t), intent(in) :: line
@@ -253,7 +255,8 @@ contains
       integer(ip), intent(in) :: normal(:), tangential(:) !< (points) how far a front went that has passed it, else 0
       type(box_state_t), intent(inout) :: state  !< q and r of the solve; states of the next one
       integer(ip) :: often(size(before)), j
-      real(wp) :: off(0:size(before)), of_point(0:line%n + 1), of_body(system%n_bodies), most
+      real(wp) :: off(0:size(before)), of_point(line%n), of_body(system%n_bodies), most
+      integer(ip) :: left(line%n), right(line%n) ! steps down from the last point that goes
 
       often = 1
       often(pack(line%normal, normal > 0)) = TO_AND_FRO
@@ -269,12 +272,17 @@ contains
       do j = 1, size(before, kind=ip)
          if (turns(j) >= TO_AND_FRO) call wait(j, most_of_bodies(j))
       end do
-      of_point = -1.0_wp
-      of_point(1:line%n) = max(off(line%normal), off(line%tangential))
+      of_point = max(off(line%normal), off(line%tangential))
+      left = 0
+      right = 0
+      do j = 2, line%n
+         if (is_neighbour(j - 1, j) .and. of_point(j - 1) > of_point(j)) left(j) = modulo(left(j - 1) + 1, SPACING)
+      end do
+      do j = line%n - 1, 1, -1
+         if (is_neighbour(j, j + 1) .and. of_point(j + 1) > of_point(j)) right(j) = modulo(right(j + 1) + 1, SPACING)
+      end do
       do j = 1, line%n
-         most = of_point(j)
-         if (is_neighbour(j - 1, j)) most = max(most, of_point(j - 1))
-         if (is_neighbour(j, j + 1)) most = max(most, of_point(j + 1))
+         most = merge(of_point(j), huge(most), left(j) == 0 .and. right(j) == 0)
          call wait(line%normal(j), most)
          call wait(line%tangential(j), most)
       end do

@@ -87,6 +87,12 @@ layers 1600 0. 0. 3000. '' | sed 's/^\*STEP$/*CLEARANCE, SLAVE=LOW-TOP, MASTER=H
 run 0 parabola.inp parabola --contact sparse --quiet
 below 'parabola: solves' "$(column parabola/iterations.tab inner | wc -l)" 21
 below 'parabola: points less those in contact' $((1600 - $(column parabola/contact.tab status | grep -c '^2$'))) 1300
+# A flat punch with rounded edges, pressed and pushed: beside the edges slip turns, point by point if each waited for the next.
+layers 4000 0. 0. 1000. '*FRICTION
+.3' | sed 's/^\*STEP$/*CLEARANCE, SLAVE=LOW-TOP, MASTER=HIGH-BOTTOM, FUNCTION\n1e-3*max(abs(x - 7.5) - 5, 0)**2\n*STEP/
+   s/^HIGH-TOP, P, 1.$/HIGH-TOP, P, 0/; s/^\*CLOAD$/*BOUNDARY\nHIGH-TOP, 2, 2, -0.004\nHIGH-TOP, 1, 1, 0.001\n*CLOAD/' >punch.inp
+run 0 punch.inp punch --contact sparse --quiet --proof off
+below 'punch: solves' "$(column punch/iterations.tab inner | wc -l)" 26
 # A wall of 410 blocks in running bond under its weight, with little friction: the halves at its ends slip at all points but one or two,
 # and a block that slips at all of them would fly to the next one.
 cat >wall.inp <<'DECK'
