@@ -87,6 +87,7 @@ contains
       type(place_t) :: begun, best
       integer(ip), allocatable :: normal(:), tangential(:) ! how far a front went that has passed each point
       integer(ip) :: before(system%rows%n), raw(system%rows%n), turns(system%rows%n)
+      real(wp) :: beyond(system%rows%n, AT_LOWER:AT_UPPER)
       integer(ip) :: solves, changes, last(3), since ! changes of the last solves; solves since there were fewer
       real(wp) :: noise(system%rows%n)
       logical :: follows
@@ -119,8 +120,10 @@ contains
          found = changes == 0 .and. relative_residual(line, solution%tau, bound_of_state(line, solution)) <= BOUND_FOUND
          follows = changes <= FEW_CHANGES*line%n
          solution%state%state = raw
-         call move_fronts(line, line%normal, before, raw, solution%state%state, normal, solution%state%q, solution%bounds)
-         call move_fronts(line, line%tangential, before, raw, solution%state%state, tangential, solution%state%q, solution%bounds)
+         beyond(:, AT_LOWER) = solution%bounds%lower - solution%state%q
+         beyond(:, AT_UPPER) = solution%state%q - solution%bounds%upper
+         call move_fronts(line, line%normal, before, raw, solution%state%state, normal, beyond)
+         call move_fronts(line, line%tangential, before, raw, solution%state%state, tangential, beyond)
          call furthest_off_first(system, line, solution%bounds, before, turns, normal, tangential, solution%state)
          where (solution%state%state /= before) turns = turns + 1
          since = merge(0_ip, since + 1_ip, all(changes < last))
@@ -325,7 +328,7 @@ contains
    end subroutine furthest_off_first
 
    !> Moves the fronts: where points of two states are neighbours, and those of one side would be in the state of the other.
-   subroutine move_fronts(line, unknown, before, raw, new, went, q, bounds)
+   pure subroutine move_fronts(line, unknown, before, raw, new, went, beyond)
       type(contact_line_t), intent(in) :: line   !< whose points follow each other along each pair
       integer(ip), intent(in) :: unknown(:)      !< (points) normal or tangential unknown of each; 0: none
       integer(ip), intent(in) :: before(:)       !< (m) states
@@ -333,9 +336,9 @@ contains
       integer(ip), intent(inout) :: new(:)       !< (m) at first raw; states with the fronts where they go to
       !> (points) How far a front went that passed it in the step before, else 0; of this one. Not allocated before the first.
       integer(ip), allocatable, intent(inout) :: went(:)
-      real(wp), intent(in), optional :: q(:)     !< (m) forces of the solve [F]; without them fronts go by their runs alone
-      type(box_bounds_t), intent(in), optional :: bounds !< of the forces [F]
-      integer(ip) :: last(line%n), j, edge, side, from, to ! a front is beside the point edge and may go to that side, 1 or -1
+      !> (m, AT_LOWER:AT_UPPER) How much the forces of the solve are beyond their bounds [F]; without it fronts go by their runs.
+      real(wp), intent(in), optional :: beyond(:, AT_LOWER:)
+      integer(ip) :: last(line%n), j
 
       last = 0
       if (allocated(went)) last = went
@@ -349,64 +352,67 @@ contains
             ! one of the two is stuck or closed
             if (left == right .or. (left /= FREE .and. right /= FREE) .or. left == FROZEN .or. right == FROZEN) cycle
          end associate
-         do side = 1, -1, -2
-            edge = merge(j, j + 1, side == 1)
-            to = before(unknown(edge))
-            from = before(unknown(edge + side))
-            ! where the points behind it change as well there is no front, but for one that has gone too far: what sticks behind it
-            ! is dragged the other way
-            if (raw(unknown(edge)) == to .or. (to == FREE .and. raw(unknown(edge)) /= from)) call move_front()
+         call move_front(line, unknown, before, raw, last, [j, j + 1], new, went, beyond)
+         call move_front(line, unknown, before, raw, last, [j + 1, j], new, went, beyond)
+      end do
+   end subroutine move_fronts
+
+   !> Moves one front in one direction: the points beside it take the state of the point `edge`, which is the last one behind it.
+   !>
+   !> Stresses beside a front may go up and down from point to point (sides that do not match): its run is the longest of which at
+   !> least half of the points would change.
+   pure subroutine move_front(line, unknown, before, raw, last, front, new, went, beyond)
+      type(contact_line_t), intent(in) :: line
+      integer(ip), intent(in) :: unknown(:), before(:), raw(:)
+      integer(ip), intent(in) :: last(:)         !< (points) how far a front went in the step before
+      integer(ip), intent(in) :: front(2)        !< the points behind it and in front of it, neighbours
+      integer(ip), intent(inout) :: new(:)
+      integer(ip), intent(inout) :: went(:)      !< (points) of this step
+      real(wp), intent(in), optional :: beyond(:, AT_LOWER:)
+      integer(ip) :: edge, side, from, to, m, taken, ahead, i, changing
+
+      edge = front(1)
+      side = front(2) - edge
+      to = before(unknown(edge))
+      from = before(unknown(edge + side))
+      m = 0
+      changing = 0
+      i = 0
+      do while (is_from(i + 1) .and. i <= 2*changing + LOOKS_AHEAD)
+         i = i + 1
+         if (raw(unknown(edge + side*i)) /= to) cycle
+         changing = changing + 1
+         if (2*changing >= i) m = i
+      end do
+      ! a run that ends at another front is no run of this one
+      if (m == 0 .or. .not. is_from(m + 1)) return
+      ! where the points behind it change as well there is no front, but for one that has gone far too far: what sticks behind it is
+      ! dragged the other way
+      if (raw(unknown(edge)) /= to .and. (to /= FREE .or. raw(unknown(edge)) == from .or. m <= LOOKS_AHEAD)) return
+      new(unknown(edge)) = to
+      if (from == FREE) then
+         taken = 2*m
+         if (present(beyond)) taken = max(taken, (2*reach_of_excess())/3)
+         ! never all that holds the body: half of what would be left stays
+         ahead = m
+         do while (is_from(ahead + 1))
+            ahead = ahead + 1
          end do
+         taken = min(taken, (m + ahead)/2)
+      else
+         taken = (2*m + 1)/3
+      end if
+      ! it came from there: its place is between
+      if (last(edge + side) > 0) taken = min(taken, max(1_ip, 2*last(edge + side)/3))
+      do i = 1, max(m, taken)
+         if (.not. is_from(i)) exit
+         associate (j => edge + side*i)
+            new(unknown(j)) = merge(from, to, i > taken)
+            if (i <= taken) went(j) = taken
+         end associate
       end do
 
    contains
-
-      !> Moves one front in one direction: the points beside it take the state of the point `edge`, which is the last one behind it.
-      !>
-      !> Stresses beside a front may go up and down from point to point (sides that do not match): its run is the longest of which
-      !> at least half of the points would change.
-      subroutine move_front()
-         integer(ip) :: m, taken, ahead, i, changing
-
-         m = 0
-         changing = 0
-         i = 0
-         do while (is_from(i + 1) .and. i <= 2*changing + LOOKS_AHEAD)
-            i = i + 1
-            if (raw(unknown(edge + side*i)) /= to) cycle
-            changing = changing + 1
-            if (2*changing >= i) m = i
-         end do
-         ! a run that ends at another front is no run of this one
-         if (m == 0 .or. .not. is_from(m + 1)) return
-         if (raw(unknown(edge)) /= to .and. m <= LOOKS_AHEAD) return
-         new(unknown(edge)) = to
-         if (from == FREE) then
-            taken = 2*m
-            if (present(q) .and. present(bounds)) taken = max(taken, (2*reach_of_excess(m))/3)
-            ! never all that holds the body: half of what would be left stays
-            ahead = m
-            do while (is_from(ahead + 1))
-               ahead = ahead + 1
-            end do
-            taken = min(taken, (m + ahead)/2)
-         else
-            taken = (2*m + 1)/3
-         end if
-         ! it came from there: its place is between
-         if (last(edge + side) > 0) taken = min(taken, max(1_ip, 2*last(edge + side)/3))
-         do i = 1, max(m, taken)
-            if (.not. is_from(i)) exit
-            associate (point => edge + side*i)
-               if (i > taken) then
-                  new(unknown(point)) = from
-               else
-                  new(unknown(point)) = to
-                  went(point) = taken
-               end if
-            end associate
-         end do
-      end subroutine move_front
 
       !> Whether the i-th point in front of the edge is of the same pair and in the state that is left.
       pure logical function is_from(i)
@@ -420,20 +426,17 @@ contains
       end function is_from
 
       !> D: the points in front of the edge, the run among them, whose forces are within their bounds in the sum.
-      pure integer(ip) function reach_of_excess(run) result(reach)
-         integer(ip), intent(in) :: run
+      pure integer(ip) function reach_of_excess() result(reach)
          real(wp) :: excess
 
          excess = 0.0_wp
          reach = 0
-         do while (is_from(reach + 1) .and. (reach < run .or. excess > 0.0_wp))
+         do while (is_from(reach + 1) .and. (reach < m .or. excess > 0.0_wp))
             reach = reach + 1
-            associate (row => unknown(edge + side*reach))
-               excess = excess + merge(bounds%lower(row) - q(row), q(row) - bounds%upper(row), to == AT_LOWER)
-            end associate
+            excess = excess + beyond(unknown(edge + side*reach), to)
          end do
       end function reach_of_excess
 
-   end subroutine move_fronts
+   end subroutine move_front
 
 end module atrito_contact_fronts
