@@ -173,7 +173,7 @@ def write_lecturer(sheet: Sheet, cases: list[Case], strange: list[str], path: Pa
 
 
 def histogram(points: list[float], most: float) -> list[str]:
-    """Ten bars."""
+    """Ten bars, and the points between them."""
     counts = Counter(min(9, int(10*value/most)) if most else 0 for value in points)
     tallest = max(counts.values())
     lines = ['<svg viewBox="0 -10 700 225" role="img">']
@@ -181,8 +181,8 @@ def histogram(points: list[float], most: float) -> list[str]:
         count = counts.get(place, 0)
         height = 160*count/tallest
         lines.append(f'<rect class=bar x="{20 + 66*place}" y="{180 - height:.1f}" width="60" height="{height:.1f}"/>'
-                     f'<text x="{50 + 66*place}" y="{174 - height:.1f}" text-anchor="middle">{count or ""}</text>'
-                     f'<text x="{50 + 66*place}" y="200" text-anchor="middle">{most*place/10:.3g}-{most*(place + 1)/10:.3g}</text>')
+                     f'<text x="{50 + 66*place}" y="{174 - height:.1f}" text-anchor="middle">{count or ""}</text>')
+    lines += [f'<text x="{17 + 66*place}" y="200" text-anchor="middle">{most*place/10:.3g}</text>' for place in range(11)]
     return [*lines, "</svg>"]
 
 
