@@ -34,7 +34,7 @@
 module atrito_contact_fronts
    use atrito_bound_qp, only: bound_qp_t, box_bounds_t, box_state_t, FREE, AT_LOWER, AT_UPPER, FROZEN
    use atrito_sparse_rows, only: multiply_rows
-   use atrito_contact_line, only: contact_line_t, pairs_of_unknowns, set_friction_bounds
+   use atrito_contact_line, only: contact_line_t, set_friction_bounds
    use atrito_contact_solution, only: contact_solution_t, bound_of_state, relative_residual
    use atrito_contact_system, only: contact_system_t
    use atrito_kinds, only: ip, wp
@@ -106,6 +106,7 @@ contains
          if (.not. is_ok(status)) then
             if (status%code == STATUS_SINGULAR) status = status_t()
             multipliers%generation = -1                ! there is no factor
+            best%changes = huge(changes)               ! and no way on from there
             exit
          end if
          call record_solve(solution%history, shape, solution%bounds, solution%state)
@@ -116,7 +117,10 @@ contains
          multipliers%a_old = multipliers%x(system%n - system%k + 1:)
          raw = states_of_law(system, shape, solution%bounds, multipliers, solution%state, before)
          changes = count(raw /= before, kind=ip)
-         if (changes < best%changes) best = place_of(multipliers, solution, changes)
+         if (changes < best%changes) then
+            best = place_of(multipliers, solution)
+            best%changes = changes
+         end if
          found = changes == 0 .and. relative_residual(line, solution%tau, bound_of_state(line, solution)) <= BOUND_FOUND
          follows = changes <= FEW_CHANGES*line%n
          solution%state%state = raw
@@ -137,10 +141,9 @@ contains
    end subroutine find_fronts
 
    !> Where the fronts are.
-   pure function place_of(multipliers, solution, changes) result(place)
+   pure function place_of(multipliers, solution) result(place)
       type(multiplier_t), intent(in) :: multipliers
       type(contact_solution_t), intent(in) :: solution
-      integer(ip), intent(in), optional :: changes
       type(place_t) :: place
 
       place%x = multipliers%x
@@ -150,9 +153,9 @@ contains
       place%state = solution%state
       place%bounds = solution%bounds
       place%tau = solution%tau
-      if (present(changes)) place%changes = changes
    end function place_of
 
+   !> Back to a place.
    pure subroutine go_to(place, multipliers, solution)
       type(place_t), intent(in) :: place
       type(multiplier_t), intent(inout) :: multipliers
@@ -321,8 +324,8 @@ contains
       pure logical function is_neighbour(left, right)
          integer(ip), intent(in) :: left, right
 
-         is_neighbour = left >= 1 .and. right <= line%n
-         if (is_neighbour .and. allocated(line%pair)) is_neighbour = line%pair(left) == line%pair(right)
+         is_neighbour = .true.
+         if (allocated(line%pair)) is_neighbour = line%pair(left) == line%pair(right)
       end function is_neighbour
 
    end subroutine furthest_off_first

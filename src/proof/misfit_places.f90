@@ -3,7 +3,7 @@ module atrito_misfit_places
    use atrito_assembly, only: fem_t
    use atrito_contact_segments, only: between, segment_t
    use atrito_kinds, only: ip, lp, wp
-   use atrito_law_lack, only: axis_of, law_t, laws_at, NO_LIMIT
+   use atrito_law_lack, only: law_t, laws_at, NO_LIMIT
    use atrito_sorting, only: sorted_places
    use atrito_strip_mesh, only: make_strip, strip_t
    implicit none (type, external)
