@@ -47,7 +47,7 @@ module atrito_accelerator
    !>
    !> relaxation < 1 damps a map that turns, at the price of more iterations where it contracts.
    type, extends(accelerator_t) :: picard_t
-      real(wp) :: relaxation = 1.0_wp
+      real(wp) :: relaxation = 1.0_wp !< omega > 0, of the step to the image; 1: the whole of it
    contains
       procedure :: reset => reset_picard
       procedure :: update => update_picard
@@ -57,11 +57,11 @@ module atrito_accelerator
 
    !> Anderson's mixing of the last differences (1965), type II, memory 5: the combination of the last residuals that is least.
    type, extends(accelerator_t) :: anderson_t
-      real(wp) :: mixing = 1.0_wp
+      real(wp) :: mixing = 1.0_wp                     !< of the residual that the combination leaves; 1: the whole of it
       real(wp) :: least = 0.0_wp                      !< of the values
       integer(ip) :: held = 0                         !< differences held
       real(wp), allocatable :: dx(:, :), df(:, :)     !< (n, MEMORY)
-      real(wp), allocatable :: last_x(:), last_f(:)
+      real(wp), allocatable :: last_x(:), last_f(:)   !< (n) the last x, and g - x there
    contains
       procedure :: reset => reset_anderson
       procedure :: update => update_anderson

@@ -46,7 +46,7 @@ contains
       type(box_state_t), intent(inout) :: state !< states of the m unknowns, q, a, r
       type(solve_history_t), intent(inout) :: history !< every linear solve is added
       type(box_outcome_t), intent(out) :: outcome !< solved, moves, or neither
-      type(status_t), intent(out) :: status
+      type(status_t), intent(out) :: status       !< STATUS_SINGULAR with DEPENDENT_POINTS
       type(free_set_factor_t), intent(inout) :: factor !< of the solve before, or of the last one: see solve_free_set
       integer(lp) :: seen(max(MOST_FULL_STEPS, problem%m/UNKNOWNS_A_STEP))
       integer(ip) :: step, changes
@@ -76,7 +76,7 @@ contains
       type(bound_qp_t), intent(in) :: problem !< the QP: C, G, g0, h
       type(box_bounds_t), intent(in) :: bounds !< of the m forces [F], and their D [L/F]
       type(box_state_t), intent(inout) :: state !< states of the m unknowns, q, a, r
-      integer(ip), intent(out) :: changes
+      integer(ip), intent(out) :: changes       !< unknowns whose state is another; 0: the states agree with forces and residuals
       real(wp) :: most
       integer(ip) :: i, old
 

@@ -40,11 +40,11 @@ contains
    !> What acts at a time is sum_k factor_k(t) base_k: the loads at the beginning of the step, those at its end, and each
    !> amplitude's. So an increment costs a sum of vectors in place of an assembly of loads and a forward substitution for each body.
    subroutine build_bases(model, step, released, fem, bases)
-      type(model_t), intent(in) :: model
-      type(step_t), intent(in) :: step
+      type(model_t), intent(in) :: model !< amplitudes, materials, sets
+      type(step_t), intent(in) :: step   !< with its increments and what acts in it
       real(wp), allocatable, intent(in) :: released(:, :) !< (2, n_nodes) forces that fade [F]; not allocated: none
       type(fem_t), intent(inout) :: fem              !< its heating is as it was on return
-      type(base_loads_t), allocatable, intent(out) :: bases
+      type(base_loads_t), allocatable, intent(out) :: bases !< not allocated: loads are assembled for each increment
       real(wp), allocatable :: heating(:)
       logical, allocatable :: acts(:)
       integer(ip) :: i
@@ -113,7 +113,7 @@ contains
 
    !> The load that several bases make with their factors: sum of factor times load, (2, n_nodes) [F].
    pure function load_of_bases(bases) result(load)
-      type(base_loads_t), intent(in) :: bases
+      type(base_loads_t), intent(in) :: bases !< with the factors of the time
       real(wp), allocatable :: load(:, :)
       integer(ip) :: i
 
@@ -128,8 +128,8 @@ contains
    !> The reduced loads of the bases are found when they are first asked for, as they belong to the factors.
    subroutine load_bodies(fem, bases, bodies)
       type(fem_t), intent(in) :: fem !< bodies and elements
-      type(base_loads_t), intent(inout) :: bases
-      type(condensed_body_t), intent(inout) :: bodies(:)
+      type(base_loads_t), intent(inout) :: bases !< reduced loads are found once a body, and kept
+      type(condensed_body_t), intent(inout) :: bodies(:) !< factored; their loads are replaced
       integer(ip) :: b, i
 
       if (.not. allocated(bases%reduced)) call reduce_bases()

@@ -29,17 +29,17 @@ module atrito_body_cache
       integer(ip) :: factorisations = 0                !< of the last call of provide_bodies; behind a history of all
       type(condensed_body_t), allocatable :: bodies(:) !< as the last call of provide_bodies left them
       logical, private :: holds = .false.              !< the rest is there: what they were made of
-      type(mesh_t), private :: mesh
+      type(mesh_t), private :: mesh                    !< with which the bodies were made
       type(bodies_t), private :: numbering             !< of the bodies
-      type(elastic_t), allocatable, private :: sections(:)
+      type(elastic_t), allocatable, private :: sections(:) !< one a combination of material and section
       integer(ip), allocatable, private :: section_of(:)   !< (n_elements)
       logical, allocatable, private :: held(:, :)      !< (2, n_nodes)
-      type(contact_points_t), allocatable, private :: points(:)
-      type(bilateral_rows_t), private :: bilateral
+      type(contact_points_t), allocatable, private :: points(:) !< of each pair: which dofs are retained
+      type(bilateral_rows_t), private :: bilateral              !< ties, equations, supports aslant
       integer, private :: asked = 0                    !< solver asked for
       real(wp), private :: grain = 0.0_wp              !< [L] of the elements that were taken as equal
       real(wp), allocatable, private :: load(:, :)     !< (2, n_nodes) [F] the reduced load
-      type(body_result_t), allocatable, private :: results(:)
+      type(body_result_t), allocatable, private :: results(:) !< (bodies) solver, memory, worst pivot
    end type body_cache_t
 
 contains
@@ -54,11 +54,11 @@ contains
       type(body_cache_t), intent(inout) :: store !< the factored bodies
       type(fem_t), intent(in) :: fem !< bodies and elements
       logical, intent(in) :: held(:, :)                !< (2, n_nodes)
-      type(contact_points_t), intent(in) :: points(:)
+      type(contact_points_t), intent(in) :: points(:)  !< one a pair: their nodes are retained
       real(wp), intent(in) :: load(:, :)               !< (2, n_nodes) [F], less the forces of prescribed displacements
       integer, intent(in) :: asked                     !< STORAGE_* or 0
       type(body_result_t), intent(inout) :: results(:) !< one a body
-      type(status_t), intent(out) :: status
+      type(status_t), intent(out) :: status            !< STATUS_SINGULAR or STATUS_INTERNAL of condense_body
       type(bilateral_rows_t), intent(in), optional :: bilateral !< without it there are none
       type(condensed_body_t), allocatable :: bodies(:)
       logical :: same_bodies, same_load
@@ -158,13 +158,13 @@ contains
    !> Takes the bodies, their equations and rigid motions over from the scene before, where they would come out the same: how they
    !> are numbered depends on the solver.
    subroutine take_numbering(store, held, points, asked, fem, taken, bilateral)
-      type(body_cache_t), intent(in) :: store
+      type(body_cache_t), intent(in) :: store          !< with the bodies of the scene before
       logical, intent(in) :: held(:, :)                !< (2, n_nodes)
-      type(contact_points_t), intent(in) :: points(:)
+      type(contact_points_t), intent(in) :: points(:)  !< one a pair: their nodes are retained
       integer, intent(in) :: asked                     !< STORAGE_* or 0
       type(fem_t), intent(inout) :: fem                !< with mesh and sections
-      logical, intent(out) :: taken
-      type(bilateral_rows_t), intent(in), optional :: bilateral
+      logical, intent(out) :: taken                    !< .false.: fem is as it was
+      type(bilateral_rows_t), intent(in), optional :: bilateral !< without it there are none
 
       taken = .false.
       if (store%holds) taken = store%asked == asked .and. has_same_numbering(store, held, points, fem, bilateral)

@@ -45,7 +45,7 @@ contains
    subroutine choose_solver(profile, asked, result)
       type(profile_t), intent(in) :: profile !< of its matrix
       integer, intent(in) :: asked                 !< STORAGE_* or 0 for the choice
-      type(body_result_t), intent(inout) :: result
+      type(body_result_t), intent(inout) :: result !< out: its solver, and the reason in words
       real(wp) :: cost(N_STORAGES)
       integer :: kind, second
 
@@ -154,7 +154,7 @@ contains
    subroutine count_body_memory(fem, b, result)
       type(fem_t), intent(in) :: fem !< bodies and elements
       integer(ip), intent(in) :: b !< body
-      type(body_result_t), intent(inout) :: result
+      type(body_result_t), intent(inout) :: result !< gets order and memory [bytes], where it can be counted
       type(elimination_t) :: elimination
       type(element_store_t) :: store
       integer(lp) :: held, most

@@ -20,7 +20,7 @@ contains
 
    !> Translations along 1 and 2, and rotation, of every body: (3, bodies).
    pure function motions_of_bodies(bodies, a) result(motion)
-      type(bodies_t), intent(in) :: bodies
+      type(bodies_t), intent(in) :: bodies           !< with their rigid modes
       real(wp), intent(in) :: a(:)                   !< (k) amplitudes
       real(wp) :: motion(3, bodies%n)
       integer(ip) :: first(bodies%n + 1), b
@@ -35,10 +35,10 @@ contains
    !>
    !> For words about a motion of several bodies: one of them is named.
    pure subroutine find_moved_body(bodies, a, b, mode)
-      type(bodies_t), intent(in) :: bodies
+      type(bodies_t), intent(in) :: bodies           !< with their rigid modes
       real(wp), intent(in) :: a(:)                   !< (k) amplitudes
-      integer(ip), intent(out) :: b
-      real(wp), intent(out) :: mode(3)
+      integer(ip), intent(out) :: b                  !< its number
+      real(wp), intent(out) :: mode(3)               !< translations along 1 and 2 and rotation, as a column of body%modes
       real(wp) :: motion(3, bodies%n)
 
       motion = motions_of_bodies(bodies, a)
@@ -51,7 +51,7 @@ contains
    !> Motions are told as translations of the centre and a rotation about it, so each node costs three products.
    subroutine add_rigid_motions(fem, a, u)
       type(fem_t), intent(in) :: fem !< bodies and elements
-      real(wp), intent(in) :: a(:)
+      real(wp), intent(in) :: a(:)   !< (k) amplitudes of all bodies' modes
       real(wp), intent(inout) :: u(:, :)             !< (2, n_nodes) [L]
       real(wp) :: motion(3, fem%bodies%n)
       integer(ip) :: b, i

@@ -51,9 +51,9 @@ contains
    subroutine coarsen_line(problem, line, interpolation, coarse_problem, coarse_line)
       type(bound_qp_t), intent(in) :: problem !< the QP: C, G, g0, h
       type(contact_line_t), intent(in) :: line !< points, laws, average S_rho
-      type(interpolation_t), intent(out) :: interpolation
-      type(bound_qp_t), intent(out) :: coarse_problem
-      type(contact_line_t), intent(out) :: coarse_line
+      type(interpolation_t), intent(out) :: interpolation !< where the points lie between coarse ones
+      type(bound_qp_t), intent(out) :: coarse_problem     !< C, G, g0, h of the coarse points
+      type(contact_line_t), intent(out) :: coarse_line    !< every fourth point with the weights between them
 
       call choose_points(line, interpolation)
       call build_coarse_line(line, interpolation, coarse_line)
@@ -230,11 +230,11 @@ contains
    !> counts as none.
    subroutine start_from_coarse(problem, line, interpolation, coarse_line, coarse_state, bounds, state, tau)
       type(bound_qp_t), intent(in) :: problem !< the QP: C, G, g0, h
-      type(contact_line_t), intent(in) :: line, coarse_line
+      type(contact_line_t), intent(in) :: line, coarse_line !< the fine line; the coarse one that was solved
       type(interpolation_t), intent(in) :: interpolation !< where the points lie between coarse ones
-      type(box_state_t), intent(in) :: coarse_state
-      type(box_bounds_t), intent(out) :: bounds
-      type(box_state_t), intent(out) :: state
+      type(box_state_t), intent(in) :: coarse_state      !< of the coarse solution
+      type(box_bounds_t), intent(out) :: bounds          !< of the m forces, all points closed
+      type(box_state_t), intent(out) :: state            !< from which the fine line starts
       real(wp), intent(out) :: tau(:)                !< (n) [F/L^2]
       real(wp) :: p(line%n), coarse_pressure(coarse_line%n)
       integer(ip) :: i, j, c, u

@@ -41,7 +41,7 @@ module atrito_condensed_body
              hourglass_text, loose_text
 
    type :: condensed_body_t
-      class(linear_solver_t), allocatable :: solver
+      class(linear_solver_t), allocatable :: solver !< factors of the interior, contact dofs last; S from it
       real(wp), allocatable :: factor(:, :)        !< (n_retained, n_retained) Cholesky factor of S or S + alpha Q Q'
       real(wp), allocatable :: load(:, :)          !< (n, 1) reduced load: half-solved interior, then f_c
       logical :: is_near = .false.                 !< some elements have the stiffness of one that they are near to, and not equal
@@ -60,9 +60,9 @@ contains
       type(fem_t), intent(in) :: fem !< bodies and elements
       integer(ip), intent(in) :: i_body !< its number in fem%bodies
       integer, intent(in) :: asked                 !< STORAGE_* or 0
-      type(condensed_body_t), intent(out) :: body
-      type(body_result_t), intent(inout) :: result
-      type(status_t), intent(out) :: status
+      type(condensed_body_t), intent(out) :: body  !< factored; its load is not set
+      type(body_result_t), intent(inout) :: result !< solver asked for in, measured memory and pivots out
+      type(status_t), intent(out) :: status        !< STATUS_SINGULAR with body, node and motion; STATUS_INTERNAL: no memory
       type(profile_t) :: profile
 
       ! a body that nothing holds and no point touches has no solution
@@ -98,7 +98,7 @@ contains
    subroutine check_held(fem, i_body, status)
       type(fem_t), intent(in) :: fem !< bodies and elements
       integer(ip), intent(in) :: i_body !< its number in fem%bodies
-      type(status_t), intent(inout) :: status
+      type(status_t), intent(inout) :: status !< unchanged where the body is held; else STATUS_SINGULAR
 
       if (fem%bodies%list(i_body)%n_retained > 0 .or. fem%bodies%list(i_body)%is_touched) return
       if (size(fem%bodies%list(i_body)%modes, 2) == 0) then
@@ -279,7 +279,7 @@ contains
       type(fem_t), intent(in) :: fem !< bodies and elements
       integer(ip), intent(in) :: i_body !< its number in fem%bodies
       real(wp), intent(in) :: f(:, :)              !< (2, n_nodes) [F]
-      type(condensed_body_t), intent(inout) :: body
+      type(condensed_body_t), intent(inout) :: body !< factored; its load is replaced
       integer(ip) :: i, dof, equation
 
       associate (list => fem%bodies%list(i_body))

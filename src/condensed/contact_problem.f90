@@ -38,12 +38,12 @@ contains
    !> A row of which all displacements are prescribed has no unknown force (has_unknown): its overlap and slip are known numbers,
    !> and hard contact asks for them to be admissible. Rows that a support takes the force of (rows%is_held) have none either.
    pure subroutine build_line(model, fem, points, rows, value, line)
-      type(model_t), intent(in) :: model
+      type(model_t), intent(in) :: model !< pairs, interactions and their laws
       type(fem_t), intent(in) :: fem !< bodies and elements
-      type(contact_points_t), intent(in) :: points(:)
+      type(contact_points_t), intent(in) :: points(:) !< one a pair, in the order of rows
       type(contact_rows_t), intent(in) :: rows !< of all points, over nodes
       real(wp), intent(in) :: value(:, :)            !< (2, n_nodes) prescribed displacements [L]
-      type(contact_line_t), intent(out) :: line
+      type(contact_line_t), intent(out) :: line      !< without loads: the overlap of known points is set
       logical :: normal_row(rows%n), tangential_row(rows%n)
       integer(ip) :: i, j, first
 
@@ -155,7 +155,7 @@ contains
    pure subroutine set_known_points(rows, value, line)
       type(contact_rows_t), intent(in) :: rows !< of all points, over nodes
       real(wp), intent(in) :: value(:, :)            !< (2, n_nodes) prescribed displacements [L]
-      type(contact_line_t), intent(inout) :: line
+      type(contact_line_t), intent(inout) :: line    !< known_overlap, known_slip and noise are replaced
       integer(ip) :: j
 
       if (.not. allocated(line%noise)) allocate (line%noise(line%n))
@@ -179,7 +179,7 @@ contains
       type(constraint_rows_t), intent(in) :: b       !< of the unknowns over displacements (build_constraint_rows)
       type(contact_rows_t), intent(in) :: rows !< of all points, over nodes
       type(contact_line_t), intent(in) :: line !< points, laws, average S_rho
-      type(bound_qp_t), intent(out) :: problem
+      type(bound_qp_t), intent(out) :: problem !< C, G and weights; g0 and h are not set
       integer(ip) :: motions(fem%bodies%n + 1), before, i
 
       motions = first_motions(fem%bodies)

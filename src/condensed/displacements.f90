@@ -69,7 +69,7 @@ contains
    subroutine elastic_displacements(fem, i_body, condensed, force, u)
       type(fem_t), intent(in) :: fem !< bodies and elements
       integer(ip), intent(in) :: i_body !< its number in fem%bodies
-      type(condensed_body_t), intent(in) :: condensed
+      type(condensed_body_t), intent(in) :: condensed !< factored, with its reduced load
       real(wp), intent(in) :: force(:, :)            !< B'q, (2, n_nodes) [F]
       real(wp), intent(inout) :: u(:, :)             !< (2, n_nodes) [L]: the free dofs of this body are set
       real(wp), allocatable :: x(:, :)

@@ -28,12 +28,12 @@ module atrito_dual_preconditioner
 
    !> How firmly a free set holds each motion: eigenvectors and eigenvalues of G' M^-1 G, scaled to a unit diagonal.
    type :: complement_t
-      real(wp), allocatable :: vectors(:, :), values(:), scale(:)
+      real(wp), allocatable :: vectors(:, :), values(:), scale(:) !< (k, k), (k) ascending, (k) of the diagonal
    end type complement_t
 
    !> P and its complement of the motions.
    type :: preconditioner_t
-      type(relation_t) :: relation
+      type(relation_t) :: relation               !< of the factor's set to the set asked for
       real(wp), allocatable :: y(:, :)           !< P^-1 G
       real(wp), allocatable :: inverse(:, :)     !< of G' P^-1 G
    end type preconditioner_t
@@ -51,7 +51,7 @@ module atrito_dual_preconditioner
 
    !> Forces and motions of the system so far, and the residual of their rows.
    type :: approximation_t
-      real(wp), allocatable :: x(:), b(:), r(:)
+      real(wp), allocatable :: x(:), b(:), r(:) !< (n) forces, (k) motions, (n) residual, all scaled
    end type approximation_t
 
 contains
@@ -65,10 +65,10 @@ contains
    subroutine solve_with_kept(factor, c, system, q, a, solved)
       type(free_set_factor_t), intent(inout) :: factor !< of the last solve
       real(wp), intent(in), contiguous :: c(:, :) !< (m, m) [L/F]
-      type(free_system_t), intent(in) :: system
+      type(free_system_t), intent(in) :: system   !< scaled, of the free set that is asked for
       real(wp), intent(inout) :: q(:)            !< (n) scaled
       real(wp), intent(inout) :: a(:)            !< (k) [L]
-      logical, intent(out) :: solved
+      logical, intent(out) :: solved             !< .false.: q and a are as they were
       type(preconditioner_t) :: p
       type(approximation_t) :: found
       real(wp) :: terms, remains
@@ -133,7 +133,7 @@ contains
    !> and the eigenvalue 0.
    subroutine find_complement(g, y, complement)
       real(wp), intent(in) :: g(:, :), y(:, :)   !< (n, k)
-      type(complement_t), intent(out) :: complement
+      type(complement_t), intent(out) :: complement !< of all motions
       integer(ip) :: j, k, info
 
       k = size(g, 2, kind=ip)
@@ -158,7 +158,7 @@ contains
    !> sees more of them than SEES they are not held, and stay as they are.
    subroutine refine_complement(g, y, complement)
       real(wp), intent(in) :: g(:, :), y(:, :)   !< (n, k)
-      type(complement_t), intent(inout) :: complement
+      type(complement_t), intent(inout) :: complement !< motions that seemed not to be held are judged anew
       type(complement_t) :: own
       integer(ip), allocatable :: weak(:)
       real(wp), allocatable :: n(:, :), seen(:, :), size_of(:, :)
@@ -267,9 +267,9 @@ contains
 
    !> M q.
    function scaled_product(c, system, q) result(product)
-      real(wp), intent(in), contiguous :: c(:, :)
-      type(free_system_t), intent(in) :: system
-      real(wp), intent(in) :: q(:)
+      real(wp), intent(in), contiguous :: c(:, :) !< (m, m) of all unknowns [L/F]
+      type(free_system_t), intent(in) :: system   !< its set, D and scale
+      real(wp), intent(in) :: q(:)                !< (n) scaled
       real(wp) :: product(size(q))
       real(wp) :: force(size(c, 1)), moved(size(c, 1))
 

@@ -54,7 +54,7 @@ contains
       real(wp), intent(in) :: d(:)               !< (m) [L/F]
       type(box_state_t), intent(inout) :: state !< states of the m unknowns, q, a, r
       type(box_outcome_t), intent(out) :: outcome !< solved is left to the caller, condition to condition_of
-      type(status_t), intent(out) :: status
+      type(status_t), intent(out) :: status       !< STATUS_SINGULAR with DEPENDENT_POINTS
       type(free_set_factor_t), intent(inout) :: factor !< of an earlier solve, which serves again where it can, or of this one
       type(free_system_t) :: system
       real(wp), allocatable :: held(:), q(:)
@@ -238,7 +238,7 @@ contains
    !> round-off where the unknown is free. One product with C.
    subroutine set_residual(problem, d, state)
       type(bound_qp_t), intent(in) :: problem !< the QP: C, G, g0, h
-      real(wp), intent(in) :: d(:)
+      real(wp), intent(in) :: d(:)            !< (m) compliance D of the unknowns [L/F]
       type(box_state_t), intent(inout) :: state !< states of the m unknowns, q, a, r
       real(wp) :: cq(problem%m), moved(problem%m)
 
@@ -254,7 +254,7 @@ contains
    pure real(wp) function row_round_off(problem, state, i) result(slack)
       type(bound_qp_t), intent(in) :: problem !< the QP: C, G, g0, h
       type(box_state_t), intent(in) :: state !< states of the m unknowns, q, a, r
-      integer(ip), intent(in) :: i
+      integer(ip), intent(in) :: i           !< unknown, 1 to m
       integer(ip) :: j
 
       if (problem%is_coarse) then
@@ -317,7 +317,7 @@ contains
       type(bound_qp_t), intent(in) :: problem !< the QP: C, G, g0, h
       real(wp), intent(in) :: d(:)               !< (m) [L/F]
       type(box_state_t), intent(in) :: state !< states of the m unknowns, q, a, r
-      integer(ip), intent(in) :: i
+      integer(ip), intent(in) :: i           !< unknown, 1 to m
 
       ! a place may be met exactly by a force that is none
       is_vanishing = abs(state%q(i))*yield_of(problem, d(i), i) <= VANISHING*(state%slack/CLOSES)

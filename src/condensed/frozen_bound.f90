@@ -38,7 +38,7 @@ contains
       real(wp), intent(in) :: tau(:)                  !< (n) [F/L^2]; HUGE_REAL: no bound
       type(contact_solution_t), intent(inout) :: solution !< with a state to start from
       real(wp), intent(out) :: image(:)               !< (n) [F/L^2]
-      type(status_t), intent(out) :: status
+      type(status_t), intent(out) :: status           !< STATUS_SINGULAR with DEPENDENT_POINTS, where no rows say which
 
       solution%tau = tau
       call set_friction_bounds(line, problem, tau, solution%bounds, solution%state)

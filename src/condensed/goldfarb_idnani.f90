@@ -44,7 +44,7 @@ contains
       type(box_state_t), intent(inout) :: state !< states of the m unknowns, q, a, r
       type(solve_history_t), intent(inout) :: history !< every linear solve is added
       type(box_outcome_t), intent(out) :: outcome !< solved, moves, or neither
-      type(status_t), intent(out) :: status
+      type(status_t), intent(out) :: status       !< STATUS_SINGULAR with DEPENDENT_POINTS
       type(free_set_factor_t), intent(inout) :: factor !< of the last solve
       integer(ip) :: left, worst, i
 
@@ -260,8 +260,8 @@ contains
    !> which its state is right.
    pure function opening_motion(problem, i, bound, motion) result(directed)
       type(bound_qp_t), intent(in) :: problem !< the QP: C, G, g0, h
-      integer(ip), intent(in) :: i, bound
-      real(wp), intent(in) :: motion(:)
+      integer(ip), intent(in) :: i, bound     !< the driven unknown, and where it stands: AT_LOWER or AT_UPPER
+      real(wp), intent(in) :: motion(:)       !< (k) amplitudes, of either sign
       real(wp) :: directed(size(motion))
       real(wp) :: rate
 

@@ -30,7 +30,7 @@ module atrito_least_forces
    !> The rows of a component, scaled, over dofs numbered from 1.
    type :: component_t
       integer(ip) :: n = 0, k = 0                !< rows, dofs
-      integer(ip), allocatable :: first(:), column(:)
+      integer(ip), allocatable :: first(:), column(:) !< rows of A' begin in column and value; dofs
       real(wp), allocatable :: value(:)          !< entries of A', each dof scaled to one
       real(wp), allocatable :: y(:), lower(:), upper(:) !< (n) forces over sqrt(w)
    end type component_t
@@ -47,7 +47,7 @@ contains
    !> Replaces state%q by the least forces; what is between its bounds then is free. is_shared tells the rows whose force is not
    !> unique.
    subroutine find_least_forces(rows, weight, bounds, may_change, state, is_shared)
-      type(constraint_rows_t), intent(in) :: rows
+      type(constraint_rows_t), intent(in) :: rows !< A: what each force does at the displacements
       real(wp), intent(in) :: weight(:)          !< (n) of the rows' points [L^2]
       type(box_bounds_t), intent(in) :: bounds   !< of the n forces
       logical, intent(in) :: may_change(:)       !< (n) closed or sticking, r = 0 and no compliance

@@ -22,7 +22,7 @@ contains
    !>
    !> Halving, and not any decrease, is asked for: a residual that is round-off still falls now and then.
    pure subroutine note_residual(progress, outer, residual)
-      type(loop_progress_t), intent(inout) :: progress
+      type(loop_progress_t), intent(inout) :: progress !< best residual so far, and where
       integer(ip), intent(in) :: outer               !< its number
       real(wp), intent(in) :: residual               !< relative, >= 0
 
@@ -35,7 +35,7 @@ contains
    subroutine report_step(reporter, word, outer, history, more, rest)
       type(reporter_t), intent(in) :: reporter !< a line an iteration
       character(len=*), intent(in) :: word           !< outer, step
-      integer(ip), intent(in) :: outer
+      integer(ip), intent(in) :: outer               !< number of the iteration
       type(solve_history_t), intent(in) :: history   !< with the solves of the iteration
       character(len=*), intent(in) :: more, rest     !< behind the solves; behind the states
 

@@ -111,7 +111,7 @@ contains
       type(bound_qp_t), intent(in) :: problem !< the QP: C, G, g0, h
       type(contact_line_t), intent(in) :: line !< points, laws, average S_rho
       type(contact_solution_t), intent(in) :: solution !< with states, forces and tau
-      real(wp), allocatable, intent(out) :: jacobian(:, :)
+      real(wp), allocatable, intent(out) :: jacobian(:, :) !< of the active unknowns, then of the motions; scaled
       logical, allocatable, intent(out) :: slips(:) !< which of the first rows are of slipping forces
       real(wp), allocatable :: rhs(:)
       integer(ip), allocatable :: active(:)

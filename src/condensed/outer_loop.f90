@@ -40,9 +40,9 @@ module atrito_outer_loop
    !>
    !> The first bound, and the states with their bounds and forces from which the first QP starts.
    type :: start_t
-      real(wp), allocatable :: tau(:)
-      type(box_bounds_t) :: bounds
-      type(box_state_t) :: state
+      real(wp), allocatable :: tau(:) !< (n) first bound [F/L^2]
+      type(box_bounds_t) :: bounds    !< of the m forces with that bound
+      type(box_state_t) :: state      !< of the m unknowns
    end type start_t
 
 contains
@@ -59,7 +59,7 @@ contains
       type(controls_t), intent(in) :: controls !< method, tolerance, MAXIT
       type(reporter_t), intent(in) :: reporter !< a line an iteration
       type(contact_solution_t), intent(out) :: solution !< states, forces, stresses, verdict
-      type(status_t), intent(out) :: status
+      type(status_t), intent(out) :: status             !< STATUS_SINGULAR with FREE_MOTION or DEPENDENT_POINTS
       type(constraint_rows_t), intent(in), optional :: rows !< of the unknowns: they may depend on each other
 
       if (has_coarse_start(line) .and. .not. present(rows) .and. &
@@ -82,7 +82,7 @@ contains
       type(controls_t), intent(in) :: controls !< method, tolerance, MAXIT
       type(reporter_t), intent(in) :: reporter !< a line an iteration
       type(contact_solution_t), intent(inout) :: solution !< with a state to start from
-      type(status_t), intent(out) :: status
+      type(status_t), intent(out) :: status               !< as of solve_contact_line
       type(anderson_t) :: anderson
       real(wp) :: tau(line%n), contraction
 

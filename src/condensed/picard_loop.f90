@@ -38,10 +38,10 @@ module atrito_picard_loop
    !>
    !> problem: the QP of the line (C, G, g0, h); line: points, laws, the average S_rho; controls: tolerance, MAXIT, method.
    type :: line_task_t
-      type(bound_qp_t), pointer :: problem => null()
-      type(contact_line_t), pointer :: line => null()
-      type(controls_t) :: controls
-      type(reporter_t) :: reporter
+      type(bound_qp_t), pointer :: problem => null() !< C, G, g0, h of the line
+      type(contact_line_t), pointer :: line => null() !< points, laws, the average S_rho
+      type(controls_t) :: controls                    !< tolerance, MAXIT, method
+      type(reporter_t) :: reporter                    !< a line an iteration
    end type line_task_t
 
    ! Six halvings come within 2 % of a bound that held; six doublings make 64 times the first one.
@@ -60,8 +60,8 @@ module atrito_picard_loop
       real(wp), allocatable :: good(:), good_image(:)      !< (n) the last bound that held all bodies; not allocated: none so far
       real(wp), allocatable :: visited(:, :)               !< (n, LONGEST_CYCLE) newest first; -1: none
       real(wp) :: last_residual = -1.0_wp                  !< < 0: none
-      type(loop_progress_t) :: progress
-      integer(ip) :: steps_back = 0
+      type(loop_progress_t) :: progress                    !< best residual so far, and where
+      integer(ip) :: steps_back = 0                        !< halvings since a bound held all bodies
    end type loop_t
 
 contains
@@ -78,11 +78,11 @@ contains
    !>     too much work       and the residual has not been halved in STALLED passes: the loop ends
    !>     otherwise           the accelerator gives the next bound; one that was there before is a cycle (look_for_cycle)
    subroutine iterate(task, accelerator, tau, solution, status)
-      type(line_task_t), intent(in) :: task
-      class(accelerator_t), intent(inout) :: accelerator
+      type(line_task_t), intent(in) :: task !< what is solved, how, and who is told
+      class(accelerator_t), intent(inout) :: accelerator !< which gives the next bound from those that were tried
       real(wp), intent(inout) :: tau(:)             !< (n) [F/L^2]
       type(contact_solution_t), intent(inout) :: solution !< with a state to start from
-      type(status_t), intent(out) :: status
+      type(status_t), intent(out) :: status               !< STATUS_SINGULAR with FREE_MOTION or DEPENDENT_POINTS
       type(loop_t) :: loop
       real(wp) :: image(size(tau))
       integer(ip) :: outer

@@ -18,7 +18,7 @@ module atrito_problem
    !> What an increment is made of. The first group is the problem; the second is what the increments of a history hand on, and is
    !> empty where an increment stands alone.
    type :: problem_t
-      type(reporter_t) :: reporter = reporter_t(quiet=.true.)
+      type(reporter_t) :: reporter = reporter_t(quiet=.true.) !< a line an iteration, a factorisation
       type(fem_t) :: fem                                    !< bodies and elements
       logical, allocatable :: held(:, :)                    !< (2, n_nodes)
       real(wp), allocatable :: value(:, :)                  !< (2, n_nodes) prescribed displacements [L]

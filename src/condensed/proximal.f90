@@ -46,7 +46,7 @@ contains
       type(box_state_t), intent(inout) :: state !< states of the m unknowns, q, a, r
       type(solve_history_t), intent(inout) :: history !< every linear solve is added
       type(box_outcome_t), intent(out) :: outcome !< solved, moves, or neither
-      type(status_t), intent(out) :: status
+      type(status_t), intent(out) :: status       !< STATUS_SINGULAR with DEPENDENT_POINTS
       type(free_set_factor_t), intent(inout) :: factor !< of the last solve
       type(constraint_rows_t), intent(in), optional :: rows !< of the unknowns; without them there are no least forces
       type(box_bounds_t) :: near

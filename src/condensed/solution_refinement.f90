@@ -28,7 +28,7 @@ module atrito_solution_refinement
 
    !> The reduced load of a body, put aside.
    type :: load_t
-      real(wp), allocatable :: reduced(:, :)
+      real(wp), allocatable :: reduced(:, :) !< (n, 1) as condensed_body_t%load
    end type load_t
 
    !> What is refined, and how far off it is: (2, n_nodes).
@@ -59,7 +59,7 @@ contains
       type(controls_t), intent(in) :: controls !< method, tolerance, MAXIT
       type(condensed_body_t), intent(inout) :: bodies(:)  !< as they were, on return
       type(constraint_rows_t), intent(in) :: rows       !< of the unknowns over displacements
-      type(bound_qp_t), intent(inout) :: qp
+      type(bound_qp_t), intent(inout) :: qp             !< C and G; its g0 becomes what the residuals move the points by
       type(contact_solution_t), intent(inout) :: solution !< converged
       real(wp), intent(inout) :: u(:, :)                  !< without rigid motions, (2, n_nodes) [L]
       type(load_t) :: loads(size(bodies))

@@ -77,7 +77,7 @@ contains
       type(scene_t), intent(inout) :: scene                 !< learns how the bodies were factored
       type(contact_solution_t), intent(out) :: solution !< states, forces, stresses, verdict
       real(wp), allocatable, intent(out) :: u(:, :)         !< displacements without rigid motions, (2, n_nodes) [L]
-      type(status_t), intent(out) :: status
+      type(status_t), intent(out) :: status                 !< STATUS_SINGULAR; not converging is told by solution%converged
       type(bound_qp_t), allocatable :: qp
       type(constraint_rows_t) :: b
       integer(ip) :: factorisations, i
@@ -112,7 +112,7 @@ contains
       class(problem_t), intent(inout) :: problem !< the increment, with C and G
       type(controls_t), intent(in) :: controls !< method, tolerance, MAXIT
       type(body_cache_t), intent(inout) :: store !< the factored bodies
-      type(scene_t), intent(in) :: scene
+      type(scene_t), intent(in) :: scene         !< whose near_elements asks for refinement
       type(contact_solution_t), intent(inout) :: solution !< with forces
       real(wp), allocatable, intent(out) :: u(:, :)         !< displacements without rigid motions, (2, n_nodes) [L]
       type(constraint_rows_t) :: b
@@ -139,7 +139,7 @@ contains
    !> Whether it is known where the bodies were in the increment before: amplitudes count from there, so that a motion that nothing
    !> determines is none.
    pure logical function has_position(problem, a)
-      class(problem_t), intent(in) :: problem
+      class(problem_t), intent(in) :: problem               !< the increment
       real(wp), intent(in) :: a(:)                          !< amplitudes of the rigid motions [L]
 
       has_position = serves_as_start(problem%last, CONTACT_DENSE)

@@ -20,9 +20,9 @@ module atrito_ladder
    public :: rung_t, RUNGS, is_tried, controls_of_rung, rung_text
 
    type :: rung_t
-      integer :: form, method
+      integer :: form, method                              !< CONTACT_DENSE or CONTACT_SPARSE; METHOD_*
       integer(ip) :: times = 1                             !< MAXIT of the deck
-      real(wp) :: relaxation = 1.0_wp
+      real(wp) :: relaxation = 1.0_wp                      !< omega of Picard's step, or the mixing of Anderson's
       logical :: is_coarse = .false.                       !< all rows have the round-off of the largest
    end type rung_t
 
@@ -76,7 +76,7 @@ contains
 
    !> What a rung is, besides its form.
    function rung_text(rung, controls) result(text)
-      type(rung_t), intent(in) :: rung
+      type(rung_t), intent(in) :: rung                     !< one of RUNGS
       type(controls_t), intent(in) :: controls             !< of the rung
       character(len=:), allocatable :: text
 

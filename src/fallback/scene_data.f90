@@ -62,15 +62,15 @@ module atrito_scene_data
 
    !> The problem of an increment, and what it was made from.
    type, extends(problem_t) :: scene_data_t
-      type(model_t), pointer :: model => null()
+      type(model_t), pointer :: model => null()             !< as refined, which all of it was made from
       type(step_t), pointer :: step => null()               !< the one that is being solved
       type(nodal_values_t) :: rigid_prescribed              !< of reference nodes, at the same time as value
-      integer :: contact_form = CONTACT_DENSE
+      integer :: contact_form = CONTACT_DENSE               !< CONTACT_DENSE or CONTACT_SPARSE
       character(len=:), allocatable :: reason               !< why this form
       class(distribution_t), allocatable :: distribution    !< not allocated: there is one process
       logical :: is_distributed = .false.                   !< this scene is
       class(scene_system_t), allocatable :: assembled       !< the sparse form, in one matrix or in parts
-      logical :: is_assembled = .false.
+      logical :: is_assembled = .false.                     !< its matrix is there, with the loads of now
       logical :: wants_element_errors = .false.             !< of what is printed
       integer :: proof = PROOF_OFF                          !< whether there is a bound of the error of what is printed
       real(wp), allocatable :: exchanged(:, :)              !< (2, n_nodes) for it, while the bodies are factored [L]
@@ -78,7 +78,7 @@ module atrito_scene_data
       logical :: is_printed = .true.                        !< what is solved for is printed: it is worth stresses and estimates
       logical :: is_last = .true.                           !< nothing comes after it
       logical :: is_brief = .false.                         !< that no solution was found is an answer: no costly rung is tried
-      integer(ip) :: most_factorisations = huge(1_ip)
+      integer(ip) :: most_factorisations = huge(1_ip)       !< of the sparse form in an increment, before it is given up
       ! Of a history:
       logical :: may_cut = .false.                          !< without a solution a shorter increment is tried
       logical :: asks_for_bases = .false.                   !< the step begins, or the increment before has changed its loads
@@ -92,7 +92,7 @@ module atrito_scene_data
    !> What the user asks for.
    type :: solve_options_t
       integer :: solver_kind = 0                           !< STORAGE_* or 0
-      integer :: contact_form = CONTACT_AUTO
+      integer :: contact_form = CONTACT_AUTO               !< CONTACT_*
       logical :: element_errors = .false.                   !< the estimated error is kept element by element
       integer(ip) :: starts = 0                             !< of a search for other solutions; 0: as the deck asks
       integer :: proof = PROOF_OFF                          !< whether a bound of the error is wanted
@@ -183,11 +183,11 @@ contains
    !> Rows and the contact line follow, with the values and loads at the end of the step; set_time changes these for an increment,
    !> and nothing else.
    subroutine prepare(model, store, asked, data, status, step)
-      type(model_t), intent(in), target :: model
-      type(body_cache_t), intent(in) :: store
-      type(solve_options_t), intent(in) :: asked
-      type(scene_data_t), intent(out) :: data
-      type(status_t), intent(out) :: status
+      type(model_t), intent(in), target :: model !< as refined; kept by pointer
+      type(body_cache_t), intent(in) :: store    !< whose numbering serves again where the same dofs are held
+      type(solve_options_t), intent(in) :: asked !< form, solver, memory, proof
+      type(scene_data_t), intent(out) :: data    !< with the loads at the end of the step
+      type(status_t), intent(out) :: status      !< STATUS_DECK: the averages need more memory than there is
       type(step_t), intent(in), target, optional :: step    !< left out: the first of the model
       type(bilateral_rows_t) :: bilateral                   ! of the model, but for supports that let a body turn
       logical :: known
@@ -264,8 +264,8 @@ contains
 
    !> Everything that acts at a time of the step, and the rest slips of the contact line: numbering and matrices stay.
    subroutine set_time(data, moment)
-      type(scene_data_t), intent(inout) :: data
-      type(moment_t), intent(in) :: moment
+      type(scene_data_t), intent(inout) :: data !< its loads, values and rest slips are replaced
+      type(moment_t), intent(in) :: moment      !< of the step, and the time of the history
       type(step_t) :: now
       real(wp) :: share
 
@@ -349,8 +349,8 @@ contains
    !> All bodies in one matrix, or its parts in several processes, and their fronts; nothing is factored. status:
    !> STATUS_INTERNAL when the memory does not suffice.
    subroutine assemble(data, status)
-      type(scene_data_t), intent(inout) :: data
-      type(status_t), intent(inout) :: status
+      type(scene_data_t), intent(inout) :: data !< unchanged where the matrix is there
+      type(status_t), intent(inout) :: status   !< STATUS_INTERNAL: too little memory
       type(assembled_scene_t), allocatable :: scene
 
       if (data%is_assembled) return
@@ -376,7 +376,7 @@ contains
 
    !> The matrices are not needed any more.
    subroutine drop_assembled(data)
-      type(scene_data_t), intent(inout) :: data
+      type(scene_data_t), intent(inout) :: data !< its matrices are given back
 
       data%is_assembled = .false.
       if (.not. allocated(data%assembled)) return

@@ -60,14 +60,14 @@ module atrito_bound_qp
 
    !> How the solution of the problem went (atrito_active_set and others).
    type :: box_outcome_t
-      logical :: solved = .false.
+      logical :: solved = .false.                 !< no unknown breaks its condition
       logical :: moves = .false.                  !< no equilibrium: a free motion under the load
       logical :: hardly = .false.                 !< with moves: so little load that the body rests where nothing stops it
       real(wp), allocatable :: motion(:)          !< (k) that motion
       real(wp), allocatable :: undetermined(:)            !< (k) a motion that nothing holds and nothing drives; else not allocated
-      real(wp) :: condition = 1.0_wp
+      real(wp) :: condition = 1.0_wp                      !< of the last matrix, estimated; 1: not asked for
       integer(ip) :: dependent = 0                !< unknown whose row depends on others
-      logical :: used_goldfarb_idnani = .false.
+      logical :: used_goldfarb_idnani = .false.   !< full steps did not settle
       logical, allocatable :: is_shared(:)        !< (m) the force is not unique, the least is given; not allocated: not asked for
    end type box_outcome_t
 

@@ -41,7 +41,7 @@ contains
    !> Components of the rows that may depend on each other; rows outside `used` do not count, as those of open points.
    !> No component: the forces are unique.
    subroutine list_components(rows, used, first, member)
-      type(constraint_rows_t), intent(in) :: rows
+      type(constraint_rows_t), intent(in) :: rows !< of all unknowns, over displacements
       logical, intent(in) :: used(:)             !< (n)
       integer(ip), allocatable, intent(out) :: first(:)    !< (components + 1)
       integer(ip), allocatable, intent(out) :: member(:)   !< rows; those of component i are first(i) .. first(i+1)-1

@@ -25,12 +25,12 @@ contains
    !> Chooses the form by its predicted cost, unless one is asked for, and says why.
    subroutine choose_contact_form(n_unknowns, n_displacements, asked, only_dense, memory, form, reason)
       integer(ip), intent(in) :: n_unknowns          !< contact forces
-      integer(ip), intent(in) :: n_displacements
+      integer(ip), intent(in) :: n_displacements     !< free dofs of all bodies
       integer, intent(in) :: asked                   !< CONTACT_*
       logical, intent(in) :: only_dense              !< the method is one of the dense form
       integer(lp), intent(in) :: memory              !< bytes there are
       integer, intent(out) :: form                   !< CONTACT_DENSE or CONTACT_SPARSE
-      character(len=:), allocatable, intent(out) :: reason
+      character(len=:), allocatable, intent(out) :: reason !< in words, for listing and screen
       real(wp) :: dense, sparse
 
       dense = real(n_unknowns, wp)**3
@@ -72,7 +72,7 @@ contains
 
    !> A form of the contact system as tables and messages have it: `dense` or `sparse`.
    pure function contact_form_name(form) result(name)
-      integer, intent(in) :: form
+      integer, intent(in) :: form !< CONTACT_DENSE or CONTACT_SPARSE
       character(len=:), allocatable :: name
 
       name = 'dense'

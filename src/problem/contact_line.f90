@@ -28,34 +28,34 @@ module atrito_contact_line
    !> displacement less the distance, and its slip, are known numbers. The last n_bilateral are no points of contact but bilateral
    !> rows (atrito_bilateral_rows): a normal force without a bound, no friction, delta = w times the compliance.
    type :: contact_line_t
-      integer(ip) :: n = 0
-      integer(ip) :: n_bilateral = 0
+      integer(ip) :: n = 0 !< points, with bilateral rows
+      integer(ip) :: n_bilateral = 0                  !< of them, the last ones
       real(wp), allocatable :: weight(:)              !< [L^2]
       real(wp), allocatable :: delta(:)               !< [L^3/F]
-      type(friction_law_t), allocatable :: law(:)
-      type(average_t) :: average
+      type(friction_law_t), allocatable :: law(:)     !< (n) friction of each point
+      type(average_t) :: average                      !< S_rho, a row a point
       integer(ip), allocatable :: normal(:)           !< unknown of the normal force; 0: none
       integer(ip), allocatable :: tangential(:)       !< unknown of the tangential force; 0: none
       real(wp), allocatable :: known_overlap(:)       !< u_n - s [L] where normal is 0
       real(wp), allocatable :: known_slip(:)          !< u_T [L] where tangential is 0 for prescribed dofs
       !> Of laws with memory [L]: u_T at which the friction is none. Not allocated: 0.
-      real(wp), allocatable :: rest(:)
+      real(wp), allocatable :: rest(:) !< (n)
       !> Friction stress of the increment before [F/L^2]: what a point that does not move keeps. Not allocated: 0.
-      real(wp), allocatable :: shear_before(:)
+      real(wp), allocatable :: shear_before(:) !< (n)
       !> Largest displacement so far [L] of the pair of each point. Not allocated: none.
-      real(wp), allocatable :: moved(:)
+      real(wp), allocatable :: moved(:) !< (n)
       !> What round-off may do to a known slip [L]. Not allocated: 0.
-      real(wp), allocatable :: noise(:)
+      real(wp), allocatable :: noise(:)               !< (n)
       integer(ip), allocatable :: point(:)            !< (unknowns) point of each
       integer(ip), allocatable :: pair(:)             !< (n) contact pair of each, ascending; not allocated: one
-      logical :: has_friction = .false.
+      logical :: has_friction = .false.               !< some point has a law with friction
    end type contact_line_t
 
 contains
 
    !> Numbers the unknowns: normal ones first, in the order of the points; tangential ones where there is friction.
    pure subroutine number_unknowns(line, normal_row, tangential_row)
-      type(contact_line_t), intent(inout) :: line
+      type(contact_line_t), intent(inout) :: line              !< with laws in; point, normal and tangential out
       logical, intent(in) :: normal_row(:), tangential_row(:)  !< (n) the point has a row
       logical :: has_tangential(line%n)
       integer(ip) :: j, m
@@ -71,7 +71,7 @@ contains
    !> The contact pair of each unknown; those of bilateral rows are groups behind the pairs. Forces are judged by the
    !> largest of their own pair or group, so that a weak one beside a strong one keeps its digits.
    pure function pairs_of_unknowns(line) result(pair)
-      type(contact_line_t), intent(in) :: line
+      type(contact_line_t), intent(in) :: line !< numbered
       integer(ip) :: pair(size(line%point))
 
       pair = 1
@@ -89,7 +89,7 @@ contains
    !> The tangential unknown at the point of each of the n normal ones; 0: none, without friction; -1: no point of
    !> contact, a bilateral row.
    pure function tangential_of(line, n) result(i)
-      type(contact_line_t), intent(in) :: line
+      type(contact_line_t), intent(in) :: line      !< numbered
       integer(ip), intent(in) :: n                  !< normal unknowns
       integer(ip) :: i(n)
 
@@ -116,7 +116,7 @@ contains
    !> overlap of a contact without delta is an error of the deck, and has been told. Bilateral rows have their force
    !> over their weight, of either sign.
    pure function pressure_of(line, q) result(p)
-      type(contact_line_t), intent(in) :: line
+      type(contact_line_t), intent(in) :: line      !< points, laws, numbering
       real(wp), intent(in) :: q(:)                  !< (unknowns) forces [F]
       real(wp) :: p(line%n)                         !< [F/L^2]
       integer(ip) :: j

@@ -24,10 +24,10 @@ module atrito_contact_rows
    !> of turn(i, k) n_j . u(node(k)), i being 1 where d_j is the normal and 2 where it is the tangent (atrito_turning_rows). The
    !> last n_bilateral rows have vectors of their own in place of coefficient(k) d_j, and no direction.
    type :: contact_rows_t
-      integer(ip) :: n = 0
+      integer(ip) :: n = 0                           !< points, with bilateral rows
       integer(ip) :: longest = 0                     !< most entries of a row
       integer(ip), allocatable :: first(:)           !< (n + 1)
-      integer(ip), allocatable :: node(:)
+      integer(ip), allocatable :: node(:)            !< (entries) number in the solver's mesh
       real(wp), allocatable :: coefficient(:)        !< the slave's positive, the master's negative; 0: for `turn` alone
       real(wp), allocatable :: turn(:, :)            !< (2, entries) of n in the normal, the tangential row; not allocated: none
       real(wp), allocatable :: normal(:, :)          !< (2, n) n
@@ -37,7 +37,7 @@ module atrito_contact_rows
       logical, allocatable :: is_held(:, :)          !< (2, n) supports take what the normal, the tangential row would
       real(wp), allocatable :: reach(:)              !< (n) length that the point stands for [L]
       real(wp), allocatable :: allowed(:)            !< (n) that overlap [L]; not allocated: none
-      integer(ip) :: n_bilateral = 0
+      integer(ip) :: n_bilateral = 0                 !< rows behind those of points
       integer(ip) :: before_vectors = 0              !< entries of the rows before
       real(wp), allocatable :: vector(:, :)          !< (2, entries of bilateral rows)
    end type contact_rows_t
@@ -49,8 +49,8 @@ contains
    !> stands for.
    pure subroutine build_rows(points, rows, bilateral)
       type(contact_points_t), intent(in) :: points(:) !< one a pair
-      type(contact_rows_t), intent(out) :: rows
-      type(bilateral_rows_t), intent(in), optional :: bilateral
+      type(contact_rows_t), intent(out) :: rows       !< of all pairs, then the bilateral ones
+      type(bilateral_rows_t), intent(in), optional :: bilateral !< without it there are none
       integer(ip) :: i, j, m
 
       rows%n = sum(points%n)
@@ -100,7 +100,7 @@ contains
    pure subroutine allow_overlap(points, share, rows)
       type(contact_points_t), intent(in) :: points(:) !< one a pair
       real(wp), intent(in) :: share(:)               !< (pairs) of the initial overlap, that is allowed
-      type(contact_rows_t), intent(inout) :: rows
+      type(contact_rows_t), intent(inout) :: rows    !< gap and allowed are replaced
       integer(ip) :: i, first
 
       if (allocated(rows%allowed)) deallocate (rows%allowed)
@@ -129,7 +129,7 @@ contains
    !> What the displacement of the node of entry k is multiplied by in row j along a direction d: b_k = c_k d + e_k n,
    !> the part of B that the node has. The forces of q_j on the nodes are b_k q_j.
    pure function vector_of_entry(rows, j, k, direction) result(vector)
-      type(contact_rows_t), intent(in) :: rows
+      type(contact_rows_t), intent(in) :: rows      !< of all points, over nodes
       integer(ip), intent(in) :: j, k               !< row, entry
       real(wp), intent(in) :: direction(2)           !< n or T of the point
       real(wp) :: vector(2)
@@ -200,7 +200,7 @@ contains
 
    !> The body of each entry of a row; those of a point of contact are two, those of a tie or an equation may be more.
    pure function bodies_of_row(rows, j, body_of_node) result(bodies)
-      type(contact_rows_t), intent(in) :: rows
+      type(contact_rows_t), intent(in) :: rows      !< of all points, over nodes
       integer(ip), intent(in) :: j, body_of_node(:) !< row; (n_nodes) body of each node, 0: none
       integer(ip) :: bodies(rows%first(j + 1) - rows%first(j))
 

@@ -51,7 +51,7 @@ contains
 
    !> Takes another increment into account: the largest motion and force of each body so far.
    pure subroutine widen(had, motion, force)
-      type(had_t), intent(inout) :: had
+      type(had_t), intent(inout) :: had           !< only grows
       real(wp), intent(in) :: motion(:), force(:) !< (bodies) [L], [F]
 
       if (.not. allocated(had%motion)) then
@@ -101,13 +101,13 @@ contains
    !> Slips and gaps of a pair that are none, scales%slip and %gap: 1e-9 of the largest |N_j u|, |T_j u| and overlap
    !> delta p, and the uncertainty of the displacements at its points; of gaps the rounding of coordinates besides.
    pure subroutine measure_places(rows, u, uncertain, first, last, overlap, far, scales)
-      type(contact_rows_t), intent(in) :: rows
+      type(contact_rows_t), intent(in) :: rows   !< of all points, over nodes
       real(wp), intent(in) :: u(:, :)            !< (2, n_nodes) [L]
       real(wp), intent(in) :: uncertain(:)       !< (n_nodes) of the displacements of the node's body [L]
       integer(ip), intent(in) :: first, last     !< points of the pair
       real(wp), intent(in) :: overlap            !< largest delta p [L]
       real(wp), intent(in) :: far                !< largest coordinate [L]
-      type(contact_scales_t), intent(inout) :: scales
+      type(contact_scales_t), intent(inout) :: scales !< slip and gap are replaced
       real(wp) :: motion, uncertainty
       integer(ip) :: j
 

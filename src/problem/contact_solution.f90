@@ -29,9 +29,9 @@ module atrito_contact_solution
    real(wp), parameter :: NOISE = 1.0e-12_wp          !< of the largest friction bound or force: may be round-off elsewhere
 
    type :: contact_solution_t
-      type(box_bounds_t) :: bounds
-      type(box_state_t) :: state
-      type(solve_history_t) :: history
+      type(box_bounds_t) :: bounds !< of the m forces [F], and their compliance [L/F]
+      type(box_state_t) :: state   !< states, q, a and r of the m unknowns
+      type(solve_history_t) :: history                !< a record a linear solve
       type(box_outcome_t) :: inner                    !< of the last inner problem; its condition after judge_condition
       type(free_set_factor_t) :: factor                   !< of the last solve, or of one near it
       type(constraint_rows_t), allocatable :: rows    !< of the unknowns, where they may depend on each other
@@ -42,7 +42,7 @@ module atrito_contact_solution
       real(wp), allocatable :: round_off(:)           !< (unknowns) of r, where it is known by its terms [L]
       logical :: has_settled = .false.                !< an idle motion was made least: r is known to rounding of the way
       integer :: form = 0                             !< CONTACT_*, that it was found by
-      logical :: converged = .false.
+      logical :: converged = .false.                  !< law and equilibrium hold to the tolerance
       character(len=:), allocatable :: verdict        !< why not
       integer(ip) :: factorisations = 0               !< of the sparse form
       real(wp) :: residual = 0.0_wp                   !< |nu S_rho(p) - tau| / |tau|
@@ -81,7 +81,7 @@ contains
 
    !> The solution without contact forces: all points open, r = g0, friction frozen at 0.
    pure subroutine let_rest(line, problem, g0, solution)
-      type(contact_line_t), intent(in) :: line
+      type(contact_line_t), intent(in) :: line        !< numbered
       type(bound_qp_t), intent(in) :: problem         !< of which the shape counts
       real(wp), intent(in) :: g0(:)                   !< (m) [L]
       type(contact_solution_t), intent(inout) :: solution !< inner%condition is set
@@ -102,8 +102,8 @@ contains
 
    !> The friction bound that the law has in a state, Phi(tau) = nu S_rho(p): what all loops take next, and stop at.
    pure function bound_of_state(line, solution) result(tau)
-      type(contact_line_t), intent(in) :: line
-      type(contact_solution_t), intent(in) :: solution
+      type(contact_line_t), intent(in) :: line !< with the law and S_rho of each point
+      type(contact_solution_t), intent(in) :: solution !< whose forces q are read
       real(wp) :: tau(line%n)                         !< [F/L^2]
 
       tau = friction_bound(line, pressure_of(line, solution%state%q))

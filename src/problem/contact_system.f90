@@ -19,7 +19,7 @@ module atrito_contact_system
    type, abstract :: contact_system_t
       integer(ip) :: n = 0                       !< unknowns
       integer(ip) :: k = 0                       !< of them, the last ones: amplitudes of rigid motions
-      integer(ip) :: n_bodies = 0
+      integer(ip) :: n_bodies = 0                !< that its motions are of
       integer(ip) :: failed = 0                  !< unknown whose pivot was not positive in the last factorisation; 0: none
       integer(ip) :: generation = 0              !< counts the factorisations
       type(constraint_rows_t) :: rows            !< B

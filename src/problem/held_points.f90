@@ -23,8 +23,8 @@ contains
    !> s/(n . n'), and a weight of w (n . n') leaves the same force along it.
    pure subroutine straighten_held_points(bilateral, fem, points)
       type(bilateral_rows_t), intent(in) :: bilateral !< with the supports along their own directions
-      type(fem_t), intent(in) :: fem
-      type(contact_points_t), intent(inout) :: points(:)
+      type(fem_t), intent(in) :: fem                  !< bodies, mesh
+      type(contact_points_t), intent(inout) :: points(:) !< one a pair: normal, gap, weight and held rows change
       real(wp), allocatable :: support(:, :)         ! (2, n_nodes) along what a node is held; 0: not at all
       logical :: is_fixed(fem%mesh%n_nodes)          ! held along any direction
       real(wp) :: d(2), across(2), part

@@ -30,7 +30,7 @@ module atrito_line_certificate
       real(wp) :: way_up_to_nu = 0.0_wp             !< one solution at most moves that way at every point
       real(wp) :: alpha = 1.0_wp                    !< of that proof, or of every load: states are tried with it
       ! The state that was met last, and what was found of it.
-      integer(ip), allocatable :: state(:)
+      integer(ip), allocatable :: state(:)          !< (m) of the unknowns
       real(wp), allocatable :: compliance(:)        !< [L/F]
       real(wp), allocatable :: share(:)             !< m of the tangential unknowns (atrito_one_solution)
       integer(ip) :: sign_of = NOT_ASKED            !< of its determinant

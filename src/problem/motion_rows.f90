@@ -28,11 +28,11 @@ contains
    !> G of all unknown forces by rows, and h = Z'f with the size of its terms, |Z'||f|. The motions of all bodies are
    !> numbered one body after the other; a row has at most MOST_MODES entries for each body that it touches.
    pure subroutine build_motion_rows(fem, rows, line, f, motions)
-      type(fem_t), intent(in) :: fem
+      type(fem_t), intent(in) :: fem                !< bodies with their rigid modes
       type(contact_rows_t), intent(in) :: rows      !< directions and coefficients
       type(contact_line_t), intent(in) :: line      !< which unknown is of which point
       real(wp), intent(in) :: f(:, :)                !< (2, n_nodes) applied forces [F]
-      type(motion_rows_t), intent(out) :: motions
+      type(motion_rows_t), intent(out) :: motions    !< rows of unknowns, columns of motions, and h
       integer(ip) :: first_motion(fem%bodies%n + 1), b, i, n
 
       first_motion = first_motions(fem%bodies)

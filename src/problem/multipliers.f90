@@ -28,13 +28,13 @@ module atrito_multipliers
       real(wp), allocatable :: hold(:)           !< (k) [F/L] sum of G_ij^2/c_i over the rows of the body
       integer(ip), allocatable :: pair(:)        !< (m) contact pair of each row
       real(wp), allocatable :: before(:)         !< (n_pairs) largest force in the increment before, 0 where there is none [F]
-      integer(ip) :: n_pairs = 0
+      integer(ip) :: n_pairs = 0                 !< pairs and groups of bilateral rows
       integer(ip) :: n_contact_pairs = huge(1_ip) !< those behind are groups of bilateral rows
       real(wp), allocatable :: stiffness(:)      !< (m) that was factored last
       real(wp), allocatable :: pull(:)           !< (k) that was factored last
       logical :: settled = .false.               !< the last step ended with the states that it assumed
       logical :: changed = .false.               !< the last step changed a state
-      integer(ip) :: factorisations = 0, solves = 0
+      integer(ip) :: factorisations = 0, solves = 0 !< of the increment
       integer(ip) :: generation = -1             !< of the system's factorisation that stiffness and pull are of
    end type multiplier_t
 

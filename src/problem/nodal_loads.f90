@@ -24,7 +24,7 @@ contains
    !> f(2, n_nodes) [F]: concentrated loads, pressures on faces, forces per volume. All of them add up, also several on
    !> one node or face.
    pure subroutine nodal_loads(model, step, f)
-      type(model_t), intent(in) :: model
+      type(model_t), intent(in) :: model            !< mesh, thickness, materials
       type(step_t), intent(in) :: step              !< with the loads of this increment
       real(wp), allocatable, intent(out) :: f(:, :)    !< (2, n_nodes) [F]
       integer(ip) :: i
@@ -43,7 +43,7 @@ contains
    !> Adds one of the loads on elements to the forces of the nodes: of a load on the volume to all nodes of the element,
    !> else to those of its face.
    pure subroutine add_element_load(model, loads, i, f)
-      type(model_t), intent(in) :: model
+      type(model_t), intent(in) :: model            !< mesh, thickness, materials
       type(element_load_t), intent(in) :: loads     !< all loads on elements
       integer(ip), intent(in) :: i                  !< load
       real(wp), intent(inout) :: f(:, :)               !< (2, n_nodes) [F]
@@ -65,7 +65,7 @@ contains
    !> The forces of a load on an element or on a face, or on a part of it that has such a shape, too: the number of
    !> nodes tells the shape, and the thickness or the radius comes from their places.
    pure subroutine forces_of_load(model, loads, i, x, places, fe)
-      type(model_t), intent(in) :: model
+      type(model_t), intent(in) :: model            !< mesh, thickness, materials
       type(element_load_t), intent(in) :: loads     !< all loads on elements
       integer(ip), intent(in) :: i                  !< load
       real(wp), intent(in) :: x(:, :)                  !< its nodes, those of a face in the order of face_nodes (2, n) [L]

@@ -13,11 +13,11 @@ module atrito_restart_state
    type :: warm_start_t
       integer(ip) :: form = 0                       !< CONTACT_*; 0: there is nothing to start from
       real(wp), allocatable :: p(:), tau(:), t(:)   !< at the points [F/L^2]
-      type(box_state_t) :: state
-      type(box_bounds_t) :: bounds
+      type(box_state_t) :: state                    !< states, q, a and r of the m unknowns
+      type(box_bounds_t) :: bounds                  !< of the m forces
       logical, allocatable :: is_shared(:)          !< (unknowns) the force is not unique
       integer(ip), allocatable :: tangential_of(:)  !< (normal unknowns)
-      real(wp) :: residual = 0.0_wp, contraction = 0.0_wp
+      real(wp) :: residual = 0.0_wp, contraction = 0.0_wp !< of the Picard map, relative
       type(multiplier_t), allocatable :: multipliers !< of the sparse form
    end type warm_start_t
 
@@ -36,7 +36,7 @@ module atrito_restart_state
       integer(ip) :: step = 1, increment = 0        !< the last one that converged
       real(wp) :: step_time = 0.0_wp                !< that it came to
       real(wp) :: length = 0.0_wp                   !< of the next increment, before it is cut off at the end of the step
-      logical :: ends_step = .false.
+      logical :: ends_step = .false.                !< the increment came to the end of the step
       real(wp) :: began = 0.0_wp                    !< when the step began, time of the history
       real(wp) :: condition = 1.0_wp                !< the largest so far
       real(wp) :: grain = 0.0_wp                    !< to which stiffnesses are taken as equal
@@ -47,7 +47,7 @@ module atrito_restart_state
       real(wp), allocatable :: from_of_motions(:)   !< prescribed at reference nodes, at the beginning of the step
       real(wp), allocatable :: released(:, :)       !< (2, n_nodes) of supports that the step does not have [F]
       type(slip_memory_t) :: memory                 !< all but is_incremental, which the deck gives
-      type(warm_start_t) :: start
+      type(warm_start_t) :: start                   !< what the next increment starts from
       type(results_t) :: last                       !< the increment
    end type restart_state_t
 

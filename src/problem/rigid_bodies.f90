@@ -44,7 +44,7 @@ contains
    !> which of them is taken for the gap. The coefficients are -N_i, that is -(1 - a1 - a2), -a1, -a2, for the three
    !> nodes of the body.
    pure subroutine attach_points(model, points)
-      type(model_t), intent(in) :: model
+      type(model_t), intent(in) :: model                   !< surfaces and rigid bodies
       type(contact_points_t), intent(inout) :: points(:)   !< one a pair
       integer(ip) :: of_surface(size(model%surfaces)), i, body
 
@@ -100,7 +100,7 @@ contains
    !> perp(x_i - x_R), and the rest comes in with the motions. Of the reference node, a node of the mesh, those
    !> displacements are held that are prescribed.
    pure subroutine hold_carriers(model, prescribed, held, value)
-      type(model_t), intent(in) :: model
+      type(model_t), intent(in) :: model               !< surfaces, rigid bodies, mesh
       type(nodal_values_t), intent(in) :: prescribed   !< dofs of reference nodes
       logical, intent(inout) :: held(:, :)             !< (2, nodes of the solver's mesh)
       real(wp), intent(inout) :: value(:, :)           !< (2, nodes of the solver's mesh) [L]
@@ -162,9 +162,9 @@ contains
    !> The rigid bodies behind those of elements. One takes part (is_touched) where points face its surface, a row has
    !> one of its nodes, or it is a pre-tension section.
    pure subroutine append_rigid_bodies(model, points, bodies)
-      type(model_t), intent(in) :: model
+      type(model_t), intent(in) :: model              !< surfaces, rigid bodies, mesh
       type(contact_points_t), intent(in) :: points(:) !< one a pair
-      type(bodies_t), intent(inout) :: bodies
+      type(bodies_t), intent(inout) :: bodies         !< those of elements in, all out
       type(body_t), allocatable :: list(:)
       logical :: has_points(0:size(model%surfaces)), has_row(model%mesh%n_nodes + CARRIERS*size(model%rigid_bodies))
       integer(ip) :: i, k, nodes(CARRIERS)
@@ -199,9 +199,9 @@ contains
    !> What is left free of each rigid body: its modes, columns of the identity (u1, u2, rotation), and where they move
    !> the nodes that carry it. It changes from step to step with what is prescribed.
    pure subroutine set_rigid_motions(model, prescribed, bodies)
-      type(model_t), intent(in) :: model
+      type(model_t), intent(in) :: model               !< surfaces, rigid bodies, mesh
       type(nodal_values_t), intent(in) :: prescribed   !< dofs of reference nodes
-      type(bodies_t), intent(inout) :: bodies
+      type(bodies_t), intent(inout) :: bodies          !< modes of the rigid ones are replaced
       logical :: is_prescribed(MOTIONS)
       real(wp) :: motion(MOTIONS)
       integer(ip) :: i, m
@@ -238,7 +238,7 @@ contains
    !> The forces on reference nodes; a moment M as the couple -M/L, M/L along x2 on the first two nodes that carry the
    !> motion, L apart along x1.
    pure subroutine add_rigid_loads(model, loads, f)
-      type(model_t), intent(in) :: model
+      type(model_t), intent(in) :: model               !< rigid bodies, and how far their carriers are apart
       type(nodal_values_t), intent(in) :: loads        !< at dofs of reference nodes
       real(wp), allocatable, intent(inout) :: f(:, :)  !< (2, n_nodes) of the mesh in, of the solver's mesh out [F]
       real(wp), allocatable :: all_forces(:, :)

@@ -31,7 +31,7 @@ contains
    !> Room is made for 2 entries a node and MOST_MODES a body that a row touches, the rows are written one behind the
    !> other, and the room that is left is given back. A row with no entry has no unknown, and is not here.
    pure subroutine build_constraint_rows(fem, rows, line, with_motions, constraints)
-      type(fem_t), intent(in) :: fem
+      type(fem_t), intent(in) :: fem                !< bodies, and the equation of each dof
       type(contact_rows_t), intent(in) :: rows      !< directions and coefficients
       type(contact_line_t), intent(in) :: line      !< which unknown is of which point
       logical, intent(in) :: with_motions           !< of all bodies; else of rigid ones alone
@@ -117,14 +117,14 @@ contains
    !> The entries of a row of G = B Z: G_im = sum_k (c_k d_i + turn) . z_m(x_k) over the nodes k of the row that motion
    !> m moves. Entries below ROUND_OFF are left out.
    pure subroutine motions_of_row(fem, rows, line, i, first_motion, n, motion, value, rigid_only)
-      type(fem_t), intent(in) :: fem
+      type(fem_t), intent(in) :: fem                !< bodies with their rigid modes
       type(contact_rows_t), intent(in) :: rows      !< directions and coefficients
       type(contact_line_t), intent(in) :: line      !< which unknown is of which point
       integer(ip), intent(in) :: i               !< unknown force
       integer(ip), intent(in) :: first_motion(:) !< (bodies) number of the first motion of each
       integer(ip), intent(out) :: n              !< entries
       integer(ip), intent(inout) :: motion(:)       !< of the entries
-      real(wp), intent(inout) :: value(:)
+      real(wp), intent(inout) :: value(:)           !< of the entries, dimensionless
       logical, intent(in), optional :: rigid_only !< of rigid bodies alone; default .false.
       real(wp) :: direction(2), vector(2), turn(2), z(2, MOST_MODES)
       integer(ip) :: k, node, b, mode, e
@@ -162,7 +162,7 @@ contains
 
    !> The motions of a body at one of its nodes; 0 at the dofs that are held, and in the columns of motions that it does not have.
    pure function modes_at_node(fem, b, node) result(z)
-      type(fem_t), intent(in) :: fem
+      type(fem_t), intent(in) :: fem                !< bodies with their rigid modes
       integer(ip), intent(in) :: b, node            !< body, one of its nodes
       real(wp) :: z(2, MOST_MODES)
       integer(ip) :: dof, j
@@ -179,7 +179,7 @@ contains
 
    !> The first rigid motion of each body when they are counted from 1 on, and one more than there are.
    pure function first_motions(bodies) result(first)
-      type(bodies_t), intent(in) :: bodies
+      type(bodies_t), intent(in) :: bodies !< with their rigid modes
       integer(ip) :: first(bodies%n + 1), b
 
       first(1) = 1
@@ -208,7 +208,7 @@ contains
    !> size though all forces act at its centre: at least LEVER times the forces, times the distance of the centre from
    !> the origin over the size of the body.
    pure subroutine loads_on_motions(fem, f, work, work_size)
-      type(fem_t), intent(in) :: fem
+      type(fem_t), intent(in) :: fem                 !< bodies with their rigid modes
       real(wp), intent(in) :: f(:, :)                !< (2, n_nodes) [F]
       real(wp), intent(out) :: work(:), work_size(:) !< (k) [F]
       real(wp), parameter :: BALANCED = 1.0e-14_wp, LEVER = 0.1_wp
@@ -235,8 +235,8 @@ contains
    !> What forces work on a rigid motion, sum over the free dofs of f z; and the size of what that is the sum of, sum |f
    !> z|, by which cancellation is judged.
    pure subroutine work_on_motion(fem, body, mode, f, work, work_size)
-      type(fem_t), intent(in) :: fem
-      type(body_t), intent(in) :: body
+      type(fem_t), intent(in) :: fem !< mesh, and which dofs are held
+      type(body_t), intent(in) :: body              !< whose motion it is
       integer(ip), intent(in) :: mode               !< column of body%modes
       real(wp), intent(in) :: f(:, :)            !< (2, n_nodes) [F]
       real(wp), intent(out) :: work, work_size   !< [F]

@@ -32,9 +32,9 @@ contains
    !> paired here. grain is what the coordinates of the mesh are known to: elements that differ by no more have one
    !> stiffness.
    subroutine build_scene(model, step, fem, held, value, points)
-      type(model_t), intent(in), target :: model
+      type(model_t), intent(in), target :: model    !< as refined; its mesh is kept by pointer
       type(step_t), intent(in) :: step              !< what it prescribes
-      type(fem_t), intent(out) :: fem
+      type(fem_t), intent(out) :: fem               !< mesh, sections and bodies; equations are numbered
       logical, allocatable, intent(out) :: held(:, :)          !< (2, n_nodes)
       real(wp), allocatable, intent(out) :: value(:, :)        !< (2, n_nodes) prescribed displacements [L]
       type(contact_points_t), allocatable, intent(out) :: points(:) !< one a pair
@@ -59,11 +59,11 @@ contains
    !> Bodies, equations (contact nodes last) and rigid motions. The order of the other equations is made for the solver
    !> of the body: a small profile where it takes one.
    subroutine build_bodies(model, held, points, asked, fem)
-      type(model_t), intent(in) :: model
+      type(model_t), intent(in) :: model                       !< with ties, equations and rigid bodies
       logical, intent(in) :: held(:, :)                        !< (2, n_nodes)
       type(contact_points_t), intent(in) :: points(:) !< one a pair
       integer, intent(in) :: asked                             !< solver asked for, or 0
-      type(fem_t), intent(inout) :: fem
+      type(fem_t), intent(inout) :: fem                        !< with mesh in, bodies out
       integer(ip), allocatable :: first(:), contact_nodes(:)
       integer(ip) :: i, n_free
 
@@ -99,7 +99,7 @@ contains
 
    !> Prescribed dofs and their displacements, those of the nodes that carry motions of rigid surfaces, too.
    pure subroutine list_held(model, step, held, value)
-      type(model_t), intent(in) :: model
+      type(model_t), intent(in) :: model            !< with supports and prescribed displacements
       type(step_t), intent(in) :: step              !< what it prescribes
       logical, allocatable, intent(out) :: held(:, :)          !< (2, nodes of the solver's mesh)
       real(wp), allocatable, intent(out) :: value(:, :)        !< [L]

@@ -22,7 +22,7 @@ contains
       character(len=*), intent(in) :: what             !< e.g. 'the scene, 12 equations,'
       integer(lp), intent(in) :: needed                !< bytes
       integer(lp), intent(in) :: limit                 !< bytes; what the machine has counts where it is less
-      type(status_t), intent(inout) :: status
+      type(status_t), intent(inout) :: status          !< unchanged, or STATUS_DECK
       integer(lp), intent(in), optional :: held        !< bytes of what is needed that are the process's already
       integer(lp) :: memory
 
@@ -44,11 +44,11 @@ contains
    !> neighbours of each within rho there are n m entries, which are many for a large rho. The entries must have
    !> numbers, too.
    subroutine check_average_memory(deck_path, n, entries, limit, status)
-      character(len=:), allocatable, intent(in) :: deck_path
+      character(len=:), allocatable, intent(in) :: deck_path !< for the message
       integer(ip), intent(in) :: n                     !< contact points
       integer(lp), intent(in) :: entries               !< of the average
       integer(lp), intent(in) :: limit                 !< bytes
-      type(status_t), intent(inout) :: status
+      type(status_t), intent(inout) :: status          !< unchanged, or STATUS_DECK
 
       if (entries > int(huge(n), lp)) then
          call refuse(deck_path, 'an average over '//to_text(n)//' contact points is too large for the numbers of its entries', &

@@ -34,8 +34,8 @@ contains
    subroutine let_slide(rubs, points, fem, bilateral)
       logical, intent(in) :: rubs(:)                !< (pairs) with friction
       type(contact_points_t), intent(inout) :: points(:) !< one a pair
-      type(fem_t), intent(inout) :: fem
-      type(bilateral_rows_t), intent(in) :: bilateral
+      type(fem_t), intent(inout) :: fem                  !< slides of its bodies are set
+      type(bilateral_rows_t), intent(in) :: bilateral    !< rows that hold a body along their directions
       real(wp) :: motion(4)
       integer(ip) :: i, k, b(2)
       logical :: is_free, is_exact
@@ -117,7 +117,7 @@ contains
 
    !> Takes the work that is none out of the loads.
    pure subroutine balance_loads(fem, f)
-      type(fem_t), intent(in) :: fem
+      type(fem_t), intent(in) :: fem                !< with slides of its bodies
       real(wp), intent(inout) :: f(:, :)            !< (2, n_nodes) [F]
       integer(ip) :: b, j
 
@@ -170,8 +170,8 @@ contains
    !>
    !> The columns are motions as those of body_t: two translations and a rotation.
    function motions_left(fem, bilateral, b) result(left)
-      type(fem_t), intent(in) :: fem
-      type(bilateral_rows_t), intent(in) :: bilateral
+      type(fem_t), intent(in) :: fem !< bodies with their rigid modes
+      type(bilateral_rows_t), intent(in) :: bilateral !< rows that hold a body along their directions
       integer(ip), intent(in) :: b                  !< body
       real(wp), allocatable :: left(:, :)           !< (3, motions)
       real(wp), allocatable :: seen(:, :)
@@ -233,8 +233,8 @@ contains
    !>
    !> so w s_j is taken out of the row.
    subroutine turn_supports(fem, bilateral, turned)
-      type(fem_t), intent(in) :: fem
-      type(bilateral_rows_t), intent(in) :: bilateral
+      type(fem_t), intent(in) :: fem !< bodies with their rigid modes
+      type(bilateral_rows_t), intent(in) :: bilateral !< supports along their own directions
       type(bilateral_rows_t), intent(out) :: turned !< all rows
       real(wp) :: off(bilateral%n), across(2, bilateral%n), grain
       integer(ip) :: ends(2, bilateral%n), i

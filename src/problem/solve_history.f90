@@ -28,9 +28,9 @@ module atrito_solve_history
    integer(ip), parameter :: MOST_LOGGED = 500
 
    type :: solve_history_t
-      integer(ip) :: n = 0
-      type(iteration_t), allocatable :: records(:)
-      integer(ip) :: outer = 0, inner = 0
+      integer(ip) :: n = 0 !< records that are used
+      type(iteration_t), allocatable :: records(:) !< (>= n) one a linear solve
+      integer(ip) :: outer = 0, inner = 0          !< the iteration, and the solve in it, that comes last
       real(wp) :: last_residual = 1.0_wp             !< of the friction bounds, at the end of the last outer iteration
       real(wp), allocatable :: moved(:), stress(:)   !< of the solve before
       integer(ip), allocatable :: tangential_of(:)   !< (n_normal) tangential unknown of the same point; 0: none; < 0: no contact
@@ -43,7 +43,7 @@ contains
 
    !> Nothing is recorded yet, of the same unknowns: a loop goes on from the solution of the increment before.
    pure subroutine restart_history(history)
-      type(solve_history_t), intent(inout) :: history
+      type(solve_history_t), intent(inout) :: history !< empty, out
       type(solve_history_t) :: new
 
       if (allocated(history%tangential_of)) new%tangential_of = history%tangential_of
@@ -52,7 +52,7 @@ contains
 
    !> The next outer iteration begins, with frozen friction bounds; its inner solves are counted from 1.
    pure subroutine begin_outer(history)
-      type(solve_history_t), intent(inout) :: history
+      type(solve_history_t), intent(inout) :: history !< with an outer iteration more
 
       history%outer = history%outer + 1
       history%inner = 0
@@ -60,7 +60,7 @@ contains
 
    !> An outer iteration ended with this residual of the friction bounds.
    pure subroutine end_outer(history, residual)
-      type(solve_history_t), intent(inout) :: history
+      type(solve_history_t), intent(inout) :: history !< its last record gets the residual
       real(wp), intent(in) :: residual              !< |nu S_rho(p) - tau|/|tau|
 
       history%last_residual = residual
@@ -70,9 +70,9 @@ contains
    !> Records a solve: a row of iterations.tab. What is compared from solve to solve are the displacements r + D q of
    !> the points (the opening or slip, without what the laws give way) and the stresses q/w.
    pure subroutine record_solve(history, problem, bounds, state)
-      type(solve_history_t), intent(inout) :: history
+      type(solve_history_t), intent(inout) :: history !< with a record more
       type(bound_qp_t), intent(in) :: problem       !< of which the shape counts
-      type(box_bounds_t), intent(in) :: bounds
+      type(box_bounds_t), intent(in) :: bounds      !< of the m forces: a slip is a force at its bound
       type(box_state_t), intent(in) :: state        !< after the solve
       type(iteration_t) :: record
       real(wp) :: moved(problem%m), stress(problem%m)

@@ -32,7 +32,7 @@ module atrito_split_loads
 
    !> A corner of what is left of an element: its place, and what the depth goes by there [L].
    type :: corner_t
-      real(wp) :: x(2) = 0.0_wp, place = 0.0_wp
+      real(wp) :: x(2) = 0.0_wp, place = 0.0_wp     !< place [L], and what the depth goes by there [L]
       real(wp) :: height = 0.0_wp                   !< over the line [L]
    end type corner_t
 
@@ -54,7 +54,7 @@ contains
    !> Adds what of a load acts ahead of the line, or behind it: of a force per volume on the triangles of the element's
    !> part, of one on a face on the chords that are left of it.
    pure subroutine add_part_of_load(model, loads, i, line, ahead, factor, sum)
-      type(model_t), intent(in) :: model
+      type(model_t), intent(in) :: model            !< mesh, thickness, materials
       type(element_load_t), intent(in) :: loads     !< all loads on elements
       integer(ip), intent(in) :: i                  !< the load
       type(cut_line_t), intent(in) :: line          !< that parts the element
@@ -104,7 +104,7 @@ contains
    !> The share of an element's area that lies ahead of the line, or behind it, and its centre: on the full circle the
    !> hoop stresses of an element that is parted are shared out by it.
    pure subroutine part_of_area(model, element, line, ahead, share, centre)
-      type(model_t), intent(in) :: model
+      type(model_t), intent(in) :: model            !< mesh
       integer(ip), intent(in) :: element            !< that the line parts
       type(cut_line_t), intent(in) :: line          !< that parts the element
       logical, intent(in) :: ahead                  !< the part ahead of the line; else that behind it

@@ -25,7 +25,7 @@ contains
    pure subroutine begin_from(held_before, u, step)
       logical, intent(in) :: held_before(:, :)       !< (2, n_nodes)
       real(wp), intent(in) :: u(:, :)                !< (2, n_nodes) at the end of the step before [L]
-      type(step_t), intent(inout) :: step
+      type(step_t), intent(inout) :: step            !< prescribed%from is replaced
       integer(ip) :: i
 
       associate (prescribed => step%prescribed)

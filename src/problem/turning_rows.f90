@@ -36,8 +36,8 @@ module atrito_turning_rows
 
    !> What is n's of nodes in the rows of points, point by point.
    type :: turns_t
-      integer(ip) :: n = 0
-      integer(ip), allocatable :: row(:), node(:)
+      integer(ip) :: n = 0 !< entries that are used
+      integer(ip), allocatable :: row(:), node(:)   !< (n) of the points; node that it acts on
       real(wp), allocatable :: turn(:, :)           !< (2, n) in the normal and in the tangential row
    end type turns_t
 
@@ -49,8 +49,8 @@ contains
    subroutine balance_rows(rubs, points, fem, bilateral, rows)
       logical, intent(in) :: rubs(:)                !< (pairs) with friction
       type(contact_points_t), intent(in) :: points(:) !< one a pair
-      type(fem_t), intent(in) :: fem
-      type(bilateral_rows_t), intent(in) :: bilateral
+      type(fem_t), intent(in) :: fem                  !< bodies with their rigid modes
+      type(bilateral_rows_t), intent(in) :: bilateral !< supports along their own directions
       type(contact_rows_t), intent(inout) :: rows   !< of all pairs
       real(wp), parameter :: NO_TURN = 1.0e-9_wp    ! of a motion
       logical :: may_turn(fem%bodies%n)
