@@ -30,7 +30,7 @@ module atrito_average
 
    !> W by rows.
    type, extends(sparse_rows_t) :: average_t
-      logical :: is_identity = .true.
+      logical :: is_identity = .true. !< every point is its own average: the local law
    end type average_t
 
 contains
@@ -48,7 +48,7 @@ contains
    !> More points, each of them its own average.
    pure subroutine add_identity_rows(n, w)
       integer(ip), intent(in) :: n                  !< points
-      type(average_t), intent(inout) :: w
+      type(average_t), intent(inout) :: w           !< with the rows of other points in
       integer(ip) :: j, entries
 
       entries = w%first(w%n + 1) - 1
@@ -180,7 +180,7 @@ contains
 
    !> P = W p.
    pure function apply_average(w, p) result(average)
-      type(average_t), intent(in) :: w
+      type(average_t), intent(in) :: w              !< a row a point
       real(wp), intent(in) :: p(:)                  !< (n) pressures [F/L^2]
       real(wp) :: average(size(p))
 

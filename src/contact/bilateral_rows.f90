@@ -24,9 +24,9 @@ module atrito_bilateral_rows
                                                                                                                        'rigid body']
 
    type :: bilateral_rows_t
-      integer(ip) :: n = 0
+      integer(ip) :: n = 0                           !< rows
       integer(ip), allocatable :: first(:)           !< (n + 1)
-      integer(ip), allocatable :: node(:)
+      integer(ip), allocatable :: node(:)            !< (entries) number in the mesh, or of a reference node
       real(wp), allocatable :: vector(:, :)          !< (2, entries); none is 0
       real(wp), allocatable :: value(:)              !< (n) right-hand side [L]
       real(wp), allocatable :: compliance(:)         !< (n) 1/k of springs [L/F]
@@ -34,14 +34,14 @@ module atrito_bilateral_rows
       integer(ip), allocatable :: kind(:)            !< (n) ROW_*
       integer(ip), allocatable :: group(:)           !< (n) ascending from 1: rows that are judged by each other's forces
       integer(ip), allocatable :: part(:)            !< (n) place in the model's list of ties, equations, supports or springs
-      integer(ip) :: n_groups = 0
+      integer(ip) :: n_groups = 0                    !< the largest of group
    end type bilateral_rows_t
 
 contains
 
    !> No rows, with room for some.
    pure subroutine begin_rows(rows)
-      type(bilateral_rows_t), intent(out) :: rows
+      type(bilateral_rows_t), intent(out) :: rows !< none, with room for some
       integer(ip), parameter :: SOME = 16_ip
 
       allocate (rows%vector(2, 0))
@@ -53,11 +53,11 @@ contains
    !> those that are 0 are left out. weight: what shared forces are divided by; identity: kind of row, group of rows
    !> that are judged together, place in the model's list.
    pure subroutine add_row(nodes, vectors, value, compliance, weight, identity, rows)
-      integer(ip), intent(in) :: nodes(:)
+      integer(ip), intent(in) :: nodes(:)            !< (entries) a node may come twice
       real(wp), intent(in) :: vectors(:, :)          !< (2, entries)
-      real(wp), intent(in) :: value, compliance, weight
+      real(wp), intent(in) :: value, compliance, weight !< [L], [L/F], [L^2]
       integer(ip), intent(in) :: identity(3)         !< kind, group, part
-      type(bilateral_rows_t), intent(inout) :: rows
+      type(bilateral_rows_t), intent(inout) :: rows  !< with a row more
       type(id_map_t) :: entry_of                     ! of each node, counted from the row's first
       integer(ip) :: k, at, last
       logical :: known
@@ -91,7 +91,7 @@ contains
 
    !> Gives back what was allocated for more rows and entries.
    pure subroutine trim_rows(rows)
-      type(bilateral_rows_t), intent(inout) :: rows
+      type(bilateral_rows_t), intent(inout) :: rows !< room behind the last row is given back
 
       associate (n => rows%n, entries => rows%first(rows%n + 1) - 1)
          call set_room(n, n, entries, entries, rows)

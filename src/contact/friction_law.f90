@@ -18,7 +18,7 @@ module atrito_friction_law
    integer(ip), parameter :: KERNEL_POINTS = 1, KERNEL_LINE = 2
 
    type :: friction_law_t
-      integer(ip) :: kind = FRICTION_NONE
+      integer(ip) :: kind = FRICTION_NONE  !< FRICTION_*
       real(wp) :: nu = 0.0_wp              !< coefficient of friction
       real(wp) :: eps = 0.0_wp             !< NONLOCAL [L]
       real(wp) :: compliance = 0.0_wp      !< LOCAL: 1 / k [L^3/F]

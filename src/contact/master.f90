@@ -35,7 +35,7 @@ module atrito_master
 
    !> Faces of elements, or rigid segments and arcs.
    type, extends(pieces_t) :: master_t
-      logical :: rigid = .false.
+      logical :: rigid = .false.                    !< segments and arcs that do not deform
       integer(ip) :: degree = 0                     !< of the elements of all faces; 0: rigid, none, or not the same
       real(wp) :: grain = 0.0_wp                    !< to which nodes are known, those of slaves as well [L]; 0: all digits
       real(wp), allocatable :: ends(:, :, :)        !< (2, first and last end, n) unit normals of the smooth surface
@@ -44,7 +44,7 @@ module atrito_master
       real(wp) :: straight = 0.0_wp                 !< [1/L] a curvature that is nothing beside those of curves
       real(wp), allocatable :: bend(:)              !< (n) [1/L] the same, convex > 0
       logical, allocatable :: is_floor(:)           !< (n) straight segments beside which no other turns away; not allocated: none
-      type(piece_tree_t) :: tree
+      type(piece_tree_t) :: tree                    !< over the pieces, by their boxes and normals
    end type master_t
 
    !> What a point sees.
@@ -66,9 +66,9 @@ contains
 
    !> The faces of elements as a master; their outside lies at the right of the direction of travel.
    pure subroutine master_of_faces(mesh, faces, master, grain)
-      type(mesh_t), intent(in) :: mesh
+      type(mesh_t), intent(in) :: mesh              !< the faces are of its elements
       type(face_list_t), intent(in) :: faces        !< of the master, in the order of its pieces
-      type(master_t), intent(out) :: master
+      type(master_t), intent(out) :: master         !< with smooth normals, curvatures, kinks and tree
       real(wp), intent(in), optional :: grain       !< to which the nodes of the mesh are known [L]; left out: all digits
       integer(ip), allocatable :: nodes(:)
       real(wp), allocatable :: curvature(:)
@@ -131,7 +131,7 @@ contains
 
    !> The same pieces with their outside on the other side.
    pure subroutine turn_master(master)
-      type(master_t), intent(inout) :: master
+      type(master_t), intent(inout) :: master !< its sides, bends and tree change
 
       master%side = -master%side
       master%ends = -master%ends
@@ -144,7 +144,7 @@ contains
    !> a kink where the normal turns, by A_KINK or more altogether, or where the curvature jumps.
    pure subroutine master_of_segments(ends, master, is_arc, centre)
       real(wp), intent(in) :: ends(:, :)            !< (2, segments + 1) [L]
-      type(master_t), intent(out) :: master
+      type(master_t), intent(out) :: master         !< without a smooth surface
       logical, intent(in), optional :: is_arc(:)    !< (segments); default: none
       real(wp), intent(in), optional :: centre(:, :) !< (2, segments) of arcs [L], as far from one end as from the other
       real(wp), allocatable :: curvature(:)
@@ -189,7 +189,7 @@ contains
    !> Unit normal of the smooth surface at a place of a piece: that of the piece, drawn to the means at its ends; in the middle of a
    !> bent piece it is right as it is.
    pure function smooth_normal(master, i, t) result(n)
-      type(master_t), intent(in) :: master
+      type(master_t), intent(in) :: master          !< with its smooth surface
       integer(ip), intent(in) :: i                  !< piece
       real(wp), intent(in) :: t                     !< in [0,1]
       real(wp) :: n(2), share(2)

@@ -66,7 +66,7 @@ module atrito_mortar_points
    !> Integrals over a face with the weighting functions of its nodes: with the shape functions phi until make_dual,
    !> where the face is covered whole.
    type :: face_integrals_t
-      logical :: is_whole = .true.
+      logical :: is_whole = .true.                  !< no part of it is uncovered
       logical :: has_point(MOST) = .true.           !< nodes that get a weighting function
       real(wp) :: length(MOST) = 0.0_wp             !< int psi ds [L]
       real(wp) :: weight(MOST) = 0.0_wp             !< int psi h ds [L^2]
@@ -83,7 +83,7 @@ module atrito_mortar_points
    type :: rows_t
       type(id_map_t) :: place                       !< of the points of nodes
       real(wp), allocatable :: least(:)             !< of the gaps that a point sees [L]
-      type(terms_t) :: slave, master
+      type(terms_t) :: slave, master                !< of the rows on nodes of the slave, of the master
    end type rows_t
 
 contains
@@ -94,13 +94,13 @@ contains
    !> 2. Face by face the integrals over its segments are taken (integrate_face) and added to the points at its nodes (add_face).
    !> 3. The points get unit normals, mean gaps, and rows over their weight, terms of one node together (finish_points).
    subroutine pair_by_mortar(mesh, thickness, slave, master_faces, master, compliance, master_compliance, points)
-      type(mesh_t), intent(in) :: mesh
+      type(mesh_t), intent(in) :: mesh              !< the slave's and the master's elements
       real(wp), intent(in) :: thickness(:)          !< of each element [L]
       type(face_list_t), intent(in) :: slave        !< one chain, ordered (order_chain)
       type(face_list_t), intent(in) :: master_faces !< n = 0: the master is rigid
       type(master_t), intent(in) :: master          !< of these faces
       real(wp), intent(in) :: compliance(:), master_compliance(:) !< of the faces, (1 - mu^2)/E in plane strain [L^2/F]
-      type(contact_points_t), intent(out) :: points
+      type(contact_points_t), intent(out) :: points               !< of the pair, with rows and gaps
       type(segments_t) :: segments
       type(rows_t) :: rows
       type(face_integrals_t) :: integrals

@@ -48,10 +48,10 @@ module atrito_mortar_segments
 
    !> A face of the slave with what is needed of it.
    type :: slave_face_t
-      integer(ip) :: n = 0
+      integer(ip) :: n = 0                          !< nodes: 2 or 3
       integer(ip) :: node(3) = 0                    !< in the order of face_nodes
       real(wp) :: x(2, 3) = 0.0_wp                  !< [L]
-      real(wp) :: direction(2, 3) = 0.0_wp
+      real(wp) :: direction(2, 3) = 0.0_wp          !< of sight, unit vectors
       real(wp) :: curvature = 0.0_wp                !< [1/L]
       real(wp) :: length = 0.0_wp                   !< of the chord [L]
       integer(ip) :: state = 0                      !< of its element
@@ -74,10 +74,10 @@ contains
 
    !> Cuts all faces of a slave. The directions of sight at the ends of faces are normals of the smooth surface.
    pure subroutine cut_slave(mesh, slave, master, segments)
-      type(mesh_t), intent(in) :: mesh
+      type(mesh_t), intent(in) :: mesh              !< the slave's and the master's elements
       type(face_list_t), intent(in) :: slave        !< one chain, ordered (order_chain)
-      type(master_t), intent(in) :: master
-      type(segments_t), intent(out) :: segments
+      type(master_t), intent(in) :: master          !< which the faces see
+      type(segments_t), intent(out) :: segments     !< without their common curve
       type(slave_face_t) :: face
       real(wp), allocatable :: ends(:, :, :), cuts(:)
       integer(ip) :: i
@@ -135,7 +135,7 @@ contains
    !> Between chords of such a curve the gap shows a sawtooth of k c^2/8, c the chord, that is not there:
    !> atrito_mortar_points adds what the chords are short of it.
    pure subroutine join_curves(master, slave_compliance, master_compliance, segments)
-      type(master_t), intent(in) :: master
+      type(master_t), intent(in) :: master                              !< with the bend of its pieces
       real(wp), intent(in) :: slave_compliance(:), master_compliance(:) !< of the faces [L^2/F]; nothing of a rigid master
       type(segments_t), intent(inout) :: segments   !< those of the faces before
       real(wp) :: share
@@ -153,10 +153,10 @@ contains
 
    !> Face i of the slave.
    pure function take_face(mesh, slave, i, segments) result(face)
-      type(mesh_t), intent(in) :: mesh
+      type(mesh_t), intent(in) :: mesh              !< nodes, thickness
       type(face_list_t), intent(in) :: slave        !< one chain, ordered
       integer(ip), intent(in) :: i                  !< face of the slave
-      type(segments_t), intent(in) :: segments
+      type(segments_t), intent(in) :: segments      !< with directions and curvatures
       type(slave_face_t) :: face
 
       associate (nodes => face_nodes(mesh, slave%element(i), slave%face(i)))

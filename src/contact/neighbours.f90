@@ -32,7 +32,7 @@ contains
    pure subroutine build_grid(x, reach, grid)
       real(wp), intent(in) :: x(:, :)                !< (2, n) [L]
       real(wp), intent(in) :: reach                  !< [L], > 0
-      type(grid_t), intent(out) :: grid
+      type(grid_t), intent(out) :: grid              !< with the points cell by cell
       integer(lp) :: key(size(x, 2))
       integer(lp), allocatable :: cells(:)           ! the keys of those with points, rising
       real(wp) :: low(2), extent, width
@@ -88,11 +88,11 @@ contains
 
    !> The points near point j, itself one of them, in no particular order.
    pure subroutine list_near(grid, x, j, near, n)
-      type(grid_t), intent(in) :: grid
+      type(grid_t), intent(in) :: grid               !< of the same points
       real(wp), intent(in) :: x(:, :)                !< (2, n) those of the grid [L]
-      integer(ip), intent(in) :: j
+      integer(ip), intent(in) :: j                   !< number among the points of the grid
       integer(ip), intent(inout) :: near(:)          !< the first n are they; long enough
-      integer(ip), intent(out) :: n
+      integer(ip), intent(out) :: n                  !< neighbours, >= 1
       integer(ip) :: k, i
 
       n = 0

@@ -63,12 +63,12 @@ contains
    !> 4. At the axis of revolution the rows of a face's nodes are mixed to those of its points (mix_rows).
    !> 5. Nodes at the tip of a crack, of both sides, have no point (common_ends).
    pure subroutine pair_with_master(mesh, thickness, slave, master_faces, master, points)
-      type(mesh_t), intent(in) :: mesh
+      type(mesh_t), intent(in) :: mesh              !< the slave's and the master's elements
       real(wp), intent(in) :: thickness(:)          !< of each element [L]
       type(face_list_t), intent(in) :: slave        !< one chain, ordered (order_chain)
       type(face_list_t), intent(in) :: master_faces !< n = 0: the master is rigid
       type(master_t), intent(in) :: master          !< of these faces
-      type(contact_points_t), intent(out) :: points
+      type(contact_points_t), intent(out) :: points !< of the pair, with rows and gaps
       logical, allocatable :: used(:)
       real(wp), allocatable :: curvature(:)         ! of the slave at the points [1/L]
       type(terms_t) :: mixed

@@ -28,7 +28,7 @@ module atrito_outlines
 
    !> All faces on the outlines of the bodies.
    type :: outlines_t
-      type(face_list_t) :: faces
+      type(face_list_t) :: faces                     !< in the order of their elements
       integer(ip), allocatable :: body(:)            !< (faces)
       real(wp), allocatable :: length(:)             !< (faces) [L]
       integer(ip), allocatable :: next(:)            !< (faces) the one that goes on where it ends; 0: there is a corner
@@ -44,7 +44,7 @@ module atrito_outlines
 
    !> Where the line of sight is.
    type :: line_t
-      real(wp) :: x(2) = 0.0_wp, normal(2) = 0.0_wp
+      real(wp) :: x(2) = 0.0_wp, normal(2) = 0.0_wp  !< place [L] and outward unit normal
       real(wp) :: near = 0.0_wp                      !< [L] what is no farther off than this touches
       real(wp) :: limit = 0.0_wp                     !< [L]
    end type line_t
@@ -57,10 +57,10 @@ contains
    !> The outer faces of all elements in the order of these, without those of cuts: both sides of a pre-tension section
    !> hold together, and are no contact.
    subroutine list_outlines(mesh, around, body_of_element, outlines, cut)
-      type(mesh_t), intent(in) :: mesh
+      type(mesh_t), intent(in) :: mesh              !< elements and nodes
       type(node_elements_t), intent(in) :: around   !< elements round each node
       integer(ip), intent(in) :: body_of_element(:) !< (elements)
-      type(outlines_t), intent(out) :: outlines
+      type(outlines_t), intent(out) :: outlines     !< of all bodies
       type(face_list_t), intent(in), optional :: cut !< faces that hold together with others
       integer(ip) :: i
 
@@ -131,8 +131,8 @@ contains
    !> What each face looks at: the nearest face of another body, or the nearest rigid surface, no farther off than `distance`. Its
    !> own body hides what lies behind it.
    subroutine look_around(mesh, outlines, rigid, distance, seen)
-      type(mesh_t), intent(in) :: mesh
-      type(outlines_t), intent(in) :: outlines
+      type(mesh_t), intent(in) :: mesh !< elements and nodes
+      type(outlines_t), intent(in) :: outlines      !< of all bodies
       type(master_t), intent(in) :: rigid(:)        !< all rigid surfaces that may be seen
       real(wp), intent(in) :: distance               !< [L]; 0: half of the longer one of the two faces, of the face for a rigid one
       type(sighting_t), allocatable, intent(out) :: seen(:)   !< (faces)

@@ -40,17 +40,17 @@ module atrito_piece_tree
 
    !> A branch that is still to be looked at.
    type :: waiting_t
-      integer(ip) :: branch = 0
+      integer(ip) :: branch = 0                     !< its number: halves are 2 k and 2 k + 1
       integer(ip) :: first = 0, last = 0            !< its pieces in the order
       real(wp) :: bound = 0.0_wp                    !< [L] nothing in the branch is nearer than this
    end type waiting_t
 
    !> A line x + s normal on its way through the tree.
    type :: search_t
-      real(wp) :: x(2) = 0.0_wp, normal(2) = 0.0_wp
+      real(wp) :: x(2) = 0.0_wp, normal(2) = 0.0_wp !< a place of the line [L], its unit vector
       logical :: crossing = .true.                  !< what the line crosses, by the distance along it; else all, by that from it
       real(wp) :: margin = 0.0_wp                   !< [L] rounding of what is compared
-      integer(ip) :: n = 0
+      integer(ip) :: n = 0                          !< branches that wait
       type(waiting_t), allocatable :: waiting(:)    !< the first n are in use; the nearest is the last
    end type search_t
 
@@ -186,7 +186,7 @@ contains
 
    !> A search for what the line through x along the normal crosses, or (not crossing) comes near.
    pure subroutine begin_search(tree, x, normal, crossing, search)
-      type(piece_tree_t), intent(in) :: tree
+      type(piece_tree_t), intent(in) :: tree        !< over the pieces of a master
       real(wp), intent(in) :: x(2), normal(2)       !< place [L] and unit vector of the line
       logical, intent(in) :: crossing               !< only what the line crosses
       type(search_t), intent(out) :: search         !< at its beginning
@@ -260,7 +260,7 @@ contains
    !> branch that is no leaf is replaced by its halves. None: nothing that still waits can be nearer, the search is at
    !> its end.
    pure subroutine next_leaf(tree, found, search, first, last)
-      type(piece_tree_t), intent(in) :: tree
+      type(piece_tree_t), intent(in) :: tree        !< the search was begun with
       real(wp), intent(in) :: found                 !< [L]
       type(search_t), intent(inout) :: search       !< with the branches that wait
       integer(ip), intent(out) :: first, last       !< places in the order; none: last < first

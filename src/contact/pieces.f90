@@ -25,7 +25,7 @@ module atrito_pieces
    !> A piece is x = a + t d + 4 t (1 - t) sag with t in [0,1]: a face of elements, or a rigid segment. A rigid arc turns a round
    !> its centre by the angle t sweep.
    type :: pieces_t
-      integer(ip) :: n = 0
+      integer(ip) :: n = 0                          !< pieces
       real(wp), allocatable :: a(:, :)              !< (2, n) first ends [L]
       real(wp), allocatable :: d(:, :)              !< (2, n) last end less first [L]
       real(wp), allocatable :: sag(:, :)            !< (2, n) middle node less the middle of the chord [L]; 0: straight
@@ -41,8 +41,8 @@ contains
 
    !> Room for n pieces; what they are is set by who knows them.
    pure subroutine allocate_pieces(n, pieces)
-      integer(ip), intent(in) :: n
-      class(pieces_t), intent(inout) :: pieces
+      integer(ip), intent(in) :: n !< pieces
+      class(pieces_t), intent(inout) :: pieces !< all zero: straight, of no length
 
       pieces%n = n
       allocate (pieces%a(2, n), pieces%d(2, n), pieces%sag(2, n), pieces%centre(2, n), pieces%sweep(n), source=0.0_wp)
@@ -61,7 +61,7 @@ contains
 
    !> The place of a piece at a share t of it, 0 at its first end and 1 at its second [L]: on a line, a parabola or an arc.
    pure function place_at(pieces, i, t) result(x)
-      class(pieces_t), intent(in) :: pieces
+      class(pieces_t), intent(in) :: pieces         !< faces, segments or arcs
       integer(ip), intent(in) :: i                  !< piece
       real(wp), intent(in) :: t                     !< share of the piece, 0 to 1
       real(wp) :: x(2)
@@ -75,7 +75,7 @@ contains
 
    !> Outward unit normal of a piece.
    pure function normal_at(pieces, i, t) result(n)
-      class(pieces_t), intent(in) :: pieces
+      class(pieces_t), intent(in) :: pieces         !< faces, segments or arcs
       integer(ip), intent(in) :: i                  !< piece
       real(wp), intent(in) :: t                     !< share of the piece, 0 to 1
       real(wp) :: n(2), d(2)
@@ -106,10 +106,10 @@ contains
    !> degrees, so those between the ends are no farther off the normals at the ends than these are apart; where the
    !> middle node makes a cusp nothing is known of them.
    pure subroutine box_of_piece(pieces, i, low, high, normal_low, normal_high)
-      class(pieces_t), intent(in) :: pieces
+      class(pieces_t), intent(in) :: pieces         !< faces, segments or arcs
       integer(ip), intent(in) :: i                  !< piece
       real(wp), intent(out) :: low(2), high(2)      !< [L]
-      real(wp), intent(out) :: normal_low(2), normal_high(2)
+      real(wp), intent(out) :: normal_low(2), normal_high(2) !< bounds of the components of its unit normals
       real(wp) :: ends(2, 2), normals(2, 2), radius, bulge(2), spare
 
       ends = reshape([pieces%a(:, i), pieces%a(:, i) + pieces%d(:, i)], [2, 2])
@@ -133,7 +133,7 @@ contains
 
    !> Where the line through x along the normal crosses a piece: up to two places t, also beyond the ends.
    pure subroutine cross_piece(pieces, i, x, normal, t, n_roots)
-      class(pieces_t), intent(in) :: pieces
+      class(pieces_t), intent(in) :: pieces         !< faces, segments or arcs
       integer(ip), intent(in) :: i                  !< piece
       real(wp), intent(in) :: x(2), normal(2)       !< place [L] and unit vector of the line
       real(wp), intent(out) :: t(2)                 !< the places, the first n_roots are in use

@@ -24,7 +24,7 @@ module atrito_points
 
    !> A motion in which both sides of a pair slide along themselves (atrito_sliding_motions).
    type :: sliding_t
-      logical :: exists = .false.
+      logical :: exists = .false.                   !< a motion was found
       logical :: is_of_both = .true.                !< both sides slide along themselves; else one that is straight
       logical :: meets_round = .false.              !< the other one is round then
       logical :: is_round = .false.                 !< a rotation about the centre; else a translation
@@ -39,7 +39,7 @@ module atrito_points
    !> The points of a pair as constraints: the relative displacement of point j is the sum over its entries k, from first(j) to
    !> first(j+1) - 1, of coefficient(k) u(entry(k)), of which the slave's are positive and the master's negative.
    type :: contact_points_t
-      integer(ip) :: n = 0
+      integer(ip) :: n = 0                          !< points
       integer(ip), allocatable :: node(:)           !< slave node of each point
       real(wp), allocatable :: x(:, :)              !< (2, n) [L]
       real(wp), allocatable :: s(:)                 !< arc length along the slave surface [L]
@@ -48,10 +48,10 @@ module atrito_points
       real(wp), allocatable :: weight(:)            !< quadrature weight times thickness [L^2]
       real(wp), allocatable :: gap(:)               !< initial distance s_j along the normal [L]; negative: overclosed
       real(wp), allocatable :: given_gap(:)         !< of the nodes given_node, or (1) of all, where *CLEARANCE gives them [L]
-      integer(ip), allocatable :: given_node(:)
+      integer(ip), allocatable :: given_node(:)     !< not allocated: given_gap is of all
       integer(ip), allocatable :: first(:)          !< (n + 1) of the entries of each point, the slave's before the master's
       integer(ip), allocatable :: entry(:)          !< nodes
-      real(wp), allocatable :: coefficient(:)
+      real(wp), allocatable :: coefficient(:)       !< (entries) share of the entry's displacement
       integer(ip) :: n_faces = 0, n_left_out = 0    !< slave faces; those of them that find no master
       integer(ip) :: n_seeing = 0                   !< NODAL, where all are left out: those that see it with a part of them
       integer(lp), allocatable :: faces(:)          !< a number of its own for each of the slave's faces that are not left out
@@ -60,15 +60,15 @@ module atrito_points
       logical, allocatable :: is_held(:, :)         !< (2, n) supports hold all nodes of a row along the normal, along the tangent
       type(sliding_t) :: sliding                    !< that both sides have, if they have one
       logical :: matching = .false.                 !< every point faces a master node and the orders are equal
-      logical :: rigid = .false.
-      logical :: is_mortar = .false.
+      logical :: rigid = .false.                    !< the master does not deform: it has no entries
+      logical :: is_mortar = .false.                !< of MORTAR: means over the faces; else at nodes
       real(wp) :: coarseness = 0.0_wp               !< NODAL: largest distance of slave nodes over that of the master's there
       integer(ip) :: coarse_node = 0                !< where
    end type contact_points_t
 
    !> Terms of the rows of points in any order, several of one node among them: what integrals over faces give one after the other.
    type :: terms_t
-      integer(ip) :: n = 0
+      integer(ip) :: n = 0                          !< terms
       integer(ip), allocatable :: point(:)          !< (n or more)
       integer(ip), allocatable :: node(:)           !< (n or more) a node, or a point whose row takes part
       real(wp), allocatable :: value(:)             !< (n or more) coefficient times weight [L^2]
@@ -79,7 +79,7 @@ contains
    !> Room for points without entries. Lengths, weights, normals and gaps begin at 0: faces add to them.
    pure subroutine allocate_points(most, most_entries, points)
       integer(ip), intent(in) :: most, most_entries  !< points and entries at the most
-      type(contact_points_t), intent(inout) :: points
+      type(contact_points_t), intent(inout) :: points !< n = 0 in
 
       allocate (points%node(most), source=0_ip)
       allocate (points%first(most + 1), source=1_ip)
@@ -90,12 +90,12 @@ contains
 
    !> The point of a node, which is made when it is new: faces that share a node share its point.
    pure subroutine add_point(mesh, node, s, points, place, j)
-      type(mesh_t), intent(in) :: mesh
-      integer(ip), intent(in) :: node
-      real(wp), intent(in) :: s
-      type(contact_points_t), intent(inout) :: points
-      type(id_map_t), intent(inout) :: place
-      integer(ip), intent(out) :: j
+      type(mesh_t), intent(in) :: mesh !< where the node lies
+      integer(ip), intent(in) :: node  !< of the slave
+      real(wp), intent(in) :: s        !< arc length along the slave surface [L]
+      type(contact_points_t), intent(inout) :: points !< with a point more, if the node is new
+      type(id_map_t), intent(inout) :: place          !< of the points of nodes
+      integer(ip), intent(out) :: j                   !< the node's point
       logical :: known
 
       call add_id(place, node, points%n + 1, known)
@@ -109,10 +109,10 @@ contains
 
    !> Appends to the entries of the last point so far those that are not 0; points get their entries one after the other.
    pure subroutine add_entries(nodes, coefficients, i, points)
-      integer(ip), intent(in) :: nodes(:)
-      real(wp), intent(in) :: coefficients(:)
+      integer(ip), intent(in) :: nodes(:) !< of the row
+      real(wp), intent(in) :: coefficients(:)       !< (nodes) those that are 0 are left out
       integer(ip), intent(in) :: i                  !< the point
-      type(contact_points_t), intent(inout) :: points
+      type(contact_points_t), intent(inout) :: points !< with the entries of point i
       integer(ip) :: k
 
       associate (next => points%first(i + 1))
@@ -127,9 +127,9 @@ contains
 
    !> Appends a term to a list; the list grows by doubling.
    pure subroutine add_term(point, node, value, terms)
-      integer(ip), intent(in) :: point, node
+      integer(ip), intent(in) :: point, node        !< 1.. both
       real(wp), intent(in) :: value                 !< [L^2]
-      type(terms_t), intent(inout) :: terms
+      type(terms_t), intent(inout) :: terms         !< with a term more
 
       call make_room(terms%point, terms%n, terms%n + 1)
       call make_room(terms%node, terms%n, terms%n + 1)
@@ -143,7 +143,7 @@ contains
    !> Takes away the points of some nodes, and gives back what was allocated for more points and entries.
    pure subroutine drop_points(nodes, points)
       integer(ip), intent(in) :: nodes(:)           !< 0: none
-      type(contact_points_t), intent(inout) :: points
+      type(contact_points_t), intent(inout) :: points !< the rest keep their order
       integer(ip) :: i
 
       call take_points(pack([(i, i=1, points%n)], [(.not. any(nodes == points%node(i)), i=1, points%n)]), points)

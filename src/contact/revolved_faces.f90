@@ -32,7 +32,7 @@ module atrito_revolved_faces
 
    !> A face in the order of travel.
    type :: revolved_face_t
-      integer(ip) :: n = 0
+      integer(ip) :: n = 0                         !< nodes: 2 or 3
       logical :: mixes = .false.                   !< at the axis
       real(wp) :: weight(MOST) = 0.0_wp            !< of its points [L^2]
       real(wp) :: normal(2, MOST) = 0.0_wp         !< unit vectors
@@ -82,7 +82,7 @@ contains
    !> first degree the integrand is of the second degree on straight faces of two nodes, of the fifth on parabolas (N, r
    !> and dx/dt): three Gauss points are exact.
    pure function revolve_face(mesh, state, thickness, rule) result(face)
-      type(mesh_t), intent(in) :: mesh
+      type(mesh_t), intent(in) :: mesh             !< nodes, and which elements are axisymmetric
       integer(ip), intent(in) :: state             !< place in STATES
       real(wp), intent(in) :: thickness             !< of the element [L]
       type(nodal_rule_t), intent(in) :: rule       !< of the face

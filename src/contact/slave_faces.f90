@@ -18,8 +18,8 @@ module atrito_slave_faces
 
    !> The nodal rule on a face, in the order of travel.
    type :: nodal_rule_t
-      integer(ip) :: n = 0
-      integer(ip) :: node(3) = 0
+      integer(ip) :: n = 0 !< nodes with a weight
+      integer(ip) :: node(3) = 0                    !< in the order of face_nodes
       real(wp) :: s(3) = 0.0_wp                     !< arc length from the face's first node [L]
       real(wp) :: weight(3) = 0.0_wp                !< [L]
       real(wp) :: normal(2, 3) = 0.0_wp             !< outward unit normals of the face
@@ -35,7 +35,7 @@ contains
    !> The ends of a slave that are nodes of its master, too: at the tip of a crack nothing opens or slips, so there is no point.
    !> 0: none.
    pure function common_ends(mesh, slave, master) result(nodes)
-      type(mesh_t), intent(in) :: mesh
+      type(mesh_t), intent(in) :: mesh              !< nodes of the faces
       type(face_list_t), intent(in) :: slave        !< one chain, ordered (order_chain)
       type(face_list_t), intent(in) :: master       !< n = 0: it is rigid
       integer(ip) :: nodes(2)
@@ -115,7 +115,7 @@ contains
    !> Trapezoidal or Simpson's rule on a face. On a curved face the Jacobian differs from node to node. Simpson's weights times the
    !> normals are the nodal forces of a uniform pressure, to the last bit: the shape functions times dx/dt are cubics.
    pure function nodal_rule(mesh, element, face) result(rule)
-      type(mesh_t), intent(in) :: mesh
+      type(mesh_t), intent(in) :: mesh              !< shape of the face, thickness or radius
       integer(ip), intent(in) :: element, face      !< element and its side
       type(nodal_rule_t) :: rule                    !< in the order of travel
       integer(ip) :: nodes(3), k, n

@@ -32,7 +32,7 @@ module atrito_sliding_motions
 
    !> The chords of both sides of a pair.
    type :: chords_t
-      integer(ip) :: n = 0
+      integer(ip) :: n = 0                          !< chords
       real(wp), allocatable :: place(:, :)          !< (2, n) their middles [L]
       real(wp), allocatable :: normal(:, :)         !< (2, n) unit vectors out of their bodies
       real(wp), allocatable :: length(:)            !< (n) [L]
@@ -55,13 +55,13 @@ contains
    !> The grain is that of the mesh or of these nodes alone, whichever is coarser; faces as short as ten grains tell
    !> that the nodes were not rounded to it.
    pure subroutine list_chords(mesh, slave, faces, master, points, grain, chords)
-      type(mesh_t), intent(in) :: mesh
-      type(face_list_t), intent(in) :: slave
+      type(mesh_t), intent(in) :: mesh !< where the nodes lie
+      type(face_list_t), intent(in) :: slave        !< one chain, ordered
       type(face_list_t), intent(in) :: faces        !< of the master; n = 0: it is rigid
-      type(master_t), intent(in) :: master
+      type(master_t), intent(in) :: master          !< of the pair
       type(contact_points_t), intent(in) :: points  !< of the pair
       real(wp), intent(in) :: grain                 !< to which all nodes of the mesh are known [L]
-      type(chords_t), intent(out) :: chords
+      type(chords_t), intent(out) :: chords         !< of both sides
       logical :: is_seen(master%n)
       integer(ip) :: i, used
 
@@ -196,8 +196,8 @@ contains
    !> 4. each side is round by itself, one convex and one hollow, a pin in a hole with some clearance: the rotation of the
    !>    pin, if the centres are no farther apart than the smaller radius.
    subroutine find_sliding(chords, motion)
-      type(chords_t), intent(in) :: chords
-      type(sliding_t), intent(out) :: motion
+      type(chords_t), intent(in) :: chords !< of both sides
+      type(sliding_t), intent(out) :: motion !< exists = .false.: there is none
       type(chords_t) :: of_side(2)
       type(sliding_t) :: own(2), round
 
@@ -343,7 +343,7 @@ contains
 
    !> The motion at a place, of any size: the direction of a translation, perp(x - c) of a rotation about c.
    pure function velocity(motion, x) result(v)
-      type(sliding_t), intent(in) :: motion
+      type(sliding_t), intent(in) :: motion         !< a rotation or a translation
       real(wp), intent(in) :: x(2)                  !< [L]
       real(wp) :: v(2)
 
@@ -355,7 +355,7 @@ contains
    !> goes on that the faces do not show, as at a line of symmetry, by half of the turn from one straight face to the
    !> next, or by what a parabola is off.
    pure subroutine note_doubt(mesh, slave, grain, points)
-      type(mesh_t), intent(in) :: mesh
+      type(mesh_t), intent(in) :: mesh              !< where the nodes lie
       type(face_list_t), intent(in) :: slave        !< one chain, ordered (order_chain)
       real(wp), intent(in) :: grain                 !< [L]
       type(contact_points_t), intent(inout) :: points !< of the pair

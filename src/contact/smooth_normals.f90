@@ -40,8 +40,8 @@ contains
    !> looks at each face by itself, a second one at each joint; the turn at a joint belongs to both of its faces, half
    !> and half where a face has two.
    pure subroutine smooth_surface(mesh, faces, ends, curvature, bend, grain)
-      type(mesh_t), intent(in) :: mesh
-      type(face_list_t), intent(in) :: faces
+      type(mesh_t), intent(in) :: mesh !< nodes of the faces
+      type(face_list_t), intent(in) :: faces              !< of one surface
       real(wp), allocatable, intent(out) :: ends(:, :, :) !< (2, first and last end, faces)
       real(wp), allocatable, intent(out) :: curvature(:)  !< (faces) [1/L] >= 0
       real(wp), allocatable, intent(out) :: bend(:)       !< (faces) [1/L] > 0: convex

@@ -19,7 +19,7 @@ module atrito_surface_average
    !> How the pressure of a pair is averaged.
    type :: average_rule_t
       real(wp) :: rho = 0.0_wp                       !< [L], >= 0
-      integer(ip) :: kernel = KERNEL_POINTS
+      integer(ip) :: kernel = KERNEL_POINTS          !< KERNEL_*
       integer(ip) :: surface = 0                     !< the same for pairs on one slave surface, >= 0
    end type average_rule_t
 
@@ -30,7 +30,7 @@ module atrito_surface_average
       integer(ip), allocatable :: point(:)           !< (n) their places among the points of all pairs
       integer(ip), allocatable :: start(:)           !< the first point of each pair
       logical, allocatable :: takes(:)               !< (n) this row of w is one of the average
-      type(average_t) :: w
+      type(average_t) :: w                           !< of the points of this part
    end type part_t
 
 contains

@@ -22,8 +22,8 @@ contains
    !> place to those on the other; of a single node to one of those that the points beside it see. Where one side alone is straight,
    !> points at which the other one has turned away stay as they are.
    pure subroutine turn_points(motion, mesh, points)
-      type(sliding_t), intent(in) :: motion
-      type(mesh_t), intent(in) :: mesh
+      type(sliding_t), intent(in) :: motion !< in which both sides slide along themselves
+      type(mesh_t), intent(in) :: mesh      !< where the nodes lie
       type(contact_points_t), intent(inout) :: points !< of the pair
       real(wp) :: normal(2, points%n), v(2), most
       logical :: is_turned(points%n)
