@@ -170,7 +170,7 @@ contains
    pure integer function digits_of(x, least, most, decade) result(digits)
       real(wp), intent(in) :: x(:, :), least, most, decade !< (2, n); the range; the decade
       real(wp), parameter :: SPARE = 1.0e-3_wp
-      real(wp) :: per_unit
+      real(wp) :: per_unit, rest
       integer :: i, k
 
       digits = 1
@@ -178,7 +178,10 @@ contains
       do i = 1, size(x, 2)
          do k = 1, 2
             if (abs(x(k, i)) < least .or. abs(x(k, i)) > most) cycle
-            do while (abs(x(k, i)*per_unit - anint(x(k, i)*per_unit)) > SPARE)
+            do
+               rest = abs(x(k, i))*per_unit
+               rest = rest - int(rest, lp)
+               if (min(rest, 1.0_wp - rest) <= SPARE) exit
                digits = digits + 1
                if (digits > MOST_DIGITS) return
                per_unit = 10.0_wp**digits/decade

@@ -195,9 +195,10 @@ contains
       do k = 1, size(table%columns)
          if (table%columns(k)%kind /= KIND_REAL .or. any(table%columns(k)%name == ['x', 'y'])) cycle
          call fetch_reals(table, table%columns(k), 0_ip, x)
-         least = minloc(x, dim=1, mask=.not. ieee_is_nan(x))
-         greatest = maxloc(x, dim=1, mask=.not. ieee_is_nan(x))
-         if (least == 0) cycle                      ! undefined everywhere
+         least = minloc(x, dim=1)                   ! a NaN only where all are
+         greatest = maxloc(x, dim=1)
+         if (least == 0) cycle
+         if (ieee_is_nan(x(least))) cycle           ! undefined everywhere
          call add_row(grid, table%columns(k)%name//' ['//table%columns(k)%dimension//']'//CELL//text_of(table, k, least)//CELL// &
                       place_of(least)//CELL//text_of(table, k, greatest)//CELL//place_of(greatest))
       end do

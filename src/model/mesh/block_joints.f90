@@ -35,7 +35,7 @@ contains
       type(token_t), allocatable :: names(:)
       character(len=:), allocatable :: own
       integer(ip), allocatable :: named(:), near(:), outline(:), theirs(:)
-      real(wp) :: reach, tolerance
+      real(wp) :: reach
       integer(ip) :: i, k, n
       logical :: good
 
@@ -63,7 +63,6 @@ contains
          call join_blocks(context%joined, named(1), named(i))
       end do
       call option_text(context%deck, context%deck%cards(i_card), 'ELSET', own, good)
-      tolerance = MERGE_TOLERANCE*shortest_edge(x, size(block%nodes, 1, kind=ip))
       outline = outline_of(block%nodes)
       theirs = pack(block%nodes, .true.)
       outline = pack(outline, theirs(outline) == 0)    ! not shared
@@ -76,7 +75,8 @@ contains
             if (named(min(k, size(named, kind=ip))) == near(i)) cycle
             ! nodes that lie on those of a block of the same body that is not named are apart from them
             theirs = [(side_nodes(other%nodes, k), k=1, size(BLOCK_SIDES, kind=ip))]
-            n = count(match_points(x(:, outline), context%model%mesh%x(:, theirs), tolerance) > 0, kind=ip)
+            n = count(match_points(x(:, outline), context%model%mesh%x(:, theirs), &
+                                   MERGE_TOLERANCE*shortest_edge(x, size(block%nodes, 1, kind=ip))) > 0, kind=ip)
             if (n == 0) cycle
             if (is_joint(context%deck, own, other%name)) cycle
             call report_warning(context%deck, names(1), 'W-BLOCK', to_text(n)//' nodes of this block lie on nodes of '// &
