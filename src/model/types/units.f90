@@ -19,7 +19,7 @@ contains
 
    !> The names as *UNITS has them: 'm, kN'; '' where there are none.
    pure function unit_names(units) result(text)
-      type(units_t), intent(in) :: units
+      type(units_t), intent(in) :: units         !< of the deck
       character(len=:), allocatable :: text
       integer(ip) :: k
 
@@ -33,7 +33,7 @@ contains
 
    !> A dimension in the units of a deck: 'F/L^2' is 'kN/m^2'. What has no name stays as it is: 'F/L^2'.
    pure function in_units(units, dimension) result(text)
-      type(units_t), intent(in) :: units
+      type(units_t), intent(in) :: units          !< of the deck
       character(len=*), intent(in) :: dimension   !< F, L, T and temperature with what joins them
       character(len=:), allocatable :: text
       character(len=*), parameter :: LETTERS = 'ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz'
