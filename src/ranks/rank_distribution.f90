@@ -32,7 +32,7 @@ contains
    !> Where there are several ranks.
    subroutine distribute_over_ranks(is_always, distribution)
       logical, intent(in) :: is_always               !< small scenes, too
-      class(distribution_t), allocatable, intent(out) :: distribution
+      class(distribution_t), allocatable, intent(out) :: distribution !< not allocated: there is one rank
       type(rank_distribution_t), allocatable :: ranks
 
       if (rank_count() == 1) return
