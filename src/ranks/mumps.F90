@@ -157,8 +157,7 @@ contains
    !> status: STATUS_SINGULAR when K is singular or indefinite, STATUS_INTERNAL when the memory is too small. The same on all ranks.
    subroutine factor_mumps_system(system, values, status)
       type(mumps_system_t), intent(inout) :: system !< begun; factored on return where status is OK
-      !> (m (m + 1)/2 for m unknowns) lower triangle of the matrix of this rank by columns; scaled meanwhile
-      real(wp), intent(inout), contiguous, target :: values(:)
+      real(wp), intent(inout), contiguous, target :: values(:) !< (m (m + 1)/2, m own) lower triangle by columns, scaled meanwhile
       type(status_t), intent(out) :: status      !< STATUS_OK, STATUS_SINGULAR or STATUS_INTERNAL
 
       system%weakest = 0
