@@ -95,7 +95,7 @@ contains
 
    !> Writes .gp and .bin of all contours that there are, beside mesh.dat.
    subroutine write_contour_plots(plots, drawing)
-      type(plots_t), intent(inout) :: plots
+      type(plots_t), intent(inout) :: plots         !< get data and scripts
       type(drawing_t), intent(in) :: drawing        !< of a run
       type(contour_t), allocatable :: list(:)
       type(places_t) :: nodes, elements
