@@ -15,8 +15,8 @@ module atrito_compare_rules
 
    type :: rule_t
       character(len=:), allocatable :: table, column !< * any
-      real(wp) :: rtol = 0.0_wp, atol = 0.0_wp
-      logical :: is_left_out = .false.
+      real(wp) :: rtol = 0.0_wp, atol = 0.0_wp       !< relative; in the dimension of the column
+      logical :: is_left_out = .false.               !< the column is not compared
    end type rule_t
 
    type :: rules_t
@@ -32,9 +32,9 @@ contains
 
    !> Adds the rules of a file. status: STATUS_FILE where it cannot be read or has another line.
    subroutine read_rules(path, rules, status)
-      character(len=*), intent(in) :: path
-      type(rules_t), intent(inout) :: rules
-      type(status_t), intent(out) :: status
+      character(len=*), intent(in) :: path           !< of the file, as the user wrote it
+      type(rules_t), intent(inout) :: rules          !< get the rules of the file behind their own
+      type(status_t), intent(out) :: status          !< STATUS_OK or STATUS_FILE
       type(string_t), allocatable :: words(:)
       type(rule_t) :: rule
       character(len=:), allocatable :: text
@@ -72,9 +72,9 @@ contains
 
    !> What --ignore names: tables, TABLE.COLUMN, commas between them. status: STATUS_USAGE for a name that no table has.
    subroutine leave_out(text, rules, status)
-      character(len=*), intent(in) :: text
-      type(rules_t), intent(inout) :: rules
-      type(status_t), intent(out) :: status
+      character(len=*), intent(in) :: text           !< of the option
+      type(rules_t), intent(inout) :: rules          !< get a rule a name
+      type(status_t), intent(out) :: status          !< STATUS_OK or STATUS_USAGE
       type(string_t), allocatable :: names(:)
       type(rule_t) :: rule
       integer :: i, dot
@@ -92,9 +92,9 @@ contains
 
    !> What --tables names, commas between them. status: STATUS_USAGE for a name that no table has.
    subroutine take_tables(text, rules, status)
-      character(len=*), intent(in) :: text
-      type(rules_t), intent(inout) :: rules
-      type(status_t), intent(out) :: status
+      character(len=*), intent(in) :: text           !< of the option
+      type(rules_t), intent(inout) :: rules          !< compare these tables alone
+      type(status_t), intent(out) :: status          !< STATUS_OK or STATUS_USAGE
       integer :: i
 
       call split(text, rules%tables)
@@ -147,8 +147,8 @@ contains
 
    !> What is asked of a column, or of a quantity.
    pure type(rule_t) function rule_of(rules, table, column) result(rule)
-      type(rules_t), intent(in) :: rules
-      character(len=*), intent(in) :: table, column
+      type(rules_t), intent(in) :: rules             !< the last one that fits counts
+      character(len=*), intent(in) :: table, column  !< names; of summaries the quantity
       integer :: i
 
       rule%rtol = rules%rtol
@@ -163,8 +163,8 @@ contains
 
    !> Whether a table is compared at all.
    pure logical function takes_table(rules, table)
-      type(rules_t), intent(in) :: rules
-      character(len=*), intent(in) :: table
+      type(rules_t), intent(in) :: rules             !< tables and list are read
+      character(len=*), intent(in) :: table          !< name without ending
       integer :: i
 
       takes_table = .true.
