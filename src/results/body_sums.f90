@@ -16,12 +16,12 @@ contains
 
    !> All bodies. The contact's forces enter as contact_forces has them: what they take from the loads.
    subroutine sum_bodies(fem, u, f, reaction, contact, bodies)
-      type(fem_t), intent(in) :: fem
+      type(fem_t), intent(in) :: fem                        !< bodies, mesh and sections
       real(wp), intent(in) :: u(:, :)                       !< (2, n_nodes) [L]
       real(wp), intent(in) :: f(:, :)                       !< applied forces (2, n_nodes) [F]
       real(wp), intent(in) :: reaction(:, :)                !< (2, n_nodes) [F]
       real(wp), intent(in) :: contact(:, :)                 !< B'q (2, n_nodes) [F]
-      type(body_motion_t), allocatable, intent(out) :: bodies(:)
+      type(body_motion_t), allocatable, intent(out) :: bodies(:) !< of elements, in the order of the bodies
       real(wp), allocatable :: volume(:)
       integer(ip) :: b
 
@@ -52,7 +52,7 @@ contains
 
    !> The integral of the shape function of each node, times the thickness (n_nodes) [L^3].
    function nodal_volumes(fem) result(volume)
-      type(fem_t), intent(in) :: fem
+      type(fem_t), intent(in) :: fem             !< mesh and thicknesses are read
       real(wp), allocatable :: volume(:)
       real(wp), allocatable :: x(:, :), share(:, :)
       integer(ip) :: e, n

@@ -22,7 +22,7 @@ contains
       integer(ip), intent(in) :: body_of_node(:)            !< (n_nodes)
       type(contact_points_t), intent(in) :: points(:)       !< one a pair
       type(contact_result_t), intent(inout) :: contact(:)   !< one a pair
-      type(joint_t), allocatable, intent(out) :: joints(:)
+      type(joint_t), allocatable, intent(out) :: joints(:)  !< place of each is contact%joint
       type(joint_t) :: found(sum(points%n))
       integer(ip) :: i, n
 
