@@ -30,11 +30,11 @@ contains
 
    !> Notes what is observed of a converged increment. Stresses of one that is not printed are there as long as that takes.
    subroutine note_observed(observer, data, results, rows, list)
-      class(observer_t), intent(inout) :: observer
-      type(scene_data_t), intent(inout) :: data
+      class(observer_t), intent(inout) :: observer   !< expressions, read for this model
+      type(scene_data_t), intent(inout) :: data      !< of the increment
       type(results_t), intent(inout) :: results      !< of the increment; complete where it is printed
       type(history_row_t), intent(in) :: rows(:)     !< of the history so far
-      type(observed_list_t), intent(inout) :: list
+      type(observed_list_t), intent(inout) :: list   !< becomes longer by the increment
       type(results_t) :: whole
 
       if (observer%wants_stress .and. .not. data%is_printed) then
