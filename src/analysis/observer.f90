@@ -9,6 +9,7 @@ module atrito_observer
    private
    public :: observer_t, note_observed
 
+   !> Who looks at each increment.
    type, abstract :: observer_t
       logical :: is_there = .false.                  !< something is observed
       logical :: wants_stress = .false.              !< of every increment: stresses at the nodes, and the estimate of their error
@@ -20,8 +21,8 @@ module atrito_observer
       !> Puts what is observed into the results, and changes nothing else of them.
       subroutine observe_increment(self, results, rows)
          import :: history_row_t, observer_t, results_t
-         class(observer_t), intent(inout) :: self
-         type(results_t), intent(inout) :: results
+         class(observer_t), intent(inout) :: self   !< may keep that it has warned
+         type(results_t), intent(inout) :: results  !< of the increment; observed is set
          type(history_row_t), intent(in) :: rows(:) !< of the history so far
       end subroutine observe_increment
    end interface

@@ -36,6 +36,7 @@ module atrito_adaptation
       real(wp) :: seconds(2) = 0.0_wp                !< wall clock and processor, from the beginning of the run
    end type adapted_mesh_t
 
+   !> What --adapt has come to.
    type :: adaptation_t
       real(wp) :: target = 0.0_wp                    !< percent; 0: the mesh stays as it is
       type(element_trees_t) :: trees                 !< elements of the deck, as they are cut so far
@@ -67,6 +68,9 @@ contains
 
    !> Notes what was found on a mesh, and cuts it for the next one: of a history where the printed increment with the largest error
    !> has it. goes_on: there is to be a next one.
+   !>
+   !> To come from the error e [%] down to the target the share 1 - (target/e)^2 of the sum of squares has to go; the elements that
+   !> have twice that share are cut, at least those with a tenth and at most those with half.
    subroutine follow_error(model, history, adaptation, goes_on)
       type(model_t), intent(in) :: model             !< whose history it is
       type(history_t), intent(in), target :: history !< with frames

@@ -23,6 +23,7 @@ module atrito_restart_recorder
    real(wp), parameter :: SOME_TIME = 0.02_wp        !< [s]
    real(wp), parameter :: BETWEEN = 4.0_wp           !< processor time between two files over that of writing one
 
+   !> Who writes the restart files of a run (recorder_t).
    type, extends(recorder_t) :: restart_recorder_t
       private
       character(len=:), allocatable :: folder, name  !< of the restart files, and their name in it

@@ -20,6 +20,7 @@ module atrito_archive
    public :: exchange_head, has_enough, pass_longs, pass_reals, pass_text
    public :: NOT_ALLOCATED, IS_REAL, IS_INTEGER, IS_LONG, IS_LOGICAL, IS_TEXT
 
+   !> A file of named values while it is written or read.
    type :: archive_t
       logical :: is_reading = .false.                !< else it is written
       character(len=:), allocatable :: path          !< for messages

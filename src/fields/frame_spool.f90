@@ -15,6 +15,7 @@ module atrito_frame_spool
 
    integer, parameter :: SOME = 16
 
+   !> A store of frames (frame_store_t) on the disk.
    type, extends(frame_store_t) :: frame_spool_t
       private
       character(len=:), allocatable :: folder        !< on whose disk the file is

@@ -26,6 +26,7 @@ module atrito_hdf5
    integer(hsize_t), parameter :: ROWS_IN_CHUNK = 4096, MOST_IN_CHUNK = 65536   !< of arrays and of lists
    integer, parameter :: DEFLATE_LEVEL = 4         !< of 0..9; higher ones are slow and gain little
 
+   !> An HDF5 file of fields or of lists.
    type :: hdf5_file_t
       type(status_t) :: status                     !< first failure
       integer(hid_t), private :: id = 0                            !< of the library

@@ -33,6 +33,7 @@ module atrito_build_context
    public :: invalidate_block, invalidate_name, spoil_number, is_invalid, is_undetermined, has_errors, has_lost_elements
    public :: place_token, place_text, note_number, note_place, note_places, keep_token, define_name, count_cards, ids_text, MOST_IDS
 
+   !> What the builders share.
    type :: build_context_t
       type(deck_t), pointer :: deck => null()          !< as read; not the context's own
       type(model_t), pointer :: model => null()        !< so far

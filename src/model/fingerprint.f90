@@ -23,6 +23,7 @@ module atrito_fingerprint
       integer(ip) :: step = 0                        !< that it belongs to; 0: the whole history
    end type part_t
 
+   !> A model and the options of a run, part by part.
    type :: fingerprint_t
       type(part_t), allocatable :: parts(:)          !< of the scene, then of each step
       integer(ip) :: n_steps = 0                     !< of the history
@@ -34,7 +35,7 @@ contains
 
    !> The fingerprint of a model and of the options of a run, part by part.
    subroutine take_fingerprint(model, options, fingerprint)
-      type(model_t), intent(in) :: model              !< whole, with its solver's numbers
+      type(model_t), intent(in) :: model              !< whole: mesh, laws, surfaces, rows and all steps
       character(len=*), intent(in) :: options         !< of the run, that change digits of its results
       type(fingerprint_t), intent(out) :: fingerprint !< of the scene, options and all steps
       type(digest_t) :: of_options

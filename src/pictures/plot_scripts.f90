@@ -20,6 +20,7 @@ module atrito_plot_scripts
    !> What a script has to say before it reads comma-separated values.
    character(len=*), parameter :: CSV_SEPARATOR = 'set datafile separator comma'
 
+   !> The files of some pictures, one of which is open.
    type :: plots_t
       type(file_set_t) :: set                       !< in the folder of the plots
       type(status_t) :: status                      !< the first failure: STATUS_FILE; no file is opened behind it

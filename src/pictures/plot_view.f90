@@ -9,6 +9,7 @@ module atrito_plot_view
    private
    public :: plot_view_t, shown_window, shows_none, warn_of_box, read_box
 
+   !> What is asked of the pictures of bodies.
    type :: plot_view_t
       real(wp), allocatable :: scale                !< of the displacements, not negative; not allocated: by their size
       logical :: labels = .false.                   !< numbers of nodes and elements, names of sets and surfaces

@@ -52,7 +52,7 @@ module atrito_mumps
    abstract interface
       subroutine call_mumps(instance)
          import :: dmumps_struc
-         type(dmumps_struc), intent(inout) :: instance
+         type(dmumps_struc), intent(inout) :: instance !< with its job; of this rank
       end subroutine call_mumps
    end interface
 

@@ -15,6 +15,7 @@ module atrito_rank_distribution
    private
    public :: distribute_over_ranks, rank_distribution_t
 
+   !> A scene over the ranks (distribution_t).
    type, extends(field_distribution_t) :: rank_distribution_t
       logical :: is_always = .false.                 !< whether it pays off or not
    contains

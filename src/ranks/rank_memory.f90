@@ -30,6 +30,7 @@ module atrito_rank_memory
    private
    public :: check_ranks, serve_memory, rank_memory_t, shortage_t, find_shortage
 
+   !> What a rank holds, and what it can still get.
    type :: rank_memory_t
       character(len=:), allocatable :: host      !< its name
       integer(lp) :: held = 0                    !< bytes that the rank needs as they are

@@ -28,21 +28,21 @@ module atrito_rank_tasks
       !> Does a task, on any rank.
       subroutine make_task(self, task, answer)
          import :: ip, buffer_t, rank_tasks_t
-         class(rank_tasks_t), intent(inout) :: self
-         integer(ip), intent(in) :: task
+         class(rank_tasks_t), intent(inout) :: self  !< all that is asked, on every rank the same
+         integer(ip), intent(in) :: task             !< of the list that is handed out, > 0
          type(buffer_t), intent(inout) :: answer     !< empty
       end subroutine make_task
       !> On rank 0: a task is handed out.
       subroutine begin_task(self, task)
          import :: ip, rank_tasks_t
-         class(rank_tasks_t), intent(inout) :: self
-         integer(ip), intent(in) :: task
+         class(rank_tasks_t), intent(inout) :: self  !< of rank 0; may note it
+         integer(ip), intent(in) :: task             !< of the list that is handed out, > 0
       end subroutine begin_task
       !> On rank 0: a task is done, or lost with the process that did it.
       subroutine take_answer(self, task, answer, end_code)
          import :: ip, buffer_t, rank_tasks_t
-         class(rank_tasks_t), intent(inout) :: self
-         integer(ip), intent(in) :: task
+         class(rank_tasks_t), intent(inout) :: self  !< of rank 0; may note it
+         integer(ip), intent(in) :: task             !< of the list that is handed out, > 0
          type(buffer_t), intent(inout) :: answer     !< that of make
          integer, intent(in) :: end_code             !< 0; of a lost one the exit code, or 128 and the number of the signal
       end subroutine take_answer

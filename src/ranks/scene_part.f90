@@ -22,6 +22,7 @@ module atrito_scene_part
    private
    public :: scene_part_t, assemble_scene_part, put_scene_part, take_scene_part
 
+   !> A part of a scene, before and behind its assembly.
    type :: scene_part_t
       integer(ip) :: n_kept = 0                  !< unknowns that other parts have, too
       type(assembled_scene_t) :: scene           !< its numbering and rows; the matrix when it is assembled

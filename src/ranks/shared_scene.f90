@@ -26,6 +26,7 @@ module atrito_shared_scene
 
    type(status_t), target :: trouble             !< of the first solve with S that failed, until it is taken (scene_system_t)
 
+   !> A scene in parts (scene_system_t).
    type, extends(scene_system_t) :: shared_scene_t
       type(place_t), allocatable :: parts(:)     !< the first rank, where it has one, has the first
       integer(ip), allocatable, private :: shared(:) !< unknown of the scene of each that is shared

@@ -16,6 +16,7 @@ module atrito_task_process
    public :: task_process_t, begin_task_process, give_task, ask_answer, end_task_process, await_task, give_answer
    public :: LAST_TASK
 
+   !> A copy of this process, as its maker sees it and as it sees itself.
    type :: task_process_t
       logical :: runs = .false.                    !< it has been begun, and not been ended
       integer, private :: number = 0               !< of the process

@@ -13,6 +13,7 @@ module atrito_report
       type(page_t) :: page                          !< lines of HTML
    end type page_section_t
 
+   !> What the maker of a report knows; the rest is read from the folder.
    type :: report_t
       character(len=:), allocatable :: what         !< run, sweep, study, limit
       character(len=:), allocatable :: deck         !< as the user wrote it

@@ -72,6 +72,11 @@ contains
    end function nodal_volumes
 
    !> Centre, its displacement and the rotation, in parts of volume and size of the body so that no power of a length is formed.
+   !>
+   !> With the shares w of the volume, their sum 1, and r the way from the centre, the sum of
+   !> w |u - u0 - theta (-r2, r1)|^2 is least for
+   !>    u0 = sum w u,   theta = sum w (r1 (u2 - u02) - r2 (u1 - u01)) / sum w |r|^2,
+   !> since sum w r = 0: the two do not mix.
    pure subroutine find_motion(fem, body, volume, u, row)
       type(fem_t), intent(in) :: fem
       type(body_t), intent(in) :: body

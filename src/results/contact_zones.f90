@@ -34,6 +34,9 @@ contains
       end associate
    end function stick_zone
 
+   !> The two ends of a zone. With f^2 linear in s, f_b at the last point but one and f_l at the last, d apart, the end is
+   !>    d f_l^2 / (f_b^2 - f_l^2)
+   !> behind the last point; no farther than the next point, and half-way to it where f does not fall.
    pure function zone_ends(s, f, is_in) result(ends)
       real(wp), intent(in) :: s(:)                   !< rising [L]
       real(wp), intent(in) :: f(:)                   !< what goes like a root at the ends, >= 0

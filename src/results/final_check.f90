@@ -426,6 +426,7 @@ contains
                                      //to_text(scales%slip, 3)//' allowed'
    end subroutine judge_place
 
+   !> Signorini with a penalty: p >= 0, and gap + delta p = 0 where p > 0, gap >= 0 where p = 0.
    pure subroutine judge_normal(p, gap, delta, place, wrong)
       real(wp), intent(in) :: p, gap, delta
       real(wp), intent(in) :: place              !< what is none [L]

@@ -28,6 +28,7 @@ module atrito_show
    character(len=*), parameter :: ELEMENT = 'element='
    character(len=6), parameter :: VIEWS(5) = ['matrix', 'line  ', 'states', 'law   ', 'picard']
 
+   !> Who looks at the increments of --show (viewer_t).
    type, extends(viewer_t) :: show_t
       type(string_t), allocatable :: views(:)        !< as the user asked for them
       type(page_t) :: page                           !< for the screen

@@ -13,12 +13,14 @@ module atrito_compare_rules
    private
    public :: rule_t, rules_t, read_rules, leave_out, take_tables, rule_of, takes_table, ANY_NAME, COMPARED_TABLES
 
+   !> A line of a file of tolerances, or a name of --ignore.
    type :: rule_t
       character(len=:), allocatable :: table, column !< * any
       real(wp) :: rtol = 0.0_wp, atol = 0.0_wp       !< relative; in the dimension of the column
       logical :: is_left_out = .false.               !< the column is not compared
    end type rule_t
 
+   !> All that is asked of the tables.
    type :: rules_t
       real(wp) :: rtol = 0.0_wp, atol = 0.0_wp       !< where no rule fits
       type(rule_t), allocatable :: list(:)           !< allocated

@@ -61,6 +61,7 @@ module atrito_study_errors
       real(wp), allocatable :: values(:)             !< one a quantity
    end type study_probe_t
 
+   !> A study: its runs, what is measured of them, and what it says.
    type :: study_t
       type(study_row_t), allocatable :: rows(:)      !< by element, then level
       type(string_t), allocatable :: elements(:)     !< each once

@@ -28,6 +28,7 @@ module atrito_observations
       logical :: has_warned = .false.                !< that it is not defined: told once
    end type observation_t
 
+   !> All expressions of a run (observer_t).
    type, extends(observer_t) :: observations_t
       private
       type(observation_t), allocatable :: list(:)    !< of the deck, then of --observe

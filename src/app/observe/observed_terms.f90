@@ -31,6 +31,7 @@ module atrito_observed_terms
                                                                'stick_extent', 'stick_half_width', 'stick_centre', 'closing_time', &
                                                                                                                      'opening_time']
 
+   !> A number of the solution.
    type :: term_t
       integer :: kind = TERM_TIME                    !< TERM_*
       integer :: field = 0                           !< place in NODAL_FIELDS or POINT_FIELDS, or among the quantities

@@ -24,6 +24,7 @@ module atrito_sweep_journal
 
    integer, parameter :: OUTCOMES = 3                !< exit code, factorisations, what was written: nothing, some, all (0, 1, 2)
 
+   !> The journal of a sweep.
    type :: sweep_journal_t
       private
       character(len=:), allocatable :: folder, path, key !< of the sweep; of the journal; of deck, options, program

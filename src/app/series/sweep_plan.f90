@@ -10,6 +10,7 @@ module atrito_sweep_plan
 
    integer(ip), parameter :: MOST_RUNS = 10000_ip
 
+   !> The runs of a sweep.
    type :: sweep_plan_t
       integer(ip) :: n_runs = 0                      !< >= 1; product of the numbers of values
       type(string_t), allocatable :: names(:)        !< the parameters that vary

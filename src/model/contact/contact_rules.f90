@@ -32,6 +32,7 @@ module atrito_contact_rules
       integer(ip), allocatable :: surfaces(:)        !< places in the model's list
    end type group_t
 
+   !> *CONTACT with its inclusions, exclusions and assignments.
    type :: contact_rules_t
       logical :: given = .false.                     !< the deck has *CONTACT
       type(token_t) :: place                         !< of the *CONTACT

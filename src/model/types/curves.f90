@@ -11,6 +11,7 @@ module atrito_curves
    private
    public :: curve_t, curve_list_t, line_list_t, add_curve, find_curve_faces, find_node_faces, nodes_of_no_face
 
+   !> Lines of one name, and the faces of elements that lie on them.
    type :: curve_t
       character(len=:), allocatable :: name            !< as the file has it
       integer(ip) :: card = 0                          !< that makes it, place in the deck's cards
@@ -20,6 +21,7 @@ module atrito_curves
       integer(ip) :: n_inside = 0                      !< lines that have none
    end type curve_t
 
+   !> Curves, each name once.
    type :: curve_list_t
       integer(ip) :: n = 0                             !< curves in use
       type(curve_t), allocatable :: list(:)            !< the first n are in use

@@ -22,6 +22,7 @@ module atrito_motion
 contains
 
    !> Where a place comes to.
+   !> With shift s, centre c and rotation R by the angle: y = c + R (x + s - c).
    pure function moved(motion, x) result(y)
       type(motion_t), intent(in) :: motion           !< as read
       real(wp), intent(in) :: x(2)                   !< [L]
@@ -32,6 +33,7 @@ contains
    end function moved
 
    !> A direction after the rotation.
+   !> R d = (d1 cos a - d2 sin a, d1 sin a + d2 cos a), a the angle.
    pure function turned(motion, d) result(y)
       type(motion_t), intent(in) :: motion           !< its rotation alone is used
       real(wp), intent(in) :: d(2)                   !< direction, of any length

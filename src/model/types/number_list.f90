@@ -6,6 +6,7 @@ module atrito_number_list
    private
    public :: number_list_t, add_number, add_numbers, numbers_of
 
+   !> Numbers in the order in which they were added.
    type :: number_list_t
       integer(ip) :: n = 0                       !< numbers in use
       integer(ip), allocatable :: values(:)      !< (>= n); not allocated: none was added yet

@@ -282,18 +282,18 @@ module atrito_results
       !> Takes frame i, which comes behind frame i - 1. done: else there is no room, and it has to stay where it is.
       subroutine put_frame(self, i, frame, done)
          import :: frame_store_t, results_t, ip
-         class(frame_store_t), intent(inout) :: self
-         integer(ip), intent(in) :: i
+         class(frame_store_t), intent(inout) :: self !< holds frames 1..i - 1
+         integer(ip), intent(in) :: i               !< place in the history's frames
          type(results_t), intent(inout) :: frame    !< is not changed
-         logical, intent(out) :: done
+         logical, intent(out) :: done               !< it is kept
       end subroutine put_frame
 
       !> Shows frame i until it is asked again. Not associated: it did not come back.
       subroutine get_frame(self, i, frame)
          import :: frame_store_t, results_t, ip
-         class(frame_store_t), intent(inout), target :: self
-         integer(ip), intent(in) :: i
-         type(results_t), pointer, intent(out) :: frame
+         class(frame_store_t), intent(inout), target :: self !< holds frame i
+         integer(ip), intent(in) :: i               !< place in the history's frames
+         type(results_t), pointer, intent(out) :: frame !< of the store; not associated: it did not come back
       end subroutine get_frame
    end interface
 

@@ -31,6 +31,7 @@ module atrito_stability_result
       real(wp), allocatable :: u(:, :)              !< (2, n_nodes) [L], the largest is one
    end type collapse_t
 
+   !> What a search for a limit asks and finds.
    type :: stability_t
       character(len=:), allocatable :: parameter    !< that varies
       real(wp) :: ends(2) = 0.0_wp, tolerance = 0.0_wp !< between which the limit is looked for, and its relative width

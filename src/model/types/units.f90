@@ -11,6 +11,7 @@ module atrito_units
    !> What dimensions are written with (docs/user/keywords.md), in the order of the names.
    character(len=11), parameter :: SYMBOLS(N_UNITS) = [character(len=11) :: 'L', 'F', 'T', 'temperature']
 
+   !> *UNITS.
    type :: units_t
       type(string_t) :: names(N_UNITS)   !< of length, force, time and temperature; %s not allocated: not named
    end type units_t

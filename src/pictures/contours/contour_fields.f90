@@ -12,6 +12,7 @@ module atrito_contour_fields
 
    integer, parameter :: DISPLACEMENT = 0, ERROR = -1   !< sources that are no row of the nodal stresses
 
+   !> A field that has a picture.
    type :: contour_t
       character(len=20) :: name                     !< of the picture
       character(len=31) :: title                    !< in words
@@ -30,6 +31,7 @@ module atrito_contour_fields
       integer(ip), allocatable :: id(:)             !< (n) the user's numbers
    end type places_t
 
+   !> A field with its values, its range and its extremes.
    type :: field_t
       type(contour_t) :: contour                    !< which field it is
       real(wp), allocatable :: value(:)             !< at the nodes, or of the elements

@@ -22,6 +22,7 @@ module atrito_contour_plot
    private
    public :: layout_t, make_layout, write_contour_plots
 
+   !> Where things stand in a contour picture.
    type :: layout_t
       type(range_t) :: window(2)                    !< that is shown [L]
       integer(ip) :: n(2) = 1                       !< pixels of the window

@@ -20,6 +20,7 @@ module atrito_contour_raster
    private
    public :: raster_t, lay_raster, pixel_values
 
+   !> The window as pixels, and what lies under each.
    type :: raster_t
       integer(ip) :: n(2) = 0                       !< pixels along x and y
       real(wp) :: low(2) = 0.0_wp                   !< lower left corner of the window [L]

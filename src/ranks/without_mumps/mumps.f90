@@ -7,6 +7,7 @@ module atrito_mumps
    public :: mumps_system_t, begin_mumps_system, end_mumps_system, factor_mumps_system, solve_mumps_system, mumps_system_bytes
    public :: has_mumps, mumps_version, mumps_trouble
 
+   !> No system.
    type :: mumps_system_t
       integer(ip) :: n = 0                       !< unknowns; stays 0
       integer(ip) :: weakest = 0                 !< unknown; stays 0
