@@ -68,7 +68,7 @@ contains
    subroutine resume(model, store, run, history, now, status)
       type(model_t), intent(in), target :: model     !< as built
       type(body_cache_t), intent(inout) :: store     !< of bodies; begun for this scene
-      type(run_t), intent(inout), target :: run      !< with recorder, options and began; all else is set
+      type(run_t), intent(inout), target :: run      !< with recorder and options; all else is set
       type(history_t), intent(inout) :: history      !< empty; stays so without success
       type(progress_t), intent(out) :: now           !< where in its step the history goes on
       type(status_t), intent(out) :: status          !< STATUS_OK, STATUS_DECK and others of begin_scene

@@ -44,7 +44,7 @@ contains
       type(model_t), intent(in) :: model                    !< as built, with *RESTART
       type(restart_recorder_t), intent(out) :: recorder     !< resumes where --restart is given
       class(frame_store_t), intent(inout), target :: frames !< will keep the increments that are printed
-      type(status_t), intent(out) :: status                 !< STATUS_OK, STATUS_FILE or STATUS_DECK
+      type(status_t), intent(out) :: status                 !< STATUS_OK, or why --restart cannot be read
       character(len=:), allocatable :: options
       integer(lp) :: identity(2)
       integer :: i

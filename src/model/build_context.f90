@@ -427,7 +427,7 @@ contains
       character(len=*), intent(in) :: noun             !< what is defined, e.g. 'material'
       type(name_list_t), intent(inout) :: names        !< of all that there are
       type(token_t), allocatable, intent(inout) :: places(:) !< where they are defined
-      character(len=:), allocatable, intent(out) :: name !< the name; not allocated: the card has none
+      character(len=:), allocatable, intent(out) :: name !< as the card has it; '' without one
       integer(ip), intent(out) :: i                    !< its place; 0: it cannot be defined
       type(token_t) :: place
       logical :: found

@@ -141,7 +141,7 @@ contains
    !> Stresses at the nodes of the rank's elements [F/L^2], and their error: the energies, and ||e||^2 of each element [F L] where
    !> it is wanted. Without elements there is no answer.
    subroutine answer_fields(request, answer)
-      type(buffer_t), intent(inout) :: request       !< by begin_fields; empty on return
+      type(buffer_t), intent(inout) :: request       !< by begin_fields; its items are taken
       type(buffer_t), intent(out) :: answer          !< nodal stresses, energies, errors squared of elements
       type(fem_t) :: piece
       type(stress_field_t) :: field

@@ -136,7 +136,7 @@ contains
       type(build_context_t), intent(in) :: context       !< its mesh, sets and refinement are read
       character(len=:), allocatable, intent(out) :: name !< of a set, or the number of a node
       integer(ip), allocatable, intent(out) :: nodes(:)  !< places, rising
-      logical, intent(out) :: ok                         !< no error; nodes is empty too where no option is given
+      logical, intent(out) :: ok                         !< no error; without an option there are no nodes
       character(len=:), allocatable :: set
       integer(ip), allocatable :: members(:)
       type(number_list_t) :: found_nodes

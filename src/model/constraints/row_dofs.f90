@@ -101,7 +101,7 @@ contains
       integer(ip), intent(in) :: node, dof             !< place in the mesh; 1, 2 or 6
       real(wp), intent(in) :: arm                      !< that a rotation is multiplied by [L]
       integer(ip), intent(out) :: nodes(TERMS_A_DOF)   !< of the solver's mesh
-      real(wp), intent(out) :: vectors(2, TERMS_A_DOF) !< the dof is the sum of vectors . u(nodes) [-]
+      real(wp), intent(out) :: vectors(2, TERMS_A_DOF) !< dof, or arm times rotation: sum of vectors . u(nodes) [-]
       integer(ip) :: carriers(3)
 
       nodes = row_node(context, node)

@@ -64,7 +64,7 @@ contains
 
    !> Moves the nodes of all pairs that ask for it, one pair after the other.
    subroutine adjust_pairs(context, adjusted)
-      type(build_context_t), intent(inout) :: context           !< its mesh: coordinates of slave nodes
+      type(build_context_t), intent(inout) :: context           !< nodes of slaves get other coordinates
       type(adjusted_t), allocatable, intent(out) :: adjusted(:) !< of each pair
       integer(ip) :: i
 

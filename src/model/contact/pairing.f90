@@ -21,7 +21,7 @@ contains
    !> Puts the faces of slaves into the order of their chains; reports: of each surface, what is wrong with its chain.
    subroutine order_slaves(model, reports)
       type(model_t), intent(inout) :: model                        !< faces of its slaves change their order
-      type(chain_report_t), allocatable, intent(out) :: reports(:) !< only slaves of elements have been looked at
+      type(chain_report_t), allocatable, intent(out) :: reports(:) !< (surfaces) of what is no slave nothing is told
       logical :: is_slave(size(model%surfaces))
       integer(ip) :: i
 

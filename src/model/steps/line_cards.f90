@@ -29,7 +29,7 @@ contains
    subroutine read_line_options(context, card, name, place, elset, ok)
       type(build_context_t), intent(inout) :: context      !< its element sets are searched
       type(card_t), intent(in) :: card                     !< *SECTION PRINT or *PATH PRINT
-      character(len=:), allocatable, intent(out) :: name   !< of the card, NAME=; not allocated: not given
+      character(len=:), allocatable, intent(out) :: name   !< of the card, NAME=; '' without one
       type(token_t), intent(out) :: place                  !< of the name
       integer(ip), intent(out) :: elset                    !< place of the set that is crossed; 0: everything
       logical, intent(out) :: ok                           !< there is a name, and the set is known

@@ -73,7 +73,7 @@ contains
    !> removed in the step before is gone.
    pure subroutine propagate(context, conditions, keeps_zeros)
       type(build_context_t), intent(in) :: context     !< amplitudes and steps of its model are read
-      type(condition_list_t), intent(inout) :: conditions !< at the end of the last step in, at the beginning out
+      type(condition_list_t), intent(inout) :: conditions !< of the step before; of this one on return
       logical, intent(in) :: keeps_zeros               !< displacements of 0 are supports, loads of 0 are nothing
       type(condition_t) :: condition
       integer(ip) :: i, n

@@ -274,12 +274,12 @@ module atrito_model
       type(material_t), allocatable :: materials(:) !< in the order of the deck
       type(section_t), allocatable :: sections(:)   !< one a *SOLID SECTION
       integer(ip), allocatable :: section_of(:)     !< section of each element
-      type(surface_t), allocatable :: surfaces(:)   !< of pairs, ties, loads and rigid bodies
+      type(surface_t), allocatable :: surfaces(:)   !< of the deck, of its blocks, curves and found pairs
       type(rigid_body_t), allocatable :: rigid_bodies(:) !< the rigid surfaces with a reference node
       type(mesh_t), allocatable :: solver_mesh      !< with the nodes that carry their motions, behind the mesh's own; not
       !< allocated: there are none
       type(interaction_t), allocatable :: interactions(:) !< in the order of the deck
-      type(pair_t), allocatable :: pairs(:)         !< contact pairs, in the order of the deck
+      type(pair_t), allocatable :: pairs(:)         !< those of *CONTACT PAIR, then those of *CONTACT
       type(contact_points_t), allocatable :: points(:) !< of each pair
       type(bilateral_rows_t) :: bilateral           !< of ties, equations, supports along other directions, springs
       type(nodal_values_t) :: inclined              !< the supports among them, along directions that are no axis

@@ -15,7 +15,7 @@ module atrito_results
 
    !> Fields at the quadrature points of one contact pair, in the order of s.
    type :: contact_result_t
-      integer(ip) :: n = 0                          !< points; the arrays have this length
+      integer(ip) :: n = 0                          !< points
       real(wp), allocatable :: s(:)                 !< arc length along the slave surface [L]
       real(wp), allocatable :: x(:, :)              !< (2, n) [L]
       real(wp), allocatable :: normal(:, :)         !< (2, n) outward unit normal of the slave
@@ -57,7 +57,7 @@ module atrito_results
       integer(ip) :: half_bandwidth = 0             !< of the stiffness, as it is numbered
       real(wp) :: digits_lost = 0.0_wp              !< at the worst pivot: log10 of diagonal over pivot, 0..16
       integer(ip) :: worst_node = 0, worst_dof = 0  !< place of the worst pivot (user's node number)
-      integer(ip) :: sign_changes = 0               !< negative pivots; 0 where the supports hold it
+      integer(ip) :: sign_changes = 0               !< negative pivots; the banded solver stops at the first
       integer(ip) :: n_fronts = 0, n_different_fronts = 0 !< of the sparse solver; 0: none
    end type body_result_t
 
