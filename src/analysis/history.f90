@@ -60,14 +60,14 @@ contains
    !> Solves all steps. status: of a run of one increment that of solve_static; of others OK, or why the history ended early, with
    !> STATUS_NOT_CONVERGED, STATUS_SINGULAR, or a status of begin_scene. What converged before is in the history.
    subroutine solve_history(model, options, reporter, history, status, store, recorder, observer, start)
-      type(model_t), intent(in), target :: model
-      type(solve_options_t), intent(in) :: options
-      type(reporter_t), intent(in) :: reporter
-      type(history_t), intent(out) :: history
-      type(status_t), intent(out) :: status
+      type(model_t), intent(in), target :: model     !< as built; looked at while the history is solved
+      type(solve_options_t), intent(in) :: options   !< form, solver, memory, viewer and frames
+      type(reporter_t), intent(in) :: reporter       !< tells how far the work is
+      type(history_t), intent(out) :: history        !< all that was found, even where it ended early
+      type(status_t), intent(out) :: status          !< STATUS_OK, or why there is no end
       type(body_cache_t), intent(inout) :: store     !< bodies of an earlier run, or none; on return those of this one
-      class(recorder_t), intent(inout), target, optional :: recorder
-      class(observer_t), intent(inout), target, optional :: observer
+      class(recorder_t), intent(inout), target, optional :: recorder !< left out: nothing is recorded, nothing resumed
+      class(observer_t), intent(inout), target, optional :: observer !< left out: nothing is observed
       type(warm_start_t), intent(inout), optional :: start !< of a run of one increment: as solve_static has it
       type(run_t), target :: run
       type(progress_t) :: now

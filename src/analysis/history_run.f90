@@ -28,21 +28,21 @@ module atrito_history_run
 
    !> A history that is being solved.
    type :: run_t
-      type(solve_options_t) :: options
-      type(reporter_t) :: reporter
-      type(scene_data_t) :: data
+      type(solve_options_t) :: options              !< as asked for
+      type(reporter_t) :: reporter                  !< tells how far the work is
+      type(scene_data_t) :: data                    !< of the step, and what the next increment needs
       type(scene_t) :: scene                        !< with what is known of the bodies since they were factored
       type(step_t) :: step                          !< that began with other supports than the one before
-      type(slip_memory_t) :: memory
+      type(slip_memory_t) :: memory                 !< of all points
       type(results_t) :: last                       !< the last increment that converged
-      logical :: has_last = .false.
+      logical :: has_last = .false.                 !< else no increment has converged yet
       real(wp) :: began = 0.0_wp                    !< when the step began, time of the history
       real(wp) :: condition = 1.0_wp                !< the largest of the contact line
-      type(force_sense_t) :: sense
+      type(force_sense_t) :: sense                  !< of all increments so far
       integer(ip) :: n_frames = 0, n_rows = 0, n_iterations = 0 !< of the history so far
       character(len=:), allocatable :: idle         !< the first motion of a printed increment that nothing determines, and when
       integer(ip) :: n_idle = 0                     !< printed increments with one
-      class(recorder_t), pointer :: recorder => null()
+      class(recorder_t), pointer :: recorder => null() !< not associated: nothing is recorded
       class(observer_t), pointer :: observer => null() !< not associated: nothing is observed
    end type run_t
 
@@ -50,7 +50,7 @@ contains
 
    !> Whether increments are recorded, or have been before.
    pure logical function is_recorded(run)
-      type(run_t), intent(in) :: run
+      type(run_t), intent(in) :: run                !< its recorder is read
 
       is_recorded = is_resumed(run)
       if (associated(run%recorder)) is_recorded = is_recorded .or. run%recorder%every > 0
@@ -58,7 +58,7 @@ contains
 
    !> Whether the history goes on behind a recorded increment.
    pure logical function is_resumed(run)
-      type(run_t), intent(in) :: run
+      type(run_t), intent(in) :: run                !< its recorder is read
 
       is_resumed = .false.
       if (associated(run%recorder)) is_resumed = run%recorder%resumes
@@ -66,12 +66,12 @@ contains
 
    !> Makes the scene of the step in which a history was interrupted, and goes behind the increment that was recorded last.
    subroutine resume(model, store, run, history, now, status)
-      type(model_t), intent(in), target :: model
-      type(body_cache_t), intent(inout) :: store
-      type(run_t), intent(inout), target :: run
+      type(model_t), intent(in), target :: model     !< as built
+      type(body_cache_t), intent(inout) :: store     !< of bodies; begun for this scene
+      type(run_t), intent(inout), target :: run      !< with recorder and options; all else is set
       type(history_t), intent(inout) :: history      !< empty; stays so without success
-      type(progress_t), intent(out) :: now
-      type(status_t), intent(out) :: status
+      type(progress_t), intent(out) :: now           !< where in its step the history goes on
+      type(status_t), intent(out) :: status          !< STATUS_OK, STATUS_DECK and others of begin_scene
       type(solve_options_t) :: as_before
       character(len=:), allocatable :: wrong
       integer(ip) :: first, i
@@ -141,9 +141,9 @@ contains
    !> Hands on what was found so far, where that is asked for. The next increment starts from what is recorded and from nothing
    !> else, so that it does not matter which run solves it.
    subroutine record(now, run, history)
-      type(progress_t), intent(in) :: now
-      type(run_t), intent(inout), target :: run
-      type(history_t), intent(inout) :: history
+      type(progress_t), intent(in) :: now           !< end of the increment
+      type(run_t), intent(inout), target :: run     !< its last increment converged
+      type(history_t), intent(inout) :: history     !< so far; its lists get their lengths
       type(restart_state_t) :: state
 
       if (.not. associated(run%recorder)) return

@@ -56,12 +56,12 @@ contains
 
    !> Solves for what acts in `data`. status: as solve_static. results%converged and law_holds tell the rest.
    subroutine solve_increment(data, asked_form, store, results, solution, status)
-      type(scene_data_t), intent(inout) :: data
+      type(scene_data_t), intent(inout) :: data             !< with the loads of its time; matrices stay in it
       integer, intent(in) :: asked_form                     !< CONTACT_*
-      type(body_cache_t), intent(inout) :: store
+      type(body_cache_t), intent(inout) :: store            !< of bodies, factored or not yet
       type(results_t), intent(inout) :: results             !< with the scene; nothing else is there yet
-      type(contact_solution_t), intent(out) :: solution
-      type(status_t), intent(out) :: status
+      type(contact_solution_t), intent(out) :: solution     !< of the attempt that counts
+      type(status_t), intent(out) :: status                 !< STATUS_OK, STATUS_SINGULAR, STATUS_DECK or STATUS_INTERNAL
       type(controls_t) :: controls
 
       controls = data%step%controls
@@ -80,8 +80,8 @@ contains
 
    !> Whether an increment has a solution: the outer loop converged and the final check holds.
    pure logical function is_solved(results, status)
-      type(results_t), intent(in) :: results
-      type(status_t), intent(in) :: status
+      type(results_t), intent(in) :: results     !< converged and law_holds are read
+      type(status_t), intent(in) :: status       !< of the solve
 
       is_solved = is_ok(status) .and. results%converged .and. results%law_holds
    end function is_solved
@@ -136,12 +136,12 @@ contains
 
    !> From a solution of the contact system to results, and the final check. status: as solve_one_form.
    subroutine finish_form(data, controls, solution, u, results, status)
-      type(scene_data_t), intent(inout) :: data
-      type(controls_t), intent(in) :: controls
-      type(contact_solution_t), intent(inout) :: solution
+      type(scene_data_t), intent(inout) :: data             !< with the loads of its time
+      type(controls_t), intent(in) :: controls              !< of this attempt
+      type(contact_solution_t), intent(inout) :: solution   !< round-off of bodies that rest is cleared
       real(wp), allocatable, intent(inout) :: u(:, :)       !< without rigid motions, (2, n_nodes) [L]; moved to the results
       type(results_t), intent(inout) :: results             !< with the scene
-      type(status_t), intent(out) :: status
+      type(status_t), intent(out) :: status                 !< STATUS_OK, or a proof that there is no solution
       character(len=:), allocatable :: verdict
       integer(ip) :: b
       logical :: again
@@ -270,8 +270,8 @@ contains
 
    !> Scene, and place in the history, of another attempt.
    pure subroutine begin_results(results, other)
-      type(results_t), intent(in) :: results
-      type(results_t), intent(out) :: other
+      type(results_t), intent(in) :: results     !< of the first attempt, or of the first solution
+      type(results_t), intent(out) :: other      !< nothing of a solution
 
       other%scene = results%scene
       other%step = results%step

@@ -19,10 +19,10 @@ contains
 
    !> What the bound wants of the factors of the bodies, while they are there.
    subroutine prepare_bound(data, form, store, solution, results)
-      type(scene_data_t), intent(inout) :: data
+      type(scene_data_t), intent(inout) :: data             !< exchanged is made, where the bound is wanted
       integer, intent(in) :: form                           !< CONTACT_*, that the solution was found by
-      type(body_cache_t), intent(inout) :: store
-      type(contact_solution_t), intent(in) :: solution
+      type(body_cache_t), intent(inout) :: store            !< with factors of the bodies
+      type(contact_solution_t), intent(in) :: solution      !< of the increment
       type(results_t), intent(in) :: results                !< when
 
       if (allocated(data%exchanged)) deallocate (data%exchanged)
@@ -32,9 +32,9 @@ contains
 
    !> The bound of a solution that has passed its check, with the loads of its time.
    subroutine prove_bound(data, solution, results)
-      type(scene_data_t), intent(inout) :: data
-      type(contact_solution_t), intent(in) :: solution
-      type(results_t), intent(inout) :: results
+      type(scene_data_t), intent(inout) :: data             !< exchanged goes
+      type(contact_solution_t), intent(in) :: solution      !< of the increment
+      type(results_t), intent(inout) :: results             !< checked; get error_bound
       type(step_t) :: acting
 
       if (.not. (is_wanted(data, results) .and. results%converged .and. results%law_holds)) return

@@ -33,8 +33,8 @@ contains
 
    !> Where nothing acts on a body any more, what is left of its displacements and of the forces on it is round-off of what it had.
    pure subroutine clear_what_is_left(data, solution, u)
-      type(scene_data_t), intent(in) :: data
-      type(contact_solution_t), intent(inout) :: solution
+      type(scene_data_t), intent(in) :: data                !< loads, and what bodies had before
+      type(contact_solution_t), intent(inout) :: solution   !< a, q, p and t of what rests become 0
       real(wp), intent(inout) :: u(:, :)                    !< without rigid motions, (2, n_nodes) [L]
       logical :: is_still(data%fem%bodies%n)
       integer(ip) :: first(data%fem%bodies%n + 1), b, i, j
@@ -65,8 +65,8 @@ contains
    !> What is worth its time where it is printed: sums by joint, stresses and their error, the largest of all, the limits of
    !> a linear theory.
    subroutine complete_results(data, results)
-      type(scene_data_t), intent(inout) :: data
-      type(results_t), intent(inout) :: results
+      type(scene_data_t), intent(inout) :: data  !< distribution, thermal and requests are used
+      type(results_t), intent(inout) :: results  !< with u and contact; get stresses, errors, extremes
       real(wp) :: strain_bound
 
       call start_phase('recover')
@@ -98,8 +98,8 @@ contains
 
    !> Where there are several processes the others begin with the fields, while this one checks the equilibrium.
    subroutine begin_early(data, solution, u)
-      type(scene_data_t), intent(inout) :: data
-      type(contact_solution_t), intent(in) :: solution
+      type(scene_data_t), intent(inout) :: data             !< its distribution begins with the fields
+      type(contact_solution_t), intent(in) :: solution      !< amplitudes a of the rigid motions
       real(wp), intent(in) :: u(:, :)                       !< without rigid motions, (2, n_nodes) [L]
       real(wp), allocatable :: total(:, :)
 
@@ -116,10 +116,10 @@ contains
    !> added behind that. Reactions are K u - f + B'q where dofs are held. The forces of ties, equations and springs are in B'q, too;
    !> share_out_rows and clear_balance count them as what they are: between bodies, or of a body with the ground.
    subroutine recover(data, solution, u, results)
-      type(scene_data_t), intent(in) :: data
-      type(contact_solution_t), intent(inout) :: solution
+      type(scene_data_t), intent(in) :: data               !< with the loads of its time
+      type(contact_solution_t), intent(inout) :: solution  !< sizes of motions and forces are measured
       real(wp), allocatable, intent(inout) :: u(:, :)      !< without rigid motions, (2, n_nodes) [L]; moved to the results
-      type(results_t), intent(inout) :: results
+      type(results_t), intent(inout) :: results            !< with the scene; get what is no stress
       real(wp), allocatable :: contact(:, :)
       type(equilibrium_t) :: equilibrium
       real(wp) :: imbalance, others(3)

@@ -16,9 +16,9 @@ contains
    !> Judges a solution, converged or not. What does not depend on the loads is found once for the matrices of the line. A solution
    !> of the sparse form is judged where the dense one has been tried and has left its matrices.
    subroutine judge_uniqueness(data, solution, results)
-      type(scene_data_t), intent(inout) :: data
-      type(contact_solution_t), intent(in) :: solution
-      type(results_t), intent(inout) :: results
+      type(scene_data_t), intent(inout) :: data        !< certificate is made once for its matrices
+      type(contact_solution_t), intent(in) :: solution !< of the increment
+      type(results_t), intent(inout) :: results        !< get uniqueness and contraction_estimate
 
       if (.not. data%line%has_friction) return
       call start_phase('unique')

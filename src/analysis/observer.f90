@@ -9,6 +9,7 @@ module atrito_observer
    private
    public :: observer_t, note_observed
 
+   !> Who looks at each increment.
    type, abstract :: observer_t
       logical :: is_there = .false.                  !< something is observed
       logical :: wants_stress = .false.              !< of every increment: stresses at the nodes, and the estimate of their error
@@ -20,8 +21,8 @@ module atrito_observer
       !> Puts what is observed into the results, and changes nothing else of them.
       subroutine observe_increment(self, results, rows)
          import :: history_row_t, observer_t, results_t
-         class(observer_t), intent(inout) :: self
-         type(results_t), intent(inout) :: results
+         class(observer_t), intent(inout) :: self   !< may keep that it has warned
+         type(results_t), intent(inout) :: results  !< of the increment; observed is set
          type(history_row_t), intent(in) :: rows(:) !< of the history so far
       end subroutine observe_increment
    end interface
@@ -30,11 +31,11 @@ contains
 
    !> Notes what is observed of a converged increment. Stresses of one that is not printed are there as long as that takes.
    subroutine note_observed(observer, data, results, rows, list)
-      class(observer_t), intent(inout) :: observer
-      type(scene_data_t), intent(inout) :: data
+      class(observer_t), intent(inout) :: observer   !< expressions, read for this model
+      type(scene_data_t), intent(inout) :: data      !< of the increment
       type(results_t), intent(inout) :: results      !< of the increment; complete where it is printed
       type(history_row_t), intent(in) :: rows(:)     !< of the history so far
-      type(observed_list_t), intent(inout) :: list
+      type(observed_list_t), intent(inout) :: list   !< becomes longer by the increment
       type(results_t) :: whole
 
       if (observer%wants_stress .and. .not. data%is_printed) then

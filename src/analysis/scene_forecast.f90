@@ -32,8 +32,8 @@ contains
 
    !> The most that the process will hold [bytes].
    pure integer(lp) function forecast_memory(model, data, scene) result(bytes)
-      type(model_t), intent(in) :: model
-      type(scene_data_t), intent(in) :: data
+      type(model_t), intent(in) :: model             !< its mesh and steps are read
+      type(scene_data_t), intent(in) :: data         !< form, line and distribution are read
       type(scene_t), intent(in) :: scene             !< with its bodies, and what was held so far
       integer(lp) :: solving, kept, recovering
       logical :: is_sparse
@@ -60,7 +60,7 @@ contains
 
    !> Of fields and of restart files: one library.
    pure integer(lp) function field_library_bytes(data) result(bytes)
-      type(scene_data_t), intent(in) :: data
+      type(scene_data_t), intent(in) :: data         !< its model is read
 
       bytes = 0
       if (field_growth(data%model) > 0) bytes = FIELD_LIBRARY
@@ -110,8 +110,8 @@ contains
 
    !> With what the updates of fronts leave behind between the factors when they are given back: nothing else fits there.
    pure integer(lp) function with_holes(solver_kind, bytes)
-      integer, intent(in) :: solver_kind
-      integer(lp), intent(in) :: bytes
+      integer, intent(in) :: solver_kind             !< SOLVER_*
+      integer(lp), intent(in) :: bytes               !< of the factors
 
       with_holes = bytes
       if (solver_kind >= SOLVER_SPARSE) with_holes = bytes + share_of(HOLES, bytes)
@@ -126,7 +126,7 @@ contains
 
    !> Forces and displacements while it is solved.
    pure integer(lp) function load_bytes(model) result(bytes)
-      type(model_t), intent(in) :: model
+      type(model_t), intent(in) :: model             !< its mesh is read
       integer(lp), parameter :: VECTORS = 2_lp
 
       bytes = VECTORS*2*REAL_BYTES*int(model%mesh%n_nodes, lp)
@@ -134,8 +134,8 @@ contains
 
    !> Displacements, reactions, stresses at Gauss points and at nodes, and the patches of their recovery, of some of the elements.
    pure integer(lp) function recovery_bytes(model, nodes, elements) result(bytes)
-      type(model_t), intent(in) :: model
-      integer(lp), intent(in) :: nodes, elements
+      type(model_t), intent(in) :: model             !< shapes of its elements are read
+      integer(lp), intent(in) :: nodes, elements     !< how many of them
       integer(lp), parameter :: NODE_BYTES = 310_lp, ELEMENT_BYTES = 60_lp, SAMPLE_BYTES = 5*REAL_BYTES
       integer(lp) :: samples
 
@@ -165,8 +165,8 @@ contains
 
    !> What is asked for of it: stresses at Gauss points, and contact points.
    pure integer(lp) function request_bytes(model, data) result(bytes)
-      type(model_t), intent(in) :: model
-      type(scene_data_t), intent(in) :: data
+      type(model_t), intent(in) :: model             !< what its steps ask for
+      type(scene_data_t), intent(in) :: data         !< its points are counted
       integer(lp), parameter :: ROW_BYTES = 64_lp, POINT_BYTES = 250_lp
 
       bytes = ROW_BYTES*stress_rows(model) + POINT_BYTES*data%line%n

@@ -24,8 +24,8 @@ contains
 
    !> Fills what `check` and the listing print of a scene.
    subroutine describe_scene(data, scene)
-      type(scene_data_t), intent(in) :: data
-      type(scene_t), intent(out) :: scene
+      type(scene_data_t), intent(in) :: data     !< prepared, nothing factored
+      type(scene_t), intent(out) :: scene        !< whole
       integer(ip) :: b
 
       allocate (scene%bodies(data%fem%bodies%n))
@@ -97,8 +97,8 @@ contains
 
    !> Of the sparse form, when it is assembled.
    subroutine describe_order(data, scene)
-      type(scene_data_t), intent(in) :: data
-      type(scene_t), intent(inout) :: scene
+      type(scene_data_t), intent(in) :: data     !< with the assembled scene
+      type(scene_t), intent(inout) :: scene      !< get order and solving
 
       scene%solving = data%assembled%solving_bytes()
       scene%order = data%assembled%order
@@ -107,9 +107,9 @@ contains
    !> Counts what could be estimated only: the fronts of bodies with the sparse solver. A run, which makes them itself in a while,
    !> wants it where the estimate does not fit.
    subroutine count_fronts(data, always, scene)
-      type(scene_data_t), intent(in) :: data
-      logical, intent(in) :: always
-      type(scene_t), intent(inout) :: scene
+      type(scene_data_t), intent(in) :: data     !< bodies are read
+      logical, intent(in) :: always              !< else only where the estimate does not fit
+      type(scene_t), intent(inout) :: scene      !< memory of its bodies, and its own
       integer(ip) :: b
 
       if (.not. any(scene%bodies%solver_kind == SOLVER_SPARSE)) return
@@ -125,10 +125,10 @@ contains
 
    !> status: STATUS_DECK when the matrices of the scene need more memory than there is.
    subroutine check_scene(model, memory, scene, status)
-      type(model_t), intent(in) :: model
+      type(model_t), intent(in) :: model                    !< its deck_path is read
       integer(lp), intent(in) :: memory                     !< bytes there are
-      type(scene_t), intent(in) :: scene
-      type(status_t), intent(inout) :: status
+      type(scene_t), intent(in) :: scene                    !< memory and sizes are read
+      type(status_t), intent(inout) :: status               !< STATUS_DECK where it does not fit; else as it was
 
       call check_memory(model%deck_path, 'the scene, '//to_text(scene%n_dofs)//' free displacements and '// &
                         to_text(scene%n_normal + scene%n_tangential)//' contact unknowns,', scene%memory, memory, status, &

@@ -27,9 +27,9 @@ contains
    subroutine search_solutions(data, store, first, results, others)
       type(scene_data_t), intent(inout) :: data             !< with C and G
       type(body_cache_t), intent(inout) :: store            !< with the bodies
-      type(contact_solution_t), intent(in) :: first
+      type(contact_solution_t), intent(in) :: first         !< from which the others are told apart
       type(results_t), intent(inout) :: results             !< of it
-      type(results_t), allocatable, intent(out) :: others(:)
+      type(results_t), allocatable, intent(out) :: others(:) !< each passed its check; without stresses
       type(contact_solution_t), allocatable :: found(:)
       type(results_t), allocatable :: list(:)
       type(had_t) :: had

@@ -36,10 +36,10 @@ contains
 
    !> What a scene needs, without solving it: for `check`, and for the listing. status: STATUS_DECK as in solve_static.
    subroutine survey_scene(model, options, scene, status)
-      type(model_t), intent(in), target :: model
-      type(solve_options_t), intent(in) :: options
-      type(scene_t), intent(out) :: scene
-      type(status_t), intent(out) :: status
+      type(model_t), intent(in), target :: model   !< as built
+      type(solve_options_t), intent(in) :: options !< form, solver and memory are read
+      type(scene_t), intent(out) :: scene          !< what it needs
+      type(status_t), intent(out) :: status        !< STATUS_OK, or that of begin_scene
       type(scene_data_t) :: data
       type(body_cache_t) :: store
 
@@ -48,13 +48,13 @@ contains
 
    !> Everything before the first number is computed. status: STATUS_DECK as in solve_static.
    subroutine begin_scene(model, options, store, exact, data, scene, status, step)
-      type(model_t), intent(in), target :: model
-      type(solve_options_t), intent(in) :: options
-      type(body_cache_t), intent(in) :: store
+      type(model_t), intent(in), target :: model            !< as built; looked at as long as data are used
+      type(solve_options_t), intent(in) :: options          !< form, solver, memory, viewer and distribution
+      type(body_cache_t), intent(in) :: store               !< bodies of an earlier run, or none
       logical, intent(in) :: exact                          !< all fronts are counted, before a run makes them
-      type(scene_data_t), intent(out) :: data
-      type(scene_t), intent(out) :: scene
-      type(status_t), intent(out) :: status
+      type(scene_data_t), intent(out) :: data               !< what the solver works on
+      type(scene_t), intent(out) :: scene                   !< what it needs, bodies as expected
+      type(status_t), intent(out) :: status                 !< STATUS_OK, or why nothing can be solved
       type(step_t), intent(in), target, optional :: step    !< left out: the first of the model
 
       call start_phase('order')
@@ -95,14 +95,14 @@ contains
    !> start: a solution near this one, of other loads, say; what its iteration ended with, once there is a solution. The sparse form
    !> begins from it.
    subroutine solve_static(model, options, reporter, results, status, store, others, start)
-      type(model_t), intent(in), target :: model
-      type(solve_options_t), intent(in) :: options
-      type(reporter_t), intent(in) :: reporter
-      type(results_t), intent(out) :: results
-      type(status_t), intent(out) :: status
+      type(model_t), intent(in), target :: model           !< as built, of one increment
+      type(solve_options_t), intent(in) :: options         !< as asked for
+      type(reporter_t), intent(in) :: reporter             !< tells how far the work is
+      type(results_t), intent(out) :: results              !< of the first solution that counts
+      type(status_t), intent(out) :: status                !< STATUS_OK, or why there is no solution
       type(body_cache_t), intent(inout) :: store           !< bodies of an earlier run, or none; on return those of this one
       type(results_t), allocatable, intent(out), optional :: others(:) !< other solutions that a search has found
-      type(warm_start_t), intent(inout), optional :: start
+      type(warm_start_t), intent(inout), optional :: start !< left out: from nothing
       type(scene_data_t) :: data
       type(contact_solution_t) :: solution
       type(force_sense_t) :: sense
@@ -148,7 +148,7 @@ contains
 
    !> Methods that the form of the scene does not have.
    subroutine note_method(data, steps)
-      type(scene_data_t), intent(in) :: data
+      type(scene_data_t), intent(in) :: data                !< its form is read
       type(step_t), intent(in) :: steps(:)                  !< that the scene serves
 
       if (data%contact_form /= CONTACT_SPARSE .or. all(steps%controls%method == METHOD_ANDERSON)) return

@@ -30,18 +30,19 @@ module atrito_adaptation
 
    !> A mesh that was solved.
    type :: adapted_mesh_t
-      integer(ip) :: n_elements = 0, n_dofs = 0, n_solves = 0
+      integer(ip) :: n_elements = 0, n_dofs = 0, n_solves = 0 !< of the mesh, and linear solves on it
       real(wp) :: percent = 0.0_wp                   !< of the error
       logical :: is_certified = .false.              !< it is at most that
       real(wp) :: seconds(2) = 0.0_wp                !< wall clock and processor, from the beginning of the run
    end type adapted_mesh_t
 
+   !> What --adapt has come to.
    type :: adaptation_t
       real(wp) :: target = 0.0_wp                    !< percent; 0: the mesh stays as it is
-      type(element_trees_t) :: trees
-      type(adapted_mesh_t), allocatable :: meshes(:)
+      type(element_trees_t) :: trees                 !< elements of the deck, as they are cut so far
+      type(adapted_mesh_t), allocatable :: meshes(:) !< that were solved, in their order
       character(len=:), allocatable :: why           !< the error is larger than it was to be; not allocated: it is not
-      integer(lp) :: began = 0
+      integer(lp) :: began = 0                       !< count of system_clock at the beginning
       real(wp) :: processor = 0.0_wp                 !< seconds at the beginning
    end type adaptation_t
 
@@ -49,8 +50,8 @@ contains
 
    !> What --adapt asks for, and when it began.
    subroutine begin_adaptation(command, adaptation)
-      type(command_t), intent(in) :: command
-      type(adaptation_t), intent(out) :: adaptation
+      type(command_t), intent(in) :: command         !< its --adapt is read
+      type(adaptation_t), intent(out) :: adaptation  !< at the mesh of the deck; the clock runs
 
       adaptation%target = command%adapt
       allocate (adaptation%meshes(0))
@@ -67,11 +68,14 @@ contains
 
    !> Notes what was found on a mesh, and cuts it for the next one: of a history where the printed increment with the largest error
    !> has it. goes_on: there is to be a next one.
+   !>
+   !> To come from the error e [%] down to the target the share 1 - (target/e)^2 of the sum of squares has to go; the elements that
+   !> have twice that share are cut, at least those with a tenth and at most those with half.
    subroutine follow_error(model, history, adaptation, goes_on)
-      type(model_t), intent(in) :: model
+      type(model_t), intent(in) :: model             !< whose history it is
       type(history_t), intent(in), target :: history !< with frames
-      type(adaptation_t), intent(inout) :: adaptation
-      logical, intent(out) :: goes_on
+      type(adaptation_t), intent(inout) :: adaptation !< gets the mesh; its trees are cut
+      logical, intent(out) :: goes_on                !< the error is too large, and can be followed
       type(adapted_mesh_t) :: mesh
       real(wp), allocatable :: squares(:)
       type(results_t), pointer :: results
@@ -150,7 +154,7 @@ contains
 
    !> The next mesh cannot be built: the first error says why.
    subroutine give_up(adaptation)
-      type(adaptation_t), intent(inout) :: adaptation
+      type(adaptation_t), intent(inout) :: adaptation !< gets the reason
       type(message_t) :: message
       integer(ip) :: i
 
@@ -164,8 +168,8 @@ contains
 
    !> adapt.tab.
    subroutine build_adaptation(adaptation, table)
-      type(adaptation_t), intent(in) :: adaptation
-      type(table_t), intent(out) :: table
+      type(adaptation_t), intent(in) :: adaptation   !< of a run that used it
+      type(table_t), intent(out) :: table            !< a row a mesh
       integer(ip) :: i, n
 
       associate (meshes => adaptation%meshes)
@@ -195,7 +199,7 @@ contains
 
    !> `7 meshes, 111 to 2350 elements; error 18.6 to at most 4.9 %`
    function adaptation_text(adaptation) result(text)
-      type(adaptation_t), intent(in) :: adaptation
+      type(adaptation_t), intent(in) :: adaptation   !< of a run that used it
       character(len=:), allocatable :: text
 
       associate (n => size(adaptation%meshes), meshes => adaptation%meshes)

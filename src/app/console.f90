@@ -29,7 +29,7 @@ contains
    !> that are kept.
    subroutine print_messages(quiet, first, json)
       logical, intent(in) :: quiet                  !< no notes
-      integer(ip), intent(in) :: first
+      integer(ip), intent(in) :: first              !< number of a message, from 1
       logical, intent(in) :: json                   !< one object a line
       type(message_t) :: message
       integer(ip) :: i, printed(SEVERITY_NOTE), n(SEVERITY_NOTE)
@@ -61,8 +61,8 @@ contains
 
    !> One message, as text, for a terminal with colours, or as JSON.
    subroutine print_message(message, json)
-      type(message_t), intent(in) :: message
-      logical, intent(in) :: json
+      type(message_t), intent(in) :: message        !< of any severity
+      logical, intent(in) :: json                   !< one object; else text
       type(string_t), allocatable :: lines(:)
 
       if (json) then
@@ -95,9 +95,9 @@ contains
 
    !> Tells a failure that belongs to no place in the deck.
    subroutine print_status(status, file, json)
-      type(status_t), intent(in) :: status
+      type(status_t), intent(in) :: status          !< nothing is printed where its text is not allocated
       character(len=*), intent(in) :: file          !< the deck, as the user wrote it
-      logical, intent(in) :: json
+      logical, intent(in) :: json                   !< one object; else text
       type(message_t) :: message
       character(len=*), parameter :: IDS(STATUS_FILE) = [character(len=15) :: 'E-COMMAND', 'E-DECK', 'E-NOT-CONVERGED', &
                                                                                                              'E-SINGULAR', 'E-FILE']
@@ -113,8 +113,8 @@ contains
 
    !> One line.
    subroutine print_line(text, unit)
-      character(len=*), intent(in) :: text
-      integer, intent(in) :: unit
+      character(len=*), intent(in) :: text          !< without its end
+      integer, intent(in) :: unit                   !< output_unit or error_unit
       type(string_t) :: lines(1)                    ! a constructor of strings is not given back (gfortran 12)
 
       lines(1)%s = text
@@ -123,8 +123,8 @@ contains
 
    !> A failure to print is nobody's error.
    subroutine print_lines(lines, unit)
-      type(string_t), intent(in) :: lines(:)
-      integer, intent(in) :: unit
+      type(string_t), intent(in) :: lines(:)        !< without their ends
+      integer, intent(in) :: unit                   !< output_unit or error_unit
       integer :: i, ios
 
       call hide_line()
@@ -166,7 +166,7 @@ contains
 
    !> Who tells how the work of a command comes along.
    type(reporter_t) function reporter_of(command) result(reporter)
-      type(command_t), intent(in) :: command
+      type(command_t), intent(in) :: command        !< quiet, json and all_progress are read
 
       reporter%quiet = command%quiet .or. command%json
       reporter%form = merge(PROGRESS_ALL, PROGRESS_PHASES, command%all_progress)
@@ -186,7 +186,7 @@ contains
 
    !> The first line of a message, the word of its severity coloured.
    function paint_message(message, line) result(painted)
-      type(message_t), intent(in) :: message
+      type(message_t), intent(in) :: message        !< whose first line it is
       character(len=*), intent(in) :: line          !< as format_message gives it
       character(len=:), allocatable :: painted, word
       integer :: first

@@ -35,11 +35,11 @@ contains
 
    !> Reads a deck and builds its model. All messages are printed; errors of the deck give STATUS_DECK.
    subroutine load_model(command, reporter, model, n_printed, code, only_errors, keeps_deck, adaptation)
-      type(command_t), intent(in) :: command
-      type(reporter_t), intent(in) :: reporter
-      type(model_t), intent(out) :: model
+      type(command_t), intent(in) :: command        !< path of the deck, --set, --refine and the like
+      type(reporter_t), intent(in) :: reporter      !< tells the phase
+      type(model_t), intent(out) :: model           !< whole where code is STATUS_OK
       integer(ip), intent(out) :: n_printed         !< messages printed so far
-      integer, intent(out) :: code
+      integer, intent(out) :: code                  !< STATUS_*; STATUS_DECK also for the deck's errors
       logical, intent(in), optional :: only_errors  !< the others of this deck have been printed
       logical, intent(in), optional :: keeps_deck   !< as it is run, in the model; left out: .false.
       type(adaptation_t), intent(inout), optional :: adaptation !< how the elements of the deck are cut, where they are
@@ -76,9 +76,9 @@ contains
 
    !> The model of a command of which nothing is printed. ok: its deck has no errors.
    subroutine read_model(command, model, ok, adaptation)
-      type(command_t), intent(in) :: command
-      type(model_t), intent(out) :: model
-      logical, intent(out) :: ok
+      type(command_t), intent(in) :: command                    !< path of the deck, --set, --refine and the like
+      type(model_t), intent(out) :: model                       !< whole where ok
+      logical, intent(out) :: ok                                !< no error; else of no use
       type(adaptation_t), intent(inout), optional :: adaptation !< how elements are cut; the model keeps the deck then
       type(deck_t) :: deck
       type(status_t) :: status
@@ -113,13 +113,13 @@ contains
 
    !> Follows the error to the next mesh. goes_on: there is one, and the model is its; else the model stays that of the last.
    subroutine take_next_mesh(command, history, model, observations, adaptation, n_printed, goes_on)
-      type(command_t), intent(in) :: command
-      type(history_t), intent(in), target :: history
-      type(model_t), intent(inout) :: model
-      type(observations_t), intent(inout) :: observations
-      type(adaptation_t), intent(inout) :: adaptation
+      type(command_t), intent(in) :: command        !< of the run
+      type(history_t), intent(in), target :: history !< on the mesh of the model
+      type(model_t), intent(inout) :: model         !< of the mesh that was solved; of the next one
+      type(observations_t), intent(inout) :: observations !< belong to the model on return
+      type(adaptation_t), intent(inout) :: adaptation !< gets the mesh, trees and why it ends
       integer(ip), intent(inout) :: n_printed       !< messages that were printed, or are forgotten
-      logical, intent(out) :: goes_on
+      logical, intent(out) :: goes_on               !< there is a next mesh to solve on
       type(element_trees_t) :: before
       logical :: ok
 
@@ -155,9 +155,9 @@ contains
 
    !> --adapt begins anew with each mesh: there is nothing to go on from. status: STATUS_USAGE.
    subroutine check_adaptable(command, model, status)
-      type(command_t), intent(in) :: command
-      type(model_t), intent(in) :: model
-      type(status_t), intent(out) :: status
+      type(command_t), intent(in) :: command        !< --adapt and --restart are read
+      type(model_t), intent(in) :: model            !< its *RESTART is read
+      type(status_t), intent(out) :: status         !< STATUS_OK or STATUS_USAGE
 
       if (command%adapt > 0.0_wp .and. (model%restart_every > 0 .or. allocated(command%restart))) then
          call set_status(status, STATUS_USAGE, '--adapt: each mesh begins anew, without *RESTART and --restart')
@@ -166,10 +166,10 @@ contains
 
    !> Reads the expressions of the deck and of --observe. code: STATUS_DECK or STATUS_USAGE for one that is wrong, which is printed.
    subroutine prepare_observations(command, model, observations, code)
-      type(command_t), intent(in) :: command
-      type(model_t), intent(in) :: model
-      type(observations_t), intent(out) :: observations
-      integer, intent(out) :: code
+      type(command_t), intent(in) :: command            !< its --observe is read
+      type(model_t), intent(in) :: model                !< expressions of its *OBSERVE are read
+      type(observations_t), intent(out) :: observations !< of the model, *OBSERVE first
+      integer, intent(out) :: code                      !< STATUS_OK, STATUS_DECK or STATUS_USAGE
       type(message_t) :: error
       type(string_t), allocatable :: texts(:)
       logical :: ok

@@ -26,8 +26,8 @@ contains
    !> The stack, the threads, and of each thread the buffer of BLAS. Fewer threads than were asked for are told and taken.
    !> code: STATUS_DECK for want of memory, which is told.
    subroutine secure_means(command, code)
-      type(command_t), intent(inout) :: command
-      integer, intent(out) :: code
+      type(command_t), intent(inout) :: command  !< its threads may become fewer
+      integer, intent(out) :: code               !< STATUS_OK or STATUS_DECK
       integer(ip) :: n
 
       code = STATUS_DECK

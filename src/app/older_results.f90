@@ -16,7 +16,7 @@ contains
 
    !> N-OLDER, where there are such: of what run, by the head of its summary (comma-separated values have none).
    subroutine note_older_results(folder, deck, provenance)
-      character(len=*), intent(in) :: folder
+      character(len=*), intent(in) :: folder           !< of the tables
       character(len=*), intent(in) :: deck             !< of this run, a path
       type(provenance_t), intent(in) :: provenance     !< of this run, as far as it is known
       character(len=:), allocatable :: path, text
@@ -33,7 +33,7 @@ contains
    pure function difference_text(table, deck, provenance) result(text)
       character(len=*), intent(in) :: table            !< with its head
       character(len=*), intent(in) :: deck             !< name of this run's, without folder
-      type(provenance_t), intent(in) :: provenance
+      type(provenance_t), intent(in) :: provenance     !< of this run, as far as it is known
       character(len=:), allocatable :: text, older, newer
 
       text = ''

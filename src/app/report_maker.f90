@@ -21,9 +21,9 @@ contains
 
    !> The report of a run; its name is added to the files that were written.
    subroutine make_run_report(command, model, history, files, pictures)
-      type(command_t), intent(in) :: command
-      type(model_t), intent(in) :: model
-      type(history_t), intent(in) :: history
+      type(command_t), intent(in) :: command                   !< --report is given; its folder is read
+      type(model_t), intent(in) :: model                       !< as solved
+      type(history_t), intent(in) :: history                   !< with frames
       type(string_t), allocatable, intent(inout) :: files(:)   !< names without folder
       type(string_t), intent(in) :: pictures(:)                !< that were drawn
       type(report_t) :: report
@@ -36,9 +36,9 @@ contains
 
    !> Writes a report, which knows everything but the command. A failure is a warning.
    subroutine make_report(command, report, is_written)
-      type(command_t), intent(in) :: command
-      type(report_t), intent(inout) :: report
-      logical, intent(out) :: is_written
+      type(command_t), intent(in) :: command     !< its folder and quietness are read
+      type(report_t), intent(inout) :: report    !< gets the command
+      logical, intent(out) :: is_written         !< else there is a warning
       type(string_t), allocatable :: arguments(:)
       type(reporter_t) :: reporter
       character(len=*), parameter :: PLAIN = 'ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-+=.,:/%@'

@@ -23,14 +23,15 @@ module atrito_restart_recorder
    real(wp), parameter :: SOME_TIME = 0.02_wp        !< [s]
    real(wp), parameter :: BETWEEN = 4.0_wp           !< processor time between two files over that of writing one
 
+   !> Who writes the restart files of a run (recorder_t).
    type, extends(recorder_t) :: restart_recorder_t
       private
-      character(len=:), allocatable :: folder, name
+      character(len=:), allocatable :: folder, name  !< of the restart files, and their name in it
       character(len=:), allocatable :: deck_path     !< for messages
-      type(fingerprint_t) :: fingerprint
-      integer(ip) :: last_step = 0
+      type(fingerprint_t) :: fingerprint             !< of the model and the options
+      integer(ip) :: last_step = 0                   !< of the model
       real(wp) :: written = 0.0_wp, took = 0.0_wp    !< processor time when the last file was there, and that it took [s]
-      logical :: has_warned = .false.
+      logical :: has_warned = .false.                !< that writing takes long: told once
    contains
       procedure :: record => write_record
    end type restart_recorder_t
@@ -39,11 +40,11 @@ contains
 
    !> Reads the file of --restart, and gets ready to write those that the deck asks for. status: that of read_restart.
    subroutine begin_recorder(command, model, recorder, frames, status)
-      type(command_t), intent(in) :: command
-      type(model_t), intent(in) :: model
-      type(restart_recorder_t), intent(out) :: recorder
+      type(command_t), intent(in) :: command                !< --restart, and what its file must agree with
+      type(model_t), intent(in) :: model                    !< as built, with *RESTART
+      type(restart_recorder_t), intent(out) :: recorder     !< resumes where --restart is given
       class(frame_store_t), intent(inout), target :: frames !< will keep the increments that are printed
-      type(status_t), intent(out) :: status
+      type(status_t), intent(out) :: status                 !< STATUS_OK, or why --restart cannot be read
       character(len=:), allocatable :: options
       integer(lp) :: identity(2)
       integer :: i

@@ -64,10 +64,10 @@ contains
 
    !> Solves a deck and writes its tables. What it reads is protected for so long.
    subroutine run_deck(command, store, code, facts)
-      type(command_t), intent(in) :: command
+      type(command_t), intent(in) :: command        !< of a run; folder, deck and all options
       type(body_cache_t), intent(inout) :: store    !< bodies of an earlier run; those of this one
       integer, intent(out) :: code                  !< one of STATUS_*
-      type(run_facts_t), intent(out), optional :: facts
+      type(run_facts_t), intent(out), optional :: facts !< what a study asks; defaults where nothing is written
       type(reporter_t) :: reporter
       type(model_t) :: model
       type(observations_t) :: observations
@@ -149,7 +149,7 @@ contains
 
    !> The threads of this run, with those of ranks that wait on the same host: not where `ulimit -v` counts what each reserves.
    subroutine take_threads(command)
-      type(command_t), intent(in) :: command
+      type(command_t), intent(in) :: command        !< its threads and ranks of the host are read
       logical :: is_alone
 
       is_alone = command%on_one_rank .or. address_space_limit() >= 0
@@ -224,9 +224,9 @@ contains
    !> The status and the results say the same of a run: solved, or not converged and why. A history that ended early keeps its
    !> status.
    subroutine agree_on_outcome(status, results, ends_early)
-      type(status_t), intent(inout) :: status
+      type(status_t), intent(inout) :: status       !< STATUS_OK stays only with a solution
       type(results_t), intent(inout) :: results     !< the last there are
-      logical, intent(in) :: ends_early
+      logical, intent(in) :: ends_early             !< the history did not reach its end
       character(len=:), allocatable :: text
 
       if (ends_early) then
@@ -320,7 +320,7 @@ contains
 
    !> What the command line asks of the solver: its kind, the form of the contact system, and what else has to be found.
    function solve_options(command) result(options)
-      type(command_t), intent(in) :: command
+      type(command_t), intent(in) :: command        !< solver, contact, proof, plot, adapt, share
       type(solve_options_t) :: options
       integer, parameter :: KINDS(*) = [SOLVER_AUTO, SOLVER_SKYLINE, SOLVER_BANDED, SOLVER_SPARSE]
       integer, parameter :: FORMS(*) = [CONTACT_AUTO, CONTACT_DENSE, CONTACT_SPARSE]

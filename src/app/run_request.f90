@@ -24,9 +24,9 @@ contains
    !> Makes some runs of a series: one after the other in this process until one stops the series, or, with several ranks, by all of
    !> them, which are told the arguments of the program first.
    subroutine make_tasks(tasks, list, times)
-      class(rank_tasks_t), intent(inout) :: tasks
+      class(rank_tasks_t), intent(inout) :: tasks   !< keeps what each task gives; is_stopped ends it
       integer(ip), intent(in) :: list(:)            !< of tasks, in the order in which they begin
-      type(rank_times_t), intent(out) :: times
+      type(rank_times_t), intent(out) :: times      !< of the ranks; defaults on one
       type(buffer_t) :: buffer
       type(string_t), allocatable :: arguments(:)
       integer :: i
@@ -51,8 +51,8 @@ contains
 
    !> The arguments of the program, for another rank.
    subroutine put_arguments(arguments, buffer)
-      type(string_t), intent(in) :: arguments(:)
-      type(buffer_t), intent(inout) :: buffer
+      type(string_t), intent(in) :: arguments(:)    !< as fetch_arguments gives them
+      type(buffer_t), intent(inout) :: buffer       !< get them behind what it has
       integer :: i
 
       call put(buffer, size(arguments, kind=ip))
@@ -63,8 +63,8 @@ contains
 
    !> On the other ranks: the command, from a request whose first number has been taken.
    subroutine take_request(request, command)
-      type(buffer_t), intent(inout) :: request
-      type(command_t), intent(out) :: command
+      type(buffer_t), intent(inout) :: request      !< its next items are taken
+      type(command_t), intent(out) :: command       !< as on rank 0; a difference stops the program
       type(string_t), allocatable :: arguments(:)
       type(message_t) :: error
       integer(ip) :: i, n
@@ -94,7 +94,7 @@ contains
 
    !> A run was lost with the process that made it.
    subroutine print_lost(command, label, end_code)
-      type(command_t), intent(in) :: command
+      type(command_t), intent(in) :: command        !< of the series; json is read
       character(len=*), intent(in) :: label         !< of the run
       integer, intent(in) :: end_code               !< its exit code, or 128 and the number of the signal
       type(status_t) :: status

@@ -20,17 +20,18 @@ module atrito_archive
    public :: exchange_head, has_enough, pass_longs, pass_reals, pass_text
    public :: NOT_ALLOCATED, IS_REAL, IS_INTEGER, IS_LONG, IS_LOGICAL, IS_TEXT
 
+   !> A file of named values while it is written or read.
    type :: archive_t
-      logical :: is_reading = .false.
+      logical :: is_reading = .false.                !< else it is written
       character(len=:), allocatable :: path          !< for messages
       type(status_t) :: status                       !< first failure
-      type(hdf5_file_t), private :: file
-      logical, private :: is_spooled = .false.
+      type(hdf5_file_t), private :: file             !< of one that is not spooled
+      logical, private :: is_spooled = .false.       !< no file with a name, no parts
       type(spool_t) :: spool                         !< of one that is spooled
-      character(len=:), allocatable, private :: part
+      character(len=:), allocatable, private :: part !< path in the file of the part that is open; '': none
       real(wp), allocatable, private :: reals(:)     !< of the part
-      integer(lp), allocatable, private :: longs(:)
-      type(growing_text_t), private :: text
+      integer(lp), allocatable, private :: longs(:)  !< whole numbers, marks and extents of the part
+      type(growing_text_t), private :: text          !< letters of the part
       integer(lp), private :: n_reals = 0, n_longs = 0  !< of them written or read so far; of the text text%n
    end type archive_t
 
@@ -46,7 +47,7 @@ contains
    subroutine create_archive(path, final_path, archive)
       character(len=*), intent(in) :: path            !< where it is written
       character(len=*), intent(in) :: final_path      !< what messages call it
-      type(archive_t), intent(out) :: archive
+      type(archive_t), intent(out) :: archive         !< written, no part is open
 
       archive%path = final_path
       call create_hdf5(path, final_path, .true., archive%file)
@@ -55,8 +56,8 @@ contains
 
    !> Begins an archive that is read from a file. A failure is kept until close_archive.
    subroutine open_archive(path, archive)
-      character(len=*), intent(in) :: path
-      type(archive_t), intent(out) :: archive
+      character(len=*), intent(in) :: path           !< of the file
+      type(archive_t), intent(out) :: archive        !< read, no part is open
 
       archive%is_reading = .true.
       archive%path = path
@@ -66,8 +67,8 @@ contains
 
    !> An archive without a name on the disk of a folder, or of the nearest one above it. Where there can be none it is not sound.
    subroutine spool_archive(folder, archive)
-      character(len=*), intent(in) :: folder
-      type(archive_t), intent(out) :: archive
+      character(len=*), intent(in) :: folder         !< which need not be there yet
+      type(archive_t), intent(out) :: archive        !< written, at its beginning
 
       archive%is_spooled = .true.
       archive%path = folder
@@ -78,9 +79,9 @@ contains
 
    !> From now on what is exchanged is written at a place of a spooled archive [bytes], or read there.
    subroutine turn_to(archive, place, is_reading)
-      type(archive_t), intent(inout) :: archive
-      integer(lp), intent(in) :: place
-      logical, intent(in) :: is_reading
+      type(archive_t), intent(inout) :: archive      !< spooled
+      integer(lp), intent(in) :: place               !< from 0; where the next value begins [bytes]
+      logical, intent(in) :: is_reading              !< else it is written
 
       archive%is_reading = is_reading
       call go_to(archive%spool, place)
@@ -108,15 +109,15 @@ contains
 
    !> All went well so far.
    pure logical function is_sound(archive)
-      type(archive_t), intent(in) :: archive
+      type(archive_t), intent(in) :: archive         !< of any kind
 
       is_sound = is_ok(archive%status)
    end function is_sound
 
    !> Begins a part of the file, /part.
    subroutine begin_part(archive, part)
-      type(archive_t), intent(inout) :: archive
-      character(len=*), intent(in) :: part
+      type(archive_t), intent(inout) :: archive      !< with a file; no part is open
+      character(len=*), intent(in) :: part           !< name without /
 
       call empty_part(archive)
       archive%part = '/'//part
@@ -133,7 +134,7 @@ contains
 
    !> Ends a part: writes it, or asks whether all of it was read.
    subroutine end_part(archive)
-      type(archive_t), intent(inout) :: archive
+      type(archive_t), intent(inout) :: archive      !< with a file; its part is complete
 
       if (archive%is_reading) then
          call demand(archive, archive%n_reals == size(archive%reals) .and. archive%n_longs == size(archive%longs) .and. &
@@ -147,8 +148,8 @@ contains
 
    !> What is read must be so; a file in which it is not is damaged.
    subroutine demand(archive, condition, name)
-      type(archive_t), intent(inout) :: archive
-      logical, intent(in) :: condition
+      type(archive_t), intent(inout) :: archive       !< gets the failure, unless it has one
+      logical, intent(in) :: condition                !< of a whole file
       character(len=*), intent(in) :: name            !< of the value
 
       if (condition .or. .not. is_ok(archive%status)) return
@@ -158,8 +159,8 @@ contains
 
    !> Completes an archive. status: STATUS_FILE when any part of it could not be written or read.
    subroutine close_archive(archive, status)
-      type(archive_t), intent(inout) :: archive
-      type(status_t), intent(out) :: status
+      type(archive_t), intent(inout) :: archive      !< no part is open; the file is closed
+      type(status_t), intent(out) :: status          !< STATUS_OK or STATUS_FILE
       type(status_t) :: of_file
 
       status = archive%status
@@ -183,11 +184,11 @@ contains
 
    !> Writes the mark of a value and its extents, or reads them: the number of its elements, NOT_ALLOCATED where it is not.
    subroutine exchange_head(archive, name, kind, extents, n)
-      type(archive_t), intent(inout) :: archive
-      character(len=*), intent(in) :: name
-      integer, intent(in) :: kind
+      type(archive_t), intent(inout) :: archive       !< with an open part, or spooled
+      character(len=*), intent(in) :: name            !< of the value
+      integer, intent(in) :: kind                     !< IS_REAL, IS_LONG, IS_TEXT, ...
       integer(lp), intent(inout) :: extents(:)        !< none: a scalar
-      integer(lp), intent(out) :: n
+      integer(lp), intent(out) :: n                   !< product of the extents; NOT_ALLOCATED
       integer(lp) :: head(0:size(extents))
       integer :: k
 
@@ -213,9 +214,9 @@ contains
 
    !> The part has so many values more.
    pure logical function has_enough(archive, kind, n)
-      type(archive_t), intent(in) :: archive
-      integer, intent(in) :: kind
-      integer(lp), intent(in) :: n
+      type(archive_t), intent(in) :: archive         !< read
+      integer, intent(in) :: kind                    !< IS_REAL, IS_TEXT; others are whole numbers
+      integer(lp), intent(in) :: n                   !< values, >= 0
 
       has_enough = archive%is_spooled                 ! its own words are believed
       if (has_enough) return
@@ -231,9 +232,9 @@ contains
 
    !> Writes or reads whole numbers, without a head.
    subroutine pass_longs(archive, name, values)
-      type(archive_t), intent(inout) :: archive
-      character(len=*), intent(in) :: name
-      integer(lp), intent(inout) :: values(:)
+      type(archive_t), intent(inout) :: archive      !< with an open part, or spooled
+      character(len=*), intent(in) :: name           !< of the value, for messages
+      integer(lp), intent(inout) :: values(:)        !< what is written; read: 0 after a failure
       integer(lp) :: next
 
       if (archive%is_spooled) then
@@ -257,8 +258,8 @@ contains
 
    !> Writes or reads reals, of which there are enough.
    subroutine pass_reals(archive, values)
-      type(archive_t), intent(inout) :: archive
-      real(wp), intent(inout) :: values(:)
+      type(archive_t), intent(inout) :: archive      !< with an open part, or spooled
+      real(wp), intent(inout) :: values(:)           !< what is written or read
       integer(lp) :: next
 
       if (archive%is_spooled) then
@@ -278,8 +279,8 @@ contains
 
    !> Writes or reads characters, of which there are enough.
    subroutine pass_text(archive, text)
-      type(archive_t), intent(inout) :: archive
-      character(len=*), intent(inout) :: text
+      type(archive_t), intent(inout) :: archive      !< with an open part, or spooled
+      character(len=*), intent(inout) :: text        !< what is written or read
 
       if (archive%is_spooled) then
          call pass_values(archive%spool, archive%is_reading, text)

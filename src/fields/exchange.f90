@@ -32,9 +32,9 @@ contains
 
    !> A list of a length that is known.
    subroutine exchange_vector(archive, name, values)
-      type(archive_t), intent(inout) :: archive
-      character(len=*), intent(in) :: name
-      real(wp), intent(inout) :: values(:)
+      type(archive_t), intent(inout) :: archive       !< with an open part, or spooled
+      character(len=*), intent(in) :: name            !< of the value
+      real(wp), intent(inout) :: values(:)            !< what is written; read: 0 after a failure
       integer(lp) :: extents(1), n
 
       extents = size(values)
@@ -111,9 +111,9 @@ contains
 
    !> The number of the elements of a list of a derived type, each of which has a value in this part; < 0: it is not allocated.
    subroutine exchange_length(archive, name, n, list)
-      type(archive_t), intent(inout) :: archive
-      character(len=*), intent(in) :: name
-      integer(ip), intent(out) :: n
+      type(archive_t), intent(inout) :: archive       !< with an open part, or spooled
+      character(len=*), intent(in) :: name            !< of the list
+      integer(ip), intent(out) :: n                   !< < 0 also after a failure
       type(*), intent(in), optional :: list(:)        !< what is written; one that is not allocated is absent
       logical :: is_there
 
@@ -148,9 +148,9 @@ contains
 
    !> A list of a length that is known.
    subroutine exchange_numbers(archive, name, values)
-      type(archive_t), intent(inout) :: archive
-      character(len=*), intent(in) :: name
-      integer(ip), intent(inout) :: values(:)
+      type(archive_t), intent(inout) :: archive       !< with an open part, or spooled
+      character(len=*), intent(in) :: name            !< of the value
+      integer(ip), intent(inout) :: values(:)         !< what is written; read: 0 after a failure
       integer(ip), allocatable :: copy(:)
       logical :: ok
 
@@ -237,9 +237,9 @@ contains
 
    !> A string of fixed length.
    subroutine exchange_word(archive, name, word)
-      type(archive_t), intent(inout) :: archive
-      character(len=*), intent(in) :: name
-      character(len=*), intent(inout) :: word
+      type(archive_t), intent(inout) :: archive       !< with an open part, or spooled
+      character(len=*), intent(in) :: name            !< of the value
+      character(len=*), intent(inout) :: word         !< what is written; read: cut, or blanks
       character(len=:), allocatable :: text
 
       text = word

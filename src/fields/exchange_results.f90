@@ -15,8 +15,8 @@ contains
 
    !> An increment: one part of the file.
    subroutine exchange_results(archive, results)
-      type(archive_t), intent(inout) :: archive
-      type(results_t), intent(inout) :: results
+      type(archive_t), intent(inout) :: archive  !< with an open part, or spooled
+      type(results_t), intent(inout) :: results  !< what is written or read, all components
 
       call exchange(archive, 'step', results%step)
       call exchange(archive, 'increment', results%increment)
@@ -252,8 +252,8 @@ contains
 
    !> The log of iterations, column by column: there may be thousands, in every file.
    subroutine exchange_iterations(archive, list)
-      type(archive_t), intent(inout) :: archive
-      type(iteration_t), allocatable, intent(inout) :: list(:)
+      type(archive_t), intent(inout) :: archive                !< with an open part, or spooled
+      type(iteration_t), allocatable, intent(inout) :: list(:) !< what is written; read: not allocated on entry
       integer(ip) :: n
 
       call exchange_length(archive, 'iterations', n, list)

@@ -15,13 +15,14 @@ module atrito_frame_spool
 
    integer, parameter :: SOME = 16
 
+   !> A store of frames (frame_store_t) on the disk.
    type, extends(frame_store_t) :: frame_spool_t
       private
-      character(len=:), allocatable :: folder
-      type(archive_t) :: archive
-      logical :: is_open = .false.
+      character(len=:), allocatable :: folder        !< on whose disk the file is
+      type(archive_t) :: archive                     !< spooled, one frame behind the other
+      logical :: is_open = .false.                   !< the first frame has come
       integer(lp), allocatable :: place(:)           !< where each frame begins, and where the next will [bytes]
-      type(results_t) :: shown
+      type(results_t) :: shown                       !< the frame that was asked for last
       integer(ip) :: i_shown = 0                     !< 0: none
    contains
       procedure :: put => put_frame
@@ -32,8 +33,8 @@ contains
 
    !> Gets ready to keep frames on the disk of a folder, which need not be there yet. No file is opened before the first one.
    subroutine begin_frames(folder, spool)
-      character(len=*), intent(in) :: folder
-      type(frame_spool_t), intent(out) :: spool
+      character(len=*), intent(in) :: folder         !< of the tables
+      type(frame_spool_t), intent(out) :: spool      !< empty, ready to be a frame_store_t
 
       spool%folder = folder
    end subroutine begin_frames
@@ -82,7 +83,7 @@ contains
 
    !> Gives the file back to the disk.
    subroutine end_frames(spool)
-      type(frame_spool_t), intent(inout) :: spool
+      type(frame_spool_t), intent(inout) :: spool    !< its frames are gone on return
 
       if (spool%is_open) call close_spool(spool%archive%spool)
       spool%is_open = .false.

@@ -26,9 +26,10 @@ module atrito_hdf5
    integer(hsize_t), parameter :: ROWS_IN_CHUNK = 4096, MOST_IN_CHUNK = 65536   !< of arrays and of lists
    integer, parameter :: DEFLATE_LEVEL = 4         !< of 0..9; higher ones are slow and gain little
 
+   !> An HDF5 file of fields or of lists.
    type :: hdf5_file_t
       type(status_t) :: status                     !< first failure
-      integer(hid_t), private :: id = 0
+      integer(hid_t), private :: id = 0                            !< of the library
       logical, private :: is_open = .false., has_lists = .false.   !< lists with checksums; else fields
       character(len=:), allocatable, private :: path               !< for messages
    end type hdf5_file_t
@@ -74,7 +75,7 @@ contains
       character(len=*), intent(in) :: path            !< where it is written
       character(len=*), intent(in) :: final_path      !< what messages call it
       logical, intent(in) :: has_lists                !< of put_list; else arrays and attributes
-      type(hdf5_file_t), intent(out) :: file
+      type(hdf5_file_t), intent(out) :: file          !< open; its status tells a failure
       integer(hid_t) :: access
       integer :: error(4)
 
@@ -96,8 +97,8 @@ contains
 
    !> Opens a file to be read.
    subroutine open_hdf5(path, file)
-      character(len=*), intent(in) :: path
-      type(hdf5_file_t), intent(out) :: file
+      character(len=*), intent(in) :: path            !< of the file
+      type(hdf5_file_t), intent(out) :: file          !< open; its status tells a failure
       logical :: is_hdf5
       integer :: error
 
@@ -393,8 +394,8 @@ contains
 
    !> Ends a file. status: STATUS_FILE when any part of it could not be written or read.
    subroutine close_hdf5(file, status)
-      type(hdf5_file_t), intent(inout) :: file
-      type(status_t), intent(out) :: status
+      type(hdf5_file_t), intent(inout) :: file        !< open or failed; closed on return
+      type(status_t), intent(out) :: status           !< STATUS_OK, or its first failure: STATUS_FILE
       integer :: error
 
       if (file%is_open) call h5fclose_f(file%id, error)

@@ -25,7 +25,7 @@ contains
 
    !> Name of the file, without folder.
    pure function restart_name(model) result(name)
-      type(model_t), intent(in) :: model
+      type(model_t), intent(in) :: model         !< its deck_name is read
       character(len=:), allocatable :: name
 
       name = model%deck_name//'.restart.h5'
@@ -33,11 +33,11 @@ contains
 
    !> Writes what was found so far. status: STATUS_FILE, and then the file that was there is as it was.
    subroutine write_restart(folder, name, fingerprint, history, state, status)
-      character(len=*), intent(in) :: folder, name
+      character(len=*), intent(in) :: folder, name      !< of the tables; name of the file in it
       type(fingerprint_t), intent(inout) :: fingerprint !< these three are not changed: writing and reading are one procedure
-      type(history_t), intent(inout) :: history
-      type(restart_state_t), intent(inout) :: state
-      type(status_t), intent(out) :: status
+      type(history_t), intent(inout) :: history         !< all that was found so far
+      type(restart_state_t), intent(inout) :: state     !< from which the next increment begins
+      type(status_t), intent(out) :: status             !< STATUS_OK or STATUS_FILE
       type(file_set_t) :: set
       type(archive_t) :: archive
       character(len=:), allocatable :: path, kind, program
@@ -62,11 +62,11 @@ contains
    !> another deck or to another version of it. Whether what it holds can be of the deck is asked by who uses it (check_found and
    !> check_start in stepping/).
    subroutine read_restart(path, fingerprint, history, state, status, frames)
-      character(len=*), intent(in) :: path
+      character(len=*), intent(in) :: path              !< of the file, as the user wrote it
       type(fingerprint_t), intent(in) :: fingerprint    !< of the deck and the options
-      type(history_t), intent(out) :: history
-      type(restart_state_t), intent(out) :: state
-      type(status_t), intent(out) :: status
+      type(history_t), intent(out) :: history           !< as at the end of its last increment
+      type(restart_state_t), intent(out) :: state       !< from which the next increment begins
+      type(status_t), intent(out) :: status             !< STATUS_OK, STATUS_FILE or STATUS_DECK
       class(frame_store_t), intent(inout), target, optional :: frames !< keeps all frames but the last
       type(archive_t) :: archive
       type(fingerprint_t) :: in_file

@@ -27,7 +27,7 @@ contains
 
    !> Names of the files that this module can write: what a new run replaces or removes.
    pure function list_field_files(model) result(names)
-      type(model_t), intent(in) :: model
+      type(model_t), intent(in) :: model         !< its deck_name is read
       type(string_t) :: names(2)
 
       names(1)%s = model%deck_name//'.h5'
@@ -38,10 +38,10 @@ contains
    !>
    !> status: STATUS_FILE when one could not be written.
    subroutine write_fields(model, history, set, status)
-      type(model_t), intent(in) :: model
-      type(history_t), intent(in), target :: history
-      type(file_set_t), intent(inout) :: set
-      type(status_t), intent(out) :: status
+      type(model_t), intent(in) :: model               !< mesh, and what its steps ask for
+      type(history_t), intent(in), target :: history   !< frames, in a store or not
+      type(file_set_t), intent(inout) :: set           !< gets two files, if fields are asked for
+      type(status_t), intent(out) :: status            !< STATUS_OK or STATUS_FILE
       type(xdmf_grid_t), allocatable :: mesh_grids(:)
       type(xdmf_frame_t) :: frame
       type(results_t), pointer :: results

@@ -26,8 +26,8 @@ contains
 
    !> The files that a run of this model may write into a folder, or remove from it, without folder.
    function list_files_of_run(model, folder) result(names)
-      type(model_t), intent(in) :: model
-      character(len=*), intent(in) :: folder
+      type(model_t), intent(in) :: model         !< names of its deck, cuts and paths
+      character(len=*), intent(in) :: folder     !< of the tables
       type(string_t), allocatable :: names(:)
 
       call list_stale_files(model, folder, names)
@@ -40,12 +40,12 @@ contains
    !>
    !> status: STATUS_FILE, and then what the folder held before is untouched.
    subroutine write_results(model, history, digits, folder, written, status, pictures, is_csv, shown)
-      type(model_t), intent(in) :: model
+      type(model_t), intent(in) :: model                     !< as solved
       type(history_t), intent(in) :: history            !< with frames
       integer, intent(in) :: digits                     !< significant digits of the tables, 6..17
-      character(len=*), intent(in) :: folder
+      character(len=*), intent(in) :: folder                 !< of the tables; made where it is missing
       type(string_t), allocatable, intent(out) :: written(:) !< names of the files, without folder
-      type(status_t), intent(out) :: status
+      type(status_t), intent(out) :: status                  !< STATUS_OK or STATUS_FILE
       type(string_t), intent(in), optional :: pictures(:)    !< that will be drawn after this, for the listing
       logical, intent(in), optional :: is_csv                !< tables as comma-separated values; left out: .false.
       type(table_t), intent(in), optional :: shown(:)        !< further tables, of --show
@@ -90,9 +90,9 @@ contains
    !>
    !> status: STATUS_FILE, and then it is as it was.
    subroutine remove_results(model, folder, status)
-      type(model_t), intent(in) :: model
-      character(len=*), intent(in) :: folder
-      type(status_t), intent(out) :: status
+      type(model_t), intent(in) :: model         !< names of its deck, cuts and paths
+      character(len=*), intent(in) :: folder     !< of the tables
+      type(status_t), intent(out) :: status      !< STATUS_OK or STATUS_FILE
       type(file_set_t) :: set
 
       call begin_files(set, folder, status)

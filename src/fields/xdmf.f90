@@ -14,32 +14,32 @@ module atrito_xdmf
       character(len=:), allocatable :: name, path      !< path in the HDF5 file
       character(len=:), allocatable :: centre          !< CENTRE_NODE or CENTRE_CELL
       integer(ip) :: n_components = 1                  !< 1: scalar, 3: vector
-      integer(ip) :: n_values = 0
-      logical :: is_real = .true.
+      integer(ip) :: n_values = 0                      !< points or cells
+      logical :: is_real = .true.                      !< else it is of whole numbers
    end type xdmf_field_t
 
    !> Cells of one shape and the fields upon them.
    type :: xdmf_grid_t
-      character(len=:), allocatable :: name
+      character(len=:), allocatable :: name            !< of the grid, for the reader
       character(len=:), allocatable :: topology        !< XDMF's name of the shape
       character(len=:), allocatable :: cells, points   !< paths of connectivity and coordinates in the HDF5 file
-      integer(ip) :: n_cells = 0, nodes_per_cell = 0, n_points = 0
-      type(xdmf_field_t), allocatable :: fields(:)
+      integer(ip) :: n_cells = 0, nodes_per_cell = 0, n_points = 0 !< of its cells and points
+      type(xdmf_field_t), allocatable :: fields(:)     !< in the order in which they were added
    end type xdmf_grid_t
 
    !> What there is at one time.
    type :: xdmf_frame_t
-      character(len=:), allocatable :: name
+      character(len=:), allocatable :: name            !< e.g. 'step 2'
       character(len=:), allocatable :: time            !< of the history, a number as text
-      type(xdmf_grid_t), allocatable :: grids(:)
+      type(xdmf_grid_t), allocatable :: grids(:)       !< mesh, stress points and pairs
    end type xdmf_frame_t
 
 contains
 
    !> Begins a grid without fields.
    pure subroutine begin_grid(grid, name, topology, cells, sizes, points)
-      type(xdmf_grid_t), intent(out) :: grid
-      character(len=*), intent(in) :: name, topology, cells, points
+      type(xdmf_grid_t), intent(out) :: grid           !< without fields
+      character(len=*), intent(in) :: name, topology, cells, points !< as the components of xdmf_grid_t
       integer(ip), intent(in) :: sizes(3)              !< cells, nodes of each, points
 
       grid%name = name
@@ -54,11 +54,11 @@ contains
 
    !> Adds a field to a grid.
    pure subroutine add_field(grid, path, n_components, is_real, centre)
-      type(xdmf_grid_t), intent(inout) :: grid
+      type(xdmf_grid_t), intent(inout) :: grid         !< becomes longer by a field
       character(len=*), intent(in) :: path             !< the field is called as its dataset
       integer(ip), intent(in) :: n_components          !< 1 or 3
-      logical, intent(in) :: is_real
-      character(len=*), intent(in) :: centre
+      logical, intent(in) :: is_real                   !< else it is of whole numbers
+      character(len=*), intent(in) :: centre           !< CENTRE_NODE or CENTRE_CELL
       type(xdmf_field_t), allocatable :: longer(:)
       integer :: n
 
@@ -78,7 +78,7 @@ contains
    subroutine begin_xdmf(program, warning, lines)
       character(len=*), intent(in) :: program          !< name and version
       character(len=*), intent(in) :: warning          !< why the run did not converge; '' when it did
-      type(string_t), allocatable, intent(out) :: lines(:)
+      type(string_t), allocatable, intent(out) :: lines(:) !< of the file so far
 
       allocate (lines(0))
       call append_string(lines, '<?xml version="1.0" encoding="UTF-8"?>')
@@ -92,8 +92,8 @@ contains
    !> Adds a time.
    subroutine add_time(data_file, frame, lines)
       character(len=*), intent(in) :: data_file        !< the HDF5 file, without folder
-      type(xdmf_frame_t), intent(in) :: frame
-      type(string_t), allocatable, intent(inout) :: lines(:)
+      type(xdmf_frame_t), intent(in) :: frame          !< with all its grids and fields
+      type(string_t), allocatable, intent(inout) :: lines(:) !< of the file; get those of the time
       integer :: i
 
       call append_string(lines, '<Grid Name="'//frame%name//'" GridType="Collection" CollectionType="Spatial">')
@@ -106,7 +106,7 @@ contains
 
    !> Closes what begin_xdmf opened.
    subroutine end_xdmf(lines)
-      type(string_t), allocatable, intent(inout) :: lines(:)
+      type(string_t), allocatable, intent(inout) :: lines(:) !< of the file, which is complete then
 
       call append_string(lines, '</Grid>')
       call append_string(lines, '</Domain>')

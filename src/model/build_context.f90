@@ -33,8 +33,9 @@ module atrito_build_context
    public :: invalidate_block, invalidate_name, spoil_number, is_invalid, is_undetermined, has_errors, has_lost_elements
    public :: place_token, place_text, note_number, note_place, note_places, keep_token, define_name, count_cards, ids_text, MOST_IDS
 
+   !> What the builders share.
    type :: build_context_t
-      type(deck_t), pointer :: deck => null()
+      type(deck_t), pointer :: deck => null()          !< as read; not the context's own
       type(model_t), pointer :: model => null()        !< so far
       type(motion_t), allocatable :: motions(:)        !< (0:instances), as deck%scopes
       integer(lp) :: memory = huge(1_lp)               !< that the mesh may take [bytes]
@@ -44,25 +45,26 @@ module atrito_build_context
       type(name_list_t) :: orientation_names           !< in the order of orientation_axis
       type(name_list_t) :: source_names                !< keywords and names: in the order of the model's sources
       type(name_list_t) :: undetermined                      !< nouns: one of these should have been defined, its name is not known
-      type(numbered_t) :: nodes, elements
+      type(numbered_t) :: nodes, elements              !< what is known of them by number
       real(wp) :: spread = -1.0_wp                     !< longer side of the box round the nodes of *NODE [L]; < 0: not asked yet
-      integer(ip) :: n_blocks = 0
+      integer(ip) :: n_blocks = 0                      !< *BLOCK cards and copies read so far
       type(block_t), allocatable :: blocks(:)          !< the first n_blocks are in use
       type(joined_blocks_t) :: joined                  !< those up to the last one that has MERGE
       integer(ip), allocatable :: block_of_card(:)     !< for each card the first one; 0: none
       integer(ip) :: elements_to_come = 0              !< of blocks whose elements are not made yet
-      type(line_list_t) :: lines
+      type(line_list_t) :: lines                       !< line elements of *ELEMENT, without stiffness
       type(node_finder_t) :: finder                    !< of all nodes of elements
       type(curve_list_t) :: curves                     !< lines that carry names
       type(curve_list_t) :: node_surfaces              !< of *SURFACE, TYPE=NODE
       integer(ip), allocatable :: mesh_shift(:)        !< of the node numbers of each mesh of the deck; < 0: it is refused
       integer(ip), allocatable :: set_card(:)          !< for each node set the card that made it
-      type(open_step_t) :: open
+      type(open_step_t) :: open                        !< the step that is being built
       integer(ip), allocatable :: step_cards(:, :)     !< (2, 0:steps) first and last card of each step; 0: those outside of steps
       logical, allocatable :: card_done(:)             !< *NSET and *ELSET cards that are read already
       type(node_elements_t) :: around                  !< elements round each node
-      type(section_cut_t), allocatable :: cuts(:)
-      type(drawn_lines_t) :: drawn_cuts = drawn_lines_t('cut'), drawn_paths = drawn_lines_t('path')
+      type(section_cut_t), allocatable :: cuts(:)      !< of *PRE-TENSION SECTION, in the order of the cards
+      type(drawn_lines_t) :: drawn_cuts = drawn_lines_t('cut'), drawn_paths = drawn_lines_t('path') !< lines read
+      !< so far
       type(face_list_t) :: cut_faces                   !< of both sides of all cuts
       type(refinement_t) :: refinement                 !< how the mesh came from that of the deck, if it is another one
       real(wp), allocatable :: node_thickness(:)       !< *NODAL THICKNESS, 0 where there is none [L]; unallocated: no card
@@ -76,7 +78,8 @@ module atrito_build_context
       type(id_map_t) :: deck_elements                  !< refined: places of the deck's elements in its own mesh
       type(token_t), allocatable :: ties(:)            !< of each the slave
       type(token_t), allocatable :: surfaces(:), materials(:), poisson(:), sections(:), interactions(:), slaves(:), masters(:)
-      type(token_t), allocatable :: amplitudes(:), orientations(:)
+      !< of each where it is named; of poisson the item of mu
+      type(token_t), allocatable :: amplitudes(:), orientations(:) !< of each its name
       real(wp), allocatable :: orientation_axis(:, :)  !< (2, orientations) first axis of the material; 0: the card is faulty
       logical, allocatable :: elastic_given(:), elastic_invalid(:)  !< for each material
       logical :: membranes_told = .false.                    !< the note of M3D elements
@@ -95,8 +98,8 @@ contains
 
    !> Begins a context: the names and numbers that faulty cards would have defined are invalid.
    subroutine prepare_context(deck, context)
-      type(deck_t), intent(in), target :: deck
-      type(build_context_t), intent(out) :: context
+      type(deck_t), intent(in), target :: deck         !< as read; lives as long as the context
+      type(build_context_t), intent(out) :: context    !< empty lists, with what an error has invalid
       integer(ip) :: i, k
 
       context%deck => deck
@@ -127,8 +130,8 @@ contains
 
    !> Keeps a block; where there is no room the list doubles.
    pure subroutine add_context_block(context, block)
-      type(build_context_t), intent(inout) :: context
-      type(block_t), intent(in) :: block
+      type(build_context_t), intent(inout) :: context  !< the block becomes its last
+      type(block_t), intent(in) :: block               !< its card is set
       type(block_t), allocatable :: longer(:)
 
       if (context%n_blocks == size(context%blocks)) then
@@ -168,7 +171,7 @@ contains
 
    !> Nodes, elements, sets and surfaces of a mesh; a deck in parts without an instance has none.
    subroutine note_undetermined_mesh(context)
-      type(build_context_t), intent(inout) :: context
+      type(build_context_t), intent(inout) :: context  !< names and numbers become undetermined
       character(len=19), parameter :: NOUNS(7) = [character(len=19) :: 'node set', 'earlier node set', 'element set', &
                                                                                 'earlier element set', 'surface', 'node', 'element']
       integer :: i
@@ -227,8 +230,8 @@ contains
 
    !> A block that could not be made: its sets, and the numbers of nodes and elements from there on.
    subroutine invalidate_block(context, name)
-      type(build_context_t), intent(inout) :: context
-      character(len=*), intent(in) :: name
+      type(build_context_t), intent(inout) :: context  !< names and numbers become invalid
+      character(len=*), intent(in) :: name             !< of the block
 
       call invalidate_name(context, name)
       call note_undetermined(context, 'node')
@@ -237,17 +240,17 @@ contains
 
    !> Passes over, in silence, all that refers to this name or to the sides of a block of this name.
    subroutine invalidate_name(context, name)
-      type(build_context_t), intent(inout) :: context
-      character(len=*), intent(in) :: name
+      type(build_context_t), intent(inout) :: context  !< the name becomes invalid
+      character(len=*), intent(in) :: name             !< of what is faulty
 
       call add_name(context%invalid, name)
    end subroutine invalidate_name
 
    !> Passes over, in silence, all that refers to the number with which a data line begins.
    subroutine spoil_number(deck, line, numbered)
-      type(deck_t), intent(in) :: deck
-      type(data_line_t), intent(in) :: line
-      type(numbered_t), intent(inout) :: numbered
+      type(deck_t), intent(in) :: deck                 !< as read
+      type(data_line_t), intent(in) :: line            !< data line whose first item is the number
+      type(numbered_t), intent(inout) :: numbered      !< nodes or elements: the number becomes invalid
       integer(ip) :: id
       character(len=:), allocatable :: text
       integer :: outcome
@@ -265,8 +268,8 @@ contains
    !> True when a name, or that of the block whose side or copy it is, is to be passed over in silence; of a name of an instance,
    !> when the instance is.
    recursive logical function is_invalid(context, name) result(invalid)
-      type(build_context_t), intent(in) :: context
-      character(len=*), intent(in) :: name
+      type(build_context_t), intent(in) :: context     !< invalid and undetermined names are read
+      character(len=*), intent(in) :: name             !< as an item has it
       character(len=:), allocatable :: block
       integer(ip) :: place
       integer :: i, k
@@ -305,8 +308,8 @@ contains
 
    !> True when one of these should have been defined, under a name that is not known.
    logical function is_undetermined(context, noun)
-      type(build_context_t), intent(in) :: context
-      character(len=*), intent(in) :: noun
+      type(build_context_t), intent(in) :: context     !< undetermined nouns are read
+      character(len=*), intent(in) :: noun             !< e.g. 'surface', singular
 
       is_undetermined = .false.
       if (has_errors()) is_undetermined = has_name(context%undetermined, noun)
@@ -314,7 +317,7 @@ contains
 
    !> Elements are missing, which has been reported: what belongs to none may belong to one of them.
    logical function has_lost_elements(context)
-      type(build_context_t), intent(in) :: context
+      type(build_context_t), intent(in) :: context     !< its elements' invalid numbers are read
 
       has_lost_elements = has_errors() .and. (context%elements%invalid%n > 0 .or. is_undetermined(context, 'element'))
    end function has_lost_elements
@@ -326,23 +329,23 @@ contains
 
    !> The line that is being read.
    pure type(data_line_t) function open_line(context)
-      type(build_context_t), intent(in) :: context
+      type(build_context_t), intent(in) :: context     !< open%line is a data line of the deck
 
       open_line = context%deck%lines(context%open%line)
    end function open_line
 
    !> An item of the line that is being read; an empty one where it has none.
    pure type(token_t) function line_token(context, k)
-      type(build_context_t), intent(in) :: context
-      integer(ip), intent(in) :: k
+      type(build_context_t), intent(in) :: context     !< open%line is a data line of the deck
+      integer(ip), intent(in) :: k                     !< item, from 1
 
       line_token = line_item(context%deck, open_line(context), k)
    end function line_token
 
    !> The item at a place kept by note_place.
    pure function place_token(deck, place) result(token)
-      type(deck_t), intent(in) :: deck
-      integer(ip), intent(in) :: place
+      type(deck_t), intent(in) :: deck           !< as read
+      integer(ip), intent(in) :: place           !< token (> 0) or card (< 0) of the deck
       type(token_t) :: token
 
       if (place > 0) then
@@ -354,8 +357,8 @@ contains
 
    !> 'line 12', with the file where it is not the one of `from`.
    pure function place_text(deck, token, from) result(text)
-      type(deck_t), intent(in) :: deck
-      type(token_t), intent(in) :: token, from
+      type(deck_t), intent(in) :: deck           !< as read
+      type(token_t), intent(in) :: token, from   !< what is told, and where it is told
       character(len=:), allocatable :: text
 
       text = 'line '//to_text(token%line)
@@ -364,13 +367,13 @@ contains
 
    !> Keeps where the i-th node or element comes from; a number given twice is an error, i being the place of the earlier one.
    subroutine note_number(deck, numbered, noun, id, i, place, known, keyword)
-      type(deck_t), intent(in) :: deck
-      type(numbered_t), intent(inout) :: numbered
+      type(deck_t), intent(in) :: deck                 !< as read; messages name its lines
+      type(numbered_t), intent(inout) :: numbered      !< nodes or elements; gets place and greatest
       character(len=*), intent(in) :: noun             !< 'node' or 'element'
-      integer(ip), intent(in) :: id, i
+      integer(ip), intent(in) :: id, i                 !< number in the model, and place in the mesh
       integer(ip), intent(in) :: place                 !< token (> 0) or card (< 0) of the deck
       logical, intent(in) :: known                     !< the number is given twice
-      character(len=*), intent(in) :: keyword
+      character(len=*), intent(in) :: keyword          !< of the card, for `atrito help KEYWORD`
       type(token_t) :: token
 
       if (known) then
@@ -387,8 +390,8 @@ contains
 
    !> Keeps where the i-th node or element comes from, i counting up.
    pure subroutine note_place(places, i, place)
-      integer(ip), allocatable, intent(inout) :: places(:)
-      integer(ip), intent(in) :: i, place
+      integer(ip), allocatable, intent(inout) :: places(:) !< (>= i) grows as needed
+      integer(ip), intent(in) :: i, place                  !< place in the mesh; token (> 0) or card (< 0)
 
       call make_room(places, size(places, kind=ip), i)
       places(i) = place
@@ -396,8 +399,8 @@ contains
 
    !> Keeps that the i-th to the j-th come from one place.
    pure subroutine note_places(places, i, j, place)
-      integer(ip), allocatable, intent(inout) :: places(:)
-      integer(ip), intent(in) :: i, j, place
+      integer(ip), allocatable, intent(inout) :: places(:) !< (>= j) grows as needed
+      integer(ip), intent(in) :: i, j, place               !< first and last in the mesh; token (> 0) or card (< 0)
 
       if (j < i) return
       call note_place(places, j, place)
@@ -406,9 +409,9 @@ contains
 
    !> Keeps the place of the i-th material, section, surface, ..., i counting up.
    pure subroutine keep_token(list, i, token)
-      type(token_t), allocatable, intent(inout) :: list(:)
-      integer(ip), intent(in) :: i
-      type(token_t), intent(in) :: token
+      type(token_t), allocatable, intent(inout) :: list(:) !< (>= i) grows by doubling
+      integer(ip), intent(in) :: i                         !< at most one more than were kept
+      type(token_t), intent(in) :: token                   !< where it is named
 
       ! the second half is written over
       do while (i > size(list))
@@ -419,12 +422,12 @@ contains
 
    !> The name that a card defines becomes the last of a list, unless it is there already, which is reported.
    subroutine define_name(deck, card, noun, names, places, name, i)
-      type(deck_t), intent(in) :: deck
-      type(card_t), intent(in) :: card
+      type(deck_t), intent(in) :: deck                 !< as read; messages name its lines
+      type(card_t), intent(in) :: card                 !< its NAME= is read
       character(len=*), intent(in) :: noun             !< what is defined, e.g. 'material'
       type(name_list_t), intent(inout) :: names        !< of all that there are
       type(token_t), allocatable, intent(inout) :: places(:) !< where they are defined
-      character(len=:), allocatable, intent(out) :: name
+      character(len=:), allocatable, intent(out) :: name !< as the card has it; '' without one
       integer(ip), intent(out) :: i                    !< its place; 0: it cannot be defined
       type(token_t) :: place
       logical :: found
@@ -445,8 +448,8 @@ contains
 
    !> How many cards of a keyword a deck has: as many things as they can make at most.
    pure integer(ip) function count_cards(deck, keyword) result(n)
-      type(deck_t), intent(in) :: deck
-      character(len=*), intent(in) :: keyword
+      type(deck_t), intent(in) :: deck           !< as read
+      character(len=*), intent(in) :: keyword    !< in capitals, e.g. 'CONTACT PAIR'
       integer(ip) :: i
 
       n = 0
@@ -457,7 +460,7 @@ contains
 
    !> '3, 4, 5 and 12 more'
    pure function ids_text(ids, n_all) result(text)
-      integer(ip), intent(in) :: ids(:)
+      integer(ip), intent(in) :: ids(:)                !< numbers of nodes or elements, in the order they are told
       integer(ip), intent(in), optional :: n_all       !< how many there are, where only the first MOST_IDS are given
       character(len=:), allocatable :: text
       integer(ip) :: i, n, n_ids

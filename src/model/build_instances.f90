@@ -14,7 +14,7 @@ contains
 
    !> The motions of all instances and, for people, where their numbers begin. Of a deck without parts there are none.
    subroutine build_instances(context)
-      type(build_context_t), intent(inout) :: context
+      type(build_context_t), intent(inout) :: context !< gets motions, its model instances
       type(card_t) :: card
       integer(ip) :: i, n
       logical :: found

@@ -74,7 +74,7 @@ contains
    !> ones are begun, and all elements cut as often as there are levels.
    subroutine build_model(deck, model, levels, memory, shape, state, trees)
       type(deck_t), intent(in) :: deck                 !< read and checked by read_deck
-      type(model_t), intent(out) :: model
+      type(model_t), intent(out) :: model              !< whole where no error was reported
       integer(ip), intent(in), optional :: levels      !< of refinement, >= 0; default 0
       integer(lp), intent(in), optional :: memory      !< that the mesh may take [bytes]; default what the machine has
       integer(ip), intent(in), optional :: shape       !< of all elements, place in SHAPES; default 0: as in the deck

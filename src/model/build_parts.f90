@@ -14,14 +14,14 @@ module atrito_build_parts
 
    !> A *BLOCK between the pass that makes its nodes and the one that makes its elements.
    type :: block_t
-      character(len=:), allocatable :: name
+      character(len=:), allocatable :: name            !< NAME= of the card, or that of a copy
       integer(ip) :: card = 0                          !< place in deck%cards
       integer(ip) :: state = 0                         !< place in STATES
       integer(ip) :: shape = 0                         !< place in SHAPES
       integer(ip) :: order = 1                         !< node intervals along an edge of an element
       integer(ip), allocatable :: nodes(:, :)          !< (0:order*nx, 0:order*ny), places; 0: none
       integer(ip) :: first_element = 0                 !< place; row by row from BOTTOM
-      integer(ip) :: n_elements = 0
+      integer(ip) :: n_elements = 0                    !< quadrilaterals, or triangles, of it
       integer(ip) :: joined_to = 0                     !< a block that MERGE joins it with; 0: none
       real(wp) :: low(2) = 0.0_wp, high(2) = 0.0_wp    !< the box round its nodes [L]
       character(len=:), allocatable :: array           !< name of the copies of which it is one; not allocated: it is none
@@ -33,8 +33,8 @@ module atrito_build_parts
    !> A *PRE-TENSION SECTION: the nodes on the side of its surface's elements, and those on the other that stand there, too.
    type :: section_cut_t
       integer(ip) :: body = 0                          !< its node, place in the model's rigid bodies
-      integer(ip), allocatable :: own(:), other(:)
-      real(wp) :: normal(2) = 0.0_wp
+      integer(ip), allocatable :: own(:), other(:)     !< (n) places of nodes: own(i) stands where other(i) stands
+      real(wp) :: normal(2) = 0.0_wp                   !< unit vector across it
       real(wp) :: size = 0.0_wp                        !< [L] across the nodes
    end type section_cut_t
 
@@ -62,7 +62,7 @@ module atrito_build_parts
 
    !> Lines of earlier steps whose loads end, and the lines that take their place.
    type :: replaced_t
-      integer(ip) :: n = 0
+      integer(ip) :: n = 0                             !< pairs of lines in use
       integer(ip), allocatable :: lines(:, :)          !< (2, n) both lines; those up to n are in use
       integer(ip) :: by = 0                            !< the line that took the last place
       type(id_map_t) :: before                         !< the lines whose loads it has ended so far
@@ -79,7 +79,7 @@ module atrito_build_parts
 
    !> The step that is being built.
    type :: open_step_t
-      integer(ip) :: number = 1
+      integer(ip) :: number = 1                        !< in the order of the deck, from 1
       integer(ip) :: first_card = 1, last_card = 0     !< of the deck: its cards are among these (is_of_step)
       integer(ip) :: first_token = 0                   !< of its lines: what stands before it is inherited
       integer(ip) :: line = 0                          !< of the deck, that is being read
@@ -87,8 +87,8 @@ module atrito_build_parts
       integer(ip) :: source = 0                        !< of the line being read, place in the model's sources
       type(condition_list_t) :: supports, forces       !< at nodes, along the dofs of the deck, which may be local axes
       type(condition_list_t) :: loads                  !< on elements
-      type(inherited_t) :: old_forces, old_loads
-      type(replaced_t) :: replaced
+      type(inherited_t) :: old_forces, old_loads       !< what earlier steps gave on each dof, element
+      type(replaced_t) :: replaced                     !< what ends of earlier steps' loads
    end type open_step_t
 
    !> A dof of a node of no element: held at 0 so far, no longer, or moved or held later than in the first step; 0: free.

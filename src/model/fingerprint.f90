@@ -19,13 +19,14 @@ module atrito_fingerprint
    type :: part_t
       character(len=:), allocatable :: name          !< e.g. 'mesh', 'loads of step 2'
       character(len=:), allocatable :: size          !< in words
-      character(len=:), allocatable :: digest
+      character(len=:), allocatable :: digest        !< 16 hexadecimal digits
       integer(ip) :: step = 0                        !< that it belongs to; 0: the whole history
    end type part_t
 
+   !> A model and the options of a run, part by part.
    type :: fingerprint_t
-      type(part_t), allocatable :: parts(:)
-      integer(ip) :: n_steps = 0
+      type(part_t), allocatable :: parts(:)          !< of the scene, then of each step
+      integer(ip) :: n_steps = 0                     !< of the history
    end type fingerprint_t
 
    integer(ip), parameter :: SCENE_PARTS = 7, STEP_PARTS = 5
@@ -34,9 +35,9 @@ contains
 
    !> The fingerprint of a model and of the options of a run, part by part.
    subroutine take_fingerprint(model, options, fingerprint)
-      type(model_t), intent(in) :: model
+      type(model_t), intent(in) :: model              !< whole: mesh, laws, surfaces, rows and all steps
       character(len=*), intent(in) :: options         !< of the run, that change digits of its results
-      type(fingerprint_t), intent(out) :: fingerprint
+      type(fingerprint_t), intent(out) :: fingerprint !< of the scene, options and all steps
       type(digest_t) :: of_options
       integer(ip) :: i
 
@@ -350,7 +351,7 @@ contains
 
    !> What of a file's fingerprint is not that of the deck, in words; '' where they agree up to a step.
    pure function find_difference(in_file, in_deck, step) result(text)
-      type(fingerprint_t), intent(in) :: in_file, in_deck
+      type(fingerprint_t), intent(in) :: in_file, in_deck !< of the restart file, and of this run
       integer(ip), intent(in) :: step                 !< that has begun
       character(len=:), allocatable :: text
       integer :: i, k

@@ -11,8 +11,8 @@ contains
 
    !> The lines in the order of the deck.
    pure subroutine list_observed(deck, lines)
-      type(deck_t), intent(in) :: deck
-      type(observed_line_t), allocatable, intent(out) :: lines(:)
+      type(deck_t), intent(in) :: deck                            !< as read
+      type(observed_line_t), allocatable, intent(out) :: lines(:) !< not evaluated yet
       type(token_t) :: token
       integer(ip) :: i, k, n
 

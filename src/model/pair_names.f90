@@ -24,8 +24,8 @@ contains
 
    !> Sorts the contact pairs by their surfaces, so that find_pair finds them by name.
    subroutine index_pairs(context, pairs)
-      type(build_context_t), intent(in) :: context
-      type(pair_index_t), intent(out) :: pairs
+      type(build_context_t), intent(in) :: context     !< the pairs of its model are indexed
+      type(pair_index_t), intent(out) :: pairs         !< sorted by the two surfaces
       integer(ip) :: i
 
       associate (all_pairs => context%model%pairs)
@@ -59,12 +59,12 @@ contains
 
    !> The pair of a slave and a master. What is wrong is reported at the place of the name.
    subroutine find_pair(context, pairs, names, places, turned, keyword, pair)
-      type(build_context_t), intent(in) :: context
-      type(pair_index_t), intent(in) :: pairs
+      type(build_context_t), intent(in) :: context     !< names of its surfaces are read
+      type(pair_index_t), intent(in) :: pairs          !< of index_pairs
       type(string_t), intent(in) :: names(2)           !< slave and master, as the deck has them
-      type(token_t), intent(in) :: places(2)
+      type(token_t), intent(in) :: places(2)           !< of the two names
       character(len=*), intent(in) :: turned           !< how it should read if the surfaces are the other way round
-      character(len=*), intent(in) :: keyword
+      character(len=*), intent(in) :: keyword          !< of the card, for `atrito help KEYWORD`
       integer(ip), intent(out) :: pair                 !< place in model%pairs; 0: none
       integer(ip) :: surface(2), i
 

@@ -24,12 +24,12 @@ contains
 
    !> The positive number of a node or element.
    subroutine get_id(deck, token, what, id, ok, keyword)
-      type(deck_t), intent(in) :: deck
-      type(token_t), intent(in) :: token
+      type(deck_t), intent(in) :: deck                 !< as read; messages name its lines
+      type(token_t), intent(in) :: token               !< the item; messages point at it
       character(len=*), intent(in) :: what             !< e.g. 'node number'
-      integer(ip), intent(out) :: id
-      logical, intent(out) :: ok
-      character(len=*), intent(in) :: keyword
+      integer(ip), intent(out) :: id                   !< in the model, of an instance shifted; undefined where not ok
+      logical, intent(out) :: ok                       !< it is one; else that is reported
+      character(len=*), intent(in) :: keyword          !< of the card, for `atrito help KEYWORD`
       character(len=*), parameter :: POSITIVE = ', a positive integer'
       character(len=len(what) + len(POSITIVE)) :: expected   ! // would take memory for each of millions
 
@@ -83,11 +83,11 @@ contains
 
    !> The place of the node whose number an item is.
    subroutine find_one_node(context, token, node, ok, keyword)
-      type(build_context_t), intent(in) :: context
-      type(token_t), intent(in) :: token
-      integer(ip), intent(out) :: node
-      logical, intent(out) :: ok
-      character(len=*), intent(in) :: keyword
+      type(build_context_t), intent(in) :: context     !< its mesh is searched
+      type(token_t), intent(in) :: token               !< the item; messages point at it
+      integer(ip), intent(out) :: node                 !< place in the mesh; 0: not ok
+      logical, intent(out) :: ok                       !< there is one; else that is reported
+      character(len=*), intent(in) :: keyword          !< of the card, for `atrito help KEYWORD`
       integer(ip) :: id
 
       node = 0
@@ -100,11 +100,11 @@ contains
 
    !> The place of the element whose number an item is, in the mesh of the deck.
    subroutine find_one_element(context, token, element, ok, keyword)
-      type(build_context_t), intent(in) :: context
-      type(token_t), intent(in) :: token
-      integer(ip), intent(out) :: element
-      logical, intent(out) :: ok
-      character(len=*), intent(in) :: keyword
+      type(build_context_t), intent(in) :: context     !< its mesh, or that of the deck, is searched
+      type(token_t), intent(in) :: token               !< the item; messages point at it
+      integer(ip), intent(out) :: element              !< place in the mesh of the deck; 0: not ok
+      logical, intent(out) :: ok                       !< there is one; else that is reported
+      character(len=*), intent(in) :: keyword          !< of the card, for `atrito help KEYWORD`
       integer(ip) :: id
 
       element = 0
@@ -151,11 +151,11 @@ contains
 
    !> The places of the nodes that an item names: a number or a node set.
    subroutine find_nodes(context, token, members, ok, keyword)
-      type(build_context_t), intent(in) :: context
-      type(token_t), intent(in) :: token
-      integer(ip), allocatable, intent(out) :: members(:)
-      logical, intent(out) :: ok
-      character(len=*), intent(in) :: keyword
+      type(build_context_t), intent(in) :: context        !< its mesh and sets are searched
+      type(token_t), intent(in) :: token                  !< the item; messages point at it
+      integer(ip), allocatable, intent(out) :: members(:) !< places in the mesh; empty where not ok
+      logical, intent(out) :: ok                          !< there are such; else that is reported
+      character(len=*), intent(in) :: keyword             !< of the card, for `atrito help KEYWORD`
       character(len=:), allocatable :: name, fault
       integer(ip) :: node
 
@@ -178,11 +178,11 @@ contains
 
    !> The places of the elements that an item names: a number or an element set.
    subroutine find_elements(context, token, members, ok, keyword)
-      type(build_context_t), intent(in) :: context
-      type(token_t), intent(in) :: token
-      integer(ip), allocatable, intent(out) :: members(:)
-      logical, intent(out) :: ok
-      character(len=*), intent(in) :: keyword
+      type(build_context_t), intent(in) :: context        !< its mesh and sets are searched
+      type(token_t), intent(in) :: token                  !< the item; messages point at it
+      integer(ip), allocatable, intent(out) :: members(:) !< places in the mesh as it is solved; empty where not ok
+      logical, intent(out) :: ok                          !< there are such; else that is reported
+      character(len=*), intent(in) :: keyword             !< of the card, for `atrito help KEYWORD`
       character(len=:), allocatable :: name
       integer(ip) :: i
 
@@ -205,11 +205,11 @@ contains
 
    !> The set that an option of a card names; 0: the option is not given.
    subroutine find_set_option(context, card, option, noun, sets, set, ok)
-      type(build_context_t), intent(in) :: context
-      type(card_t), intent(in) :: card
+      type(build_context_t), intent(in) :: context     !< its deck names the option's place
+      type(card_t), intent(in) :: card                 !< whose option it is
       character(len=*), intent(in) :: option           !< NSET or ELSET
       character(len=*), intent(in) :: noun             !< 'node set' or 'element set'
-      type(set_list_t), intent(in) :: sets
+      type(set_list_t), intent(in) :: sets             !< of nodes or of elements, of the model
       integer(ip), intent(out) :: set                  !< place
       logical, intent(out) :: ok                       !< false: an unknown set, which is reported
       character(len=:), allocatable :: name
@@ -248,10 +248,10 @@ contains
 
    !> The surface of a name that an item has; one that nobody defines is reported.
    subroutine find_surface(context, token, surface, keyword)
-      type(build_context_t), intent(in) :: context
+      type(build_context_t), intent(in) :: context     !< names of its surfaces are searched
       type(token_t), intent(in) :: token               !< the item
       integer(ip), intent(out) :: surface              !< place among the surfaces of the model; 0: there is none
-      character(len=*), intent(in) :: keyword
+      character(len=*), intent(in) :: keyword          !< of the card, for `atrito help KEYWORD`
 
       surface = find_name(context%surface_names, token_text(context%deck, token))
       if (surface == 0) call report_unknown(context, token, 'surface', 'E-SURFACE', context%surface_names, keyword)

@@ -29,7 +29,7 @@ contains
    subroutine refine_model(levels, shape, context)
       integer(ip), intent(in) :: levels                !< >= 0; each element into 4**levels
       integer(ip), intent(in) :: shape                 !< for all elements, place in SHAPES; 0: their own
-      type(build_context_t), intent(inout) :: context
+      type(build_context_t), intent(inout) :: context  !< mesh, sets and node fields follow; refinement is set
       type(mesh_t) :: coarse
       integer(ip) :: pieces
 
@@ -62,8 +62,8 @@ contains
 
    !> The same by the leaves of trees. The deck has elements with as many nodes as there are roots.
    subroutine cut_model(trees, context)
-      type(element_trees_t), intent(inout) :: trees
-      type(build_context_t), intent(inout) :: context
+      type(element_trees_t), intent(inout) :: trees    !< as the elements are to be cut
+      type(build_context_t), intent(inout) :: context  !< mesh, sets and node fields follow; refinement is set
       type(mesh_t) :: coarse
 
       coarse = context%model%mesh

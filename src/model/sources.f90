@@ -16,9 +16,9 @@ contains
 
    !> What is added from now on is of the line that begins with this token. Lines of a keyword that name the same are one source.
    subroutine open_source(context, keyword, token)
-      type(build_context_t), intent(inout) :: context
+      type(build_context_t), intent(inout) :: context  !< open%source is set; a new source is kept
       character(len=*), intent(in) :: keyword          !< without blanks
-      type(token_t), intent(in) :: token
+      type(token_t), intent(in) :: token               !< its first item: set, surface or number; empty: all elements
       character(len=:), allocatable :: name
       type(token_t) :: inner
       real(wp) :: value
@@ -43,7 +43,7 @@ contains
 
    !> The model has them all.
    pure subroutine keep_sources(context)
-      type(build_context_t), intent(inout) :: context
+      type(build_context_t), intent(inout) :: context !< its model gets sources
       type(string_t), allocatable :: names(:)
       integer :: i, blank
 

@@ -37,10 +37,10 @@ contains
 
    !> How the scene of a run is drawn. Model and results are looked at as long as the drawing is in use.
    subroutine draw_mesh(model, results, view, drawing)
-      type(model_t), intent(in), target :: model
-      type(results_t), intent(in), target :: results
-      type(plot_view_t), intent(in) :: view
-      type(drawing_t), intent(out) :: drawing
+      type(model_t), intent(in), target :: model     !< as solved
+      type(results_t), intent(in), target :: results !< last frame of the run
+      type(plot_view_t), intent(in) :: view          !< what is asked of the pictures of bodies
+      type(drawing_t), intent(out) :: drawing        !< displaced, with its heading
       real(wp) :: largest, reach
 
       call begin_drawing(model, model%mesh%n_nodes > MOST_NODES, view, drawing)
@@ -54,7 +54,7 @@ contains
 
    !> Writes mesh.dat, mesh-symbols.dat and mesh.gp.
    subroutine write_mesh_plot(plots, drawing)
-      type(plots_t), intent(inout), target :: plots
+      type(plots_t), intent(inout), target :: plots !< get data and script
       type(drawing_t), intent(inout) :: drawing     !< by draw_mesh; its window has room for the symbols while this is written
       type(string_t), allocatable :: symbols(:), styles(:)     ! curves over the bodies
       type(range_t) :: window(2)
@@ -94,9 +94,9 @@ contains
 
    !> Writes scene.dat, scene-symbols.dat and scene.gp.
    subroutine write_scene_plot(plots, model, view)
-      type(plots_t), intent(inout), target :: plots
-      type(model_t), intent(in), target :: model
-      type(plot_view_t), intent(in) :: view
+      type(plots_t), intent(inout), target :: plots !< get data and script
+      type(model_t), intent(in), target :: model    !< as built, with mesh and surfaces
+      type(plot_view_t), intent(in) :: view         !< its box and labels are used
       type(drawing_t) :: drawing
       type(string_t), allocatable :: symbols(:), names(:), styles(:)
       type(bodies_t) :: bodies
@@ -128,7 +128,7 @@ contains
 
    !> The first step in which something acts; the first one where nothing does.
    pure integer(ip) function shown_step(steps) result(k)
-      type(step_t), intent(in) :: steps(:)
+      type(step_t), intent(in) :: steps(:)          !< of the model, one at least
 
       do k = 1, size(steps, kind=ip)
          associate (step => steps(k))
@@ -150,11 +150,11 @@ contains
    !> Writes mechanism.dat and mechanism.gp: the bodies displaced by their rigid motions, those that move in colour, over where they
    !> were. The data hold places and motions, so that the script can choose the scale.
    subroutine write_mechanism_plot(plots, model, limit, title, view)
-      type(plots_t), intent(inout) :: plots
+      type(plots_t), intent(inout) :: plots         !< get data and script
       type(model_t), intent(in), target :: model    !< at the value that falls
-      type(stability_t), intent(in) :: limit
-      character(len=*), intent(in) :: title
-      type(plot_view_t), intent(in) :: view
+      type(stability_t), intent(in) :: limit        !< with its collapse
+      character(len=*), intent(in) :: title         !< of the picture, as the user may have written it
+      type(plot_view_t), intent(in) :: view         !< what is asked of the pictures of bodies
       type(drawing_t) :: drawing
       type(string_t), allocatable :: styles(:)
       integer(ip) :: i, k, place                    ! among those that move, the fastest first; 0: it rests
@@ -194,7 +194,7 @@ contains
 
    !> The number with which a motion of one is drawn 3 to 8 % of the scene long, or less where bodies would turn much.
    pure real(wp) function mechanism_scale(collapse, size_of_scene) result(scale)
-      type(collapse_t), intent(in) :: collapse
+      type(collapse_t), intent(in) :: collapse      !< its rotations are read
       real(wp), intent(in) :: size_of_scene         !< diagonal [L]
       real(wp) :: turn
 

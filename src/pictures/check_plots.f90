@@ -34,7 +34,7 @@ module atrito_check_plots
 
    !> A set that is drawn.
    type :: shown_set_t
-      logical :: of_nodes = .false.
+      logical :: of_nodes = .false.                 !< else of elements
       integer(ip) :: place = 0                      !< in model%node_sets or model%element_sets
    end type shown_set_t
 
@@ -51,7 +51,7 @@ contains
    subroutine write_check_plots(model, view, folder, drawn)
       type(model_t), intent(in) :: model                    !< with the points of its pairs
       type(plot_view_t), intent(in) :: view                 !< its box alone is used: nothing is displaced
-      character(len=*), intent(in) :: folder
+      character(len=*), intent(in) :: folder                !< of the tables
       type(string_t), allocatable, intent(out) :: drawn(:)  !< pictures, names without ending
       type(status_t) :: status
 
@@ -62,7 +62,7 @@ contains
 
    !> The pictures that `check --plot` draws of a model, names without ending.
    pure function check_plot_names(model) result(names)
-      type(model_t), intent(in) :: model
+      type(model_t), intent(in) :: model            !< with the points of its pairs
       type(string_t), allocatable :: names(:)
 
       call append_string(names, SCENE_PLOT)
@@ -74,10 +74,10 @@ contains
    !>
    !> status: STATUS_FILE
    subroutine write_check_scripts(model, view, folder, status)
-      type(model_t), intent(in) :: model
-      type(plot_view_t), intent(in) :: view
+      type(model_t), intent(in) :: model                    !< with the points of its pairs
+      type(plot_view_t), intent(in) :: view                 !< what is asked of the pictures of bodies
       character(len=*), intent(in) :: folder                !< of the plots
-      type(status_t), intent(out) :: status
+      type(status_t), intent(out) :: status                 !< STATUS_OK or STATUS_FILE
       type(plots_t) :: plots
       type(drawing_t) :: drawing
       type(shown_set_t), allocatable :: shown(:)
@@ -105,7 +105,7 @@ contains
 
    !> The sets that are drawn: of either kind the first ones, half of the room for each unless the other leaves some.
    pure function shown_sets(model) result(shown)
-      type(model_t), intent(in) :: model
+      type(model_t), intent(in) :: model            !< its sets are counted
       type(shown_set_t), allocatable :: shown(:)
       integer(ip) :: i, n_nodes, n_elements
 
@@ -246,7 +246,7 @@ contains
 
    !> The pairs that are drawn, those with the least gaps, in the order of the deck.
    pure function shown_pairs(model) result(shown)
-      type(model_t), intent(in) :: model
+      type(model_t), intent(in) :: model            !< pairs without points are not drawn
       integer(ip), allocatable :: shown(:)
       integer(ip) :: i, k
       real(wp), allocatable :: least(:)

@@ -43,9 +43,9 @@ contains
 
    !> Writes the script of a pair.
    subroutine write_contact_plot(plots, model, history, pair)
-      type(plots_t), intent(inout) :: plots
-      type(model_t), intent(in) :: model
-      type(history_t), intent(in) :: history
+      type(plots_t), intent(inout) :: plots         !< get the script
+      type(model_t), intent(in) :: model            !< names and laws of its pairs
+      type(history_t), intent(in) :: history        !< with contact in all frames
       integer(ip), intent(in) :: pair               !< with at least one point
       type(interaction_t) :: law
       type(range_t) :: along
@@ -78,7 +78,7 @@ contains
 
    !> Places of the frames that are drawn: the ends of the steps, evenly some of them where they are many, and the last frame.
    pure function shown_frames(history) result(list)
-      type(history_t), intent(in) :: history
+      type(history_t), intent(in) :: history        !< whose frames say if they end a step
       integer(ip), allocatable :: list(:)
       integer(ip) :: i
 
@@ -109,8 +109,8 @@ contains
 
    !> What the columns of contact.tab are, and a function that takes those of one pair in one increment.
    subroutine put_contact_columns(plots, pair, and_status, step, increment)
-      type(plots_t), intent(inout) :: plots
-      integer(ip), intent(in) :: pair
+      type(plots_t), intent(inout) :: plots         !< lines go into its open script
+      integer(ip), intent(in) :: pair               !< place in model%pairs
       character(len=*), intent(in) :: and_status    !< what is said of the status; empty where it is not drawn
       character(len=*), intent(in) :: step, increment !< what gnuplot knows them by
 
@@ -122,8 +122,8 @@ contains
 
    !> A pair with the names of its surfaces: `pair 1: plate-BOTTOM on support-TOP`.
    pure function pair_title(results, pair) result(text)
-      type(results_t), intent(in) :: results
-      integer(ip), intent(in) :: pair
+      type(results_t), intent(in) :: results        !< names of its pairs
+      integer(ip), intent(in) :: pair               !< place in model%pairs
       character(len=:), allocatable :: text
 
       text = 'pair '//to_text(pair)
@@ -132,7 +132,7 @@ contains
 
    !> A pair in a legend, by the name of its slave: `1: plate-BOTTOM`.
    pure function pair_legend(pair, name) result(text)
-      integer(ip), intent(in) :: pair
+      integer(ip), intent(in) :: pair               !< place in model%pairs
       character(len=*), intent(in) :: name          !< `plate-BOTTOM on support-TOP`; '': not known
       character(len=:), allocatable :: text
 
@@ -142,7 +142,7 @@ contains
 
    !> The parameters of a pair's laws, those that are in force.
    pure function law_text(law) result(text)
-      type(interaction_t), intent(in) :: law
+      type(interaction_t), intent(in) :: law        !< of the pair
       character(len=:), allocatable :: text
 
       select case (law%friction)
@@ -244,8 +244,8 @@ contains
 
    !> Zero, the shear, and the bound as far as it does not hide the shear.
    pure type(range_t) function shear_range(contact, nu) result(range)
-      type(contact_result_t), intent(in) :: contact
-      real(wp), intent(in) :: nu
+      type(contact_result_t), intent(in) :: contact !< of a pair at the end
+      real(wp), intent(in) :: nu                    !< coefficient of friction
       type(range_t) :: weighted
       real(wp) :: largest, bound, shown
 
@@ -260,8 +260,8 @@ contains
 
    !> Whether the lines +-eps are drawn: eps is neither tiny nor huge beside the slip.
    pure logical function shows_slip_bound(contact, eps)
-      type(contact_result_t), intent(in) :: contact
-      real(wp), intent(in) :: eps
+      type(contact_result_t), intent(in) :: contact !< of a pair at the end
+      real(wp), intent(in) :: eps                   !< of the nonlocal law [L]; 0 is exact stick
       type(range_t) :: range
       real(wp) :: largest
 
@@ -302,7 +302,7 @@ contains
    !> The state of a point; a closed one of a pair without friction neither sticks nor slips.
    elemental integer(ip) function state_of(status, has_friction) result(state)
       integer(ip), intent(in) :: status             !< POINT_*
-      logical, intent(in) :: has_friction
+      logical, intent(in) :: has_friction           !< of the pair
 
       state = status
       if (status /= POINT_OPEN .and. .not. has_friction) state = STATE_CLOSED

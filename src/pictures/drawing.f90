@@ -42,11 +42,11 @@ module atrito_drawing
 
    !> A scene with its lines, and how they are displaced.
    type :: drawing_t
-      type(model_t), pointer :: model => null()
+      type(model_t), pointer :: model => null()         !< not the drawing's own
       type(results_t), pointer :: results => null()     !< of a run: those of its last frame
       character(len=:), allocatable :: heading          !< first line of the title
       real(wp), allocatable :: u(:, :)                  !< (2, n_nodes) [L]
-      type(mesh_lines_t) :: lines
+      type(mesh_lines_t) :: lines                       !< edges that are drawn, in runs
       integer(ip) :: n_inner = 0                        !< runs of inner edges, which come first
       integer(ip), allocatable :: surface(:), body(:)   !< rigid surfaces that are masters of pairs; their bodies, 0: they stay
       type(range_t) :: window(2)                        !< what both shapes cover [L]
@@ -62,10 +62,10 @@ contains
 
    !> Collects the lines of a scene; nothing is displaced yet. The model is looked at as long as the drawing is in use.
    subroutine begin_drawing(model, only_outline, view, drawing)
-      type(model_t), intent(in), target :: model
-      logical, intent(in) :: only_outline
-      type(plot_view_t), intent(in) :: view
-      type(drawing_t), intent(out) :: drawing
+      type(model_t), intent(in), target :: model    !< mesh, sections, surfaces and pairs
+      logical, intent(in) :: only_outline           !< inner edges are left out
+      type(plot_view_t), intent(in) :: view         !< what is asked of the pictures of bodies
+      type(drawing_t), intent(out) :: drawing       !< undisplaced, without results
       integer(ip) :: e, i
 
       drawing%model => model
@@ -91,10 +91,10 @@ contains
 
    !> Displaces the bodies, by the scale that is asked for, else by the one that is chosen, and widens the window to them.
    pure subroutine displace(drawing, u, largest, chosen_scale, reach)
-      type(drawing_t), intent(inout) :: drawing
+      type(drawing_t), intent(inout) :: drawing     !< by begin_drawing
       real(wp), intent(in) :: u(:, :)               !< (2, n_nodes) [L]
       real(wp), intent(in) :: largest               !< displacement [L]
-      real(wp), intent(in) :: chosen_scale
+      real(wp), intent(in) :: chosen_scale          !< unless the user asks for one
       real(wp), intent(in) :: reach                 !< a greater scale makes sides overlap
       integer :: i
 
@@ -130,8 +130,8 @@ contains
    !> The scale of the displacements beyond which sides are seen to overlap. A point with the initial gap s and the gap g has
    !> s + scale (g - s) between the sides in the picture: with scale > 1 a gap that has closed looks like an overlap.
    pure real(wp) function overlap_scale(model, results, size_of_scene) result(reach)
-      type(model_t), intent(in) :: model
-      type(results_t), intent(in) :: results
+      type(model_t), intent(in) :: model            !< initial gaps at the points of its pairs
+      type(results_t), intent(in) :: results        !< gaps at the same points
       real(wp), intent(in) :: size_of_scene         !< diagonal [L]
       real(wp) :: nearer
       integer(ip) :: pair, j
@@ -164,10 +164,10 @@ contains
 
    !> Writes <name>.dat: a block a run of edges, then a block a rigid surface of the pairs.
    subroutine write_lines(plots, name, what, drawing, of_kinds)
-      type(plots_t), intent(inout) :: plots
-      character(len=*), intent(in) :: name
+      type(plots_t), intent(inout) :: plots         !< get the data
+      character(len=*), intent(in) :: name          !< of the file, without .dat
       character(len=*), intent(in) :: what          !< the file holds
-      type(drawing_t), intent(in) :: drawing
+      type(drawing_t), intent(in) :: drawing        !< displaced
       logical, intent(in) :: of_kinds               !< the comments say which blocks are inner edges and which outlines
 
       call begin_data(plots, name, what)
@@ -177,10 +177,10 @@ contains
 
    !> A block a run of edges.
    subroutine put_lines(plots, drawing, u, of_kinds)
-      type(plots_t), intent(inout) :: plots
-      type(drawing_t), intent(in) :: drawing
+      type(plots_t), intent(inout) :: plots         !< lines go into its open file
+      type(drawing_t), intent(in) :: drawing        !< its lines
       real(wp), intent(in) :: u(:, :)               !< (2, n_nodes) [L]
-      logical, intent(in) :: of_kinds
+      logical, intent(in) :: of_kinds               !< the comments say which blocks are inner edges
       integer(ip) :: run, i
 
       associate (lines => drawing%lines)
@@ -229,9 +229,9 @@ contains
 
    !> A place and its displacement, and more columns.
    subroutine put_place(plots, v, more)
-      type(plots_t), intent(inout) :: plots
-      real(wp), intent(in) :: v(4)
-      character(len=*), intent(in), optional :: more
+      type(plots_t), intent(inout) :: plots          !< line goes into its open file
+      real(wp), intent(in) :: v(4)                   !< place and displacement [L]
+      character(len=*), intent(in), optional :: more !< columns, separated by blanks
       character(len=:), allocatable :: line
 
       line = trimmed_real(v(1), DIGITS)//' '//trimmed_real(v(2), DIGITS)//' '//trimmed_real(v(3), DIGITS)//' '// &
@@ -242,8 +242,8 @@ contains
 
    !> A block a rigid surface of the pairs: its places, and the linear part of its motion there.
    subroutine put_rigid_lines(plots, drawing, rigid)
-      type(plots_t), intent(inout) :: plots
-      type(drawing_t), intent(in) :: drawing
+      type(plots_t), intent(inout) :: plots                    !< lines go into its open file
+      type(drawing_t), intent(in) :: drawing                   !< its rigid surfaces
       type(rigid_result_t), intent(in), optional :: rigid(:)   !< left out: they rest
       real(wp), allocatable :: x(:, :)
       real(wp) :: u(2), r(2)
@@ -270,8 +270,8 @@ contains
 
    !> What a script draws by: the scale of the displacements, more, and the first line of the title.
    subroutine put_head(plots, drawing, more)
-      type(plots_t), intent(inout) :: plots
-      type(drawing_t), intent(in) :: drawing
+      type(plots_t), intent(inout) :: plots         !< lines go into its open script
+      type(drawing_t), intent(in) :: drawing        !< its scale and heading
       character(len=*), intent(in) :: more          !< lines, each with LF behind it
 
       call put(plots, 'scale = '//to_text(drawing%scale, 15)//'   # of the displacements; change it here'//LF//more// &
@@ -280,8 +280,8 @@ contains
 
    !> Ranges, terminal, border and axes of a picture of bodies in the plane.
    subroutine put_plane(plots, drawing, legend)
-      type(plots_t), intent(inout) :: plots
-      type(drawing_t), intent(in) :: drawing
+      type(plots_t), intent(inout) :: plots         !< lines go into its open script
+      type(drawing_t), intent(in) :: drawing        !< its window and view
       integer(ip), intent(in), optional :: legend   !< its lines, two of which have room anyhow
 
       call put_window(plots, drawing)
@@ -302,7 +302,7 @@ contains
 
    !> Border and names of the axes, and numbers at both, equally far apart.
    subroutine put_ticks(plots, pixel)
-      type(plots_t), intent(inout) :: plots
+      type(plots_t), intent(inout) :: plots         !< lines go into its open script
       real(wp), intent(in) :: pixel                 !< [L]
       character(len=:), allocatable :: step
 
@@ -314,8 +314,8 @@ contains
 
    !> Ranges, and the height of the picture for a width of 1000.
    subroutine put_window(plots, drawing)
-      type(plots_t), intent(inout) :: plots
-      type(drawing_t), intent(in) :: drawing
+      type(plots_t), intent(inout) :: plots         !< lines go into its open script
+      type(drawing_t), intent(in) :: drawing        !< its window and view
       type(range_t) :: shown(2)
       real(wp) :: ratio
 
@@ -330,7 +330,7 @@ contains
 
    !> Form and legend of a picture of bodies, and the line styles 30 (undisplaced) and 31 (rigid).
    subroutine put_axes(plots)
-      type(plots_t), intent(inout) :: plots
+      type(plots_t), intent(inout) :: plots         !< lines go into its open script
 
       call put(plots, 'set size ratio -1')
       if (plots%name /= JOINT_PLOT) call put(plots, 'set clip two')
@@ -340,7 +340,7 @@ contains
 
    !> The title: a label, for gnuplot measures titles as enhanced text even where they are not, and complains.
    subroutine put_title(plots, text)
-      type(plots_t), intent(inout) :: plots
+      type(plots_t), intent(inout) :: plots         !< line goes into its open script
       character(len=*), intent(in) :: text          !< what is put behind the heading, an expression of gnuplot
 
       call put(plots, 'set tmargin 4'//LF//'set label 1 heading.'//text// &
@@ -349,7 +349,7 @@ contains
 
    !> What titles say of the displacements.
    pure function scale_title(drawing) result(text)
-      type(drawing_t), intent(in) :: drawing
+      type(drawing_t), intent(in) :: drawing        !< its largest displacement, and whether sides overlap
       character(len=:), allocatable :: text
 
       text = 'sprintf("\ndisplacements drawn %g '//TIMES//overlap_text(drawing)// &
@@ -358,7 +358,7 @@ contains
 
    !> What a title adds where the scale of displacements makes sides of contact overlap that do not.
    pure function overlap_text(drawing) result(text)
-      type(drawing_t), intent(in) :: drawing
+      type(drawing_t), intent(in) :: drawing        !< whether sides overlap
       character(len=:), allocatable :: text
 
       text = ''
@@ -367,7 +367,7 @@ contains
 
    !> The scale of the displacements in words, for a string in double quotes.
    pure function displacement_text(drawing) result(text)
-      type(drawing_t), intent(in) :: drawing
+      type(drawing_t), intent(in) :: drawing        !< its scale, and whether sides overlap
       character(len=:), allocatable :: text
 
       text = 'displacements drawn '//to_text(drawing%scale)//' '//TIMES//overlap_text(drawing)
@@ -376,8 +376,8 @@ contains
 
    !> The plot: where the bodies were (lines of style 30), where they go, each run of edges in its style, and rigid surfaces (31).
    subroutine put_scene(plots, drawing, first, undisplaced, styles, more)
-      type(plots_t), intent(inout) :: plots
-      type(drawing_t), intent(in) :: drawing
+      type(plots_t), intent(inout) :: plots         !< lines go into its open script
+      type(drawing_t), intent(in) :: drawing        !< its lines and rigid surfaces
       integer(ip), intent(in) :: first              !< block that is drawn undisplaced, and those behind it; past the last: none
       character(len=*), intent(in) :: undisplaced   !< what they are called
       type(string_t), intent(in) :: styles(:)       !< (runs) of the displaced lines
@@ -401,8 +401,8 @@ contains
    subroutine add_lines(name, first, last, style, curves, places)
       character(len=*), intent(in) :: name          !< of the data file, without .dat
       integer(ip), intent(in) :: first, last        !< blocks, from 0
-      character(len=*), intent(in) :: style
-      type(string_t), allocatable, intent(inout) :: curves(:)
+      character(len=*), intent(in) :: style         !< what gnuplot has behind `with lines`
+      type(string_t), allocatable, intent(inout) :: curves(:) !< of put_plot; become longer by one
       character(len=*), intent(in), optional :: places   !< columns; default: displaced
       character(len=:), allocatable :: columns
 
@@ -416,10 +416,10 @@ contains
    !> whatever the scale.
    subroutine add_rigid_lines(name, drawing, style, has_title, curves)
       character(len=*), intent(in) :: name          !< of the data file, without .dat
-      type(drawing_t), intent(in) :: drawing
-      character(len=*), intent(in) :: style
+      type(drawing_t), intent(in) :: drawing        !< its rigid surfaces
+      character(len=*), intent(in) :: style         !< what gnuplot has behind `with lines`
       logical, intent(in) :: has_title              !< each has its name in the key
-      type(string_t), allocatable, intent(inout) :: curves(:)
+      type(string_t), allocatable, intent(inout) :: curves(:) !< of put_plot; become longer
       character(len=:), allocatable :: places, title
       integer(ip) :: i
 
@@ -436,7 +436,7 @@ contains
 
    !> How the lines of each run are drawn: in its body's colour, the outlines with its name in the key.
    pure function run_styles(drawing, names, inner, outer) result(styles)
-      type(drawing_t), intent(in) :: drawing
+      type(drawing_t), intent(in) :: drawing        !< its runs
       type(string_t), intent(in) :: names(:)        !< of the bodies
       character(len=*), intent(in) :: inner, outer  !< widths of inner edges and of outlines
       type(string_t) :: styles(drawing%lines%n_runs)
@@ -453,7 +453,7 @@ contains
 
    !> The line style of a body's colour.
    pure function body_style(body) result(text)
-      integer(ip), intent(in) :: body
+      integer(ip), intent(in) :: body               !< from 1; styles come again after MOST_STYLES
       character(len=:), allocatable :: text
 
       text = 'ls '//to_text(mod(body - 1, MOST_STYLES) + 1)
@@ -461,7 +461,7 @@ contains
 
    !> The name of a body for the key, where the last that has room says how many follow.
    pure function body_title(name, place, n) result(text)
-      character(len=*), intent(in) :: name
+      character(len=*), intent(in) :: name          !< of the body, as the user wrote it
       integer(ip), intent(in) :: place, n           !< among the bodies, and how many they are
       character(len=:), allocatable :: text
 

@@ -36,15 +36,15 @@ contains
 
    !> Whether something is transmitted.
    pure logical function has_traction_plot(results)
-      type(results_t), intent(in) :: results
+      type(results_t), intent(in) :: results        !< its contact is read
 
       has_traction_plot = largest_traction(results) > 0.0_wp
    end function has_traction_plot
 
    !> The traction upon the slave at a point: -p n + sigma_T T, T being n turned by +90 degrees [F/L^2].
    pure function traction(contact, j) result(t)
-      type(contact_result_t), intent(in) :: contact
-      integer(ip), intent(in) :: j
+      type(contact_result_t), intent(in) :: contact !< of a pair
+      integer(ip), intent(in) :: j                  !< point of the pair
       real(wp) :: t(2)
 
       associate (n => contact%normal(:, j))
@@ -68,7 +68,7 @@ contains
    !> The longest arrow [L]: a share of the scene, but less than half of the way between the middles of two pairs, so that the
    !> arrows of one do not cross those of another.
    pure real(wp) function longest_arrow(results, size_of_scene) result(length)
-      type(results_t), intent(in) :: results
+      type(results_t), intent(in) :: results        !< points of its contact
       real(wp), intent(in) :: size_of_scene         !< diagonal of what is shown [L]
       real(wp) :: middle(2, size(results%contact)), apart
       integer :: i, k
@@ -87,7 +87,7 @@ contains
 
    !> Writes tractions.dat and tractions.gp beside mesh.dat.
    subroutine write_traction_plot(plots, drawing)
-      type(plots_t), intent(inout), target :: plots
+      type(plots_t), intent(inout), target :: plots !< get data and script
       type(drawing_t), intent(inout) :: drawing     !< that of the mesh; its window has room for the arrows while this is written
       type(symbols_t) :: symbols
       type(string_t), allocatable :: curves(:)
@@ -181,8 +181,8 @@ contains
 
    !> Whether a run has this picture: the deck asks for its joints and there are some.
    pure logical function has_joint_plot(model, results)
-      type(model_t), intent(in) :: model
-      type(results_t), intent(in) :: results
+      type(model_t), intent(in) :: model            !< what its steps ask for
+      type(results_t), intent(in) :: results        !< last frame of the run
 
       has_joint_plot = model%steps(results%step)%requests%joints .and. allocated(results%joints)
       if (has_joint_plot) has_joint_plot = size(results%joints) > 0
@@ -190,7 +190,7 @@ contains
 
    !> Writes joints.dat and joints.gp beside mesh.dat.
    subroutine write_joint_plot(plots, drawing)
-      type(plots_t), intent(inout), target :: plots
+      type(plots_t), intent(inout), target :: plots !< get data and script
       type(drawing_t), intent(in) :: drawing        !< that of the mesh, with joints
       type(symbols_t) :: symbols
       type(string_t), allocatable :: curves(:)

@@ -27,9 +27,9 @@ contains
    !> Draws the pictures below the folder of the tables whose scripts were written; those that were not are a warning.
    subroutine draw_written(folder, names, status, drawn)
       character(len=*), intent(in) :: folder                    !< of the tables
-      type(string_t), intent(in) :: names(:)
+      type(string_t), intent(in) :: names(:)                    !< of the scripts, without .gp
       type(status_t), intent(in) :: status                      !< of the scripts
-      type(string_t), allocatable, intent(out) :: drawn(:)
+      type(string_t), allocatable, intent(out) :: drawn(:)      !< names of those that have their pictures now
 
       if (is_ok(status)) then
          call draw_pictures(plot_folder(folder), names, drawn)
@@ -42,7 +42,7 @@ contains
    !> Draws the pictures of each <name>.gp of a folder. What gnuplot says stays in gnuplot.log beside them; a
    !> failure is one warning. Interrupted, none of these pictures is left.
    subroutine draw_pictures(folder, names, drawn)
-      character(len=*), intent(in) :: folder
+      character(len=*), intent(in) :: folder                    !< of the plots
       type(string_t), intent(in) :: names(:)                    !< of the scripts, without .gp
       type(string_t), allocatable, intent(out) :: drawn(:)      !< names of those that have their pictures now
       type(string_t), allocatable :: paths(:)
@@ -108,8 +108,8 @@ contains
    !> The command for the shell. Each script has a gnuplot of its own, so that one that fails does not stop the others; -d: without
    !> the settings that a user may have at home.
    pure function plot_command(folder, names) result(command)
-      character(len=*), intent(in) :: folder
-      type(string_t), intent(in) :: names(:)
+      character(len=*), intent(in) :: folder     !< of the plots
+      type(string_t), intent(in) :: names(:)     !< of the scripts, without .gp
       character(len=:), allocatable :: command, path
       integer :: i
 
@@ -127,7 +127,7 @@ contains
 
    !> A word of the shell, whatever the characters.
    pure function shell_quoted(text) result(word)
-      character(len=*), intent(in) :: text
+      character(len=*), intent(in) :: text       !< a path, or a name
       character(len=:), allocatable :: word
 
       word = quoted(text, '''\''''')
@@ -156,7 +156,7 @@ contains
 
    !> What gnuplot says without its counts of images, which are no complaints.
    pure function without_counts(text) result(rest)
-      character(len=*), intent(in) :: text
+      character(len=*), intent(in) :: text       !< output of gnuplot
       character(len=:), allocatable :: rest
       character(len=*), parameter :: LF = achar(10), COUNTED = ' frames in animation sequence'//LF
       integer :: last, first
@@ -172,7 +172,7 @@ contains
 
    !> The line of gnuplot's output that names the error; the lines before it repeat the script.
    pure function first_complaint(text) result(line)
-      character(len=*), intent(in) :: text
+      character(len=*), intent(in) :: text       !< output of gnuplot
       character(len=:), allocatable :: line, first_line
       integer :: begins, ends
 

@@ -38,8 +38,8 @@ contains
 
    !> Whether there are at least two increments with contact to draw a curve through.
    pure logical function has_history_plot(model, history) result(has)
-      type(model_t), intent(in) :: model
-      type(history_t), intent(in) :: history
+      type(model_t), intent(in) :: model            !< its steps are read
+      type(history_t), intent(in) :: history        !< its rows are read
 
       has = .false.
       if (.not. allocated(history%rows)) return
@@ -49,8 +49,8 @@ contains
 
    !> A loop needs shear, and slip that is more than rounding beside the displacements.
    pure logical function has_loop_plot(model, history) result(has)
-      type(model_t), intent(in) :: model
-      type(history_t), intent(in) :: history
+      type(model_t), intent(in) :: model            !< laws of its pairs
+      type(history_t), intent(in) :: history        !< rows, and displacements of the last frame
       real(wp) :: largest
 
       has = has_history_plot(model, history)
@@ -74,8 +74,8 @@ contains
 
    !> The pairs that are drawn, by number: where they are too many those with the largest forces, or those that slip most.
    pure function shown_pairs(rows, by_slip) result(list)
-      type(history_row_t), intent(in) :: rows(:)
-      logical, intent(in) :: by_slip
+      type(history_row_t), intent(in) :: rows(:)    !< of all increments and pairs
+      logical, intent(in) :: by_slip                !< else by their forces
       integer(ip), allocatable :: list(:)
       real(wp) :: largest(maxval(rows%pair)), here, least
       logical :: is_in(size(largest))
@@ -109,7 +109,7 @@ contains
 
    !> Places of the rows that end a step, of the last pair.
    pure function step_ends(rows) result(places)
-      type(history_row_t), intent(in) :: rows(:)
+      type(history_row_t), intent(in) :: rows(:)    !< of all increments and pairs, ascending in time
       integer(ip), allocatable :: places(:)
       integer(ip) :: i, n
 
@@ -119,8 +119,8 @@ contains
 
    !> Writes history.gp.
    subroutine write_history_plot(plots, model, history)
-      type(plots_t), intent(inout) :: plots
-      type(model_t), intent(in) :: model
+      type(plots_t), intent(inout) :: plots         !< get the script
+      type(model_t), intent(in) :: model            !< laws of its pairs, and its steps
       type(history_t), intent(in) :: history        !< with rows
       type(history_row_t), allocatable :: shown(:)
       character(len=:), allocatable :: bounds, nu
@@ -291,8 +291,8 @@ contains
 
    !> Writes loop.dat, with a block a pair that is drawn, and loop.gp.
    subroutine write_loop_plot(plots, model, history)
-      type(plots_t), intent(inout) :: plots
-      type(model_t), intent(in) :: model
+      type(plots_t), intent(inout) :: plots         !< get data and script
+      type(model_t), intent(in) :: model            !< laws of its pairs
       type(history_t), intent(in) :: history        !< with rows
       type(history_row_t), allocatable :: rows(:)
       type(range_t) :: slip, wide
@@ -376,8 +376,8 @@ contains
 
    !> `step 1`, and `steps 2, 4` at the first of several ends that lie at one place; '' at the others of them.
    pure function end_labels(rows, ends) result(labels)
-      type(history_row_t), intent(in) :: rows(:)
-      integer(ip), intent(in) :: ends(:)
+      type(history_row_t), intent(in) :: rows(:)    !< of all increments and pairs
+      integer(ip), intent(in) :: ends(:)            !< places of rows that end a step
       character(len=LABEL_LENGTH) :: labels(size(ends))
       character(len=:), allocatable :: numbers
       real(wp) :: size_of(2)                        ! of the picture [L], [F]

@@ -15,9 +15,9 @@ module atrito_mesh_lines
 
    !> What is drawn: edges of the mesh, in runs of one kind and body.
    type :: mesh_lines_t
-      integer(ip) :: n = 0
+      integer(ip) :: n = 0                              !< edges in use
       integer(ip), allocatable :: element(:), face(:)   !< (n)
-      integer(ip) :: n_runs = 0
+      integer(ip) :: n_runs = 0                         !< runs in use
       integer(ip), allocatable :: first(:)              !< (n_runs + 1) where each begins
       integer(ip), allocatable :: kind(:), body(:)      !< (n_runs)
    end type mesh_lines_t
@@ -26,10 +26,10 @@ contains
 
    !> Collects the edges, each once. A line between two sections counts as outline; rigid surfaces are not among them.
    subroutine collect_lines(mesh, section_of, only_outline, lines)
-      type(mesh_t), intent(in) :: mesh
+      type(mesh_t), intent(in) :: mesh              !< as solved
       integer(ip), intent(in) :: section_of(:)      !< (n_elements)
-      logical, intent(in) :: only_outline
-      type(mesh_lines_t), intent(out) :: lines
+      logical, intent(in) :: only_outline           !< inner edges are left out
+      type(mesh_lines_t), intent(out) :: lines      !< inner edges first, in each kind by bodies
       type(bodies_t) :: bodies
       integer(ip), allocatable :: kind_of(:, :)
       integer(ip) :: body, kind, i, face

@@ -33,7 +33,7 @@ module atrito_motion_plot
    !> What images have in common.
    type :: images_t
       integer(ip), allocatable :: frames(:)         !< their places in the history
-      type(drawing_t) :: drawing
+      type(drawing_t) :: drawing                    !< its window and scale serve all images
       real(wp) :: pressure = 0.0_wp                 !< the largest [F/L^2]
       logical :: has_state(0:N_STATES - 1) = .false.    !< a point, in any of them
    end type images_t
@@ -42,17 +42,17 @@ contains
 
    !> Inner edges too, or outlines alone.
    pure logical function most_lines(n_nodes, n_images)
-      integer(ip), intent(in) :: n_nodes, n_images
+      integer(ip), intent(in) :: n_nodes, n_images  !< of the mesh; printed increments that are drawn
 
       most_lines = real(n_nodes, wp)*real(n_images, wp) <= real(MOST_PLACES, wp)
    end function most_lines
 
    !> Writes motion.dat and motion.gp.
    subroutine write_motion_plot(plots, model, history, view)
-      type(plots_t), intent(inout) :: plots
-      type(model_t), intent(in), target :: model
+      type(plots_t), intent(inout) :: plots         !< get data and script
+      type(model_t), intent(in), target :: model    !< as solved
       type(history_t), intent(in) :: history        !< of several frames
-      type(plot_view_t), intent(in) :: view
+      type(plot_view_t), intent(in) :: view         !< what is asked of the pictures of bodies
       type(images_t) :: images
 
       images%frames = evenly(size(history%frames, kind=ip), MOST_IMAGES)

@@ -18,8 +18,8 @@ module atrito_overlay_data
    !> A field along s of which a picture has a panel.
    type :: field_t
       character(len=17) :: name                     !< of its column in contact.tab
-      character(len=17) :: label
-      character(len=5) :: dimension
+      character(len=17) :: label                    !< of its panel
+      character(len=5) :: dimension                 !< in F and L
       integer(ip) :: column                         !< its place there
    end type field_t
    integer(ip), parameter :: FIELD_PRESSURE = 1, FIELD_WEIGHTED = 2, FIELD_SHEAR = 3, FIELD_SLIP = 4, FIELD_GAP = 5
@@ -29,9 +29,9 @@ module atrito_overlay_data
                                             field_t('gap', 'gap', 'L', 7)]
    !> A row of summary.tab that is drawn against a parameter.
    type :: quantity_t
-      character(len=32) :: name
-      character(len=32) :: label
-      character(len=5) :: dimension
+      character(len=32) :: name                    !< in the column quantity
+      character(len=32) :: label                   !< of its panel
+      character(len=5) :: dimension                !< in F and L
    end type quantity_t
    integer, parameter :: MOST_OBSERVED = 4           !< panels of what is observed
    type(quantity_t), parameter :: QUANTITIES(4) = [quantity_t('normal_resultant', 'normal resultant', 'F'), &
@@ -46,7 +46,7 @@ module atrito_overlay_data
       character(len=:), allocatable :: from_plots  !< of its folder, from the folder of the plots
       real(wp) :: value = 0.0_wp                   !< of the parameter that varies, when there is one
       logical :: has_tables = .false.              !< contact.tab can be read
-      logical :: not_converged = .false.
+      logical :: not_converged = .false.           !< its tables say so
       integer(ip) :: step = 1, increment = 1       !< the last of contact.tab, which is drawn
       real(wp), allocatable :: quantity(:, :)      !< (quantities of overlay_t, pairs): of summary.tab; not allocated: none
    end type overlay_run_t
@@ -54,9 +54,9 @@ module atrito_overlay_data
    !> A contact pair over all runs.
    type :: overlay_pair_t
       character(len=:), allocatable :: name        !< `OVER-BOTTOM on SUPPORT-TOP`; empty where no table tells it
-      type(range_t) :: s
-      type(range_t) :: field(size(FIELDS))
-      integer(ip) :: most_points = 0
+      type(range_t) :: s                           !< covers all runs [L]
+      type(range_t) :: field(size(FIELDS))         !< of each field, in all runs
+      integer(ip) :: most_points = 0               !< of one run
       logical :: has_shear = .false.               !< in one run at least
       logical :: has_weighted = .false.            !< it differs from the pressure in one run at least
    end type overlay_pair_t
@@ -66,8 +66,8 @@ module atrito_overlay_data
       character(len=:), allocatable :: title       !< heading of the deck; empty where there is none
       logical :: by_value = .false.                !< one parameter varies
       character(len=:), allocatable :: parameter   !< its name, as it can be drawn
-      type(overlay_run_t), allocatable :: runs(:)
-      type(overlay_pair_t), allocatable :: pairs(:)
+      type(overlay_run_t), allocatable :: runs(:)  !< in the order of the sweep
+      type(overlay_pair_t), allocatable :: pairs(:) !< in the order of the deck
       type(quantity_t), allocatable :: quantities(:) !< QUANTITIES, and what is observed, which is of no pair
       logical :: is_csv = .false.                  !< the tables are comma-separated values
    end type overlay_t
@@ -76,7 +76,7 @@ contains
 
    !> Positive values that span more than two decades.
    pure logical function is_logarithmic(values)
-      real(wp), intent(in) :: values(:)
+      real(wp), intent(in) :: values(:)            !< of the parameter, in any order
 
       is_logarithmic = .false.
       if (size(values) == 0) return

@@ -54,11 +54,11 @@ contains
    !>
    !> status: STATUS_FILE
    subroutine write_overlay_scripts(folder, title, labels, runs, parameter_name, values, names, status)
-      character(len=*), intent(in) :: folder, title, parameter_name
-      type(string_t), intent(in) :: labels(:), runs(:)
-      real(wp), intent(in) :: values(:)
+      character(len=*), intent(in) :: folder, title, parameter_name !< as of write_overlay_plots
+      type(string_t), intent(in) :: labels(:), runs(:)       !< of each run: its text, and its folder
+      real(wp), intent(in) :: values(:)                      !< of the parameter in each run; empty: several vary
       type(string_t), allocatable, intent(out) :: names(:)   !< without .gp
-      type(status_t), intent(out) :: status
+      type(status_t), intent(out) :: status                  !< STATUS_OK or STATUS_FILE
       type(overlay_t) :: overlay
       type(plots_t) :: plots
       type(range_t) :: summed                       ! of the parameter, in runs with a summary
@@ -100,7 +100,7 @@ contains
 
    !> Path of a run's folder, seen from the folder of the plots.
    pure function path_from_plots(folder, run) result(path)
-      character(len=*), intent(in) :: folder, run
+      character(len=*), intent(in) :: folder, run   !< of the sweep; of the run, from where the sweep's is
       character(len=:), allocatable :: path
 
       if (index(run, folder//'/') == 1) then

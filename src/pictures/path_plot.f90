@@ -26,7 +26,7 @@ contains
 
    !> How many paths have a picture.
    pure integer(ip) function plotted_paths(model, results) result(n)
-      type(model_t), intent(in) :: model
+      type(model_t), intent(in) :: model               !< what its steps ask for
       type(results_t), intent(in) :: results           !< of the last frame
 
       n = 0
@@ -37,10 +37,10 @@ contains
 
    !> Writes data and script of one of them.
    subroutine write_path_plot(plots, model, history, i)
-      type(plots_t), intent(inout) :: plots
-      type(model_t), intent(in) :: model
-      type(history_t), intent(in) :: history
-      integer(ip), intent(in) :: i
+      type(plots_t), intent(inout) :: plots      !< get data and script
+      type(model_t), intent(in) :: model         !< its paths, as placed
+      type(history_t), intent(in) :: history     !< its last frame is drawn
+      integer(ip), intent(in) :: i               !< of the paths that are asked for, from 1
       real(wp), allocatable :: values(:, :)
       type(path_t) :: path
       character(len=:), allocatable :: name, line

@@ -20,6 +20,7 @@ module atrito_plot_scripts
    !> What a script has to say before it reads comma-separated values.
    character(len=*), parameter :: CSV_SEPARATOR = 'set datafile separator comma'
 
+   !> The files of some pictures, one of which is open.
    type :: plots_t
       type(file_set_t) :: set                       !< in the folder of the plots
       type(status_t) :: status                      !< the first failure: STATUS_FILE; no file is opened behind it
@@ -32,7 +33,7 @@ contains
 
    !> Begins the files of pictures in their folder.
    subroutine begin_plots(plots, folder)
-      type(plots_t), intent(out) :: plots
+      type(plots_t), intent(out) :: plots           !< no file is open yet; status STATUS_FILE where the folder cannot be
       character(len=*), intent(in) :: folder        !< of the plots
 
       call begin_files(plots%set, folder, plots%status)
@@ -41,8 +42,8 @@ contains
 
    !> Gives all files their names, or removes them where one failed. status: STATUS_FILE.
    subroutine end_plots(plots, status)
-      type(plots_t), intent(inout) :: plots
-      type(status_t), intent(out) :: status
+      type(plots_t), intent(inout) :: plots         !< no file is open on return
+      type(status_t), intent(out) :: status         !< STATUS_OK or STATUS_FILE
 
       call end_file(plots)
       status = plots%status
@@ -61,8 +62,8 @@ contains
 
    !> Begins a file.
    subroutine begin_file(plots, name)
-      type(plots_t), intent(inout) :: plots
-      character(len=*), intent(in) :: name
+      type(plots_t), intent(inout) :: plots         !< its file ends, and the next begins
+      character(len=*), intent(in) :: name          !< of the file, with its ending
 
       call end_file(plots)
       if (is_ok(plots%status)) call open_text(plots%set, name, plots%file)
@@ -70,15 +71,15 @@ contains
 
    !> Writes a line, or several with LF between them.
    subroutine put(plots, text)
-      type(plots_t), intent(inout) :: plots
-      character(len=*), intent(in) :: text
+      type(plots_t), intent(inout) :: plots         !< lines go into its open file
+      character(len=*), intent(in) :: text          !< without LF at its end
 
       call put_line(plots%file, text)
    end subroutine put
 
    !> Begins the data of a picture.
    subroutine begin_data(plots, name, what)
-      type(plots_t), intent(inout) :: plots
+      type(plots_t), intent(inout) :: plots         !< its file ends, and the next begins
       character(len=*), intent(in) :: name          !< of the file, without .dat
       character(len=*), intent(in) :: what          !< stands in it: a comment
 
@@ -89,9 +90,9 @@ contains
 
    !> Begins a script: what it draws, how it is used, and what the columns of its data are.
    subroutine begin_script(plots, name, what, columns)
-      type(plots_t), intent(inout) :: plots
+      type(plots_t), intent(inout) :: plots         !< its file ends, and the next begins
       character(len=*), intent(in) :: name          !< of the picture
-      character(len=*), intent(in) :: what
+      character(len=*), intent(in) :: what          !< it draws, in a few words
       character(len=*), intent(in), optional :: columns   !< with LF between lines, of which all but the first have their mark
       character(len=4), allocatable :: endings(:)
       character(len=:), allocatable :: pictures
@@ -114,7 +115,7 @@ contains
 
    !> Tells a script which table it draws: that in the folder above, in the form in which it is there.
    subroutine put_table(plots, name)
-      type(plots_t), intent(inout) :: plots
+      type(plots_t), intent(inout) :: plots         !< lines go into its open script
       character(len=*), intent(in) :: name          !< of the table
       character(len=:), allocatable :: path
 
@@ -125,7 +126,7 @@ contains
 
    !> The loop over both kinds of picture; what is drawn follows, and the end of the file ends it.
    subroutine put_terminal(plots, size_text)
-      type(plots_t), intent(inout) :: plots
+      type(plots_t), intent(inout) :: plots         !< lines go into its open script
       character(len=*), intent(in) :: size_text     !< width,height in pixels
 
       call put(plots, 'do for [kind in "png svg"] {'//LF//'if (kind eq "png") { set terminal pngcairo size '//size_text// &
@@ -136,8 +137,8 @@ contains
 
    !> A column of panels over one axis: places and looks.
    subroutine put_frame(plots, panels, range, x_label)
-      type(plots_t), intent(inout) :: plots
-      integer(ip), intent(in) :: panels
+      type(plots_t), intent(inout) :: plots         !< lines go into its open script
+      integer(ip), intent(in) :: panels             !< how many, one below the other
       type(range_t), intent(in) :: range            !< of the axis below
       character(len=*), intent(in) :: x_label       !< a string of gnuplot
 
@@ -157,9 +158,9 @@ contains
    !> Goes to a panel, whose values are to be divided by `unit`. Its label stands at the same place in all panels, its legend to
    !> the right of it.
    subroutine put_panel(plots, place, name, dimension, range)
-      type(plots_t), intent(inout) :: plots
+      type(plots_t), intent(inout) :: plots           !< lines go into its open script
       integer(ip), intent(in) :: place                !< 1 the uppermost
-      character(len=*), intent(in) :: name, dimension
+      character(len=*), intent(in) :: name, dimension !< of what is drawn, and in F and L or ''
       type(range_t), intent(in) :: range            !< of the values
       type(range_t) :: window
       character(len=:), allocatable :: i, unit
@@ -182,8 +183,8 @@ contains
 
    !> A plot of some curves, a line each.
    subroutine put_plot(plots, curves)
-      type(plots_t), intent(inout) :: plots
-      type(string_t), intent(in) :: curves(:)
+      type(plots_t), intent(inout) :: plots         !< lines go into its open script
+      type(string_t), intent(in) :: curves(:)       !< one at least, as gnuplot has them
       character(len=:), allocatable :: line
       integer :: i
 

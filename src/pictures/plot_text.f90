@@ -33,15 +33,15 @@ module atrito_plot_text
 
    !> What an axis shall cover. Empty: low > high.
    type :: range_t
-      real(wp) :: low = 1.0_wp, high = -1.0_wp
+      real(wp) :: low = 1.0_wp, high = -1.0_wp      !< of its numbers
    end type range_t
 
 contains
 
    !> Widens a range so that it covers the numbers; those that are none are left out.
    pure subroutine cover(range, values)
-      type(range_t), intent(inout) :: range
-      real(wp), intent(in) :: values(:)
+      type(range_t), intent(inout) :: range         !< covers the numbers, too
+      real(wp), intent(in) :: values(:)             !< finite ones count
       integer :: i
 
       do i = 1, size(values)
@@ -54,14 +54,14 @@ contains
 
    !> The range of some numbers.
    pure type(range_t) function range_of(values)
-      real(wp), intent(in) :: values(:)
+      real(wp), intent(in) :: values(:)             !< finite ones count
 
       call cover(range_of, values)
    end function range_of
 
    !> The length of a range; 0 of an empty one.
    pure real(wp) function span(range)
-      type(range_t), intent(in) :: range
+      type(range_t), intent(in) :: range            !< may be empty
 
       span = max(0.0_wp, range%high - range%low)
    end function span
@@ -69,7 +69,7 @@ contains
    !> The range with room on both sides. Nothing to show, or one number only, gives a range all the same: gnuplot complains of
    !> empty ones.
    pure type(range_t) function padded(range)
-      type(range_t), intent(in) :: range
+      type(range_t), intent(in) :: range            !< may be empty
       real(wp) :: room, largest
 
       padded = range
@@ -83,7 +83,7 @@ contains
 
    !> [low:high]
    pure function range_text(range) result(text)
-      type(range_t), intent(in) :: range
+      type(range_t), intent(in) :: range            !< not empty
       character(len=:), allocatable :: text
 
       text = '['//outward(range%low, -1.0_wp)//':'//outward(range%high, 1.0_wp)//']'
@@ -103,7 +103,7 @@ contains
 
    !> What a user wrote as a string of gnuplot, or of the shell.
    pure function quoted(text, quote) result(string)
-      character(len=*), intent(in) :: text
+      character(len=*), intent(in) :: text              !< without its quotes
       character(len=*), intent(in), optional :: quote   !< what stands for a quote within it; default: two of them
       character(len=:), allocatable :: string
       integer :: i
@@ -123,7 +123,7 @@ contains
 
    !> Text that can be drawn: bytes that are no UTF-8 and control characters are replaced, and what is too long is cut.
    pure function cleaned(text, most) result(clean)
-      character(len=*), intent(in) :: text
+      character(len=*), intent(in) :: text          !< as the user wrote it
       integer, intent(in) :: most                   !< characters
       character(len=:), allocatable :: clean
       integer :: i, n, bytes
@@ -151,7 +151,7 @@ contains
 
    !> The first line of a picture's title: the deck's, and whether to believe the picture.
    pure function picture_title(origin) result(title)
-      type(origin_t), intent(in) :: origin
+      type(origin_t), intent(in) :: origin          !< deck, heading and ending of the run
       character(len=:), allocatable :: title
 
       title = origin%deck
@@ -168,7 +168,7 @@ contains
 
    !> The first line of the title of a picture of a scene that is not solved.
    pure function scene_title(deck_path, heading) result(title)
-      character(len=*), intent(in) :: deck_path
+      character(len=*), intent(in) :: deck_path     !< as the user wrote it
       type(string_t), intent(in) :: heading(:)      !< lines of *HEADING
       character(len=:), allocatable :: title
       type(origin_t) :: origin
@@ -180,7 +180,7 @@ contains
 
    !> The power of thousand by which numbers of a range are divided, so that the marks of an axis are short; 0 for handy numbers.
    pure integer(ip) function engineering_exponent(range) result(e)
-      type(range_t), intent(in) :: range
+      type(range_t), intent(in) :: range            !< of the values on the axis; may be empty
       real(wp) :: largest
 
       e = 0
@@ -191,7 +191,7 @@ contains
 
    !> The power of ten in the label of an axis: `10^{3} `; nothing for 0.
    pure function power_text(power) result(text)
-      integer(ip), intent(in) :: power
+      integer(ip), intent(in) :: power              !< a multiple of 3, or 0
       character(len=:), allocatable :: text
 
       text = ''

@@ -9,6 +9,7 @@ module atrito_plot_view
    private
    public :: plot_view_t, shown_window, shows_none, warn_of_box, read_box
 
+   !> What is asked of the pictures of bodies.
    type :: plot_view_t
       real(wp), allocatable :: scale                !< of the displacements, not negative; not allocated: by their size
       logical :: labels = .false.                   !< numbers of nodes and elements, names of sets and surfaces
@@ -19,7 +20,7 @@ contains
 
    !> What a picture shows: the box that is asked for, else all with some room round it.
    pure function shown_window(view, window) result(shown)
-      type(plot_view_t), intent(in) :: view
+      type(plot_view_t), intent(in) :: view         !< its box is read
       type(range_t), intent(in) :: window(2)        !< of all that is drawn [L]
       type(range_t) :: shown(2)
 
@@ -29,7 +30,7 @@ contains
 
    !> Whether the box that is asked for lies beside all that is drawn.
    pure logical function shows_none(view, window)
-      type(plot_view_t), intent(in) :: view
+      type(plot_view_t), intent(in) :: view         !< its box is read
       type(range_t), intent(in) :: window(2)        !< of all that is drawn [L]
 
       shows_none = .false.
@@ -38,7 +39,7 @@ contains
 
    !> A box without bodies is hardly meant.
    subroutine warn_of_box(view, window)
-      type(plot_view_t), intent(in) :: view
+      type(plot_view_t), intent(in) :: view         !< its box is read
       type(range_t), intent(in) :: window(2)        !< of all that is drawn [L]
 
       if (.not. allocated(view%box)) return
@@ -48,7 +49,7 @@ contains
 
    !> Reads a box from the text x1,y1,x2,y2: two corners of it that lie across from each other.
    pure subroutine read_box(text, box, ok)
-      character(len=*), intent(in) :: text
+      character(len=*), intent(in) :: text          !< of the option
       real(wp), allocatable, intent(out) :: box(:)  !< (4), in order; not allocated where it is none
       logical, intent(out) :: ok                    !< four finite numbers, and an area
       real(wp) :: corner(4)

@@ -34,8 +34,8 @@ contains
 
    !> Writes the scripts of all pictures into <folder>/plots and draws them.
    subroutine write_plots(model, history, folder, view, drawn)
-      type(model_t), intent(in) :: model
-      type(history_t), intent(in) :: history
+      type(model_t), intent(in) :: model                    !< as solved
+      type(history_t), intent(in) :: history                !< printed increments
       character(len=*), intent(in) :: folder                !< of the tables
       type(plot_view_t), intent(in) :: view                 !< what is asked of the pictures of bodies
       type(string_t), allocatable, intent(out) :: drawn(:)  !< pictures, names without ending
@@ -50,8 +50,8 @@ contains
    !> Pictures of a run: the mesh, contours, tractions, what is drawn of a history, the joints where they are asked for, and each
    !> pair that has points, and paths.
    pure function plot_names(model, history) result(names)
-      type(model_t), intent(in) :: model
-      type(history_t), intent(in) :: history
+      type(model_t), intent(in) :: model         !< what its steps ask for
+      type(history_t), intent(in) :: history     !< printed increments
       type(string_t), allocatable :: names(:)
       type(contour_t), allocatable :: contours(:)
       integer(ip) :: i
@@ -90,11 +90,11 @@ contains
    !>
    !> status: STATUS_FILE
    subroutine write_plot_scripts(model, history, folder, view, status)
-      type(model_t), intent(in), target :: model
-      type(history_t), intent(in), target :: history
+      type(model_t), intent(in), target :: model            !< as solved
+      type(history_t), intent(in), target :: history        !< printed increments; one at least
       character(len=*), intent(in) :: folder                !< of the plots
-      type(plot_view_t), intent(in) :: view
-      type(status_t), intent(out) :: status
+      type(plot_view_t), intent(in) :: view                 !< what is asked of the pictures of bodies
+      type(status_t), intent(out) :: status                 !< STATUS_OK or STATUS_FILE
       type(plots_t), target :: plots
       type(drawing_t) :: drawing
       integer(ip) :: i

@@ -13,7 +13,7 @@ module atrito_buffer
    !> An empty one needs no call before the first put.
    type :: buffer_t
       private
-      integer(int8), allocatable :: bytes(:)
+      integer(int8), allocatable :: bytes(:)     !< (>= length) grows by doubling; not allocated: nothing was put
       integer(lp) :: length = 0                  !< bytes that are filled
       integer(lp) :: taken = 0                   !< bytes that were taken
    end type buffer_t
@@ -37,8 +37,8 @@ contains
 
    !> A buffer of so many bytes that are filled by whoever receives them (buffer_bytes).
    subroutine make_buffer(length, buffer)
-      integer(lp), intent(in) :: length
-      type(buffer_t), intent(out) :: buffer
+      integer(lp), intent(in) :: length          !< >= 0 [bytes]
+      type(buffer_t), intent(out) :: buffer      !< its bytes are not set yet
 
       allocate (buffer%bytes(length))
       buffer%length = length
@@ -46,7 +46,7 @@ contains
 
    !> All bytes that were put.
    function buffer_bytes(buffer) result(bytes)
-      type(buffer_t), intent(in), target :: buffer
+      type(buffer_t), intent(in), target :: buffer !< keep it a target as long as the bytes are used
       integer(int8), pointer :: bytes(:)
       integer(int8), target, save :: nothing(0)
 
@@ -84,8 +84,8 @@ contains
 
    !> A text; one that is not allocated is empty.
    subroutine put_text(buffer, text)
-      type(buffer_t), intent(inout) :: buffer
-      character(len=:), allocatable, intent(in) :: text
+      type(buffer_t), intent(inout) :: buffer           !< the item goes behind the others
+      character(len=:), allocatable, intent(in) :: text !< of any length
 
       if (allocated(text)) call put_letters(buffer, text)
       if (.not. allocated(text)) call put_letters(buffer, '')
@@ -181,8 +181,8 @@ contains
 
    !> Adds an outcome.
    subroutine put_status(buffer, status)
-      type(buffer_t), intent(inout) :: buffer
-      type(status_t), intent(in) :: status
+      type(buffer_t), intent(inout) :: buffer    !< the item goes behind the others
+      type(status_t), intent(in) :: status       !< its code and, where it has one, its text
 
       call put_number(buffer, int(status%code, ip))
       call put_text(buffer, status%text)
@@ -190,8 +190,8 @@ contains
 
    !> The next item, an outcome.
    subroutine take_status(buffer, status)
-      type(buffer_t), intent(inout) :: buffer
-      type(status_t), intent(out) :: status
+      type(buffer_t), intent(inout) :: buffer    !< its next item is taken
+      type(status_t), intent(out) :: status      !< as it was put
       integer(ip) :: code
 
       call take_number(buffer, code)

@@ -67,8 +67,8 @@ contains
 
    !> Comes back when the buffer may be changed.
    subroutine send_buffer(buffer, to)
-      type(buffer_t), intent(in), target :: buffer
-      integer(ip), intent(in) :: to
+      type(buffer_t), intent(in), target :: buffer   !< is not changed
+      integer(ip), intent(in) :: to                  !< rank, not this one
       integer(int8), pointer :: bytes(:)
       integer(lp) :: length, first, last
 
@@ -83,9 +83,9 @@ contains
 
    !> The next buffer of a rank, or of the first that has one.
    subroutine receive_buffer(buffer, from, sender)
-      type(buffer_t), intent(out), target :: buffer
+      type(buffer_t), intent(out), target :: buffer  !< filled, nothing of it taken
       integer(ip), intent(in) :: from                !< or ANY_RANK
-      integer(ip), intent(out), optional :: sender
+      integer(ip), intent(out), optional :: sender   !< rank that has sent it
       type(MPI_Status) :: status
       integer(int8), pointer :: bytes(:)
       integer(lp) :: length(1), first, last

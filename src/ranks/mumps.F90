@@ -37,7 +37,7 @@ module atrito_mumps
 
    !> What MUMPS works on, behind a pointer.
    type :: instance_t
-      type(dmumps_struc) :: mumps
+      type(dmumps_struc) :: mumps                !< MUMPS's own record
    end type instance_t
 
    !> Ended by end_mumps_system, which all ranks call: none can do so by itself, hence it is not ended when it goes out of scope.
@@ -45,14 +45,14 @@ module atrito_mumps
       integer(ip) :: n = 0                       !< unknowns
       integer(ip) :: weakest = 0                 !< on rank 0, of a matrix without factor: what moves most in its softest motion
       integer(ip), allocatable, private :: own(:) !< unknowns of the matrix of this rank
-      type(instance_t), pointer, private :: instance => null()
+      type(instance_t), pointer, private :: instance => null() !< not associated: not begun
       real(wp), allocatable, private :: scale(:) !< (n) of rows and columns
    end type mumps_system_t
 
    abstract interface
       subroutine call_mumps(instance)
          import :: dmumps_struc
-         type(dmumps_struc), intent(inout) :: instance
+         type(dmumps_struc), intent(inout) :: instance !< with its job; of this rank
       end subroutine call_mumps
    end interface
 
@@ -69,14 +69,14 @@ module atrito_mumps
 
 contains
 
-   !> Says what the system consists of, and has MUMPS analyse it.
+   !> Says what the system consists of, and has MUMPS analyse it; one that was begun before is ended first.
    !>
    !> status: STATUS_INTERNAL: there is no MUMPS, or too little memory; on all ranks if on one.
    subroutine begin_mumps_system(system, n, unknown, status)
-      type(mumps_system_t), intent(inout) :: system
+      type(mumps_system_t), intent(inout) :: system !< of any state; begun on return where status is OK
       integer(ip), intent(in) :: n               !< unknowns, the same on all ranks
       integer(ip), intent(in) :: unknown(:)      !< 1..n, of the matrix of this rank, none twice
-      type(status_t), intent(out) :: status
+      type(status_t), intent(out) :: status      !< STATUS_OK or STATUS_INTERNAL, the same on all ranks
 
       call end_mumps_system(system)
       system%n = n
@@ -156,10 +156,9 @@ contains
    !>
    !> status: STATUS_SINGULAR when K is singular or indefinite, STATUS_INTERNAL when the memory is too small. The same on all ranks.
    subroutine factor_mumps_system(system, values, status)
-      type(mumps_system_t), intent(inout) :: system
-      !> (m (m + 1)/2 for m unknowns) lower triangle of the matrix of this rank by columns; scaled meanwhile
-      real(wp), intent(inout), contiguous, target :: values(:)
-      type(status_t), intent(out) :: status
+      type(mumps_system_t), intent(inout) :: system !< begun; factored on return where status is OK
+      real(wp), intent(inout), contiguous, target :: values(:) !< (m (m + 1)/2, m own) lower triangle by columns, scaled meanwhile
+      type(status_t), intent(out) :: status      !< STATUS_OK, STATUS_SINGULAR or STATUS_INTERNAL
 
       system%weakest = 0
       if (system%n == 0) return
@@ -293,10 +292,12 @@ contains
    end subroutine find_weakest
 
    !> Solves K x = f.
+   !>
+   !> status: STATUS_INTERNAL when MUMPS fails, the same on all ranks.
    subroutine solve_mumps_system(system, x, status)
-      type(mumps_system_t), intent(inout) :: system
+      type(mumps_system_t), intent(inout) :: system !< factored
       real(wp), intent(inout) :: x(:)            !< (n) on rank 0: f; on return x. Other ranks: of any size
-      type(status_t), intent(out) :: status
+      type(status_t), intent(out) :: status      !< STATUS_OK or STATUS_INTERNAL
 
       if (system%n == 0) return
       call solve_with(system, x)
@@ -323,7 +324,7 @@ contains
 
    !> What this rank holds of the factor, as MUMPS counts it, and the rest [bytes].
    pure integer(lp) function mumps_system_bytes(system) result(bytes)
-      type(mumps_system_t), intent(in) :: system
+      type(mumps_system_t), intent(in) :: system !< of any state
       integer(lp), parameter :: REAL_BYTES = storage_size(1.0_wp)/8
 
       bytes = REAL_BYTES*int(system%n, lp)
@@ -336,7 +337,7 @@ contains
 
    !> Lets go of everything. All ranks call it; where there is nothing, nothing happens.
    subroutine end_mumps_system(system)
-      type(mumps_system_t), intent(inout) :: system
+      type(mumps_system_t), intent(inout) :: system !< of any state; empty on return
 
       if (associated(system%instance)) then
          call run_mumps(system%instance%mumps, FINISH)
@@ -380,8 +381,8 @@ contains
    !> status: STATUS_INTERNAL: there is no library, or it is of a version whose dmumps_struc may be another one. Such an instance is
    !> left alone.
    subroutine begin_mumps(instance, status)
-      type(dmumps_struc), intent(inout) :: instance
-      type(status_t), intent(out) :: status
+      type(dmumps_struc), intent(inout) :: instance !< not begun; of all ranks on return
+      type(status_t), intent(out) :: status         !< STATUS_OK or STATUS_INTERNAL
 
       if (.not. has_mumps()) then
          call set_status(status, STATUS_INTERNAL, mumps_trouble())
@@ -406,8 +407,8 @@ contains
 
    !> One call of MUMPS, which raises harmless floating-point exceptions.
    subroutine run_mumps(instance, job)
-      type(dmumps_struc), intent(inout) :: instance
-      integer, intent(in) :: job
+      type(dmumps_struc), intent(inout) :: instance !< begun, or about to be
+      integer, intent(in) :: job                    !< JOB of MUMPS: BEGIN, ANALYSE, FACTOR, SOLVE, FINISH
       procedure(call_mumps), pointer :: mumps
       type(halting_t) :: halting
 
@@ -420,7 +421,7 @@ contains
 
    !> Why the last call failed, in words where they are known.
    pure function mumps_failure(instance) result(text)
-      type(dmumps_struc), intent(in) :: instance
+      type(dmumps_struc), intent(in) :: instance !< its INFOG is read
       character(len=:), allocatable :: text
 
       associate (code => instance%infog(1:2))

@@ -19,14 +19,14 @@ contains
 
    !> Part p, not assembled: what there is of it, and which unknowns, rows and amplitudes of the scene its own are.
    subroutine make_scene_part(fem, rows, line, numbering, constraints, p, cut, part, place)
-      type(fem_t), intent(in) :: fem
-      type(contact_rows_t), intent(in) :: rows
-      type(contact_line_t), intent(in) :: line
-      type(scene_numbering_t), intent(in) :: numbering
+      type(fem_t), intent(in) :: fem                     !< whole scene; bodies, mesh and sections are taken
+      type(contact_rows_t), intent(in) :: rows           !< of all contact points
+      type(contact_line_t), intent(in) :: line           !< which points have rows; its numbers
+      type(scene_numbering_t), intent(in) :: numbering   !< of the scene's unknowns
       type(constraint_rows_t), intent(in) :: constraints !< B of the scene
-      integer(ip), intent(in) :: p
-      type(scene_cut_t), intent(inout) :: cut
-      type(scene_part_t), intent(out) :: part
+      integer(ip), intent(in) :: p                       !< 1..cut%n_parts
+      type(scene_cut_t), intent(inout) :: cut            !< by plan_cut; its work arrays are 0 again on return
+      type(scene_part_t), intent(out) :: part            !< numbered by itself; not assembled
       type(place_t), intent(inout) :: place          !< its unknowns, rows and pulls
       integer(ip), allocatable :: nodes(:), bodies(:)
 

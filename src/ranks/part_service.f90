@@ -33,7 +33,7 @@ module atrito_part_service
 
    !> What a rank has.
    type :: store_t
-      type(scene_part_t) :: part
+      type(scene_part_t) :: part                 !< this rank's own; one at a time
       real(wp), allocatable :: x(:)              !< loads that were reduced
       type(mumps_system_t) :: schur              !< S, of all ranks
    end type store_t
@@ -45,8 +45,8 @@ contains
 
    !> The head of a question about a part: what is wanted, one of the constants above; what it needs is put behind it.
    subroutine begin_question(wanted, request)
-      integer(ip), intent(in) :: wanted
-      type(buffer_t), intent(out) :: request
+      integer(ip), intent(in) :: wanted          !< a constant of this module, e.g. REFACTOR
+      type(buffer_t), intent(out) :: request     !< what goes with it is put behind
 
       call put(request, SERVICE_PART)
       call put(request, wanted)
@@ -54,7 +54,7 @@ contains
 
    !> Asks a rank; the first one, the last that is asked, works at once. The answer comes with hear.
    subroutine ask(rank, request)
-      integer(ip), intent(in) :: rank
+      integer(ip), intent(in) :: rank            !< 0.. of the run
       type(buffer_t), intent(inout) :: request   !< by begin_question
       integer(ip) :: service
 
@@ -69,8 +69,8 @@ contains
 
    !> Asks with one vector over the unknowns of the part: MULTIPLY, REDUCE, EXPAND.
    subroutine ask_with(rank, wanted, values)
-      integer(ip), intent(in) :: rank, wanted
-      real(wp), intent(in), contiguous :: values(:)
+      integer(ip), intent(in) :: rank, wanted       !< 0.. of the run; MULTIPLY, REDUCE or EXPAND
+      real(wp), intent(in), contiguous :: values(:) !< over unknowns of the part; EXPAND: those it shares
       type(buffer_t) :: request
 
       call begin_question(wanted, request)
@@ -80,8 +80,8 @@ contains
 
    !> The answer to ask, from the rank that was asked.
    subroutine hear(rank, answer)
-      integer(ip), intent(in) :: rank
-      type(buffer_t), intent(out) :: answer
+      integer(ip), intent(in) :: rank            !< 0.. of the run, as it was asked
+      type(buffer_t), intent(out) :: answer      !< as the question has it
 
       if (rank > 0) call receive_buffer(answer, rank)
       if (rank == 0) answer = own_answer
@@ -89,8 +89,8 @@ contains
 
    !> The answer to ask_with.
    subroutine hear_values(rank, values)
-      integer(ip), intent(in) :: rank
-      real(wp), allocatable, intent(out) :: values(:)
+      integer(ip), intent(in) :: rank                 !< 0.. of the run, as it was asked
+      real(wp), allocatable, intent(out) :: values(:) !< over the unknowns of the part, or those it shares
       type(buffer_t) :: answer
 
       call hear(rank, answer)

@@ -13,8 +13,8 @@ contains
 
    !> Adds mesh and sections. Sections go as they lie in memory, so that none of their components is forgotten.
    subroutine put_piece(buffer, piece)
-      type(buffer_t), intent(inout) :: buffer
-      type(fem_t), intent(in) :: piece
+      type(buffer_t), intent(inout) :: buffer    !< gets the items
+      type(fem_t), intent(in) :: piece           !< with mesh, sections and temperatures
 
       associate (mesh => piece%mesh)
          call put(buffer, mesh%x)
@@ -36,8 +36,8 @@ contains
 
    !> The next items, a piece. Its mesh is made here: whoever has the piece gives it back.
    subroutine receive_piece(buffer, piece)
-      type(buffer_t), intent(inout) :: buffer
-      type(fem_t), intent(inout) :: piece
+      type(buffer_t), intent(inout) :: buffer    !< its next items are taken
+      type(fem_t), intent(inout) :: piece        !< gets a mesh of its own, sections and temperatures
       type(elastic_t) :: mold(1)
       integer(ip), allocatable :: numbers(:)
       integer(ip) :: n

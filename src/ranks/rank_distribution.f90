@@ -15,6 +15,7 @@ module atrito_rank_distribution
    private
    public :: distribute_over_ranks, rank_distribution_t
 
+   !> A scene over the ranks (distribution_t).
    type, extends(field_distribution_t) :: rank_distribution_t
       logical :: is_always = .false.                 !< whether it pays off or not
    contains
@@ -32,7 +33,7 @@ contains
    !> Where there are several ranks.
    subroutine distribute_over_ranks(is_always, distribution)
       logical, intent(in) :: is_always               !< small scenes, too
-      class(distribution_t), allocatable, intent(out) :: distribution
+      class(distribution_t), allocatable, intent(out) :: distribution !< not allocated: there is one rank
       type(rank_distribution_t), allocatable :: ranks
 
       if (rank_count() == 1) return

@@ -30,6 +30,7 @@ module atrito_rank_memory
    private
    public :: check_ranks, serve_memory, rank_memory_t, shortage_t, find_shortage
 
+   !> What a rank holds, and what it can still get.
    type :: rank_memory_t
       character(len=:), allocatable :: host      !< its name
       integer(lp) :: held = 0                    !< bytes that the rank needs as they are
@@ -40,7 +41,7 @@ module atrito_rank_memory
 
    !> Who has too little memory.
    type :: shortage_t
-      logical :: is_there = .false.
+      logical :: is_there = .false.              !< else nobody lacks any
       integer(ip) :: first = 0                   !< rank
       integer(ip) :: n = 1                       !< ranks: more than one share a host
       integer(lp) :: needed = 0, there = 0       !< bytes, with what is held
@@ -66,7 +67,7 @@ contains
       class(scene_data_t), intent(in) :: data        !< shared out, or about to be
       integer(lp), intent(in) :: limit               !< bytes of each rank; what there is counts where it is less
       type(scene_t), intent(inout) :: scene          !< on return with the forecast of the first rank
-      type(status_t), intent(inout) :: status
+      type(status_t), intent(inout) :: status        !< STATUS_DECK where there is a shortage; else as it was
       type(rank_memory_t), allocatable :: ranks(:)
       integer(lp), allocatable :: growth(:)
       type(shortage_t) :: short
@@ -219,7 +220,7 @@ contains
 
    !> The first rank, or the ranks of the first host, that have too little.
    pure function find_shortage(ranks, growth, limit) result(short)
-      type(rank_memory_t), intent(in) :: ranks(0:)
+      type(rank_memory_t), intent(in) :: ranks(0:)   !< what each holds and has
       integer(lp), intent(in) :: growth(0:)          !< (ranks) bytes
       integer(lp), intent(in) :: limit               !< bytes of each rank
       type(shortage_t) :: short

@@ -31,7 +31,7 @@ contains
 
    !> The same buffer to all ranks but the first.
    subroutine send_to_others(buffer)
-      type(buffer_t), intent(in) :: buffer
+      type(buffer_t), intent(in) :: buffer         !< begins with a service, SERVICE_*
       integer(ip) :: rank
 
       do rank = 1, rank_count() - 1

@@ -28,21 +28,21 @@ module atrito_rank_tasks
       !> Does a task, on any rank.
       subroutine make_task(self, task, answer)
          import :: ip, buffer_t, rank_tasks_t
-         class(rank_tasks_t), intent(inout) :: self
-         integer(ip), intent(in) :: task
+         class(rank_tasks_t), intent(inout) :: self  !< all that is asked, on every rank the same
+         integer(ip), intent(in) :: task             !< of the list that is handed out, > 0
          type(buffer_t), intent(inout) :: answer     !< empty
       end subroutine make_task
       !> On rank 0: a task is handed out.
       subroutine begin_task(self, task)
          import :: ip, rank_tasks_t
-         class(rank_tasks_t), intent(inout) :: self
-         integer(ip), intent(in) :: task
+         class(rank_tasks_t), intent(inout) :: self  !< of rank 0; may note it
+         integer(ip), intent(in) :: task             !< of the list that is handed out, > 0
       end subroutine begin_task
       !> On rank 0: a task is done, or lost with the process that did it.
       subroutine take_answer(self, task, answer, end_code)
          import :: ip, buffer_t, rank_tasks_t
-         class(rank_tasks_t), intent(inout) :: self
-         integer(ip), intent(in) :: task
+         class(rank_tasks_t), intent(inout) :: self  !< of rank 0; may note it
+         integer(ip), intent(in) :: task             !< of the list that is handed out, > 0
          type(buffer_t), intent(inout) :: answer     !< that of make
          integer, intent(in) :: end_code             !< 0; of a lost one the exit code, or 128 and the number of the signal
       end subroutine take_answer
@@ -50,15 +50,15 @@ module atrito_rank_tasks
 
    !> How the ranks were occupied [s].
    type :: rank_times_t
-      integer(ip) :: n_ranks = 1
-      real(wp) :: longest_task = 0.0_wp
+      integer(ip) :: n_ranks = 1                    !< of the run
+      real(wp) :: longest_task = 0.0_wp             !< from handing out to its answer
       real(wp) :: longest_idle = 0.0_wp             !< of a rank, all in all
    end type rank_times_t
 
    !> What came of a task.
    type :: outcome_t
-      type(buffer_t) :: answer
-      integer :: end_code = 0
+      type(buffer_t) :: answer                      !< as make filled it; empty of a lost task
+      integer :: end_code = 0                       !< 0, or how its process ended
    end type outcome_t
 
    real(c_double), parameter :: SHORT_PAUSE = 1.0e-4_c_double, LONG_PAUSE = 5.0e-4_c_double, LONGER = 1.2_c_double   !< [s]
@@ -67,9 +67,9 @@ contains
 
    !> On rank 0: all tasks of a list, in its order as far as ranks are free. The other ranks call work_for_first.
    subroutine hand_out(tasks, list, times)
-      class(rank_tasks_t), intent(inout) :: tasks
+      class(rank_tasks_t), intent(inout) :: tasks   !< keeps the answers, and tells when to stop
       integer(ip), intent(in) :: list(:)            !< > 0
-      type(rank_times_t), intent(out) :: times
+      type(rank_times_t), intent(out) :: times      !< of this call
       type(task_process_t) :: process
       type(outcome_t) :: outcome
       integer(ip), allocatable :: task_of(:)        ! (ranks) from 0; 0: none
@@ -152,7 +152,7 @@ contains
 
    !> On the other ranks: does what rank 0 hands out, until there is nothing more.
    subroutine work_for_first(tasks)
-      class(rank_tasks_t), intent(inout) :: tasks
+      class(rank_tasks_t), intent(inout) :: tasks   !< its make does the tasks
       type(task_process_t) :: process
       type(outcome_t) :: outcome
       type(buffer_t) :: request, head

@@ -21,7 +21,7 @@ module atrito_scene_cut
 
    !> What belongs to which part. Nodes and motions: those of body b are the last but bodies%n - b.
    type :: scene_cut_t
-      integer(ip) :: n_parts = 0
+      integer(ip) :: n_parts = 0                     !< not one of them empty
       integer(ip) :: n_shared = 0                    !< unknowns that are shared
       integer(ip), allocatable :: first_element(:), element(:) !< of part p: element(first_element(p):first_element(p + 1) - 1)
       integer(ip), allocatable :: first_point(:), point(:)     !< the same of points with a row
@@ -37,10 +37,10 @@ module atrito_scene_cut
    !> What a part has of the scene, in its own order.
    type :: place_t
       integer(ip) :: rank = 0                    !< who has the part
-      integer(ip) :: n_elements = 0
+      integer(ip) :: n_elements = 0              !< of the part
       integer(ip), allocatable :: unknown(:)     !< those that other parts have, too, last
       integer(ip), allocatable :: shared(:)      !< number of each of these among all that are shared
-      integer(ip), allocatable :: row(:), pull(:)
+      integer(ip), allocatable :: row(:), pull(:) !< contact rows of the scene; amplitudes of its pulls
       real(wp) :: solving = 0.0_wp               !< what factoring it will take, where it is [bytes]
    end type place_t
 
@@ -48,14 +48,14 @@ contains
 
    !> Finds what belongs to which part, and what is shared.
    subroutine plan_cut(fem, rows, line, numbering, diagonal, part_of_element, n_parts, cut)
-      type(fem_t), intent(in) :: fem
-      type(contact_rows_t), intent(in) :: rows
-      type(contact_line_t), intent(in) :: line
-      type(scene_numbering_t), intent(in) :: numbering
+      type(fem_t), intent(in) :: fem                 !< bodies and mesh of the scene
+      type(contact_rows_t), intent(in) :: rows       !< nodes of each contact point
+      type(contact_line_t), intent(in) :: line       !< which points have rows
+      type(scene_numbering_t), intent(in) :: numbering !< of the scene's unknowns
       real(wp), intent(in) :: diagonal(:)            !< (n) of the stiffness, at the springs at least (diagonals_of_rows)
       integer(ip), intent(in) :: part_of_element(:)  !< (n_elements) 1..n_parts
-      integer(ip), intent(in) :: n_parts
-      type(scene_cut_t), intent(out) :: cut
+      integer(ip), intent(in) :: n_parts             !< >= 1
+      type(scene_cut_t), intent(out) :: cut          !< whole, as described above
       integer(ip) :: home(fem%mesh%n_nodes), part(1, line%n), node(numbering%k), b, e, i
 
       cut%n_parts = n_parts
@@ -182,9 +182,9 @@ contains
 
    !> The unknowns of a node, or of the motions of a body.
    pure function unknowns_at(fem, numbering, i) result(unknowns)
-      type(fem_t), intent(in) :: fem
-      type(scene_numbering_t), intent(in) :: numbering
-      integer(ip), intent(in) :: i
+      type(fem_t), intent(in) :: fem                   !< bodies of the scene
+      type(scene_numbering_t), intent(in) :: numbering !< of the scene's unknowns
+      integer(ip), intent(in) :: i                     !< node, or n_nodes + body
       integer(ip), allocatable :: unknowns(:)
       integer(ip) :: b, k
 
@@ -200,9 +200,9 @@ contains
    !> The diagonal of the stiffness, and what the two displacements of a node have in common (sum_diagonals), at the nodes of the
    !> rows and at the springs: elsewhere they are of no use. The elements there are all that is computed.
    subroutine diagonals_of_rows(fem, rows, numbering, diagonal, coupling)
-      type(fem_t), intent(in) :: fem
-      type(contact_rows_t), intent(in) :: rows
-      type(scene_numbering_t), intent(in) :: numbering
+      type(fem_t), intent(in) :: fem                    !< whole scene; elements at the rows are computed
+      type(contact_rows_t), intent(in) :: rows          !< nodes of each contact point
+      type(scene_numbering_t), intent(in) :: numbering  !< of the scene's unknowns
       real(wp), intent(out) :: diagonal(:), coupling(:) !< (n) [F/L]
       type(element_store_t) :: store
       logical :: wanted(fem%mesh%n_nodes)

@@ -22,6 +22,7 @@ module atrito_scene_part
    private
    public :: scene_part_t, assemble_scene_part, put_scene_part, take_scene_part
 
+   !> A part of a scene, before and behind its assembly.
    type :: scene_part_t
       integer(ip) :: n_kept = 0                  !< unknowns that other parts have, too
       type(assembled_scene_t) :: scene           !< its numbering and rows; the matrix when it is assembled
@@ -36,8 +37,8 @@ contains
    !> Numbers the elimination, assembles the elements and finds the fronts; mesh, rows and line are let go of. status:
    !> STATUS_INTERNAL when the memory does not suffice.
    subroutine assemble_scene_part(part, status)
-      type(scene_part_t), intent(inout) :: part
-      type(status_t), intent(out) :: status
+      type(scene_part_t), intent(inout) :: part  !< made, not assembled
+      type(status_t), intent(out) :: status      !< STATUS_OK or STATUS_INTERNAL
       type(fem_t) :: no_fem
       type(contact_rows_t) :: no_rows
       type(contact_line_t) :: no_line
@@ -51,8 +52,8 @@ contains
 
    !> Adds a part that is not assembled; its mesh is let go of.
    subroutine put_scene_part(buffer, part)
-      type(buffer_t), intent(inout) :: buffer
-      type(scene_part_t), intent(inout) :: part
+      type(buffer_t), intent(inout) :: buffer    !< gets the items
+      type(scene_part_t), intent(inout) :: part  !< its mesh is gone on return
 
       call put(buffer, part%n_kept)
       call put(buffer, part%spring_stiffness)
@@ -84,8 +85,8 @@ contains
 
    !> The next items, a part.
    subroutine take_scene_part(buffer, part)
-      type(buffer_t), intent(inout) :: buffer
-      type(scene_part_t), intent(out) :: part
+      type(buffer_t), intent(inout) :: buffer    !< its next items are taken
+      type(scene_part_t), intent(out) :: part    !< not assembled, with a mesh of its own
       integer(ip), allocatable :: numbers(:)
 
       call take(buffer, part%n_kept)

@@ -22,8 +22,8 @@ contains
 
    !> The part of each element, and whose it is; ranks without elements have no part.
    subroutine share_elements(fem, numbering, elimination, n_ranks, part_of_element, rank)
-      type(fem_t), intent(in) :: fem
-      type(scene_numbering_t), intent(in) :: numbering
+      type(fem_t), intent(in) :: fem                 !< bodies and mesh of the scene
+      type(scene_numbering_t), intent(in) :: numbering !< of the scene's unknowns
       type(elimination_t), intent(in) :: elimination !< of all unknowns
       integer(ip), intent(in) :: n_ranks             !< >= 1
       integer(ip), intent(out) :: part_of_element(:) !< (n_elements) 1..size(rank)

@@ -31,14 +31,14 @@ module atrito_shared_fields
       integer(ip) :: n_own = 0                       !< elements of the rank: the first ones
       integer(ip) :: n_nodes = 0                     !< of them: the first ones
       integer(ip), allocatable :: element(:)         !< place in the mesh of the scene
-      integer(ip), allocatable :: node(:)
+      integer(ip), allocatable :: node(:)            !< place in the mesh of the scene
    end type region_t
 
    !> What of a distributed scene the stresses are; atrito_rank_distribution adds the matrix.
    type, extends(distribution_t), abstract :: field_distribution_t
       integer(ip), allocatable :: rank_of(:)         !< (n_elements) from 0
       type(region_t), allocatable, private :: regions(:)   !< from 0, while fields have begun
-      real(wp), private :: unit = 0.0_wp
+      real(wp), private :: unit = 0.0_wp             !< of displacements, a power of two [L] (measure_error)
       logical, private :: by_element = .false.       !< the error of each is wanted
    contains
       procedure :: begin_fields
@@ -141,8 +141,8 @@ contains
    !> Stresses at the nodes of the rank's elements [F/L^2], and their error: the energies, and ||e||^2 of each element [F L] where
    !> it is wanted. Without elements there is no answer.
    subroutine answer_fields(request, answer)
-      type(buffer_t), intent(inout) :: request
-      type(buffer_t), intent(out) :: answer
+      type(buffer_t), intent(inout) :: request       !< by begin_fields; its items are taken
+      type(buffer_t), intent(out) :: answer          !< nodal stresses, energies, errors squared of elements
       type(fem_t) :: piece
       type(stress_field_t) :: field
       type(energies_t) :: e

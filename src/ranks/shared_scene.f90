@@ -26,6 +26,7 @@ module atrito_shared_scene
 
    type(status_t), target :: trouble             !< of the first solve with S that failed, until it is taken (scene_system_t)
 
+   !> A scene in parts (scene_system_t).
    type, extends(scene_system_t) :: shared_scene_t
       type(place_t), allocatable :: parts(:)     !< the first rank, where it has one, has the first
       integer(ip), allocatable, private :: shared(:) !< unknown of the scene of each that is shared
@@ -47,14 +48,14 @@ contains
    !> Cuts the scene, hands the parts over as they are made, one after the other, and has them assembled. status: STATUS_INTERNAL
    !> when the memory does not suffice.
    subroutine share_scene(fem, rows, line, value, n_ranks, scene, rank_of, status)
-      type(fem_t), intent(in) :: fem
-      type(contact_rows_t), intent(in) :: rows
-      type(contact_line_t), intent(in) :: line
+      type(fem_t), intent(in) :: fem             !< whole scene, numbered
+      type(contact_rows_t), intent(in) :: rows   !< nodes of each contact point
+      type(contact_line_t), intent(in) :: line   !< which points have rows, and their gaps
       real(wp), intent(in) :: value(:, :)        !< (2, n_nodes) prescribed displacements [L]
-      integer(ip), intent(in) :: n_ranks
-      type(shared_scene_t), intent(out) :: scene
+      integer(ip), intent(in) :: n_ranks         !< of the run, >= 1
+      type(shared_scene_t), intent(out) :: scene !< its parts are with the ranks, assembled
       integer(ip), allocatable, intent(out) :: rank_of(:) !< (n_elements) 0..n_ranks - 1
-      type(status_t), intent(out) :: status
+      type(status_t), intent(out) :: status      !< STATUS_OK or STATUS_INTERNAL
       type(scene_cut_t) :: cut
       real(wp), allocatable :: diagonal(:), coupling(:)
       integer(ip), allocatable :: part_of_element(:), rank(:)

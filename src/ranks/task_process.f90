@@ -16,11 +16,12 @@ module atrito_task_process
    public :: task_process_t, begin_task_process, give_task, ask_answer, end_task_process, await_task, give_answer
    public :: LAST_TASK
 
+   !> A copy of this process, as its maker sees it and as it sees itself.
    type :: task_process_t
       logical :: runs = .false.                    !< it has been begun, and not been ended
       integer, private :: number = 0               !< of the process
       integer, private :: maker = 0                !< of the one that made it
-      integer(c_int), pointer, private :: shared(:) => null()
+      integer(c_int), pointer, private :: shared(:) => null() !< HEAD numbers, then the answer; not associated: no copy yet
    end type task_process_t
 
    integer(ip), parameter :: LAST_TASK = -1_ip      !< there is nothing more to do
@@ -35,8 +36,8 @@ contains
 
    !> Makes the copy. is_copy tells which of the two this is. Where the system makes none, it does not run.
    subroutine begin_task_process(process, is_copy)
-      type(task_process_t), intent(inout) :: process
-      logical, intent(out) :: is_copy
+      type(task_process_t), intent(inout) :: process !< runs where there is a copy
+      logical, intent(out) :: is_copy                !< true in the copy, false in its maker
 
       is_copy = .false.
       if (.not. associated(process%shared)) call share_integers(HEAD + MOST_NUMBERS, process%shared)
@@ -50,7 +51,7 @@ contains
 
    !> To a copy that has answered the one before.
    subroutine give_task(process, task)
-      type(task_process_t), intent(inout) :: process
+      type(task_process_t), intent(inout) :: process !< runs, and has no task
       integer(ip), intent(in) :: task               !< /= 0
 
       call set_shared(process%shared(NEXT), int(task, c_int))
@@ -58,9 +59,9 @@ contains
 
    !> Whether the task is done, or lost: then the copy is gone, and the answer is empty.
    subroutine ask_answer(process, answer, is_done, end_code)
-      type(task_process_t), intent(inout) :: process
-      type(buffer_t), intent(out), target :: answer
-      logical, intent(out) :: is_done
+      type(task_process_t), intent(inout) :: process !< runs false where the copy is gone
+      type(buffer_t), intent(out), target :: answer !< empty while it is not done, and of a lost task
+      logical, intent(out) :: is_done               !< answered, or lost
       integer, intent(out) :: end_code              !< of a copy that is gone, as that of worker_end, never 0; else 0
       integer :: ended
       integer(int8), pointer :: bytes(:), found(:)
@@ -88,7 +89,7 @@ contains
 
    !> Has a copy end that has nothing to do, and waits for it.
    subroutine end_task_process(process)
-      type(task_process_t), intent(inout) :: process
+      type(task_process_t), intent(inout) :: process !< of any state; does not run on return
 
       if (.not. process%runs) return
       call give_task(process, LAST_TASK)
@@ -100,8 +101,8 @@ contains
 
    !> In the copy: waits for a task. It ends where there is nothing more to do, or nobody who wants it.
    subroutine await_task(process, task)
-      type(task_process_t), intent(inout) :: process
-      integer(ip), intent(out) :: task
+      type(task_process_t), intent(inout) :: process !< the copy's own
+      integer(ip), intent(out) :: task               !< /= 0
       real(c_double) :: wait_time
 
       wait_time = SHORT_PAUSE
@@ -116,8 +117,8 @@ contains
 
    !> In the copy: hands the answer over.
    subroutine give_answer(process, answer)
-      type(task_process_t), intent(inout) :: process
-      type(buffer_t), intent(in), target :: answer
+      type(task_process_t), intent(inout) :: process !< the copy's own
+      type(buffer_t), intent(in), target :: answer   !< at most 4 MOST_NUMBERS bytes
       integer(int8), pointer :: bytes(:), room(:)
 
       bytes => buffer_bytes(answer)

@@ -12,7 +12,7 @@ module atrito_html
 
    !> A label and what belongs to it, as plain text.
    type :: fact_t
-      character(len=:), allocatable :: label, value
+      character(len=:), allocatable :: label, value !< plain text
       character(len=:), allocatable :: remark       !< in small letters below; not allocated: none
    end type fact_t
 
@@ -20,7 +20,7 @@ contains
 
    !> Plain text as text of HTML, also within the quotes of an attribute. Bytes that are not UTF-8 are taken for Latin-1.
    pure function html_text(text) result(html)
-      character(len=*), intent(in) :: text
+      character(len=*), intent(in) :: text          !< plain text of any bytes
       character(len=:), allocatable :: html
       character(len=10*len(text)) :: room           ! of the longest replacement
       integer :: i, n, last
@@ -80,7 +80,7 @@ contains
 
    !> A text cut where it is too long; no letter is taken apart.
    pure function shortened(text, most) result(short)
-      character(len=*), intent(in) :: text
+      character(len=*), intent(in) :: text          !< plain text
       integer, intent(in) :: most                   !< bytes
       character(len=:), allocatable :: short
       integer :: last
@@ -97,7 +97,7 @@ contains
 
    !> A text that is not broken into lines.
    pure function unbroken(text) result(whole)
-      character(len=*), intent(in) :: text
+      character(len=*), intent(in) :: text          !< plain text
       character(len=:), allocatable :: whole
       character(len=2), parameter :: BLANK = char(194)//char(160)
       integer :: i
@@ -114,9 +114,9 @@ contains
 
    !> Adds a label with its value, plain text, and a remark below it where one is given.
    pure subroutine add_fact(facts, label, value, remark)
-      type(fact_t), allocatable, intent(inout) :: facts(:)
-      character(len=*), intent(in) :: label, value
-      character(len=*), intent(in), optional :: remark
+      type(fact_t), allocatable, intent(inout) :: facts(:) !< becomes longer by one; not allocated: empty
+      character(len=*), intent(in) :: label, value         !< plain text
+      character(len=*), intent(in), optional :: remark     !< plain text; left out: none
       type(fact_t) :: fact
 
       fact%label = label
@@ -128,8 +128,8 @@ contains
 
    !> `<tag>text</tag>`, the text plain.
    pure subroutine add_element(page, tag, text, attributes)
-      type(page_t), intent(inout) :: page
-      character(len=*), intent(in) :: tag, text
+      type(page_t), intent(inout) :: page                    !< gets a line of HTML
+      character(len=*), intent(in) :: tag, text              !< name of the element; plain text
       character(len=*), intent(in), optional :: attributes   !< with a blank before them
       character(len=:), allocatable :: opening
 
@@ -140,16 +140,16 @@ contains
 
    !> A paragraph in small letters.
    pure subroutine add_note(page, text)
-      type(page_t), intent(inout) :: page
-      character(len=*), intent(in) :: text
+      type(page_t), intent(inout) :: page           !< gets a line of HTML
+      character(len=*), intent(in) :: text          !< plain text
 
       call add_element(page, 'p', text, ' class="note"')
    end subroutine add_note
 
    !> A list of facts.
    pure subroutine add_facts(page, facts, class)
-      type(page_t), intent(inout) :: page
-      type(fact_t), intent(in) :: facts(:)
+      type(page_t), intent(inout) :: page           !< gets lines of HTML
+      type(fact_t), intent(in) :: facts(:)          !< in their order; of none nothing is added
       character(len=*), intent(in) :: class         !< tiles or plain
       character(len=:), allocatable :: remark
       integer :: i
@@ -167,8 +167,8 @@ contains
 
    !> A list of texts.
    pure subroutine add_list(page, texts)
-      type(page_t), intent(inout) :: page
-      type(string_t), intent(in) :: texts(:)
+      type(page_t), intent(inout) :: page           !< gets lines of HTML
+      type(string_t), intent(in) :: texts(:)        !< plain text; of none nothing is added
       integer :: i
 
       if (size(texts) == 0) return
@@ -181,8 +181,8 @@ contains
 
    !> The lines of a text as they are.
    pure subroutine add_pre(page, text, attributes)
-      type(page_t), intent(inout) :: page
-      character(len=*), intent(in) :: text
+      type(page_t), intent(inout) :: page                    !< gets lines of HTML
+      character(len=*), intent(in) :: text                   !< plain text, lines with LF between them
       character(len=*), intent(in), optional :: attributes   !< with a blank before them
       integer :: first, last
 

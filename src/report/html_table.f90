@@ -19,7 +19,7 @@ module atrito_html_table
 
    !> A table with its first rows.
    type :: table_top_t
-      type(table_file_t) :: table
+      type(table_file_t) :: table                   !< with its first rows alone
       integer(ip) :: n_rows = 0                     !< that the file has
       character(len=:), allocatable :: title        !< what a row is; '' where the file does not say
       type(string_t), allocatable :: dimensions(:)  !< (columns); none where the file does not say
@@ -37,10 +37,10 @@ contains
 
    !> Reads the first rows of a table. status: STATUS_FILE when it cannot be read or is no table.
    subroutine read_top(path, most_rows, top, status)
-      character(len=*), intent(in) :: path
-      integer(ip), intent(in) :: most_rows
-      type(table_top_t), intent(out) :: top
-      type(status_t), intent(out) :: status
+      character(len=*), intent(in) :: path          !< of the file, with its ending
+      integer(ip), intent(in) :: most_rows          !< that are kept, >= 0
+      type(table_top_t), intent(out) :: top         !< whole but for the further rows
+      type(status_t), intent(out) :: status         !< STATUS_OK or STATUS_FILE
       character(len=:), allocatable :: text
 
       call read_file(path, text, status)
@@ -49,10 +49,10 @@ contains
 
    !> Takes the top of a table's text apart. status: STATUS_FILE.
    subroutine top_of_text(text, name, most_rows, top, status)
-      character(len=*), intent(in) :: text, name
-      integer(ip), intent(in) :: most_rows
-      type(table_top_t), intent(out) :: top
-      type(status_t), intent(out) :: status
+      character(len=*), intent(in) :: text, name    !< of the file, and its name without folder
+      integer(ip), intent(in) :: most_rows          !< that are kept, >= 0
+      type(table_top_t), intent(out) :: top         !< whole but for the further rows
+      type(status_t), intent(out) :: status         !< STATUS_OK or STATUS_FILE
       integer :: behind
       integer(ip) :: shown, all_rows
 
@@ -140,8 +140,8 @@ contains
 
    !> An item for readers: reals with six digits.
    function shown_item(top, column, row) result(text)
-      type(table_top_t), intent(in) :: top
-      integer(ip), intent(in) :: column, row
+      type(table_top_t), intent(in) :: top          !< of read_top
+      integer(ip), intent(in) :: column, row        !< from 1, among the rows that are kept
       character(len=:), allocatable :: text
 
       if (top%table%kind(column, row) == ITEM_REAL) then
@@ -154,8 +154,8 @@ contains
    !> Dimension of a quantity of a table with a row a quantity, from remarks as `[F L]: strain_energy external_work`; '' where the
    !> file names none.
    pure function dimension_of(top, quantity) result(dimension)
-      type(table_top_t), intent(in) :: top
-      character(len=*), intent(in) :: quantity
+      type(table_top_t), intent(in) :: top          !< its remarks are read
+      character(len=*), intent(in) :: quantity      !< in its column quantity
       character(len=:), allocatable :: dimension
       integer :: i, ends
 
@@ -171,9 +171,9 @@ contains
 
    !> A table with its title, and a note where rows are left out.
    subroutine add_table(page, name, top)
-      type(page_t), intent(inout) :: page
+      type(page_t), intent(inout) :: page           !< gets lines of HTML
       character(len=*), intent(in) :: name          !< of the table, without ending
-      type(table_top_t), intent(in) :: top
+      type(table_top_t), intent(in) :: top          !< of read_top
       integer(ip) :: shown, first
       integer :: i
 
@@ -277,7 +277,7 @@ contains
 
    !> Begins a table in a box of its own that scrolls where the screen is narrow.
    pure subroutine begin_rows(page, name, is_wide)
-      type(page_t), intent(inout) :: page
+      type(page_t), intent(inout) :: page           !< gets lines of HTML
       character(len=*), intent(in) :: name          !< for those who do not see it
       logical, intent(in) :: is_wide                !< small letters on paper
 
@@ -287,7 +287,7 @@ contains
 
    !> Ends the table that begin_rows began.
    pure subroutine end_rows(page)
-      type(page_t), intent(inout) :: page
+      type(page_t), intent(inout) :: page           !< whose table was begun
 
       call add_line(page, '</tbody></table></div>')
    end subroutine end_rows

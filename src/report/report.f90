@@ -9,10 +9,11 @@ module atrito_report
 
    !> A part of the page with a heading.
    type :: page_section_t
-      character(len=:), allocatable :: title
+      character(len=:), allocatable :: title        !< plain text
       type(page_t) :: page                          !< lines of HTML
    end type page_section_t
 
+   !> What the maker of a report knows; the rest is read from the folder.
    type :: report_t
       character(len=:), allocatable :: what         !< run, sweep, study, limit
       character(len=:), allocatable :: deck         !< as the user wrote it
@@ -36,8 +37,8 @@ contains
 
    !> A section without lines.
    pure subroutine begin_section(section, title)
-      type(page_section_t), intent(out) :: section
-      character(len=*), intent(in) :: title
+      type(page_section_t), intent(out) :: section  !< without lines
+      character(len=*), intent(in) :: title         !< plain text
 
       section%title = title
       allocate (section%page%lines(64))
@@ -45,8 +46,8 @@ contains
 
    !> Adds a section that has lines.
    pure subroutine add_section(sections, section)
-      type(page_section_t), allocatable, intent(inout) :: sections(:)
-      type(page_section_t), intent(in) :: section
+      type(page_section_t), allocatable, intent(inout) :: sections(:) !< become longer by one; not allocated: empty
+      type(page_section_t), intent(in) :: section   !< without lines: nothing is added
 
       if (section%page%n == 0) return
       if (.not. allocated(sections)) allocate (sections(0))

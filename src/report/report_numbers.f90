@@ -34,8 +34,8 @@ module atrito_report_numbers
 
    !> Rows of summary that belong together: a pair in an increment, or, with pair 0, an increment.
    type :: group_t
-      character(len=:), allocatable :: step, increment, pair
-      integer(ip) :: first = 0, last = 0
+      character(len=:), allocatable :: step, increment, pair !< as the table has them; '' without the column
+      integer(ip) :: first = 0, last = 0                     !< rows of the table
    end type group_t
 
 contains
@@ -43,7 +43,7 @@ contains
    !> The extremes of the last increment.
    subroutine add_extremes(top, facts)
       type(table_top_t), intent(in) :: top          !< of extremes, with all rows
-      type(fact_t), allocatable, intent(inout) :: facts(:)
+      type(fact_t), allocatable, intent(inout) :: facts(:) !< get one a quantity of EXTREMES that is there
       character(len=:), allocatable :: place
       integer(ip) :: column, row, x, y
       integer :: i
@@ -77,7 +77,7 @@ contains
    !> What a run was asked to observe, which is what not every run may have; then energies and checks, at the end.
    subroutine add_summary_numbers(top, facts)
       type(table_top_t), intent(in) :: top          !< of summary, with all rows
-      type(fact_t), allocatable, intent(inout) :: facts(:)
+      type(fact_t), allocatable, intent(inout) :: facts(:) !< get one a quantity that is there
       type(group_t), allocatable :: groups(:)
       type(string_t), allocatable :: known(:)
       character(len=:), allocatable :: name
@@ -106,7 +106,7 @@ contains
 
    !> The quantities of pairs, or of steps, a line each; side by side the pairs, and the ends of the steps.
    subroutine add_quantities(page, top, of_steps)
-      type(page_t), intent(inout) :: page
+      type(page_t), intent(inout) :: page           !< gets lines of HTML
       type(table_top_t), intent(in) :: top          !< of summary, with all rows
       logical, intent(in) :: of_steps               !< pair 0
       type(group_t), allocatable :: groups(:)

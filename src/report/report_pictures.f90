@@ -18,7 +18,7 @@ module atrito_report_pictures
    !> A picture as it stands in its file.
    type :: picture_t
       character(len=:), allocatable :: file         !< name within the folder of plots
-      character(len=:), allocatable :: bytes
+      character(len=:), allocatable :: bytes        !< of the file; not allocated: no room
    end type picture_t
 
 contains
@@ -28,7 +28,7 @@ contains
       character(len=*), intent(in) :: folder        !< of the tables
       type(string_t), intent(in) :: names(:)        !< of pictures that were drawn, without ending
       integer, intent(in) :: room                   !< bytes
-      type(page_t), intent(out) :: page
+      type(page_t), intent(out) :: page             !< pictures as lines of HTML
       type(string_t), allocatable :: left_out(:)
       type(picture_t) :: picture
       integer :: i, free
@@ -91,7 +91,7 @@ contains
    !> What a picture shows: the first line of its script says it behind the name of the program.
    function picture_caption(folder, name) result(caption)
       character(len=*), intent(in) :: folder        !< of the plots
-      character(len=*), intent(in) :: name
+      character(len=*), intent(in) :: name          !< of the picture, without ending
       character(len=:), allocatable :: caption, text
       type(status_t) :: status
       integer :: ends, colon

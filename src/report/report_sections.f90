@@ -19,7 +19,7 @@ module atrito_report_sections
    !> The tables of a folder.
    type :: contents_t
       type(string_t), allocatable :: names(:)       !< without ending
-      type(table_top_t), allocatable :: tops(:)
+      type(table_top_t), allocatable :: tops(:)     !< of each name the first rows
       type(string_t), allocatable :: unread(:)      !< files that could not be read, and why
    end type contents_t
 
@@ -38,8 +38,8 @@ contains
 
    !> Reads the tops of all tables that the run wrote, all rows of those that are summed up.
    subroutine read_contents(report, contents)
-      type(report_t), intent(in) :: report
-      type(contents_t), intent(out) :: contents
+      type(report_t), intent(in) :: report          !< its folder and files are read
+      type(contents_t), intent(out) :: contents     !< of all files that are tables
       type(table_top_t) :: top
       type(status_t) :: status
       character(len=:), allocatable :: ending, name
@@ -95,9 +95,9 @@ contains
 
    !> Key numbers: extremes, what the maker of the report knows, energies and checks.
    subroutine add_numbers(report, contents, sections)
-      type(report_t), intent(in) :: report
-      type(contents_t), intent(in) :: contents
-      type(page_section_t), allocatable, intent(inout) :: sections(:)
+      type(report_t), intent(in) :: report          !< its facts are read
+      type(contents_t), intent(in) :: contents      !< extremes and summary are read
+      type(page_section_t), allocatable, intent(inout) :: sections(:) !< get one, if there are numbers
       type(page_section_t) :: section
       type(fact_t), allocatable :: facts(:)
       integer :: i
@@ -116,9 +116,9 @@ contains
    !> What the tables hold: the pairs with their names and the quantities of each step, from the table summary; tables; the
    !> residuals over the iterations, as a chart and as a table; times.
    subroutine add_results(report, contents, sections)
-      type(report_t), intent(in) :: report
-      type(contents_t), intent(in) :: contents
-      type(page_section_t), allocatable, intent(inout) :: sections(:)
+      type(report_t), intent(in) :: report          !< names of its pairs are read
+      type(contents_t), intent(in) :: contents      !< of all tables of the folder
+      type(page_section_t), allocatable, intent(inout) :: sections(:) !< get those that have lines
       type(page_section_t) :: section
       integer :: i, k
 
@@ -180,8 +180,8 @@ contains
 
    !> All warnings of the run and its first notes, as they were printed.
    subroutine add_messages(report, sections)
-      type(report_t), intent(in) :: report
-      type(page_section_t), allocatable, intent(inout) :: sections(:)
+      type(report_t), intent(in) :: report          !< what it says of other messages is read
+      type(page_section_t), allocatable, intent(inout) :: sections(:) !< get one
       type(page_section_t) :: section
       type(message_t) :: message
       integer(ip) :: i, n_notes
@@ -204,9 +204,9 @@ contains
    !> the compiler and the libraries; the folder, and what stands in it; the listing, folded, which tells of materials, supports and
    !> loads, too.
    subroutine add_sources(report, contents, sections)
-      type(report_t), intent(in) :: report
-      type(contents_t), intent(in) :: contents
-      type(page_section_t), allocatable, intent(inout) :: sections(:)
+      type(report_t), intent(in) :: report          !< command, deck, versions, folder, files and pictures
+      type(contents_t), intent(in) :: contents      !< origin of the first table is read
+      type(page_section_t), allocatable, intent(inout) :: sections(:) !< get those that have lines
       type(page_section_t) :: section
       type(fact_t), allocatable :: facts(:), places(:)
       type(status_t) :: status

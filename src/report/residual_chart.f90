@@ -18,8 +18,8 @@ module atrito_residual_chart
    !> What is drawn: places of the rows and their residuals as powers of ten.
    type :: chart_t
       integer(ip), allocatable :: row(:), group(:)  !< rows of the table; increments
-      real(wp), allocatable :: power(:)
-      integer(ip) :: n_rows = 0
+      real(wp), allocatable :: power(:)             !< log10 of the residual
+      integer(ip) :: n_rows = 0                     !< of the table, also those without a residual
       integer :: low = 0, high = 1                  !< powers of the frame
    end type chart_t
 
@@ -27,8 +27,8 @@ contains
 
    !> Adds the drawing; nothing where there are no two residuals.
    subroutine add_residual_chart(page, iterations)
-      type(page_t), intent(inout) :: page
-      type(table_file_t), intent(in) :: iterations
+      type(page_t), intent(inout) :: page           !< gets lines of SVG
+      type(table_file_t), intent(in) :: iterations  !< iterations.tab
       type(chart_t) :: chart
 
       call collect(iterations, chart)

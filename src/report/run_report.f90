@@ -26,12 +26,12 @@ contains
 
    !> What the report of a run tells, but for the command.
    subroutine report_of_run(model, history, folder, files, pictures, report)
-      type(model_t), intent(in) :: model
+      type(model_t), intent(in) :: model            !< as solved
       type(history_t), intent(in) :: history        !< with frames
-      character(len=*), intent(in) :: folder
+      character(len=*), intent(in) :: folder        !< of the tables
       type(string_t), intent(in) :: files(:)        !< that were written, names without folder
       type(string_t), intent(in) :: pictures(:)     !< that were drawn, names without ending
-      type(report_t), intent(out) :: report
+      type(report_t), intent(out) :: report         !< all but the command
       type(library_t), allocatable :: libraries(:)
       integer(ip) :: i
 

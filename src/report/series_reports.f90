@@ -31,10 +31,10 @@ contains
    !> What all of them have: names, tables, pictures, versions.
    subroutine begin_series(what, deck, folder, tables, pictures, report)
       character(len=*), intent(in) :: what          !< sweep, study, limit
-      character(len=*), intent(in) :: deck, folder
+      character(len=*), intent(in) :: deck, folder  !< path as the user wrote it; of the series
       character(len=*), intent(in) :: tables(:)     !< names without ending
       type(string_t), intent(in) :: pictures(:)     !< that were drawn
-      type(report_t), intent(out) :: report
+      type(report_t), intent(out) :: report         !< with names and versions, nothing of the runs
       type(string_t), allocatable :: lines(:)
       integer :: i, colon
 
@@ -57,7 +57,7 @@ contains
    !> The heading of the deck, as a table of one of its runs has it; none where there is no such table.
    subroutine take_heading(folder, report)
       character(len=*), intent(in) :: folder        !< of the run
-      type(report_t), intent(inout) :: report
+      type(report_t), intent(inout) :: report       !< heading is set, where there is a table
       character(len=*), parameter :: MARK = 'heading: '
       type(table_top_t) :: top
       type(string_list_t) :: lines
@@ -91,7 +91,7 @@ contains
    !> Verdict, key numbers and the table of runs of a sweep.
    subroutine report_of_sweep(names, runs, seconds, report)
       type(string_t), intent(in) :: names(:)        !< the parameters
-      type(sweep_run_t), intent(in) :: runs(:)
+      type(sweep_run_t), intent(in) :: runs(:)      !< in the order of the sweep
       real(wp), intent(in) :: seconds(2)            !< wall clock and processor
       type(report_t), intent(inout) :: report       !< begun
       type(page_section_t) :: section
@@ -198,7 +198,7 @@ contains
 
    !> Verdict, references, what is said of the errors, and the table of runs of a study.
    subroutine report_of_study(study, report)
-      type(study_t), intent(in) :: study
+      type(study_t), intent(in) :: study            !< judged
       type(report_t), intent(inout) :: report       !< begun
       type(page_section_t) :: section
       integer :: i
@@ -269,7 +269,7 @@ contains
 
    !> Verdict, the values that stand and fall, and the mechanism of a limit.
    subroutine report_of_limit(limit, seconds, report)
-      type(stability_t), intent(in) :: limit
+      type(stability_t), intent(in) :: limit        !< as found, with its collapse
       real(wp), intent(in) :: seconds(2)            !< wall clock and processor
       type(report_t), intent(inout) :: report       !< begun
       type(page_section_t) :: section

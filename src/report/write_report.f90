@@ -94,9 +94,9 @@ contains
 
    !> Writes the report into its folder. is_written is false where it could not be, which is a warning.
    subroutine write_report(report, date, is_written)
-      type(report_t), intent(in) :: report
+      type(report_t), intent(in) :: report          !< as its maker filled it
       character(len=*), intent(in) :: date          !< and time
-      logical, intent(out) :: is_written
+      logical, intent(out) :: is_written            !< false: there is no file, and a warning
       type(file_set_t) :: set
       type(text_file_t) :: file
       type(status_t) :: status
@@ -119,9 +119,9 @@ contains
 
    !> Composes the page, without writing it.
    subroutine compose_report(report, date, page)
-      type(report_t), intent(in) :: report
-      character(len=*), intent(in) :: date
-      type(page_t), intent(out) :: page
+      type(report_t), intent(in) :: report          !< as its maker filled it
+      character(len=*), intent(in) :: date          !< and time
+      type(page_t), intent(out) :: page             !< the whole file
       type(page_section_t), allocatable :: before(:), behind(:), sections(:)
       type(page_section_t) :: pictures
       type(contents_t) :: contents

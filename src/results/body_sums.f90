@@ -16,12 +16,12 @@ contains
 
    !> All bodies. The contact's forces enter as contact_forces has them: what they take from the loads.
    subroutine sum_bodies(fem, u, f, reaction, contact, bodies)
-      type(fem_t), intent(in) :: fem
+      type(fem_t), intent(in) :: fem                        !< bodies, mesh and sections
       real(wp), intent(in) :: u(:, :)                       !< (2, n_nodes) [L]
       real(wp), intent(in) :: f(:, :)                       !< applied forces (2, n_nodes) [F]
       real(wp), intent(in) :: reaction(:, :)                !< (2, n_nodes) [F]
       real(wp), intent(in) :: contact(:, :)                 !< B'q (2, n_nodes) [F]
-      type(body_motion_t), allocatable, intent(out) :: bodies(:)
+      type(body_motion_t), allocatable, intent(out) :: bodies(:) !< of elements, in the order of the bodies
       real(wp), allocatable :: volume(:)
       integer(ip) :: b
 
@@ -52,7 +52,7 @@ contains
 
    !> The integral of the shape function of each node, times the thickness (n_nodes) [L^3].
    function nodal_volumes(fem) result(volume)
-      type(fem_t), intent(in) :: fem
+      type(fem_t), intent(in) :: fem             !< mesh and thicknesses are read
       real(wp), allocatable :: volume(:)
       real(wp), allocatable :: x(:, :), share(:, :)
       integer(ip) :: e, n
@@ -72,6 +72,11 @@ contains
    end function nodal_volumes
 
    !> Centre, its displacement and the rotation, in parts of volume and size of the body so that no power of a length is formed.
+   !>
+   !> With the shares w of the volume, their sum 1, and r the way from the centre, the sum of
+   !> w |u - u0 - theta (-r2, r1)|^2 is least for
+   !>    u0 = sum w u,   theta = sum w (r1 (u2 - u02) - r2 (u1 - u01)) / sum w |r|^2,
+   !> since sum w r = 0: the two do not mix.
    pure subroutine find_motion(fem, body, volume, u, row)
       type(fem_t), intent(in) :: fem
       type(body_t), intent(in) :: body

@@ -16,7 +16,7 @@ contains
 
    !> First and last s of the contact, with what is open between them [L]; nan without contact.
    pure function contact_zone(contact) result(ends)
-      type(contact_result_t), intent(in) :: contact
+      type(contact_result_t), intent(in) :: contact  !< of a pair, by s
       real(wp) :: ends(2)
 
       ends = zone_ends(contact%s(:contact%n), contact%pressure(:contact%n), contact%status(:contact%n) /= POINT_OPEN)
@@ -24,7 +24,7 @@ contains
 
    !> The same of the points that stick.
    pure function stick_zone(contact, nu) result(ends)
-      type(contact_result_t), intent(in) :: contact
+      type(contact_result_t), intent(in) :: contact  !< of a pair, by s
       real(wp), intent(in) :: nu                     !< coefficient of friction
       real(wp) :: ends(2)
 
@@ -34,6 +34,9 @@ contains
       end associate
    end function stick_zone
 
+   !> The two ends of a zone. With f^2 linear in s, f_b at the last point but one and f_l at the last, d apart, the end is
+   !>    d f_l^2 / (f_b^2 - f_l^2)
+   !> behind the last point; no farther than the next point, and half-way to it where f does not fall.
    pure function zone_ends(s, f, is_in) result(ends)
       real(wp), intent(in) :: s(:)                   !< rising [L]
       real(wp), intent(in) :: f(:)                   !< what goes like a root at the ends, >= 0
@@ -74,7 +77,7 @@ contains
    !> contact that are nearest, is zero, within the increment in which it changes; nan where it has not. At first it is open.
    pure real(wp) function time_of_change(rows, pair, closes) result(time)
       type(history_row_t), intent(in) :: rows(:)     !< of the history so far
-      integer(ip), intent(in) :: pair
+      integer(ip), intent(in) :: pair                !< place in model%pairs
       logical, intent(in) :: closes                  !< else it opens
       type(history_row_t), allocatable :: own(:)
       integer :: i, way, near

@@ -20,7 +20,7 @@ module atrito_extremes
 
    !> The largest so far.
    type :: largest_t
-      real(wp) :: value(size(EXTREME_NAMES)) = 0.0_wp
+      real(wp) :: value(size(EXTREME_NAMES)) = 0.0_wp          !< as EXTREME_NAMES; of least ones the negative
       integer(ip) :: node(size(EXTREME_NAMES)) = 0             !< place; 0: none yet
       real(wp) :: x(2, size(EXTREME_NAMES)) = 0.0_wp           !< [L]
    end type largest_t
@@ -29,10 +29,10 @@ contains
 
    !> Fills results%extremes from the displacements, the stresses at the nodes and the contact; nodes in no element are left out.
    pure subroutine find_extremes(mesh, body_of_node, points, results)
-      type(mesh_t), intent(in) :: mesh
+      type(mesh_t), intent(in) :: mesh                 !< as solved
       integer(ip), intent(in) :: body_of_node(:)       !< (>= n_nodes) 0: in no element
       type(contact_points_t), intent(in) :: points(:)  !< of each pair
-      type(results_t), intent(inout) :: results
+      type(results_t), intent(inout) :: results        !< with u, nodal stresses and contact; gets extremes
       type(largest_t) :: largest
       integer(ip) :: k, i, j
       real(wp) :: slack

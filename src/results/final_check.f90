@@ -24,14 +24,14 @@ module atrito_final_check
       real(wp) :: residual = 0.0_wp            !< max-norm of the free rows of K u_e + B'q - f [F]
       real(wp) :: largest_force = 0.0_wp       !< largest nodal force, applied, contact or reaction [F]
       real(wp) :: energy = 0.0_wp              !< strain energy [F L]
-      logical :: holds = .false.
+      logical :: holds = .false.               !< the residual is small, and all is finite
       logical :: has_forces = .true.           !< that are more than round-off
    end type equilibrium_t
 
    !> What one run of nodes contributes to it.
    type :: extremes_t
-      real(wp) :: residual = 0.0_wp, largest_force = 0.0_wp
-      logical :: finite = .true.
+      real(wp) :: residual = 0.0_wp, largest_force = 0.0_wp !< of its nodes [F]
+      logical :: finite = .true.                            !< nothing is nan or infinite
    end type extremes_t
 
    real(wp), parameter :: FORCE_TOLERANCE = 1.0e-7_wp    !< of the largest nodal force
@@ -50,14 +50,14 @@ contains
    !> is computed only then, since it costs as much as the check. Parts of a scene whose forces are small beside the largest are
    !> asked by a measure of their own (weak_parts_hold): a light body must not hide behind a heavy one.
    subroutine check_equilibrium(fem, u, f, contact, held, reaction, equilibrium, sizes, thermal)
-      type(fem_t), intent(in) :: fem
+      type(fem_t), intent(in) :: fem            !< whole scene
       real(wp), intent(in) :: u(:, :)           !< u_e, without rigid motions, (2, n_nodes) [L]
       real(wp), intent(in) :: f(:, :)           !< applied forces (2, n_nodes) [F]
       real(wp), intent(in) :: contact(:, :)     !< B'q (2, n_nodes) [F]
-      logical, intent(in) :: held(:, :)
+      logical, intent(in) :: held(:, :)         !< (2, n_nodes) dofs with a prescribed displacement
       real(wp), intent(out) :: reaction(:, :)   !< (2, n_nodes) [F]; 0 at free dofs
-      type(equilibrium_t), intent(out) :: equilibrium
-      type(contact_sizes_t), intent(in), optional :: sizes
+      type(equilibrium_t), intent(out) :: equilibrium !< energy, residual, and whether it is small
+      type(contact_sizes_t), intent(in), optional :: sizes !< without it weak parts are not asked apart
       real(wp), intent(in), optional :: thermal(:, :) !< forces of the temperatures (2, n_nodes) [F]
       type(extremes_t) :: found(chunk_count(fem%mesh%n_nodes))
       real(wp) :: allowed, round_off
@@ -142,7 +142,7 @@ contains
    !> Z'(f - B'q) of every rigid motion, relative to the forces on the body; the worst. A body without load rests: what is round-off
    !> of the forces on those that touch it, directly or by others without load, counts as none.
    real(wp) function check_balance(fem, f, contact, rows, had) result(worst)
-      type(fem_t), intent(in) :: fem
+      type(fem_t), intent(in) :: fem                 !< its bodies, and their rigid motions
       real(wp), intent(in) :: f(:, :), contact(:, :) !< (2, n_nodes) [F]
       type(contact_rows_t), intent(in), optional :: rows !< what touches; without it nothing does
       type(had_t), intent(in), optional :: had  !< of the increments before
@@ -245,10 +245,10 @@ contains
    !> Signs, complementarity, friction bound and direction at every point, with the final displacements. Sets results%law_holds
    !> and, where a converged solution breaks it, the verdict.
    subroutine check_law(rows, line, tolerance, results, of_node, growth, had, condition, round_off)
-      type(contact_rows_t), intent(in) :: rows
-      type(contact_line_t), intent(in) :: line
+      type(contact_rows_t), intent(in) :: rows   !< gaps and slips of the points
+      type(contact_line_t), intent(in) :: line   !< laws, deltas and weights of the points
       real(wp), intent(in) :: tolerance          !< that the outer loop stopped at
-      type(results_t), intent(inout) :: results
+      type(results_t), intent(inout) :: results  !< with the fields of its pairs; law_holds, verdict
       integer(ip), intent(in), optional :: of_node(:) !< (n_nodes) body of each; without it there is one
       real(wp), intent(in), optional :: growth(:) !< (bodies) of round-off in the displacements; without it that of small bodies
       type(had_t), intent(in), optional :: had   !< of the increments before
@@ -426,6 +426,7 @@ contains
                                      //to_text(scales%slip, 3)//' allowed'
    end subroutine judge_place
 
+   !> Signorini with a penalty: p >= 0, and gap + delta p = 0 where p > 0, gap >= 0 where p = 0.
    pure subroutine judge_normal(p, gap, delta, place, wrong)
       real(wp), intent(in) :: p, gap, delta
       real(wp), intent(in) :: place              !< what is none [L]

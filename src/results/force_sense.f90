@@ -38,9 +38,9 @@ contains
 
    !> Looks at an increment that was solved.
    subroutine watch_forces(data, results, sense)
-      type(scene_data_t), intent(in) :: data
-      type(results_t), intent(in) :: results
-      type(force_sense_t), intent(inout) :: sense
+      type(scene_data_t), intent(in) :: data      !< what acts, points and rows
+      type(results_t), intent(in) :: results      !< of an increment that was solved
+      type(force_sense_t), intent(inout) :: sense !< keeps the worst of all increments so far
       real(wp) :: force, times, off, moment
       integer(ip) :: i, first
 
@@ -93,8 +93,8 @@ contains
 
    !> What is left of the row of a point at the dofs that are free, as a part of it.
    pure real(wp) function free_share(rows, j, held) result(share)
-      type(contact_rows_t), intent(in) :: rows
-      integer(ip), intent(in) :: j
+      type(contact_rows_t), intent(in) :: rows   !< coefficients and normals of the points
+      integer(ip), intent(in) :: j               !< of the rows; some coefficient of it is not 0
       logical, intent(in) :: held(:, :)          !< (2, n_nodes)
       real(wp) :: free, all
       integer(ip) :: k
@@ -153,7 +153,7 @@ contains
 
    !> The sum of the sizes of a pair's forces [F].
    pure real(wp) function pair_force(contact) result(force)
-      type(contact_result_t), intent(in) :: contact
+      type(contact_result_t), intent(in) :: contact !< of a pair
 
       force = sum(contact%weight*hypot(contact%pressure, contact%shear))
    end function pair_force
@@ -161,9 +161,9 @@ contains
    !> What the forces of a pair upon both sides leave as a force or a moment: they should add up to nothing. None of a rigid master,
    !> on which no force is put.
    pure subroutine sides_differ(points, x, contact, off, moment, rows, before)
-      type(contact_points_t), intent(in) :: points
+      type(contact_points_t), intent(in) :: points !< of the pair
       real(wp), intent(in) :: x(:, :)            !< (2, n_nodes) [L]
-      type(contact_result_t), intent(in) :: contact
+      type(contact_result_t), intent(in) :: contact !< of the pair
       real(wp), intent(out) :: off               !< the larger one, in parts of the forces and of their lever
       real(wp), intent(out) :: moment            !< [F L]
       type(contact_rows_t), intent(in), optional :: rows !< that may balance moments (atrito_turning_rows)
@@ -218,9 +218,9 @@ contains
 
    !> Tells what was seen of a run.
    subroutine tell_forces(pairs, contact, sense)
-      type(pair_scene_t), intent(in) :: pairs(:)
+      type(pair_scene_t), intent(in) :: pairs(:)       !< names of their surfaces
       type(contact_result_t), intent(in) :: contact(:) !< one a pair, for the places
-      type(force_sense_t), intent(in) :: sense
+      type(force_sense_t), intent(in) :: sense         !< by watch_forces
       character(len=:), allocatable :: text
 
       if (sense%wedged > 0) then

@@ -9,7 +9,7 @@ module atrito_force_sums
    public :: sum_forces
 
    type :: sums_t
-      type(balance_t) :: balance
+      type(balance_t) :: balance                 !< of these nodes
       real(wp) :: work = 0.0_wp                  !< over the unit of displacement [F]
    end type sums_t
 
@@ -22,7 +22,7 @@ contains
       real(wp), intent(in) :: f(:, :)            !< applied forces (2, n_nodes) [F]
       real(wp), intent(in) :: reaction(:, :)     !< (2, n_nodes) [F]
       real(wp), intent(in) :: contact(:, :)      !< B'q (2, n_nodes) [F]
-      type(balance_t), intent(out) :: balance
+      type(balance_t), intent(out) :: balance    !< applied, reactions and rigid parts are set
       real(wp), intent(out) :: work              !< [F L]
       type(sums_t) :: sums(chunk_count(size(u, 2, kind=ip)))
       real(wp) :: unit

@@ -22,7 +22,7 @@ contains
       integer(ip), intent(in) :: body_of_node(:)            !< (n_nodes)
       type(contact_points_t), intent(in) :: points(:)       !< one a pair
       type(contact_result_t), intent(inout) :: contact(:)   !< one a pair
-      type(joint_t), allocatable, intent(out) :: joints(:)
+      type(joint_t), allocatable, intent(out) :: joints(:)  !< place of each is contact%joint
       type(joint_t) :: found(sum(points%n))
       integer(ip) :: i, n
 
@@ -71,6 +71,10 @@ contains
    end subroutine find_joints
 
    !> The sums of one joint. Forces are those of the master upon the slave.
+   !>
+   !> With n the outward normal of the slave, T the same turned by +90 degrees and w the weight of a point
+   !>    F = sum w (sigma_T T - p n),   M = sum (x - middle) x w (sigma_T T - p n),
+   !> the middle being the mean of x by the weights.
    pure subroutine sum_joint(contact, i, joint)
       type(contact_result_t), intent(in) :: contact         !< its pair
       integer(ip), intent(in) :: i                          !< the joint's number

@@ -23,10 +23,10 @@ contains
 
    !> The largest strain, rotation and slip, where they pass their bounds; 0 elsewhere.
    subroutine find_large(model, fem, strain_bound, results)
-      type(model_t), intent(in) :: model
-      type(fem_t), intent(in) :: fem
+      type(model_t), intent(in) :: model                 !< ids and points of its pairs
+      type(fem_t), intent(in) :: fem                     !< whole scene
       real(wp), intent(in) :: strain_bound               !< no strain is larger than this
-      type(results_t), intent(inout) :: results
+      type(results_t), intent(inout) :: results          !< with u, contact and joints; gets large_*
       type(deformation_t) :: largest
       logical :: deforms, rotates
       integer(ip) :: i, j
@@ -59,7 +59,7 @@ contains
 
    !> What passes its bound, and what follows.
    subroutine warn_of_large(results, asks_nlgeom)
-      type(results_t), intent(in) :: results
+      type(results_t), intent(in) :: results             !< its large_* are read
       logical, intent(in) :: asks_nlgeom                 !< the deck asks for large displacements
       logical :: is_small
 

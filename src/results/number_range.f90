@@ -22,9 +22,9 @@ contains
 
    !> Puts the cause in the place of what was found without a solution.
    subroutine explain_range(data, results, status)
-      type(scene_data_t), intent(in) :: data
-      type(results_t), intent(inout) :: results
-      type(status_t), intent(inout) :: status
+      type(scene_data_t), intent(in) :: data     !< the scene, with its loads
+      type(results_t), intent(inout) :: results  !< its verdict may become the cause
+      type(status_t), intent(inout) :: status    !< its text may become the cause; the code stays
       character(len=:), allocatable :: text
 
       text = range_text(data)
@@ -39,7 +39,7 @@ contains
 
    !> Whether explain_range has told the cause.
    pure logical function is_out_of_range(results)
-      type(results_t), intent(in) :: results
+      type(results_t), intent(in) :: results     !< its verdict is read
 
       is_out_of_range = allocated(results%verdict)
       if (is_out_of_range) is_out_of_range = index(results%verdict, BEGIN) == 1
@@ -47,7 +47,7 @@ contains
 
    !> What of lengths, stiffnesses, forces and displacements is out of range; '' where none is.
    function range_text(data) result(text)
-      type(scene_data_t), intent(in) :: data
+      type(scene_data_t), intent(in) :: data     !< mesh, materials, loads and displacements
       character(len=:), allocatable :: text
       real(wp) :: length, force, given, stiffness(2)
       integer(ip) :: e

@@ -44,8 +44,8 @@ contains
 
    !> All pairs of a run that was solved, each in the frame where it carries most.
    subroutine warn_of_pressures(model, history)
-      type(model_t), intent(in) :: model
-      type(history_t), intent(in) :: history
+      type(model_t), intent(in) :: model         !< points and pairs
+      type(history_t), intent(in) :: history     !< all frames solved, or nothing is told
       type(few_points_t) :: few, fewest
       type(alternation_t) :: found, worst
       type(contact_result_t), allocatable :: most(:)
@@ -193,10 +193,10 @@ contains
    !> gap that they had without load opens on all free sides of the zone, and ever faster. A hinge of straight sides has no such
    !> gap, that of a wedge opens evenly. Where a zone ends with the surface it is the half of one, as at a line of symmetry.
    pure subroutine find_few_points(points, contact, enough_points, few)
-      type(contact_points_t), intent(in) :: points
-      type(contact_result_t), intent(in) :: contact
-      integer(ip), intent(in) :: enough_points
-      type(few_points_t), intent(out) :: few
+      type(contact_points_t), intent(in) :: points  !< of the pair
+      type(contact_result_t), intent(in) :: contact !< of the pair
+      integer(ip), intent(in) :: enough_points      !< > 1
+      type(few_points_t), intent(out) :: few        !< n 0: there is no such zone
       integer(ip) :: before(points%n), behind(points%n), j, last, n
       logical :: ends(2)
 
@@ -274,8 +274,8 @@ contains
 
    !> The longest stretch in which the pressure has more extremes, no more than NEAR points apart, than any edge makes.
    pure subroutine find_alternation(contact, found)
-      type(contact_result_t), intent(in) :: contact
-      type(alternation_t), intent(out) :: found
+      type(contact_result_t), intent(in) :: contact !< of a pair
+      type(alternation_t), intent(out) :: found     !< swings 0: there is none
       real(wp) :: least_swing
       integer(ip) :: j, extreme, confirmed, first, swings, way
 

@@ -29,12 +29,12 @@ contains
 
    !> The fields of every pair at its points.
    pure subroutine recover_contact(line, rows, points, solution, u, contact)
-      type(contact_line_t), intent(in) :: line
-      type(contact_rows_t), intent(in) :: rows
-      type(contact_points_t), intent(in) :: points(:)
-      type(contact_solution_t), intent(in) :: solution
+      type(contact_line_t), intent(in) :: line       !< laws, friction and averages of the points
+      type(contact_rows_t), intent(in) :: rows       !< gaps and slips of the points
+      type(contact_points_t), intent(in) :: points(:) !< of each pair
+      type(contact_solution_t), intent(in) :: solution !< p and t of the points
       real(wp), intent(in) :: u(:, :)                !< (2, n_nodes) [L]
-      type(contact_result_t), allocatable, intent(out) :: contact(:)
+      type(contact_result_t), allocatable, intent(out) :: contact(:) !< one a pair, without slip_increment and joint
       real(wp) :: weighted(line%n)
       integer(ip) :: i, j, k, first
 
@@ -132,9 +132,9 @@ contains
 
    !> Stresses at the Gauss points of the requested elements.
    subroutine recover_stress(requests, fem, results)
-      type(requests_t), intent(in) :: requests
-      type(fem_t), intent(in) :: fem
-      type(results_t), intent(inout) :: results
+      type(requests_t), intent(in) :: requests       !< which elements, if any
+      type(fem_t), intent(in) :: fem                 !< whole scene
+      type(results_t), intent(inout) :: results      !< with u; gets stress_* where stresses are asked for
       type(point_rule_t) :: rules(MOST_NODES, 2)     !< of full and of reduced integration
       logical, allocatable :: wanted(:)
       integer(ip) :: rows(chunk_count(fem%mesh%n_elements) + 1) !< filled before each chunk of elements
@@ -252,8 +252,8 @@ contains
 
    !> Continuous stresses at the nodes, and the error in the energy norm that they tell. Both want the displacements.
    subroutine estimate_error(fem, results, strain_bound, by_element)
-      type(fem_t), intent(in) :: fem
-      type(results_t), intent(inout) :: results
+      type(fem_t), intent(in) :: fem                 !< whole scene
+      type(results_t), intent(inout) :: results      !< with u; gets nodal_stress, error_estimate, ...
       real(wp), intent(out) :: strain_bound          !< no strain is larger than this
       logical, intent(in) :: by_element              !< the error of each element is kept
       type(stress_field_t) :: field

@@ -16,9 +16,9 @@ contains
 
    !> Fills results%rigid, gives the reference nodes their displacements and reactions, and leaves the nodes of the mesh alone.
    subroutine take_rigid_results(data, solution, results)
-      type(scene_data_t), intent(in) :: data
-      type(contact_solution_t), intent(in) :: solution
-      type(results_t), intent(inout) :: results
+      type(scene_data_t), intent(in) :: data           !< rigid bodies of its model, supports and loads
+      type(contact_solution_t), intent(in) :: solution !< amplitudes a of the rigid motions
+      type(results_t), intent(inout) :: results        !< with the carriers' u, reactions; without them then
       integer(ip) :: i
 
       if (.not. has_moving_surfaces(data%model) .or. .not. allocated(results%u)) return
@@ -39,8 +39,8 @@ contains
 
    !> The fields without the nodes that carry motions; rotations that are not small are those of rigid surfaces, too.
    pure subroutine leave_mesh_alone(data, results)
-      type(scene_data_t), intent(in) :: data
-      type(results_t), intent(inout) :: results
+      type(scene_data_t), intent(in) :: data     !< its mesh and rigid bodies are read
+      type(results_t), intent(inout) :: results  !< arrays get as long as the mesh has nodes
       integer(ip) :: i
 
       if (.not. has_moving_surfaces(data%model)) return

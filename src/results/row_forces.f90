@@ -16,10 +16,10 @@ contains
 
    !> The forces of the bilateral rows: those of supports become reactions, those of others stay with the contact.
    subroutine share_out_rows(data, solution, contact, results, others)
-      type(scene_data_t), intent(in) :: data
-      type(contact_solution_t), intent(in) :: solution
+      type(scene_data_t), intent(in) :: data               !< rows and line
+      type(contact_solution_t), intent(in) :: solution     !< p of the rows
       real(wp), intent(inout) :: contact(:, :)             !< (2, n_nodes) with all rows; without supports on return [F]
-      type(results_t), intent(inout) :: results
+      type(results_t), intent(inout) :: results            !< reaction, prescribed, row_force and row_x are set
       real(wp), intent(out) :: others(3)                   !< resultant of springs and equations [F], moment about the origin [F L]
       real(wp) :: q(data%rows%n), to_ground(2, data%fem%mesh%n_nodes)
       integer(ip) :: j
@@ -45,9 +45,9 @@ contains
 
    !> A force at the node of a pre-tension section is one of two that balance each other: it is in no resultant.
    pure subroutine leave_out_sections(data, reaction, contact, balance)
-      type(scene_data_t), intent(in) :: data
+      type(scene_data_t), intent(in) :: data                !< rigid bodies of its model, and loads
       real(wp), intent(in) :: reaction(:, :), contact(:, :) !< (2, n_nodes) [F]
-      type(balance_t), intent(inout) :: balance
+      type(balance_t), intent(inout) :: balance             !< their applied, reactions and rigid go
       integer(ip) :: i, nodes(3)
 
       if (.not. has_moving_surfaces(data%model)) return
@@ -67,7 +67,7 @@ contains
 
    !> What bodies that are tied do to each other adds up to round-off.
    pure subroutine clear_balance(balance)
-      type(balance_t), intent(inout) :: balance
+      type(balance_t), intent(inout) :: balance  !< rigid and rows that are round-off become 0
       real(wp), parameter :: ROUND_OFF = 1.0e-13_wp
       real(wp) :: all_forces
 

@@ -30,11 +30,11 @@ contains
 
    !> The rows of the cuts that the step asks for.
    subroutine sum_cuts(data, moment, u, others, rows)
-      type(scene_data_t), intent(in) :: data
+      type(scene_data_t), intent(in) :: data                !< step, cuts and loads
       type(moment_t), intent(in) :: moment                  !< what acts is that of this time
       real(wp), intent(in) :: u(:, :)                       !< (2, n_nodes); rigid motions of bodies may be left out [L]
       real(wp), intent(in) :: others(:, :)                  !< (2, n_nodes) of supports, contact and bilateral rows upon bodies [F]
-      type(cut_force_t), allocatable, intent(out) :: rows(:)
+      type(cut_force_t), allocatable, intent(out) :: rows(:) !< one a cut, as the step asks for them
       type(step_t) :: now
       real(wp), allocatable :: own(:, :)
       integer(ip) :: i, n

@@ -30,9 +30,9 @@ contains
 
    !> What a careful user should know of a solution.
    subroutine warn(data, solution, results, idle)
-      type(scene_data_t), intent(in) :: data
-      type(contact_solution_t), intent(in) :: solution
-      type(results_t), intent(in) :: results
+      type(scene_data_t), intent(in) :: data               !< the scene as solved
+      type(contact_solution_t), intent(in) :: solution     !< p, t and what was lost in its equations
+      type(results_t), intent(in) :: results               !< last frame of the run
       character(len=*), intent(in) :: idle                 !< which motions nothing determines (idle_text); '': none
       integer(ip) :: b
 
@@ -58,8 +58,8 @@ contains
 
    !> 'body BLOCK is free to move along x1', where a motion of a solution is not determined; else ''.
    function idle_text(data, solution) result(text)
-      type(scene_data_t), intent(in) :: data
-      type(contact_solution_t), intent(in) :: solution
+      type(scene_data_t), intent(in) :: data                !< names of its bodies
+      type(contact_solution_t), intent(in) :: solution      !< its undetermined motion is read
       character(len=:), allocatable :: text
       real(wp) :: mode(3)
       integer(ip) :: b

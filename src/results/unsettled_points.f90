@@ -20,12 +20,12 @@ contains
 
    !> Fills results%unsettled, the most restless points first, and adds to the verdict of a run that did not converge.
    subroutine report_unsettled(mesh, points, rows, line, solution, results)
-      type(mesh_t), intent(in) :: mesh
-      type(contact_points_t), intent(in) :: points(:)
-      type(contact_rows_t), intent(in) :: rows
-      type(contact_line_t), intent(in) :: line
-      type(contact_solution_t), intent(in) :: solution
-      type(results_t), intent(inout) :: results
+      type(mesh_t), intent(in) :: mesh                 !< as solved
+      type(contact_points_t), intent(in) :: points(:)  !< of each pair
+      type(contact_rows_t), intent(in) :: rows         !< nodes and normals of the points
+      type(contact_line_t), intent(in) :: line         !< which point each unknown is of
+      type(contact_solution_t), intent(in) :: solution !< its last states are read
+      type(results_t), intent(inout) :: results        !< get unsettled, and more in the verdict
       integer(ip), allocatable :: order(:)
       integer(ip) :: i
 

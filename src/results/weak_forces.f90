@@ -28,12 +28,12 @@ contains
    !> Whether the residual of every node is small beside the forces of its body and pairs. Its round-off is asked for where
    !> it is not.
    function weak_parts_hold(fem, u, f, contact, held, residual, sizes) result(holds)
-      type(fem_t), intent(in) :: fem
+      type(fem_t), intent(in) :: fem             !< its bodies are judged
       real(wp), intent(in) :: u(:, :)            !< u_e, without rigid motions, (2, n_nodes) [L]
       real(wp), intent(in) :: f(:, :), contact(:, :) !< loads and B'q (2, n_nodes) [F]
-      logical, intent(in) :: held(:, :)
+      logical, intent(in) :: held(:, :)          !< (2, n_nodes) dofs with a prescribed displacement
       real(wp), intent(in) :: residual(:, :)     !< (2, n_nodes) K u_e - f + B'q; at held dofs the reaction [F]
-      type(contact_sizes_t), intent(in) :: sizes
+      type(contact_sizes_t), intent(in) :: sizes !< forces of pairs, and what bodies had
       logical :: holds
       real(wp), allocatable :: round_off(:, :)
       integer(ip) :: b

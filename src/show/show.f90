@@ -28,12 +28,13 @@ module atrito_show
    character(len=*), parameter :: ELEMENT = 'element='
    character(len=6), parameter :: VIEWS(5) = ['matrix', 'line  ', 'states', 'law   ', 'picard']
 
+   !> Who looks at the increments of --show (viewer_t).
    type, extends(viewer_t) :: show_t
       type(string_t), allocatable :: views(:)        !< as the user asked for them
       type(page_t) :: page                           !< for the screen
       type(table_t) :: tables(7)                     !< of each name one
-      integer :: n_tables = 0
-      type(states_t) :: states
+      integer :: n_tables = 0                        !< tables in use
+      type(states_t) :: states                       !< of all increments so far
    contains
       procedure :: check => check_views
       procedure :: view => view_all
@@ -43,7 +44,7 @@ contains
 
    !> Whether the word is a view: `matrix`, `element=12`.
    pure logical function is_view(word)
-      character(len=*), intent(in) :: word
+      character(len=*), intent(in) :: word           !< as the user wrote it
 
       is_view = any(VIEWS == word) .or. element_of(word) > 0
    end function is_view

@@ -27,10 +27,10 @@ contains
 
    !> Page and table of an element in the plane.
    subroutine view_element(fem, e, page, table)
-      type(fem_t), intent(in) :: fem
+      type(fem_t), intent(in) :: fem                !< mesh and sections of the scene
       integer(ip), intent(in) :: e                  !< its place in the mesh
-      type(page_t), intent(inout) :: page
-      type(table_t), intent(out) :: table
+      type(page_t), intent(inout) :: page           !< gets the view
+      type(table_t), intent(out) :: table           !< show-element
       type(stiffness_cache_t) :: cache
       type(string_t), allocatable :: matrices(:)    ! rows of the table, as they come
       integer(ip), allocatable :: places(:, :)      ! (3, rows) point, row, column

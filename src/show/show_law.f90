@@ -22,10 +22,10 @@ contains
 
    !> Page and table: a row a point.
    pure subroutine view_law(line, results, page, table)
-      type(contact_line_t), intent(in) :: line
-      type(results_t), intent(in) :: results
-      type(page_t), intent(inout) :: page
-      type(table_t), intent(out) :: table
+      type(contact_line_t), intent(in) :: line      !< laws and deltas of the points
+      type(results_t), intent(in) :: results        !< fields of the pairs at the end
+      type(page_t), intent(inout) :: page           !< gets the view
+      type(table_t), intent(out) :: table           !< show-law
       integer(ip), allocatable :: numbers(:, :)
       real(wp), allocatable :: values(:, :)
       real(wp) :: tau, limit, slip, u, most

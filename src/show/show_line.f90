@@ -22,11 +22,11 @@ contains
 
    !> Page and tables: a row an unknown, and a row a rigid motion.
    subroutine view_line(qp, line, solution, page, table, motions)
-      type(bound_qp_t), intent(in) :: qp
-      type(contact_line_t), intent(in) :: line
-      type(contact_solution_t), intent(in) :: solution
-      type(page_t), intent(inout) :: page
-      type(table_t), intent(out) :: table, motions
+      type(bound_qp_t), intent(in) :: qp               !< of the dense form
+      type(contact_line_t), intent(in) :: line         !< which point each unknown is of
+      type(contact_solution_t), intent(in) :: solution !< what was found; not allocated: nothing was
+      type(page_t), intent(inout) :: page              !< gets the view
+      type(table_t), intent(out) :: table, motions     !< show-line and show-motions
       real(wp) :: vectors(qp%m, qp%m), values(qp%m)
       character(len=4) :: names(qp%m)               ! `n1` and `t1`: the forces of point 1, of 200 at most
       integer(ip) :: i, info

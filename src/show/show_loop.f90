@@ -30,9 +30,9 @@ contains
 
    !> Adds the solves of an increment.
    pure subroutine add_states(results, solution, states)
-      type(results_t), intent(in) :: results
-      type(contact_solution_t), intent(in) :: solution
-      type(states_t), intent(inout) :: states
+      type(results_t), intent(in) :: results           !< step and increment
+      type(contact_solution_t), intent(in) :: solution !< with the log of its solves
+      type(states_t), intent(inout) :: states          !< get the rows, up to MOST_ROWS
       integer(ip), allocatable :: of_points(:)
       integer(ip) :: i
 
@@ -61,9 +61,9 @@ contains
 
    !> Page and table of the states.
    pure subroutine view_states(states, page, table)
-      type(states_t), intent(in) :: states
-      type(page_t), intent(inout) :: page
-      type(table_t), intent(out) :: table
+      type(states_t), intent(in) :: states           !< of all increments
+      type(page_t), intent(inout) :: page            !< gets the view
+      type(table_t), intent(out) :: table            !< show-states
       integer(ip) :: i, n
       character(len=:), allocatable :: place
 
@@ -95,12 +95,12 @@ contains
 
    !> Page and table of the outer iterations of an increment: the last solve of each.
    pure subroutine view_picard(line, points, results, solution, page, table)
-      type(contact_line_t), intent(in) :: line
+      type(contact_line_t), intent(in) :: line        !< unknowns and weights of the points
       type(contact_points_t), intent(in) :: points(:) !< of each pair
-      type(results_t), intent(in) :: results
-      type(contact_solution_t), intent(in) :: solution
-      type(page_t), intent(inout) :: page
-      type(table_t), intent(out) :: table
+      type(results_t), intent(in) :: results          !< step and increment
+      type(contact_solution_t), intent(in) :: solution !< with the log of its solves
+      type(page_t), intent(inout) :: page             !< gets the view
+      type(table_t), intent(out) :: table             !< show-picard
       integer(ip), allocatable :: numbers(:, :)     ! (rows, 3): outer, pair, point
       real(wp), allocatable :: values(:, :)         ! (rows, 5): s, x, y, pressure, bound
       real(wp) :: residual, before

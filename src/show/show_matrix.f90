@@ -21,9 +21,9 @@ contains
 
    !> Page and table of all bodies.
    subroutine view_matrix(fem, page, table)
-      type(fem_t), intent(in) :: fem
-      type(page_t), intent(inout) :: page
-      type(table_t), intent(out) :: table
+      type(fem_t), intent(in) :: fem             !< bodies with their numbers
+      type(page_t), intent(inout) :: page        !< gets the view
+      type(table_t), intent(out) :: table        !< show-matrix
       type(profile_t) :: before, after
       integer(ip), allocatable :: rows(:, :), equation(:), node(:), dof(:)
       integer(ip) :: b, j, n

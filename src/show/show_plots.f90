@@ -22,8 +22,8 @@ contains
    !> Draws what there is of the views into DIR/plots. A failure is a warning, W-PLOT.
    subroutine draw_shown(folder, tables, drawn)
       character(len=*), intent(in) :: folder        !< of the tables
-      type(table_t), intent(in) :: tables(:)
-      type(string_t), allocatable, intent(out) :: drawn(:)
+      type(table_t), intent(in) :: tables(:)        !< of the views; others are passed over
+      type(string_t), allocatable, intent(out) :: drawn(:) !< names of those that have their pictures now
       type(plots_t) :: plots
       type(status_t) :: status
       type(string_t), allocatable :: names(:)

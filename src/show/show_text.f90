@@ -13,9 +13,9 @@ contains
 
    !> A matrix, its columns in blocks, as four decimals times a power of ten, which the title tells.
    pure subroutine add_matrix(page, title, a, first)
-      type(page_t), intent(inout) :: page
-      character(len=*), intent(in) :: title
-      real(wp), intent(in) :: a(:, :)
+      type(page_t), intent(inout) :: page                !< gets the lines
+      character(len=*), intent(in) :: title              !< what it is, with its dimension
+      real(wp), intent(in) :: a(:, :)                    !< of any shape, finite
       character(len=*), intent(in), optional :: first(:) !< what stands before each row; left out: its number
       character(len=4 + 9*COLUMNS) :: line
       integer(ip) :: i, j, k, power

@@ -9,7 +9,7 @@ module atrito_column_scales
 
    !> Tables that are treated in their own way, and the columns by which they are known; one that is several is the last of them.
    type :: kind_t
-      character(len=12) :: name
+      character(len=12) :: name                     !< e.g. 'joints'
       character(len=15) :: columns(3)               !< blank: any
    end type kind_t
    type(kind_t), parameter :: KINDS(12) = [kind_t('summary', ['quantity       ', 'value          ', '               ']), &
@@ -27,8 +27,8 @@ module atrito_column_scales
 
    !> Columns of a kind of table that have one scale: components of one vector, or vectors that balance each other.
    type :: family_t
-      character(len=12) :: kind
-      character(len=80) :: columns
+      character(len=12) :: kind                     !< as kind_of has it
+      character(len=80) :: columns                  !< with a blank before and behind each
    end type family_t
    type(family_t), parameter :: &
       FAMILIES(17) = [family_t('bodies', ' u1 u2 '), &
@@ -48,7 +48,7 @@ contains
 
    !> What a table is, by its columns: a copy may bear any name; `plain` of most.
    pure function kind_of(table) result(kind)
-      type(table_file_t), intent(in) :: table
+      type(table_file_t), intent(in) :: table       !< its columns are read
       character(len=:), allocatable :: kind
       logical :: is_there(3)
       integer :: i, k
@@ -62,8 +62,8 @@ contains
 
    !> The columns whose largest value is the scale of a column, itself among them.
    pure function columns_of_scale(table, column) result(list)
-      type(table_file_t), intent(in) :: table
-      integer(ip), intent(in) :: column
+      type(table_file_t), intent(in) :: table       !< of any kind
+      integer(ip), intent(in) :: column             !< from 1
       integer(ip), allocatable :: list(:)
       character(len=:), allocatable :: kind
       logical :: is_related(table%n_columns)
@@ -86,8 +86,8 @@ contains
    !> the largest force times the largest length of a section. 0 for other columns. A place that is the same within the tolerance
    !> makes a moment that is.
    pure real(wp) function moment_scale(table, column) result(scale)
-      type(table_file_t), intent(in) :: table
-      integer(ip), intent(in) :: column
+      type(table_file_t), intent(in) :: table       !< of any kind
+      integer(ip), intent(in) :: column             !< from 1
 
       scale = 0.0_wp
       if (kind_of(table) == 'joints' .and. table%columns(column)%s == 'm') scale = product_of('n', 'x')
@@ -114,8 +114,8 @@ contains
 
    !> Whether the scale of a column is that of each contact pair: stresses and slips of a weak pair have digits of their own.
    pure logical function is_of_pair(table, column)
-      type(table_file_t), intent(in) :: table
-      integer(ip), intent(in) :: column
+      type(table_file_t), intent(in) :: table       !< of any kind
+      integer(ip), intent(in) :: column             !< from 1
 
       select case (table%columns(column)%s)
       case ('pressure', 'weighted_pressure', 'shear', 'slip', 'slip_increment')
@@ -130,9 +130,9 @@ contains
    !> The scale of each row of a column: the largest number of all rows in these columns, or of those of its pair and step; in a
    !> history, whose rows are of one pair from its beginning to its end, of its pair.
    pure function row_scales(table, columns, by_pair) result(scale)
-      type(table_file_t), intent(in) :: table
-      integer(ip), intent(in) :: columns(:)
-      logical, intent(in) :: by_pair
+      type(table_file_t), intent(in) :: table       !< of any kind
+      integer(ip), intent(in) :: columns(:)         !< of one scale, from 1
+      logical, intent(in) :: by_pair                !< of each pair and step; else of all rows
       real(wp) :: scale(table%n_rows)
       integer(ip), allocatable :: pair(:), step(:)
       integer(ip) :: row
@@ -151,7 +151,7 @@ contains
    !> The scale of each row of a summary: the largest value of its quantity and pair in any increment; of extremes, the largest
    !> displacement, stress or traction.
    pure function summary_scales(table) result(scale)
-      type(table_file_t), intent(in) :: table
+      type(table_file_t), intent(in) :: table       !< with a column value: summary or extremes
       real(wp) :: scale(table%n_rows)
       integer(ip) :: row, value
 

@@ -27,8 +27,8 @@ module atrito_compare
 
    !> A comparison while it goes on.
    type :: comparison_t
-      type(rules_t) :: rules
-      integer(ip) :: n_tables = 0, n_values = 0, n_differences = 0
+      type(rules_t) :: rules                        !< tolerances, and what is left out
+      integer(ip) :: n_tables = 0, n_values = 0, n_differences = 0 !< so far; of the tables that were compared
       type(string_t), allocatable :: left_out(:)    !< names of tables
       type(string_t), allocatable :: differences(:) !< all that are kept, in words
       type(page_t) :: page                          !< what is to be printed
@@ -38,7 +38,7 @@ contains
 
    !> Begins a comparison without findings.
    subroutine begin_comparison(comparison, rtol, atol)
-      type(comparison_t), intent(out) :: comparison
+      type(comparison_t), intent(out) :: comparison !< without findings, with rtol and atol
       real(wp), intent(in) :: rtol                  !< 0..1
       real(wp), intent(in) :: atol                  !< >= 0, in the dimension of each column
 
@@ -52,9 +52,9 @@ contains
    !>
    !> status: STATUS_USAGE when they differ, or when one is a file and one a folder; STATUS_FILE when a file cannot be read.
    subroutine compare_paths(a, b, comparison, status)
-      character(len=*), intent(in) :: a, b
-      type(comparison_t), intent(inout) :: comparison
-      type(status_t), intent(out) :: status
+      character(len=*), intent(in) :: a, b            !< two files or two folders, as the user wrote them
+      type(comparison_t), intent(inout) :: comparison !< begun; counts and differences are added
+      type(status_t), intent(out) :: status           !< STATUS_OK, STATUS_USAGE or STATUS_FILE
       logical :: folder(2), there(2)
 
       folder(1) = is_folder(a)
@@ -138,8 +138,8 @@ contains
 
    !> Compares two tables item by item.
    subroutine compare_tables(a, b, comparison)
-      type(table_file_t), intent(in) :: a, b
-      type(comparison_t), intent(inout) :: comparison
+      type(table_file_t), intent(in) :: a, b          !< of one name, or that the user gives
+      type(comparison_t), intent(inout) :: comparison !< begun; counts and differences are added
       integer(ip), allocatable :: column_in_b(:)
       integer(ip) :: before, column
 

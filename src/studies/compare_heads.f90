@@ -14,8 +14,8 @@ contains
    !> Adds a line for each thing that two heads say otherwise. What the page has already is not told again: all tables of a run say
    !> the same.
    subroutine tell_heads(a, b, page)
-      type(table_file_t), intent(in) :: a, b
-      type(page_t), intent(inout) :: page
+      type(table_file_t), intent(in) :: a, b     !< of one name
+      type(page_t), intent(inout) :: page        !< gets lines that it has not
 
       if (.not. (a%has_head .and. b%has_head)) return
       associate (one => a%head, two => b%head, other_deck => a%head(DECK)%s /= b%head(DECK)%s, &

@@ -13,12 +13,14 @@ module atrito_compare_rules
    private
    public :: rule_t, rules_t, read_rules, leave_out, take_tables, rule_of, takes_table, ANY_NAME, COMPARED_TABLES
 
+   !> A line of a file of tolerances, or a name of --ignore.
    type :: rule_t
       character(len=:), allocatable :: table, column !< * any
-      real(wp) :: rtol = 0.0_wp, atol = 0.0_wp
-      logical :: is_left_out = .false.
+      real(wp) :: rtol = 0.0_wp, atol = 0.0_wp       !< relative; in the dimension of the column
+      logical :: is_left_out = .false.               !< the column is not compared
    end type rule_t
 
+   !> All that is asked of the tables.
    type :: rules_t
       real(wp) :: rtol = 0.0_wp, atol = 0.0_wp       !< where no rule fits
       type(rule_t), allocatable :: list(:)           !< allocated
@@ -32,9 +34,9 @@ contains
 
    !> Adds the rules of a file. status: STATUS_FILE where it cannot be read or has another line.
    subroutine read_rules(path, rules, status)
-      character(len=*), intent(in) :: path
-      type(rules_t), intent(inout) :: rules
-      type(status_t), intent(out) :: status
+      character(len=*), intent(in) :: path           !< of the file, as the user wrote it
+      type(rules_t), intent(inout) :: rules          !< get the rules of the file behind their own
+      type(status_t), intent(out) :: status          !< STATUS_OK or STATUS_FILE
       type(string_t), allocatable :: words(:)
       type(rule_t) :: rule
       character(len=:), allocatable :: text
@@ -72,9 +74,9 @@ contains
 
    !> What --ignore names: tables, TABLE.COLUMN, commas between them. status: STATUS_USAGE for a name that no table has.
    subroutine leave_out(text, rules, status)
-      character(len=*), intent(in) :: text
-      type(rules_t), intent(inout) :: rules
-      type(status_t), intent(out) :: status
+      character(len=*), intent(in) :: text           !< of the option
+      type(rules_t), intent(inout) :: rules          !< get a rule a name
+      type(status_t), intent(out) :: status          !< STATUS_OK or STATUS_USAGE
       type(string_t), allocatable :: names(:)
       type(rule_t) :: rule
       integer :: i, dot
@@ -92,9 +94,9 @@ contains
 
    !> What --tables names, commas between them. status: STATUS_USAGE for a name that no table has.
    subroutine take_tables(text, rules, status)
-      character(len=*), intent(in) :: text
-      type(rules_t), intent(inout) :: rules
-      type(status_t), intent(out) :: status
+      character(len=*), intent(in) :: text           !< of the option
+      type(rules_t), intent(inout) :: rules          !< compare these tables alone
+      type(status_t), intent(out) :: status          !< STATUS_OK or STATUS_USAGE
       integer :: i
 
       call split(text, rules%tables)
@@ -147,8 +149,8 @@ contains
 
    !> What is asked of a column, or of a quantity.
    pure type(rule_t) function rule_of(rules, table, column) result(rule)
-      type(rules_t), intent(in) :: rules
-      character(len=*), intent(in) :: table, column
+      type(rules_t), intent(in) :: rules             !< the last one that fits counts
+      character(len=*), intent(in) :: table, column  !< names; of summaries the quantity
       integer :: i
 
       rule%rtol = rules%rtol
@@ -163,8 +165,8 @@ contains
 
    !> Whether a table is compared at all.
    pure logical function takes_table(rules, table)
-      type(rules_t), intent(in) :: rules
-      character(len=*), intent(in) :: table
+      type(rules_t), intent(in) :: rules             !< tables and list are read
+      character(len=*), intent(in) :: table          !< name without ending
       integer :: i
 
       takes_table = .true.

@@ -25,11 +25,11 @@ contains
    !> Draws <folder>/plots/limit and mechanism, .png and .svg. A failure is a warning, W-PLOT.
    subroutine write_stability_plots(folder, title, model, limit, view, drawn)
       character(len=*), intent(in) :: folder         !< of the tables
-      character(len=*), intent(in) :: title
+      character(len=*), intent(in) :: title          !< of the deck, or its name
       type(model_t), intent(in) :: model             !< at the value that falls
-      type(stability_t), intent(in) :: limit
+      type(stability_t), intent(in) :: limit         !< whose limit was found
       type(plot_view_t), intent(in) :: view          !< of the mechanism
-      type(string_t), allocatable, intent(out) :: drawn(:)
+      type(string_t), allocatable, intent(out) :: drawn(:) !< names of those that have their pictures now
       type(plots_t) :: plots
       type(status_t) :: status
       type(string_t) :: names(2)

@@ -19,11 +19,11 @@ contains
 
    !> Writes limit.tab and mechanism.tab. status: STATUS_FILE.
    subroutine write_stability(folder, origin, limit, digits_of_tables, status, is_csv)
-      character(len=*), intent(in) :: folder
-      type(origin_t), intent(in) :: origin
-      type(stability_t), intent(in) :: limit
-      integer, intent(in) :: digits_of_tables
-      type(status_t), intent(out) :: status
+      character(len=*), intent(in) :: folder           !< of the tables
+      type(origin_t), intent(in) :: origin             !< for the heads of the tables
+      type(stability_t), intent(in) :: limit           !< as found, with its collapse
+      integer, intent(in) :: digits_of_tables          !< significant ones of reals
+      type(status_t), intent(out) :: status            !< STATUS_OK or STATUS_FILE
       logical, intent(in), optional :: is_csv          !< left out: .false.
       type(table_t) :: tables(2)
 
@@ -94,10 +94,10 @@ contains
 
    !> The closing lines.
    subroutine compose_stability(deck, folder, limit, seconds, page, pictures)
-      character(len=*), intent(in) :: deck, folder
-      type(stability_t), intent(in) :: limit
+      character(len=*), intent(in) :: deck, folder     !< path as the user wrote it; of the tables
+      type(stability_t), intent(in) :: limit           !< as found, with its collapse
       real(wp), intent(in) :: seconds(2)               !< wall clock and processor
-      type(page_t), intent(out) :: page
+      type(page_t), intent(out) :: page                !< what is to be printed
       type(string_t), intent(in) :: pictures(:)        !< that were drawn, names without folder and ending
       type(string_t), allocatable :: labels(:), texts(:)
       integer :: i, j
@@ -129,7 +129,7 @@ contains
 
    !> The limit in words: its middle, half of the interval that holds it, and whether that is as close as asked.
    function limit_text(limit) result(text)
-      type(stability_t), intent(in) :: limit
+      type(stability_t), intent(in) :: limit     !< its stands, falls and tolerance are read
       character(len=:), allocatable :: text
       real(wp) :: half
 
@@ -144,8 +144,8 @@ contains
 
    !> What the two bounds are where they are not one, and what casts doubt on them.
    subroutine list_remarks(limit, labels, texts)
-      type(stability_t), intent(in) :: limit
-      type(string_t), allocatable, intent(out) :: labels(:), texts(:)
+      type(stability_t), intent(in) :: limit     !< as found
+      type(string_t), allocatable, intent(out) :: labels(:), texts(:) !< one of each a remark, plain text
       character(len=:), allocatable :: large
       integer(ip) :: runs, proofs
 
@@ -200,7 +200,7 @@ contains
 
    !> What is not small at the value that stands; '' where all is.
    pure function large_where_it_stands(limit) result(text)
-      type(stability_t), intent(in) :: limit
+      type(stability_t), intent(in) :: limit     !< its values are read
       character(len=:), allocatable :: text
       integer :: i
 
@@ -212,7 +212,7 @@ contains
 
    !> How many values were tried, and how: `7: 3 solved, 4 by their balance alone; 2 factorisations`.
    function values_text(limit) result(text)
-      type(stability_t), intent(in) :: limit
+      type(stability_t), intent(in) :: limit     !< its values are read
       character(len=:), allocatable :: text
       integer(ip) :: n, solved
 

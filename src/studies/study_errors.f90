@@ -19,7 +19,7 @@ module atrito_study_errors
    type :: run_facts_t
       logical :: is_written = .false.                !< tables of this run were written
       logical :: is_whole = .false.                  !< to the end of the history
-      integer(ip) :: n_dofs = 0, n_points = 0
+      integer(ip) :: n_dofs = 0, n_points = 0        !< free displacements, points of contact
       real(wp) :: h = 0.0_wp                         !< [L] side of a square of the mean area of the elements
       integer(ip) :: degree = 0                      !< of the elements' shape functions, 1 or 2; 0: both, or unknown
       real(wp) :: peak(2) = 0.0_wp                   !< [L] place of the largest pressure of the first pair
@@ -30,14 +30,14 @@ module atrito_study_errors
    !> A run of the study.
    type, extends(run_facts_t) :: study_row_t
       character(len=:), allocatable :: element       !< cpe4, ..., deck, or adapt
-      integer(ip) :: level = 0
+      integer(ip) :: level = 0                       !< of refinement; --adapt: the target [%]
       logical :: is_adapted = .false.                !< by --adapt: levels are percents, not sizes
       integer(ip) :: code = 0                        !< exit code of the run
       real(wp), allocatable :: values(:)             !< one a quantity; nan where the run has none
       real(wp) :: estimate = 0.0_wp                  !< error_estimate_percent
       real(wp) :: bound = -1.0_wp                    !< error_bound_percent; < 0: there is none
       real(wp) :: penetration = 0.0_wp, pressure = 0.0_wp   !< largest ones of pair 1
-      type(phase_time_t), allocatable :: phases(:)
+      type(phase_time_t), allocatable :: phases(:)   !< times of the run; not allocated: there are none
    end type study_row_t
 
    !> What is studied.
@@ -61,11 +61,12 @@ module atrito_study_errors
       real(wp), allocatable :: values(:)             !< one a quantity
    end type study_probe_t
 
+   !> A study: its runs, what is measured of them, and what it says.
    type :: study_t
       type(study_row_t), allocatable :: rows(:)      !< by element, then level
       type(string_t), allocatable :: elements(:)     !< each once
-      type(study_quantity_t), allocatable :: quantities(:)
-      type(study_probe_t), allocatable :: probes(:)
+      type(study_quantity_t), allocatable :: quantities(:) !< what is measured of each run
+      type(study_probe_t), allocatable :: probes(:)  !< runs with half of a regularisation
       real(wp) :: rounding = 1.0e-12_wp              !< a relative error up to this is none
       type(string_t), allocatable :: words(:)        !< what becomes of the errors
    end type study_t
@@ -74,7 +75,7 @@ contains
 
    !> Fills references, errors and orders from the values of the rows.
    subroutine find_errors(study)
-      type(study_t), intent(inout) :: study
+      type(study_t), intent(inout) :: study          !< values of its rows in, all of its quantities out
       integer :: i
 
       do i = 1, size(study%quantities)
@@ -170,8 +171,8 @@ contains
 
    !> The finest row of its element.
    pure logical function is_last(rows, k)
-      type(study_row_t), intent(in) :: rows(:)
-      integer, intent(in) :: k
+      type(study_row_t), intent(in) :: rows(:)       !< by element, then level
+      integer, intent(in) :: k                       !< row, from 1
 
       is_last = k == size(rows)
       if (.not. is_last) is_last = rows(k + 1)%element /= rows(k)%element
@@ -179,7 +180,7 @@ contains
 
    !> The last row of a mesh that is refined everywhere.
    pure integer function last_uniform(rows) result(k)
-      type(study_row_t), intent(in) :: rows(:)
+      type(study_row_t), intent(in) :: rows(:)       !< those of --adapt are the last
 
       k = count(.not. rows%is_adapted)
    end function last_uniform
@@ -193,7 +194,7 @@ contains
    !> Equal differences, growing ones or some of other sign belong to no such law; a d2 of 0 means that the limit is reached.
    subroutine richardson_limit(q, limit, order)
       real(wp), intent(in) :: q(3)                   !< coarse to fine
-      real(wp), intent(out) :: limit, order
+      real(wp), intent(out) :: limit, order          !< of q; p, 0 where the limit is reached, nan without
       real(wp) :: d1, d2
 
       limit = ieee_value(1.0_wp, ieee_quiet_nan)
@@ -213,9 +214,9 @@ contains
 
    !> Seconds of a phase by one of the clocks.
    pure real(wp) function phase_seconds(row, name, clock) result(seconds)
-      type(study_row_t), intent(in) :: row
-      character(len=*), intent(in) :: name
-      integer, intent(in) :: clock
+      type(study_row_t), intent(in) :: row           !< of the study
+      character(len=*), intent(in) :: name           !< of the phase
+      integer, intent(in) :: clock                   !< WALL or PROCESSOR
       integer :: i
 
       seconds = 0.0_wp
@@ -227,8 +228,8 @@ contains
 
    !> Seconds of all phases of a run, by the wall clock (WALL) or of the processor (PROCESSOR); 0 where there are none.
    pure real(wp) function total_seconds(row, clock) result(seconds)
-      type(study_row_t), intent(in) :: row
-      integer, intent(in) :: clock
+      type(study_row_t), intent(in) :: row           !< of the study
+      integer, intent(in) :: clock                   !< WALL or PROCESSOR
 
       seconds = 0.0_wp
       if (.not. allocated(row%phases)) return

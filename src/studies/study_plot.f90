@@ -25,9 +25,9 @@ contains
    !> Draws <folder>/plots/study.png and .svg. A failure is a warning, W-PLOT.
    subroutine write_study_plot(folder, title, study, drawn)
       character(len=*), intent(in) :: folder         !< of the study
-      character(len=*), intent(in) :: title
-      type(study_t), intent(in) :: study
-      type(string_t), allocatable, intent(out) :: drawn(:)
+      character(len=*), intent(in) :: title          !< of the deck, or its name
+      type(study_t), intent(in) :: study             !< judged
+      type(string_t), allocatable, intent(out) :: drawn(:) !< names of those that have their pictures now
       type(plots_t) :: plots
       type(status_t) :: status
       type(string_t) :: names(1)

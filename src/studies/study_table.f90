@@ -19,11 +19,11 @@ contains
 
    !> Writes study.tab. status: STATUS_FILE.
    subroutine write_study(folder, origin, study, digits, status, is_csv)
-      character(len=*), intent(in) :: folder
-      type(origin_t), intent(in) :: origin
-      type(study_t), intent(in) :: study
-      integer, intent(in) :: digits
-      type(status_t), intent(out) :: status
+      character(len=*), intent(in) :: folder        !< of the study
+      type(origin_t), intent(in) :: origin          !< for the head of the table
+      type(study_t), intent(in) :: study            !< judged
+      integer, intent(in) :: digits                 !< significant ones of reals
+      type(status_t), intent(out) :: status         !< STATUS_OK or STATUS_FILE
       logical, intent(in), optional :: is_csv       !< left out: .false.
       type(table_t) :: tables(1)
 
@@ -73,9 +73,9 @@ contains
 
    !> The closing lines: a row a run with the first quantity, and the words.
    subroutine compose_study(deck, folder, study, page)
-      character(len=*), intent(in) :: deck, folder
-      type(study_t), intent(in) :: study
-      type(page_t), intent(out) :: page
+      character(len=*), intent(in) :: deck, folder   !< path as the user wrote it; of the study
+      type(study_t), intent(in) :: study             !< judged, with one quantity at least
+      type(page_t), intent(out) :: page              !< what is to be printed
       integer :: k, i
       type(page_t) :: part
 

@@ -20,7 +20,7 @@ contains
 
    !> Fills references, errors, orders and words from the values of the rows.
    subroutine judge_study(study)
-      type(study_t), intent(inout) :: study
+      type(study_t), intent(inout) :: study          !< with values; errors, orders and words are set
       integer :: i
 
       allocate (study%words(0))

@@ -17,10 +17,10 @@ module atrito_sweep_tables
       character(len=:), allocatable :: label           !< 'nu=0.3, eps=1e-4'
       character(len=:), allocatable :: folder          !< below the sweep's
       type(string_t), allocatable :: texts(:)          !< values of the parameters as the user wrote them
-      real(wp), allocatable :: values(:)
+      real(wp), allocatable :: values(:)               !< the same as numbers
       integer :: code = STATUS_OK                      !< exit code of the run
       logical :: is_written = .false., is_whole = .false. !< it wrote tables; they go to the end of its history
-      integer(ip) :: factorisations = 0
+      integer(ip) :: factorisations = 0                !< of bodies
       type(table_file_t) :: summary                    !< summary.tab; without rows where there is none
    end type sweep_run_t
 
@@ -38,8 +38,8 @@ contains
    !> Takes the table summary of a run that wrote one. status: STATUS_FILE.
    subroutine read_summary(folder, run, status)
       character(len=*), intent(in) :: folder           !< of the run
-      type(sweep_run_t), intent(inout) :: run
-      type(status_t), intent(out) :: status
+      type(sweep_run_t), intent(inout) :: run          !< gets its summary, if it wrote tables
+      type(status_t), intent(out) :: status            !< STATUS_OK or STATUS_FILE
 
       if (.not. run%is_written) return
       call read_table(table_path(folder, 'summary'), run%summary, status)
@@ -47,8 +47,8 @@ contains
 
    !> The row of a quantity of the first pair, or of the step, in the last increment; 0 where the summary has none.
    pure integer(ip) function row_of_quantity(summary, quantity) result(row)
-      type(table_file_t), intent(in) :: summary
-      character(len=*), intent(in) :: quantity
+      type(table_file_t), intent(in) :: summary  !< summary.tab of a run
+      character(len=*), intent(in) :: quantity   !< in its column quantity
 
       do row = last_increment(summary), summary%n_rows
          if (item_text(summary, find_column(summary, 'quantity'), row) == quantity) return
@@ -58,13 +58,13 @@ contains
 
    !> Writes sweep.tab and runs.tab. status: STATUS_FILE.
    subroutine write_sweep(folder, origin, names, observed, runs, digits_of_tables, status, is_csv)
-      character(len=*), intent(in) :: folder
-      type(origin_t), intent(in) :: origin
+      character(len=*), intent(in) :: folder           !< of the sweep
+      type(origin_t), intent(in) :: origin             !< for the heads of the tables
       type(string_t), intent(in) :: names(:)           !< the parameters
       type(string_t), intent(in) :: observed(:)        !< quantities of the step that have a column of their own
-      type(sweep_run_t), intent(in) :: runs(:)
-      integer, intent(in) :: digits_of_tables
-      type(status_t), intent(out) :: status
+      type(sweep_run_t), intent(in) :: runs(:)         !< in the order of the sweep
+      integer, intent(in) :: digits_of_tables          !< significant ones of reals
+      type(status_t), intent(out) :: status            !< STATUS_OK or STATUS_FILE
       logical, intent(in), optional :: is_csv          !< left out: .false.
       type(table_t) :: tables(2)
 
@@ -75,7 +75,7 @@ contains
 
    !> The first row of the last increment.
    pure integer(ip) function last_increment(summary) result(row)
-      type(table_file_t), intent(in) :: summary
+      type(table_file_t), intent(in) :: summary  !< summary.tab of a run; may have no rows
       integer(ip) :: step, increment
 
       step = find_column(summary, 'step')
@@ -192,11 +192,11 @@ contains
    !> The closing lines: a row a run, what is observed first, as far as there is room, and the usual quantities of the first contact
    !> pair behind it.
    subroutine compose_sweep(deck, names, observed, runs, folder, seconds, page, pictures)
-      character(len=*), intent(in) :: deck, folder
-      type(string_t), intent(in) :: names(:), observed(:)
-      type(sweep_run_t), intent(in) :: runs(:)
+      character(len=*), intent(in) :: deck, folder     !< path as the user wrote it; of the sweep
+      type(string_t), intent(in) :: names(:), observed(:) !< of the parameters, and of what is observed
+      type(sweep_run_t), intent(in) :: runs(:)         !< in the order of the sweep
       real(wp), intent(in) :: seconds(2)               !< wall clock and processor
-      type(page_t), intent(out) :: page
+      type(page_t), intent(out) :: page                !< what is to be printed
       type(string_t), intent(in) :: pictures(:)        !< that were drawn, names without folder and ending
       type(string_t) :: shown(size(USUAL))             ! quantities
       character(len=VALUE_WIDTH) :: cells(size(USUAL))

@@ -25,14 +25,15 @@ module atrito_observations
       type(observed_line_t) :: line                  !< of the deck; its text is not allocated where --observe gives it
       type(call_t), allocatable :: calls(:)          !< of it
       type(term_t), allocatable :: terms(:)          !< what they mean
-      logical :: has_warned = .false.
+      logical :: has_warned = .false.                !< that it is not defined: told once
    end type observation_t
 
+   !> All expressions of a run (observer_t).
    type, extends(observer_t) :: observations_t
       private
-      type(observation_t), allocatable :: list(:)
+      type(observation_t), allocatable :: list(:)    !< of the deck, then of --observe
       type(string_t), allocatable :: names(:)        !< parameters of the deck
-      real(wp), allocatable :: values(:)
+      real(wp), allocatable :: values(:)             !< of the parameters
       logical :: has_own_degree = .false.            !< one of them is deg
       type(mesh_t), allocatable :: mesh              !< where strains are asked for
    contains
@@ -52,11 +53,11 @@ contains
    !> Reads `NAME=EXPRESSION`, several: those of the deck, then the texts of --observe. is_ok is false where one is
    !> wrong, and error says how.
    subroutine read_observations(texts, model, observations, is_ok, error)
-      type(string_t), intent(in) :: texts(:)
-      type(model_t), intent(in) :: model
-      type(observations_t), intent(out) :: observations
-      logical, intent(out) :: is_ok
-      type(message_t), intent(out) :: error
+      type(string_t), intent(in) :: texts(:)            !< of --observe
+      type(model_t), intent(in) :: model                !< whose names the expressions use
+      type(observations_t), intent(out) :: observations !< read, for this model
+      logical, intent(out) :: is_ok                     !< no expression is wrong
+      type(message_t), intent(out) :: error             !< text not allocated: there is none
       integer :: i, k, n
 
       is_ok = .true.
@@ -98,7 +99,7 @@ contains
 
    !> The names of those of a deck, then of --observe.
    pure function observation_names(lines, texts) result(names)
-      type(observed_line_t), intent(in) :: lines(:)
+      type(observed_line_t), intent(in) :: lines(:)    !< of *OBSERVE
       type(string_t), intent(in) :: texts(:)           !< NAME=EXPRESSION
       type(string_t), allocatable :: names(:)
       integer :: i, n

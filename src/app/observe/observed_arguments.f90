@@ -21,13 +21,13 @@ contains
 
    !> The nodes of the arguments from the first one on, or the place in an element; of a mean and the like nodes alone.
    subroutine find_nodes(model, call, first, field, form, term, fault)
-      type(model_t), intent(in) :: model
-      type(call_t), intent(in) :: call
+      type(model_t), intent(in) :: model             !< its mesh, sets and surfaces are searched
+      type(call_t), intent(in) :: call               !< in the expression
       integer, intent(in) :: first                   !< argument
       integer, intent(in) :: field                   !< place in NODAL_FIELDS
       character(len=*), intent(in) :: form           !< how it should read
-      type(term_t), intent(inout) :: term
-      type(message_t), intent(inout) :: fault
+      type(term_t), intent(inout) :: term            !< its kind, nodes, weights and arm are set
+      type(message_t), intent(inout) :: fault        !< text not allocated: nothing is wrong
       real(wp) :: x(2), centre(2)
       integer :: n, n_place
       logical :: polar, has_body
@@ -139,9 +139,9 @@ contains
 
    !> The arguments are too few or too many.
    subroutine complain_of_count(call, form, fault)
-      type(call_t), intent(in) :: call
+      type(call_t), intent(in) :: call               !< in the expression
       character(len=*), intent(in) :: form           !< how it should read
-      type(message_t), intent(inout) :: fault
+      type(message_t), intent(inout) :: fault        !< gets text and what is expected
       integer(ip) :: n
 
       n = size(call%arguments, kind=ip)
@@ -152,8 +152,8 @@ contains
 
    !> The place of a fault is that of an argument.
    subroutine put_place(argument, fault)
-      type(argument_t), intent(in) :: argument
-      type(message_t), intent(inout) :: fault
+      type(argument_t), intent(in) :: argument       !< in the expression
+      type(message_t), intent(inout) :: fault        !< column and length are set
 
       fault%column = int(argument%first, ip)
       fault%length = int(argument%last - argument%first + 1, ip)

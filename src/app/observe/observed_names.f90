@@ -26,10 +26,10 @@ contains
    !> The term of a call. fault%text is allocated where it means nothing; its place is that in the expression, and `known` has the
    !> names of which the nearest may be meant.
    subroutine find_term(model, call, term, fault)
-      type(model_t), intent(in) :: model
-      type(call_t), intent(in) :: call
-      type(term_t), intent(out) :: term
-      type(message_t), intent(out) :: fault
+      type(model_t), intent(in) :: model             !< its names and places are searched
+      type(call_t), intent(in) :: call               !< in the expression
+      type(term_t), intent(out) :: term              !< of no use where there is a fault
+      type(message_t), intent(out) :: fault          !< text not allocated: nothing is wrong
       character(len=:), allocatable :: name
       integer :: i
 

@@ -29,8 +29,8 @@ contains
    !> The nodes of a place. A name is looked for among surfaces, element sets and node sets, in this order. The weights are areas of
    !> faces, volumes of elements, or the same for each node of a node set.
    subroutine find_place(model, argument, nodes, weights, fault)
-      type(model_t), intent(in) :: model
-      type(argument_t), intent(in) :: argument
+      type(model_t), intent(in) :: model                !< mesh, sets and surfaces are searched
+      type(argument_t), intent(in) :: argument          !< a number or a name
       integer(ip), allocatable, intent(out) :: nodes(:) !< places
       real(wp), allocatable, intent(out) :: weights(:)  !< their sum is 1
       type(message_t), intent(out) :: fault          !< text not allocated: nothing is wrong; known: names that may be meant
@@ -61,7 +61,7 @@ contains
 
    !> The nodes of the element that holds a point, and its shape functions there.
    subroutine find_point(model, x, body, nodes, weights, fault)
-      type(model_t), intent(in) :: model
+      type(model_t), intent(in) :: model             !< mesh, sets and instances are searched
       real(wp), intent(in) :: x(2)                   !< [L]
       character(len=*), intent(in) :: body           !< an element set or an instance that it is in; '': any
       integer(ip), allocatable, intent(out) :: nodes(:) !< places
@@ -277,8 +277,8 @@ contains
 
    !> Whether any of some nodes has a prescribed displacement in any step: else there is no reaction to be told.
    pure logical function has_support(model, nodes)
-      type(model_t), intent(in) :: model
-      integer(ip), intent(in) :: nodes(:)
+      type(model_t), intent(in) :: model             !< supports of its steps are read
+      integer(ip), intent(in) :: nodes(:)            !< places in the mesh
       logical :: is_one(model%mesh%n_nodes)
       integer(ip) :: i
 
@@ -303,8 +303,8 @@ contains
 
    !> Whether each of some nodes belongs to an element: others have no stress.
    pure logical function has_element(model, nodes)
-      type(model_t), intent(in) :: model
-      integer(ip), intent(in) :: nodes(:)
+      type(model_t), intent(in) :: model             !< its mesh is read
+      integer(ip), intent(in) :: nodes(:)            !< places in the mesh
       logical :: is_held(0:model%mesh%n_nodes)
       integer(ip) :: e
 

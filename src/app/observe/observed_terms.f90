@@ -31,15 +31,16 @@ module atrito_observed_terms
                                                                'stick_extent', 'stick_half_width', 'stick_centre', 'closing_time', &
                                                                                                                      'opening_time']
 
+   !> A number of the solution.
    type :: term_t
-      integer :: kind = TERM_TIME
+      integer :: kind = TERM_TIME                    !< TERM_*
       integer :: field = 0                           !< place in NODAL_FIELDS or POINT_FIELDS, or among the quantities
       integer :: take = TAKE_ONE                     !< what of the values of a field
       integer(ip), allocatable :: nodes(:)           !< places of nodes
       real(wp), allocatable :: weights(:)            !< of theirs in a mean, or at a place between them; their sum is 1
       logical :: is_place = .false.                  !< what is asked for is at one place in an element, whose nodes these are
       real(wp), allocatable :: arm(:, :)             !< (2, places or nodes) from the centre of polar components [L]
-      integer(ip) :: pair = 0
+      integer(ip) :: pair = 0                        !< place in model%pairs; 0: of no pair
       real(wp) :: nu = 0.0_wp                        !< friction of the pair
    end type term_t
 
@@ -47,7 +48,7 @@ contains
 
    !> The value of a term; nan where it has none, as without pressure.
    pure real(wp) function value_of_term(term, results, rows, strain) result(value)
-      type(term_t), intent(in) :: term
+      type(term_t), intent(in) :: term               !< of find_term
       type(results_t), intent(in) :: results         !< complete where a stress is asked for
       type(history_row_t), intent(in) :: rows(:)     !< of the history so far
       real(wp), allocatable, intent(in) :: strain(:, :) !< at the nodes, where a strain is
@@ -147,14 +148,14 @@ contains
 
    !> Whether a term wants stresses at the nodes.
    pure logical function is_of_stress(term)
-      type(term_t), intent(in) :: term
+      type(term_t), intent(in) :: term               !< of find_term
 
       is_of_stress = term%kind == TERM_NODES .and. term%field >= FIRST_STRESS .and. term%field < FIRST_STRAIN
    end function is_of_stress
 
    !> Whether it wants strains.
    pure logical function is_of_strain(term)
-      type(term_t), intent(in) :: term
+      type(term_t), intent(in) :: term               !< of find_term
 
       is_of_strain = term%kind == TERM_NODES .and. term%field >= FIRST_STRAIN .and. term%field < FIRST_FORCE
    end function is_of_strain

@@ -59,7 +59,7 @@ contains
 
    !> The script for bash.
    subroutine compose_bash_completion(page)
-      type(page_t), intent(out) :: page
+      type(page_t), intent(out) :: page             !< the lines of the script
       type(keyword_t), allocatable :: keywords(:)
       integer :: i, k
 
@@ -132,7 +132,7 @@ contains
 
    !> All names of the options that a task knows, blanks between them.
    pure function options_of(task) result(text)
-      integer, intent(in) :: task
+      integer, intent(in) :: task                   !< TASK_*
       character(len=:), allocatable :: text
       type(string_t), allocatable :: names(:)
       integer :: i

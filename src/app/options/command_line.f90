@@ -28,7 +28,7 @@ module atrito_command_line
 
    !> What the user asks for.
    type :: command_t
-      integer :: task = TASK_USAGE
+      integer :: task = TASK_USAGE                  !< TASK_*
       type(string_t), allocatable :: names(:)       !< deck; the two paths to compare; the words behind `help`
       character(len=:), allocatable :: folder       !< -o; not allocated: the default
       character(len=:), allocatable :: restart      !< file of --restart; not allocated: from the beginning
@@ -43,7 +43,7 @@ module atrito_command_line
       type(string_t), allocatable :: vary(:)        !< NAME=v1,v2,... of --vary, in their order; of a limit NAME=a:b
       real(wp) :: limit_tolerance = 1.0e-6_wp       !< of a limit
       integer(ip) :: watched(2) = 0                 !< of a limit: node and dof; 0: the largest displacement
-      integer(ip) :: threads = 1
+      integer(ip) :: threads = 1                    !< cores of a run; of a sweep runs side by side
       integer(ip) :: n_on_host = 1                  !< ranks of the first one's host, itself among them: no option
       integer(ip) :: refine = 0                     !< levels: each element into 4**refine
       real(wp) :: adapt = 0.0_wp                    !< percent of the error, down to which the mesh follows it; 0: it does not
@@ -56,7 +56,7 @@ module atrito_command_line
       type(string_t), allocatable :: references(:)  !< of a study: QUANTITY or QUANTITY=VALUE
       integer(ip) :: digits = DEFAULT_DIGITS        !< of the tables
       logical :: is_csv = .false.                   !< of the tables: comma-separated values
-      logical :: quiet = .false.
+      logical :: quiet = .false.                    !< no progress, notes and summary on the screen
       logical :: all_progress = .false.             !< a line an iteration, also at a terminal
       logical :: plot = .false.                     !< pictures by gnuplot
       type(plot_view_t) :: view                     !< what is asked of those of bodies
@@ -64,21 +64,21 @@ module atrito_command_line
       logical :: resume = .false.                   !< of a sweep: runs that were done before are left alone
       logical :: on_one_rank = .false.              !< a run of a sweep or a study, which are shared out over ranks as wholes
       logical :: json = .false.                     !< messages as JSON
-      real(wp) :: rtol = DEFAULT_RTOL, atol = DEFAULT_ATOL
+      real(wp) :: rtol = DEFAULT_RTOL, atol = DEFAULT_ATOL !< of compare: relative to a column's largest; absolute
       character(len=:), allocatable :: tolerances, tables, ignore !< of compare; not allocated: not given
    end type command_t
 
    !> An option as it was given.
    type :: given_t
       integer :: option = 0                         !< place in OPTIONS
-      character(len=:), allocatable :: value
+      character(len=:), allocatable :: value        !< behind it; not allocated: it has none
    end type given_t
 
 contains
 
    !> The arguments of the program.
    subroutine fetch_arguments(arguments)
-      type(string_t), allocatable, intent(out) :: arguments(:)
+      type(string_t), allocatable, intent(out) :: arguments(:) !< in their order, of any length
       integer :: i, length
 
       allocate (arguments(command_argument_count()))
@@ -91,9 +91,9 @@ contains
 
    !> Understands the arguments. ok is false when they are wrong, and error says how.
    subroutine parse_command(arguments, command, ok, error)
-      type(string_t), intent(in) :: arguments(:)
-      type(command_t), intent(out) :: command
-      logical, intent(out) :: ok
+      type(string_t), intent(in) :: arguments(:)    !< of fetch_arguments
+      type(command_t), intent(out) :: command       !< of no use where not ok
+      logical, intent(out) :: ok                    !< nothing is wrong with them
       type(message_t), intent(out) :: error         !< its text is allocated where there is one, as in all procedures below
       type(given_t), allocatable :: given(:)
       type(string_t), allocatable :: names(:)
@@ -136,7 +136,7 @@ contains
 
    !> The messages are to be JSON, also one about the command line itself.
    pure logical function wants_json(arguments)
-      type(string_t), intent(in) :: arguments(:)
+      type(string_t), intent(in) :: arguments(:)    !< of fetch_arguments
       integer :: i
 
       wants_json = .false.
@@ -204,9 +204,9 @@ contains
 
    !> An error of the command line.
    function wrong(text, expected, nearest) result(error)
-      character(len=*), intent(in) :: text
-      character(len=*), intent(in), optional :: expected
-      type(string_t), intent(in), optional :: nearest(:)
+      character(len=*), intent(in) :: text               !< what is wrong
+      character(len=*), intent(in), optional :: expected !< what should stand there; left out: nothing is told
+      type(string_t), intent(in), optional :: nearest(:) !< names that may be meant
       type(message_t) :: error
 
       error%severity = SEVERITY_ERROR
@@ -449,7 +449,7 @@ contains
    !> Where the tables go: -o, or output/ and the name of the deck without folder and .inp; what is no run has a folder apart, so
    !> that none finds the files of another.
    pure function output_folder(command) result(folder)
-      type(command_t), intent(in) :: command
+      type(command_t), intent(in) :: command        !< its folder, task and deck are read
       character(len=:), allocatable :: folder
 
       if (allocated(command%folder)) then
@@ -463,8 +463,8 @@ contains
    !> What --confine asks for. Where -o is not given the output has its place below the present folder, wherever links may lead.
    !> status: STATUS_FILE where there is no such folder.
    subroutine confine_command(command, status)
-      type(command_t), intent(in) :: command
-      type(status_t), intent(out) :: status
+      type(command_t), intent(in) :: command        !< confine, folder and names are read
+      type(status_t), intent(out) :: status         !< STATUS_OK or STATUS_FILE
       character(len=:), allocatable :: output
 
       if (.not. allocated(command%confine)) return

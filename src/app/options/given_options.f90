@@ -13,7 +13,7 @@ contains
 
    !> Of a run; not allocated where nothing was given that differs from what is there unasked.
    pure subroutine options_of_run(command, text)
-      type(command_t), intent(in) :: command
+      type(command_t), intent(in) :: command                 !< of a run, or of a series
       character(len=:), allocatable, intent(inout) :: text   !< of a series: what it does, before what its runs have in common
       integer :: i
 
@@ -34,8 +34,8 @@ contains
 
    !> Of a sweep, a study or a limit: what it does, then what its runs have in common.
    pure subroutine options_of_series(command, text)
-      type(command_t), intent(in) :: command
-      character(len=:), allocatable, intent(out) :: text
+      type(command_t), intent(in) :: command                 !< of a sweep, a study or a limit
+      character(len=:), allocatable, intent(out) :: text     !< options, blanks between them
       type(command_t) :: fresh
       integer :: i
 

@@ -22,8 +22,8 @@ module atrito_help_pages
                                                     'contact law fails never ends with 0.']
 
    type :: exit_code_t
-      character(len=13) :: codes
-      character(len=110) :: meaning
+      character(len=13) :: codes                    !< one or several
+      character(len=110) :: meaning                 !< in a phrase
    end type exit_code_t
 
    type(exit_code_t), parameter :: EXIT_CODES(*) = [ &
@@ -49,7 +49,7 @@ contains
 
    !> The short form.
    subroutine compose_usage(page)
-      type(page_t), intent(out) :: page
+      type(page_t), intent(out) :: page             !< lines for a screen
       integer :: task
 
       call begin_page(page, WIDTH)
@@ -61,7 +61,7 @@ contains
 
    !> The long form: every command, option and exit code.
    subroutine compose_options(page)
-      type(page_t), intent(out) :: page
+      type(page_t), intent(out) :: page             !< lines for a screen
 
       call begin_page(page, WIDTH)
       call add_line(page, PROGRAM_NAME//' '//PROGRAM_VERSION//': '//SUMMARY)
@@ -77,8 +77,8 @@ contains
    !> `atrito help sweep`, `atrito help observe`, `atrito help units`: a command with its options, an option, or what stands here;
    !> an empty page where it is none of these.
    subroutine compose_topic(word, page)
-      character(len=*), intent(in) :: word
-      type(page_t), intent(out) :: page
+      character(len=*), intent(in) :: word          !< command, option with or without --, or units; any case
+      type(page_t), intent(out) :: page             !< lines for a screen
       character(len=:), allocatable :: name, commands
       integer :: task, i
 
@@ -111,7 +111,7 @@ contains
 
    !> The manual page.
    subroutine compose_man_page(page)
-      type(page_t), intent(out) :: page
+      type(page_t), intent(out) :: page             !< in the language of man(7)
       integer :: i
 
       call begin_page(page, WIDTH)

@@ -40,7 +40,7 @@ module atrito_option_table
 
    !> An option, and which tasks know it.
    type :: option_t
-      character(len=13) :: name
+      character(len=13) :: name                     !< with --
       character(len=13) :: value                    !< how its value is called, VALUE_... where it is a path; '': it has none
       logical :: for_task(TASK_LIMIT)               !< run, check, compare, help, sweep, study, limit
       character(len=130) :: phrase                  !< what it is for
@@ -182,7 +182,7 @@ contains
 
    !> Place of an option in OPTIONS, by either name; 0 when there is none.
    pure integer function find_option(name) result(i)
-      character(len=*), intent(in) :: name
+      character(len=*), intent(in) :: name          !< with its dashes
 
       i = findloc(OPTIONS%name == name, .true., dim=1)
       if (i == 0 .and. len_trim(name) > 0) i = findloc(OPTIONS%short == name, .true., dim=1)
@@ -214,7 +214,7 @@ contains
    !> Which of the words of an option this is; 0: none.
    pure integer function place_of_word(name, word) result(place)
       character(len=*), intent(in) :: name          !< of the option
-      character(len=*), intent(in) :: word
+      character(len=*), intent(in) :: word          !< as the user wrote it
       type(string_t), allocatable :: words(:)
       integer :: i
 
@@ -262,7 +262,7 @@ contains
 
    !> First the options of a run, then those that a run does not know, last those of every command.
    subroutine group_options(groups)
-      type(option_group_t), allocatable, intent(out) :: groups(:)
+      type(option_group_t), allocatable, intent(out) :: groups(:) !< each option is in one
       integer, allocatable :: of_run(:), of_all(:), rest(:)
       logical, allocatable :: is_alike(:)
       logical :: is_general(size(OPTIONS)), is_of_run(size(OPTIONS)), known(size(TASKS))

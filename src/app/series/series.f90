@@ -37,9 +37,9 @@ contains
 
    !> Claims the folder of the command; two at once would leave runs of both. A failure, also an earlier one, is told.
    subroutine claim_output(command, tables, claim, status)
-      type(command_t), intent(in) :: command
+      type(command_t), intent(in) :: command        !< its folder and deck are read
       character(len=*), intent(in) :: tables(:)     !< that it writes besides those of its runs; their names
-      type(folder_claim_t), intent(out) :: claim
+      type(folder_claim_t), intent(out) :: claim    !< held until release_folder, where status is OK
       type(status_t), intent(inout) :: status       !< of what came before; STATUS_FILE
 
       if (is_ok(status)) call check_folder(output_folder(command), status)
@@ -71,8 +71,8 @@ contains
    !> The comment lines at the top of the tables: what they tell of the deck, with its own values where a parameter varies. What is
    !> wrong with the deck its runs will tell.
    subroutine find_origin(command, origin)
-      type(command_t), intent(in) :: command
-      type(origin_t), intent(out) :: origin
+      type(command_t), intent(in) :: command        !< deck, --set, --vary and options are read
+      type(origin_t), intent(out) :: origin         !< its digest is missing where the deck has errors
       type(string_t), allocatable :: varied(:)
       type(named_text_t), allocatable :: files(:)
       type(deck_t) :: deck
@@ -99,8 +99,8 @@ contains
 
    !> The names of what is observed in each run, those of the deck first.
    subroutine find_observed(command, names)
-      type(command_t), intent(in) :: command
-      type(string_t), allocatable, intent(out) :: names(:)
+      type(command_t), intent(in) :: command               !< deck, --set and --observe are read
+      type(string_t), allocatable, intent(out) :: names(:) !< of the deck, then of --observe
       type(observed_line_t), allocatable :: lines(:)
       type(deck_t) :: deck
       type(status_t) :: status
@@ -115,7 +115,7 @@ contains
 
    !> The command's pictures and report of an earlier time go, made anew or not, for its tables are new.
    subroutine begin_pictures(command)
-      type(command_t), intent(in) :: command
+      type(command_t), intent(in) :: command        !< its folder and task are read
       type(status_t) :: status
 
       call clear_messages()
@@ -130,9 +130,9 @@ contains
 
    !> Writes the report, where one is asked for, and prints the closing lines.
    subroutine print_closing(command, page, report)
-      type(command_t), intent(in) :: command
-      type(page_t), intent(inout) :: page
-      type(report_t), intent(inout) :: report
+      type(command_t), intent(in) :: command        !< of the series; report, json and quiet are read
+      type(page_t), intent(inout) :: page           !< gets a line about the report
+      type(report_t), intent(inout) :: report       !< gets the command; written, if asked for
       logical :: has_report
 
       has_report = .false.
@@ -144,7 +144,7 @@ contains
 
    !> Wall clock since a count of system_clock, and processor time of the process.
    function seconds_since(began) result(seconds)
-      integer(lp), intent(in) :: began
+      integer(lp), intent(in) :: began              !< count of system_clock
       real(wp) :: seconds(2)
       integer(lp) :: ended, rate
 

@@ -50,7 +50,7 @@ contains
 
    !> Searches for the limit and writes what came of it.
    subroutine run_limit(command, code)
-      type(command_t), intent(in) :: command
+      type(command_t), intent(in) :: command        !< of a limit: --vary, --tolerance, --watch
       integer, intent(out) :: code                  !< STATUS_NOT_CONVERGED: only an interval wider than the tolerance; others
       type(stability_t) :: limit
       type(status_t) :: status

@@ -31,9 +31,9 @@ module atrito_study
 
    !> The tasks of ranks: the rows, then the probes of all kinds.
    type, extends(rank_tasks_t) :: study_runs_t
-      type(command_t) :: command
-      type(study_t) :: study
-      type(reporter_t) :: reporter
+      type(command_t) :: command                     !< of all runs, by plan_study
+      type(study_t) :: study                         !< gets rows and probes
+      type(reporter_t) :: reporter                   !< tells the runs
       type(status_t) :: status                       !< of the first run that could not be read back
       logical :: is_first = .true.                   !< no run was made by this process
    contains
@@ -46,7 +46,7 @@ contains
 
    !> Makes all runs; code is the worst of theirs.
    subroutine run_study(asked, code)
-      type(command_t), intent(in) :: asked
+      type(command_t), intent(in) :: asked          !< as the user gave it
       integer, intent(out) :: code                  !< one of STATUS_*
       type(study_runs_t) :: runs
       type(folder_claim_t) :: claim
@@ -72,7 +72,7 @@ contains
 
    !> On the other ranks: makes what runs rank 0 hands out.
    subroutine serve_study(asked)
-      type(command_t), intent(in) :: asked
+      type(command_t), intent(in) :: asked           !< as on rank 0
       type(study_runs_t) :: runs
       type(status_t) :: status
 

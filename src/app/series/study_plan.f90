@@ -19,10 +19,10 @@ contains
 
    !> status: STATUS_USAGE of a reference that means nothing.
    subroutine plan_study(asked, command, study, status)
-      type(command_t), intent(in) :: asked
+      type(command_t), intent(in) :: asked          !< as the user gave it
       type(command_t), intent(out) :: command       !< of all runs
       type(study_t), intent(out) :: study           !< with quantities and rows
-      type(status_t), intent(out) :: status
+      type(status_t), intent(out) :: status         !< STATUS_OK or STATUS_USAGE
       integer(ip) :: k
 
       command = asked

@@ -38,11 +38,11 @@ contains
    !> Makes a short run again and keeps the times of the fastest; the first run of a process pays for loading it, and is made
    !> again however long it takes.
    subroutine time_again(command, study, row, is_first, status)
-      type(command_t), intent(in) :: command
-      type(study_t), intent(in) :: study
-      type(study_row_t), intent(inout) :: row
-      logical, intent(in) :: is_first
-      type(status_t), intent(out) :: status
+      type(command_t), intent(in) :: command        !< of the study
+      type(study_t), intent(in) :: study            !< its quantities are read
+      type(study_row_t), intent(inout) :: row       !< of a run that was made; gets the best times
+      logical, intent(in) :: is_first               !< no run was made by this process before
+      type(status_t), intent(out) :: status         !< STATUS_OK, or as of make_run
       type(phase_time_t), allocatable :: best(:)
       integer :: i
 
@@ -58,8 +58,8 @@ contains
 
    !> A run once more, of which nothing is written, with half of a regularisation, or half the compliance of the stick slope.
    subroutine find_probe(command, study, k, kind, values)
-      type(command_t), intent(in) :: command
-      type(study_t), intent(in) :: study
+      type(command_t), intent(in) :: command        !< of the study
+      type(study_t), intent(in) :: study            !< its rows and quantities are read
       integer, intent(in) :: k                      !< row
       integer, intent(in) :: kind                   !< place in PROBES
       real(wp), intent(out) :: values(:)            !< one a quantity; nan where the run has none
@@ -115,7 +115,7 @@ contains
 
    !> Whether a run has no solution, not even a last iterate.
    pure logical function has_failed(row)
-      type(study_row_t), intent(in) :: row
+      type(study_row_t), intent(in) :: row          !< of a run that was made
 
       has_failed = row%code /= STATUS_OK .and. row%code /= STATUS_NOT_CONVERGED
    end function has_failed
@@ -124,7 +124,7 @@ contains
    !> forgotten. Element and level stay.
    subroutine put_row(row, buffer)
       type(study_row_t), intent(in) :: row          !< with values and phases
-      type(buffer_t), intent(inout) :: buffer
+      type(buffer_t), intent(inout) :: buffer       !< gets the items
 
       call put(buffer, transfer(row%run_facts_t, [0_ip]))
       call put(buffer, row%code)
@@ -136,8 +136,8 @@ contains
 
    !> The next items, a row.
    subroutine take_row(buffer, row)
-      type(buffer_t), intent(inout) :: buffer
-      type(study_row_t), intent(inout) :: row
+      type(buffer_t), intent(inout) :: buffer       !< its next items are taken
+      type(study_row_t), intent(inout) :: row       !< element and level are set; gets the rest
       integer(ip), allocatable :: memory(:)
       real(wp), allocatable :: amounts(:)
       integer(ip) :: n
@@ -158,10 +158,10 @@ contains
 
    !> One run of a study, with its own deck and mesh, and what its row keeps of it. status: as of read_summary.
    subroutine make_run(command, study, row, status)
-      type(command_t), intent(in) :: command
-      type(study_t), intent(in) :: study
+      type(command_t), intent(in) :: command        !< of the study
+      type(study_t), intent(in) :: study            !< its quantities are read
       type(study_row_t), intent(inout) :: row       !< element and level are given
-      type(status_t), intent(out) :: status
+      type(status_t), intent(out) :: status         !< STATUS_OK or STATUS_FILE
       type(command_t) :: one
       type(body_cache_t) :: store
       type(run_facts_t) :: facts
@@ -189,9 +189,9 @@ contains
 
    !> The command of one run.
    pure subroutine make_command(command, row, one)
-      type(command_t), intent(in) :: command
-      type(study_row_t), intent(in) :: row
-      type(command_t), intent(out) :: one
+      type(command_t), intent(in) :: command        !< of the study
+      type(study_row_t), intent(in) :: row          !< element, level and is_adapted are read
+      type(command_t), intent(out) :: one           !< quiet, without pictures, with a folder of its own
 
       one = command
       one%on_one_rank = .true.

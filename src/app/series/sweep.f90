@@ -41,14 +41,14 @@ module atrito_sweep
 
    !> What is asked, and what became of the runs. The tasks of ranks are the runs.
    type, extends(rank_tasks_t) :: sweep_t
-      type(command_t) :: command
-      type(sweep_plan_t) :: plan
+      type(command_t) :: command                       !< of the sweep
+      type(sweep_plan_t) :: plan                       !< names, values and folders of the runs
       type(origin_t) :: origin                         !< of its tables
-      type(sweep_journal_t) :: journal
+      type(sweep_journal_t) :: journal                 !< notes runs that begin and end
       integer(c_int), pointer :: shared(:) => null()   !< (OUTCOMES*n_runs) all exit codes, all factorisations, all that was written
-      type(body_cache_t) :: store
+      type(body_cache_t) :: store                      !< factored bodies that runs hand on
       integer(ip) :: n_left = 0                        !< runs that were done before
-      type(rank_times_t) :: times
+      type(rank_times_t) :: times                      !< of the ranks
    contains
       procedure :: make => make_run
       procedure :: begin => begin_run
@@ -59,7 +59,7 @@ contains
 
    !> Makes all runs; code is the worst of theirs.
    subroutine run_sweep(command, code)
-      type(command_t), intent(in) :: command
+      type(command_t), intent(in) :: command        !< of a sweep: --vary, --resume and options of runs
       integer, intent(out) :: code                  !< one of STATUS_*
       type(sweep_t) :: sweep
       type(status_t) :: status
@@ -154,7 +154,7 @@ contains
 
    !> On the other ranks: makes what runs rank 0 hands out.
    subroutine serve_sweep(command)
-      type(command_t), intent(in) :: command
+      type(command_t), intent(in) :: command        !< as on rank 0
       type(sweep_t) :: sweep
       type(status_t) :: status
 

@@ -24,9 +24,10 @@ module atrito_sweep_journal
 
    integer, parameter :: OUTCOMES = 3                !< exit code, factorisations, what was written: nothing, some, all (0, 1, 2)
 
+   !> The journal of a sweep.
    type :: sweep_journal_t
       private
-      character(len=:), allocatable :: folder, path, key
+      character(len=:), allocatable :: folder, path, key !< of the sweep; of the journal; of deck, options, program
       logical :: has_earlier = .false.               !< lines of earlier sweeps
    end type sweep_journal_t
 
@@ -37,9 +38,9 @@ contains
 
    !> What is done from now on is noted. What was done before is forgotten unless the sweep resumes.
    subroutine begin_journal(command, provenance, journal)
-      type(command_t), intent(in) :: command
+      type(command_t), intent(in) :: command         !< folder, deck, options and --resume are read
       type(provenance_t), intent(in) :: provenance   !< of the deck without the values that vary
-      type(sweep_journal_t), intent(out) :: journal
+      type(sweep_journal_t), intent(out) :: journal  !< file is removed unless the sweep resumes
       character(len=:), allocatable :: options
       type(text_digest_t) :: digest
       integer :: i
@@ -62,26 +63,26 @@ contains
 
    !> Forgets what was done.
    subroutine remove_journal(journal)
-      type(sweep_journal_t), intent(in) :: journal
+      type(sweep_journal_t), intent(in) :: journal   !< begun; its file goes
 
       call remove_file(journal%path)
    end subroutine remove_journal
 
    !> What an earlier sweep noted of a run counts no longer. A journal that cannot be written keeps nothing from being done.
    subroutine note_begin(journal, plan, run)
-      type(sweep_journal_t), intent(in) :: journal
-      type(sweep_plan_t), intent(in) :: plan
-      integer(ip), intent(in) :: run
+      type(sweep_journal_t), intent(in) :: journal   !< gets a line, if it has earlier ones
+      type(sweep_plan_t), intent(in) :: plan         !< names the run
+      integer(ip), intent(in) :: run                 !< place in the plan
 
       if (journal%has_earlier) call add_line(journal, BEGUN//' '//name_of(plan, run))
    end subroutine note_begin
 
    !> A run has come to its end; one that failed for reasons that may be gone the next time is not noted.
    subroutine note_end(journal, plan, run, outcome)
-      type(sweep_journal_t), intent(in) :: journal
-      type(sweep_plan_t), intent(in) :: plan
-      integer(ip), intent(in) :: run
-      integer, intent(in) :: outcome(OUTCOMES)
+      type(sweep_journal_t), intent(in) :: journal   !< gets a line
+      type(sweep_plan_t), intent(in) :: plan         !< names the run
+      integer(ip), intent(in) :: run                 !< place in the plan
+      integer, intent(in) :: outcome(OUTCOMES)       !< exit code, factorisations, what was written
 
       if (all(outcome(1) /= [STATUS_OK, STATUS_NOT_CONVERGED, STATUS_SINGULAR])) return
       call add_line(journal, DONE//' '//to_text(int(outcome(1), ip))//' '//to_text(int(outcome(2), ip))//' ' &
@@ -126,8 +127,8 @@ contains
 
    !> Which runs are done, and how they ended.
    subroutine find_done(journal, plan, is_done, outcomes_of)
-      type(sweep_journal_t), intent(in) :: journal
-      type(sweep_plan_t), intent(in) :: plan
+      type(sweep_journal_t), intent(in) :: journal   !< begun
+      type(sweep_plan_t), intent(in) :: plan         !< of this sweep
       logical, intent(out) :: is_done(:)             !< (n_runs)
       integer, intent(out) :: outcomes_of(:, :)      !< (OUTCOMES, n_runs)
       character(len=:), allocatable :: text

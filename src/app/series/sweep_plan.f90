@@ -10,8 +10,9 @@ module atrito_sweep_plan
 
    integer(ip), parameter :: MOST_RUNS = 10000_ip
 
+   !> The runs of a sweep.
    type :: sweep_plan_t
-      integer(ip) :: n_runs = 0
+      integer(ip) :: n_runs = 0                      !< >= 1; product of the numbers of values
       type(string_t), allocatable :: names(:)        !< the parameters that vary
       type(string_t), allocatable :: texts(:, :)     !< (parameters, runs) values as the user wrote them
       real(wp), allocatable :: values(:, :)          !< (parameters, runs)
@@ -21,9 +22,9 @@ module atrito_sweep_plan
 
    !> One --vary.
    type :: variation_t
-      character(len=:), allocatable :: name
-      type(string_t), allocatable :: texts(:)
-      real(wp), allocatable :: values(:)
+      character(len=:), allocatable :: name          !< of the parameter
+      type(string_t), allocatable :: texts(:)        !< as the user wrote them
+      real(wp), allocatable :: values(:)             !< of the texts
    end type variation_t
 
 contains
@@ -32,8 +33,8 @@ contains
    subroutine plan_sweep(vary, settings, plan, status)
       type(string_t), intent(in) :: vary(:)            !< 'NAME=v1,v2,...'
       type(string_t), intent(in) :: settings(:)        !< 'NAME=VALUE' of --set
-      type(sweep_plan_t), intent(out) :: plan
-      type(status_t), intent(out) :: status
+      type(sweep_plan_t), intent(out) :: plan          !< of no use where status is not OK
+      type(status_t), intent(out) :: status            !< STATUS_OK or STATUS_USAGE
       type(variation_t) :: variations(size(vary))
       integer :: i
 
@@ -172,11 +173,11 @@ contains
 
    !> Takes NAME=a:b apart. status: STATUS_USAGE for anything else, a that is not below b, or a name that --set gives as well.
    subroutine read_range(text, settings, name, ends, status)
-      character(len=*), intent(in) :: text
+      character(len=*), intent(in) :: text             !< 'NAME=a:b'
       type(string_t), intent(in) :: settings(:)        !< 'NAME=VALUE' of --set
-      character(len=:), allocatable, intent(out) :: name
-      real(wp), intent(out) :: ends(2)
-      type(status_t), intent(out) :: status
+      character(len=:), allocatable, intent(out) :: name !< of the parameter
+      real(wp), intent(out) :: ends(2)                 !< ascending
+      type(status_t), intent(out) :: status            !< STATUS_OK or STATUS_USAGE
       integer :: equals, colon
 
       ends = 0.0_wp

@@ -9,10 +9,10 @@ module atrito_hdf5
 
    !> The same components as with HDF5: the test of this twin links it with an archive that was compiled with the other.
    type :: hdf5_file_t
-      type(status_t) :: status
-      integer(lp), private :: id = 0
-      logical, private :: is_open = .false., has_lists = .false.
-      character(len=:), allocatable, private :: path
+      type(status_t) :: status                                   !< always a failure, once it was opened
+      integer(lp), private :: id = 0                             !< stays 0
+      logical, private :: is_open = .false., has_lists = .false. !< stay false
+      character(len=:), allocatable, private :: path             !< stays not allocated
    end type hdf5_file_t
 
    interface put_array
@@ -40,17 +40,17 @@ contains
 
    !> The file fails: this build has no HDF5.
    subroutine create_hdf5(path, final_path, has_lists, file)
-      character(len=*), intent(in) :: path, final_path
-      logical, intent(in) :: has_lists
-      type(hdf5_file_t), intent(out) :: file
+      character(len=*), intent(in) :: path, final_path !< not used; what the message calls it
+      logical, intent(in) :: has_lists                 !< not used
+      type(hdf5_file_t), intent(out) :: file           !< failed: STATUS_FILE
 
       call set_status(file%status, STATUS_FILE, final_path//': this build of atrito has no HDF5')
    end subroutine create_hdf5
 
    !> The file fails: this build has no HDF5.
    subroutine open_hdf5(path, file)
-      character(len=*), intent(in) :: path
-      type(hdf5_file_t), intent(out) :: file
+      character(len=*), intent(in) :: path       !< for the message
+      type(hdf5_file_t), intent(out) :: file     !< failed: STATUS_FILE
 
       call set_status(file%status, STATUS_FILE, path//': this build of atrito has no HDF5')
    end subroutine open_hdf5
@@ -122,8 +122,8 @@ contains
 
    !> status: STATUS_FILE, of create_hdf5 or open_hdf5.
    subroutine close_hdf5(file, status)
-      type(hdf5_file_t), intent(inout) :: file
-      type(status_t), intent(out) :: status
+      type(hdf5_file_t), intent(inout) :: file   !< failed
+      type(status_t), intent(out) :: status      !< STATUS_FILE
 
       status = file%status
    end subroutine close_hdf5

@@ -29,8 +29,8 @@ contains
 
    !> What can be reported of each pair without looking for its points.
    subroutine check_surfaces_of_pairs(model, context, chains)
-      type(model_t), intent(in) :: model
-      type(build_context_t), intent(in) :: context
+      type(model_t), intent(in) :: model               !< pairs, surfaces and mesh
+      type(build_context_t), intent(in) :: context     !< places of pairs in the deck, for messages
       type(chain_report_t), intent(in) :: chains(:)    !< of each surface
       logical :: is_judged(size(model%surfaces))       ! it was the slave of an earlier pair
       type(number_list_t) :: shared(size(model%pairs)) ! nodes of both sides
@@ -246,8 +246,8 @@ contains
 
    !> Reports interactions that no pair has; for models without any error.
    subroutine note_unused_interactions(model, context)
-      type(model_t), intent(in) :: model
-      type(build_context_t), intent(in) :: context
+      type(model_t), intent(in) :: model               !< all of it built
+      type(build_context_t), intent(in) :: context     !< places of interactions in the deck, for messages
       logical :: is_used(size(model%interactions))
       integer(ip) :: i
 
@@ -262,8 +262,8 @@ contains
 
    !> Judges the points of each pair; for models without any error.
    subroutine check_points_of_pairs(model, context)
-      type(model_t), intent(in) :: model
-      type(build_context_t), intent(in) :: context
+      type(model_t), intent(in) :: model               !< with the points of all pairs
+      type(build_context_t), intent(in) :: context     !< places in the deck, for messages
       logical :: is_judged(size(model%interactions))         ! its radius, too small for some points, was reported
       integer(ip) :: i
 

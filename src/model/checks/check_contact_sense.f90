@@ -25,7 +25,7 @@ module atrito_check_contact_sense
 
    !> The faces of a pair that have a part in its points, each as one number.
    type :: sides_t
-      integer(lp), allocatable :: slave(:), master(:)
+      integer(lp), allocatable :: slave(:), master(:)  !< element and side; only faces that points join
    end type sides_t
 
    !> Moduli and faces that differ by less are alike.
@@ -35,8 +35,8 @@ contains
 
    !> The pair with the largest initial overlap, and how many others have some; for models without any error.
    subroutine warn_of_overlap(model, context)
-      type(model_t), intent(in) :: model
-      type(build_context_t), intent(in) :: context
+      type(model_t), intent(in) :: model               !< with the points of all pairs
+      type(build_context_t), intent(in) :: context     !< places in the deck, for messages
       real(wp) :: largest, overlap, slack
       integer(ip) :: i, j, worst, n
       character(len=:), allocatable :: others
@@ -91,8 +91,8 @@ contains
 
    !> Loads on faces where slave and master face each other; for models without any error. A message a line of the deck.
    subroutine warn_of_loaded_contact(model, context)
-      type(model_t), intent(in) :: model
-      type(build_context_t), intent(in) :: context
+      type(model_t), intent(in) :: model               !< with the points of all pairs
+      type(build_context_t), intent(in) :: context     !< places in the deck, for messages
       integer(ip), allocatable :: pair_at(:, :)        ! of find_contact_faces; not listed before it is wanted
       integer(ip) :: i, reported
 
@@ -170,8 +170,8 @@ contains
 
    !> The first two pairs that are one, and how many others there are; for models without any error.
    subroutine warn_of_pairs_twice(model, context)
-      type(model_t), intent(in) :: model
-      type(build_context_t), intent(in) :: context
+      type(model_t), intent(in) :: model               !< with the points of all pairs
+      type(build_context_t), intent(in) :: context     !< places in the deck, for messages
       type(sides_t), allocatable :: sides(:)
       integer(ip) :: twin(size(model%pairs)), i, k
       character(len=:), allocatable :: text, advice

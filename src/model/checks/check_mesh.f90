@@ -26,8 +26,8 @@ contains
 
    !> Reports what is wrong with the mesh of a model whose cards have all been read.
    subroutine check_mesh(model, context)
-      type(model_t), intent(in) :: model
-      type(build_context_t), intent(in) :: context
+      type(model_t), intent(in) :: model               !< cards all read; mesh as it is solved
+      type(build_context_t), intent(in) :: context     !< places in the deck, for messages
       integer(ip), allocatable :: found(:)
       integer(ip) :: i
 

@@ -34,8 +34,8 @@ contains
    !> Reports elements whose shape makes no sense: nodes in clockwise order, sides folded over each other, nothing inside; the first
    !> of them one by one, the others by their number.
    subroutine check_shapes(mesh, context)
-      type(mesh_t), intent(in) :: mesh
-      type(build_context_t), intent(in) :: context
+      type(mesh_t), intent(in) :: mesh                 !< as it is solved
+      type(build_context_t), intent(in) :: context     !< places in the deck, for messages
       logical, allocatable :: good(:)                  !< (runs of elements)
       integer(ip) :: run, first, last, e, shape, node, n
 

@@ -24,16 +24,16 @@ module atrito_build_equations
 
    !> One term of an equation: the same for all nodes of a set.
    type :: term_t
-      integer(ip), allocatable :: nodes(:)
-      integer(ip) :: dof = 0
-      real(wp) :: coefficient = 0.0_wp
+      integer(ip), allocatable :: nodes(:)       !< places in the mesh
+      integer(ip) :: dof = 0                     !< 1, 2 or 6; NO_DOF: the term says nothing
+      real(wp) :: coefficient = 0.0_wp           !< of the dof; of dof 6 the rotation is in rad
    end type term_t
 
 contains
 
    !> All *EQUATION cards.
    subroutine build_equations(context)
-      type(build_context_t), intent(inout) :: context
+      type(build_context_t), intent(inout) :: context  !< its model gets equations and bilateral rows
       type(term_t), allocatable :: terms(:)
       type(token_t) :: place
       integer(ip) :: i, j, k, last, group

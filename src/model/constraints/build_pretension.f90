@@ -34,7 +34,7 @@ contains
 
    !> All sections; the surfaces are there, and so are the rigid bodies, to which the sections' nodes come.
    subroutine build_pretension(context)
-      type(build_context_t), intent(inout) :: context
+      type(build_context_t), intent(inout) :: context !< cuts, nodes, rigid bodies; its mesh is cut
       integer(ip) :: i
 
       allocate (context%cuts(0))
@@ -170,7 +170,7 @@ contains
 
    !> The rows that hold the sides together; no nodes are made any more.
    subroutine add_pretension_rows(context)
-      type(build_context_t), intent(inout) :: context
+      type(build_context_t), intent(inout) :: context !< its model gets bilateral rows of its cuts
       integer(ip) :: i, k, nodes(3), group
       real(wp) :: n(2), t(2), weight
 

@@ -31,7 +31,7 @@ contains
 
    !> All *RIGID BODY cards; surfaces are there, and which nodes have elements.
    subroutine build_rigid_bodies(context)
-      type(build_context_t), intent(inout) :: context
+      type(build_context_t), intent(inout) :: context  !< its model gets rigid_bodies
       integer(ip) :: i
 
       ! with room for the sections' nodes, too
@@ -106,8 +106,8 @@ contains
 
    !> The one node that an option names; it belongs to no element.
    subroutine find_free_node(card, context, option, expected, node, place)
-      type(card_t), intent(in) :: card
-      type(build_context_t), intent(in) :: context
+      type(card_t), intent(in) :: card                 !< whose option names it
+      type(build_context_t), intent(in) :: context     !< its mesh and sets are searched
       character(len=*), intent(in) :: option, expected !< what node it should be, for messages
       integer(ip), intent(out) :: node                 !< place; 0: there is none, which is reported
       type(token_t), intent(out) :: place              !< of the option's value
@@ -132,11 +132,11 @@ contains
 
    !> The nodes of elements that a card names, each once. The name is that of the first option; not allocated: there is none.
    subroutine read_tied_nodes(card, context, name, nodes, ok)
-      type(card_t), intent(in) :: card
-      type(build_context_t), intent(in) :: context
-      character(len=:), allocatable, intent(out) :: name
-      integer(ip), allocatable, intent(out) :: nodes(:)
-      logical, intent(out) :: ok
+      type(card_t), intent(in) :: card                   !< *RIGID BODY
+      type(build_context_t), intent(in) :: context       !< its mesh, sets and refinement are read
+      character(len=:), allocatable, intent(out) :: name !< of a set, or the number of a node
+      integer(ip), allocatable, intent(out) :: nodes(:)  !< places, rising
+      logical, intent(out) :: ok                         !< no error; without an option there are no nodes
       character(len=:), allocatable :: set
       integer(ip), allocatable :: members(:)
       type(number_list_t) :: found_nodes
@@ -211,8 +211,8 @@ contains
 
    !> Which nodes are reference nodes.
    pure elemental logical function is_reference(context, node)
-      type(build_context_t), intent(in) :: context
-      integer(ip), intent(in) :: node
+      type(build_context_t), intent(in) :: context     !< its rigid bodies are read
+      integer(ip), intent(in) :: node                  !< place in the mesh
 
       is_reference = .false.
       if (context%rigid_bodies%n > 0) is_reference = find_id(context%rigid_bodies, node) > 0
@@ -220,8 +220,8 @@ contains
 
    !> The rigid body of a reference node; 0: it is none.
    pure integer(ip) function rigid_body_of(context, node) result(body)
-      type(build_context_t), intent(in) :: context
-      integer(ip), intent(in) :: node
+      type(build_context_t), intent(in) :: context     !< its rigid bodies are read
+      integer(ip), intent(in) :: node                  !< place in the mesh
 
       body = find_id(context%rigid_bodies, node)
    end function rigid_body_of
@@ -229,11 +229,11 @@ contains
    !> Whether a reference node can be displaced or loaded there: not along a radius nor about the axis of bodies of revolution, nor
    !> along axes of its own where it moves along one axis alone.
    logical function can_move(context, place, node, dof, value, keyword) result(can)
-      type(build_context_t), intent(in) :: context
+      type(build_context_t), intent(in) :: context  !< its rigid bodies and axes are read
       type(token_t), intent(in) :: place            !< of the line
-      integer(ip), intent(in) :: node, dof
-      real(wp), intent(in) :: value
-      character(len=*), intent(in) :: keyword
+      integer(ip), intent(in) :: node, dof          !< place of a reference node; 1, 2 or 6
+      real(wp), intent(in) :: value                 !< of the dof; 0 is always possible but along local axes
+      character(len=*), intent(in) :: keyword       !< of the card, for `atrito help KEYWORD`
       logical :: is_section
 
       is_section = context%model%rigid_bodies(rigid_body_of(context, node))%is_section
@@ -256,8 +256,8 @@ contains
 
    !> Appends a rigid body; the list has room for all.
    pure subroutine append_rigid_body(context, body)
-      type(build_context_t), intent(inout) :: context
-      type(rigid_body_t), intent(in) :: body
+      type(build_context_t), intent(inout) :: context  !< its model has room for the body
+      type(rigid_body_t), intent(in) :: body           !< its node is not yet one
       logical :: known
 
       associate (n => context%rigid_bodies%n)

@@ -22,8 +22,8 @@ module atrito_build_springs
 
    !> Springs while they are read: which set each belongs to, and where it stands.
    type :: reading_t
-      type(name_list_t) :: sets
-      type(id_map_t) :: ids
+      type(name_list_t) :: sets                        !< names of the element sets, in the order of first use
+      type(id_map_t) :: ids                            !< the user's numbers
       integer(ip) :: n = 0                             !< springs so far
       integer(ip), allocatable :: set(:)               !< of each spring
       logical, allocatable :: given(:)                 !< (sets) *SPRING has come
@@ -37,8 +37,8 @@ contains
 
    !> Whether an *ELEMENT card makes springs.
    logical function is_spring_card(context, card)
-      type(build_context_t), intent(in) :: context
-      type(card_t), intent(in) :: card
+      type(build_context_t), intent(in) :: context     !< its deck has the card
+      type(card_t), intent(in) :: card                 !< of any keyword
 
       is_spring_card = keyword_name(card) == 'ELEMENT'
       if (is_spring_card) is_spring_card = index(option_word(context%deck, card, 'TYPE'), 'SPRING') == 1
@@ -47,7 +47,7 @@ contains
    !> Makes the springs of all *ELEMENT cards of type SPRING1, SPRING2 and SPRINGA, with directions and stiffnesses of *SPRING, and
    !> their rows among the bilateral ones.
    subroutine build_springs(context)
-      type(build_context_t), intent(inout) :: context
+      type(build_context_t), intent(inout) :: context  !< its model gets springs and their bilateral rows
       type(reading_t) :: reading
       type(string_t), allocatable :: names(:)
       integer(ip) :: i, k, n

@@ -37,8 +37,8 @@ module atrito_build_supports
 
    !> Words that hold several dofs at once.
    type :: support_word_t
-      character(len=8) :: name
-      logical :: holds(LAST_DOF)
+      character(len=8) :: name                   !< as the deck has it
+      logical :: holds(LAST_DOF)                 !< dofs, by their numbers
    end type support_word_t
 
    logical, parameter :: T = .true., F = .false.
@@ -57,7 +57,7 @@ contains
    !> All prescribed displacements of a step, along the dofs of the deck: those of the model, which are there before the first,
    !> those that are inherited, and its own.
    subroutine build_supports(context)
-      type(build_context_t), intent(inout) :: context
+      type(build_context_t), intent(inout) :: context  !< open%supports, dof_entry and loose_held change
       type(by_number_t) :: numbered
       type(condition_list_t) :: before
       integer(ip) :: i, entry

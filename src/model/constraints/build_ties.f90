@@ -28,7 +28,7 @@ contains
 
    !> All *TIE cards: model%ties.
    subroutine read_ties(context)
-      type(build_context_t), intent(inout) :: context
+      type(build_context_t), intent(inout) :: context  !< gets ties, and so does its model
       integer(ip) :: i, n
 
       n = count_lines(context%deck, KEYWORD)
@@ -80,7 +80,7 @@ contains
 
    !> Checks of each tie that need none of its points.
    subroutine check_ties(context, chains)
-      type(build_context_t), intent(in) :: context
+      type(build_context_t), intent(in) :: context     !< its model's ties and surfaces are read
       type(chain_report_t), intent(in) :: chains(:)    !< of each surface
       integer(ip) :: i
 
@@ -155,7 +155,7 @@ contains
 
    !> The rows of all ties; for models without any error. Nodes of the slaves may move.
    subroutine build_ties(context)
-      type(build_context_t), intent(inout) :: context
+      type(build_context_t), intent(inout) :: context  !< its model gets bilateral rows; tolerances are set
       type(contact_points_t), allocatable :: points(:)
       logical, allocatable :: from_behind(:)
       integer(ip) :: i, tied_by(context%model%mesh%n_nodes), j, k

@@ -20,7 +20,7 @@ contains
 
    !> All *TRANSFORM cards: context%axes, which is not allocated where there are none.
    subroutine read_local_axes(context)
-      type(build_context_t), intent(inout) :: context
+      type(build_context_t), intent(inout) :: context !< gets axes, at nodes between others too
       integer(ip) :: i
 
       do i = 1, context%deck%n_cards
@@ -192,8 +192,8 @@ contains
 
    !> Whether a node has axes of its own, by *TRANSFORM.
    pure logical function has_local_axes(context, node)
-      type(build_context_t), intent(in) :: context
-      integer(ip), intent(in) :: node
+      type(build_context_t), intent(in) :: context !< its axes are read
+      integer(ip), intent(in) :: node              !< place in the mesh
 
       has_local_axes = .false.
       if (allocated(context%axes)) has_local_axes = any(context%axes(:, 1, node) /= 0.0_wp)
@@ -201,8 +201,8 @@ contains
 
    !> The direction of a dof of a node.
    pure function dof_direction(context, node, dof) result(direction)
-      type(build_context_t), intent(in) :: context
-      integer(ip), intent(in) :: node, dof
+      type(build_context_t), intent(in) :: context !< its axes are read
+      integer(ip), intent(in) :: node, dof         !< place in the mesh; 1 or 2
       real(wp) :: direction(2)
 
       direction = merge([1.0_wp, 0.0_wp], [0.0_wp, 1.0_wp], dof == 1)

@@ -27,7 +27,7 @@ contains
 
    !> The nodes of a list that belong to no element and carry no rigid surface.
    pure function has_no_unknowns(context, nodes) result(loose)
-      type(build_context_t), intent(in) :: context
+      type(build_context_t), intent(in) :: context     !< which nodes have elements, and rigid bodies
       integer(ip), intent(in) :: nodes(:)              !< places
       logical :: loose(size(nodes))
 
@@ -36,11 +36,11 @@ contains
 
    !> ok is false, and an error reported, where some nodes have no unknowns.
    subroutine check_row_nodes(context, place, nodes, expected, keyword, ok)
-      type(build_context_t), intent(in) :: context
-      type(token_t), intent(in) :: place
-      integer(ip), intent(in) :: nodes(:)
-      character(len=*), intent(in) :: expected, keyword
-      logical, intent(out) :: ok
+      type(build_context_t), intent(in) :: context      !< which nodes have elements, and rigid bodies
+      type(token_t), intent(in) :: place                !< at which the error is told
+      integer(ip), intent(in) :: nodes(:)               !< places in the mesh
+      character(len=*), intent(in) :: expected, keyword !< for the message: what should be there, and help
+      logical, intent(out) :: ok                        !< all have unknowns
 
       ok = .not. any(has_no_unknowns(context, nodes))
       if (ok .or. has_lost_elements(context)) return
@@ -51,11 +51,11 @@ contains
 
    !> ok is false, and an error reported, where some nodes do not have a dof.
    subroutine check_row_dof(context, place, nodes, dof, keyword, ok)
-      type(build_context_t), intent(in) :: context
+      type(build_context_t), intent(in) :: context     !< its rigid bodies are read
       type(token_t), intent(in) :: place               !< of the dof
-      integer(ip), intent(in) :: nodes(:), dof
-      character(len=*), intent(in) :: keyword
-      logical, intent(out) :: ok
+      integer(ip), intent(in) :: nodes(:), dof         !< places in the mesh; as the deck has it
+      character(len=*), intent(in) :: keyword          !< of the card, for `atrito help KEYWORD`
+      logical, intent(out) :: ok                       !< all have the dof
       character(len=:), allocatable :: what
       integer(ip) :: i
 
@@ -84,8 +84,8 @@ contains
 
    !> The node of the solver's mesh whose displacement is that of a node: of a reference node the first of those that carry it.
    pure integer(ip) function row_node(context, node) result(moves)
-      type(build_context_t), intent(in) :: context
-      integer(ip), intent(in) :: node
+      type(build_context_t), intent(in) :: context     !< its rigid bodies are read
+      integer(ip), intent(in) :: node                  !< place in the mesh
       integer(ip) :: carriers(3)
 
       moves = node
@@ -97,11 +97,11 @@ contains
    !> What a dof is in a row: a displacement along its direction, or the rotation of a reference node times an arm, which is the
    !> difference of what the first two of its nodes move by along 2: they lie the size of the surface apart along 1.
    pure subroutine row_terms(context, node, dof, arm, nodes, vectors)
-      type(build_context_t), intent(in) :: context
-      integer(ip), intent(in) :: node, dof
+      type(build_context_t), intent(in) :: context     !< its axes and rigid bodies are read
+      integer(ip), intent(in) :: node, dof             !< place in the mesh; 1, 2 or 6
       real(wp), intent(in) :: arm                      !< that a rotation is multiplied by [L]
       integer(ip), intent(out) :: nodes(TERMS_A_DOF)   !< of the solver's mesh
-      real(wp), intent(out) :: vectors(2, TERMS_A_DOF)
+      real(wp), intent(out) :: vectors(2, TERMS_A_DOF) !< dof, or arm times rotation: sum of vectors . u(nodes) [-]
       integer(ip) :: carriers(3)
 
       nodes = row_node(context, node)
@@ -117,15 +117,15 @@ contains
 
    !> The size of the surface of a reference node [L].
    pure real(wp) function arm_of(context, node) result(arm)
-      type(build_context_t), intent(in) :: context
-      integer(ip), intent(in) :: node
+      type(build_context_t), intent(in) :: context     !< its rigid bodies are read
+      integer(ip), intent(in) :: node                  !< place of a reference node
 
       arm = context%model%rigid_bodies(rigid_body_of(context, node))%size
    end function arm_of
 
    !> What forces of rows are divided by where several may share a load [L^2].
    pure real(wp) function row_weight(model) result(weight)
-      type(model_t), intent(in) :: model
+      type(model_t), intent(in) :: model         !< its mesh and sections are read
 
       weight = 0.0_wp
       associate (x => model%mesh%x(:, :model%mesh%n_nodes))
@@ -138,7 +138,7 @@ contains
 
    !> The rows by which nodes of elements move as their rigid bodies do; no nodes are made any more, and all are where they stay.
    subroutine add_rigid_rows(context)
-      type(build_context_t), intent(inout) :: context
+      type(build_context_t), intent(inout) :: context  !< its model gets bilateral rows
       type(token_t) :: place
       character(len=:), allocatable :: name
       integer(ip), allocatable :: nodes(:), reference(:)

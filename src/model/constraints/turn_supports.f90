@@ -24,7 +24,7 @@ contains
    !> asks for e . u = value: where e is an axis of the scene a component is prescribed, else it is a bilateral row, which holds in
    !> all steps.
    subroutine turn_supports(context)
-      type(build_context_t), intent(inout) :: context
+      type(build_context_t), intent(inout) :: context  !< its open step gets prescribed; rows, where inclined
       type(condition_list_t) :: inclined
 
       if (context%open%number == 1) call begin_rows(context%model%bilateral)

@@ -36,9 +36,9 @@ contains
 
    !> ADJUST of a *CONTACT PAIR: a distance or a node set.
    subroutine read_adjustment(context, card, pair)
-      type(build_context_t), intent(in) :: context
-      type(card_t), intent(in) :: card
-      type(pair_t), intent(inout) :: pair
+      type(build_context_t), intent(in) :: context     !< its model may get a node set
+      type(card_t), intent(in) :: card                 !< *CONTACT PAIR
+      type(pair_t), intent(inout) :: pair              !< adjust, adjust_set and is_adjusted are set
       character(len=*), parameter :: WHAT = 'largest gap that is closed, a real >= 0 [L], or a node set'
       type(option_t) :: option
       character(len=:), allocatable :: text
@@ -64,7 +64,7 @@ contains
 
    !> Moves the nodes of all pairs that ask for it, one pair after the other.
    subroutine adjust_pairs(context, adjusted)
-      type(build_context_t), intent(inout) :: context
+      type(build_context_t), intent(inout) :: context           !< nodes of slaves get other coordinates
       type(adjusted_t), allocatable, intent(out) :: adjusted(:) !< of each pair
       integer(ip) :: i
 
@@ -189,8 +189,8 @@ contains
 
    !> Points all of whose slave nodes lie on the master have no gap, of what shape its faces are.
    pure subroutine close_adjusted(adjusted, points)
-      type(adjusted_t), intent(in) :: adjusted
-      type(contact_points_t), intent(inout) :: points
+      type(adjusted_t), intent(in) :: adjusted         !< of the pair, by adjust_pairs
+      type(contact_points_t), intent(inout) :: points  !< of the pair: some gaps become 0
       integer(ip) :: j
 
       if (.not. allocated(adjusted%node)) return

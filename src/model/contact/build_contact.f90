@@ -20,7 +20,7 @@ contains
 
    !> All interactions and pairs of a model.
    subroutine build_contact(context)
-      type(build_context_t), intent(inout) :: context
+      type(build_context_t), intent(inout) :: context  !< its model gets interactions and pairs
       logical :: given(2)                              ! *SURFACE BEHAVIOR, *FRICTION of the current interaction
       character(len=:), allocatable :: name
       integer(ip) :: i, current, n_pairs

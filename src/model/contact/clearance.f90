@@ -28,11 +28,11 @@ module atrito_clearance
    !> The gaps of a pair: one for all its points, or some by the slave's nodes.
    type :: clearance_t
       integer(ip) :: pair = 0                          !< place in model%pairs
-      type(token_t) :: place
-      logical :: is_uniform = .false.
+      type(token_t) :: place                           !< of the name of the slave
+      logical :: is_uniform = .false.                  !< one gap for all points: value
       logical :: is_function = .false.                 !< the values are those of a function at all nodes of the slave
       real(wp) :: value = 0.0_wp                       !< [L]
-      integer(ip), allocatable :: node(:)
+      integer(ip), allocatable :: node(:)              !< places in the mesh
       real(wp), allocatable :: values(:)               !< of the nodes [L]
    end type clearance_t
 
@@ -42,15 +42,15 @@ module atrito_clearance
    type :: interference_t
       integer(ip) :: pair = 0                          !< place in model%pairs
       integer(ip) :: step = 0                          !< that resolves the overlap
-      type(token_t) :: place
+      type(token_t) :: place                           !< of the name of the slave
    end type interference_t
 
 contains
 
    !> All *CLEARANCE of a deck. The surfaces of its pairs are known.
    subroutine read_clearances(context, list)
-      type(build_context_t), intent(inout) :: context
-      type(clearance_t), allocatable, intent(out) :: list(:)
+      type(build_context_t), intent(inout) :: context        !< gap_is_given of its pairs
+      type(clearance_t), allocatable, intent(out) :: list(:) !< each pair once
       type(clearance_t) :: one
       type(pair_index_t) :: pairs
       integer(ip), allocatable :: of_pair(:)           ! place in the list; 0: none so far
@@ -188,7 +188,7 @@ contains
 
    !> Gives the points of the pairs their gaps.
    subroutine set_clearances(list, n_nodes, refinement, points)
-      type(clearance_t), intent(in) :: list(:)
+      type(clearance_t), intent(in) :: list(:)         !< each pair once
       integer(ip), intent(in) :: n_nodes               !< of the mesh
       type(refinement_t), intent(in) :: refinement     !< how it came from the deck's, whose nodes the lists name
       type(contact_points_t), intent(inout) :: points(:) !< of each pair
@@ -261,8 +261,8 @@ contains
 
    !> All lines of a deck. The surfaces of its pairs are known.
    subroutine read_interferences(context, list)
-      type(build_context_t), intent(inout) :: context
-      type(interference_t), allocatable, intent(out) :: list(:)
+      type(build_context_t), intent(inout) :: context           !< is_resolved of its pairs
+      type(interference_t), allocatable, intent(out) :: list(:) !< each pair once
       type(interference_t) :: one
       type(pair_index_t) :: pairs
       type(string_t) :: names(2)
@@ -328,8 +328,8 @@ contains
 
    !> Gives the steps what they allow; the points of the pairs are known.
    subroutine set_interferences(list, context)
-      type(interference_t), intent(in) :: list(:)
-      type(build_context_t), intent(inout) :: context
+      type(interference_t), intent(in) :: list(:)      !< each pair once
+      type(build_context_t), intent(inout) :: context  !< steps of its model get overlap and overlap_from
       integer(ip) :: i, k
 
       if (size(list) == 0) return

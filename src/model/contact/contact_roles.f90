@@ -26,8 +26,8 @@ contains
    !> Exchanges the sides of such pairs; for models without any error, before their points are made. Where the deck says something
    !> node by node of the slave, or asks for its nodes, it is warned of.
    subroutine choose_roles(clearances, context)
-      type(clearance_t), intent(in) :: clearances(:)
-      type(build_context_t), intent(inout) :: context
+      type(clearance_t), intent(in) :: clearances(:)  !< a pair whose nodes have gaps of their own stays
+      type(build_context_t), intent(inout) :: context !< pairs of its model, and the order of their faces
       type(chain_report_t) :: report
       type(contact_points_t), allocatable :: points(:)
       character(len=:), allocatable :: text

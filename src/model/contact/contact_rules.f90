@@ -21,24 +21,25 @@ module atrito_contact_rules
    !> Pairs of surfaces, and a number for each.
    type :: rule_list_t
       type(number_list_t) :: a, b                    !< surfaces: places in the model's list, or ANY_BODY
-      type(number_list_t) :: value
+      type(number_list_t) :: value                   !< of each rule
       integer(lp), allocatable :: key(:)             !< sorted: of the surfaces
       integer(ip), allocatable :: order(:)           !< the rules by their keys; of equal ones the last is the last
    end type rule_list_t
 
    !> What a name with * stands for: surfaces of elements. Rules name the k-th of these by the number of surfaces + k.
    type :: group_t
-      character(len=:), allocatable :: pattern
-      integer(ip), allocatable :: surfaces(:)
+      character(len=:), allocatable :: pattern       !< the name with * as the deck has it
+      integer(ip), allocatable :: surfaces(:)        !< places in the model's list
    end type group_t
 
+   !> *CONTACT with its inclusions, exclusions and assignments.
    type :: contact_rules_t
-      logical :: given = .false.
+      logical :: given = .false.                     !< the deck has *CONTACT
       type(token_t) :: place                         !< of the *CONTACT
       real(wp) :: distance = 0.0_wp                  !< [L]; 0: half a face
-      integer(ip) :: quadrature = QUADRATURE_AUTO
-      type(group_t), allocatable :: groups(:)
-      type(rule_list_t) :: included, excluded
+      integer(ip) :: quadrature = QUADRATURE_AUTO    !< QUADRATURE_*
+      type(group_t), allocatable :: groups(:)        !< in the order in which rules name them
+      type(rule_list_t) :: included, excluded        !< values are not used
       type(rule_list_t) :: assigned                  !< value: place of the interaction
    end type contact_rules_t
 
@@ -46,8 +47,8 @@ contains
 
    !> All rules of a deck.
    subroutine read_contact_rules(context, rules)
-      type(build_context_t), intent(in) :: context
-      type(contact_rules_t), intent(out) :: rules
+      type(build_context_t), intent(in) :: context   !< its surfaces are known
+      type(contact_rules_t), intent(out) :: rules    !< given is false where there are none
       character(len=*), parameter :: WHAT = 'farthest distance of faces that may touch, a real > 0 [L]'
       character(len=:), allocatable :: text
       type(token_t) :: place
@@ -89,7 +90,7 @@ contains
 
    !> By the words of QUADRATURE, and of TYPE in other programs; QUADRATURE_AUTO where there is none.
    pure integer(ip) function quadrature_of(word) result(quadrature)
-      character(len=*), intent(in) :: word
+      character(len=*), intent(in) :: word           !< in capitals; '' where there is none
 
       select case (word)
       case ('NODAL', 'NODE TO SURFACE')
@@ -200,8 +201,8 @@ contains
 
    !> Adds a rule to those that there are.
    pure subroutine add_rule(rules, a, b, value)
-      type(rule_list_t), intent(inout) :: rules
-      integer(ip), intent(in) :: a, b, value
+      type(rule_list_t), intent(inout) :: rules      !< gets one, of the last word so far
+      integer(ip), intent(in) :: a, b, value         !< surfaces, as a and b of the list; and its number
 
       call add_number(rules%a, a)
       call add_number(rules%b, b)
@@ -210,7 +211,7 @@ contains
 
    !> To be called before last_rule.
    pure subroutine sort_rules(rules)
-      type(rule_list_t), intent(inout) :: rules
+      type(rule_list_t), intent(inout) :: rules      !< gets key and order
       integer(lp), allocatable :: key(:)
 
       key = key_of(numbers_of(rules%a), numbers_of(rules%b))

@@ -35,7 +35,7 @@ contains
 
    !> Adds them to the points of all pairs in the plane whose gaps are those of the coordinates.
    subroutine add_end_points(model, places)
-      type(model_t), intent(inout) :: model
+      type(model_t), intent(inout) :: model                        !< its points of contact grow
       real(wp), allocatable, intent(out), optional :: places(:, :) !< (2, points added) [L]
       type(master_t) :: sides(2)                     ! slave, master
       real(wp), allocatable :: added(:, :)

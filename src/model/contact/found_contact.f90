@@ -30,8 +30,8 @@ module atrito_found_contact
 
    !> The search for pairs. A party is a body, or a rigid surface that may take part: those come after the bodies.
    type :: search_t
-      type(bodies_t) :: bodies
-      type(outlines_t) :: outlines
+      type(bodies_t) :: bodies                               !< of the elements
+      type(outlines_t) :: outlines                           !< of all bodies; faces in the search are theirs
       integer(ip), allocatable :: first(:), of_body(:)       !< of_body(first(b):first(b + 1) - 1): the faces of body b
       integer(ip), allocatable :: rigid(:)                   !< surfaces of the rigid parties
       type(master_t), allocatable :: masters(:)              !< (parties) made when they are needed
@@ -44,7 +44,7 @@ module atrito_found_contact
 
    !> The slave faces of all pairs.
    type :: chains_t
-      integer(ip) :: n = 0, n_outlines = 0, n_faces = 0
+      integer(ip) :: n = 0, n_outlines = 0, n_faces = 0      !< pairs, outlines that they are of, faces
       integer(ip), allocatable :: face(:), first(:)          !< face(first(i):first(i + 1) - 1): of pair i, in their order
       integer(ip), allocatable :: outline(:)                 !< (pairs) the same for pairs that continue each other
    end type chains_t
@@ -56,8 +56,8 @@ contains
 
    !> Adds pairs to those that the deck gives, each with a surface for its slave; for models without any error.
    subroutine find_contact(rules, context)
-      type(contact_rules_t), intent(inout) :: rules
-      type(build_context_t), intent(inout) :: context
+      type(contact_rules_t), intent(inout) :: rules   !< the deck's pairs are excluded too; all are sorted
+      type(build_context_t), intent(inout) :: context !< its model gets surfaces and pairs
       type(search_t) :: search
       type(chains_t) :: chains
 

@@ -20,8 +20,8 @@ contains
 
    !> Puts the faces of slaves into the order of their chains; reports: of each surface, what is wrong with its chain.
    subroutine order_slaves(model, reports)
-      type(model_t), intent(inout) :: model
-      type(chain_report_t), allocatable, intent(out) :: reports(:)
+      type(model_t), intent(inout) :: model                        !< faces of its slaves change their order
+      type(chain_report_t), allocatable, intent(out) :: reports(:) !< (surfaces) of what is no slave nothing is told
       logical :: is_slave(size(model%surfaces))
       integer(ip) :: i
 
@@ -41,8 +41,8 @@ contains
    !> made once for all of its pairs. In the plane the sides of a pair may slide along themselves in a motion of the whole body:
    !> pairs that have the same one but for digits, as rings in rings, take that of the one which tells it most sharply.
    subroutine pair_all(model, points)
-      type(model_t), intent(in) :: model
-      type(contact_points_t), allocatable, intent(out) :: points(:)
+      type(model_t), intent(in) :: model         !< surfaces, sections and mesh are read
+      type(contact_points_t), allocatable, intent(out) :: points(:) !< of each pair; n is 0 where it faces nothing
       type(chords_t), allocatable :: chords(:)
       type(sliding_t) :: motions(size(model%pairs))
       integer(lp) :: sharp(size(model%pairs))
@@ -75,10 +75,10 @@ contains
 
    !> The same of any pairs of surfaces, by their places.
    subroutine pair_surfaces(model, slaves, partners, quadrature, points, from_behind, chords)
-      type(model_t), intent(in) :: model
+      type(model_t), intent(in) :: model               !< surfaces, sections and mesh are read
       integer(ip), intent(in) :: slaves(:), partners(:) !< slaves and masters
       integer(ip), intent(in) :: quadrature(:)         !< QUADRATURE_*
-      type(contact_points_t), allocatable, intent(out) :: points(:)
+      type(contact_points_t), allocatable, intent(out) :: points(:) !< of each pair; n is 0 where it faces nothing
       logical, intent(in), optional :: from_behind(:)  !< the master's outside is taken for its inside; default: nowhere
       type(chords_t), allocatable, intent(out), optional :: chords(:) !< of the pairs
       type(master_t), allocatable, target :: masters(:) ! of the surfaces
@@ -128,9 +128,9 @@ contains
 
    !> A surface as the master of pairs: its faces or segments, with what finds the nearest of them.
    subroutine make_master(model, i, master, grain)
-      type(model_t), intent(in) :: model
+      type(model_t), intent(in) :: model               !< surfaces and mesh are read
       integer(ip), intent(in) :: i                     !< the surface
-      type(master_t), intent(out) :: master
+      type(master_t), intent(out) :: master            !< of faces, or of segments and arcs
       real(wp), intent(in), optional :: grain          !< to which the nodes of the mesh are known [L]; left out: all digits
 
       associate (surface => model%surfaces(i))
@@ -163,7 +163,7 @@ contains
 
    !> How many times as stiff the slave of a pair is as its master, in the mean along their sides; 0 of a rigid master.
    pure real(wp) function slave_stiffness(model, i) result(stiffness)
-      type(model_t), intent(in) :: model
+      type(model_t), intent(in) :: model               !< surfaces, sections and mesh are read
       integer(ip), intent(in) :: i                     !< the pair
 
       stiffness = 0.0_wp

@@ -26,7 +26,7 @@ contains
 
    !> All materials and sections of a model.
    subroutine build_materials(context)
-      type(build_context_t), intent(inout) :: context
+      type(build_context_t), intent(inout) :: context  !< its model gets materials, sections, section_of
       character(len=:), allocatable :: name
       integer(ip) :: i, current, place, n_sections
       logical :: is_open                               ! nothing but what belongs to it since the last *MATERIAL

@@ -29,9 +29,9 @@ module atrito_node_fields
 
    !> The temperatures of one keyword.
    type :: temperatures_t
-      character(len=18) :: keyword = ''
+      character(len=18) :: keyword = ''                !< whose lines are read
       integer(ip), allocatable :: token(:)             !< (n_nodes) first of the line that gives it; 0: none
-      real(wp), allocatable :: value(:)
+      real(wp), allocatable :: value(:)                !< (n_nodes) temperatures
       integer(ip) :: last = 0                          !< token of the last line; 0: there is none
    end type temperatures_t
 
@@ -41,7 +41,7 @@ contains
 
    !> The rise of the temperature of each node of the deck's mesh; heating stays unallocated where nothing grows warmer.
    subroutine read_temperatures(context)
-      type(build_context_t), intent(inout) :: context
+      type(build_context_t), intent(inout) :: context  !< steps of its model get heating
       type(temperatures_t) :: before, now
       integer(ip) :: k, last
 
@@ -191,8 +191,8 @@ contains
 
    !> The same fields on the refined mesh: they go the way of the coordinates.
    subroutine refine_node_fields(coarse, context)
-      type(mesh_t), intent(in) :: coarse
-      type(build_context_t), intent(inout) :: context
+      type(mesh_t), intent(in) :: coarse               !< mesh of the deck
+      type(build_context_t), intent(inout) :: context  !< heating and node_thickness, in place
       integer(ip) :: k
 
       do k = 1, size(context%model%steps, kind=ip)
@@ -227,8 +227,8 @@ contains
 
    !> New nodes behind the others, as warm as those that they double.
    pure subroutine double_temperatures(steps, nodes)
-      type(step_t), intent(inout) :: steps(:)
-      integer(ip), intent(in) :: nodes(:)
+      type(step_t), intent(inout) :: steps(:)    !< heating of each gets longer
+      integer(ip), intent(in) :: nodes(:)        !< places of those that are doubled
       integer(ip) :: i
 
       do i = 1, size(steps, kind=ip)
@@ -239,7 +239,7 @@ contains
 
    !> What grows warmer and has no *EXPANSION is reported; where nothing expands there are no temperatures.
    subroutine check_temperatures(context)
-      type(build_context_t), intent(inout) :: context
+      type(build_context_t), intent(inout) :: context  !< heating goes where nothing expands
       logical, allocatable :: is_heated(:)             ! of the materials
       integer(ip) :: i, e
 
@@ -271,7 +271,7 @@ contains
    !> The thickness of the nodes of the deck's mesh, 0 where there is none; unallocated where no card gives any. Data lines: node or
    !> set, thickness.
    subroutine read_node_thickness(context)
-      type(build_context_t), intent(inout) :: context
+      type(build_context_t), intent(inout) :: context  !< gets node_thickness
       integer(ip), allocatable :: given(:)             ! (n_nodes) token of the line that gives it; 0: none
       integer(ip), allocatable :: nodes(:), clashes(:)
       real(wp) :: value
@@ -309,7 +309,7 @@ contains
    !> Elements of sections with NODAL THICKNESS become tapered; each of their nodes must have a thickness. One that no section asks
    !> for has no effect.
    subroutine taper_elements(context)
-      type(build_context_t), intent(inout) :: context
+      type(build_context_t), intent(inout) :: context  !< mesh of its model gets states and thickness
       type(number_list_t) :: without
       logical, allocatable :: is_reported(:)
       integer(ip) :: e, i, k, first

@@ -24,9 +24,9 @@ contains
    !> Takes an *ELASTIC card for a material, isotropic or orthotropic. A material whose card is faulty is noted as such, so that
    !> nothing more is said of it.
    subroutine read_elastic_card(card, material, context, i)
-      type(card_t), intent(in) :: card
-      type(material_t), intent(inout) :: material
-      type(build_context_t), intent(inout) :: context
+      type(card_t), intent(in) :: card                 !< *ELASTIC, its lines may be faulty
+      type(material_t), intent(inout) :: material      !< gets young and poisson, or stiffness
+      type(build_context_t), intent(inout) :: context  !< elastic_given, elastic_invalid and poisson of it
       integer(ip), intent(in) :: i                     !< place of the material
       type(token_t) :: ratio
       logical :: ok(2)
@@ -66,12 +66,12 @@ contains
 
    !> A real that must be positive.
    subroutine get_positive(deck, token, what, name, value, ok, keyword)
-      type(deck_t), intent(in) :: deck
-      type(token_t), intent(in) :: token
+      type(deck_t), intent(in) :: deck                 !< as read; messages name its lines
+      type(token_t), intent(in) :: token               !< the item; messages point at it
       character(len=*), intent(in) :: what, name       !< what is expected, and what stands before the value in a message
-      real(wp), intent(out) :: value
-      logical, intent(out) :: ok
-      character(len=*), intent(in) :: keyword
+      real(wp), intent(out) :: value                   !< > 0 where ok
+      logical, intent(out) :: ok                       !< it is one; else that is reported
+      character(len=*), intent(in) :: keyword          !< of the card, for `atrito help KEYWORD`
 
       call get_real(deck, token, what, value, ok, keyword=keyword)
       if (.not. ok .or. value > 0.0_wp) return
@@ -81,10 +81,10 @@ contains
 
    !> Of a line of n values: `2,5` is a decimal comma, `7850, 20` and `7.85e-9,20` have a temperature. False: the first, reported.
    logical function check_comma(deck, line, n, expected, keyword) result(ok)
-      type(deck_t), intent(in) :: deck
-      type(data_line_t), intent(in) :: line
+      type(deck_t), intent(in) :: deck                 !< as read; messages name its lines
+      type(data_line_t), intent(in) :: line            !< data line
       integer(ip), intent(in) :: n                     !< values of a line
-      character(len=*), intent(in) :: expected, keyword
+      character(len=*), intent(in) :: expected, keyword !< for the message: items, and help of the card
       type(token_t) :: value, next
 
       ok = .true.
@@ -98,11 +98,11 @@ contains
 
    !> Lines for further temperatures say the same.
    subroutine check_constant(deck, card, values, what, ok)
-      type(deck_t), intent(in) :: deck
-      type(card_t), intent(in) :: card
+      type(deck_t), intent(in) :: deck                 !< as read; messages name its lines
+      type(card_t), intent(in) :: card                 !< whose further lines are compared
       real(wp), intent(in) :: values(:)                !< of the first line
       character(len=*), intent(in) :: what             !< they are
-      logical, intent(inout) :: ok
+      logical, intent(inout) :: ok                     !< becomes false where a line says something else
       real(wp) :: value
       integer(ip) :: i, k
       logical :: good

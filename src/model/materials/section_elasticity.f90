@@ -11,8 +11,8 @@ contains
 
    !> The elasticity of a section: that of its material, turned by the orientation of the section where it is orthotropic.
    pure type(elastic_t) function elasticity_of(section, material) result(elastic)
-      type(section_t), intent(in) :: section
-      type(material_t), intent(in) :: material
+      type(section_t), intent(in) :: section     !< thickness, formulation and axis are used
+      type(material_t), intent(in) :: material   !< of the section
 
       elastic = elastic_t(material%young, material%poisson, section%thickness, material%density, section%formulation, &
                           material%expansion)

@@ -16,13 +16,13 @@ contains
 
    !> Two items of a line that are the coordinates of a point.
    subroutine get_point(deck, line, first, what, x, ok, keyword)
-      type(deck_t), intent(in) :: deck
-      type(data_line_t), intent(in) :: line
+      type(deck_t), intent(in) :: deck                 !< as read; messages name its lines
+      type(data_line_t), intent(in) :: line            !< data line of the deck
       integer(ip), intent(in) :: first                 !< item
       character(len=*), intent(in) :: what(2)          !< what is expected
       real(wp), intent(out) :: x(2)                    !< [L]
       logical, intent(inout) :: ok                     !< false where there is an error
-      character(len=*), intent(in) :: keyword
+      character(len=*), intent(in) :: keyword          !< of the card, for `atrito help KEYWORD`
       integer(ip) :: k
       logical :: good
 
@@ -35,12 +35,12 @@ contains
    !> The centre is as far from both ends, within the digits of a deck, and moved so that it is exactly; the arc is less than a half
    !> circle, else it could run on either side.
    subroutine centre_arc(deck, tokens, a, b, centre, ok, keyword)
-      type(deck_t), intent(in) :: deck
+      type(deck_t), intent(in) :: deck                 !< as read; messages name its lines
       type(token_t), intent(in) :: tokens(2)           !< of the centre, and of the arc
       real(wp), intent(in) :: a(2), b(2)               !< ends [L]
       real(wp), intent(inout) :: centre(2)             !< [L]
-      logical, intent(out) :: ok
-      character(len=*), intent(in) :: keyword
+      logical, intent(out) :: ok                       !< it is such an arc; else that is reported
+      character(len=*), intent(in) :: keyword          !< of the card, for `atrito help KEYWORD`
       real(wp) :: chord(2), middle(2), radius(2)
 
       radius = [norm2(a - centre), norm2(b - centre)]

@@ -22,7 +22,7 @@ contains
    !> Holds u1 at the nodes on the axis: a circle of radius 0 that grew would tear the body, its hoop strain u1/x1 has no end. What
    !> the deck prescribes there itself stands.
    subroutine hold_axis(context)
-      type(build_context_t), intent(inout) :: context
+      type(build_context_t), intent(inout) :: context !< open%supports gets u1 = 0 at the nodes on the axis
       type(number_list_t) :: held, moved
       type(token_t) :: place
       logical, allocatable :: on_axis(:)
@@ -66,8 +66,8 @@ contains
    !> Reports what no axisymmetric scene can have: other elements, nodes beyond the axis. Loads and forces are those of the full
    !> circle; a thickness, which preprocessors write, has no effect.
    subroutine check_axis(model, context)
-      type(model_t), intent(inout) :: model
-      type(build_context_t), intent(in) :: context
+      type(model_t), intent(inout) :: model        !< thickness of its sections becomes 1
+      type(build_context_t), intent(in) :: context !< places in the deck, for messages
       character(len=:), allocatable :: amount
       integer(ip), allocatable :: beyond(:)
       real(wp) :: nearly

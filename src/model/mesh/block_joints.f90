@@ -27,11 +27,11 @@ contains
 
    !> Sets the nodes of a block that are those of the blocks it names; the others stay 0.
    subroutine share_nodes(i_card, x, context, block, ok)
-      integer(ip), intent(in) :: i_card
+      integer(ip), intent(in) :: i_card                !< place in deck%cards
       real(wp), intent(in) :: x(:, :)                  !< of the block, row by row [L]
-      type(build_context_t), intent(inout) :: context
-      type(block_t), intent(inout) :: block
-      logical, intent(out) :: ok
+      type(build_context_t), intent(inout) :: context  !< blocks before it, their nodes, and joined
+      type(block_t), intent(inout) :: block            !< nodes, low, high and joined_to are set
+      logical, intent(out) :: ok                       !< all names of MERGE are blocks that it meets
       type(token_t), allocatable :: names(:)
       character(len=:), allocatable :: own
       integer(ip), allocatable :: named(:), near(:), outline(:), theirs(:)

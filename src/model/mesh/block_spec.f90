@@ -29,7 +29,7 @@ module atrito_block_spec
 
    !> COPY: columns and rows of equal blocks, each a body of its own.
    type :: copies_t
-      logical :: given = .false.
+      logical :: given = .false.                       !< the card has COPY
       integer(ip) :: n(2) = 1                          !< columns and rows
       real(wp) :: step(2, 2) = 0.0_wp                  !< [L] from column to column, from row to row
    end type copies_t
@@ -37,24 +37,24 @@ module atrito_block_spec
    !> What a *BLOCK says.
    type :: block_spec_t
       integer(ip) :: shape = 0                         !< place in SHAPES
-      integer(ip) :: state = 0
+      integer(ip) :: state = 0                         !< place in STATES
       integer(ip) :: order = 1                         !< 1 for Q1, 2 for Q2: node intervals of an element along each direction
       integer(ip) :: n(2) = 0                          !< elements along and across
       type(block_map_t) :: map                         !< its corners and sides
       real(wp) :: grade(2) = 1.0_wp                    !< as of graded_lines
-      logical :: of_halves(2) = .false.
+      logical :: of_halves(2) = .false.                !< as of graded_lines, along and across
       real(wp), allocatable :: along(:), across(:)     !< inner break points, 0..1; not allocated: graded
-      type(copies_t) :: copies
+      type(copies_t) :: copies                         !< by the data line COPY
    end type block_spec_t
 
 contains
 
    !> What a *BLOCK card asks for. ok: it has no errors; all of them are reported.
    subroutine read_block_spec(deck, card, spec, ok)
-      type(deck_t), intent(in) :: deck
-      type(card_t), intent(in) :: card
-      type(block_spec_t), intent(out) :: spec
-      logical, intent(out) :: ok
+      type(deck_t), intent(in) :: deck           !< as read; messages name its lines
+      type(card_t), intent(in) :: card           !< *BLOCK
+      type(block_spec_t), intent(out) :: spec    !< of no use where not ok
+      logical, intent(out) :: ok                 !< no error was reported
       character(len=*), parameter :: WHAT_CORNER(2) = 'coordinate of a corner, a real [L]'
       integer(ip) :: i, n, corner_line(CORNERS)
       logical :: is_good(4), is_counted(2), has_corners
@@ -101,7 +101,7 @@ contains
 
    !> Nodes of a block with all of its copies; huge of a default integer where there would be more.
    pure integer(lp) function count_nodes(spec) result(n)
-      type(block_spec_t), intent(in) :: spec
+      type(block_spec_t), intent(in) :: spec     !< order, elements and copies are used
       integer(lp) :: factors(4)
 
       factors = [int(spec%order, lp)*int(spec%n, lp) + 1_lp, int(spec%copies%n, lp)]
@@ -338,7 +338,7 @@ contains
 
    !> Where copy i, j of columns and rows lies, from the first.
    pure function copy_offset(copies, i, j) result(offset)
-      type(copies_t), intent(in) :: copies
+      type(copies_t), intent(in) :: copies             !< step from one to the next is used
       integer(ip), intent(in) :: i, j                  !< 1 ..
       real(wp) :: offset(2)                            !< [L]
 

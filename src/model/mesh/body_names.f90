@@ -16,8 +16,8 @@ contains
    !> A body is called after the element set of its section. One of several that share a section is called after the first set that
    !> holds just this body, as those of a *BLOCK do; where there is none, it gets a number.
    pure subroutine name_bodies(model, bodies)
-      type(model_t), intent(in) :: model
-      type(bodies_t), intent(inout) :: bodies
+      type(model_t), intent(in) :: model         !< sections, sets and instances are read
+      type(bodies_t), intent(inout) :: bodies    !< each gets its name
       integer(ip) :: section(bodies%n), sharing(size(model%sections)), i, b, s
       integer(ip), allocatable :: n(:), last(:)       ! of each instance: its bodies, and the last of them
       type(name_list_t) :: names

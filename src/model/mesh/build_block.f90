@@ -27,7 +27,7 @@ contains
    !> names its nodes is not reported.
    subroutine read_block_card(i_card, context)
       integer(ip), intent(in) :: i_card                !< place in deck%cards
-      type(build_context_t), intent(inout) :: context
+      type(build_context_t), intent(inout) :: context  !< its mesh gets nodes and node sets
       type(block_spec_t) :: spec
       character(len=:), allocatable :: name
       type(number_list_t) :: at_side
@@ -191,8 +191,8 @@ contains
 
    !> Makes the elements of a *BLOCK card, whose nodes are there, with their sets.
    subroutine place_block_elements(i_card, context)
-      integer(ip), intent(in) :: i_card
-      type(build_context_t), intent(inout) :: context
+      integer(ip), intent(in) :: i_card                !< place in deck%cards
+      type(build_context_t), intent(inout) :: context  !< its mesh gets elements and element sets
       integer(ip) :: b, first
 
       first = context%model%mesh%n_elements + 1

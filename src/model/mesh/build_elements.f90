@@ -28,8 +28,8 @@ contains
 
    !> Shape and state of the elements that TYPE= of a card makes.
    subroutine read_element_type(deck, card, n_nodes, state, ok)
-      type(deck_t), intent(in) :: deck
-      type(card_t), intent(in) :: card
+      type(deck_t), intent(in) :: deck                 !< as read; messages name its lines
+      type(card_t), intent(in) :: card                 !< whose TYPE= is read
       integer(ip), intent(out) :: n_nodes              !< place in SHAPES
       integer(ip), intent(out) :: state                !< place in STATES
       logical, intent(out) :: ok                       !< .false.: a type that is not built or unknown, reported by the reader
@@ -44,7 +44,7 @@ contains
    !> *ELEMENT: number, nodes. Membranes are taken as plane stress, which is noted once.
    subroutine read_element_card(i_card, context)
       integer(ip), intent(in) :: i_card                !< place in deck%cards
-      type(build_context_t), intent(inout) :: context
+      type(build_context_t), intent(inout) :: context  !< its mesh gets elements, and ELSET= the set
       character(len=:), allocatable :: name
       integer(ip), allocatable :: id(:), nodes(:, :)
       logical, allocatable :: is_plain(:)
@@ -106,13 +106,13 @@ contains
 
    !> Adds an element and keeps where it comes from; a number given twice is an error.
    subroutine place_element(context, id, state, nodes, place, ok, keyword)
-      type(build_context_t), intent(inout) :: context
+      type(build_context_t), intent(inout) :: context  !< its mesh gets the element
       integer(ip), intent(in) :: id                    !< > 0
       integer(ip), intent(in) :: state                 !< place in STATES
       integer(ip), intent(in) :: nodes(:)              !< places
       integer(ip), intent(in) :: place                 !< token (> 0) or card (< 0) of the deck
-      logical, intent(out) :: ok
-      character(len=*), intent(in) :: keyword
+      logical, intent(out) :: ok                       !< the number was free; else that is reported
+      character(len=*), intent(in) :: keyword          !< of the card, for `atrito help KEYWORD`
       integer(ip) :: i
       logical :: known
 
@@ -138,8 +138,8 @@ contains
    !> *ELGEN: rows, and rows of rows, of copies of an element. The first copy that cannot be made ends a line: the others would fail
    !> for the same reason.
    subroutine read_elgen_card(i_card, context)
-      integer(ip), intent(in) :: i_card
-      type(build_context_t), intent(inout) :: context
+      integer(ip), intent(in) :: i_card                !< place in deck%cards
+      type(build_context_t), intent(inout) :: context  !< its mesh gets elements, and ELSET= the set
       type(number_list_t) :: members
       character(len=*), parameter :: WHAT = 'number of elements, the first included'
       type(repeat_t) :: repeats(3)
@@ -193,11 +193,11 @@ contains
    subroutine copy_element_once(token, place, keyword, context, master, shift, ok)
       type(token_t), intent(in) :: token               !< at which errors are reported
       integer(ip), intent(in) :: place                 !< token (> 0) or card (< 0) of the deck
-      character(len=*), intent(in) :: keyword
-      type(build_context_t), intent(inout) :: context
+      character(len=*), intent(in) :: keyword          !< of the card, for `atrito help KEYWORD`
+      type(build_context_t), intent(inout) :: context  !< its mesh gets the element
       integer(ip), intent(in) :: master                !< place
       integer(lp), intent(in) :: shift(2)              !< of the numbers of nodes and of elements, which may become too large
-      logical, intent(out) :: ok
+      logical, intent(out) :: ok                       !< it was made; else that is reported
       integer(lp) :: ids(context%model%mesh%shape(master)), id
       integer(ip) :: nodes(size(ids)), i
 

@@ -30,7 +30,7 @@ contains
    !> The nodes of the mesh that a card names, its node sets, and the lines of its curves.
    subroutine read_mesh_nodes(i_card, context)
       integer(ip), intent(in) :: i_card                !< place in deck%cards
-      type(build_context_t), intent(inout) :: context
+      type(build_context_t), intent(inout) :: context  !< its mesh gets nodes and sets; curves and mesh_shift
       integer(ip), allocatable :: node(:)              ! place in the mesh of each node of the file; 0: left out
       type(id_map_t) :: map                            ! from the file's numbers to the file's nodes
       integer(ip) :: i, k, shift, first
@@ -207,7 +207,7 @@ contains
    !> The elements of the mesh that a card names, and its element sets.
    subroutine read_mesh_elements(i_card, context)
       integer(ip), intent(in) :: i_card                !< place in deck%cards
-      type(build_context_t), intent(inout) :: context
+      type(build_context_t), intent(inout) :: context  !< its mesh gets elements and sets
       integer(ip), allocatable :: first(:)             ! of each element of the file the first with its nodes; 0: not of the plane
       integer(ip), allocatable :: place(:)             ! of each element of the file in the mesh
       integer(ip), allocatable :: from(:), members(:), places(:)

@@ -33,8 +33,8 @@ contains
 
    !> *ELEMENT of lines.
    logical function is_line_card(context, card)
-      type(build_context_t), intent(in) :: context
-      type(card_t), intent(in) :: card
+      type(build_context_t), intent(in) :: context     !< its deck has the card
+      type(card_t), intent(in) :: card                 !< of any keyword
 
       is_line_card = keyword_name(card) == 'ELEMENT'
       if (is_line_card) is_line_card = index(option_word(context%deck, card, 'TYPE'), 'T3D') == 1
@@ -42,7 +42,7 @@ contains
 
    !> All lines of the deck, behind its nodes, and the sets that name them.
    subroutine read_lines(context)
-      type(build_context_t), intent(inout) :: context
+      type(build_context_t), intent(inout) :: context  !< lines, curves and node sets are made
       character(len=:), allocatable :: name
       type(token_t) :: place
       integer(ip) :: i
@@ -194,8 +194,8 @@ contains
 
    !> An item of an *ELSET names lines, and no elements.
    logical function is_line_item(context, token)
-      type(build_context_t), intent(in) :: context
-      type(token_t), intent(in) :: token
+      type(build_context_t), intent(in) :: context     !< its lines and element sets are searched
+      type(token_t), intent(in) :: token               !< the item
 
       is_line_item = context%lines%ids%n > 0
       if (is_line_item) is_line_item = size(lines_of_item(context, token)) > 0
@@ -206,7 +206,7 @@ contains
 
    !> Beside lines of Gmsh elements may run clockwise, as the surfaces of a drawing do: they are turned, and it is reported.
    subroutine turn_elements(context)
-      type(build_context_t), intent(inout) :: context
+      type(build_context_t), intent(inout) :: context  !< clockwise elements of its mesh are turned
       integer(ip) :: e, turned
 
       if (context%lines%ids%n == 0) return
@@ -228,7 +228,7 @@ contains
 
    !> The faces on the outline that lie on curves, or between the nodes of a *SURFACE, TYPE=NODE.
    subroutine read_curves(context)
-      type(build_context_t), intent(inout) :: context
+      type(build_context_t), intent(inout) :: context  !< curves get their faces; node_surfaces is made
       integer(ip) :: i
 
       do i = 1, context%curves%n
@@ -283,10 +283,10 @@ contains
 
    !> The faces of a *SURFACE, TYPE=NODE.
    subroutine take_node_surface(name, context, faces, ok)
-      character(len=*), intent(in) :: name
-      type(build_context_t), intent(in) :: context
-      type(face_list_t), intent(inout) :: faces
-      logical, intent(out) :: ok
+      character(len=*), intent(in) :: name             !< of the *SURFACE, TYPE=NODE
+      type(build_context_t), intent(in) :: context     !< node_surfaces and refinement are read
+      type(face_list_t), intent(inout) :: faces        !< faces of the mesh as it is solved are added
+      logical, intent(out) :: ok                       !< it has some; else nothing was added
       integer(ip) :: i
 
       i = find_name(context%node_surfaces%names, name)
@@ -299,7 +299,7 @@ contains
    !> Makes surfaces of the curves of a Gmsh mesh that neither a *SURFACE nor a *BLOCK of the deck defines already. A curve inside
    !> the mesh has none.
    subroutine put_curve_surfaces(context)
-      type(build_context_t), intent(inout) :: context
+      type(build_context_t), intent(inout) :: context  !< its model gets surfaces
       type(name_list_t) :: of_deck                     ! names of the deck's own surfaces
       type(surface_t) :: surface
       integer(ip) :: i
@@ -345,8 +345,8 @@ contains
 
    !> Adds a surface, under its name, to those of the model.
    subroutine add_surface(context, surface, place)
-      type(build_context_t), intent(inout) :: context
-      type(surface_t), intent(in) :: surface
+      type(build_context_t), intent(inout) :: context  !< surfaces and surface_names of it grow
+      type(surface_t), intent(in) :: surface           !< with its name
       type(token_t), intent(in) :: place               !< where it is defined
 
       call add_name(context%surface_names, surface%name)

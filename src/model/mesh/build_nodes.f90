@@ -31,7 +31,7 @@ contains
    !> *NODE: number, x, y[, z].
    subroutine read_node_card(i_card, context)
       integer(ip), intent(in) :: i_card                !< place in deck%cards
-      type(build_context_t), intent(inout) :: context
+      type(build_context_t), intent(inout) :: context  !< its mesh gets nodes, and NSET= the set
       integer(ip), allocatable :: id(:)
       real(wp), allocatable :: x(:, :)
       logical, allocatable :: is_plain(:)
@@ -112,12 +112,12 @@ contains
 
    !> Adds a node and keeps where it comes from; a number given twice is an error.
    subroutine place_node(context, id, x, place, ok, keyword)
-      type(build_context_t), intent(inout) :: context
+      type(build_context_t), intent(inout) :: context  !< its mesh gets the node
       integer(ip), intent(in) :: id                    !< > 0
       real(wp), intent(in) :: x(2)                     !< [L]
       integer(ip), intent(in) :: place                 !< token (> 0) or card (< 0) of the deck
-      logical, intent(out) :: ok
-      character(len=*), intent(in) :: keyword
+      logical, intent(out) :: ok                       !< the number was free; else that is reported
+      character(len=*), intent(in) :: keyword          !< of the card, for `atrito help KEYWORD`
       integer(ip) :: i
       logical :: known
 
@@ -153,8 +153,8 @@ contains
 
    !> *NGEN and *NFILL: nodes between two nodes, or between those of two sets, line by line. A set NSET= has all of them.
    subroutine read_fill_card(i_card, context)
-      integer(ip), intent(in) :: i_card
-      type(build_context_t), intent(inout) :: context
+      integer(ip), intent(in) :: i_card                !< place in deck%cards
+      type(build_context_t), intent(inout) :: context  !< its mesh gets nodes, and NSET= the set
       type(number_list_t) :: members
       integer(ip), allocatable :: from(:), to(:)
       integer(ip) :: i, k, n, step, first_new

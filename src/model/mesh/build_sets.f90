@@ -31,7 +31,7 @@ contains
    !> with members that follow later is left to read_set_card.
    subroutine try_set_card(i_card, context)
       integer(ip), intent(in) :: i_card                !< place in the deck's cards
-      type(build_context_t), intent(inout) :: context
+      type(build_context_t), intent(inout) :: context  !< the set and card_done, where all members are known
       logical :: known
 
       associate (deck => context%deck, card => context%deck%cards(i_card), model => context%model)
@@ -109,7 +109,7 @@ contains
    !> *NSET and *ELSET.
    subroutine read_set_card(i_card, context)
       integer(ip), intent(in) :: i_card                !< place in the deck's cards
-      type(build_context_t), intent(inout) :: context
+      type(build_context_t), intent(inout) :: context  !< its node_sets or element_sets grow
       type(ranges_t) :: members
       type(id_map_t) :: none
       character(len=:), allocatable :: name
@@ -265,7 +265,7 @@ contains
    !> that cannot be ends it: the others would fail for the same reason.
    subroutine read_copy_card(i_card, context)
       integer(ip), intent(in) :: i_card              !< place in deck%cards
-      type(build_context_t), intent(inout) :: context
+      type(build_context_t), intent(inout) :: context !< its mesh gets nodes or elements, NEW SET the set
       type(motion_t) :: motion
       type(token_t) :: place
       integer(ip), allocatable :: members(:)

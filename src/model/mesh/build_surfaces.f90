@@ -32,7 +32,7 @@ contains
 
    !> All surfaces of a model.
    subroutine build_surfaces(context)
-      type(build_context_t), intent(inout) :: context
+      type(build_context_t), intent(inout) :: context  !< its model gets surfaces
       integer(ip) :: i, n_sides
       character(len=:), allocatable :: surface
       logical :: found

@@ -24,7 +24,7 @@ contains
 
    !> Whether a deck cuts elements.
    pure logical function has_cuts(deck)
-      type(deck_t), intent(in) :: deck
+      type(deck_t), intent(in) :: deck                !< as read
       integer(ip) :: i
 
       has_cuts = .false.
@@ -35,9 +35,9 @@ contains
 
    !> The trees of a deck, and all leaves cut so many times more. The model is that of the deck's mesh.
    subroutine build_trees(levels, context, trees)
-      integer(ip), intent(in) :: levels
-      type(build_context_t), intent(inout) :: context
-      type(element_trees_t), intent(out) :: trees
+      integer(ip), intent(in) :: levels               !< of cuts of all leaves, >= 0
+      type(build_context_t), intent(inout) :: context !< its mesh and pairs are read
+      type(element_trees_t), intent(out) :: trees     !< roots are the elements of the mesh
       integer(ip) :: i, k
 
       call begin_trees(context%model%mesh, partner_nodes(context%model), trees)
@@ -92,8 +92,8 @@ contains
 
    !> The card that cuts the elements of a deck in this way.
    pure function card_of_trees(deck, trees) result(card)
-      type(deck_t), intent(in) :: deck
-      type(element_trees_t), intent(in) :: trees
+      type(deck_t), intent(in) :: deck                !< names of its instances are read
+      type(element_trees_t), intent(in) :: trees      !< of all elements of the deck
       character(len=:), allocatable :: card
       type(growing_text_t) :: text
       integer(ip) :: e

@@ -15,8 +15,8 @@ module atrito_joined_blocks
    !> a box in the grid whose squares have the least power of two that is longer than its sides, so in four squares at most; only
    !> squares that have a box are kept, in a table by a hash of their place.
    type :: joined_blocks_t
-      integer(ip) :: n = 0
-      type(name_list_t), private :: names
+      integer(ip) :: n = 0                                 !< blocks so far
+      type(name_list_t), private :: names                  !< each once, in the order of their first blocks
       type(number_list_t), private :: last_of              !< (n) of each name, by its first block: the last block that has it
       type(number_list_t), private :: before               !< (n) the block before that has the same name; 0: none
       type(number_list_t), private :: parent               !< (n) another block of its body; itself: the one that stands for all
@@ -35,8 +35,8 @@ contains
 
    !> Appends a block.
    pure subroutine add_joined_block(blocks, name, low, high)
-      type(joined_blocks_t), intent(inout) :: blocks
-      character(len=*), intent(in) :: name
+      type(joined_blocks_t), intent(inout) :: blocks       !< gets a block, a body of its own
+      character(len=*), intent(in) :: name                 !< of the block; others may have it
       real(wp), intent(in) :: low(2), high(2)              !< the box round it [L]
       integer(lp) :: square(2), n(2), i, j
       integer(ip) :: first, side, g, hash, slot
@@ -80,8 +80,8 @@ contains
 
    !> The blocks of a name, in rising order.
    pure function blocks_named(blocks, name) result(list)
-      type(joined_blocks_t), intent(in) :: blocks
-      character(len=*), intent(in) :: name
+      type(joined_blocks_t), intent(in) :: blocks !< so far
+      character(len=*), intent(in) :: name        !< of a *BLOCK; none may have it
       integer(ip), allocatable :: list(:)
       type(number_list_t) :: falling
       integer(ip) :: b
@@ -98,8 +98,8 @@ contains
 
    !> Makes the bodies of two blocks one. The larger one stands for both, so the way to it is short.
    pure subroutine join_blocks(blocks, a, b)
-      type(joined_blocks_t), intent(inout) :: blocks
-      integer(ip), intent(in) :: a, b
+      type(joined_blocks_t), intent(inout) :: blocks !< bodies of a and b become one
+      integer(ip), intent(in) :: a, b                !< numbers of blocks, 1..n
       integer(ip) :: large, small
 
       large = body_of(blocks, a)
@@ -115,8 +115,8 @@ contains
 
    !> Whether two blocks are of one body.
    pure logical function are_joined_blocks(blocks, a, b)
-      type(joined_blocks_t), intent(in) :: blocks
-      integer(ip), intent(in) :: a, b
+      type(joined_blocks_t), intent(in) :: blocks !< so far
+      integer(ip), intent(in) :: a, b             !< numbers of blocks, 1..n
 
       are_joined_blocks = body_of(blocks, a) == body_of(blocks, b)
    end function are_joined_blocks
@@ -134,7 +134,7 @@ contains
 
    !> Blocks that may lie where a box lies, in rising order: all that do, and some beside it.
    pure function blocks_near(blocks, low, high) result(near)
-      type(joined_blocks_t), intent(in) :: blocks
+      type(joined_blocks_t), intent(in) :: blocks          !< so far
       real(wp), intent(in) :: low(2), high(2)              !< [L]
       integer(ip), allocatable :: near(:)
       type(number_list_t) :: found

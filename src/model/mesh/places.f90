@@ -27,8 +27,8 @@ contains
    !> *NSET, AT: the nearest node of each place, of all elements or of those of ELSET= and of an instance. Without AT all nodes of
    !> ELSET=.
    subroutine read_places(card, context, members)
-      type(card_t), intent(in) :: card
-      type(build_context_t), intent(inout) :: context
+      type(card_t), intent(in) :: card                 !< *NSET with AT or ELSET=
+      type(build_context_t), intent(inout) :: context  !< its finder is made where it is wanted
       type(ranges_t), intent(inout) :: members         !< places of nodes
       type(node_finder_t) :: own
       type(token_t) :: place

@@ -18,8 +18,8 @@ contains
 
    !> The numbers and coordinates of lines of *NODE, as they stand there: those of an instance are not moved.
    subroutine read_plain_nodes(deck, lines, id, x, is_plain)
-      type(deck_t), intent(in) :: deck
-      type(data_line_t), intent(in) :: lines(:)
+      type(deck_t), intent(in) :: deck                 !< as read
+      type(data_line_t), intent(in) :: lines(:)        !< of one card
       integer(ip), intent(inout) :: id(:)              !< (>= lines) in the model
       real(wp), intent(inout) :: x(:, :)               !< (2, >= lines) [L]
       logical, intent(inout) :: is_plain(:)            !< (>= lines) what is not has no numbers here
@@ -45,9 +45,9 @@ contains
 
    !> The numbers of lines of *ELEMENT, and the places of their nodes, which are there and different.
    subroutine read_plain_elements(deck, mesh, lines, id, nodes, is_plain)
-      type(deck_t), intent(in) :: deck
+      type(deck_t), intent(in) :: deck                 !< as read
       type(mesh_t), intent(in) :: mesh                 !< its nodes are complete
-      type(data_line_t), intent(in) :: lines(:)
+      type(data_line_t), intent(in) :: lines(:)        !< of one card
       integer(ip), intent(inout) :: id(:)              !< (>= lines) in the model
       integer(ip), intent(inout) :: nodes(:, :)        !< (nodes of an element, >= lines)
       logical, intent(inout) :: is_plain(:)            !< (>= lines) what is not has no numbers here

@@ -32,8 +32,8 @@ contains
 
    !> Moves the new nodes of all blocks with arcs.
    subroutine place_on_arcs(coarse, context)
-      type(mesh_t), intent(in) :: coarse
-      type(build_context_t), intent(inout) :: context
+      type(mesh_t), intent(in) :: coarse               !< mesh of the deck
+      type(build_context_t), intent(inout) :: context  !< places of new nodes of its mesh change
       type(mesh_t) :: square                           ! the coarse mesh in the unit square of a block
       real(wp), allocatable :: place(:, :)             ! of the new nodes there
       integer(ip), allocatable :: owner(:)             ! block that has placed a node; negative: elsewhere than its element; 0: none
@@ -125,7 +125,7 @@ contains
    !> Reports the first edge of the outline whose nodes all have equations or supports in a dof, and whose new nodes have none. Ends
    !> that sets support with nothing else between them are two sides, and those that single lines support stand under several cards.
    subroutine note_free_sides(context)
-      type(build_context_t), intent(in) :: context
+      type(build_context_t), intent(in) :: context     !< refinement, equations and supports are read
       logical, allocatable :: has(:, :, :)             ! (dof, n_nodes, FIRST | OTHER | SINGLE | SET)
       logical :: holds(SET)
       integer(ip) :: dof, edge, i, n
@@ -191,10 +191,10 @@ contains
    !> Puts the nodes of `other` into the order of those of `set`: the nodes of the deck correspond as they stand, new ones between
    !> two of them to those between their partners. ok: .false. where there are none.
    pure subroutine order_like(refinement, set, other, ok)
-      type(refinement_t), intent(in) :: refinement
-      integer(ip), intent(in) :: set(:)
+      type(refinement_t), intent(in) :: refinement     !< from the deck's mesh
+      integer(ip), intent(in) :: set(:)                !< places of nodes; those of the deck first
       integer(ip), intent(inout) :: other(:)           !< as many
-      logical, intent(out) :: ok
+      logical, intent(out) :: ok                       !< both have as many nodes of the deck, and partners
       integer(ip), allocatable :: edges(:)
       integer(ip) :: partner(size(set)), ends(2), i, k, edge
 

@@ -21,7 +21,7 @@ contains
 
    !> All curves of a deck.
    subroutine build_amplitudes(context)
-      type(build_context_t), intent(inout) :: context
+      type(build_context_t), intent(inout) :: context  !< its model gets amplitudes
       character(len=:), allocatable :: name
       integer(ip) :: i, place
       logical :: ok
@@ -115,8 +115,8 @@ contains
 
    !> The amplitude that a card names becomes that of its lines; 0 where it is unknown, which is reported.
    subroutine take_amplitude(context, card)
-      type(build_context_t), intent(inout) :: context
-      type(card_t), intent(in) :: card
+      type(build_context_t), intent(inout) :: context  !< open%amplitude is set
+      type(card_t), intent(in) :: card                 !< whose AMPLITUDE= is read
       character(len=:), allocatable :: name
       type(token_t) :: place
       logical :: found
@@ -131,8 +131,8 @@ contains
 
    !> What holds in every step follows no amplitude, and there is nothing before it that it could remove.
    subroutine refuse_step_options(deck, card)
-      type(deck_t), intent(in) :: deck
-      type(card_t), intent(in) :: card
+      type(deck_t), intent(in) :: deck           !< as read; messages name its lines
+      type(card_t), intent(in) :: card           !< of supports, before *STEP
       type(option_t) :: option
       logical :: found
 

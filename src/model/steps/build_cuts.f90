@@ -25,9 +25,9 @@ contains
 
    !> The cuts of a card; with SURFACE= it is that of another program, which has been noted.
    subroutine read_cut_card(context, card, requests)
-      type(build_context_t), intent(inout) :: context
-      type(card_t), intent(in) :: card
-      type(requests_t), intent(inout) :: requests
+      type(build_context_t), intent(inout) :: context   !< its model gets cuts
+      type(card_t), intent(in) :: card                  !< *SECTION PRINT
+      type(requests_t), intent(inout) :: requests       !< of the step; gets places of cuts
       character(len=:), allocatable :: name
       type(token_t) :: place
       type(cut_t) :: cut
@@ -77,7 +77,7 @@ contains
 
    !> Finds where the cuts go through the bodies. The mesh is complete.
    subroutine place_cuts(context)
-      type(build_context_t), intent(inout) :: context
+      type(build_context_t), intent(inout) :: context   !< cuts of its model get their sections
       type(bodies_t) :: bodies
       integer(ip) :: i
 

@@ -44,7 +44,7 @@ contains
 
    !> All loads of a step: those that it inherits, and its own.
    subroutine build_loads(context)
-      type(build_context_t), intent(inout) :: context
+      type(build_context_t), intent(inout) :: context  !< loads of its open step are set
       integer(ip) :: i, k
 
       context%open%replaced = replaced_t()

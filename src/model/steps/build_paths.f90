@@ -23,9 +23,9 @@ contains
 
    !> The paths of a card, a line each.
    subroutine read_path_card(context, card, requests)
-      type(build_context_t), intent(inout) :: context
-      type(card_t), intent(in) :: card
-      type(requests_t), intent(inout) :: requests
+      type(build_context_t), intent(inout) :: context      !< its model gets paths
+      type(card_t), intent(in) :: card                     !< *PATH PRINT
+      type(requests_t), intent(inout) :: requests          !< of the step; gets places of paths
       character(len=:), allocatable :: name
       type(token_t) :: place
       type(path_t) :: path
@@ -98,7 +98,7 @@ contains
 
    !> Finds the elements that hold the points of the paths. The mesh is complete.
    subroutine place_paths(context)
-      type(build_context_t), intent(inout) :: context
+      type(build_context_t), intent(inout) :: context      !< paths of its model get their elements and points
       type(bodies_t) :: bodies
       integer(ip) :: i
 

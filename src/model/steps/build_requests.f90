@@ -30,7 +30,7 @@ contains
    !> Controls and requests of a step: those of the step before, and what its own cards change. Cards of a keyword take the place
    !> of what the same keyword asked for in the steps before.
    subroutine build_requests(context)
-      type(build_context_t), intent(inout) :: context
+      type(build_context_t), intent(inout) :: context  !< controls and requests of its open step are set
       integer(ip) :: i
 
       associate (steps => context%model%steps, k => context%open%number)
@@ -281,7 +281,7 @@ contains
 
    !> Reports every card that asks for fields or restart files: for a build that cannot write them.
    subroutine refuse_field_files(deck)
-      type(deck_t), intent(in) :: deck
+      type(deck_t), intent(in) :: deck           !< as read
       integer(ip) :: i
 
       do i = 1, deck%n_cards

@@ -29,7 +29,7 @@ contains
 
    !> The steps, with nothing in them yet; one at least.
    subroutine build_steps(context)
-      type(build_context_t), intent(inout) :: context
+      type(build_context_t), intent(inout) :: context  !< its model gets steps; step_cards is set
       integer(ip), allocatable :: static_card(:)       ! of each step; 0: outside of steps
       type(option_t) :: option
       integer(ip) :: i, n
@@ -224,8 +224,8 @@ contains
 
    !> Begins with what a step holds.
    subroutine open_step(context, number)
-      type(build_context_t), intent(inout) :: context
-      integer(ip), intent(in) :: number
+      type(build_context_t), intent(inout) :: context  !< open: number, cards and first token
+      integer(ip), intent(in) :: number                !< of the step, from 1
       integer(ip) :: i
 
       context%open%number = number

@@ -19,7 +19,7 @@ contains
 
    !> In a step names are given anew.
    pure subroutine begin_lines_of_step(drawn)
-      type(drawn_lines_t), intent(inout) :: drawn
+      type(drawn_lines_t), intent(inout) :: drawn !< earlier lines stay, their names are free
 
       drawn%n_before = drawn%n
       drawn%names = name_list_t()
@@ -27,12 +27,12 @@ contains
 
    !> NAME and ELSET of a card. ok: whether its lines may be read.
    subroutine read_line_options(context, card, name, place, elset, ok)
-      type(build_context_t), intent(inout) :: context
-      type(card_t), intent(in) :: card
-      character(len=:), allocatable, intent(out) :: name
+      type(build_context_t), intent(inout) :: context      !< its element sets are searched
+      type(card_t), intent(in) :: card                     !< *SECTION PRINT or *PATH PRINT
+      character(len=:), allocatable, intent(out) :: name   !< of the card, NAME=; '' without one
       type(token_t), intent(out) :: place                  !< of the name
       integer(ip), intent(out) :: elset                    !< place of the set that is crossed; 0: everything
-      logical, intent(out) :: ok
+      logical, intent(out) :: ok                           !< there is a name, and the set is known
       logical :: found
 
       elset = 0
@@ -44,14 +44,14 @@ contains
    !> The name of line i: that of the card, with -i behind it where the card has several. ok: no other of the step has it; else
    !> E-TWICE.
    subroutine name_line(context, card, i, given, place, drawn, name, ok)
-      type(build_context_t), intent(inout) :: context
-      type(card_t), intent(in) :: card
-      integer(ip), intent(in) :: i
-      character(len=*), intent(in) :: given
-      type(token_t), intent(in) :: place
-      type(drawn_lines_t), intent(in) :: drawn
-      character(len=:), allocatable, intent(out) :: name
-      logical, intent(out) :: ok
+      type(build_context_t), intent(inout) :: context      !< its deck is read
+      type(card_t), intent(in) :: card                     !< *SECTION PRINT or *PATH PRINT
+      integer(ip), intent(in) :: i                         !< data line of the card, from 1
+      character(len=*), intent(in) :: given                !< name of the card
+      type(token_t), intent(in) :: place                   !< of that name
+      type(drawn_lines_t), intent(in) :: drawn             !< names of the step's lines so far
+      character(len=:), allocatable, intent(out) :: name   !< of the line
+      logical, intent(out) :: ok                           !< it is free; else that is reported
       integer(ip) :: before
 
       name = given
@@ -66,11 +66,11 @@ contains
 
    !> Counts a line in, with its name and its first item. There is room for one of each line of the deck's cards of this kind.
    subroutine note_line(context, card, i, name, drawn)
-      type(build_context_t), intent(in) :: context
-      type(card_t), intent(in) :: card
-      integer(ip), intent(in) :: i
-      character(len=*), intent(in) :: name
-      type(drawn_lines_t), intent(inout) :: drawn
+      type(build_context_t), intent(in) :: context !< its deck is read
+      type(card_t), intent(in) :: card             !< *SECTION PRINT or *PATH PRINT
+      integer(ip), intent(in) :: i                 !< data line of the card, from 1
+      character(len=*), intent(in) :: name         !< of the line
+      type(drawn_lines_t), intent(inout) :: drawn  !< gets the line
 
       if (.not. allocated(drawn%items)) allocate (drawn%items(count_lines(context%deck, card%name)))
       drawn%n = drawn%n + 1
@@ -80,7 +80,7 @@ contains
 
    !> Which elements a line may cross: those of a set, or all.
    pure function elements_to_cross(model, elset) result(wanted)
-      type(model_t), intent(in) :: model
+      type(model_t), intent(in) :: model                   !< its element sets are read
       integer(ip), intent(in) :: elset                     !< place of the set; 0: all
       logical :: wanted(model%mesh%n_elements)
 

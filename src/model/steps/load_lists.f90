@@ -26,7 +26,7 @@ module atrito_load_lists
 
    !> A list that grows by doubling.
    type :: condition_list_t
-      integer(ip) :: n = 0
+      integer(ip) :: n = 0                             !< conditions in use
       type(condition_t), allocatable :: list(:)        !< the first n are in use
    end type condition_list_t
 
@@ -34,7 +34,7 @@ contains
 
    !> The place of a dof among those that a node can have: 1, 2, and 3 for 6.
    pure elemental integer(ip) function dof_slot(dof)
-      integer(ip), intent(in) :: dof
+      integer(ip), intent(in) :: dof             !< 1, 2 or 6
 
       dof_slot = min(dof, SLOTS)
    end function dof_slot
@@ -51,8 +51,8 @@ contains
 
    !> Appends a condition.
    pure subroutine add_condition(conditions, condition)
-      type(condition_list_t), intent(inout) :: conditions
-      type(condition_t), intent(in) :: condition
+      type(condition_list_t), intent(inout) :: conditions !< becomes longer by one
+      type(condition_t), intent(in) :: condition          !< at a node, or on an element
       type(condition_t), allocatable :: longer(:)
       integer(ip) :: n
 
@@ -69,7 +69,7 @@ contains
 
    !> Appends a part of a condition at a node, along an axis.
    pure subroutine add_part(conditions, condition, axis, part)
-      type(condition_list_t), intent(inout) :: conditions
+      type(condition_list_t), intent(inout) :: conditions !< becomes longer by one
       type(condition_t), intent(in) :: condition       !< along a dof of the deck
       integer(ip), intent(in) :: axis                  !< 1 or 2
       real(wp), intent(in) :: part                     !< of its value
@@ -84,7 +84,7 @@ contains
 
    !> Appends a value at a dof, without an amplitude, that was 0 at the beginning of the step.
    pure subroutine add_nodal_value(list, node, dof, value)
-      type(nodal_values_t), intent(inout) :: list
+      type(nodal_values_t), intent(inout) :: list      !< becomes longer by one
       integer(ip), intent(in) :: node, dof             !< place; 1, 2 or 6
       real(wp), intent(in) :: value                    !< [L], [F], [-] or [F L]
 
@@ -99,7 +99,7 @@ contains
 
    !> Conditions at nodes as a step has them: what is 0 of all of them is not allocated.
    pure function nodal_values_of(conditions) result(values)
-      type(condition_list_t), intent(in) :: conditions
+      type(condition_list_t), intent(in) :: conditions !< at nodes, along x and y
       type(nodal_values_t) :: values
       type(condition_t), allocatable :: used(:)
 
@@ -116,7 +116,7 @@ contains
 
    !> Loads on elements as a step has them; those of the first step have nothing at its beginning.
    pure function element_loads_of(conditions, is_first) result(loads)
-      type(condition_list_t), intent(in) :: conditions
+      type(condition_list_t), intent(in) :: conditions !< on elements
       logical, intent(in) :: is_first                  !< step
       type(element_load_t) :: loads
       integer(ip) :: i
@@ -142,7 +142,7 @@ contains
    !> The amplitude of the i-th value; 0: none.
    pure integer(ip) function amplitude_of(amplitude, i) result(a)
       integer(ip), allocatable, intent(in) :: amplitude(:) !< component of nodal_values_t or element_load_t
-      integer(ip), intent(in) :: i
+      integer(ip), intent(in) :: i                         !< of the values, from 1
 
       a = 0
       if (allocated(amplitude)) a = amplitude(i)

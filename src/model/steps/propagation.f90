@@ -26,7 +26,7 @@ contains
 
    !> A card of the step that is being built; what stands outside of all steps, which is reported, is read with the first.
    pure logical function is_of_step(context, i)
-      type(build_context_t), intent(in) :: context
+      type(build_context_t), intent(in) :: context     !< its deck and open%number are read
       integer(ip), intent(in) :: i                     !< card of the deck
 
       is_of_step = max(context%deck%cards(i)%step, 1_ip) == context%open%number
@@ -34,8 +34,8 @@ contains
 
    !> Whether a condition is not given by a line of the step that is being built.
    pure logical function is_inherited(context, condition)
-      type(build_context_t), intent(in) :: context
-      type(condition_t), intent(in) :: condition
+      type(build_context_t), intent(in) :: context     !< its deck and open%first_token are read
+      type(condition_t), intent(in) :: condition       !< of supports or loads
 
       is_inherited = condition%line == 0
       if (.not. is_inherited) is_inherited = context%deck%lines(condition%line)%first_token < context%open%first_token
@@ -44,8 +44,8 @@ contains
    !> OP=NEW: the step has nothing of a keyword from the step before. All cards of the keyword in the step say the same, or
    !> nothing behind a first one that does: preprocessors write `*DLOAD, OP=NEW` alone, then `*DLOAD` with the lines.
    logical function removes_all(context, keyword)
-      type(build_context_t), intent(in) :: context
-      character(len=*), intent(in) :: keyword
+      type(build_context_t), intent(in) :: context     !< cards of its open step are read
+      character(len=*), intent(in) :: keyword          !< e.g. 'DLOAD'
       character(len=:), allocatable :: word
       type(token_t) :: place
       integer(ip) :: i
@@ -72,8 +72,8 @@ contains
    !> From the end of a step to the beginning of the next: values stay what they are, and amplitudes over all time go on. What was
    !> removed in the step before is gone.
    pure subroutine propagate(context, conditions, keeps_zeros)
-      type(build_context_t), intent(in) :: context
-      type(condition_list_t), intent(inout) :: conditions
+      type(build_context_t), intent(in) :: context     !< amplitudes and steps of its model are read
+      type(condition_list_t), intent(inout) :: conditions !< of the step before; of this one on return
       logical, intent(in) :: keeps_zeros               !< displacements of 0 are supports, loads of 0 are nothing
       type(condition_t) :: condition
       integer(ip) :: i, n
@@ -108,7 +108,7 @@ contains
 
    !> A load goes to 0.
    pure subroutine set_to_zero(load)
-      type(condition_t), intent(inout) :: load
+      type(condition_t), intent(inout) :: load   !< its value and amplitude; from stays
 
       load%value = scaled(load%kind, load%value, 0.0_wp)
       load%amplitude = 0
@@ -116,9 +116,9 @@ contains
 
    !> Lists what a step inherits by the slots in which it acts: one for each dof, or one for each element.
    pure subroutine list_inherited(n_slots, slots, inherited)
-      integer(ip), intent(in) :: n_slots
+      integer(ip), intent(in) :: n_slots               !< dofs, or elements
       integer(ip), intent(in) :: slots(:)              !< of each condition
-      type(inherited_t), intent(out) :: inherited
+      type(inherited_t), intent(out) :: inherited      !< lists by slots, each ascending
       integer(ip) :: i
 
       inherited%n = size(slots, kind=ip)
@@ -133,10 +133,10 @@ contains
    !> Puts a load in the place of one that the step inherits, of the same face and label; others there go to 0. Where there is none,
    !> or a line of this step has taken its place, the load is added.
    pure subroutine apply_condition(load, slot, inherited, loads, replaced)
-      type(condition_t), intent(in) :: load
+      type(condition_t), intent(in) :: load            !< of the line that is read
       integer(ip), intent(in) :: slot                  !< in which it acts, as in list_inherited
-      type(inherited_t), intent(inout) :: inherited
-      type(condition_list_t), intent(inout) :: loads
+      type(inherited_t), intent(inout) :: inherited    !< what is replaced is taken out
+      type(condition_list_t), intent(inout) :: loads   !< of the step; those inherited come first
       type(replaced_t), intent(inout) :: replaced      !< the line of each load that ends, and that of this one
       real(wp) :: from(3)
       integer(ip) :: i, place, before
@@ -191,7 +191,7 @@ contains
    !> Tells each line of the open step that takes the place of a load of an earlier one though it acts along another direction, or
    !> about another axis, unless another line of the step gives that again: other programs keep both.
    subroutine warn_of_replaced(context)
-      type(build_context_t), intent(in) :: context
+      type(build_context_t), intent(in) :: context     !< open%replaced is read
       character(len=:), allocatable :: label
       integer(ip) :: i, old, new
 

@@ -34,12 +34,12 @@ contains
    !> The kind and the values of a load on faces from the third item on: P magnitude; TRVEC magnitude, t1, t2[, 0]; HP magnitude,
    !> level of zero pressure, level of the magnitude.
    subroutine read_face_load(context, label, keyword, kind, value, ok)
-      type(build_context_t), intent(in) :: context
+      type(build_context_t), intent(in) :: context     !< its open line is read
       character(len=*), intent(in) :: label            !< P, TRVEC or HP, of *DLOAD with a digit behind
-      character(len=*), intent(in) :: keyword
-      integer(ip), intent(out) :: kind
+      character(len=*), intent(in) :: keyword          !< of the card, for `atrito help KEYWORD`
+      integer(ip), intent(out) :: kind                 !< LOAD_*
       real(wp), intent(out) :: value(3)                !< as element_load_t has it
-      logical, intent(out) :: ok
+      logical, intent(out) :: ok                       !< no error was reported
       real(wp) :: magnitude, direction(2)
       logical :: good(3)
 
@@ -75,12 +75,12 @@ contains
    !> The same where the magnitude is a function of the place: of P linear on each face, of TRVEC, whose direction stands behind it,
    !> uniform; as at the points of Gauss, so that the resultant of each face is that of the function up to the fourth order.
    subroutine read_face_function(context, label, faces, kind, values, ok)
-      type(build_context_t), intent(in) :: context
+      type(build_context_t), intent(in) :: context     !< its open line and mesh are read
       character(len=*), intent(in) :: label            !< P or TRVEC
-      type(face_list_t), intent(in) :: faces
-      integer(ip), intent(out) :: kind
+      type(face_list_t), intent(in) :: faces           !< on which the load acts
+      integer(ip), intent(out) :: kind                 !< LOAD_PRESSURE or LOAD_TRACTION
       real(wp), allocatable, intent(out) :: values(:, :) !< of each face, as element_load_t has it
-      logical, intent(out) :: ok
+      logical, intent(out) :: ok                       !< no error was reported
       real(wp), parameter :: GAUSS(2) = [-1.0_wp, 1.0_wp]/sqrt(3.0_wp)
       type(token_t) :: expression, last
       real(wp) :: x(2, 2*faces%n), p(2*faces%n), direction(2), along(2)
@@ -126,8 +126,8 @@ contains
 
    !> How many items a load has: 1,5 is no pressure of 1.5.
    logical function has_no_rest(context, label, keyword)
-      type(build_context_t), intent(in) :: context
-      character(len=*), intent(in) :: label, keyword
+      type(build_context_t), intent(in) :: context     !< its open line is read
+      character(len=*), intent(in) :: label, keyword   !< of the load; of the card
       type(data_line_t) :: line
       integer(ip) :: most
       character(len=:), allocatable :: rest
@@ -152,7 +152,7 @@ contains
 
    !> What the magnitude of a load with this label is, for messages.
    pure function magnitude_of(label) result(what)
-      character(len=*), intent(in) :: label
+      character(len=*), intent(in) :: label      !< as the deck has it, in capitals
       character(len=:), allocatable :: what
 
       select case (label(1:1))
@@ -173,12 +173,12 @@ contains
 
    !> The unit vector of items 4 to 6, or of those from another one on, of any length.
    subroutine read_direction(context, what, keyword, direction, ok, first)
-      type(build_context_t), intent(in) :: context
+      type(build_context_t), intent(in) :: context     !< its open line is read
       character(len=*), intent(in) :: what             !< has the direction
-      character(len=*), intent(in) :: keyword
-      real(wp), intent(out) :: direction(2)
-      logical, intent(out) :: ok
-      integer(ip), intent(in), optional :: first
+      character(len=*), intent(in) :: keyword          !< of the card, for `atrito help KEYWORD`
+      real(wp), intent(out) :: direction(2)            !< unit vector [-]; 0 where not ok
+      logical, intent(out) :: ok                       !< no error was reported
+      integer(ip), intent(in), optional :: first       !< item of the first component; default 4
       character(len=:), allocatable :: wanted
       integer(ip) :: item
       real(wp) :: d(3)
@@ -207,11 +207,11 @@ contains
 
    !> The axis of items 4 to 9, and the way from it: way(1:3) are S11, S12, S22, and S x0 is -there.
    subroutine read_spin(context, square, is_ring, way, there, ok)
-      type(build_context_t), intent(in) :: context
+      type(build_context_t), intent(in) :: context     !< its open line is read
       real(wp), intent(in) :: square                   !< item 3, of the angular velocity [1/T^2]
       logical, intent(in) :: is_ring                   !< axisymmetric elements: the axis is x2
       real(wp), intent(out) :: way(3), there(2)        !< [-], [L]
-      logical, intent(out) :: ok
+      logical, intent(out) :: ok                       !< no error was reported
       real(wp) :: point(3), a(3)
       logical :: good(2)
 

@@ -25,8 +25,8 @@ contains
 
    !> Whether every value is that of the end of the step, as the step has it.
    pure logical function is_end(step, moment)
-      type(step_t), intent(in) :: step
-      type(moment_t), intent(in) :: moment
+      type(step_t), intent(in) :: step              !< as the deck has it
+      type(moment_t), intent(in) :: moment          !< a time of the step
 
       is_end = (moment%step_time >= step%increments%period .or. step%at_once) &
                .and. .not. (follows(step%prescribed%amplitude) .or. follows(step%node_loads%amplitude) &
@@ -43,8 +43,8 @@ contains
 
    !> The share of the way from the beginning of the step to its end.
    pure real(wp) function share_at(step, moment) result(share)
-      type(step_t), intent(in) :: step
-      type(moment_t), intent(in) :: moment
+      type(step_t), intent(in) :: step              !< its period and at_once are read
+      type(moment_t), intent(in) :: moment          !< a time of the step
 
       share = 1.0_wp
       if (.not. step%at_once .and. moment%step_time < step%increments%period) share = moment%step_time/step%increments%period
@@ -52,9 +52,9 @@ contains
 
    !> The loads, displacements and temperatures of a step at a time of it, as those of a step that ends there.
    pure subroutine act_at(model, step, moment, now)
-      type(model_t), intent(in) :: model
-      type(step_t), intent(in) :: step
-      type(moment_t), intent(in) :: moment
+      type(model_t), intent(in) :: model            !< its amplitudes are read
+      type(step_t), intent(in) :: step              !< one of the model's
+      type(moment_t), intent(in) :: moment          !< a time of the step
       type(step_t), intent(out) :: now              !< with nothing else of the step
       real(wp), allocatable :: factor(:)            ! of each amplitude
       real(wp) :: share
@@ -188,7 +188,7 @@ contains
 
    !> The bases of which there is something at some time of the step.
    pure function list_bases(step) result(bases)
-      type(step_t), intent(in) :: step
+      type(step_t), intent(in) :: step              !< one of the model's
       integer(ip), allocatable :: bases(:)
 
       bases = [BASE_END]
@@ -211,10 +211,10 @@ contains
 
    !> How much of each base there is at a time; at the end of the step, 1 of BASE_END and nothing of BASE_BEGIN.
    pure function base_factors(model, step, bases, moment) result(factor)
-      type(model_t), intent(in) :: model
-      type(step_t), intent(in) :: step
-      integer(ip), intent(in) :: bases(:)
-      type(moment_t), intent(in) :: moment
+      type(model_t), intent(in) :: model            !< its amplitudes are read
+      type(step_t), intent(in) :: step              !< one of the model's
+      integer(ip), intent(in) :: bases(:)           !< BASE_*, or places in model%amplitudes
+      type(moment_t), intent(in) :: moment          !< a time of the step
       real(wp) :: factor(size(bases))
       integer(ip) :: i
 
@@ -232,8 +232,8 @@ contains
 
    !> What acts of a base alone, as a step that ends with it: the same dofs are held.
    pure subroutine base_of(step, base, now)
-      type(step_t), intent(in) :: step
-      integer(ip), intent(in) :: base
+      type(step_t), intent(in) :: step              !< one of the model's
+      integer(ip), intent(in) :: base               !< BASE_*, or place in model%amplitudes
       type(step_t), intent(out) :: now              !< with nothing else of the step
       integer(ip) :: i
 

@@ -11,7 +11,7 @@ contains
    !> What an amplitude multiplies by. Between two times the value goes linearly, or as s^3 (10 - 15 s + 6 s^2) with s from 0 to 1,
    !> whose first and second derivatives are 0 at both; before the first time and after the last it stays.
    pure real(wp) function amplitude_at(amplitude, time) result(value)
-      type(amplitude_t), intent(in) :: amplitude
+      type(amplitude_t), intent(in) :: amplitude       !< one time at least
       real(wp), intent(in) :: time                     !< of the step, or of the history where the amplitude has total times
       real(wp) :: s
       integer(ip) :: k, n, high, middle
@@ -41,8 +41,8 @@ contains
 
    !> What the place of an amplitude stands for at a time of a step; 1 for place 0.
    pure real(wp) function factor_at(amplitudes, place, step_time, total_time) result(factor)
-      type(amplitude_t), intent(in) :: amplitudes(:)
-      integer(ip), intent(in) :: place
+      type(amplitude_t), intent(in) :: amplitudes(:)   !< of the model
+      integer(ip), intent(in) :: place                 !< 0: no amplitude
       real(wp), intent(in) :: step_time, total_time    !< since the beginning of the step, and of the history
 
       factor = 1.0_wp
@@ -52,8 +52,8 @@ contains
 
    !> The time of the history at which a step begins; one behind the last one, too.
    pure real(wp) function time_before(steps, k) result(time)
-      type(step_t), intent(in) :: steps(:)
-      integer(ip), intent(in) :: k
+      type(step_t), intent(in) :: steps(:)          !< of the model; those before k have their times
+      integer(ip), intent(in) :: k                  !< 1..steps + 1
 
       time = 0.0_wp
       if (k > 1) time = steps(k - 1)%began + steps(k - 1)%increments%period
@@ -66,7 +66,7 @@ contains
    !> from one time to the next only these times need to be asked about: the end of a step, and the points of the amplitudes that
    !> it uses.
    pure function load_breakpoints(model, k) result(times)
-      type(model_t), intent(in) :: model
+      type(model_t), intent(in) :: model            !< its steps and amplitudes are read
       integer(ip), intent(in) :: k                  !< the step
       real(wp), allocatable :: times(:)             !< of the step
       real(wp) :: began, time

@@ -12,7 +12,7 @@ module atrito_controls
 
    !> Of the outer iteration. A deck gives the first five.
    type :: controls_t
-      integer(ip) :: method = METHOD_ANDERSON
+      integer(ip) :: method = METHOD_ANDERSON       !< METHOD_*
       real(wp) :: tolerance = 1.0e-10_wp            !< of the outer loop
       integer(ip) :: max_iterations = 100           !< outer iterations
       real(wp) :: relaxation = 1.0_wp               !< of PICARD and of the mixing of ANDERSON, 0 < r <= 1

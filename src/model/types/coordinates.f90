@@ -18,15 +18,15 @@ module atrito_coordinates
 
 contains
 
-   !> The reals that some items of a line are, one after the other.
+   !> The reals that some items of a line are, one after the other: values(i) is item first + i - 1.
    subroutine get_reals(deck, line, first, what, values, ok, keyword, defaults)
-      type(deck_t), intent(in) :: deck
-      type(data_line_t), intent(in) :: line
+      type(deck_t), intent(in) :: deck                 !< as read; messages name its lines
+      type(data_line_t), intent(in) :: line            !< data line of the deck
       integer(ip), intent(in) :: first                 !< item
       character(len=*), intent(in) :: what             !< each is, e.g. 'coordinate, a real [L]'
       real(wp), intent(out) :: values(:)               !< as many as there are items
       logical, intent(out) :: ok                       !< all of them are reals; what is not is reported
-      character(len=*), intent(in) :: keyword
+      character(len=*), intent(in) :: keyword          !< of the card, for `atrito help KEYWORD`
       real(wp), intent(in), optional :: defaults(:)    !< of empty items
       logical :: good(size(values))
       integer(ip) :: i
@@ -43,12 +43,12 @@ contains
 
    !> The coordinate that an item is.
    subroutine get_coordinate(deck, token, what, x, ok, keyword, default)
-      type(deck_t), intent(in) :: deck
-      type(token_t), intent(in) :: token
+      type(deck_t), intent(in) :: deck                 !< as read; messages name its lines
+      type(token_t), intent(in) :: token               !< the item; messages point at it
       character(len=*), intent(in) :: what             !< e.g. 'x, a real [L]'
-      real(wp), intent(out) :: x
-      logical, intent(out) :: ok
-      character(len=*), intent(in) :: keyword
+      real(wp), intent(out) :: x                       !< [L]; what get_real leaves where it is no real
+      logical, intent(out) :: ok                       !< it is a real within LARGEST_COORDINATE; else that is reported
+      character(len=*), intent(in) :: keyword          !< of the card, for `atrito help KEYWORD`
       real(wp), intent(in), optional :: default        !< of an empty item [L]
 
       call get_real(deck, token, what, x, ok, default, keyword)
@@ -67,7 +67,7 @@ contains
 
    !> The longer side of the box round all lines of *NODE, as they stand there; what is no plain number has no part in it.
    pure real(wp) function spread_of_nodes(deck) result(spread)
-      type(deck_t), intent(in) :: deck
+      type(deck_t), intent(in) :: deck           !< as read
       real(wp) :: low(2), high(2), x
       integer(ip) :: i, axis, k
       integer :: outcome

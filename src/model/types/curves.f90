@@ -11,17 +11,19 @@ module atrito_curves
    private
    public :: curve_t, curve_list_t, line_list_t, add_curve, find_curve_faces, find_node_faces, nodes_of_no_face
 
+   !> Lines of one name, and the faces of elements that lie on them.
    type :: curve_t
-      character(len=:), allocatable :: name
+      character(len=:), allocatable :: name            !< as the file has it
       integer(ip) :: card = 0                          !< that makes it, place in the deck's cards
-      integer(ip) :: n = 0
+      integer(ip) :: n = 0                             !< lines; ends may be longer
       integer(ip), allocatable :: ends(:, :)           !< (2, >= n) places of nodes
       type(face_list_t) :: faces                       !< of the deck's own mesh, on its outline
       integer(ip) :: n_inside = 0                      !< lines that have none
    end type curve_t
 
+   !> Curves, each name once.
    type :: curve_list_t
-      integer(ip) :: n = 0
+      integer(ip) :: n = 0                             !< curves in use
       type(curve_t), allocatable :: list(:)            !< the first n are in use
       type(name_list_t) :: names                       !< in their order
    end type curve_list_t
@@ -30,16 +32,16 @@ module atrito_curves
    type :: line_list_t
       type(id_map_t) :: ids                            !< numbers
       integer(ip), allocatable :: nodes(:, :)          !< (4, lines) places: the ends, then the middle or 0; last the number
-      type(set_list_t) :: sets
+      type(set_list_t) :: sets                         !< of the lines, by places in ids
    end type line_list_t
 
 contains
 
    !> Keeps lines under a name; a name that is there already grows.
    subroutine add_curve(curves, name, card, ends)
-      type(curve_list_t), intent(inout) :: curves
-      character(len=*), intent(in) :: name
-      integer(ip), intent(in) :: card
+      type(curve_list_t), intent(inout) :: curves      !< gets the name, or longer lines under it
+      character(len=*), intent(in) :: name             !< of a physical group or a set
+      integer(ip), intent(in) :: card                  !< that names the lines, place in the deck's cards
       integer(ip), intent(in) :: ends(:, :)            !< (2, lines) places of nodes
       type(curve_t), allocatable :: longer(:)
       integer(ip) :: i, n
@@ -68,9 +70,9 @@ contains
 
    !> The faces on the outline that lie on the lines of a curve; each once.
    subroutine find_curve_faces(mesh, around, curve)
-      type(mesh_t), intent(in) :: mesh
-      type(node_elements_t), intent(in) :: around
-      type(curve_t), intent(inout) :: curve
+      type(mesh_t), intent(in) :: mesh                 !< of the deck, not refined
+      type(node_elements_t), intent(in) :: around      !< elements round each node
+      type(curve_t), intent(inout) :: curve            !< its faces and n_inside are found from its ends
       integer(ip) :: i, k, side, place(2), n_sides
 
       do i = 1, curve%n
@@ -93,9 +95,9 @@ contains
 
    !> The nodes of a list that belong to none of the faces.
    pure function nodes_of_no_face(mesh, nodes, faces) result(loose)
-      type(mesh_t), intent(in) :: mesh
+      type(mesh_t), intent(in) :: mesh                 !< where the faces are
       integer(ip), intent(in) :: nodes(:)              !< places
-      type(face_list_t), intent(in) :: faces
+      type(face_list_t), intent(in) :: faces           !< of this mesh
       integer(ip), allocatable :: loose(:)             !< places
       logical, allocatable :: held(:)
       integer(ip) :: i
@@ -109,10 +111,10 @@ contains
 
    !> The faces on the outline both of whose corners are among these nodes, and the node in their middle, if there is one.
    subroutine find_node_faces(mesh, around, nodes, faces)
-      type(mesh_t), intent(in) :: mesh
-      type(node_elements_t), intent(in) :: around
+      type(mesh_t), intent(in) :: mesh                 !< of the deck, not refined
+      type(node_elements_t), intent(in) :: around      !< elements round each node
       integer(ip), intent(in) :: nodes(:)              !< places
-      type(face_list_t), intent(inout) :: faces
+      type(face_list_t), intent(inout) :: faces        !< what is found is added to it
       logical, allocatable :: chosen(:)
       integer(ip) :: i, k, e, side
 

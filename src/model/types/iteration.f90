@@ -7,10 +7,10 @@ module atrito_iteration
 
    !> One inner solve: a row of iterations.tab. Changes are relative to the largest value.
    type :: iteration_t
-      integer(ip) :: step = 1, increment = 1
-      integer(ip) :: outer = 0, inner = 0
-      real(wp) :: change_displacement = 0.0_wp, change_pressure = 0.0_wp, change_friction = 0.0_wp
-      integer(ip) :: open = 0, stick = 0, slip = 0
+      integer(ip) :: step = 1, increment = 1         !< of the step, counted from 1
+      integer(ip) :: outer = 0, inner = 0            !< iteration of the outer loop, and solve in it, from 1
+      real(wp) :: change_displacement = 0.0_wp, change_pressure = 0.0_wp, change_friction = 0.0_wp !< since the solve before
+      integer(ip) :: open = 0, stick = 0, slip = 0   !< points of the line in each state
       real(wp) :: residual = 0.0_wp                  !< |nu S_rho(p) - tau| / |tau|, of the last outer iteration
    end type iteration_t
 

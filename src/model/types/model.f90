@@ -35,8 +35,9 @@ module atrito_model
    character(len=6), parameter :: KERNEL_NAME(2) = ['POINTS', 'LINE  ']
    integer(ip), parameter :: LOAD_PRESSURE = 1, LOAD_BODY = 2, LOAD_TRACTION = 3, LOAD_HYDROSTATIC = 4, LOAD_LINEAR = 5
 
+   !> *MATERIAL: its elasticity, density and expansion.
    type :: material_t
-      character(len=:), allocatable :: name
+      character(len=:), allocatable :: name    !< as the deck has it
       real(wp) :: young = 0.0_wp               !< E [F/L^2], > 0
       real(wp) :: poisson = 0.0_wp             !< mu [-]
       real(wp) :: density = 0.0_wp             !< mass per volume
@@ -46,19 +47,20 @@ module atrito_model
       real(wp) :: stiffness(SPATIAL, SPATIAL) = 0.0_wp  !< then, along the axes of the material: 11, 22, 33, 12 [F/L^2]
    end type material_t
 
+   !> *SOLID SECTION: material and thickness of the elements of a set.
    type :: section_t
       character(len=:), allocatable :: elset   !< name of its element set
       integer(ip) :: material = 0              !< place in model%materials
       real(wp) :: thickness = 1.0_wp           !< [L], > 0
       logical :: is_tapered = .false.          !< the nodes have the thickness, and that of the section is 1
-      integer(ip) :: formulation = FORMULATION_STANDARD
+      integer(ip) :: formulation = FORMULATION_STANDARD !< FORMULATION_*, of four-node quadrilaterals
       real(wp) :: axis(2) = [1.0_wp, 0.0_wp]   !< the first axis of the material: *ORIENTATION
    end type section_t
 
    !> A surface of element faces (a connected chain when it is a slave) or of rigid segments, straight ones and arcs.
    type :: surface_t
-      character(len=:), allocatable :: name
-      integer(ip) :: kind = SURFACE_ELEMENTS
+      character(len=:), allocatable :: name    !< as the deck has it
+      integer(ip) :: kind = SURFACE_ELEMENTS   !< SURFACE_*
       logical :: is_rigid_body = .false.       !< a *RIGID BODY names it
       type(face_list_t) :: faces               !< SURFACE_ELEMENTS
       real(wp), allocatable :: points(:, :)    !< SURFACE_SEGMENTS: ends of the segments [L], (2, n+1), in direction of travel
@@ -66,18 +68,20 @@ module atrito_model
       real(wp), allocatable :: centre(:, :)    !< (2, n) of arcs [L]
    end type surface_t
 
+   !> *SURFACE INTERACTION: the law of contact and of friction.
    type :: interaction_t
-      character(len=:), allocatable :: name
+      character(len=:), allocatable :: name    !< as the deck has it
       real(wp) :: delta = 0.0_wp               !< penalty parameter [L^3/F]; 0 is exact (HARD)
-      integer(ip) :: friction = FRICTION_NONE
+      integer(ip) :: friction = FRICTION_NONE  !< FRICTION_*
       real(wp) :: nu = 0.0_wp                  !< friction coefficient
       real(wp) :: eps = 0.0_wp                 !< NONLOCAL: [L]; 0 is exact stick
       real(wp) :: rho = 0.0_wp                 !< NONLOCAL: [L]; 0 is local
       logical :: is_incremental = .false.      !< slip counts from the last increment, not from the beginning
       real(wp) :: stick_slope = 0.0_wp         !< LOCAL: k [F/L^3]; 0 is exact stick
-      integer(ip) :: kernel = KERNEL_POINTS
+      integer(ip) :: kernel = KERNEL_POINTS    !< NONLOCAL: KERNEL_*, how S_rho averages
    end type interaction_t
 
+   !> A contact pair: its two surfaces, its law, and how its points are made.
    type :: pair_t
       integer(ip) :: interaction = 0, slave = 0, master = 0   !< places in the model's lists
       logical :: is_exchanged = .false.                       !< the deck has them the other way round (choose_roles)
@@ -98,7 +102,7 @@ module atrito_model
 
    !> Values at single dofs: prescribed displacements [L], or forces [F] for the whole thickness.
    type :: nodal_values_t
-      integer(ip) :: n = 0
+      integer(ip) :: n = 0                          !< values in use
       integer(ip), allocatable :: node(:), dof(:)   !< dof 1 or 2; of reference nodes also 6, rotation [-] and moment [F L]
       real(wp), allocatable :: value(:)             !< at the end of a step, or what an amplitude multiplies
       real(wp), allocatable :: from(:)              !< at the beginning of a step; not allocated: 0
@@ -114,10 +118,11 @@ module atrito_model
       character(len=:), allocatable :: name         !< where there is no surface: that of the set of its nodes
    end type rigid_body_t
 
+   !> *TIE: two surfaces that are joined.
    type :: tie_t
-      character(len=:), allocatable :: name
+      character(len=:), allocatable :: name         !< as the deck has it
       integer(ip) :: slave = 0, master = 0          !< places of surfaces
-      integer(ip) :: quadrature = QUADRATURE_AUTO
+      integer(ip) :: quadrature = QUADRATURE_AUTO   !< QUADRATURE_*
       real(wp) :: tolerance = -1.0_wp               !< farther nodes of the slave are not tied [L]; < 0: not set yet
       logical :: adjusts = .true.                   !< nodes of the slave are moved onto the master
       integer(ip) :: n_nodes = 0, n_far = 0         !< of the slave that are tied, and that are not
@@ -133,8 +138,8 @@ module atrito_model
 
    !> Loads on elements; several add up.
    type :: element_load_t
-      integer(ip) :: n = 0
-      integer(ip), allocatable :: element(:)
+      integer(ip) :: n = 0                          !< loads; the arrays have this length
+      integer(ip), allocatable :: element(:)        !< (n) places in the mesh
       integer(ip), allocatable :: kind(:)           !< LOAD_*
       integer(ip), allocatable :: face(:)           !< 1..4; LOAD_BODY and LOAD_LINEAR: 0
       integer(ip), allocatable :: line(:)           !< of the deck, that gives it
@@ -150,7 +155,7 @@ module atrito_model
 
    !> A curve over time that multiplies loads and displacements: *AMPLITUDE.
    type :: amplitude_t
-      character(len=:), allocatable :: name
+      character(len=:), allocatable :: name         !< as the deck has it
       real(wp), allocatable :: time(:), value(:)    !< time ascends; before the first and after the last the value stays
       logical :: is_total_time = .false.            !< of the history, not of the step
       logical :: is_smooth = .false.                !< between two times the slope is 0 at both
@@ -158,36 +163,37 @@ module atrito_model
 
    !> How a step goes through its time: *STATIC. Times are of the step.
    type :: increments_t
-      real(wp) :: initial = 1.0_wp, period = 1.0_wp
+      real(wp) :: initial = 1.0_wp, period = 1.0_wp !< length of the first increment, and of the step
       real(wp) :: least = 1.0_wp, greatest = 1.0_wp !< an increment that fails is cut, down to the least
       integer(ip) :: most = 100                     !< increments of the step: INC=
    end type increments_t
 
    !> How often what is asked for is printed: every so many increments; 0: at the end of the step, as it always is.
    type :: frequencies_t
-      integer(ip) :: nodes = 0, reactions = 0, stress = 0, nodal_stress = 0, contact = 0, bodies = 0, joints = 0
-      integer(ip) :: sections = 0, paths = 0, fields = 0
+      integer(ip) :: nodes = 0, reactions = 0, stress = 0, nodal_stress = 0, contact = 0, bodies = 0, joints = 0 !< increments
+      !< between two prints of each; 0: at the end of the step
+      integer(ip) :: sections = 0, paths = 0, fields = 0 !< of *SECTION PRINT, *PATH PRINT and the field file
    end type frequencies_t
 
    !> Nodes, elements and contact that were asked for.
    type :: requested_t
-      logical :: nodes = .false., reactions = .false., stress = .false., contact = .false.
+      logical :: nodes = .false., reactions = .false., stress = .false., contact = .false. !< asked for, at some node or element
       logical, allocatable :: node_u(:), node_rf(:), element_s(:)  !< which nodes, nodes, elements; allocated when asked for
    end type requested_t
 
    !> What is to be printed, and what goes into the field file.
    type, extends(requested_t) :: requests_t
-      logical :: bodies = .false., joints = .false., nodal_stress = .false.
+      logical :: bodies = .false., joints = .false., nodal_stress = .false. !< bodies.tab, joints.tab, stresses at nodes
       logical, allocatable :: node_s(:)             !< nodes whose stresses were asked for; allocated when they were
       integer(ip), allocatable :: cuts(:)           !< places in model%cuts; not allocated: none
       integer(ip), allocatable :: paths(:)          !< the same in model%paths
-      type(requested_t) :: fields
-      type(frequencies_t) :: every
+      type(requested_t) :: fields                   !< the same for the field file
+      type(frequencies_t) :: every                  !< increments between two prints
    end type requests_t
 
    !> A cut through bodies, with the forces in the cross-section: *SECTION PRINT.
    type :: cut_t
-      character(len=:), allocatable :: name
+      character(len=:), allocatable :: name         !< NAME= of the card; of several lines with -i behind it
       real(wp) :: ends(2, 2) = 0.0_wp               !< two points of its line [L]
       integer(ip) :: elset = 0                      !< place of the element set that chooses crossings; 0: all
       type(cross_section_t) :: section              !< of the mesh as it is solved
@@ -195,21 +201,22 @@ module atrito_model
 
    !> A line or an arc along which values are printed: *PATH PRINT.
    type :: path_t
-      character(len=:), allocatable :: name
+      character(len=:), allocatable :: name         !< NAME= of the card; of several lines with -i behind it
       logical :: is_arc = .false., has_centre = .false. !< has_centre: a line asks for polar components by it
       real(wp) :: ends(2, 2) = 0.0_wp               !< of a line [L]
       real(wp) :: centre(2) = 0.0_wp                !< of the arc, or of polar components [L]
       real(wp) :: radius = 0.0_wp, angles(2) = 0.0_wp !< of an arc [L], [rad]
-      integer(ip) :: n_points = 41
+      integer(ip) :: n_points = 41                  !< at equal distances, both ends among them
       integer(ip) :: elset = 0                      !< place of the element set that it keeps to; 0: all
       type(place_t), allocatable :: place(:)        !< (rows) the elements of the mesh as it is solved
       real(wp), allocatable :: s(:), x(:, :), along(:, :) !< (rows) arc length, (2, rows) place [L], direction
    end type path_t
 
+   !> A parameter of *PARAMETER, evaluated.
    type :: parameter_value_t
-      character(len=:), allocatable :: name
+      character(len=:), allocatable :: name         !< without the brackets
       character(len=:), allocatable :: written      !< its expression in the deck; not allocated: not known
-      real(wp) :: value = 0.0_wp
+      real(wp) :: value = 0.0_wp                    !< that it has in this run
       logical :: overridden = .false.               !< by --set
    end type parameter_value_t
 
@@ -222,7 +229,7 @@ module atrito_model
 
    !> An instance of a part.
    type :: instance_t
-      character(len=:), allocatable :: name, part
+      character(len=:), allocatable :: name, part   !< as the deck has them
       integer(ip) :: first_number = 1               !< that of the part's node or element 1
       real(wp) :: shift(2) = 0.0_wp                 !< [L], before the rotation
       real(wp) :: angle = 0.0_wp                    !< [degrees]
@@ -232,53 +239,54 @@ module atrito_model
    !> beginning of the step to its end values go linearly with the time, or at once; those with an amplitude follow it.
    type :: step_t
       character(len=:), allocatable :: title        !< as the deck has it; '' without one
-      type(increments_t) :: increments
+      type(increments_t) :: increments              !< times of the step
       real(wp) :: began = 0.0_wp                    !< time of the history at its beginning
       logical :: at_once = .false.                  !< AMPLITUDE=STEP: what has no amplitude has its last value from the beginning
       type(nodal_values_t) :: prescribed            !< each dof once
       type(nodal_values_t) :: node_loads            !< several on one dof add up
       type(nodal_values_t) :: rigid_prescribed      !< of reference nodes, each dof once
       type(nodal_values_t) :: rigid_loads           !< of reference nodes; several on one dof add up
-      type(element_load_t) :: element_loads
+      type(element_load_t) :: element_loads         !< of this step and those it inherits
       real(wp), allocatable :: heating(:)           !< (n_nodes) rise of the temperature; not allocated where none expands anything
       real(wp), allocatable :: heating_from(:)      !< (n_nodes) the same at the beginning; not allocated: 0
       real(wp), allocatable :: overlap(:)           !< (pairs) share of the initial overlap that is allowed at the end ...
       real(wp), allocatable :: overlap_from(:)      !< ... and at the beginning; not allocated: 0
-      type(controls_t) :: controls
-      type(requests_t) :: requests
+      type(controls_t) :: controls                  !< of the outer loop in this step
+      type(requests_t) :: requests                  !< what is printed of this step
    end type step_t
 
+   !> All that a deck means.
    type :: model_t
       character(len=:), allocatable :: deck_path    !< as the user wrote it
       character(len=:), allocatable :: deck_name    !< without folder and .inp
-      type(string_t), allocatable :: heading(:)
+      type(string_t), allocatable :: heading(:)     !< lines of *HEADING
       type(units_t) :: units                        !< that the deck names
       type(provenance_t) :: provenance              !< for the heads of tables; empty: the heads have none of it
       type(named_text_t), allocatable :: as_run(:)  !< the deck as it is run, for the writer alone; not allocated: it is not kept
-      type(parameter_value_t), allocatable :: parameters(:)
-      type(observed_line_t), allocatable :: observed(:)
-      type(instance_t), allocatable :: instances(:)
-      type(mesh_t) :: mesh
+      type(parameter_value_t), allocatable :: parameters(:) !< in the order of the deck
+      type(observed_line_t), allocatable :: observed(:) !< lines of *OBSERVE, in the order of the deck
+      type(instance_t), allocatable :: instances(:) !< of parts; a deck without parts has none
+      type(mesh_t) :: mesh                          !< nodes and elements as they are solved
       logical :: has_arcs = .false.                 !< sides of a *BLOCK are: elements with straight sides make polygons of them
       integer(ip) :: levels = 0                     !< of --refine: each element of the deck is 4**levels of the mesh
       integer(ip) :: n_cut = 0                      !< elements of the deck that are cut where the error is
-      type(set_list_t) :: node_sets, element_sets
-      type(material_t), allocatable :: materials(:)
-      type(section_t), allocatable :: sections(:)
+      type(set_list_t) :: node_sets, element_sets   !< members are places in the mesh
+      type(material_t), allocatable :: materials(:) !< in the order of the deck
+      type(section_t), allocatable :: sections(:)   !< one a *SOLID SECTION
       integer(ip), allocatable :: section_of(:)     !< section of each element
-      type(surface_t), allocatable :: surfaces(:)
+      type(surface_t), allocatable :: surfaces(:)   !< of the deck, of its blocks, curves and found pairs
       type(rigid_body_t), allocatable :: rigid_bodies(:) !< the rigid surfaces with a reference node
       type(mesh_t), allocatable :: solver_mesh      !< with the nodes that carry their motions, behind the mesh's own; not
       !< allocated: there are none
-      type(interaction_t), allocatable :: interactions(:)
-      type(pair_t), allocatable :: pairs(:)
+      type(interaction_t), allocatable :: interactions(:) !< in the order of the deck
+      type(pair_t), allocatable :: pairs(:)         !< those of *CONTACT PAIR, then those of *CONTACT
       type(contact_points_t), allocatable :: points(:) !< of each pair
       type(bilateral_rows_t) :: bilateral           !< of ties, equations, supports along other directions, springs
       type(nodal_values_t) :: inclined              !< the supports among them, along directions that are no axis
       type(nodal_values_t) :: equations             !< node, dof and coefficient of the first term of each
-      type(spring_t), allocatable :: springs(:)
-      type(tie_t), allocatable :: ties(:)
-      type(amplitude_t), allocatable :: amplitudes(:)
+      type(spring_t), allocatable :: springs(:)     !< in the order of the deck
+      type(tie_t), allocatable :: ties(:)           !< in the order of the deck
+      type(amplitude_t), allocatable :: amplitudes(:) !< in the order of the deck
       type(source_t), allocatable :: sources(:)     !< of supports and loads of all steps, in the order of the deck
       type(cut_t), allocatable :: cuts(:)           !< of all steps; not allocated: none
       type(path_t), allocatable :: paths(:)         !< the same
@@ -298,7 +306,7 @@ contains
 
    !> The name of a rigid body.
    pure function rigid_body_name(model, i) result(name)
-      type(model_t), intent(in) :: model
+      type(model_t), intent(in) :: model            !< surfaces and rigid bodies are read
       integer(ip), intent(in) :: i                  !< of the rigid bodies
       character(len=:), allocatable :: name
 
@@ -313,7 +321,7 @@ contains
 
    !> All of them.
    pure function all_frequencies(every) result(list)
-      type(frequencies_t), intent(in) :: every
+      type(frequencies_t), intent(in) :: every      !< of one step
       integer(ip) :: list(10)
 
       list = [every%nodes, every%reactions, every%stress, every%nodal_stress, every%contact, every%bodies, every%joints, &
@@ -323,8 +331,8 @@ contains
    !> Whether an increment is printed.
    pure elemental logical function is_due(every, increment, ends_step)
       integer(ip), intent(in) :: every              !< so many increments; 0: at the end of the step alone
-      integer(ip), intent(in) :: increment
-      logical, intent(in) :: ends_step
+      integer(ip), intent(in) :: increment          !< of the step, counted from 1
+      logical, intent(in) :: ends_step              !< it is the last of its step
 
       is_due = ends_step
       if (every > 0) is_due = is_due .or. mod(increment, every) == 0

@@ -34,7 +34,7 @@ contains
 
    !> Bytes of a mesh with all that is built round it before the solution.
    pure integer(lp) function mesh_bytes(n_nodes, n_elements) result(bytes)
-      integer(lp), intent(in) :: n_nodes, n_elements
+      integer(lp), intent(in) :: n_nodes, n_elements   !< >= 0
 
       bytes = NODE_BYTES*n_nodes + ELEMENT_BYTES*n_elements
    end function mesh_bytes
@@ -43,11 +43,11 @@ contains
    !> there are numbers for: displacements, and the nodes of all elements one behind the other, are counted in 32 bits.
    logical function fits_memory(place, context, new_nodes, new_elements, keyword, element_nodes, new_blocks) result(fits)
       type(token_t), intent(in) :: place               !< of the item or keyword that asks for them; source 0: none
-      type(build_context_t), intent(inout) :: context
-      integer(lp), intent(in) :: new_nodes, new_elements
-      character(len=*), intent(in), optional :: keyword
+      type(build_context_t), intent(inout) :: context  !< its mesh and blocks so far count too; loses has_room
+      integer(lp), intent(in) :: new_nodes, new_elements !< to come, >= 0
+      character(len=*), intent(in), optional :: keyword !< of the card, for `atrito help KEYWORD`
       integer(ip), intent(in), optional :: element_nodes   !< of each new element; without it they may have as many as there are
-      integer(lp), intent(in), optional :: new_blocks
+      integer(lp), intent(in), optional :: new_blocks  !< blocks to come; default 0
       character(len=:), allocatable :: what
       integer(lp) :: n_nodes, n_elements, n_corners, n_blocks, bytes
 

@@ -14,7 +14,7 @@ module atrito_motion
       real(wp) :: shift(2) = 0.0_wp                  !< [L]
       real(wp) :: centre(2) = 0.0_wp                 !< [L]
       real(wp) :: angle = 0.0_wp                     !< [degrees], counter-clockwise
-      real(wp), private :: cosine = 1.0_wp, sine = 0.0_wp
+      real(wp), private :: cosine = 1.0_wp, sine = 0.0_wp !< of angle; exact for quarter turns
    end type motion_t
 
    real(wp), parameter :: HALF_TURN = 180.0_wp
@@ -22,8 +22,9 @@ module atrito_motion
 contains
 
    !> Where a place comes to.
+   !> With shift s, centre c and rotation R by the angle: y = c + R (x + s - c).
    pure function moved(motion, x) result(y)
-      type(motion_t), intent(in) :: motion
+      type(motion_t), intent(in) :: motion           !< as read
       real(wp), intent(in) :: x(2)                   !< [L]
       real(wp) :: y(2)
 
@@ -32,9 +33,10 @@ contains
    end function moved
 
    !> A direction after the rotation.
+   !> R d = (d1 cos a - d2 sin a, d1 sin a + d2 cos a), a the angle.
    pure function turned(motion, d) result(y)
-      type(motion_t), intent(in) :: motion
-      real(wp), intent(in) :: d(2)
+      type(motion_t), intent(in) :: motion           !< its rotation alone is used
+      real(wp), intent(in) :: d(2)                   !< direction, of any length
       real(wp) :: y(2)
 
       y = [motion%cosine*d(1) - motion%sine*d(2), motion%sine*d(1) + motion%cosine*d(2)]
@@ -42,11 +44,11 @@ contains
 
    !> A line of a translation.
    subroutine read_shift(deck, line, keyword, motion, ok)
-      type(deck_t), intent(in) :: deck
-      type(data_line_t), intent(in) :: line
-      character(len=*), intent(in) :: keyword
-      type(motion_t), intent(inout) :: motion
-      logical, intent(out) :: ok
+      type(deck_t), intent(in) :: deck               !< as read; messages name its lines
+      type(data_line_t), intent(in) :: line          !< data line: dx, dy and, if given, dz = 0
+      character(len=*), intent(in) :: keyword        !< of the card, for `atrito help KEYWORD`
+      type(motion_t), intent(inout) :: motion        !< its shift is set
+      logical, intent(out) :: ok                     !< the translation lies in the plane; else that is reported
       real(wp) :: z
       logical :: good(3)
 
@@ -63,12 +65,12 @@ contains
 
    !> The axis stands upright on the plane; the angle is positive round its direction.
    subroutine read_rotation(deck, line, keyword, times, motion, ok)
-      type(deck_t), intent(in) :: deck
-      type(data_line_t), intent(in) :: line
-      character(len=*), intent(in) :: keyword
+      type(deck_t), intent(in) :: deck               !< as read; messages name its lines
+      type(data_line_t), intent(in) :: line          !< data line: two points of the axis, then the angle
+      character(len=*), intent(in) :: keyword        !< of the card, for `atrito help KEYWORD`
       real(wp), intent(in) :: times                  !< how often it is done
-      type(motion_t), intent(inout) :: motion
-      logical, intent(out) :: ok
+      type(motion_t), intent(inout) :: motion        !< its centre and angle are set, where ok
+      logical, intent(out) :: ok                     !< the axis stands upright; else that is reported
       real(wp) :: axis(6), angle
       integer(ip) :: k
       logical :: good

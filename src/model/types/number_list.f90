@@ -6,17 +6,18 @@ module atrito_number_list
    private
    public :: number_list_t, add_number, add_numbers, numbers_of
 
+   !> Numbers in the order in which they were added.
    type :: number_list_t
-      integer(ip) :: n = 0
-      integer(ip), allocatable :: values(:)
+      integer(ip) :: n = 0                       !< numbers in use
+      integer(ip), allocatable :: values(:)      !< (>= n); not allocated: none was added yet
    end type number_list_t
 
 contains
 
    !> Adds a number at the end.
    pure subroutine add_number(list, value)
-      type(number_list_t), intent(inout) :: list
-      integer(ip), intent(in) :: value
+      type(number_list_t), intent(inout) :: list !< becomes longer by one
+      integer(ip), intent(in) :: value           !< it may be there already
 
       call make_room(list%values, list%n, list%n + 1_ip)
       list%n = list%n + 1
@@ -25,8 +26,8 @@ contains
 
    !> Adds numbers at the end, in their order.
    pure subroutine add_numbers(list, values)
-      type(number_list_t), intent(inout) :: list
-      integer(ip), intent(in) :: values(:)
+      type(number_list_t), intent(inout) :: list !< becomes longer by size(values)
+      integer(ip), intent(in) :: values(:)       !< they may be there already
 
       call make_room(list%values, list%n, list%n + size(values, kind=ip))
       list%values(list%n + 1:list%n + size(values)) = values
@@ -35,7 +36,7 @@ contains
 
    !> The numbers, without the room kept for growing.
    pure function numbers_of(list) result(values)
-      type(number_list_t), intent(in) :: list
+      type(number_list_t), intent(in) :: list    !< may be empty
       integer(ip), allocatable :: values(:)
 
       if (allocated(list%values)) then

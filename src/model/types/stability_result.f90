@@ -11,7 +11,7 @@ module atrito_stability_result
 
    !> A value of the parameter.
    type :: stability_value_t
-      real(wp) :: value = 0.0_wp
+      real(wp) :: value = 0.0_wp                    !< of the parameter
       integer :: code = CODE_NOT_RUN                !< of the run: 0, 3 or 4; 4 also where the balance alone proves it
       real(wp) :: excess = 0.0_wp                   !< work that the contact cannot take, over that of the loads; nan: undecided
       real(wp) :: displacement = 0.0_wp             !< that is watched [L]; nan without a run
@@ -31,9 +31,10 @@ module atrito_stability_result
       real(wp), allocatable :: u(:, :)              !< (2, n_nodes) [L], the largest is one
    end type collapse_t
 
+   !> What a search for a limit asks and finds.
    type :: stability_t
       character(len=:), allocatable :: parameter    !< that varies
-      real(wp) :: ends(2) = 0.0_wp, tolerance = 0.0_wp
+      real(wp) :: ends(2) = 0.0_wp, tolerance = 0.0_wp !< between which the limit is looked for, and its relative width
       character(len=:), allocatable :: watched      !< 'largest displacement', 'u1 of node 12'
       real(wp) :: stands = 0.0_wp, falls = 0.0_wp   !< the limit lies between them
       real(wp) :: balanced = 0.0_wp                 !< nearest to `falls` whose loads can be balanced

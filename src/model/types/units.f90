@@ -11,6 +11,7 @@ module atrito_units
    !> What dimensions are written with (docs/user/keywords.md), in the order of the names.
    character(len=11), parameter :: SYMBOLS(N_UNITS) = [character(len=11) :: 'L', 'F', 'T', 'temperature']
 
+   !> *UNITS.
    type :: units_t
       type(string_t) :: names(N_UNITS)   !< of length, force, time and temperature; %s not allocated: not named
    end type units_t
@@ -19,7 +20,7 @@ contains
 
    !> The names as *UNITS has them: 'm, kN'; '' where there are none.
    pure function unit_names(units) result(text)
-      type(units_t), intent(in) :: units
+      type(units_t), intent(in) :: units         !< of the deck
       character(len=:), allocatable :: text
       integer(ip) :: k
 
@@ -33,7 +34,7 @@ contains
 
    !> A dimension in the units of a deck: 'F/L^2' is 'kN/m^2'. What has no name stays as it is: 'F/L^2'.
    pure function in_units(units, dimension) result(text)
-      type(units_t), intent(in) :: units
+      type(units_t), intent(in) :: units          !< of the deck
       character(len=*), intent(in) :: dimension   !< F, L, T and temperature with what joins them
       character(len=:), allocatable :: text
       character(len=*), parameter :: LETTERS = 'ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz'

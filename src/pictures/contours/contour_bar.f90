@@ -16,7 +16,7 @@ module atrito_contour_bar
    !> From low to high in equal bands. Values and steps are those of the field.
    type :: bar_t
       type(range_t) :: range                        !< from band to band, but of a flat field
-      integer(ip) :: n_bands = 1
+      integer(ip) :: n_bands = 1                    !< >= 1
       real(wp) :: step = 0.0_wp                     !< of a band
       logical :: is_flat = .false.                  !< the field has one value
       integer(ip) :: exponent = 0                       !< power of ten by which the numbers at the bar are divided
@@ -98,7 +98,7 @@ contains
 
    !> Levels of a band: the last of them is that of the line at its end.
    pure integer(ip) function levels_of(bar) result(levels)
-      type(bar_t), intent(in) :: bar
+      type(bar_t), intent(in) :: bar                !< its bands
 
       levels = BESIDE/bar%n_bands
    end function levels_of
@@ -106,7 +106,7 @@ contains
    !> The colours of the levels for gnuplot, of which one that is missing has that of the one before it: numbers and colours with
    !> commas between them.
    pure function palette_text(bar, is_signed) result(text)
-      type(bar_t), intent(in) :: bar
+      type(bar_t), intent(in) :: bar                !< range, bands and steps
       logical, intent(in) :: is_signed              !< the field may be positive and negative
       character(len=:), allocatable :: text
       integer(ip) :: i

@@ -12,13 +12,14 @@ module atrito_contour_fields
 
    integer, parameter :: DISPLACEMENT = 0, ERROR = -1   !< sources that are no row of the nodal stresses
 
+   !> A field that has a picture.
    type :: contour_t
       character(len=20) :: name                     !< of the picture
-      character(len=31) :: title
-      character(len=5) :: symbol
-      character(len=5) :: dimension
+      character(len=31) :: title                    !< in words
+      character(len=5) :: symbol                    !< beside the bar
+      character(len=5) :: dimension                 !< in F and L, or %
       integer :: source                             !< row of the nodal stresses, DISPLACEMENT or ERROR
-      logical :: is_signed
+      logical :: is_signed                          !< it may be positive and negative
       logical :: of_elements                        !< constant in each, not interpolated between nodes
    end type contour_t
 
@@ -30,11 +31,12 @@ module atrito_contour_fields
       integer(ip), allocatable :: id(:)             !< (n) the user's numbers
    end type places_t
 
+   !> A field with its values, its range and its extremes.
    type :: field_t
-      type(contour_t) :: contour
+      type(contour_t) :: contour                    !< which field it is
       real(wp), allocatable :: value(:)             !< at the nodes, or of the elements
       logical :: is_shown = .false.                 !< at a place at least; only then there are range and extremes
-      type(range_t) :: range
+      type(range_t) :: range                        !< of what is shown
       type(extreme_t) :: extreme(2)                 !< the largest and the least of what is shown
       logical :: is_smooth(2) = .false.             !< the values round it are near it
       real(wp) :: drawn(2, 2) = 0.0_wp              !< and where in the picture [L]
@@ -56,7 +58,7 @@ contains
 
    !> The contours that can be drawn of results, in the order of CONTOUR_PLOTS; none where no displacement is a number.
    pure function contours_of(results) result(list)
-      type(results_t), intent(in) :: results
+      type(results_t), intent(in) :: results        !< last frame of the run
       type(contour_t), allocatable :: list(:)
       logical :: is_there(size(CONTOURS))
 
@@ -69,11 +71,11 @@ contains
 
    !> The nodes of elements; those that are no number, outside the window or in no element are not shown.
    pure subroutine node_places(mesh, u, scale, window, places)
-      type(mesh_t), intent(in) :: mesh
+      type(mesh_t), intent(in) :: mesh              !< as solved
       real(wp), intent(in) :: u(:, :)               !< (2, n_nodes) [L]
       real(wp), intent(in) :: scale                 !< of the displacements
       type(range_t), intent(in) :: window(2)        !< that is shown [L]
-      type(places_t), intent(out) :: places
+      type(places_t), intent(out) :: places         !< (n_nodes) all nodes
       integer(ip) :: e, i
 
       places%x = mesh%x
@@ -90,10 +92,10 @@ contains
 
    !> The middles of elements.
    pure subroutine element_places(mesh, u, scale, window, places)
-      type(mesh_t), intent(in) :: mesh
-      real(wp), intent(in) :: u(:, :), scale
-      type(range_t), intent(in) :: window(2)
-      type(places_t), intent(out) :: places
+      type(mesh_t), intent(in) :: mesh              !< as solved
+      real(wp), intent(in) :: u(:, :), scale        !< (2, n_nodes) displacements [L], and their scale
+      type(range_t), intent(in) :: window(2)        !< that is shown [L]
+      type(places_t), intent(out) :: places         !< (n_elements) all elements
       integer(ip) :: e
 
       allocate (places%x(2, mesh%n_elements), places%drawn(2, mesh%n_elements), places%is_shown(mesh%n_elements))
@@ -118,11 +120,11 @@ contains
 
    !> Values, range and extremes of a field.
    pure subroutine make_field(contour, results, mesh, nodes, elements, field)
-      type(contour_t), intent(in) :: contour
-      type(results_t), intent(in) :: results
-      type(mesh_t), intent(in) :: mesh
-      type(places_t), intent(in) :: nodes, elements
-      type(field_t), intent(out) :: field
+      type(contour_t), intent(in) :: contour        !< one of contours_of
+      type(results_t), intent(in) :: results        !< last frame of the run
+      type(mesh_t), intent(in) :: mesh              !< as solved
+      type(places_t), intent(in) :: nodes, elements !< by node_places and element_places
+      type(field_t), intent(out) :: field           !< whole
       type(range_t) :: range, mises
 
       field%contour = contour

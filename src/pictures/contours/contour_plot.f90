@@ -22,6 +22,7 @@ module atrito_contour_plot
    private
    public :: layout_t, make_layout, write_contour_plots
 
+   !> Where things stand in a contour picture.
    type :: layout_t
       type(range_t) :: window(2)                    !< that is shown [L]
       integer(ip) :: n(2) = 1                       !< pixels of the window
@@ -95,7 +96,7 @@ contains
 
    !> Writes .gp and .bin of all contours that there are, beside mesh.dat.
    subroutine write_contour_plots(plots, drawing)
-      type(plots_t), intent(inout) :: plots
+      type(plots_t), intent(inout) :: plots         !< get data and scripts
       type(drawing_t), intent(in) :: drawing        !< of a run
       type(contour_t), allocatable :: list(:)
       type(places_t) :: nodes, elements

@@ -20,6 +20,7 @@ module atrito_contour_raster
    private
    public :: raster_t, lay_raster, pixel_values
 
+   !> The window as pixels, and what lies under each.
    type :: raster_t
       integer(ip) :: n(2) = 0                       !< pixels along x and y
       real(wp) :: low(2) = 0.0_wp                   !< lower left corner of the window [L]
@@ -37,12 +38,12 @@ contains
 
    !> Finds what lies under the pixels of a window: of bodies that overlap, the one whose elements come last.
    pure subroutine lay_raster(mesh, u, scale, window, n, raster)
-      type(mesh_t), intent(in) :: mesh
+      type(mesh_t), intent(in) :: mesh              !< as solved
       real(wp), intent(in) :: u(:, :)               !< (2, n_nodes) [L]
       real(wp), intent(in) :: scale                 !< of the displacements
       type(range_t), intent(in) :: window(2)        !< that is shown [L], of some length
       integer(ip), intent(in) :: n(2)               !< pixels, 1 at least
-      type(raster_t), intent(out) :: raster
+      type(raster_t), intent(out) :: raster         !< element 0: nothing lies there
       real(wp) :: x(2, MOST_NODES)
       integer(ip) :: e, k
 
@@ -151,10 +152,10 @@ contains
 
    !> A field at the pixels; NaN beside the bodies.
    pure function pixel_values(raster, mesh, values, of_elements) result(pixels)
-      type(raster_t), intent(in) :: raster
-      type(mesh_t), intent(in) :: mesh
+      type(raster_t), intent(in) :: raster          !< by lay_raster
+      type(mesh_t), intent(in) :: mesh              !< that the raster was laid of
       real(wp), intent(in) :: values(:)             !< of the elements, or at the nodes, between which they are interpolated
-      logical, intent(in) :: of_elements
+      logical, intent(in) :: of_elements            !< values are constant in each
       real(wp), allocatable :: pixels(:, :)         !< (n(1), n(2))
       integer(ip) :: i, j
 

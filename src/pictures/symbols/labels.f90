@@ -25,17 +25,17 @@ module atrito_labels
 
    !> Names that are placed.
    type :: names_t
-      type(string_t), allocatable :: text(:)
+      type(string_t), allocatable :: text(:)        !< (n) as they are drawn
       real(wp), allocatable :: place(:, :)          !< (2, n) middles, as they are drawn [L]
-      integer :: left_out = 0
+      integer :: left_out = 0                       !< names without room
    end type names_t
 
 contains
 
    !> Puts the labels of what is shown; their script has the fonts SMALL and MIDDLE.
    subroutine put_labels(drawing, symbols)
-      type(drawing_t), intent(in) :: drawing
-      type(symbols_t), intent(inout) :: symbols
+      type(drawing_t), intent(in) :: drawing        !< mesh, sets, surfaces and view
+      type(symbols_t), intent(inout) :: symbols     !< get the labels
       real(wp), allocatable :: nodes(:, :), middles(:, :)
       type(names_t) :: names
       integer :: k

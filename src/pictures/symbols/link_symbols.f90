@@ -28,7 +28,7 @@ contains
 
    !> Puts them, and widens the window to the axis.
    subroutine put_links(symbols)
-      type(symbols_t), intent(inout) :: symbols
+      type(symbols_t), intent(inout) :: symbols     !< its model is read; get blocks
 
       call put_axis(symbols)
       call put_springs(symbols)

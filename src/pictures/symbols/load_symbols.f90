@@ -38,7 +38,7 @@ module atrito_load_symbols
 
    !> The faces with loads.
    type :: loaded_faces_t
-      integer(ip) :: n = 0
+      integer(ip) :: n = 0                          !< faces; load has this length
       integer(ip), allocatable :: load(:)           !< (n) the last load of each
       integer(ip), allocatable :: next(:)           !< (loads) the one before it on the same face; 0: none
       real(wp) :: largest = 0.0_wp                  !< traction on them [F/L^2]
@@ -55,7 +55,7 @@ contains
 
    !> Puts the loads of a step, as they are at its end.
    subroutine put_loads(symbols)
-      type(symbols_t), intent(inout) :: symbols
+      type(symbols_t), intent(inout) :: symbols     !< its step is read; get blocks
       type(force_t) :: concentrated, on_faces, in_bodies
 
       associate (now => symbols%model%steps(symbols%step))
@@ -74,7 +74,7 @@ contains
 
    !> `(0, -12) [F]`
    pure function force_text(force) result(text)
-      type(force_t), intent(in) :: force
+      type(force_t), intent(in) :: force            !< f alone is read
       character(len=:), allocatable :: text
       real(wp) :: f(2)
 

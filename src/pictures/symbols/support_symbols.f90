@@ -31,7 +31,7 @@ module atrito_support_symbols
 
    !> Supports of one kind.
    type :: supports_t
-      integer(ip), allocatable :: node(:)
+      integer(ip), allocatable :: node(:)           !< (n) places in the mesh
       real(wp), allocatable :: place(:, :)          !< (2, n) [L]
       real(wp), allocatable :: ground(:, :)         !< (2, n) unit vectors from the body to the ground
    end type supports_t
@@ -40,7 +40,7 @@ contains
 
    !> Puts the supports of a step, with the values of its end.
    subroutine put_supports(symbols)
-      type(symbols_t), intent(inout) :: symbols
+      type(symbols_t), intent(inout) :: symbols     !< its step is read; get blocks
       logical, allocatable :: held(:, :)            ! (2, n_nodes)
       real(wp), allocatable :: moved(:, :), outward(:, :)
 

@@ -26,7 +26,7 @@ module atrito_surface_symbols
 
    !> Faces and pieces of rigid surfaces, from end to end.
    type :: strip_t
-      integer(ip) :: n = 0
+      integer(ip) :: n = 0                          !< faces and pieces
       real(wp), allocatable :: x(:, :, :)           !< (2, ends and middle, n) [L]
       real(wp), allocatable :: side(:)              !< (n) 1: the outside is on the left, -1: on the right
    end type strip_t
@@ -35,8 +35,8 @@ contains
 
    !> Puts all surfaces, undisplaced, in the window of the bodies.
    subroutine put_surfaces(model, symbols)
-      type(model_t), intent(in) :: model
-      type(symbols_t), intent(inout) :: symbols
+      type(model_t), intent(in) :: model            !< surfaces, pairs and ties
+      type(symbols_t), intent(inout) :: symbols     !< get blocks; the window stays
       integer(ip) :: kind_of(size(model%surfaces)), kind
       type(strip_t) :: strip
       logical :: is_crowded

@@ -34,7 +34,7 @@ module atrito_symbols
 
    !> What the symbols are of, and what is written of them so far.
    type :: symbols_t
-      type(model_t), pointer :: model => null()
+      type(model_t), pointer :: model => null()     !< of the drawing
       integer(ip) :: step = 0                       !< whose supports and loads they are, as at its end
       real(wp), pointer :: u(:, :) => null()        !< (2, n_nodes) [L]: the symbols go with the nodes
       type(plots_t), pointer :: plots => null()     !< whose file they are written into
@@ -43,7 +43,7 @@ module atrito_symbols
       real(wp) :: scale = 1.0_wp                    !< of the displacements
       type(range_t) :: window(2)                    !< what bodies and symbols cover as they are drawn [L]
       logical :: widens = .true.                    !< the window, by what is put
-      integer(ip) :: n_blocks = 0
+      integer(ip) :: n_blocks = 0                   !< written so far
       logical :: is_open = .false.                  !< the last block has something in it and may have more
       character(len=:), allocatable :: what, drawn  !< of a block that was begun and has nothing in it yet
       type(string_t), allocatable :: curves(:)      !< of the script: one a block, and entries of the legend
@@ -53,11 +53,11 @@ contains
 
    !> Begins the file. Plots and drawing are used until it ends.
    subroutine begin_symbols(plots, name, what, drawing, symbols)
-      type(plots_t), intent(inout), target :: plots
+      type(plots_t), intent(inout), target :: plots !< get the data
       character(len=*), intent(in) :: name          !< of the file, without .dat
       character(len=*), intent(in) :: what          !< stands in it, and in its columns behind those of the places
       type(drawing_t), intent(in), target :: drawing    !< of the bodies
-      type(symbols_t), intent(out) :: symbols
+      type(symbols_t), intent(out) :: symbols       !< no block is open
 
       symbols%plots => plots
       symbols%model => drawing%model
@@ -73,9 +73,9 @@ contains
    !> Begins a block of symbols that are drawn alike, which ends the one before it; one into which nothing is put leaves no trace.
    !> columns: what `using` has behind the place, with its colon, or nothing.
    subroutine begin_block(symbols, what, columns, drawn, places)
-      type(symbols_t), intent(inout) :: symbols
+      type(symbols_t), intent(inout) :: symbols     !< the next block begins with its first symbol
       character(len=*), intent(in) :: what          !< they are
-      character(len=*), intent(in) :: columns
+      character(len=*), intent(in) :: columns       !< of gnuplot
       character(len=*), intent(in) :: drawn         !< `with ...` and the title
       character(len=*), intent(in), optional :: places  !< what `using` has for the place; default: displaced
 
@@ -101,14 +101,14 @@ contains
 
    !> Ends the last block.
    subroutine end_symbols(symbols)
-      type(symbols_t), intent(inout) :: symbols
+      type(symbols_t), intent(inout) :: symbols     !< their file stays open
 
       if (symbols%is_open) call put(symbols%plots, '')
    end subroutine end_symbols
 
    !> A line through some places that move together.
    subroutine put_stroke(symbols, u, places)
-      type(symbols_t), intent(inout) :: symbols
+      type(symbols_t), intent(inout) :: symbols     !< get a stroke in the open block
       real(wp), intent(in) :: u(2)                  !< [L]
       real(wp), intent(in) :: places(:, :)          !< (2, n) [L]
 
@@ -117,7 +117,7 @@ contains
 
    !> A line through some places.
    subroutine put_path(symbols, u, places)
-      type(symbols_t), intent(inout) :: symbols
+      type(symbols_t), intent(inout) :: symbols     !< get a line in the open block
       real(wp), intent(in) :: u(:, :), places(:, :) !< (2, n) [L]
       integer :: i
 
@@ -131,7 +131,7 @@ contains
 
    !> An arrow from a place of the undisplaced bodies, which moves with the displacement u.
    subroutine put_arrow(symbols, u, from, arrow)
-      type(symbols_t), intent(inout) :: symbols
+      type(symbols_t), intent(inout) :: symbols         !< get an arrow in the open block
       real(wp), intent(in) :: u(2), from(2), arrow(2)   !< [L]
 
       call put_point(symbols, u, from, arrow)
@@ -141,9 +141,9 @@ contains
    !> A point of the undisplaced bodies, which moves with the displacement u, and what stands behind it in its block: of an arrow
    !> the components [L], of a marker its size, relative to that of the block.
    subroutine put_point(symbols, u, place, columns)
-      type(symbols_t), intent(inout) :: symbols
+      type(symbols_t), intent(inout) :: symbols     !< get a point in the open block
       real(wp), intent(in) :: u(2), place(2)        !< [L]
-      real(wp), intent(in) :: columns(:)
+      real(wp), intent(in) :: columns(:)            !< numbers behind the place, one at least
       character(len=:), allocatable :: text
       integer :: i
 
@@ -156,10 +156,10 @@ contains
 
    !> A point with what stands behind it, and unless a line goes on to the next one the end of the line.
    subroutine put_text(symbols, u, place, text, goes_on)
-      type(symbols_t), intent(inout) :: symbols
+      type(symbols_t), intent(inout) :: symbols     !< get a point in the open block
       real(wp), intent(in) :: u(2), place(2)        !< [L]
-      character(len=*), intent(in) :: text
-      logical, intent(in), optional :: goes_on
+      character(len=*), intent(in) :: text          !< columns behind the place
+      logical, intent(in), optional :: goes_on      !< the next point is joined to it; default: not
 
       call open_block(symbols)
       call put_place(symbols%plots, [place, u], text)
@@ -172,7 +172,7 @@ contains
 
    !> Makes the window hold some places, where it is to follow what is drawn.
    pure subroutine widen(symbols, places)
-      type(symbols_t), intent(inout) :: symbols
+      type(symbols_t), intent(inout) :: symbols     !< their window, if it widens
       real(wp), intent(in) :: places(:, :)          !< (2, n) [L]
       integer :: i
 
@@ -184,8 +184,8 @@ contains
 
    !> Where symbols of some nodes stand.
    pure function places_of(symbols, nodes) result(places)
-      type(symbols_t), intent(in) :: symbols
-      integer(ip), intent(in) :: nodes(:)
+      type(symbols_t), intent(in) :: symbols        !< their model is read
+      integer(ip), intent(in) :: nodes(:)           !< places in the mesh
       real(wp) :: places(2, size(nodes))            !< [L]
       integer(ip) :: i
 
@@ -196,8 +196,8 @@ contains
 
    !> Some of the nodes, none nearer to another than a spacing.
    pure function thinned_nodes(symbols, nodes, spacing) result(kept)
-      type(symbols_t), intent(in) :: symbols
-      integer(ip), intent(in) :: nodes(:)
+      type(symbols_t), intent(in) :: symbols        !< their model and pixel are read
+      integer(ip), intent(in) :: nodes(:)           !< places in the mesh
       real(wp), intent(in) :: spacing               !< [pixels]
       integer(ip), allocatable :: kept(:)
 
@@ -250,7 +250,7 @@ contains
    !> The nodes of an element go round it to the left, so a face from x1 to x2, d = x2 - x1, has the outward normal (d2, -d1), whose
    !> length is that of the face. The two elements on both sides of a face inside go through it in opposite directions.
    pure function find_outward(mesh, is_in) result(outward)
-      type(mesh_t), intent(in) :: mesh
+      type(mesh_t), intent(in) :: mesh              !< undisplaced
       logical, intent(in), optional :: is_in(:)     !< (n_nodes) the class; default: all nodes
       real(wp), allocatable :: outward(:, :)        !< (3, n_nodes)
       real(wp) :: d(2)
@@ -282,8 +282,8 @@ contains
 
    !> Where symbols of a node stand: at it. Those of a reference node far from all that is drawn stand at the middle of its surface.
    pure function place_of_node(symbols, node) result(place)
-      type(symbols_t), intent(in) :: symbols
-      integer(ip), intent(in) :: node
+      type(symbols_t), intent(in) :: symbols        !< their model and window are read
+      integer(ip), intent(in) :: node               !< place in the mesh
       real(wp) :: place(2), room
       integer(ip) :: body
 
@@ -316,8 +316,8 @@ contains
 
    !> A prescribed displacement or a force at the end of a step; where its amplitude has come to 0, what that multiplies.
    pure real(wp) function end_value(symbols, list, i) result(value)
-      type(symbols_t), intent(in) :: symbols
-      type(nodal_values_t), intent(in) :: list
+      type(symbols_t), intent(in) :: symbols        !< their step is read
+      type(nodal_values_t), intent(in) :: list      !< of that step
       integer(ip), intent(in) :: i                  !< place in the list
 
       value = end_factor(symbols, amplitude_of(list%amplitude, i))*list%value(i)
@@ -335,8 +335,8 @@ contains
 
    !> That of a load on an element.
    pure real(wp) function load_factor(symbols, load) result(factor)
-      type(symbols_t), intent(in) :: symbols
-      integer(ip), intent(in) :: load
+      type(symbols_t), intent(in) :: symbols        !< their step is read
+      integer(ip), intent(in) :: load               !< place in the step's element loads
 
       factor = 1.0_wp
       associate (loads => symbols%model%steps(symbols%step)%element_loads)

@@ -39,17 +39,17 @@ contains
 
    !> Nobody takes it: an invariant is broken.
    subroutine send_buffer(buffer, to)
-      type(buffer_t), intent(in), target :: buffer
-      integer(ip), intent(in) :: to
+      type(buffer_t), intent(in), target :: buffer !< not used
+      integer(ip), intent(in) :: to                !< not used
 
       error stop NOBODY
    end subroutine send_buffer
 
    !> Nobody sends one: an invariant is broken.
    subroutine receive_buffer(buffer, from, sender)
-      type(buffer_t), intent(out), target :: buffer
-      integer(ip), intent(in) :: from
-      integer(ip), intent(out), optional :: sender
+      type(buffer_t), intent(out), target :: buffer !< not used
+      integer(ip), intent(in) :: from               !< not used
+      integer(ip), intent(out), optional :: sender  !< not used
 
       if (present(sender)) sender = from
       error stop NOBODY
@@ -62,7 +62,7 @@ contains
 
    !> A sum over one rank is what it was.
    subroutine sum_over_ranks(x)
-      real(wp), intent(inout), contiguous :: x(:)
+      real(wp), intent(inout), contiguous :: x(:) !< stays
    end subroutine sum_over_ranks
 
    !> What sequential libraries take for a communicator.
