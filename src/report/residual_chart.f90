@@ -17,7 +17,8 @@ module atrito_residual_chart
 
    !> What is drawn: places of the rows and their residuals as powers of ten.
    type :: chart_t
-      integer(ip), allocatable :: row(:), group(:)  !< rows of the table; increments
+      integer(ip), allocatable :: row(:)            !< rows of the table
+      logical, allocatable :: begins(:)             !< an increment, with its curve
       real(wp), allocatable :: power(:)             !< log10 of the residual
       integer(ip) :: n_rows = 0                     !< of the table, also those without a residual
       integer :: low = 0, high = 1                  !< powers of the frame
@@ -48,9 +49,10 @@ contains
    subroutine collect(table, chart)
       type(table_file_t), intent(in) :: table
       type(chart_t), intent(out) :: chart
-      integer(ip) :: residual, step, increment, stride, first, row, i
+      integer(ip) :: residual, step, increment, stride, first, row, last, i
+      logical :: begins
 
-      allocate (chart%row(0), chart%group(0), chart%power(0))
+      allocate (chart%row(0), chart%begins(0), chart%power(0))
       residual = find_column(table, 'residual')
       step = find_column(table, 'step')
       increment = find_column(table, 'increment')
@@ -65,8 +67,11 @@ contains
             if (table%value(residual, i) > table%value(residual, row)) row = i
          end do
          if (row == 0) cycle
+         begins = size(chart%row) == 0
+         if (.not. begins) begins = any(table%value([step, increment], row) /= table%value([step, increment], last))
+         last = row
          chart%row = [chart%row, row]
-         chart%group = [chart%group, 1000000*nint(table%value(step, row), ip) + nint(table%value(increment, row), ip)]
+         chart%begins = [chart%begins, begins]
          chart%power = [chart%power, log10(max(LEAST, table%value(residual, row)))]
       end do
       if (size(chart%row) == 0) return
@@ -97,15 +102,12 @@ contains
       type(chart_t), intent(in) :: chart
       character(len=:), allocatable :: path, x, y
       integer :: i
-      logical :: begins
 
       path = ''
       do i = 1, size(chart%row)
-         begins = i == 1
-         if (.not. begins) begins = chart%group(i) /= chart%group(i - 1)
          x = place(LEFT + (RIGHT - LEFT)*real(chart%row(i) - 1, wp)/real(max(1_ip, chart%n_rows - 1), wp))
          y = place(height(chart, chart%power(i)))
-         path = path//merge('M', 'L', begins)//x//' '//y
+         path = path//merge('M', 'L', chart%begins(i))//x//' '//y
          if (size(chart%row) <= MOST_DOTS) call add_line(page, '<circle class="dot" r="3" cx="'//x//'" cy="'//y//'"/>')
       end do
       call add_line(page, '<path class="curve" d="'//path//'"/>')
