@@ -121,8 +121,8 @@ contains
    !> Adds the matrices of a store, in their order. Elements that follow one another and have one matrix in common get it unpacked
    !> once. The solver may empty the store.
    subroutine add_one_by_one(self, store)
-      class(linear_solver_t), intent(inout) :: self
-      type(element_store_t), intent(inout) :: store
+      class(linear_solver_t), intent(inout) :: self !< created, not yet factored
+      type(element_store_t), intent(inout) :: store !< each matrix with its equations; 0 there is skipped
       real(wp), allocatable :: matrix(:, :)
       integer(ip) :: e, m, n, held
 
@@ -151,12 +151,12 @@ contains
    !> `usable` is false for a pivot that must not be divided by: one that is round-off, at most max(n eps, 1e-15) of its original
    !> diagonal. A pivot clearly below zero is counted and can be used.
    pure subroutine note_pivot(report, equation, n, original, pivot, usable)
-      type(factor_report_t), intent(inout) :: report
-      integer(ip), intent(in) :: equation          !< 1..n
-      integer(ip), intent(in) :: n                 !< order of the matrix
-      real(wp), intent(in) :: original             !< diagonal before the elimination
-      real(wp), intent(in) :: pivot                !< diagonal after it
-      logical, intent(out) :: usable
+      type(factor_report_t), intent(inout) :: report !< the pivot is counted in
+      integer(ip), intent(in) :: equation            !< 1..n
+      integer(ip), intent(in) :: n                   !< order of the matrix
+      real(wp), intent(in) :: original               !< diagonal before the elimination
+      real(wp), intent(in) :: pivot                  !< diagonal after it
+      logical, intent(out) :: usable                 !< false: the pivot is round-off, stop
       real(wp) :: tolerance, lost
 
       tolerance = smallest_ratio(n)
@@ -185,9 +185,9 @@ contains
 
    !> The status of a factorisation that stopped (`stopped`) or went on over negative pivots.
    pure subroutine set_pivot_status(report, stopped, status)
-      type(factor_report_t), intent(in) :: report
-      logical, intent(in) :: stopped
-      type(status_t), intent(out) :: status
+      type(factor_report_t), intent(in) :: report !< of all pivots so far
+      logical, intent(in) :: stopped              !< at a pivot that was not usable
+      type(status_t), intent(out) :: status       !< STATUS_SINGULAR with the equation; OK where neither is so
 
       if (report%sign_changes > 0) then
          call set_status(status, STATUS_SINGULAR, 'the matrix is singular or indefinite: negative pivot at equation ' &

@@ -75,9 +75,9 @@ contains
    !> Room for the columns, all zero. What is asked for here is all that the solver will hold: the factor takes the place of the
    !> matrix.
    subroutine create_skyline(self, profile, status)
-      class(skyline_t), intent(inout) :: self
-      type(profile_t), intent(in) :: profile
-      type(status_t), intent(out) :: status
+      class(skyline_t), intent(inout) :: self !< what it held is given up
+      type(profile_t), intent(in) :: profile  !< closed
+      type(status_t), intent(out) :: status   !< STATUS_INTERNAL: the memory does not suffice
       integer(lp) :: length
       integer(ip) :: j
       integer :: no_memory
@@ -126,8 +126,8 @@ contains
    !> Panel by panel, from left to right: take the columns out of the skyline, eliminate the rows above the panel, then the triangle
    !> within it, and put D and L' back. A pivot that must not be divided by ends it.
    subroutine factor_skyline(self, status)
-      class(skyline_t), intent(inout) :: self
-      type(status_t), intent(out) :: status
+      class(skyline_t), intent(inout) :: self !< matrix assembled; holds the factor on return
+      type(status_t), intent(out) :: status   !< STATUS_SINGULAR: K_ii is singular or indefinite
       type(panel_t) :: panel
       logical :: stopped
 

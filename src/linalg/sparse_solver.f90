@@ -38,9 +38,9 @@ module atrito_sparse_solver
 
    type, extends(linear_solver_t) :: sparse_t
       private
-      type(elimination_t) :: elimination
+      type(elimination_t) :: elimination         !< order of the equations, and supernodes
       type(element_store_t) :: store             !< until factor
-      type(fronts_t) :: fronts
+      type(fronts_t) :: fronts                   !< tree of fronts, and their factors after factor
    contains
       procedure :: create => create_fronts
       procedure :: add => add_to_fronts
@@ -125,11 +125,11 @@ contains
 
    !> What the solver will hold of a body, and for a while at the most [bytes], from the tree of its fronts.
    subroutine expect_fronts(elimination, n, n_retained, store, held, most, enough)
-      type(elimination_t), intent(in) :: elimination
-      integer(ip), intent(in) :: n, n_retained
-      type(element_store_t), intent(in) :: store
-      integer(lp), intent(out) :: held, most
-      logical, intent(out) :: enough             !< memory to tell
+      type(elimination_t), intent(in) :: elimination !< order of the equations and supernodes
+      integer(ip), intent(in) :: n, n_retained       !< equations, and how many of the last ones are retained
+      type(element_store_t), intent(in) :: store     !< matrices of all elements
+      integer(lp), intent(out) :: held, most         !< of the factors [bytes]; at the peak of the factorisation [bytes]
+      logical, intent(out) :: enough                 !< memory to tell
       type(fronts_t) :: fronts
 
       call plan_fronts(elimination, n, n_retained, store, fronts)
