@@ -28,14 +28,14 @@ module atrito_front_factors
 
    !> The factor of a class of fronts.
    type :: factor_t
-      integer(ip) :: order = 0, n_pivots = 0                      !< the last class, of the retained equations, has no pivots
-      real(wp), allocatable :: columns(:)                         !< those of L, packed from the diagonal down
-      real(wp), allocatable :: update(:) !< what is left of the border, packed, until the last parent has taken it
-      logical :: done = .false.                                   !< with usable pivots
-      logical :: enough = .true.                                  !< memory for it, its front and its update
-      integer(ip) :: failed = 0                                   !< pivot that could not be used
-      integer(ip) :: worst = 0                                    !< pivot that lost most
-      real(wp) :: worst_pivot = 0.0_wp                            !< value of the one at `worst`
+      integer(ip) :: order = 0, n_pivots = 0     !< the last class, of the retained equations, has no pivots
+      real(wp), allocatable :: columns(:)        !< those of L, packed from the diagonal down
+      real(wp), allocatable :: update(:)         !< what is left of the border, packed, until the last parent has taken it
+      logical :: done = .false.                  !< with usable pivots
+      logical :: enough = .true.                 !< memory for it, its front and its update
+      integer(ip) :: failed = 0                  !< pivot that could not be used
+      integer(ip) :: worst = 0                   !< pivot that lost most
+      real(wp) :: worst_pivot = 0.0_wp           !< value of the one at `worst`
       real(wp) :: smallest_pivot = 0.0_wp, largest_pivot = 0.0_wp !< of the front
    end type factor_t
 
