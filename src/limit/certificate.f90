@@ -60,7 +60,7 @@ contains
    subroutine prove_balance(rows, line, certificate, counts)
       type(motion_rows_t), intent(in) :: rows         !< G, and the work of the loads on each motion
       type(contact_line_t), intent(in) :: line        !< points, weights, laws and averages are read
-      type(certificate_t), intent(out) :: certificate !< checked from the data, whatever the solver said
+      type(certificate_t), intent(out) :: certificate !< the verdict, with the forces or the motion that prove it
       logical, intent(in), optional :: counts(:)      !< (line%n) points that may bear forces; left out: all
       type(certificate_t) :: own
       type(balance_groups_t) :: groups

@@ -24,7 +24,7 @@ contains
    function free_motion_text(fem, held, rows, line, pairs, mechanism) result(text)
       type(fem_t), intent(in) :: fem             !< bodies with their names, and the mesh
       logical, intent(in) :: held(:, :)          !< (2, n_nodes)
-      type(contact_rows_t), intent(in) :: rows   !< the bodies that each row sees
+      type(contact_rows_t), intent(in) :: rows   !< the nodes of its rows are read
       type(contact_line_t), intent(in) :: line   !< weights, laws and pairs of the points
       type(pair_scene_t), intent(in) :: pairs(:) !< names of slaves and masters
       type(mechanism_t), intent(in) :: mechanism !< of describe_motion

@@ -42,7 +42,7 @@ contains
    !> do on it. Lifts that the loads do not drive are taken out of it first.
    subroutine describe_motion(fem, rows, line, motions, certificate, mechanism, work_at_end)
       type(fem_t), intent(in) :: fem                   !< bodies with their motions, and the mesh
-      type(contact_rows_t), intent(in) :: rows         !< gaps, and the pair of each row
+      type(contact_rows_t), intent(in) :: rows         !< directions and nodes of its rows are read
       type(contact_line_t), intent(in) :: line         !< weights, laws and pairs of the points
       type(motion_rows_t), intent(in) :: motions       !< G, and the work of the loads on each motion
       type(certificate_t), intent(in) :: certificate   !< BALANCE_IMPOSSIBLE, with its motion

@@ -63,15 +63,15 @@ module atrito_linear_solver
       !> Makes room for a zero matrix of the profile. status: STATUS_INTERNAL when the memory is too small.
       subroutine create_solver(self, profile, status)
          import :: linear_solver_t, profile_t, status_t
-         class(linear_solver_t), intent(inout) :: self
+         class(linear_solver_t), intent(inout) :: self    !< what it held is given up
          type(profile_t), intent(in) :: profile           !< closed
-         type(status_t), intent(out) :: status
+         type(status_t), intent(out) :: status            !< OK, or as above
       end subroutine create_solver
 
       !> Adds an element matrix.
       subroutine add_matrix(self, equations, matrix)
          import :: linear_solver_t, ip, wp
-         class(linear_solver_t), intent(inout) :: self
+         class(linear_solver_t), intent(inout) :: self    !< created, not yet factored
          integer(ip), intent(in) :: equations(:)          !< equation numbers; 0 = prescribed, skipped
          real(wp), intent(in) :: matrix(:, :)             !< symmetric, (size(equations), size(equations))
       end subroutine add_matrix
@@ -80,35 +80,35 @@ module atrito_linear_solver
       !> the equation, and the matrix is lost. STATUS_INTERNAL when the memory is too small.
       subroutine factor_interior(self, status)
          import :: linear_solver_t, status_t
-         class(linear_solver_t), intent(inout) :: self
-         type(status_t), intent(out) :: status
+         class(linear_solver_t), intent(inout) :: self !< all matrices added; holds the factor on return
+         type(status_t), intent(out) :: status         !< OK, or as above
       end subroutine factor_interior
 
       !> The Schur complement, both triangles; after factor.
       subroutine get_schur_complement(self, schur)
          import :: linear_solver_t, wp
-         class(linear_solver_t), intent(in) :: self
+         class(linear_solver_t), intent(in) :: self       !< factored
          real(wp), intent(out) :: schur(:, :)             !< (n_retained, n_retained)
       end subroutine get_schur_complement
 
       !> f_c <- f_c - K_ci K_ii^-1 f_i; f_i <- the half-solved part that expand wants. After factor.
       subroutine reduce_load(self, f)
          import :: linear_solver_t, wp
-         class(linear_solver_t), intent(in) :: self
+         class(linear_solver_t), intent(in) :: self       !< factored
          real(wp), intent(inout), contiguous :: f(:, :)   !< (n, loads)
       end subroutine reduce_load
 
       !> x_i <- K_ii^-1 (f_i - K_ic x_c), with f_i as reduce left it and x_c given.
       subroutine expand_solution(self, x)
          import :: linear_solver_t, wp
-         class(linear_solver_t), intent(in) :: self
+         class(linear_solver_t), intent(in) :: self       !< factored
          real(wp), intent(inout), contiguous :: x(:, :)   !< (n, loads): f_i above, x_c below
       end subroutine expand_solution
 
       !> Memory held [bytes].
       pure integer(lp) function count_bytes(self)
          import :: linear_solver_t, lp
-         class(linear_solver_t), intent(in) :: self
+         class(linear_solver_t), intent(in) :: self !< 0 before create
       end function count_bytes
 
    end interface

@@ -102,7 +102,7 @@ contains
       if (allocated(text)) is_plain = .not. has_controls(text) .and. scan(text, achar(9)//achar(10)//achar(13)) == 0
    end function is_plain
 
-   !> The same of a list that need not be there.
+   !> Whether a list is not there, or is one of so many finite numbers (is_list).
    pure logical function may_be(values, n)
       real(wp), allocatable, intent(in) :: values(:) !< as the file has it
       integer(ip), intent(in) :: n                   !< length that it must have
