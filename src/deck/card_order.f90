@@ -22,7 +22,7 @@ module atrito_card_order
       integer(ip) :: n_steps = 0                   !< steps begun so far
       type(token_t) :: step                        !< the *STEP begun last
       character(len=32) :: parent = ''             !< keyword to whose block the next ones belong
-      logical :: parent_ok = .true.                !< false: the parent was refused, or is not known
+      logical :: parent_ok = .true.                !< false where the parent was refused or is not known
       logical :: lost_step = .false.               !< a *STEP is misspelt: what stands outside of all steps may be in it
       type(parts_t) :: parts                       !< parts, instances and assembly
       logical :: incomplete = .false.              !< a file could not be read: no word about what is missing

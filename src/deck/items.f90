@@ -27,7 +27,7 @@ contains
       type(token_t), intent(in) :: token                 !< the item
       character(len=*), intent(in) :: what               !< e.g. 'x coordinate, a real [L]'
       real(wp), intent(out) :: value                     !< 0 where it is not ok
-      logical, intent(out) :: ok                         !< false: reported
+      logical, intent(out) :: ok                         !< false where that was reported
       real(wp), intent(in), optional :: default          !< of an empty item
       character(len=*), intent(in), optional :: keyword  !< for `atrito help KEYWORD`
 
@@ -41,7 +41,7 @@ contains
       type(token_t), intent(in) :: token                 !< the item
       character(len=*), intent(in) :: what               !< e.g. 'node number, an integer'
       integer(ip), intent(out) :: value                  !< 0 where it is not ok
-      logical, intent(out) :: ok                         !< false: reported
+      logical, intent(out) :: ok                         !< false where that was reported
       integer(ip), intent(in), optional :: default       !< of an empty item
       character(len=*), intent(in), optional :: keyword  !< for `atrito help KEYWORD`
       real(wp) :: x
@@ -187,7 +187,7 @@ contains
       type(token_t), intent(in) :: token                 !< the item
       character(len=*), intent(in) :: what               !< e.g. 'name of a node set'
       character(len=:), allocatable, intent(out) :: name !< as written, without quotes; names are without case
-      logical, intent(out) :: ok                         !< false: reported
+      logical, intent(out) :: ok                         !< false where that was reported
       character(len=*), intent(in), optional :: keyword  !< for `atrito help KEYWORD`
 
       name = token_text(deck, token)
@@ -282,7 +282,7 @@ contains
       type(deck_t), intent(in) :: deck           !< its keyword table, texts and parameters are read
       type(card_t), intent(in) :: card           !< its options are searched
       character(len=*), intent(in) :: name, what !< as in the keyword table; e.g. 'stiffness, a real [F/L]'
-      real(wp), intent(inout) :: value           !< in: what it is without the option
+      real(wp), intent(inout) :: value           !< what it is without the option, on entry
       logical, intent(out) :: found              !< it is given and good
       type(option_t) :: option
       real(wp) :: x
@@ -298,7 +298,7 @@ contains
       type(deck_t), intent(in) :: deck           !< its keyword table, texts and parameters are read
       type(card_t), intent(in) :: card           !< its options are searched
       character(len=*), intent(in) :: name, what !< as in the keyword table; e.g. 'a number, an integer'
-      integer(ip), intent(inout) :: value        !< in: what it is without the option
+      integer(ip), intent(inout) :: value        !< what it is without the option, on entry
       logical, intent(out) :: found              !< it is given and good
       type(option_t) :: option
       integer(ip) :: i

@@ -31,7 +31,7 @@ contains
    subroutine read_settings(list, settings, status)
       type(string_t), intent(in) :: list(:)            !< 'NAME=VALUE', VALUE an expression of numbers
       type(settings_t), intent(out) :: settings        !< of no use where the status is not OK
-      type(status_t), intent(out) :: status            !< STATUS_USAGE: not NAME=VALUE, or no value
+      type(status_t), intent(out) :: status            !< STATUS_USAGE where one is not NAME=VALUE, or has no value
       type(string_t) :: none(0)
       type(expression_fault_t) :: fault
       character(len=:), allocatable :: name
@@ -169,7 +169,7 @@ contains
    subroutine check_settings(deck, settings, status)
       type(deck_t), intent(in) :: deck         !< read to its end
       type(settings_t), intent(in) :: settings !< of --set
-      type(status_t), intent(inout) :: status  !< STATUS_USAGE: no parameter of this name; stays where not OK
+      type(status_t), intent(inout) :: status  !< STATUS_USAGE without a parameter of this name; stays where not OK
       type(string_t), allocatable :: near(:), names(:)
       character(len=:), allocatable :: text
       integer :: i

@@ -206,7 +206,7 @@ contains
    !> others; it is no entry of another row but by symmetry, so nothing contradicts.
    pure subroutine balance_axis(n, k)
       integer(ip), intent(in) :: n           !< nodes
-      real(wp), intent(inout) :: k(2*n, 2*n) !< in: upper triangle; out: both [F/L]
+      real(wp), intent(inout) :: k(2*n, 2*n) !< upper triangle on entry, both on return [F/L]
       real(wp) :: shift, largest
       integer(ip) :: i, a, b
 

@@ -35,7 +35,7 @@ contains
       type(model_t), intent(in), target :: model    !< as read, refined if that was asked
       integer, intent(out) :: answer                !< STANDS: forces balance the loads at all times; FALLS at some; or UNDECIDED
       real(wp), intent(out) :: excess               !< FALLS: the largest work that contact cannot take, over the sum of the loads
-      type(status_t), intent(out) :: status         !< STATUS_DECK: averages need too much memory
+      type(status_t), intent(out) :: status         !< STATUS_DECK where averages need too much memory
       type(collapse_t), intent(out), optional :: collapse !< FALLS: the motion, at the first such time
       type(scene_data_t) :: data
       real(wp), allocatable :: times(:)

@@ -60,7 +60,7 @@ contains
    subroutine create_banded(self, profile, status)
       class(banded_t), intent(inout) :: self !< what it held is given up
       type(profile_t), intent(in) :: profile !< closed
-      type(status_t), intent(out) :: status  !< STATUS_INTERNAL: the memory does not suffice
+      type(status_t), intent(out) :: status  !< STATUS_INTERNAL where the memory does not suffice
       integer(ip) :: n_interior, padding
       integer :: no_memory
 
@@ -116,7 +116,7 @@ contains
    !> and LAPACK raise floating-point exceptions that mean nothing: halting is suspended round them.
    subroutine factor_banded(self, status)
       class(banded_t), intent(inout) :: self !< matrix assembled; holds the factor on return
-      type(status_t), intent(out) :: status  !< STATUS_SINGULAR: K_ii is singular or indefinite
+      type(status_t), intent(out) :: status  !< STATUS_SINGULAR where K_ii is singular or indefinite
       type(halting_t) :: halting
       real(wp) :: diagonal(self%n - self%n_retained)
       integer(ip) :: info, rows

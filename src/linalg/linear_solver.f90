@@ -156,7 +156,7 @@ contains
       integer(ip), intent(in) :: n                   !< order of the matrix
       real(wp), intent(in) :: original               !< diagonal before the elimination
       real(wp), intent(in) :: pivot                  !< diagonal after it
-      logical, intent(out) :: usable                 !< false: the pivot is round-off, stop
+      logical, intent(out) :: usable                 !< false where the pivot is round-off: stop
       real(wp) :: tolerance, lost
 
       tolerance = smallest_ratio(n)

@@ -44,7 +44,7 @@ contains
 
    !> Begins with a diagonal matrix.
    pure subroutine begin_profile(profile, n, n_retained)
-      type(profile_t), intent(out) :: profile   !< open: add_to_profile comes next
+      type(profile_t), intent(out) :: profile   !< still open, add_to_profile comes next
       integer(ip), intent(in) :: n              !< number of equations, >= 0
       integer(ip), intent(in) :: n_retained         !< retained equations, 0 <= n_retained <= n
       integer(ip) :: j

@@ -77,7 +77,7 @@ contains
    subroutine create_skyline(self, profile, status)
       class(skyline_t), intent(inout) :: self !< what it held is given up
       type(profile_t), intent(in) :: profile  !< closed
-      type(status_t), intent(out) :: status   !< STATUS_INTERNAL: the memory does not suffice
+      type(status_t), intent(out) :: status   !< STATUS_INTERNAL where the memory does not suffice
       integer(lp) :: length
       integer(ip) :: j
       integer :: no_memory
@@ -127,7 +127,7 @@ contains
    !> within it, and put D and L' back. A pivot that must not be divided by ends it.
    subroutine factor_skyline(self, status)
       class(skyline_t), intent(inout) :: self !< matrix assembled; holds the factor on return
-      type(status_t), intent(out) :: status   !< STATUS_SINGULAR: K_ii is singular or indefinite
+      type(status_t), intent(out) :: status   !< STATUS_SINGULAR where K_ii is singular or indefinite
       type(panel_t) :: panel
       logical :: stopped
 

@@ -59,7 +59,7 @@ contains
    subroutine create_fronts(self, profile, status)
       class(sparse_t), intent(inout) :: self !< its store is emptied
       type(profile_t), intent(in) :: profile !< closed
-      type(status_t), intent(out) :: status  !< OK: memory is asked for later
+      type(status_t), intent(out) :: status  !< OK, since memory is asked for later
 
       self%n = profile%n
       self%n_retained = profile%n_retained

@@ -54,7 +54,7 @@ contains
       type(element_store_t), intent(inout) :: fixed  !< elements that do not change; it is emptied
       integer(lp), intent(in) :: start(:)            !< (n_variable + 1)
       integer(ip), intent(in) :: equations(:)        !< of variable element v: start(v) + 1..start(v + 1); 0: prescribed
-      type(status_t), intent(out) :: status          !< STATUS_INTERNAL: the memory does not suffice
+      type(status_t), intent(out) :: status          !< STATUS_INTERNAL where the memory does not suffice
       integer(ip), intent(in), optional :: n_kept    !< equations that are not eliminated, the last ones; none where it is left out
 
       matrix%n = n

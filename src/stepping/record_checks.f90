@@ -19,7 +19,7 @@ contains
 
    !> Keeps the first complaint.
    pure subroutine require(wrong, condition, what)
-      character(len=:), allocatable, intent(inout) :: wrong !< in: an earlier complaint, or not allocated
+      character(len=:), allocatable, intent(inout) :: wrong !< an earlier complaint stays
       logical, intent(in) :: condition                      !< what is asked for holds
       character(len=*), intent(in) :: what                  !< name of the record, or a few words
 

@@ -49,7 +49,7 @@ contains
       type(model_t), intent(in) :: model                     !< as solved
       type(history_t), intent(in) :: history                 !< with all frames; it is not empty
       type(file_set_t), intent(inout) :: set                 !< begun; gets the listing
-      type(status_t), intent(out) :: status                  !< STATUS_FILE: could not be written
+      type(status_t), intent(out) :: status                  !< STATUS_FILE where it could not be written
       type(string_t), intent(in), optional :: pictures(:)    !< that are drawn after the listing, names without ending
       type(page_t) :: page
       type(text_file_t) :: file

@@ -55,7 +55,7 @@ contains
    subroutine read_table(path, table, status)
       character(len=*), intent(in) :: path     !< as the user wrote it, with folder and ending
       type(table_file_t), intent(out) :: table !< of no use where the status is not OK
-      type(status_t), intent(out) :: status    !< STATUS_FILE: cannot be read, or is no table of atrito
+      type(status_t), intent(out) :: status    !< STATUS_FILE where it cannot be read or is no table of atrito
       character(len=:), allocatable :: text
 
       call read_file(path, text, status)
@@ -74,7 +74,7 @@ contains
    subroutine parse_table(text, name, table, status)
       character(len=*), intent(in) :: text, name !< the whole file; its name without folder
       type(table_file_t), intent(out) :: table   !< of no use where the status is not OK
-      type(status_t), intent(out) :: status      !< STATUS_FILE: what is wrong, without the name
+      type(status_t), intent(out) :: status      !< STATUS_FILE and what is wrong, without the name
       integer :: first, last, i, k
       integer(ip) :: line, n_rows
 

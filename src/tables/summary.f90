@@ -37,7 +37,7 @@ module atrito_summary
    type :: quantity_t
       character(len=32) :: name = ''               !< as in summary.tab
       character(len=8) :: dimension = '-'          !< in F and L; '-': none
-      real(wp) :: value = 0.0_wp                   !< NaN: not defined
+      real(wp) :: value = 0.0_wp                   !< NaN where it is not defined
       real(wp) :: scale = 0.0_wp                   !< of its field; 0: nothing is rounding
       logical :: is_count = .false.                !< written as an integer
    end type quantity_t

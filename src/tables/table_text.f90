@@ -42,7 +42,7 @@ contains
       type(table_t), intent(inout) :: table         !< its columns get their places
       type(origin_t), intent(in) :: origin          !< what stands at the top
       integer, intent(in) :: digits                 !< significant digits, 6..17
-      type(status_t), intent(out) :: status         !< STATUS_FILE: could not be written
+      type(status_t), intent(out) :: status         !< STATUS_FILE where it could not be written
       logical, intent(in), optional :: is_csv       !< left out: .false.
       type(growing_table_t) :: file
 
@@ -140,7 +140,7 @@ contains
    !> status: STATUS_FILE when it could not be written.
    subroutine close_table(file, status)
       type(growing_table_t), intent(inout) :: file !< open; is closed in any case
-      type(status_t), intent(out) :: status        !< STATUS_FILE: could not be written
+      type(status_t), intent(out) :: status        !< STATUS_FILE where it could not be written
 
       type(status_t) :: of_head
 
@@ -155,7 +155,7 @@ contains
       type(table_t), intent(inout) :: tables(:)     !< their columns get their places
       type(origin_t), intent(in) :: origin          !< what stands at the top of each
       integer, intent(in) :: digits                 !< significant digits, 6..17
-      type(status_t), intent(out) :: status         !< STATUS_FILE: nothing was replaced
+      type(status_t), intent(out) :: status         !< STATUS_FILE, and then nothing was replaced
       logical, intent(in), optional :: is_csv       !< left out: .false.
       type(file_set_t) :: set
       type(string_t), allocatable :: stale(:)

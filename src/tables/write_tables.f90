@@ -119,7 +119,7 @@ contains
       type(history_t), intent(in), target :: history !< with all frames; it is not empty
       integer, intent(in) :: digits                  !< significant digits, 6..17
       type(file_set_t), intent(inout) :: set         !< begun; gets the files
-      type(status_t), intent(out) :: status          !< STATUS_FILE: one could not be written
+      type(status_t), intent(out) :: status          !< STATUS_FILE where one could not be written
       logical, intent(in) :: is_csv                  !< comma-separated values
       type(common_t) :: whole
       type(series_t) :: series(size(TABLE_NAMES))
@@ -244,7 +244,7 @@ contains
       type(history_t), intent(in) :: history        !< with all frames; it is not empty
       integer, intent(in) :: digits                 !< significant digits, 6..17
       type(file_set_t), intent(inout) :: set        !< begun; gets the file
-      type(status_t), intent(out) :: status         !< STATUS_FILE: could not be written
+      type(status_t), intent(out) :: status         !< STATUS_FILE where it could not be written
       logical, intent(in) :: is_csv                 !< comma-separated values
       type(phase_time_t), allocatable :: phases(:)
       type(string_t), allocatable :: names(:)

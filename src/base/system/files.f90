@@ -57,7 +57,7 @@ contains
    subroutine read_file(path, text, status, is_plain, identity)
       character(len=*), intent(in) :: path               !< as the user wrote it
       character(len=:), allocatable, intent(out) :: text !< all bytes, ends of lines among them
-      type(status_t), intent(out) :: status              !< STATUS_FILE: not there, not allowed, no plain file, too large
+      type(status_t), intent(out) :: status !< STATUS_FILE where it is not there, not allowed, no plain file or too large
       logical, intent(out), optional :: is_plain     !< .false.: there is something else, or what may not be read
       integer(lp), intent(out), optional :: identity(2)  !< for protect_input
 
@@ -68,7 +68,7 @@ contains
    subroutine read_bytes(path, bytes, status)
       character(len=*), intent(in) :: path                !< as the user wrote it
       character(len=:), allocatable, intent(out) :: bytes !< one a character; none where the status is not OK
-      type(status_t), intent(out) :: status               !< STATUS_FILE: cannot be read
+      type(status_t), intent(out) :: status               !< STATUS_FILE where it cannot be read
 
       call read_plain(path, int(LARGEST_FILE), bytes, status)
    end subroutine read_bytes
@@ -76,7 +76,7 @@ contains
    !> Whether a file can be read that is going to be read by other means, and what it is. status: STATUS_FILE where not.
    subroutine judge_file(path, status, identity)
       character(len=*), intent(in) :: path              !< as the user wrote it
-      type(status_t), intent(out) :: status             !< STATUS_FILE: cannot be read
+      type(status_t), intent(out) :: status             !< STATUS_FILE where it cannot be read
       integer(lp), intent(out), optional :: identity(2) !< device and number, for protect_input; -1: there is no file
       integer(c_int) :: file
       integer(c_int64_t) :: length
@@ -94,7 +94,7 @@ contains
    !> A file of the user that was read is not replaced or removed from now on, until forget_inputs.
    subroutine protect_input(identity, status)
       integer(lp), intent(in) :: identity(2) !< of read_file or judge_file
-      type(status_t), intent(out) :: status  !< STATUS_FILE: there is no memory to note it
+      type(status_t), intent(out) :: status  !< STATUS_FILE without memory to note it
 
       if (c_note_input(identity) == 0) call set_status(status, STATUS_FILE, 'no memory for the files that are read')
    end subroutine protect_input
@@ -103,7 +103,7 @@ contains
    subroutine confine_files(input, output, status)
       character(len=*), intent(in) :: input         !< folder that the user allows to be read
       character(len=*), intent(in) :: output        !< a true path
-      type(status_t), intent(out) :: status         !< STATUS_FILE: `input` is no folder
+      type(status_t), intent(out) :: status         !< STATUS_FILE where `input` is no folder
 
       if (.not. is_folder(input)) call set_status(status, STATUS_FILE, input//': is no folder')
       call c_confine(true_path(input)//c_null_char, output//c_null_char)
@@ -233,7 +233,7 @@ contains
    subroutine begin_files(set, folder, status)
       type(file_set_t), intent(out) :: set   !< empty, for reserve_file and open_text
       character(len=*), intent(in) :: folder !< as the user wrote it; is made where it is missing
-      type(status_t), intent(out) :: status  !< STATUS_FILE: the folder cannot be made
+      type(status_t), intent(out) :: status  !< STATUS_FILE where the folder cannot be made
 
       set%folder = folder
       allocate (set%names(0))
@@ -310,7 +310,7 @@ contains
    !> Completes a file. status: STATUS_FILE when any part of it could not be written.
    subroutine close_text(file, status)
       type(text_file_t), intent(inout) :: file !< open; is closed in any case
-      type(status_t), intent(out) :: status    !< STATUS_FILE: the first failure since open_text
+      type(status_t), intent(out) :: status    !< STATUS_FILE where anything failed since open_text
 
       if (c_associated(file%stream)) then
          if (c_close_file(file%stream) == 0 .and. is_ok(file%status)) call fail_to_write(file)
@@ -342,7 +342,7 @@ contains
    subroutine commit_files(set, stale, status)
       type(file_set_t), intent(in) :: set           !< all of its files closed
       type(string_t), intent(in) :: stale(:)        !< names without folder
-      type(status_t), intent(out) :: status         !< STATUS_FILE: nothing was replaced
+      type(status_t), intent(out) :: status         !< STATUS_FILE, and then nothing was replaced
 
       call find_obstacle(set%folder, set%names, stale, status)
       if (is_ok(status)) then
@@ -361,7 +361,7 @@ contains
    !> status: STATUS_FILE, and then the former files are there but for those that were replaced before.
    subroutine commit_over(set, status)
       type(file_set_t), intent(in) :: set   !< all of its files closed
-      type(status_t), intent(out) :: status !< STATUS_FILE: a file could not be replaced
+      type(status_t), intent(out) :: status !< STATUS_FILE where a file could not be replaced
       type(string_t) :: none(0)
       integer :: i
 

@@ -35,7 +35,7 @@ contains
    subroutine claim_folder(folder, claim, status, patience, silent)
       character(len=*), intent(in) :: folder         !< as the user wrote it
       type(folder_claim_t), intent(out) :: claim     !< for release_folder
-      type(status_t), intent(out) :: status          !< STATUS_FILE: no folder, or another run has it
+      type(status_t), intent(out) :: status          !< STATUS_FILE without a folder, or where another run has it
       real(wp), intent(in), optional :: patience     !< [s] to wait for another run; default an hour
       logical, intent(in), optional :: silent        !< not a word about the wait
       integer :: tries

@@ -51,7 +51,7 @@ contains
    subroutine check_all_own(folder, names, status)
       character(len=*), intent(in) :: folder !< as the user wrote it; need not be there
       type(string_t), intent(in) :: names(:) !< final names, without folder
-      type(status_t), intent(out) :: status  !< STATUS_FILE: one of them is not atrito's
+      type(status_t), intent(out) :: status  !< STATUS_FILE where one of them is not atrito's
       type(string_t), allocatable :: parts(:)
       character(len=:), allocatable :: c_folder
       integer :: i, k
@@ -76,7 +76,7 @@ contains
    !> status: STATUS_FILE.
    subroutine check_length(folder, name, status)
       character(len=*), intent(in) :: folder, name !< as the user wrote it; final name of the file
-      type(status_t), intent(out) :: status        !< STATUS_FILE: name or path is too long
+      type(status_t), intent(out) :: status        !< STATUS_FILE where name or path is too long
       integer :: length
 
       length = len(name) + len(TEMPORARY)
@@ -111,7 +111,7 @@ contains
    !> status: STATUS_FILE, with what to do.
    subroutine check_own(path, status, may_be_read)
       character(len=*), intent(in) :: path         !< of the file, which need not be there
-      type(status_t), intent(out) :: status        !< STATUS_FILE: it may not be replaced, and why
+      type(status_t), intent(out) :: status        !< STATUS_FILE where it may not be replaced
       logical, intent(in), optional :: may_be_read !< what takes its place holds all that it held
       integer :: kind
 
@@ -129,7 +129,7 @@ contains
    !> Whether a file is none that this run has read. status: STATUS_FILE.
    subroutine check_unread(path, status, may_be_read)
       character(len=*), intent(in) :: path          !< of the file, which need not be there
-      type(status_t), intent(out) :: status         !< STATUS_FILE: this run has read it
+      type(status_t), intent(out) :: status         !< STATUS_FILE where this run has read it
       logical, intent(in), optional :: may_be_read  !< what takes its place holds all that it held
 
       if (present(may_be_read)) then

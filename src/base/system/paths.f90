@@ -68,7 +68,7 @@ contains
    !> Another run may remove what it made just then: hence several tries. status: STATUS_FILE.
    subroutine make_folder(path, status, made)
       character(len=*), intent(in) :: path                            !< of the folder, as the user wrote it
-      type(status_t), intent(out) :: status                           !< STATUS_FILE: it cannot be made, or --confine forbids it
+      type(status_t), intent(out) :: status                           !< STATUS_FILE where it cannot be made or --confine forbids it
       type(string_t), allocatable, intent(inout), optional :: made(:) !< paths that were made, the outer one first
       integer :: attempt, i
 
@@ -114,7 +114,7 @@ contains
    !> folders show in nothing else.
    subroutine check_folder(path, status)
       character(len=*), intent(in) :: path  !< of the folder, as the user wrote it
-      type(status_t), intent(out) :: status !< STATUS_FILE: why files cannot be written there
+      type(status_t), intent(out) :: status !< STATUS_FILE where files cannot be written there
       type(string_t), allocatable :: made(:)
 
       if (c_may_hold(target_path(path)//c_null_char) == 0) then

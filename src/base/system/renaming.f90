@@ -22,7 +22,7 @@ contains
       character(len=*), intent(in) :: folder        !< as the user wrote it, without / at its end
       type(string_t), intent(in) :: names(:)        !< that will be written, without folder
       type(string_t), intent(in) :: stale(:)        !< that will be removed, without folder
-      type(status_t), intent(out) :: status         !< STATUS_FILE: what is in the way
+      type(status_t), intent(out) :: status         !< STATUS_FILE where something is in the way
       logical, intent(in), optional :: may_be_read  !< what is written holds all that the file held
       integer :: i
 
@@ -57,7 +57,7 @@ contains
       character(len=*), intent(in) :: folder        !< as the user wrote it, without / at its end
       type(string_t), intent(in) :: names(:)        !< of new files, which have temporary names; without folder
       type(string_t), intent(in) :: stale(:)        !< of former files that have no successor; a name may be among the new ones, too
-      type(status_t), intent(out) :: status         !< STATUS_FILE: nothing has changed
+      type(status_t), intent(out) :: status         !< STATUS_FILE, and then nothing has changed
       type(string_t), allocatable :: paths(:)       ! gfortran 12 spoils the lengths in one of fixed size
       logical :: is_aside(size(names) + size(stale))
       integer :: i, j, done
@@ -124,7 +124,7 @@ contains
    subroutine rename_over(folder, names, status)
       character(len=*), intent(in) :: folder        !< as the user wrote it, without / at its end
       type(string_t), intent(in) :: names(:)        !< of new files, which have temporary names; without folder
-      type(status_t), intent(out) :: status         !< STATUS_FILE: from this file on none has its name
+      type(status_t), intent(out) :: status         !< STATUS_FILE where one, and none behind it, has its name
       integer :: i
 
       do i = 1, size(names)

@@ -36,7 +36,7 @@ contains
 
    !> Where the file is [bytes].
    integer(lp) function place_of(spool)
-      type(spool_t), intent(in) :: spool !< -1: it has no file
+      type(spool_t), intent(in) :: spool !< without a file the place is -1
 
       place_of = -1
       if (c_associated(spool%stream)) place_of = c_place_in_file(spool%stream)

@@ -65,7 +65,7 @@ contains
       type(file_set_t), intent(inout) :: set                     !< begun; gets the file
       character(len=*), intent(in) :: name           !< final name, without folder
       type(patched_text_t), intent(in) :: patched                !< pieces in their order
-      type(status_t), intent(out) :: status                      !< STATUS_FILE: could not be written
+      type(status_t), intent(out) :: status                      !< STATUS_FILE where it could not be written
       character(len=*), intent(in), optional :: before, behind   !< text that is not part of it
       type(text_file_t) :: file
       integer(ip) :: i

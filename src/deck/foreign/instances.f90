@@ -40,7 +40,7 @@ contains
    !> Puts the parts of a deck into their places. n_blocks: how many parts and instances were read.
    subroutine expand_instances(deck, n_blocks)
       type(deck_t), intent(inout) :: deck !< its cards are put in the order of the model
-      integer(ip), intent(in) :: n_blocks !< 0: there is nothing to expand
+      integer(ip), intent(in) :: n_blocks !< where it is 0 nothing is expanded
       type(parts_t) :: parts
       type(card_t), allocatable :: cards(:)
       integer(ip) :: i, n

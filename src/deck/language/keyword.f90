@@ -37,7 +37,7 @@ module atrito_keyword
    !> One of the words that an option or item can take.
    type :: choice_t
       character(len=:), allocatable :: name      !< in capitals
-      logical :: built = .true.                  !< false: known, and refused as not built yet
+      logical :: built = .true.                  !< false where it is refused as not built yet
       logical :: own = .false.                   !< atrito's own, unknown to Abaqus and CalculiX
    end type choice_t
 
@@ -45,7 +45,7 @@ module atrito_keyword
    type :: item_t
       character(len=:), allocatable :: name      !< in messages and on the page of help
       integer :: kind = KIND_REAL                !< KIND_*
-      logical :: required = .true.               !< false: it may be left out
+      logical :: required = .true.               !< false where it may be left out
       logical :: harmless = .false.              !< of another solver: a note, no effect
       logical :: is_unused = .false.             !< a number without effect, without a note
       character(len=:), allocatable :: default   !< '' : none
@@ -56,7 +56,7 @@ module atrito_keyword
 
    type, extends(item_t) :: option_spec_t
       logical :: own = .false.                   !< atrito's own, unknown to Abaqus and CalculiX
-      logical :: built = .true.                  !< false: known, and refused as not built yet
+      logical :: built = .true.                  !< false where it is refused as not built yet
       character(len=:), allocatable :: needs     !< option that must be there too; '' : none
    end type option_spec_t
 
