@@ -41,7 +41,7 @@ module atrito_messages
    !> How many messages there were at some time.
    type :: message_mark_t
       integer(ip) :: stored = 0                                !< messages in the store
-      integer(ip) :: counted(SEVERITY_ERROR:SEVERITY_NOTE) = 0 !< messages given, the dropped ones, too
+      integer(ip) :: counted(SEVERITY_ERROR:SEVERITY_NOTE) = 0 !< of each severity, those that were not kept, too
    end type message_mark_t
 
    type(message_t), allocatable :: store(:)

@@ -33,7 +33,7 @@ contains
    !> A power of two next to the largest of the values: what they are over it is not above 1, without rounding. 1 of nothing and of
    !> zeros.
    real(wp) function unit_of(values) result(unit)
-      real(wp), intent(in) :: values(:, :)                 !< (any, chunks are taken along the second)
+      real(wp), intent(in) :: values(:, :)                 !< of any shape, their sizes alone count
       integer, parameter :: MOST = maxexponent(1.0_wp) - 2 !< 1/unit is a number as well
       real(wp) :: largest(chunk_count(size(values, 2, kind=ip)))
       integer(ip) :: chunk, first, last

@@ -22,7 +22,7 @@ contains
       type(deck_t), intent(in) :: deck                 !< its texts and parameters are read
       type(token_t), intent(in) :: expression          !< place of its text, without < and >
       real(wp), intent(out) :: value                   !< 0 where it is not known
-      logical, intent(out) :: known                    !< the value is one; else it is reported
+      logical, intent(out) :: known                    !< the expression has a value
       logical, intent(in), optional :: silent          !< nothing is reported; default .false.
       type(string_t), allocatable :: names(:)
       real(wp), allocatable :: values(:)

@@ -22,7 +22,7 @@ contains
       type(deck_t), intent(in) :: deck                 !< its sources, and texts for messages
       integer, intent(in) :: depth                     !< of the includes so far
       integer(ip), intent(in) :: from                  !< source that includes it
-      character(len=*), intent(in) :: name             !< path of the file, not as written but from here
+      character(len=*), intent(in) :: name             !< path of the file, by path_of_include
       type(token_t), intent(in) :: place               !< where it is named, for messages
       character(len=:), allocatable :: path
       integer(lp) :: characters                    ! of all files so far

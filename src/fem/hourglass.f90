@@ -85,7 +85,7 @@ contains
       type(body_t), intent(in) :: body             !< one of fem's
       real(wp), intent(in) :: u(:, :)              !< (2, n_nodes) [L]
       real(wp), intent(out) :: ratio               !< unseen over seen energy, >= 0
-      integer(ip), intent(out) :: element          !< the user's number
+      integer(ip), intent(out) :: element          !< the user's number; 0: there is none
       integer(ip), allocatable :: on_sides(:)      ! of each node in the middle of a side the elements there
       integer(ip) :: i
       real(wp) :: seen, all_seen, whole, most_unseen

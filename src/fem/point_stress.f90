@@ -36,7 +36,7 @@ module atrito_point_stress
    !> An element at the points of a rule, without its displacements.
    type, extends(form_t) :: point_geometry_t
       real(wp) :: d(COMPONENTS, COMPONENTS) = 0.0_wp               !< elasticity matrix [F/L^2]
-      logical :: is_orthotropic = .false.        !< its hoop stress is not nu (s11 + s22)
+      logical :: is_orthotropic = .false.        !< s33 goes by `across`, not by E and mu
       real(wp) :: across(4) = 0.0_wp             !< then s33 by e11, e22, 2 e12 and e33 [F/L^2]
       logical :: averages = .false.              !< the dilatation is the same everywhere in the element: FORMULATION=BBAR
       real(wp) :: mean(2, MOST_CORNERS) = 0.0_wp     !< then the mean gradients of the shape functions [1/L]

@@ -264,7 +264,7 @@ contains
    pure subroutine gauss_point(n_nodes, k, xi, weight)
       integer(ip), intent(in) :: n_nodes           !< of the element: place in SHAPES
       integer(ip), intent(in) :: k                 !< 1 .. n_points of its shape
-      real(wp), intent(out) :: xi(2), weight       !< place in the parent square or triangle; share of its area
+      real(wp), intent(out) :: xi(2), weight       !< place in the parent square or triangle; its weight
 
       call rule_point(n_nodes, SHAPES(n_nodes)%n_points, k, xi, weight)
    end subroutine gauss_point
@@ -275,7 +275,7 @@ contains
       integer(ip), intent(in) :: n_nodes           !< place in SHAPES
       integer(ip), intent(in) :: n                 !< 1, 4 or 9; 1, 3, 6, 16 or 25
       integer(ip), intent(in) :: k                 !< 1 .. n
-      real(wp), intent(out) :: xi(2), weight       !< place in the parent square or triangle; share of its area
+      real(wp), intent(out) :: xi(2), weight       !< place in the parent square or triangle; its weight
 
       if (SHAPES(n_nodes)%n_corners == 3) then
          call triangle_point(n, k, xi, weight)

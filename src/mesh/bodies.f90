@@ -35,7 +35,7 @@ module atrito_bodies
    type :: bodies_t
       integer(ip) :: n = 0                                  !< bodies, the rigid ones among them
       integer(ip) :: n_rigid = 0                            !< the last ones are rigid
-      type(body_t), allocatable :: list(:)                  !< (n) or more
+      type(body_t), allocatable :: list(:)                  !< (n), the elastic ones first
       integer(ip), allocatable :: of_node(:), of_element(:) !< body of a node (0: in no element) and of an element
       integer(ip), allocatable :: equation(:, :)            !< (2, n_nodes): number within the body; 0 prescribed or unused;
       !< MOVES_RIGIDLY: of a rigid body, none of its own, but a motion has a part there

@@ -151,7 +151,7 @@ module atrito_system
          character(kind=c_char), intent(inout) :: resolved(*) !< (room) without an end of its own
          integer(c_int), value :: room
       end function c_true_path
-      !> Reads a small file of the system at once: the number of bytes.
+      !> Reads a small file of the system at once: the number of bytes; -1: it cannot be opened.
       integer(c_int) function c_read_system(path, text, room) bind(C, name='atrito_read_system')
          import :: c_char, c_int
          character(kind=c_char), intent(in) :: path(*)    !< ends with c_null_char
