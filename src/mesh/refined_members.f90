@@ -111,7 +111,7 @@ contains
 
    !> Adds to nodes of the fine mesh what it has on an edge all of whose nodes are there, and inside an element all of whose are.
    pure subroutine add_nodes_between(fine, refinement, nodes)
-      type(mesh_t), intent(in) :: fine                    !< fine
+      type(mesh_t), intent(in) :: fine                    !< nodes of the fine elements are read
       type(refinement_t), intent(in) :: refinement        !< made for this fine mesh
       integer(ip), allocatable, intent(inout) :: nodes(:) !< places in the fine mesh, each once; new ones behind
       logical, allocatable :: chosen(:)

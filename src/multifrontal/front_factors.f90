@@ -148,7 +148,7 @@ contains
    !> What factor_fronts will take, before it does: its classes in its order, with one thread; and a front for each thread.
    subroutine expect_factors(fronts, bytes)
       type(fronts_t), intent(in) :: fronts      !< planned
-      type(front_bytes_t), intent(out) :: bytes !< when all is factored; at the peak
+      type(front_bytes_t), intent(out) :: bytes !< `held` when all is factored, `most` at the peak
       type(task_t), allocatable :: tasks(:)
       integer(ip) :: waiting(fronts%n_classes), wave, u, c
       real(wp) :: work

@@ -48,7 +48,7 @@ contains
    subroutine build_front_tree(elimination, n, n_retained, store, tree)
       type(elimination_t), intent(in) :: elimination !< order of equations, and supernodes
       integer(ip), intent(in) :: n, n_retained       !< equations; the last ones of them, which are not eliminated
-      type(element_store_t), intent(in) :: store     !< elements of the matrix, by number of their matrix
+      type(element_store_t), intent(in) :: store     !< elements of the matrix; their values are not looked at
       type(front_tree_t), intent(out) :: tree        !< `enough` is false where the memory did not suffice
       type(assembly_tree_t) :: assembly
       type(subtree_t), allocatable :: subtrees(:)
